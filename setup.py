@@ -50,6 +50,12 @@ KERNEL = Extension(
     optional=True,  # without a compiler numpy gives the same answers; `hypcheck info` says which it is
 )
 
+CALLS = Extension(
+    "hypcheck.implementations._calls",
+    sources=["hypcheck/implementations/calls.c"],
+    optional=True,  # without it ctypes makes the calls, and fewer of their leftovers are seen
+)
+
 ISOLATION = "hypcheck/isolation"
 LAUNCHER = Extension(
     "hypcheck.isolation.launcher",
@@ -83,5 +89,5 @@ class BuildWithLauncher(build_ext):
 
 setup(
     cmdclass={"build_py": BuildWithCases, "build_ext": BuildWithLauncher},
-    ext_modules=[KERNEL, *([LAUNCHER] if sys.platform == "linux" else [])],
+    ext_modules=[KERNEL, CALLS, *([LAUNCHER] if sys.platform == "linux" else [])],
 )

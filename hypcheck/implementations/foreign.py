@@ -43,17 +43,19 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import PAIRS, Floats, Rows
 from hypcheck.implementations.frames import CALLS, ENTRIES, UNWRITTEN, Call, GivenAnswers, IntegerAnswers, entry_name
+from hypcheck.implementations.guarded import GuardedMemory
+from hypcheck.implementations.leftovers import ContractError
 from hypcheck.implementations.spec import is_file
-from hypcheck.kernel.choice import compiled
 from hypcheck.messages import counted
+
+try:
+    from hypcheck.implementations import _calls
+except ImportError:  # not compiled: ctypes makes the calls
+    _calls = None  # type: ignore[assignment]
 
 
 class LoadError(Exception):
     """Foreign code that cannot be loaded; the text is a sentence about it."""
-
-
-class ContractError(Exception):
-    """Foreign code that did not keep the contract of a call; the text is a sentence about it."""
 
 
 class ForeignCode(Protocol):
@@ -93,16 +95,6 @@ def description_as_json(description: object) -> str:
         raise LoadError(
             "its description holds a value that JSON cannot express; it must be a mapping of texts and numbers"
         ) from None
-
-
-def bytes_at(shift: int, size: int) -> NDArray[np.uint8]:
-    """Bytes that begin `shift` bytes after a multiple of 64.
-
-    The alignment varies, so that code that depends on it fails the tests.
-    """
-    room = np.empty(size + 128, dtype=np.uint8)
-    start = -room.ctypes.data % 64 + shift % 64
-    return room[start : start + size]
 
 
 _INT64 = np.iinfo(np.int64)
@@ -261,25 +253,26 @@ class Library:
         self._entries = {name: _entry(getattr(library, name), name) for name in ENTRIES if _has(library, name)}
         self.entries = tuple(self._entries)
         self.description = _description(library, path)
+        self._memory = _Memory()
 
     def classify(self, rows: Rows, call: Call) -> GivenAnswers:
         """Answers to rows; raises ContractError if it writes outside the memory for answers and times."""
-        room = _AnswerRoom(rows, call)
+        room = _AnswerRoom(self._memory, rows, call)
         self._entry(rows, call)(len(rows), rows.ctypes.data, *room.words)
         return room.written()
 
     def classify_scene(self, rows: Rows) -> IntegerAnswers:
         """Answers to rows that share sizes and axis; raises ContractError if it writes outside the positions."""
-        room = _AnswerRoom(rows)
-        parts = _scene(rows)
+        room = _AnswerRoom(self._memory, rows)
+        parts = self._memory.scene(rows)
         self._entry(rows, scene=True)(*_scene_words(parts, len(rows)), *room.words)
         return room.written().integers
 
     def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
-        room, n = _AnswerRoom(rows, call), len(rows)
+        room, n = _AnswerRoom(self._memory, rows, call), len(rows)
         if by_scene:
-            parts = _scene(rows)  # kept alive, because the pointers do not do that
+            parts = self._memory.scene(rows)  # kept alive, because the pointers do not do that
             words: tuple[int | None, ...] = (*_scene_words(parts, n), *room.words)
         else:
             words = (n, rows.ctypes.data, *room.words)
@@ -293,21 +286,16 @@ class Library:
     def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
-        The compiled kernel makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of a
-        function of the kernel, or with ctypes of this library without rows.
+        A compiled loop makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of a
+        function of ours, or with ctypes of this library without rows.
         """
-        room = _AnswerRoom(rows, call)
-        try:
-            call_each = compiled().call_each
-        except (ImportError, AttributeError):  # not built, or built before it had call_each
+        room, n = _AnswerRoom(self._memory, rows, call), len(rows)
+        if _calls is None or call.layout is not PAIRS:  # it calls functions of three arguments
             return self._seconds_by_ctypes(rows, repeat, call, room)
-        if call.layout is not PAIRS:  # call_each calls functions of three arguments
-            return self._seconds_by_ctypes(rows, repeat, call, room)
-        address = ctypes.cast(self._entry(rows), ctypes.c_void_p).value if len(rows) else 0
-        nothing = np.zeros((1, rows.shape[1])), np.zeros(1, dtype=np.int8)
-        asked, answers = (rows, room.answers) if len(rows) else nothing
+        address = ctypes.cast(self._entry(rows), ctypes.c_void_p).value or 0 if n else 0
+        words = (address, rows.ctypes.data, rows.shape[1], room.answers.ctypes.data, max(1, n), repeat)
         start = time.perf_counter_ns()
-        call_each(address, asked, answers, repeat)
+        _calls.each(*words)
         took = time.perf_counter_ns() - start
         return took, room.total()
 
@@ -332,27 +320,41 @@ def _scene_words(parts: Sequence[NDArray[np.float64]], n: int) -> tuple[int, ...
     return (*fixed, n, x, y, z)
 
 
-def _scene(rows: Rows) -> Sequence[NDArray[np.float64]]:
-    """Sizes, the axis of rows of ten, x, y, z, each with another address modulo 64, which varies with the rows'."""
-    parts = []
-    axis = [rows[0, 7:]] if PAIRS.lean(rows) else []
-    for index, part in enumerate((rows[0, :4], *axis, *rows[:, 4:7].T)):
-        placed = bytes_at(rows.ctypes.data + 24 * index, part.size * 8).view(np.float64)
+class _Memory:
+    """The guarded memory of a library's arguments, each with another address modulo 64."""
+
+    def __init__(self) -> None:
+        self.answers, self.times = GuardedMemory("the answers", 1), GuardedMemory("the times", 2)
+        parts = ("the sizes", "the axis", "the x", "the y", "the z")
+        self._parts = {name: GuardedMemory(name, 3 + 3 * place) for place, name in enumerate(parts)}
+
+    def scene(self, rows: Rows) -> Sequence[NDArray[np.float64]]:
+        """Sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
+        x, y, z = rows[:, 4:7].T
+        given = {"the sizes": rows[0, :4], "the axis": rows[0, 7:], "the x": x, "the y": y, "the z": z}
+        if not PAIRS.lean(rows):
+            del given["the axis"]
+        return [self._placed(self._parts[name], part) for name, part in given.items()]
+
+    @staticmethod
+    def _placed(memory: GuardedMemory, part: NDArray[np.float64]) -> NDArray[np.float64]:
+        place = memory.place(8 * part.size)
+        placed = memory.bytes[place].view(np.float64)
         placed[...] = part
-        parts.append(placed)
-    return parts
+        memory.read_only()
+        return placed
 
 
 class _AnswerRoom:
-    """Memory for answers, and for times if a call gives them, between fences. Addresses vary with the rows'.
+    """Memory for answers, and for times if a call gives them, between fences.
 
     `words` are the arguments of the call behind the rows.
     """
 
-    def __init__(self, rows: Rows, call: Call = CALLS[0]) -> None:
+    def __init__(self, memory: _Memory, rows: Rows, call: Call = CALLS[0]) -> None:
         self._call = call
-        self._answers = _Fenced(rows, np.dtype(np.int8))
-        self._times = _Fenced(rows, np.dtype(np.float64)) if call.times else None
+        self._answers = _Fenced(memory.answers, len(rows), np.dtype(np.int8))
+        self._times = _Fenced(memory.times, len(rows), np.dtype(np.float64)) if call.times else None
         self.words = self.words_at(0)
 
     def words_at(self, place: int) -> tuple[int | None, ...]:
@@ -381,24 +383,21 @@ class _AnswerRoom:
 
 
 class _Fenced:
-    """Memory for a value of that type a row between two fences; its address modulo 64 varies with the rows'."""
+    """Memory for n values of that type; what is beside them is a fence, or a guard page."""
 
-    def __init__(self, rows: Rows, kind: np.dtype[Any]) -> None:
-        self._kind, self._n = kind, len(rows)
-        size = kind.itemsize
-        self._bytes = bytes_at(rows.ctypes.data // 8 * 5 * size, self._n * size + 2 * _FENCE)
-        self._bytes.view(np.int8).fill(UNWRITTEN)
-        self.address = self._bytes.ctypes.data + _FENCE
-
-    @property
-    def values(self) -> NDArray[Any]:
-        """The memory between the fences."""
-        return self._bytes[_FENCE:-_FENCE].view(self._kind)
+    def __init__(self, memory: GuardedMemory, n: int, kind: np.dtype[Any]) -> None:
+        self._n = n
+        place = memory.place(n * kind.itemsize, kind.itemsize)
+        near = memory.bytes[max(0, place.start - _FENCE) : place.stop + _FENCE].view(np.int8)
+        near.fill(UNWRITTEN)
+        first = min(place.start, _FENCE)
+        self._before, self._after = near[:first], near[first + n * kind.itemsize :]
+        self.values: NDArray[Any] = memory.bytes[place].view(kind)
+        self.address = self.values.ctypes.data
 
     def check(self, what: str) -> None:
         """Raise ContractError if a fence was written to."""
-        fences = self._bytes.view(np.int8)
-        if (fences[:_FENCE] != UNWRITTEN).any() or (fences[-_FENCE:] != UNWRITTEN).any():
+        if (self._before != UNWRITTEN).any() or (self._after != UNWRITTEN).any():
             raise ContractError(f"it wrote outside the {counted(self._n, what)} that it was given")
 
 

@@ -83,12 +83,12 @@ _LAST_WORDS = 0.5
 class Process:
     """One run of a program. Raises StartError if the system cannot run it."""
 
-    def __init__(self, words: Sequence[str], limits: Limits, *, package: bool = False) -> None:
-        """Start the program; `package`: it needs this package, which others do not see where they are isolated."""
+    def __init__(self, words: Sequence[str], limits: Limits, revealed: Sequence[str] = ()) -> None:
+        """Start the program; where it is isolated, it sees of this package no file but those that are `revealed`."""
         self._mark = new_environment_mark()
         environment = {**os.environ, **ONE_THREAD, self._mark: "1"}
         try:
-            self._launched = Launched(words, environment, limits.isolation, package=package)
+            self._launched = Launched(words, environment, limits.isolation, revealed)
         except OSError as error:
             raise limit_reached(error) or StartError(_not_run(words[0], error)) from None
         except IsolationError as error:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import secrets
 import sys
+from functools import lru_cache
+from importlib.util import cache_from_source
 from pathlib import Path
 
 import numpy as np
@@ -30,10 +32,31 @@ main(sys.argv[2:])
 """Python puts the working directory first on the path, where a struct.py of the user would replace Python's. The
 program removes it until hypcheck and numpy are loaded. `hypcheck` is the one that runs here, installed or not."""
 
+WORKER_MODULES = (
+    *("__init__", "errors", "messages", "geometry/__init__", "geometry/pair", "geometry/rows"),
+    *(
+        f"implementations/{name}"
+        for name in ("__init__", "foreign", "frames", "guarded", "leftovers", "spec", "worker")
+    ),
+)
+"""What the worker imports of this package: nothing that could answer a question, or tell an answer."""
+
+
+@lru_cache
+def worker_files() -> tuple[str, ...]:
+    """The files of these modules, with what Python compiled of them, and the compiled module beside them."""
+    package = Path(__file__).resolve().parents[1]
+    sources = [str(package / f"{name}.py") for name in WORKER_MODULES]
+    compiled = [cache_from_source(each) for each in sources] if sys.implementation.cache_tag else []
+    calls = [str(each) for each in package.glob("implementations/_calls.*") if each.suffix != ".pyi"]
+    return tuple(each for each in (*sources, *compiled, *calls) if os.path.exists(each))
+
+
 _OURS = (
     f"{os.sep}hypcheck{os.sep}{Path(__file__).parent.name}{os.sep}",
     '"<string>"',
     "Extension modules: ",
+    "Fatal Python error: Segmentation fault",
     "(most recent call first)",
 )
 """Parts of lines about the worker itself, not about foreign code, in Python's report of a crash."""
@@ -52,9 +75,8 @@ class WorkerSession:
         folder = str(Path(__file__).resolve().parents[2])
         if not sys.executable:
             raise StartError("this Python does not know the path of its program, which runs the worker")
-        self._process = Process(
-            (sys.executable, "-c", _PROGRAM, folder, str(3 * run), spec.kind, *spec.words), limits, package=True
-        )
+        words = (sys.executable, "-c", _PROGRAM, folder, str(3 * run), spec.kind, *spec.words)
+        self._process = Process(words, limits, worker_files())
         try:
             self._meet(spec)
         except BaseException:

@@ -62,11 +62,12 @@ class Isolation:
 class Launched:
     """A program that was started, and the pipe whose end ends it. Raises OSError if the system cannot run it.
 
-    Raises IsolationError and NotIsolatedError too. `isolated` is false where nothing isolates here.
+    Raises IsolationError and NotIsolatedError too. `isolated` is false where nothing isolates here. `revealed` are the
+    files of this package that it needs to see.
     """
 
     def __init__(
-        self, words: Sequence[str], environment: Mapping[str, str], isolation: Isolation, *, package: bool
+        self, words: Sequence[str], environment: Mapping[str, str], isolation: Isolation, revealed: Sequence[str] = ()
     ) -> None:
         means = isolation.means
         self.isolated = bool(means.names)
@@ -78,7 +79,7 @@ class Launched:
         if not means.namespaces:
             self._scratch = tempfile.mkdtemp(prefix="hypcheck-scratch-")
         try:
-            self._launch(words, environment, isolation, means, package=package)
+            self._launch(words, environment, isolation, means, revealed)
         except BaseException:
             self._remove_scratch()
             raise
@@ -89,14 +90,13 @@ class Launched:
         environment: Mapping[str, str],
         isolation: Isolation,
         means: Means,
-        *,
-        package: bool,
+        revealed: Sequence[str],
     ) -> None:
         needed = view.needed_paths(words, environment)
         private = view.private_folders(needed)
         scratch = self._scratch or next(iter(private), view.SHARED_MEMORY)
-        hidden = view.hidden_paths(isolation.hidden, package=not package)
-        options = _options(means, scratch, needed, private, hidden)
+        hidden = view.hidden_paths(isolation.hidden)
+        options = _options(means, scratch, needed, private, hidden, revealed)
         seen = view.environment_of(environment, scratch, isolation.variables)
         life, self._life = os.pipe()
         report, told = os.pipe()
@@ -161,7 +161,12 @@ def _started(
 
 
 def _options(
-    means: Means, scratch: str, needed: Sequence[str], private: Sequence[str], hidden: Sequence[str]
+    means: Means,
+    scratch: str,
+    needed: Sequence[str],
+    private: Sequence[str],
+    hidden: Sequence[str],
+    revealed: Sequence[str],
 ) -> list[str]:
     """The options of the launcher, as launcher.c explains them."""
     options = [f"--threads={THREADS}", f"--descriptors={DESCRIPTORS}", f"--bytes={SCRATCH_BYTES}"]
@@ -171,8 +176,10 @@ def _options(
         shown = [path for path in needed if any(view.within(path, folder) for folder in private)]
         options += ["--namespaces", f"--scratch={scratch}", "--read=/"]
         options += [f"--private={folder}" for folder in others] + [f"--show={path}" for path in shown]
-        options += [f"--hide={path}" for path in hidden]
+        options += [f"--hide={path}" for path in hidden] + [f"--reveal={path}" for path in revealed]
         return options + [f"--write={folder}" for folder in (scratch, view.SHARED_MEMORY)]
     read, listed = view.readable_paths(hidden, (*private, view.SHARED_MEMORY), needed)
+    read += revealed
+    listed += [folder for folder in hidden if any(view.within(path, folder) for path in revealed)]
     options += [f"--judge={os.getpid()}", f"--write={scratch}"]
     return options + [f"--read={path}" for path in read] + [f"--list={path}" for path in listed]

@@ -9,6 +9,7 @@
    --private=FOLDER   with --namespaces: an empty folder stands in its place
    --show=PATH        with --namespaces: is seen although it lies in a folder that is replaced
    --hide=PATH        with --namespaces: a folder or file that is seen empty
+   --reveal=FILE      with --namespaces: a file of a hidden folder that is seen all the same
    --read=PATH, --list=FOLDER, --write=PATH     of Landlock: read with all below, only list, or also change
    --judge=PID        without --namespaces: no signal reaches this process
    --threads=N, --descriptors=N, --bytes=N     limits: of its processes and threads, of one process, of one file
@@ -54,7 +55,7 @@ struct paths {
 static struct {
     int namespaces, landlock, seccomp, life, report;
     const char *scratch;
-    struct paths private, show, hide, read, list, write;
+    struct paths private, show, hide, reveal, read, list, write;
     long judge, threads, descriptors, bytes;
 } plan;
 
@@ -108,7 +109,8 @@ static int read_options(int count, char **words) {
         if (switch_option(word, "--namespaces", &plan.namespaces) || switch_option(word, "--landlock", &plan.landlock) ||
             switch_option(word, "--seccomp", &plan.seccomp) || path_option(word, "--scratch", &scratch) ||
             path_option(word, "--private", &plan.private) || path_option(word, "--show", &plan.show) ||
-            path_option(word, "--hide", &plan.hide) || path_option(word, "--read", &plan.read) ||
+            path_option(word, "--hide", &plan.hide) || path_option(word, "--reveal", &plan.reveal) ||
+            path_option(word, "--read", &plan.read) ||
             path_option(word, "--list", &plan.list) ||
             path_option(word, "--write", &plan.write) || number_option(word, "--judge", &plan.judge) ||
             number_option(word, "--threads", &plan.threads) || number_option(word, "--bytes", &plan.bytes) ||
@@ -190,6 +192,20 @@ static int is_folder(int file) {
     return fstat(file, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
+/* Mount what `source` is open on at a path that may not be there yet. */
+static void show(int source, const char *path) {
+    char folder[4096];
+    if (is_folder(source)) make_folders(path);
+    else {
+        if (snprintf(folder, sizeof folder, "%s", path) >= (int)sizeof folder) fail("a path is too long: %s", path);
+        *strrchr(folder, '/') = '\0';
+        make_folders(folder);
+        empty_file(path);
+    }
+    bind(source, path);
+    close(source);
+}
+
 static void memory_folder(const char *path, const char *options) {
     require(mount("hypcheck", path, "tmpfs", MS_NOSUID | MS_NODEV, options), "cannot make a folder in memory at", path);
 }
@@ -226,12 +242,13 @@ static void limit_processes(void) {
 
 /* What the program sees: everything read-only, but for an empty scratch folder; private folders and hidden paths empty. */
 static void mount_view(void) {
-    int shown[MOST];
+    int shown[MOST], revealed[MOST];
     char here[4096], size[64];
     if (getcwd(here, sizeof here) == NULL) fail("cannot find the working directory: %s", strerror(errno));
     require(mount(NULL, "/", NULL, MS_REC | MS_PRIVATE, NULL), "cannot own", "the mounts");
     read_only("/", 1);
     for (int i = 0; i < plan.show.count; i++) shown[i] = open(plan.show.path[i], O_PATH | O_CLOEXEC);
+    for (int i = 0; i < plan.reveal.count; i++) revealed[i] = open(plan.reveal.path[i], O_PATH | O_CLOEXEC);
     make_devices();
     snprintf(size, sizeof size, "mode=1777,size=%ld,nr_inodes=65536", plan.bytes);
     for (int i = 0; i < plan.private.count; i++) memory_folder(plan.private.path[i], "mode=755,size=1m");
@@ -242,19 +259,24 @@ static void mount_view(void) {
         require(mount(plan.scratch, "/dev/shm", NULL, MS_BIND, NULL), "cannot show", "/dev/shm");
     for (int i = 0; i < plan.show.count; i++) {
         if (shown[i] < 0) continue;
-        if (is_folder(shown[i])) make_folders(plan.show.path[i]);
-        bind(shown[i], plan.show.path[i]);
-        close(shown[i]);
+        show(shown[i], plan.show.path[i]);
     }
     const int nothing = open("/dev/null", O_PATH | O_CLOEXEC);
     for (int i = 0; i < plan.hide.count; i++) {
         const int hidden = open(plan.hide.path[i], O_PATH | O_CLOEXEC);
         if (hidden < 0) continue;
-        if (is_folder(hidden)) memory_folder(plan.hide.path[i], "mode=0,size=4k,ro");
+        if (is_folder(hidden)) memory_folder(plan.hide.path[i], "mode=755,size=1m");
         else bind(nothing, plan.hide.path[i]);
         close(hidden);
     }
     close(nothing);
+    for (int i = 0; i < plan.reveal.count; i++) {
+        if (revealed[i] >= 0) show(revealed[i], plan.reveal.path[i]);
+    }
+    for (int i = 0; i < plan.hide.count; i++) {
+        struct stat found;
+        if (stat(plan.hide.path[i], &found) == 0 && S_ISDIR(found.st_mode)) read_only(plan.hide.path[i], 0);
+    }
     for (int i = 0; i < plan.private.count; i++) read_only(plan.private.path[i], 0);
     read_only("/dev", 0);
     require(mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, NULL), "cannot mount", "/proc");

@@ -78,16 +78,16 @@ def private_folders(needed: Iterable[str]) -> tuple[str, ...]:
     )
 
 
-def hidden_paths(also: Iterable[str], *, package: bool) -> tuple[str, ...]:
+def hidden_paths(also: Iterable[str]) -> tuple[str, ...]:
     """What is seen empty: this package with its vectors, `also`, and files with keys and tokens.
 
-    A folder in which the working directory or this Python is cannot be. `package` is false for a program that needs it.
+    A folder in which the working directory or this Python is cannot be.
     """
     places = (os.getcwd(), sys.prefix, sys.base_prefix)
     home = os.path.expanduser("~")
     found = [os.path.join(home, each) for each in _SECRETS]
     found += [os.path.join(folder, ".git", "config") for folder in _upwards(os.getcwd())]
-    found += ([str(PACKAGE), str(PACKAGE.parent / "cases")] if package else []) + list(also)
+    found += [str(PACKAGE), str(PACKAGE.parent / "cases"), *also]
     real = sorted({os.path.realpath(each) for each in found if os.path.exists(each)})
     return tuple(path for path in real if not any(within(each, path) for each in places))
 

@@ -12,8 +12,8 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.implementations.description import Domain
 from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.leftovers import Leftovers, mode_in_use
 from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
-from hypcheck.implementations.worker import RoundingMode, mode_in_use
 from tests.tools.miniatures import HERE, LIMITS, QUICK, UNLUCKY, command, function, only_unlucky, rows, truth
 
 FAULTS = {
@@ -261,7 +261,7 @@ def test_many_rows_are_answered_in_their_order(tmp_path):
 def test_a_change_of_the_rounding_mode_is_seen_and_undone():
     import ctypes
 
-    guard, libm = RoundingMode(), ctypes.CDLL(None)
+    guard, libm = Leftovers(whole=False), ctypes.CDLL(None)
     for mode, name in ((0x400, "downward"), (0x800, "upward"), (0xC00, "towards zero")):
         if libm.fesetround(mode):
             pytest.skip("this machine numbers its rounding modes in another way than x86")

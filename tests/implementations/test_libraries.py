@@ -7,6 +7,7 @@ import os
 import platform
 import re
 import sys
+from dataclasses import replace
 
 import pytest
 
@@ -21,7 +22,7 @@ SHARED = ("-shared", "-fPIC")
 FAULTS = {
     "SEGFAULT": (Outcome.CRASH, "ended by SIGSEGV"),
     "NOT_WRITTEN": (Outcome.PROTOCOL, "answered -86, the value of positions that a library did not write"),
-    "WRITES_BESIDE": (Outcome.PROTOCOL, "wrote outside the 1 position that it was given"),
+    "WRITES_BESIDE": (Outcome.CRASH, "SIGSEGV; stderr: it reached behind the answers$"),
     "CHANGES_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: upward"),
     "CHANGES_SSE_ROUNDING": (Outcome.PROTOCOL, "left the rounding mode changed: downward"),
 }
@@ -41,6 +42,34 @@ def test_a_fault_costs_its_own_row_and_says_why(fault, tmp_path):
     with open_implementation(f"library:{library}", LIMITS) as it:
         reason = only_unlucky(it.classify(some), outcome, signs(some))
     assert re.search(sentence, reason), reason
+
+
+TRACES = {
+    100: r"it left changed: flushing results to zero \(FTZ\); a call must leave it as it was",
+    101: r"it left changed: denormals are zero \(DAZ\)",
+    102: "it left changed: the mask of floating point exceptions",
+    103: "it left changed: the handler of SIGUSR1",
+    104: "it left changed: the locale, which is '",
+    105: "it left changed: the working directory, which is '/' now",
+    106: "it left changed: the open descriptors",
+    107: "it left changed: .*the files behind the standard descriptors",
+    108: "ended by SIGSEGV; stderr: it wrote into the rows, which are read-only$",
+    109: "ended by SIGSEGV; stderr: it reached behind the rows$",
+    110: "ended by SIGSEGV; stderr: it reached before the answers$",
+}
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64" or sys.platform != "linux", reason="it sets control words of x86")
+def test_what_a_call_leaves_changed_fails_its_row_and_is_named(tmp_path):
+    """Each row is asked alone; those before and after it are answered, and the change is undone or expected."""
+    library = compiled("leaves_traces", tmp_path / "traces.so", *SHARED, "-w")
+    some = rows(2 * len(TRACES), lucky=True)
+    some[::2, 1] = list(TRACES)
+    with open_implementation(f"library:{library}", replace(LIMITS, restarts=20)) as it:
+        answered = it.classify(some, batch=1)
+    assert answered.answered[1::2].all(), answered.reasons
+    for place, sentence in enumerate(TRACES.values()):
+        assert re.search(sentence, answered.reasons.get(2 * place, "it was answered")), (sentence, answered.reasons)
 
 
 def test_output_of_a_library_is_no_answer(tmp_path):
@@ -75,7 +104,7 @@ def test_a_library_answers_in_questions_of_every_size_and_describes_itself(right
 @pytest.mark.parametrize("loop", ["in C", "by ctypes"])
 def test_each_row_is_timed_by_a_call_of_its_own_and_no_rows_by_a_call_that_does_nothing(loop, tmp_path, monkeypatch):
     if loop == "by ctypes":
-        monkeypatch.setattr(libraries, "compiled", lambda: (_ for _ in ()).throw(ImportError("not built")))
+        monkeypatch.setattr(libraries, "_calls", None)
     counting = libraries.Library(str(compiled("counting", tmp_path / f"{loop[-1]}.so", *SHARED)))
     calls = ctypes.c_long.in_dll(ctypes.CDLL(str(tmp_path / f"{loop[-1]}.so")), "calls_about_one_row")
     some = rows(40)

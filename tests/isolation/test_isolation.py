@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import json
 import os
+import re
+import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import hypcheck
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
+from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.process import Process
 from hypcheck.implementations.session import FaultError, Limits, StartError
+from hypcheck.implementations.worker_session import WORKER_MODULES
 from hypcheck.isolation import means
 from hypcheck.isolation.launch import Isolation
 from hypcheck.isolation.means import Means, NotIsolatedError
@@ -198,6 +203,31 @@ def test_program_in_a_folder_for_temporary_files_is_found_there(ways, monkeypatc
     process = Process((str(program),), isolated(ways, monkeypatch))
     assert line_of(process) == b"found"
     process.kill()
+
+
+ECHOES = """
+def classify(rows):
+    import hypcheck
+    return hypcheck.classify(rows)
+"""
+
+
+@both
+def test_function_that_asks_hypcheck_for_the_answer_finds_none(ways, monkeypatch, tmp_path):
+    (tmp_path / "echoes.py").write_text(ECHOES)
+    with open_implementation(f"python:{tmp_path / 'echoes.py'}:classify", isolated(ways, monkeypatch)) as it:
+        answered = it.classify(np.ones((2, 7)))
+    assert not answered.answered.any()
+    assert "hypcheck" in answered.reasons[0]
+    assert re.search("ModuleNotFoundError|PermissionError", answered.reasons[0]), answered.reasons
+
+
+def test_worker_imports_of_this_package_only_what_it_is_shown():
+    """A module that it is not shown would be missing where it is isolated; one too many might hold an answer."""
+    code = "import sys, hypcheck.implementations.worker; print(*(m for m in sys.modules if m.startswith('hypcheck')))"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    wanted = {f"hypcheck/{name}".removesuffix("/__init__").replace("/", ".") for name in WORKER_MODULES}
+    assert set(loaded) - {"hypcheck.implementations._calls"} == wanted
 
 
 @needs_namespaces

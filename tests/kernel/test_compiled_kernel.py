@@ -181,8 +181,6 @@ def test_the_extension_checks_its_buffers():
     ):
         with pytest.raises(ValueError, match=sentence):
             compiled.ask(*arguments)
-    with pytest.raises(ValueError, match="seven or ten numbers for each answer"):
-        compiled.call_each(0, rows, np.zeros(3, np.int8), 1)
     with pytest.raises(ValueError, match="as many x, y and z"):
         compiled.ask_scene(0, SIZES, np.ones(2), np.ones(2), np.ones(3), out)
     frozen = np.zeros(2, np.int8)

@@ -202,43 +202,11 @@ static PyObject *py_use_level(PyObject *self, PyObject *name) {
     return text == NULL ? NULL : PyBool_FromLong(hypcheck_use_level(text));
 }
 
-typedef void (*classifier)(size_t, const double *, int8_t *);
-
-static void nothing(size_t n, const double *rows, int8_t *answers) { (void)n, (void)rows, (void)answers; }
-
-/* Calls the function at an address, hypcheck_classify or hypcheck_classify_tilted of a library under test, about one row at a time. Through ctypes a
-   call takes ten times as long as the work of many a library, and wanders by more than that; here it takes a nanosecond. */
-static PyObject *py_call_each(PyObject *self, PyObject *arguments) {
-    PyObject *rows_object, *answers_object, *result = NULL;
-    Py_buffer rows, answers;
-    unsigned long long address;
-    Py_ssize_t repeat;
-    (void)self;
-    if (!PyArg_ParseTuple(arguments, "KOOn", &address, &rows_object, &answers_object, &repeat)) return NULL;
-    if (!filled(rows_object, &rows, "d", 0)) return NULL;
-    if (filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
-        const int width = width_of(&rows, &answers);
-        if (width) {
-            classifier volatile function = address == 0 ? nothing : (classifier)(uintptr_t)address;
-            Py_BEGIN_ALLOW_THREADS
-            for (Py_ssize_t turn = 0; turn < repeat; turn++)
-                for (Py_ssize_t k = 0; k < answers.len; k++)
-                    function(1, (const double *)rows.buf + width * k, (int8_t *)answers.buf + k);
-            Py_END_ALLOW_THREADS
-            result = Py_NewRef(Py_None);
-        }
-        PyBuffer_Release(&answers);
-    }
-    PyBuffer_Release(&rows);
-    return result;
-}
-
 static PyMethodDef functions[] = {
     {"ask", py_ask, METH_VARARGS, "ask(question, rows, answers) -> the number of invalid rows, which are answered 127"},
     {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers, axis=upright) -> as ask"},
     {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
     {"clearance", py_clearance, METH_VARARGS, "clearance(rows, positions, found) -> the number of invalid rows; eleven numbers a row"},
-    {"call_each", py_call_each, METH_VARARGS, "call_each(address, rows, answers, repeat): a call a row; address 0 does nothing"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,
      "position(alpha, gamma, b, d, x, y, z, *, axis=None) -> int"},
     {"set_slow_position", py_set_slow_position, METH_O, "set_slow_position(function): what position calls where it has no answer"},
