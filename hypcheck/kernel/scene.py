@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, trouble_with_axis
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, as_columns, as_numbers
-from hypcheck.kernel import scene_ways
+from hypcheck.kernel import scene_nearest, scene_ways
 from hypcheck.kernel.choice import POSITION_OF
 from hypcheck.kernel.scene_index import (
     Bodies,
@@ -33,6 +33,7 @@ from hypcheck.kernel.scene_index import (
     levels_of,
     reaches,
 )
+from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     Body,
     is_within_height,
@@ -149,7 +150,7 @@ class Scene:
         contact. Raises InputError for numbers that are not finite, for a hyperboloid that leans, and for a mover whose
         axis the scene leaves free.
         """
-        self._require_upright()
+        self._require_upright("a way is decided")
         starts, ends, headings = _ways(start, end, heading)
         low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
         with np.errstate(all="ignore"):
@@ -164,6 +165,19 @@ class Scene:
         result = np.where(self._levels.meet_each(low, high), 0, CANNOT_SAY).astype(np.int8)
         result[query[hits]] = 1
         return result
+
+    def nearest(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Nearest:
+        """Which hyperboloid is nearest to the mover, its distance between proved numbers, and the nearest point.
+
+        `x`, `y`, `z` are (n,) each or single numbers. The distance is Euclidean, from the mover itself, not its parts,
+        to the surface within its modelled height, wherever the mover is, whatever the scene's question is. Raises
+        InputError for numbers that are not finite, for a hyperboloid that leans, and for a mover whose axis is free.
+        """
+        self._require_upright("the nearest is found")
+        columns = as_columns(CENTER, (x, y, z))
+        for name, values in zip(CENTER, columns, strict=True):
+            _require_finite(name, values)
+        return scene_nearest.nearest(self._bodies, self.model.mover, np.stack(columns, axis=1))
 
     def _near_ways(self, starts: Floats, ends: Floats, low: Floats, high: Floats) -> tuple[Indices, Indices]:
         """Which hyperboloids have to be asked about which ways, whose heights are between two."""
@@ -190,12 +204,12 @@ class Scene:
         keep = np.flatnonzero(scene_ways.passed(starts, ends, query, self._bodies.origins[body], far))
         return query[keep], body[keep]
 
-    def _require_upright(self) -> None:
+    def _require_upright(self, what: str) -> None:
         if self.model.mover.axis == FREE:
-            raise InputError("the scene leaves the mover's axis free; a way is decided where [mover] fixes it")
+            raise InputError(f"the scene leaves the mover's axis free; {what} where [mover] fixes it")
         for body in np.flatnonzero(self._bodies.leaning)[:1].tolist():
             name = self.model.hyperboloids[body].name
-            raise InputError(f"the hyperboloid {name!r} leans; a way is decided only beside upright hyperboloids")
+            raise InputError(f"the hyperboloid {name!r} leans; {what} only beside upright hyperboloids")
 
     def _position_leaning(self, centre: Point, heading: float, axis: Sequence[float] | None) -> int:
         """The same where something leans."""

@@ -1,0 +1,86 @@
+"""Scene.nearest: the least of the pairs' distances, ties, ends of trees, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck import Scene, clearance
+from hypcheck.errors import InputError
+from hypcheck.scene.model import Hyperboloid, Mover, SceneModel, Span
+
+MOVER = Mover(0.3, 0.2)
+
+
+def scene(*bodies, mover=MOVER):
+    return Scene(SceneModel("trees", "position", bodies, mover))
+
+
+def forest(height=None):
+    rng = np.random.default_rng(3)
+    return [
+        Hyperboloid(
+            f"tree {k}", *rng.uniform((0.2, 2), (1, 6)).tolist(), (*rng.uniform(-20, 20, 2).tolist(), 0.5), height
+        )
+        for k in range(30)
+    ]
+
+
+def test_the_nearest_is_the_least_of_all_pairs():
+    trees = forest()
+    x, y, z = np.random.default_rng(4).uniform((-20, -20, -3), (20, 20, 3), (50, 3)).T
+    found = scene(*trees).nearest(x, y, z)
+    rows = [[t.alpha, t.gamma, 0.3, 0.2, *(np.array(c) - t.center)] for c in zip(x, y, z, strict=True) for t in trees]
+    said = clearance(rows)
+    lower, upper = (each.reshape(50, 30) for each in (said.distance_lower, said.distance_upper))
+    assert np.allclose(found.distance_upper, upper.min(axis=1), rtol=0, atol=1e-10)
+    assert np.allclose(found.distance_lower, lower.min(axis=1), rtol=0, atol=1e-10)
+    apart = ~found.tied
+    assert (found.index[apart] == upper.argmin(axis=1)[apart]).all()
+    assert (found.tied == ((lower <= upper.min(axis=1, keepdims=True) + 1e-9).sum(axis=1) > 1)).all()
+    assert apart.sum() > 40
+
+
+def test_a_tie_is_said_as_such():
+    two = scene(Hyperboloid("a", 0.5, 4.0, (-3, 0, 0)), Hyperboloid("b", 0.5, 4.0, (3, 0, 0)))
+    found = two.nearest([0, 0.5], 0, 0)
+    assert found.tied.tolist() == [True, False]
+    assert found.index[1] == 1
+    assert found.distance_lower[1] <= 2.5 - 0.5 - 0.3 <= found.distance_upper[1]
+    assert np.allclose(found.point[1], (2.5, 0, 0), atol=1e-8)
+
+
+@pytest.mark.parametrize("number", range(20))
+def test_above_its_end_a_tree_is_as_far_as_its_end(number):
+    rng = np.random.default_rng(number)
+    tree = Hyperboloid("stump", 0.5, 2.0, (1, 2, 0.5), Span(-0.5, 1.5))
+    centre = np.array((1, 2, 2.0)) + rng.uniform((-3, -3, 1), (3, 3, 4))
+    found = scene(tree).nearest(*centre)
+    z, angle = np.meshgrid(np.linspace(0, 2, 60), np.linspace(0, 2 * np.pi, 400))
+    radius = 0.5 * np.sqrt(1 + ((z - 0.5) / 2) ** 2)
+    way = np.stack([1 + radius * np.cos(angle), 2 + radius * np.sin(angle), z], axis=-1) - centre
+    least = np.sqrt((way**2).sum(axis=-1)).min()
+    assert found.distance_lower[0] <= least - 0.2 + 1e-9
+    assert found.distance_upper[0] >= least - 0.3 - 1e-3
+    assert 0 <= found.point[0, 2] <= 2 + 1e-12
+
+
+def test_trees_with_ends_leave_out_no_nearest_pair():
+    trees = forest(Span(-0.5, 4.0))
+    x, y, z = np.random.default_rng(5).uniform((-20, -20, 0), (20, 20, 4), (40, 3)).T
+    found = scene(*trees).nearest(x, y, z)
+    for k, tree in enumerate(trees):
+        one = scene(tree).nearest(x, y, z)
+        assert (found.distance_lower <= one.distance_lower + 1e-9).all()
+        assert (found.distance_upper <= one.distance_upper + 1e-9).all()
+        same = found.index == k
+        assert np.allclose(found.distance_upper[same], one.distance_upper[same], rtol=0, atol=1e-9)
+
+
+def test_what_has_no_answer_is_refused():
+    with pytest.raises(InputError, match="leaves the mover's axis free; the nearest is found where"):
+        scene(Hyperboloid("a", 1, 1), mover=Mover(1, 2, (), "free")).nearest(0, 0, 0)
+    with pytest.raises(InputError, match="'a' leans; the nearest is found only beside upright"):
+        scene(Hyperboloid("a", 1, 1, axis=(1, 0, 1))).nearest(0, 0, 0)
+    with pytest.raises(InputError, match="row 1: y is nan"):
+        scene(Hyperboloid("a", 1, 1)).nearest(0, [0, np.nan], 0)
