@@ -116,7 +116,7 @@ $(BIN)/python:
 	@$(PYTHON) -m venv $(VENV) || { \
 		echo "$(PYTHON) cannot make a virtual environment; on Debian and Ubuntu install python3-venv" >&2; rm -rf $(VENV); exit 2; }
 
-KERNEL := setup.py hypcheck/kernel/core/binding.c hypcheck/kernel/core/hypcheck.h
+KERNEL := setup.py hypcheck/kernel/core/binding.c hypcheck/kernel/core/hypcheck.h hypcheck/implementations/calls.c $(wildcard hypcheck/isolation/*.[ch])
 $(VENV)/ready: pyproject.toml $(KERNEL) | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report]'
 	@touch $@
