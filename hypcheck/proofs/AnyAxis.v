@@ -237,7 +237,7 @@ Proof.
   unfold form3; intros H; assert (E : 0 < e11) by (specialize (H 1 0 0); lra).
   split; [assumption |]; apply pivots2; intros y z N; unfold form2; specialize (H (- (e12 * y + e13 * z) / e11) y z).
   match type of H with _ -> 0 < ?f => match goal with |- 0 < ?h => replace h with f by (field; lra) end end.
-  apply H; tauto.
+  apply H; right; exact N.
 Qed.
 
 Lemma pivots4 e11 e12 e13 e14 e22 e23 e24 e33 e34 e44 :
@@ -249,7 +249,7 @@ Proof.
   split; [assumption |]; apply pivots3; intros y z w N; unfold form3.
   specialize (H (- (e12 * y + e13 * z + e14 * w) / e11) y z w).
   match type of H with _ -> 0 < ?f => match goal with |- 0 < ?h => replace h with f by (field; lra) end end.
-  apply H; tauto.
+  apply H; right; exact N.
 Qed.
 
 End Converse.

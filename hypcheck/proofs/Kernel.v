@@ -211,19 +211,19 @@ Proof. repeat split; try lra; apply Rmult_integral_contrapositive; lra. Qed.
 Theorem error_of_c0 X : computes u exact_inputs env StageTwo.c0 X -> Rabs (X - UnitBall.c0 A B P Q) <= 8 * u * M0.
 Proof.
   rewrite <- value_c0, <- size_c0; apply fine with (k := 7%nat); [| reflexivity | simpl; lra | simpl; lra].
-  destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; tauto.
+  destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; repeat split; assumption.
 Qed.
 
 Theorem error_of_c1 X : computes u exact_inputs env StageTwo.c1 X -> Rabs (X - UnitBall.c1 A B P Q) <= 12 * u * M1.
 Proof.
   rewrite <- value_c1, <- size_c1; apply fine with (k := 11%nat); [| reflexivity | simpl; lra | simpl; lra].
-  destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; tauto.
+  destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; repeat split; assumption.
 Qed.
 
 Theorem error_of_c2 X : computes u exact_inputs env StageTwo.c2 X -> Rabs (X - UnitBall.c2 A B P Q) <= 8 * u * M2.
 Proof.
   rewrite <- value_c2, <- size_c2; apply fine with (k := 7%nat); [| reflexivity | simpl; lra | simpl; lra].
-  destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; tauto.
+  destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; repeat split; assumption.
 Qed.
 
 Theorem error_of_delta_3 X : computes u exact_inputs env StageTwo.delta_3 X ->
@@ -232,7 +232,7 @@ Theorem error_of_delta_3 X : computes u exact_inputs env StageTwo.delta_3 X ->
 Proof.
   intros C; rewrite <- value_delta_3; apply Rle_trans with (48 * u * magnitude env StageTwo.delta_3).
   - revert C; apply fine with (k := 42%nat); [| reflexivity | simpl; lra | simpl; lra].
-    destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; tauto.
+    destruct no_zero_divisor as (N1 & N2 & N3); unfold env; simpl; repeat split; assumption.
   - pose proof size_of_delta_3_at_most; replace (1536 * u * (M2 * M1 * (M2 * M1)))
       with (48 * u * (32 * (M2 * M1 * (M2 * M1)))) by ring.
     apply Rmult_le_compat_l; lra.
