@@ -69,6 +69,17 @@ def integer_wanted(least: int, greatest: int) -> str:
     return f"a whole number, at least {least} and at most {f'1e{len(digits) - 1}' if power else digits}"
 
 
+class FreshOption(IntegerOption):
+    """The seed of fresh rows, "auto" or "off"; the value is a text."""
+
+    def __init__(self) -> None:
+        super().__init__(0, LARGEST_SEED)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:  # noqa: ANN401 - click's
+        """The text. Raises click.BadParameter."""
+        return value if value in ("auto", "off") else str(super().convert(value, param, ctx))
+
+
 class NumberOption(click.types.FloatParamType):
     """A finite number from `least` to `greatest`; greater than `least` if that is `excluded`."""
 

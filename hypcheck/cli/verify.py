@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import secrets
 from collections.abc import Collection, Mapping
 from dataclasses import asdict
 from fractions import Fraction
@@ -16,6 +17,7 @@ from hypcheck.cli.options import (
     LARGEST_SEED,
     LIMITS,
     MOST_PROCESSES,
+    FreshOption,
     IntegerOption,
     NumberOption,
     OutputPath,
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
 _WITH_SPEC = frozenset(
     {
         *("max_abstained", "fail_on", "deterministic", "known_failures", "update", "precision", "question", "domain"),
-        *("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env", "cluster", "resume"),
+        *("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env", "fresh", "cluster", "resume"),
     }
 )
 _WITHOUT_SPEC = frozenset({"oracles", "judged", "roots", "meshes"})
@@ -57,6 +59,7 @@ def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformanceP
         families=names_in(options["families"]),
         count=options["count"],
         seed=options["seed"],
+        fresh=_fresh_seed(options["fresh"], options["resume"]),
         tolerance=Fraction(options["tolerance"]),
         max_abstained=options["max_abstained"],
         fail_on=options["fail_on"],
@@ -90,6 +93,7 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     plan, out, resume = _plan_of(specs, options), options["out"], options["resume"]
     recorded = _recorded(plan, options)
     isolation = isolation_of(specs, plan.limits)
+    title += "" if plan.fresh is None else f"; as many fresh rows, of seed {plan.fresh}"
     title += "" if isolation is None else f"; {isolation_text(isolation.means, isolation.missing)}"
     cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
     import_all()
@@ -106,6 +110,21 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     if options["update"] and running.record is not None and not changed:
         click.echo(printable(update(options["known_failures"], running.record)))
     return running.exit_code
+
+
+def _fresh_seed(asked: str | None, resume: Path | None) -> int | None:
+    """The seed of the fresh rows, None without any: as asked; that of the run that is resumed; drawn in CI."""
+    from hypcheck.record.reader import interrupted_in, read
+    from hypcheck.runs.cases import FRESH_SEEDS
+
+    if asked == "off":
+        return None
+    if asked is not None and asked != "auto":
+        return int(asked)
+    if resume is not None:
+        before = read(interrupted_in(resume)).header.options.get("fresh")
+        return before if isinstance(before, int) else None
+    return FRESH_SEEDS + secrets.randbelow(FRESH_SEEDS) if in_ci() or asked else None
 
 
 def _recorded(plan: ConformancePlan, options: Mapping[str, Any]) -> dict[str, Any]:
@@ -197,6 +216,12 @@ _COUNT = IntegerOption(1)
 @click.option("--known-failures", type=click.Path(path_type=Path), help="A TOML file of failures that are known.")
 @click.option("--update", is_flag=True, help="Rewrite --known-failures from this run.")
 @click.option("--self", "self_check", is_flag=True, help="Verify hypcheck itself, even if hypcheck.toml names SPECs.")
+@click.option(
+    "--fresh",
+    type=FreshOption(),
+    metavar="SEED",
+    help="With SPEC: as many rows more, of this seed; auto draws one, off asks none.  [default: auto if CI is set]",
+)
 @with_limits
 @click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to continue it.")
 @click.option("--cluster", metavar="ADDRESS", help="With SPEC: a dask.distributed scheduler; local:N starts one here.")
@@ -234,6 +259,11 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     context.exit(_self_check(options, "verifying hypcheck itself, no implementation", settings))
 
 
+def in_ci() -> bool:
+    """Whether this is continuous integration, as the environment variable CI says."""
+    return os.environ.get("CI", "").lower() not in ("", "0", "false")
+
+
 def _chosen_specs(context: click.Context, specs: tuple[str, ...], *, self_check: bool) -> tuple[str, ...]:
     """The SPECs to gate; none if hypcheck itself is verified. Raises InputError in CI if nothing is named."""
     if self_check:
@@ -242,7 +272,7 @@ def _chosen_specs(context: click.Context, specs: tuple[str, ...], *, self_check:
         return ()
     settings = context.find_object(ProjectSettings)
     chosen = specs or (settings.specs if settings is not None else ())
-    if not chosen and os.environ.get("CI", "").lower() not in ("", "0", "false"):
+    if not chosen and in_ci():
         raise InputError(
             f"no implementation is named, as SPEC or by specs in {FILE} here, so this step of CI would gate nothing; "
             "name one, or verify hypcheck itself with: hypcheck verify --self"

@@ -96,6 +96,10 @@ EXPONENTS_OF = 2000
 """The distance to the nearest other position is recorded of so many first cases of a family."""
 
 
+FRESH_SEEDS = 1 << 32
+"""The seeds of fresh rows are at least so large: no row of theirs has the place of one of the run's own seed."""
+
+
 @dataclass(frozen=True, slots=True)
 class CaseChunk:
     """Cases `start` to `stop` − 1 of a family: generated rows of a seed, or frozen vectors if `seed` is None.
@@ -130,7 +134,7 @@ class CaseChunk:
 
     def place(self, index: int) -> CasePlace:
         """The place of a case in the family."""
-        return int(self.seed is not None), self.start + index
+        return 0 if self.seed is None else 1 + (self.seed >= FRESH_SEEDS), self.start + index
 
     def name(self, index: int) -> str:
         """The id of a case."""
@@ -177,6 +181,12 @@ def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
         end = min(stop, (start // CHUNK_ROWS + 1) * CHUNK_ROWS)
         yield CaseChunk(family.name, seed, start, end, min(measured, end - start))
         start, measured = end, 0
+
+
+def fresh_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
+    """`count` generated rows of a seed that nobody knew before the run."""
+    for start in range(0, count, CHUNK_ROWS):
+        yield CaseChunk(family.name, seed, start, min(count, start + CHUNK_ROWS))
 
 
 def frozen_count(name: str) -> int:

@@ -13,7 +13,7 @@ from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
-from hypcheck.runs.cases import CaseChunk, family_chunks, frozen_count, searched_chunks
+from hypcheck.runs.cases import CaseChunk, family_chunks, fresh_chunks, frozen_count, searched_chunks
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.known_failures import KnownFailure, read_known_failures
 from hypcheck.runs.results import InvalidRows, JudgingRules
@@ -37,16 +37,18 @@ class ConformancePlan:
     """Options of a conformance run.
 
     `specs` name the implementations. `families` are names and globs (none: all families but the extreme ones); the
-    frozen vectors and `count` generated rows of each family are asked. `precision`, `question` and `domain` replace
-    what an implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only "clear" in contact.
-    `workers` processes ask; None: this process, or in a large run one for each processor. `cluster` is the address of
-    a dask scheduler whose workers ask instead.
+    frozen vectors and `count` generated rows of each family are asked. With `fresh`, a seed that nobody knew before, as
+    many rows of that seed are asked too, but of no family with a known failure: other rows there may fail alike.
+    `precision`, `question` and `domain` replace what an implementation declares. `fail_on` is one of FAIL_ON: any wrong
+    answer, or only "clear" in contact. `workers` processes ask; None: this process, or in a large run one for each
+    processor. `cluster` is the address of a dask scheduler whose workers ask instead.
     """
 
     specs: tuple[str, ...]
     families: tuple[str, ...] = ()
     count: int = 400
     seed: int = 1
+    fresh: int | None = None
     tolerance: Fraction = DEFAULT_TOLERANCE
     max_abstained: int = 0
     fail_on: str = "wrong"
@@ -108,14 +110,13 @@ def planned_cases(
     one that takes `tilt` the families of tilted spheroids; one whose rows have another layout is asked the families of
     that. Raises InputError naming a family that does not exist.
     """
-    cases = {
-        family.name: frozen_count(family.name) + plan.count
-        for family in chosen_families(plan, tilt=tilt, layout=layout)
-    }
+    listed = _families_with_known_failures(plan)
+    cases = {family.name: _cases_of(plan, family, listed) for family in chosen_families(plan, tilt=tilt, layout=layout)}
     if not plan.filtered and layout is PAIRS:
         cases |= {chunk.family: len(chunk) for chunk in searched_chunks()}
         settings = domain.settings if domain is not None else ()
-        cases |= {family.name: plan.count for family in fixed_sizes.families_for(settings)}
+        of_sizes = fixed_sizes.families_for(settings)
+        cases |= {family.name: _generated(plan, family, listed) for family in of_sizes}
     cases |= {each.family: len(each) for each in invalid_rows(refuses=refuses, tilt=tilt, layout=layout)}
     return {family: number for family, number in cases.items() if number}
 
@@ -143,8 +144,25 @@ def planned_size(plan: ConformancePlan) -> int:
     """
     if not plan.filtered:
         return sum(planned_cases(plan).values())
-    chosen = select(plan.families, tilted=True, layout=None)
-    return sum(frozen_count(family.name) + plan.count for family in chosen)
+    chosen, listed = select(plan.families, tilted=True, layout=None), _families_with_known_failures(plan)
+    return sum(_cases_of(plan, family, listed) for family in chosen)
+
+
+def _cases_of(plan: ConformancePlan, family: Family, listed: frozenset[str]) -> int:
+    return frozen_count(family.name) + _generated(plan, family, listed)
+
+
+def _generated(plan: ConformancePlan, family: Family, listed: frozenset[str]) -> int:
+    """Generated rows of a family, fresh ones included."""
+    return plan.count * (1 + (plan.fresh is not None and family.name not in listed))
+
+
+def _families_with_known_failures(plan: ConformancePlan) -> frozenset[str]:
+    """The families of known failures: named as such, or by a case."""
+    if plan.fresh is None:
+        return frozenset()
+    ids = (each.family or each.case or "" for each in known_failures_of(plan))
+    return frozenset(name.partition("/")[0] if "/" in name else re.sub(r"-\d+$", "", name) for name in ids)
 
 
 def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
@@ -179,10 +197,17 @@ def rules_of(plan: ConformancePlan, used: Description, known: tuple[KnownFailure
 
 def _chunks(plan: ConformancePlan, families: tuple[Family, ...], domain: Domain) -> Iterator[CaseChunk]:
     """The chunks of a run; a domain with fixed sizes has families of its own."""
-    for family in families:
+    listed = _families_with_known_failures(plan)
+
+    def generated(family: Family) -> Iterator[CaseChunk]:
         yield from family_chunks(family, plan.seed, plan.count)
+        if plan.fresh is not None and family.name not in listed:
+            yield from fresh_chunks(family, plan.fresh, plan.count)
+
+    for family in families:
+        yield from generated(family)
     if plan.filtered or any(family.layout is not PAIRS for family in families):
         return
     yield from searched_chunks()
     for family in fixed_sizes.families_for(domain.settings):
-        yield from family_chunks(family, plan.seed, plan.count)
+        yield from generated(family)

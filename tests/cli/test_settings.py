@@ -73,6 +73,7 @@ def test_every_setting_reaches_the_run(project):
         "families": ["tower-body", "forest-*"],
         "count": 3,
         "seed": 7,
+        "fresh": None,
         "tolerance": 16.0,
         "max_abstained": 2,
         "fail_on": "false-clear",

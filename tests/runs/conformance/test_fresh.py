@@ -1,0 +1,74 @@
+"""Fresh rows: of a seed that nobody knew, they find an implementation that knows the other rows by heart."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.kernel.classify import classify
+from hypcheck.runs.cases import FRESH_SEEDS
+from hypcheck.runs.plan import ConformancePlan, planned_cases, planned_size
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.frozen import frozen_rows
+
+SEED = FRESH_SEEDS + 77
+
+KNOWS_BY_HEART = """
+import json
+import numpy as np
+with open({path!r}) as file:
+    KNOWN = json.load(file)
+def classify(rows):
+    return np.array([KNOWN.get(row.tobytes().hex(), 0) for row in rows], dtype=np.int8)
+"""
+
+
+@pytest.fixture
+def by_heart(tmp_path, monkeypatch):
+    """The SPEC of a function that knows the frozen vectors of `uniform`, the rows of the usual seed, and no others."""
+    monkeypatch.chdir(tmp_path)
+    rows = np.vstack([frozen_rows("uniform").rows, FAMILIES["uniform"].rows(1, 300)])
+    known = {row.tobytes().hex(): int(answer) for row, answer in zip(rows, classify(rows), strict=True)}
+    (tmp_path / "known.json").write_text(json.dumps(known))
+    (tmp_path / "by_heart.py").write_text(KNOWS_BY_HEART.format(path=str(tmp_path / "known.json")))
+    return "python:by_heart.py:classify"
+
+
+def test_implementation_that_knows_the_rows_by_heart_fails_on_fresh_rows_alone(by_heart, text_reports, capsys):
+    words = ["verify", by_heart, "--families", "uniform", "--count", "20", "--out", "out"]
+    assert main([*words, "--fresh", "off"]) == 0
+    assert main([*words, "--fresh", str(SEED)]) == 1
+    assert f"; as many fresh rows, of seed {SEED}" in capsys.readouterr().err
+    header, *lines = map(json.loads, Path("out/record.jsonl").read_text().splitlines())
+    assert header["options"]["fresh"] == SEED
+    (group,) = (line for line in lines if line["type"] == "group")
+    assert {case["case"].split("/")[2] for case in group["worst"]} == {str(SEED)}
+    report = Path("out/report.md").read_text()
+    assert re.search(rf"hypcheck replay uniform/\d+/{SEED}/\d+ {by_heart}", report)
+
+
+def test_ci_draws_another_seed_for_each_run_and_says_it(by_heart, text_reports, capsys, monkeypatch):
+    monkeypatch.setenv("CI", "true")
+    seeds = set()
+    for _ in range(2):
+        assert main(["verify", by_heart, "--families", "uniform", "--count", "5", "--out", "out"]) == 1
+        first = next(line for line in capsys.readouterr().err.splitlines() if "verifying" in line)
+        seeds.add(re.search(r"as many fresh rows, of seed (\d+)", first)[1])
+    assert len(seeds) == 2
+    assert all(FRESH_SEEDS <= int(seed) < 2 * FRESH_SEEDS for seed in seeds)
+
+
+def test_family_with_a_known_failure_gets_no_fresh_rows(tmp_path):
+    known = tmp_path / "known.toml"
+    entries = ('family = "ring"', 'case = "axis-0003"')
+    known.write_text("".join(f'[[known_failure]]\n{entry}\nreason = "x"\n' for entry in entries))
+    usual = ConformancePlan(("builtin:fast",), ("ring", "axis", "uniform"), count=7, known_failures=known)
+    fresh = ConformancePlan(("builtin:fast",), ("ring", "axis", "uniform"), count=7, known_failures=known, fresh=SEED)
+    before, after = planned_cases(usual), planned_cases(fresh)
+    assert {name: after[name] - before[name] for name in after} == {"ring": 0, "axis": 0, "uniform": 7}
+    assert planned_size(fresh) == planned_size(usual) + 7
