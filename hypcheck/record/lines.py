@@ -9,7 +9,8 @@ declared; 1.2.0 adds a checksum to each line, and of a benchmark the conditions 
 scenes and forests; 1.4.0 adds to the header the settings of a run and the sha256 of the program's own files; 1.5.0
 adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 adds the question passage, the end of a
 way, times of first contact with the mistakes late and early, the axis of fixed sizes in a domain, and in a benchmark
-the end of a way and the kinds sampling and advancement; 1.7.0 adds to the header how implementations were isolated.
+the end of a way and the kinds sampling and advancement; 1.7.0 adds to the header how implementations were isolated, and
+the causes of wrong answers.
 """
 
 from __future__ import annotations
@@ -320,6 +321,23 @@ class NotStartedLine(RecordLine, frozen=True, kw_only=True, tag="implementation"
     name: str
     started: bool = False
     trouble: str
+
+
+class CauseLine(RecordLine, frozen=True, kw_only=True):
+    """A cause of wrong answers of an implementation under test, since 1.7.0; `cause` "unexplained" if none is known.
+
+    `claim` is the paper's statement that is the reason, `families` counts the answers, `worst` is the worst of them.
+    """
+
+    spec: str
+    method: str
+    cause: str
+    sentence: str
+    remedy: str
+    claim: str
+    cases: Count
+    families: Counts
+    worst: WrongAnswer
 
 
 class MapLine(RecordLine, frozen=True, kw_only=True):

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from msgspec import UNSET, Meta, UnsetType
+from msgspec import UNSET, Meta, UnsetType, field
 
 from hypcheck.record.fields import (
     Axis,
     Centre,
     Count,
+    Extended,
     InvalidAxis,
     InvalidCentre,
     InvalidRow,
@@ -88,6 +89,18 @@ class SavedFault(LinePart, frozen=True, kw_only=True):
     reason: str
 
 
+class SavedExplained(LinePart, frozen=True, kw_only=True):
+    """Wrong answers that the same causes explain, these as a number with a bit for each, and the worst of them.
+
+    Of that, `error` is a lower end that is proved, 0 where there is none, and `exponent` floor(log2) of the error.
+    """
+
+    causes: Annotated[str, Meta(pattern="^[0-9a-f]+$", max_length=256)]
+    cases: Annotated[int, Meta(ge=1, le=1 << 60)]
+    worst: SavedAnswer
+    exponent: Extended
+
+
 class SavedTally(LinePart, frozen=True, kw_only=True):
     """The tally of a family so far, as in a group line; `dangerous`: false clears beyond the tolerance."""
 
@@ -100,6 +113,8 @@ class SavedTally(LinePart, frozen=True, kw_only=True):
     place_bins: list[SavedBin]
     worst: list[SavedAnswer]
     faults: list[SavedFault]
+    explained: list[SavedExplained] = field(default_factory=list)
+    denied: Totals = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         require_octaves(self.octaves)

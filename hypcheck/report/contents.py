@@ -32,7 +32,7 @@ from hypcheck.report.document import (
 from hypcheck.report.explorer import ON_THE_RING, can_be_drawn
 from hypcheck.report.messages import figure, settings_facts
 from hypcheck.report.model import measured_methods
-from hypcheck.report.sections import accuracy, times, verification
+from hypcheck.report.sections import accuracy, causes, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.verdict import Failure, Verdict, failures, verdict
@@ -162,6 +162,7 @@ def _remarks(line: MethodLine) -> Iterator[str]:
 
 
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
+    causes.cause_sections,
     failure_sections,
     settings_sections,
     times.baseline_sections,
@@ -183,7 +184,10 @@ PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     explorer_sections,
     run_sections,
 )
-"""The sections in reading order: failures first, the run last. A part is empty if the record has none of its lines."""
+"""The sections in reading order: why and what failed first, the run last.
+
+A part is empty if the record has none of its lines.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,7 +203,7 @@ def content(record: Record, against: Record | None = None) -> Content:
     """The content of a report; with another record, the changes follow the failures."""
     sections = [section for part in PARTS for section in part(record)]
     if against is not None:
-        failing = sum(1 for _ in failure_sections(record))
+        failing = sum(1 for part in (causes.cause_sections, failure_sections) for _ in part(record))
         sections[failing:failing] = changes.change_sections(record, against)
     return Content(report_title(record), verdict(record), tuple(sections))
 

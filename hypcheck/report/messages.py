@@ -17,6 +17,7 @@ from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import (
+    CauseLine,
     DescriptionPart,
     DomainPart,
     FaultPart,
@@ -80,10 +81,24 @@ def classify_command(row: Sequence[float]) -> str:
     return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:7]))}{axis}"
 
 
+FAR = 1e-3
+"""From this backward error on, units in the last place say nothing any more."""
+
+
 def error_text(case: WrongAnswer) -> str:
-    """How wrong an answer is: "wrong by 12 u"; of a time, the first contact and the way to it."""
+    """How wrong an answer is: "wrong by 12 u", "wrong by 18 % of each number", "wrong at any distance".
+
+    Of a time, the first contact and the way to it.
+    """
     if case.time is UNSET or case.first is UNSET:
-        return f"wrong by {figure(float(case.backward_error_u))} u"
+        error = float(case.backward_error)
+        if error >= 1:
+            return "wrong at any distance"
+        return (
+            f"wrong by {figure(100 * error)} % of each number"
+            if error >= FAR
+            else (f"wrong by {figure(float(case.backward_error_u))} u")
+        )
     radii = figure(float(case.backward_error))
     return f"at {case.time!r}, but the first contact is at {case.first[0]!r}, {radii} radii of the way from there"
 
@@ -179,7 +194,19 @@ class Replays:
         """The command that replays a case of a gated implementation, or decides and proves one of a built-in method."""
         if not group.tested:
             return classify_command(from_hex(numbers_of(case)))
-        return shlex.join(["hypcheck", "replay", str(case.case), str(group.spec), *self.options])
+        return self.of_case(str(case.case), str(group.spec))
+
+    def of_case(self, case: str, spec: str) -> str:
+        """The command that replays a case of an implementation."""
+        return shlex.join(["hypcheck", "replay", case, spec, *self.options])
+
+
+def families_text(line: CauseLine, most: int = 3) -> str:
+    """Where wrong answers with a cause are: "ring 140, osculation 15 and 2 more families"."""
+    ranked = sorted(line.families.items(), key=lambda each: (-each[1], each[0]))
+    shown = [f"{family} {number:,}" for family, number in ranked[:most]]
+    rest = len(ranked) - most
+    return listed([*shown, *([counted(rest, "more family", "more families")] if rest > 0 else [])])
 
 
 def tolerance_of(options: Mapping[str, Any]) -> float | None:

@@ -1,4 +1,4 @@
-"""summary.json: the totals of a run for programs; its schema is schemas/summary-1.3.0.json beside this file."""
+"""summary.json: the totals of a run for programs; its schema is schemas/summary-1.4.0.json beside this file."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from hypcheck.record.fields import (
     one_of,
 )
 from hypcheck.record.lines import (
+    CauseLine,
     DomainPart,
     DriftLine,
     EquationLine,
@@ -50,7 +51,7 @@ from hypcheck.report.model import (
 )
 from hypcheck.report.verdict import failures, verdict
 
-SCHEMA = "1.3.0"
+SCHEMA = "1.4.0"
 
 Fields = dict[str, Any]
 
@@ -134,6 +135,17 @@ class Claims(LinePart, frozen=True, kw_only=True):
     domain: DomainPart
 
 
+class CauseSummary(LinePart, frozen=True, kw_only=True):
+    """A cause of wrong answers of an implementation under test; `cause` is "unexplained" where none is known."""
+
+    cause: str
+    sentence: str
+    remedy: str
+    cases: Count
+    families: Counts
+    worst_case: str
+
+
 class ImplementationSummary(LinePart, frozen=True, kw_only=True):
     """An implementation that was judged; one under test also has its declaration, restarts and retests."""
 
@@ -156,6 +168,7 @@ class ImplementationSummary(LinePart, frozen=True, kw_only=True):
     judged_as: Claims | UnsetType = UNSET
     restarts: Count | UnsetType = UNSET
     asked_again: Retest | UnsetType = UNSET
+    causes: Annotated[list[CauseSummary], Meta(description="Since 1.4.0; present if any.")] | UnsetType = UNSET
 
 
 class TimingSummary(LinePart, frozen=True, kw_only=True):
@@ -266,7 +279,7 @@ def render(record: Record) -> bytes:
 
 def summary(record: Record) -> Summary:
     """The summary; its keys and their order are the same for every run."""
-    ended, footer = verdict(record), record.footer
+    ended, footer, causes = verdict(record), record.footer, record.of(CauseLine)
     wholes = {each.name: each.line for each in under_test(record) if isinstance(each.line, Tested)}
     return Summary(
         hypcheck=record.header.hypcheck,
@@ -282,7 +295,10 @@ def summary(record: Record) -> Summary:
         equations=_equations(record.of(EquationLine)),
         proofs=_proofs(record.of(ProofLine)),
         findings=_findings(record),
-        implementations=[_implementation(each, wholes.get(each.name)) for each in implementations(record)],
+        implementations=[
+            _implementation(each, wholes.get(each.name), [line for line in causes if line.spec == each.spec])
+            for each in implementations(record)
+        ],
         timings=[decoded(total, TimingSummary) for total in timing_totals(record)],
         methods=[_method(each) for each in measured_methods(record)],
         failures=[decoded(each, FailureSummary) for each in failures(record)],
@@ -323,7 +339,7 @@ def _findings(record: Record) -> Findings:
     )
 
 
-def _implementation(each: ImplementationTotal, whole: Tested | None) -> ImplementationSummary:
+def _implementation(each: ImplementationTotal, whole: Tested | None, causes: list[CauseLine]) -> ImplementationSummary:
     found = ImplementationSummary(
         name=each.name,
         spec=each.spec,
@@ -342,6 +358,18 @@ def _implementation(each: ImplementationTotal, whole: Tested | None) -> Implemen
         judged_as=decoded(whole.used, Claims),
         restarts=whole.restarts,
         asked_again=whole.again,
+        causes=[_cause(line) for line in causes] or UNSET,
+    )
+
+
+def _cause(line: CauseLine) -> CauseSummary:
+    return CauseSummary(
+        cause=line.cause,
+        sentence=line.sentence,
+        remedy=line.remedy,
+        cases=line.cases,
+        families=line.families,
+        worst_case=line.worst.case,
     )
 
 

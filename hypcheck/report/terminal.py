@@ -10,7 +10,7 @@ import click
 
 from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
-from hypcheck.record.lines import EquationLine, FindingLine, ProofLine
+from hypcheck.record.lines import CauseLine, EquationLine, FindingLine, ProofLine
 from hypcheck.record.measurements import AbsentLine, BoundingLine, CostLine, KernelLine, SpeedLine, UnmeasuredLine
 from hypcheck.report.advice import EVERYWHERE, IN_FLOATS, POSITION, recommendations
 from hypcheck.report.changes import (
@@ -24,7 +24,16 @@ from hypcheck.report.changes import (
 )
 from hypcheck.report.drawings import ReportContext
 from hypcheck.report.formats import WrittenReport
-from hypcheck.report.messages import figure, implementation_claims, listed, settings_facts, tolerance_of
+from hypcheck.report.messages import (
+    Replays,
+    error_text,
+    families_text,
+    figure,
+    implementation_claims,
+    listed,
+    settings_facts,
+    tolerance_of,
+)
 from hypcheck.report.model import (
     NEAREST,
     ImplementationTotal,
@@ -170,6 +179,9 @@ MOST_LINES = 25
 MOST_FAILURES = 8
 """Failures that are listed; report.md has more of them, and junit.xml all."""
 
+MOST_CAUSES = 6
+"""Causes of wrong answers that are listed, three lines each; report.md has all."""
+
 MOST_CONDITIONS = 3
 """Differences in the conditions of two runs that are listed."""
 
@@ -192,7 +204,10 @@ def summary_lines(
     colour: bool = False,
     width: int | None = None,
 ) -> list[str]:
-    """At most MOST_LINES lines of plain text; with `colour`, the first in green or red; with `width`, cut to that."""
+    """At most MOST_LINES lines of plain text, and those about causes.
+
+    With `colour`, the first is green or red; with `width`, lines are cut to that.
+    """
     ended = verdict(record)
     head = click.style(escaped(ended.sentence), fg="green" if ended.passed else "red", bold=True)
     found = [
@@ -211,7 +226,7 @@ def summary_lines(
         *benchmark_facts(record),
     ]
     reports = list(_reports(written))
-    lines = [*found[: MOST_LINES - 1 - len(reports)], *reports]
+    lines = [*_causes(record), *found[: MOST_LINES - 1 - len(reports)], *reports]
     return [head if colour else click.unstyle(head), *(_line(line, width) for line in lines)]
 
 
@@ -227,6 +242,20 @@ def _failures(record: Record) -> Iterator[str]:
         yield f"  ✗ {each.message}" if named else f"  ✗ {each.case}: {each.message}"
     if len(found) > MOST_FAILURES:
         yield f"  ✗ and {counted(len(found) - MOST_FAILURES, 'more failure')}; junit.xml lists them all"
+
+
+def _causes(record: Record) -> Iterator[str]:
+    """Why wrong answers are wrong: the cause, where, the remedy, and the command that shows the worst of them."""
+    found, replays = record.of(CauseLine), Replays.of(record)
+    several = len({line.spec for line in found}) > 1
+    for line in found[:MOST_CAUSES]:
+        of = f" of {line.method}" if several else ""
+        yield f"  {line.cases:,} wrong{of}: {line.sentence}; {families_text(line)}"
+        yield f"      fix: {line.remedy}"
+        yield f"      {replays.of_case(line.worst.case, line.spec)}  ({error_text(line.worst)})"
+    if len(found) > MOST_CAUSES:
+        rest = sum(line.cases for line in found[MOST_CAUSES:])
+        yield f"  {rest:,} wrong for {counted(len(found) - MOST_CAUSES, 'other cause')}; report.md has them all"
 
 
 def _changes(record: Record, against: Record) -> Iterator[str]:

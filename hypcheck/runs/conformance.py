@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -15,9 +15,10 @@ from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import StartError
 from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
-from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine
+from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
 from hypcheck.runs import tally
 from hypcheck.runs.consistency import require_all_tallied
+from hypcheck.runs.diagnosis import UNEXPLAINED, causes_of
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
 from hypcheck.runs.judge import UNANSWERED, Status
 from hypcheck.runs.known_failures import KnownFailure, no_longer_failing
@@ -188,7 +189,7 @@ class ImplementationLines:
             [replace(state.total, pending=()), result_without_retest(state.total.pending, self.rules)]
         )
         groups = [self._group(family, tallied) for family, tallied in total.tallies.items()]
-        for line in groups:
+        for line in [*groups, *self._causes(total.tallies)]:
             recorder.add(line)
         if finished:
             for sentence in no_longer_failing(self.rules.known, total.excusing, {*total.tallies, *total.named}):
@@ -215,6 +216,26 @@ class ImplementationLines:
         return tally.group_line(
             tallied, family, self.rules.criterion, method=name, title=name, spec=self.spec, failing=failing
         )
+
+    def _causes(self, tallies: Mapping[str, Tally]) -> Iterator[CauseLine]:
+        """Why its wrong answers are wrong. Families without one say which causes it has not."""
+        clean = [
+            family for family, each in tallies.items() if not each.diagnosis.explained and each.counts.get("right")
+        ]
+        diagnoses = {family: each.diagnosis for family, each in tallies.items()}
+        for each in causes_of(diagnoses, clean, self.rules.criterion, self.rules.domain):
+            worst = tally.WorstCase.of(each.worst.worst, each.worst.place, each.worst.name, self.rules.criterion)
+            yield CauseLine(
+                spec=self.spec,
+                method=self.used.name,
+                cause=each.cause.name if each.cause else UNEXPLAINED,
+                sentence=each.cause.sentence if each.cause else "no known cause gives these answers",
+                remedy=each.cause.remedy if each.cause else "look at the worst of them with replay",
+                claim=each.cause.claim if each.cause else "",
+                cases=each.cases,
+                families=dict(each.families),
+                worst=tally.worst_line(worst, self.rules.criterion, self.used.asked.layout),
+            )
 
     def _troubles(self, total: CasesResult, groups: Sequence[GroupLine]) -> Iterator[str]:
         """Reasons why the implementation fails as a whole, not in one family."""

@@ -21,6 +21,7 @@ from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.runs.cases import EXPONENTS_OF, CaseChunk
+from hypcheck.runs.diagnosis import FAILING
 from hypcheck.runs.judge import DANGEROUS, UNANSWERED, Mistake, Status
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.plan import ConformancePlan, planned_cases
@@ -222,6 +223,9 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     if tally.dangerous > min(counts[Status.WRONG.value], sum(tally.mistakes.get(each.value, 0) for each in DANGEROUS)):
         return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
     faults = _UNANSWERED | ({Status.WRONG.value} if family in frozen.INVALID_METADATA else set())
+    diagnosed = sum(each.cases for each in tally.diagnosis.explained.values())
+    if diagnosed != (0 if family in frozen.INVALID_METADATA else sum(counts[each.value] for each in FAILING)):
+        return f"{family} has causes of {diagnosed} wrong answers, but another number of these"
     kept = Counter(fault.status for fault in tally.unanswered)
     if kept != Counter({name: min(UNANSWERED_KEPT, counts[name]) for name in faults if counts[name]}):
         return f"{family} lists cases without an answer that its counts do not have"

@@ -21,6 +21,8 @@ from hypcheck.implementations.session import Outcome
 from hypcheck.record.lines import Retest
 from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_exponents_of
+from hypcheck.runs.causes import Asked
+from hypcheck.runs.diagnosis import Diagnosis, diagnose
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.known_failures import KnownFailure
@@ -187,10 +189,20 @@ def result_of_final(
         excusing.update(used)
     tally = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), skipped=skipped, wrong=wrong)
     return CasesResult(
-        tallies={made.chunk.family: tally},
+        tallies={made.chunk.family: replace(tally, diagnosis=_diagnosed(made.chunk, indices, scored, wrong))},
         excusing=frozenset(excusing),
         named=frozenset(_named_cases(made.chunk, indices, rules.known)),
     )
+
+
+def _diagnosed(chunk: CaseChunk, indices: Indices, scored: Score, wrong: Sequence[WrongCase]) -> Diagnosis:
+    """Which causes explain the wrong answers to the cases `indices` (n,) of a chunk."""
+    if not wrong:
+        return Diagnosis()
+    asked = Asked(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
+    right = np.flatnonzero(scored.status == STATUS_CODES[Status.RIGHT]).tolist()
+    cases = [int(indices[case.index]) for case in wrong]
+    return diagnose(asked, wrong, right, [(chunk.place(case), chunk.name(case)) for case in cases])
 
 
 def _first_pending(chunk: CaseChunk, indices: Indices) -> int:

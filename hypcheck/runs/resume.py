@@ -24,13 +24,14 @@ from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance, Outcome
 from hypcheck.record import Record, Recorder, RecordLine, plain
-from hypcheck.record.fields import as_json, decoded, numbers_of, row_fields
+from hypcheck.record.fields import Extended, Unsigned, as_json, decoded, numbers_of, row_fields
 from hypcheck.record.lines import DescriptionPart, HeaderLine, ImplementationLine, NotStartedLine
 from hypcheck.record.progress import (
     PendingCases,
     ProgressLine,
     SavedAllowance,
     SavedAnswer,
+    SavedExplained,
     SavedFault,
     SavedResult,
     SavedState,
@@ -39,7 +40,9 @@ from hypcheck.record.progress import (
 from hypcheck.record.writer import Provenance, header
 from hypcheck.runs.cases import CaseChunk
 from hypcheck.runs.consistency import require_lines, require_state
+from hypcheck.runs.diagnosis import Diagnosis, Explained
 from hypcheck.runs.fingerprint import code_fingerprint
+from hypcheck.runs.judge import Mistake, Status, WrongCase
 from hypcheck.runs.plan import ConformancePlan, known_failures_of, rules_of, steps_of
 from hypcheck.runs.results import CasesResult, PendingRetest
 from hypcheck.runs.schedule import RunState
@@ -296,6 +299,8 @@ def _saved_tally(tally: Tally, layout: Layout) -> SavedTally:
         place_bins=tally.place_bins.as_lists(),
         worst=[SavedAnswer(**_saved_case(case, layout)) for case in tally.worst],
         faults=[SavedFault(**_saved_case(case, layout)) for case in tally.unanswered],
+        explained=[_saved_explained(causes, each, layout) for causes, each in tally.diagnosis.explained.items()],
+        denied=dict(tally.diagnosis.denied),
     )
 
 
@@ -310,7 +315,42 @@ def _restored_tally(content: SavedTally) -> Tally:
         place_bins=Histogram.of_lists(content.place_bins),
         worst=tuple(WorstCase(**_restored_case(case)) for case in content.worst),
         unanswered=tuple(UnansweredCase(**_restored_case(case)) for case in content.faults),
+        diagnosis=Diagnosis(
+            {int(each.causes, 16): _restored_explained(each) for each in content.explained}, content.denied
+        ),
     )
+
+
+def _saved_explained(causes: int, each: Explained, layout: Layout) -> SavedExplained:
+    case = each.worst
+    worst = SavedAnswer(
+        place=each.place,
+        case=each.name,
+        **row_fields(case.row, layout),
+        truth=int(case.truth),
+        answer=case.answer,
+        mistake=case.mistake.value,
+        status=case.status.value,
+        error=Unsigned(case.least),
+        time=case.time,
+    )
+    return SavedExplained(causes=f"{causes:x}", cases=each.cases, worst=worst, exponent=Extended(case.exponent))
+
+
+def _restored_explained(content: SavedExplained) -> Explained:
+    saved = content.worst
+    case = WrongCase(
+        index=0,
+        row=tuple(map(float.fromhex, numbers_of(saved))),
+        truth=saved.truth,
+        answer=saved.answer,
+        mistake=Mistake(saved.mistake),
+        status=Status(saved.status),
+        exponent=float(content.exponent),
+        time=saved.time,
+        least=float(saved.error),
+    )
+    return Explained(content.cases, saved.place, saved.case, case)
 
 
 def _saved_case(case: WorstCase | UnansweredCase, layout: Layout) -> Json:

@@ -159,16 +159,8 @@ class Score:
             last = _exponent_first(chosen[-1])
             chosen += [case for case in ranked[WORST_KEPT:] if _exponent_first(case) == last]
         measured = (
-            WorstCase(
-                place=source.place(int(indices[case.index])),
-                case=source.name(int(indices[case.index])),
-                row=case.row,
-                truth=int(case.truth),
-                answer=case.answer,
-                mistake=case.mistake.value,
-                status=case.status.value,
-                error=judge_of(self.criterion.question).measured(case, self.criterion),
-                time=case.time,
+            WorstCase.of(
+                case, source.place(int(indices[case.index])), source.name(int(indices[case.index])), self.criterion
             )
             for case in chosen
         )

@@ -21,8 +21,10 @@ from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import lines
 from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.lines import GroupLine
-from hypcheck.runs import judge
-from hypcheck.runs.judge import Criterion, Status
+from hypcheck.runs import diagnosis, judge
+from hypcheck.runs.diagnosis import CasePlace, Diagnosis
+from hypcheck.runs.judge import Criterion, Status, WrongCase
+from hypcheck.runs.judges import judge_of
 from hypcheck.runs.passages import first_contact
 
 Integers = NDArray[np.int64]
@@ -134,8 +136,6 @@ STATUS_CODES: Mapping[Status, int] = {status: code for code, status in enumerate
 """The number that stands for a status in arrays."""
 
 StatusCodes = NDArray[np.int8]
-CasePlace = tuple[int, int]
-"""The place of a case in its family: (0, n) for the n-th frozen vector, (1, n) for the n-th generated row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +151,21 @@ class WorstCase:
     status: str
     error: float
     time: float | None = None
+
+    @classmethod
+    def of(cls, case: WrongCase, place: CasePlace, name: str, criterion: Criterion) -> WorstCase:
+        """The case at that place with that id, its error measured."""
+        return cls(
+            place=place,
+            case=name,
+            row=case.row,
+            truth=int(case.truth),
+            answer=case.answer,
+            mistake=case.mistake.value,
+            status=case.status.value,
+            error=judge_of(criterion.question).measured(case, criterion),
+            time=case.time,
+        )
 
     @property
     def rank(self) -> tuple[bool, float, CasePlace]:
@@ -177,7 +192,8 @@ class Tally:
     tolerated answers by kind. `dangerous` counts answers that claim clear in contact, beyond the tolerance and not
     excused. `exponents` count statuses by floor(log2) of the cases' distance to the nearest other position.
     `size_bins` and `place_bins` are histograms over sizes and places. `worst` are the worst cases, the worst first, and
-    `unanswered` the first cases without a valid answer, by place.
+    `unanswered` the first cases without a valid answer, by place. `diagnosis` says which causes explain wrong answers,
+    of an implementation under test.
     """
 
     asked: int = 0
@@ -189,6 +205,7 @@ class Tally:
     place_bins: Histogram = field(default_factory=Histogram)
     worst: tuple[WorstCase, ...] = ()
     unanswered: tuple[UnansweredCase, ...] = ()
+    diagnosis: Diagnosis = field(default_factory=Diagnosis)
 
 
 def merged_tally(tallies: Iterable[Tally]) -> Tally:
@@ -208,6 +225,7 @@ def merged_tally(tallies: Iterable[Tally]) -> Tally:
         place_bins=added(part.place_bins for part in parts),
         worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
         unanswered=kept_unanswered(case for part in parts for case in part.unanswered),
+        diagnosis=diagnosis.merged(part.diagnosis for part in parts),
     )
 
 
@@ -238,7 +256,7 @@ def group_line(
         octaves={key: dict(sorted(tallied.exponents[key].items())) for key in sorted(tallied.exponents, key=float)},
         size_bins=tallied.size_bins.as_lists(),
         place_bins=tallied.place_bins.as_lists(),
-        worst=[_worst_line(case, criterion, layout) for case in tallied.worst],
+        worst=[worst_line(case, criterion, layout) for case in tallied.worst],
         faults=UNSET if failing is UNSET else _unanswered_lines(tallied, layout),
         failing=failing,
     )
@@ -290,7 +308,8 @@ def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, .
     return tuple(kept)
 
 
-def _worst_line(case: WorstCase, criterion: Criterion, layout: Layout) -> lines.WrongAnswer:
+def worst_line(case: WorstCase, criterion: Criterion, layout: Layout) -> lines.WrongAnswer:
+    """A wrong or tolerated answer as the record has it."""
     return lines.WrongAnswer(
         case=case.case,
         **row_fields(case.row, layout),

@@ -1,0 +1,403 @@
+"""Causes of wrong answers: each is a rule that is known to be wrong, and says at which rows it gives which answer.
+
+A cause is never guessed. It explains a wrong answer only where its rule, evaluated at that row, gives that very answer
+(docs/judging.md, "Causes"). Whether the rule is the implementation's own is judged over a run, in diagnosis.py: a rule
+that errs where the implementation is right is not.
+
+This file has what a cause is, and the causes that are about places: on the ring, outside a regime, where rounding
+decides. slips.py has those about every row: a wrong sign, a column taken for another, an axis that is ignored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.rows import WAYS, Floats, Mask, Positions, Rows
+from hypcheck.implementations.description import QUESTIONS, UNIT_ROUNDOFF
+from hypcheck.runs import judge
+from hypcheck.runs.judge import Criterion
+from hypcheck.truth import exact
+from hypcheck.truth.kinds import Kind
+
+Answers = NDArray[np.int8]
+
+SILENT = 100
+"""What a rule gives for a row about which it says nothing."""
+
+RECOMMENDED = "take the code of `hypcheck emit --method exact`"
+"""The one recommendation for whoever needs the right answer at every row."""
+
+
+class Standing(IntEnum):
+    """How far a rule reaches, in the order in which rules are asked to explain what is left."""
+
+    PLACE = 0
+    """Wrong in exact arithmetic, in one region."""
+
+    ROUNDING = 1
+    """Right in exact arithmetic; what rounding leaves open."""
+
+    EVERYWHERE = 2
+    """Another rule altogether; asked first where it explains most wrong answers."""
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """Rows (n, 7), (n, 10) or (n, 13) with the truth (n,), the answers given (n,), and the times of hits, if any."""
+
+    rows: Rows
+    truth: Positions
+    given: Answers
+    criterion: Criterion
+    times: Floats | None = None
+
+    @property
+    def subject(self) -> str:
+        """What the rows are about: "upright", "tilted" or "way"."""
+        if QUESTIONS[self.criterion.question].layout is WAYS:
+            return "way"
+        return "upright" if self.rows.shape[1] == len(COLUMNS) else "tilted"
+
+    def said(self, positions: NDArray[np.int8]) -> Answers:
+        """The answers to the question at these positions; SILENT stays."""
+        answers = judge.expected(positions, self.criterion.question)
+        return np.where(positions == SILENT, SILENT, answers).astype(np.int8)
+
+    @cached_property
+    def numbers(self) -> Numbers:
+        """The numbers of the plain formula, in float64."""
+        return Numbers.of(self.rows)
+
+
+Rule = Callable[[Asked], Answers]
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """A rule that is wrong: its name, what it does in a sentence without a full stop, and one line of remedy.
+
+    `rule` gives its answers. `subject` says of which rows (Asked.subject). `claim` is a statement of the paper that is
+    the reason, as `hypcheck derive --claim` takes it. `slack` is how often, for each wrong answer that it explains, an
+    implementation with this cause may be right at a row where the rule errs.
+    """
+
+    name: str
+    sentence: str
+    remedy: str
+    rule: Rule
+    standing: Standing
+    subject: str = "upright"
+    claim: str = ""
+    slack: float = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class Numbers:
+    """A, B, P, Q, c1, c2, Δ and slopes of rows (n, 7) in float64; those that overflow are not finite."""
+
+    A: Floats
+    B: Floats
+    P: Floats
+    Q: Floats
+    c1: Floats
+    c2: Floats
+    delta: Floats
+    slope_at_B: Floats
+    slope_at_minus_A: Floats
+
+    @classmethod
+    def of(cls, rows: Rows) -> Numbers:
+        """Those of Table 2, and g'(B), g'(−A)."""
+        alpha, gamma, b, d, x, y, z = rows[:, : len(COLUMNS)].T
+        with np.errstate(all="ignore"):
+            A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
+            c0, c1, c2 = -A * B, -A * B + A - B + B * P - A * Q, A - B + 1 - P - Q
+            delta = -4 * c2**3 * c0 + (c2 * c1) ** 2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
+            return cls(A, B, P, Q, c1, c2, delta, (3 * B + 2 * c2) * B + c1, (3 * A - 2 * c2) * A + c1)
+
+    def possible(self, unit: float, *, printed: bool = False) -> NDArray[np.bool_]:
+        """Which of −1, 0, +1 a plain evaluation can give where its roundings are of this unit: (n, 3).
+
+        With `printed`, one of the rules of Propositions 3 and 5, which do not ask where the poles −A and B are.
+
+        The bounds are first-order ones with a factor to spare, so that any order of the operations is covered:
+        8 roundings a term of a coefficient, 16 a term of Δ, and what the coefficients' errors do to Δ.
+        """
+        with np.errstate(all="ignore"):
+            A, B, P, Q, c1, c2 = self.A, self.B, self.P, self.Q, self.c1, self.c2
+            e0, e1 = 8 * unit * A * B, 12 * unit * (A * B + A + B + B * P + A * Q)
+            e2 = 8 * unit * (A + B + 1 + P + Q)
+            m0, m1, m2 = A * B + e0, np.abs(c1) + e1, np.abs(c2) + e2
+            carried = (
+                (12 * m2**2 * m0 + 2 * m2 * m1**2 + 18 * m1 * m0) * e2
+                + (2 * m2**2 * m1 + 18 * m2 * m0 + 12 * m1**2) * e1
+                + (4 * m2**3 + 18 * m2 * m1 + 54 * m0) * e0
+            )
+            terms = 4 * m2**3 * m0 + m2**2 * m1**2 + 18 * m2 * m1 * m0 + 4 * m1**3 + 27 * m0**2
+            error = carried + 16 * unit * terms
+            at_B = 2 * B * e2 + e1 + 16 * unit * (3 * B * B + 2 * m2 * B + m1)
+            at_A = 2 * A * e2 + e1 + 16 * unit * (3 * A * A + 2 * m2 * A + m1)
+            beyond, above = c2 + 3 * B, 3 * A - c2
+            positive = (c2 < e2) & (c1 > -e1)
+            negative = (c2 > -e2) | (c1 < e1)
+            apart, together = self.delta > -error, self.delta <= error
+            below_B = (beyond > -e2 - 16 * unit * (B + m2)) | (self.slope_at_B < at_B)
+            none_below = (beyond < e2 + 16 * unit * (B + m2)) & (self.slope_at_B > -at_B)
+            above_A = (above > -e2 - 16 * unit * (A + m2)) & (self.slope_at_minus_A > -at_A)
+            none_above = (above < e2 + 16 * unit * (A + m2)) | (self.slope_at_minus_A < at_A)
+            zero = apart & negative & ((np.abs(c1) <= e1) | (np.abs(c2) <= e2))
+            contact = together | zero | (apart & ((positive & none_below) | (negative & none_above)))
+            inner, outer = (negative, positive) if printed else (negative & above_A, positive & below_B)
+            return np.column_stack([apart & inner, contact, apart & outer])
+
+    def near_the_ring(self, share: float) -> Mask:
+        """Whether B is nearly a double root, and the simple one lies below it: g'(B) is this share of its terms."""
+        with np.errstate(all="ignore"):
+            size = 3 * self.B * self.B + 2 * np.abs(self.c2) * self.B + np.abs(self.c1)
+            small = self.Q <= share * (1 + self.B + self.P)
+            return np.asarray(small & (np.abs(self.slope_at_B) <= share * size) & (self.A < self.B**2))
+
+
+def _silent(asked: Asked) -> Answers:
+    return np.full(len(asked.rows), SILENT, dtype=np.int8)
+
+
+def _exactly_where(candidates: Mask, asked: Asked, holds: Callable[[Pair], bool], position: Position) -> Answers:
+    """The answer of a position at those candidates of which exact arithmetic says that something holds."""
+    positions = _silent(asked)
+    for place in np.flatnonzero(candidates).tolist():
+        if holds(Pair.from_row(asked.rows[place].tolist())):
+            positions[place] = position
+    return asked.said(positions)
+
+
+def _is(kind: Kind) -> Callable[[Pair], bool]:
+    return lambda pair: exact.decide(pair.lengths).kind is kind
+
+
+def _ring(asked: Asked) -> Answers:
+    """Proposition 3 on the ring: Δ = 0 is contact."""
+    at = (asked.truth == Position.EXTERIOR) & (asked.rows[:, 6] == 0) & asked.numbers.near_the_ring(2.0**-30)
+    return _exactly_where(at, asked, _is(Kind.EXTERIOR_RING), Position.CONTACT)
+
+
+def _unless_rounded(asked: Asked, answers: Answers) -> Answers:
+    """The answers, but nothing where the answer given is right, and rounding may be what made it so."""
+    luck = asked.numbers.possible(2 * max(_unit(asked), _FLOAT64), printed=True)[:, 1]
+    right = asked.given == asked.said(asked.truth)
+    return np.where(right & luck, SILENT, answers).astype(np.int8)
+
+
+def _groove(asked: Asked) -> Answers:
+    """Proposition 3 where c² < a: three positive roots are exterior, though all are at B or beyond."""
+    n = asked.numbers
+    with np.errstate(all="ignore"):
+        at = (asked.truth == Position.CONTACT) & (n.B**2 <= n.A * (1 + 2.0**-40)) & (n.c2 <= 0) & (n.c1 >= 0)
+    return _unless_rounded(asked, _exactly_where(at, asked, _is(Kind.CROSSING_GROOVE_TWO_CURVES), Position.EXTERIOR))
+
+
+def _throat(asked: Asked) -> Answers:
+    """Proposition 5 where a < 1: two negative roots are interior, though both are at −A or below."""
+    at = (asked.truth == Position.CONTACT) & (asked.numbers.A < 1)
+    return _unless_rounded(asked, _exactly_where(at, asked, _is(Kind.CROSSING_THROAT_TWO_CURVES), Position.INTERIOR))
+
+
+def _zero_coefficient(asked: Asked) -> Answers:
+    """Proposition 5 where c1 or c2 is 0: not interior."""
+    n = asked.numbers
+    with np.errstate(all="ignore"):
+        small = (np.abs(n.c1) <= 2.0**-40 * (1 + n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q)) | (
+            np.abs(n.c2) <= 2.0**-40 * (1 + n.A + n.B + n.P + n.Q)
+        )
+
+    def vanishes(pair: Pair) -> bool:
+        g = exact.cubic(pair.lengths)
+        return g.n1 == 0 or g.n2 == 0
+
+    return _exactly_where((asked.truth == Position.INTERIOR) & small, asked, vanishes, Position.CONTACT)
+
+
+def _tangency(kind: Kind) -> Rule:
+    """A tangency of this kind, taken for the clear position of which it is the limit."""
+
+    def rule(asked: Asked) -> Answers:
+        if kind.limit_of is None:
+            raise ValueError(f"{kind.value} is no tangency")
+        at = (asked.truth == Position.CONTACT) & asked.numbers.possible(2.0**-50)[:, 1]
+        return _exactly_where(at, asked, _is(kind), kind.limit_of)
+
+    return rule
+
+
+def _given_where(asked: Asked, possible: NDArray[np.bool_]) -> Answers:
+    """The answers given where one of the possible positions −1, 0, +1, (n, 3), gives them."""
+    answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), asked.criterion.question)
+    agrees = (possible & (answers[None, :] == asked.given[:, None])).any(axis=1)
+    return np.where(agrees, asked.given, SILENT).astype(np.int8)
+
+
+def _unit(asked: Asked) -> float:
+    """The unit of the declared precision; 0 where none is tolerated."""
+    return float(UNIT_ROUNDOFF[asked.criterion.precision])
+
+
+_FLOAT64 = 2.0**-53
+
+
+def _lost_beside_the_ring(asked: Asked) -> Answers:
+    """Δ has no sign in floats beside the ring, and is taken for 0 or less."""
+    found = _given_where(asked, asked.numbers.possible(2 * max(_unit(asked), _FLOAT64)))
+    at = (asked.truth == Position.EXTERIOR) & asked.numbers.near_the_ring(2.0**-12)
+    return np.where(at, found, SILENT).astype(np.int8)
+
+
+def _lost(asked: Asked) -> Answers:
+    """A sign that the rounding errors of a plain evaluation may turn."""
+    unit = _unit(asked)
+    return _given_where(asked, asked.numbers.possible(2 * unit)) if unit >= _FLOAT64 else _silent(asked)
+
+
+def _lost_outside(asked: Asked) -> Answers:
+    """The same for the rules as printed, at contacts outside the regimes in which they are right."""
+    unit, n = max(_unit(asked), _FLOAT64), asked.numbers
+    with np.errstate(all="ignore"):
+        outside = (asked.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
+    found = _given_where(asked, n.possible(2 * unit, printed=True))
+    return np.where(outside, found, SILENT).astype(np.int8)
+
+
+def _lost_in_float64(asked: Asked) -> Answers:
+    """A sign that float64 does not tell, where more is declared."""
+    return _given_where(asked, asked.numbers.possible(2 * _FLOAT64)) if _unit(asked) < _FLOAT64 else _silent(asked)
+
+
+def _half_lost(asked: Asked) -> Answers:
+    """A sign that half the digits of the precision do not tell."""
+    return _given_where(asked, asked.numbers.possible(2 * max(_unit(asked), _FLOAT64) ** 0.5))
+
+
+_RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128), "float64": (-1022, 1024)}
+"""The binary exponents of the least normal number and of the greatest, plus one."""
+
+
+def _out_of_range(asked: Asked) -> Answers:
+    """A square or a product of the plain formula is not in the range of the format, so that Δ has no sign."""
+    if asked.criterion.precision not in _RANGES:
+        return _silent(asked)
+    least, greatest = _RANGES[asked.criterion.precision]
+    with np.errstate(all="ignore"):
+        alpha, gamma, b, d, x, y, z = np.log2(np.abs(asked.rows[:, : len(COLUMNS)].T))
+        r = np.maximum(x, y)
+        A, B, P, Q = 2 * (alpha - b), 2 * (gamma - d), 2 * (r - b), 2 * (z - d)
+        M2, M1 = _greatest(A, B, P, Q, 0 * A), _greatest(A + B, A, B, B + P, A + Q)
+        squares = [2 * b, A, B, 2 * (A + B), P, Q, 2 * x, 2 * y]
+        too_small = np.any([(each < least) & np.isfinite(each) for each in squares], axis=0)
+        too_large = np.any([each >= greatest for each in (*squares, 3 * M1, 3 * M2 + A + B, 2 * (M1 + M2))], axis=0)
+    return np.where(too_small | too_large, asked.given, SILENT).astype(np.int8)
+
+
+def _greatest(*values: Floats) -> Floats:
+    return np.asarray(np.max(values, axis=0))
+
+
+PLACES: tuple[Cause, ...] = (
+    Cause(
+        "ring",
+        "on the ring (z = 0, far apart, Δ = 0) it says contact, as Proposition 3 does",
+        "where z = 0, exterior is E > 0 and E² > 4A, with E = P − A − 1",
+        _ring,
+        Standing.PLACE,
+        claim="Proposition 3",
+        slack=4,
+    ),
+    Cause(
+        "groove",
+        "where (γ/d)² < α/b, outside the regime of Proposition 3, it calls a spheroid that crosses the groove exterior",
+        "exterior asks besides for: not (c2 < −3B and (3B + 2 c2) B + c1 > 0)",
+        _groove,
+        Standing.PLACE,
+        claim="Proposition 3",
+    ),
+    Cause(
+        "throat",
+        "where α < b, outside the regime of Proposition 5, it calls a spheroid stuck in the throat interior",
+        "interior asks besides for: c2 < 3A and (3A − 2 c2) A + c1 > 0",
+        _throat,
+        Standing.PLACE,
+        claim="Proposition 5",
+    ),
+    Cause(
+        "zero-coefficient",
+        "where c1 or c2 is 0 it denies interior, as Proposition 5 does",
+        "interior is Δ > 0 and not (c2 < 0 and c1 > 0)",
+        _zero_coefficient,
+        Standing.PLACE,
+        claim="Proposition 5",
+        slack=4,
+    ),
+    *(
+        Cause(
+            kind.value,
+            f"it takes a tangency for clear ({kind.contact_set} in common, {kind.value})",
+            "a tangency is contact: exterior and interior ask for > 0, never for ≥ 0",
+            _tangency(kind),
+            Standing.PLACE,
+        )
+        for kind in Kind
+        if kind.tangent
+    ),
+    Cause(
+        "out-of-range",
+        "a square or a product of the plain formula leaves the range of the declared precision, so Δ has no sign",
+        f"divide by the sizes before squaring, or declare the magnitudes that it takes; or {RECOMMENDED}",
+        _out_of_range,
+        Standing.ROUNDING,
+    ),
+    Cause(
+        "lost-beside-the-ring",
+        "beside the ring Δ is smaller than its rounding errors, however far apart the bodies are",
+        f"never take Δ ≤ 0 for contact in floats; {RECOMMENDED}",
+        _lost_beside_the_ring,
+        Standing.ROUNDING,
+        claim="Proposition 3",
+    ),
+    Cause(
+        "lost-to-rounding",
+        "a sign that decides is smaller than the rounding errors of Δ, c1 or c2 in the declared precision",
+        f"the coefficients cancel: {RECOMMENDED}",
+        _lost,
+        Standing.ROUNDING,
+    ),
+    Cause(
+        "lost-outside-the-regime",
+        "outside the regimes of Propositions 3 and 5 Δ is smaller than its rounding errors, and a positive one is taken "
+        "for clear",
+        f"ask besides where the poles −A and B are; or {RECOMMENDED}",
+        _lost_outside,
+        Standing.ROUNDING,
+        claim="Proposition 5",
+    ),
+    Cause(
+        "float64-for-more",
+        "a sign that decides is smaller than the rounding errors of float64, though more than float64 is declared",
+        f"declare float64, or compute what is declared throughout; or {RECOMMENDED}",
+        _lost_in_float64,
+        Standing.ROUNDING,
+    ),
+    Cause(
+        "half-the-digits",
+        "half the digits of the declared precision do not tell the sign that decides: a narrower format, computed "
+        "roots, or a threshold",
+        f"compute in the declared precision throughout, without roots and thresholds; or {RECOMMENDED}",
+        _half_lost,
+        Standing.ROUNDING,
+    ),
+)
+"""The causes about places, those in exact arithmetic first."""

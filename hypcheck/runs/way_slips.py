@@ -1,0 +1,182 @@
+"""Causes of wrong answers about ways: positions tested in place of the way, columns and times mistaken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from hypcheck.geometry.pair import TILTED_COLUMNS
+from hypcheck.geometry.rows import Rows
+from hypcheck.implementations import ways
+from hypcheck.kernel.classify import classify
+from hypcheck.runs.causes import SILENT, Answers, Asked, Rule, Standing
+from hypcheck.runs.judge import Criterion
+from hypcheck.runs.passages import passage_of, time_is_right
+from hypcheck.runs.slips import always, causes_told
+
+
+def _way_ends(rows: Rows) -> tuple[Rows, Rows]:
+    """The rows of positions at the start and at the end of each way; with an axis where it has one."""
+    sizes, start, end, axis = rows[:, :4], rows[:, 4:7], rows[:, 7:10], rows[:, 10:]
+    return tuple(np.ascontiguousarray(np.hstack([sizes, each, axis])) for each in (start, end))  # type: ignore[return-value]
+
+
+def _touches(asked: Asked) -> tuple[Answers, Answers]:
+    return tuple((classify(each) == 0).astype(np.int8) for each in _way_ends(asked.rows))  # type: ignore[return-value]
+
+
+def _at_the_start(asked: Asked) -> Answers:
+    return _untimed(asked, _touches(asked)[0])
+
+
+def _at_the_end(asked: Asked) -> Answers:
+    return _untimed(asked, _touches(asked)[1])
+
+
+def _at_both_ends(asked: Asked) -> Answers:
+    return _untimed(asked, np.maximum(*_touches(asked)))
+
+
+def _between(asked: Asked) -> Answers:
+    """Clear where both ends are clear and the way between them is not."""
+    first, last = _touches(asked)
+    missed = (asked.truth == 1) & (asked.given == 0) & (first == 0) & (last == 0)
+    return np.where(missed, 0, SILENT).astype(np.int8)
+
+
+def _untimed(asked: Asked, hits: Answers) -> Answers:
+    """Hits, but nothing about a wrong time: a hit that is right explains none."""
+    return np.where((asked.given == asked.truth) & (hits == asked.truth), SILENT, hits).astype(np.int8)
+
+
+@dataclass(frozen=True, slots=True)
+class ChangedWay:
+    """The exact hits on other ways than those asked, upright spheroids alone."""
+
+    change: Callable[[Rows], Rows]
+
+    def __call__(self, asked: Asked) -> Answers:
+        """The hits; SILENT of tilted spheroids."""
+        if asked.rows.shape[1] != len(TILTED_COLUMNS):
+            return np.full(len(asked.rows), SILENT, dtype=np.int8)
+        changed = self.change(asked.rows.copy())
+        hits, _ = ways.exact(changed[:_MOST_WAYS])
+        answers = np.full(len(asked.rows), SILENT, dtype=np.int8)
+        answers[:_MOST_WAYS] = hits
+        return _untimed(asked, answers)
+
+
+_MOST_WAYS = 64
+"""Deciding a way exactly costs a millisecond, so only the first ways of a chunk are asked again."""
+
+
+def _times_from_the_end(asked: Asked) -> Answers:
+    """The answer given where its time, counted from the end, is right."""
+    answers = np.full(len(asked.rows), SILENT, dtype=np.int8)
+    if asked.times is None:
+        return answers
+    for place in np.flatnonzero((asked.given == 1) & (asked.truth == 1)).tolist():
+        row = tuple(asked.rows[place].tolist())
+        if _time_right(row, 1 - float(asked.times[place]), asked.criterion):
+            answers[place] = 1
+    return answers
+
+
+def _times_off(late: bool) -> Rule:
+    """The answer given where only its time is wrong, in this direction, by less than a thousandth of the way."""
+
+    def rule(asked: Asked) -> Answers:
+        answers = np.full(len(asked.rows), SILENT, dtype=np.int8)
+        if asked.times is None:
+            return answers
+        for place in np.flatnonzero((asked.given == 1) & (asked.truth == 1)).tolist():
+            row, time = tuple(asked.rows[place].tolist()), float(asked.times[place])
+            off = time - passage_of(row).first_lower
+            if 0 < abs(off) < 1e-3 and (off > 0) is late and not _time_right(row, time, asked.criterion):
+                answers[place] = 1
+        return answers
+
+    return rule
+
+
+def _time_right(row: tuple[float, ...], time: float, criterion: Criterion) -> bool:
+    return time_is_right(row, time, criterion)
+
+
+def _moved(*order: int) -> ChangedWay:
+    return ChangedWay(lambda rows: np.ascontiguousarray(rows[:, order]))
+
+
+def _level(rows: Rows) -> Rows:
+    rows[:, 9] = rows[:, 6]
+    return rows
+
+
+_WHOLE_WAY = "decide the way, not positions on it (hypcheck.passage, docs/motion.md)"
+
+_WAYS: tuple[tuple[str, str, str, Rule], ...] = (
+    ("only-the-start", "it tests the start of the way alone", _WHOLE_WAY, _at_the_start),
+    ("only-the-end", "it tests the end of the way alone", _WHOLE_WAY, _at_the_end),
+    ("only-the-ends", "it tests both ends of the way and nothing between", _WHOLE_WAY, _at_both_ends),
+    (
+        "way-x-z",
+        "it answers as if x and z changed places",
+        "columns are alpha, gamma, b, d, x0, y0, z0, x1, y1, z1",
+        _moved(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
+    ),
+    (
+        "way-b-d",
+        "it answers as if b and d changed places",
+        "columns are alpha, gamma, b, d, x0, y0, z0, x1, y1, z1",
+        _moved(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
+    ),
+    ("way-level", "it answers as if the way were horizontal", "the way ends at x1, y1, z1", ChangedWay(_level)),
+    (
+        "way-always-0",
+        "it answers 0 whatever the way",
+        "let the answer depend on the way",
+        lambda asked: _untimed(asked, always(0)(asked)),
+    ),
+    (
+        "way-always-1",
+        "it answers 1 whatever the way",
+        "let the answer depend on the way",
+        lambda asked: _untimed(asked, always(1)(asked)),
+    ),
+    (
+        "times-from-the-end",
+        "its times count from the end",
+        "time 0 is the start of the way, 1 its end",
+        _times_from_the_end,
+    ),
+)
+
+_WAY_PLACES: tuple[tuple[str, str, str, Rule], ...] = (
+    (
+        "between-positions",
+        "both ends of the way are clear and it says clear, but there is contact between them: it tests positions",
+        _WHOLE_WAY,
+        _between,
+    ),
+    (
+        "late-times",
+        "its times of first contact are late by less than 1/1000 of the way",
+        "round times down",
+        _times_off(late=True),
+    ),
+    (
+        "early-times",
+        "its times of first contact are early by less than 1/1000 of the way",
+        "compute the time to the tolerance",
+        _times_off(late=False),
+    ),
+)
+
+
+WAY_SLIPS = (
+    *causes_told(_WAY_PLACES, "way", Standing.PLACE),
+    *causes_told(_WAYS, "way", Standing.EVERYWHERE),
+)
+"""The simplest first."""
