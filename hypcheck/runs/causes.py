@@ -310,11 +310,11 @@ def _greatest(*values: Floats) -> Floats:
 PLACES: tuple[Cause, ...] = (
     Cause(
         "ring",
-        "on the ring (z = 0, far apart, Δ = 0) it says contact, as Proposition 3 does",
+        "on the ring (z = 0, far apart, Δ = 0) it says contact, as Proposition 3.2 does",
         "where z = 0, exterior is E > 0 and E² > 4A, with E = P − A − 1",
         _ring,
         Standing.PLACE,
-        claim="Proposition 3",
+        claim="Proposition 3.2",
         slack=4,
     ),
     Cause(
@@ -323,7 +323,7 @@ PLACES: tuple[Cause, ...] = (
         "exterior asks besides for: not (c2 < −3B and (3B + 2 c2) B + c1 > 0)",
         _groove,
         Standing.PLACE,
-        claim="Proposition 3",
+        claim="Proposition 3.1",
     ),
     Cause(
         "throat",
@@ -331,7 +331,7 @@ PLACES: tuple[Cause, ...] = (
         "interior asks besides for: c2 < 3A and (3A − 2 c2) A + c1 > 0",
         _throat,
         Standing.PLACE,
-        claim="Proposition 5",
+        claim="Proposition 5.1",
     ),
     Cause(
         "zero-coefficient",
@@ -339,7 +339,7 @@ PLACES: tuple[Cause, ...] = (
         "interior is Δ > 0 and not (c2 < 0 and c1 > 0)",
         _zero_coefficient,
         Standing.PLACE,
-        claim="Proposition 5",
+        claim="Proposition 5.1",
         slack=4,
     ),
     *(
@@ -366,7 +366,7 @@ PLACES: tuple[Cause, ...] = (
         f"never take Δ ≤ 0 for contact in floats; {RECOMMENDED}",
         _lost_beside_the_ring,
         Standing.ROUNDING,
-        claim="Proposition 3",
+        claim="Proposition 3.2",
     ),
     Cause(
         "lost-to-rounding",
@@ -377,12 +377,12 @@ PLACES: tuple[Cause, ...] = (
     ),
     Cause(
         "lost-outside-the-regime",
-        "outside the regimes of Propositions 3 and 5 Δ is smaller than its rounding errors, and a positive one is taken "
+        "outside the regimes of Propositions 3 and 5 Δ is smaller than its rounding errors, and a positive Δ is taken "
         "for clear",
         f"ask besides where the poles −A and B are; or {RECOMMENDED}",
         _lost_outside,
         Standing.ROUNDING,
-        claim="Proposition 5",
+        claim="Proposition 5.1",
     ),
     Cause(
         "float64-for-more",

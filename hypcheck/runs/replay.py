@@ -34,6 +34,7 @@ from hypcheck.record import read
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.reader import file_of, recorded_cases
 from hypcheck.runs import judge
+from hypcheck.runs.causes import PLACES, Asked, Cause, Standing
 from hypcheck.runs.intermediates import AskedImplementation, FormulaChoice, choose_formula
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import Score, score, status_of
@@ -182,7 +183,10 @@ class ReplayJudgement:
 
 @dataclass(frozen=True, slots=True)
 class Replay:
-    """The result of a replay; `truth` and `choice` are None for an invalid row."""
+    """The result of a replay; `truth` and `choice` are None for an invalid row.
+
+    `causes` are those about places that explain a wrong answer about an upright spheroid.
+    """
 
     case: ReplayCase
     spec: str
@@ -193,6 +197,7 @@ class Replay:
     judgement: ReplayJudgement
     skipped: str | None
     choice: FormulaChoice | None
+    causes: tuple[Cause, ...] = ()
 
 
 def replay(case: ReplayCase, implementation: Implementation, criterion: Criterion, formula: str | None) -> Replay:
@@ -216,8 +221,9 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         return Replay(*known, None, refused(case, implementation), None, None)
     truth = truth_of(pair_of(case.row))
     judgement = _judged(implementation, rows, truth, criterion)
-    choice = None
+    choice, causes = None, ()
     if isinstance(truth.pair, Pair):
+        causes = _causes(truth, judgement, criterion)
         answered = None if judgement.answer == CANNOT_SAY else judgement.answer
         subject = AskedImplementation(implementation.spec, declared, used, answered)
         choice = choose_formula(subject, truth.pair.row, truth.decision.position, formula)
@@ -225,7 +231,18 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         raise InputError(
             f"--formula is {formula!r}, but {case.name} is about a tilted spheroid, which no formula takes"
         )
-    return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice)
+    return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice, causes)
+
+
+def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion) -> tuple[Cause, ...]:
+    """The causes about places whose rules give this wrong answer: those in exact arithmetic, else one of rounding."""
+    if judgement.answer is None or judgement.mistake is None:
+        return ()
+    truths, given = (np.array([each], dtype=np.int8) for each in (truth.decision.position, judgement.answer))
+    asked = Asked(np.array([truth.pair.row]), truths, given, criterion)
+    found = [cause for cause in PLACES if cause.rule(asked)[0] == judgement.answer]
+    exactly = [cause for cause in found if cause.standing is Standing.PLACE]
+    return tuple(exactly or found[:1])
 
 
 def truth_of(pair: Pair | TiltedPair) -> ProvedTruth:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from typing import Any
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 from hypcheck.answer import kind_as_text, proof_as_json, proof_lines
-from hypcheck.geometry.pair import REFUSED, Position, columns_of
+from hypcheck.geometry.pair import REFUSED, Pair, Position, columns_of
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description
 from hypcheck.record import plain
+from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
 from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement
 from hypcheck.tables.numbers import hex_of
+
+if TYPE_CHECKING:
+    from hypcheck.paper.ledger.entry import LedgerEntry
 
 DIGITS = 17
 """Digits of the numbers in the JSON table of values. They are texts, because exact ones need not fit float64."""
@@ -34,11 +39,16 @@ def replay_as_json(done: Replay) -> str:
                 "tolerance_u": float(done.criterion.tolerance),
                 **_judgement_json(done.judgement),
                 "skipped": done.skipped,
+                "causes": [_cause_json(each) for each in done.causes],
                 "values": None if done.choice is None else _choice_json(done.choice),
             }
         ),
         allow_nan=False,
     )
+
+
+def _cause_json(cause: Cause) -> dict[str, Any]:
+    return {"cause": cause.name, "sentence": cause.sentence, "remedy": cause.remedy, "claim": cause.claim or None}
 
 
 def _truth_json(truth: ProvedTruth) -> dict[str, Any]:
@@ -112,6 +122,8 @@ def replay_lines(done: Replay) -> Iterator[str]:
         yield from _truth_lines(done.truth)
     yield ""
     yield from _judgement_lines(done)
+    for cause in done.causes:
+        yield from _cause_lines(cause)
     if done.choice is not None and done.truth is not None:
         yield ""
         yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
@@ -122,9 +134,36 @@ def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
     yield from _titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
     if truth.kind is not None:
         yield from _titled("kind", kind_as_text(truth.kind))
+    if isinstance(truth.pair, Pair):
+        yield from _titled("regime", _regime(truth.pair))
     for position, distance in truth.flips.items():
         yield from _titled("flips", f"to {position.label} {_change(distance)}")
     yield from _titled("proof", *proof_lines(truth.pair, truth.certificate))
+
+
+def _regime(pair: Pair) -> str:
+    """Where the pair lies to the two conditions that the paper's statements carry, decided exactly."""
+    alpha, gamma, b, d = map(Fraction, pair.row[:4])
+    wide = f"α/b = {float(alpha / b):.4g} {'≥' if alpha >= b else '<'} 1"
+    ratio, square = alpha / b, (gamma / d) ** 2
+    bent = f"(γ/d)² = {float(square):.4g} {'≥' if square >= ratio else '<'} α/b"
+    stated = [name for name, holds in (("3", square >= ratio), ("5", alpha >= b)) if holds]
+    return f"{wide}, {bent}; {'stated by Proposition ' + ' and '.join(stated) if stated else 'outside both regimes'}"
+
+
+def _cause_lines(cause: Cause) -> Iterator[str]:
+    """Why the answer is wrong, the paper's claim that is the reason with the ledger's verdict, and the right line."""
+    yield from _titled("cause", cause.sentence)
+    if cause.claim:
+        entry = _claim(cause.claim)
+        yield from _titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
+    yield from _titled("fix", cause.remedy)
+
+
+def _claim(number: str) -> LedgerEntry:
+    from hypcheck.paper.ledger.book import entries  # noqa: PLC0415 - loads sympy
+
+    return next(each for each in entries() if each.number == number)
 
 
 def _judgement_lines(done: Replay) -> Iterator[str]:

@@ -349,10 +349,30 @@ def _other_side(asked: Asked) -> Answers:
     return asked.said((-asked.truth).astype(np.int8))
 
 
+def _horizontally(asked: Asked) -> Answers:
+    """The surface's radius at the centre's height, compared with r ± b."""
+    alpha, gamma, b, _, x, y, z = asked.rows.T
+    gap = np.hypot(x, y) - alpha * np.hypot(1, z / gamma)
+    return asked.said(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
+
+
+def _centre(asked: Asked) -> Answers:
+    """The side of the centre."""
+    alpha, gamma, _, _, x, y, z = asked.rows.T
+    return asked.said(np.sign(np.hypot(x, y) - alpha * np.hypot(1, z / gamma)).astype(np.int8))
+
+
 _SAME: tuple[tuple[str, str, str, Rule], ...] = (
     ("always-0", "it answers 0 whatever the row", "let the answer depend on the row", always(0)),
     ("always-1", "it answers 1 whatever the row", "let the answer depend on the row", always(1)),
     ("always-minus-1", "it answers −1 whatever the row", "let the answer depend on the row", always(-1)),
+    (
+        "horizontal-gap",
+        "it compares the horizontal distance at the centre's height with b",
+        "the wall slopes: the nearest point is at another height",
+        _horizontally,
+    ),
+    ("centre-alone", "it tests the centre alone", "the spheroid has a size: compare with b and d", _centre),
     ("sides-exchanged", "it exchanges exterior and interior", "exterior is +1, interior −1", _other_side),
 )
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from hypcheck.cli import pytest_plugin
 from hypcheck.cli.main import main
 from hypcheck.record import read
-from hypcheck.report.messages import figure
+from hypcheck.record.lines import GroupLine
+from hypcheck.report.messages import error_text
 from hypcheck.report.verdict import failures
 
 pytest_plugins = ["pytester"]
@@ -72,8 +73,8 @@ def test_the_case_that_is_shown_has_the_greatest_error_of_the_run(tmp_path, monk
     assert main(["verify", *words]) == 1
     record = read(tmp_path / "out")
     worst = pytest_plugin._worst(record, failures(record))
-    errors = [float(case.backward_error_u) for group in record.lines if group.type == "group" for case in group.worst]
-    assert f"wrong by {figure(max(errors))} u" in worst.message
+    cases = [case for group in record.of(GroupLine) for case in group.worst]
+    assert error_text(max(cases, key=lambda case: float(case.backward_error_u))) in worst.message
 
 
 def test_options_of_the_marker_are_words_of_the_command_line():

@@ -1,0 +1,141 @@
+"""Causes of wrong answers: each is named where its rule gives those very answers, and nowhere else."""
+
+import numpy as np
+import pytest
+
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.implementations.description import EVERYWHERE
+from hypcheck.implementations.questions import Answered
+from hypcheck.kernel.classify import classify
+from hypcheck.runs.causes import PLACES, SILENT, Asked, Standing
+from hypcheck.runs.diagnosis import CAUSES, Diagnosis, causes_of, diagnose, merged
+from hypcheck.runs.judge import Criterion
+from hypcheck.runs.score import score
+from hypcheck.vectors.frozen import frozen_rows
+
+FAMILIES = ("ring", "ring-neighbourhood", "out-of-regime", "coefficient-zero", "near-axis", "uniform")
+ORDINARY = Criterion()
+
+
+def diagnosed(implementation, families=FAMILIES, criterion=ORDINARY):
+    """The causes, None of what is unexplained, with the number of wrong answers; and how many are wrong in all."""
+    diagnoses, clean, wrong = {}, [], 0
+    for family in families:
+        found = frozen_rows(family)
+        given = np.asarray(implementation(found.rows), dtype=np.int8)
+        scored = score(found.rows, found.positions, Answered.of(given), criterion)
+        cases = [case for case in scored.judged() if case.status == "wrong"]
+        right = np.flatnonzero(given == found.positions).tolist()
+        named = [((0, case.index), found.ids[case.index]) for case in cases]
+        diagnoses[family] = diagnose(Asked(found.rows, found.positions, given, criterion), cases, right, named)
+        wrong += len(cases)
+        if not cases:
+            clean.append(family)
+    causes = causes_of(diagnoses, clean, criterion, EVERYWHERE)
+    return {each.cause and each.cause.name: each.cases for each in causes}, wrong
+
+
+def plain(rows):
+    """The paper's two rules in float64, wherever they are asked."""
+    delta, c1, c2 = _coefficients(rows)
+    positive = (c2 < 0) & (c1 > 0)
+    return np.where(delta > 0, np.where(positive, 1, -1), 0)
+
+
+def _coefficients(rows):
+    alpha, gamma, b, d, x, y, z = rows.T
+    A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / b**2, (z / d) ** 2
+    c2, c1, c0 = A - B + 1 - P - Q, -A * B + A - B + B * P - A * Q, -A * B
+    return c2**2 * c1**2 - 4 * c1**3 - 4 * c2**3 * c0 - 27 * c0**2 + 18 * c2 * c1 * c0, c1, c2
+
+
+def changed(change):
+    """The exact answers to other rows."""
+
+    def implementation(rows):
+        other = rows.copy()
+        change(other)
+        return classify(other)
+
+    return implementation
+
+
+def with_mistakes_by_chance(rows):
+    """Every seventh answer is another one, whatever the row."""
+    exact = classify(rows).astype(int)
+    exact[::7] = (exact[::7] + 2) % 3 - 1
+    return exact
+
+
+def test_each_wrong_answer_of_the_plain_formula_in_float64_has_a_cause():
+    causes, wrong = diagnosed(plain)
+    assert {"ring", "throat", "groove", "lost-beside-the-ring"} <= causes.keys()
+    assert None not in causes
+    assert sum(causes.values()) == wrong
+
+
+def test_table_2_in_its_regime_errs_on_the_ring_and_by_rounding_alone():
+    table_2 = FORMULAS["table-2"]
+
+    def implementation(rows):
+        exterior = answers(table_2, float_arithmetic("float64"), dict(zip(COLUMNS, rows.T, strict=True)))
+        return np.where(exterior == 1, 1, np.minimum(classify(rows), 0))
+
+    causes, _ = diagnosed(implementation, ("ring", "ring-neighbourhood"))
+    assert set(causes) == {"ring", "lost-beside-the-ring"}
+
+
+@pytest.mark.parametrize(
+    ("implementation", "cause"),
+    [
+        (lambda rows: np.zeros(len(rows)), "always-0"),
+        (lambda rows: -classify(rows).astype(int), "sides-exchanged"),
+        (changed(lambda rows: rows.__setitem__((slice(None), 5), 0)), "y-ignored"),
+        (changed(lambda rows: rows.__setitem__((slice(None), 3), rows[:, 2])), "ball-of-b"),
+        (changed(lambda rows: rows.__setitem__((slice(None), [2, 3]), rows[:, [3, 2]])), "b-d"),
+    ],
+)
+def test_a_rule_about_every_row_is_named_where_it_gives_all_answers(implementation, cause):
+    causes, wrong = diagnosed(implementation, ("ring", "uniform"))
+    assert causes == {cause: wrong}
+
+
+def test_mistakes_by_chance_are_explained_by_no_rule_about_every_row():
+    causes, wrong = diagnosed(with_mistakes_by_chance)
+    everywhere = {cause.name for cause in CAUSES if cause.standing is Standing.EVERYWHERE}
+    assert not everywhere & causes.keys()
+    assert causes[None] > wrong / 2
+
+
+def test_an_axis_that_is_ignored_is_named():
+    causes, wrong = diagnosed(
+        changed(lambda rows: rows.__setitem__((slice(None), slice(7, None)), (0.0, 0.0, 1.0))),
+        ("tilted-small-integers",),
+    )
+    assert causes == {"axis-ignored": wrong}
+
+
+def test_causes_of_rounding_agree_with_every_clear_answer_that_is_right():
+    found = frozen_rows("uniform")
+    sure = found.positions != 0
+    asked = Asked(found.rows[sure], found.positions[sure], found.positions[sure], ORDINARY)
+    for cause in PLACES:
+        said = cause.rule(asked)
+        assert ((said == SILENT) | (said == asked.given)).all(), cause.name
+
+
+def test_diagnoses_add_up_in_any_order():
+    found = frozen_rows("ring")
+    given = np.zeros(len(found.rows), dtype=np.int8)
+    scored = score(found.rows, found.positions, Answered.of(given), ORDINARY)
+    cases = list(scored.judged())
+    asked = Asked(found.rows, found.positions, given, ORDINARY)
+    parts = [
+        diagnose(asked, some, [], [((0, case.index), found.ids[case.index]) for case in some])
+        for some in (cases[:50], cases[50:90], cases[90:])
+    ]
+    assert merged(parts) == merged(parts[::-1]) == merged([merged(parts[:2]), parts[2]])
+    assert sum(each.cases for each in merged(parts).explained.values()) == len(cases)
+    assert merged([]) == Diagnosis()
