@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.geometry.rows import PAIRS, Floats, Layout, Positions, Rows
 from hypcheck.runs import judge
+from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judges import truth_of
-from hypcheck.runs.tally import CasePlace
 from hypcheck.vectors import families
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id

@@ -116,8 +116,8 @@ def diagnose(
         if against:
             denied[cause.name] = round(against * share)
     by_set: dict[int, list[Explained]] = {}
-    for causes, (case, (place, name)) in zip(sets, failing, strict=True):
-        by_set.setdefault(causes, []).append(Explained(1, place, name, case))
+    for causes, (case, (at, name)) in zip(sets, failing, strict=True):
+        by_set.setdefault(causes, []).append(Explained(1, at, name, case))
     return Diagnosis({causes: together(some) for causes, some in by_set.items()}, denied)
 
 
@@ -229,8 +229,8 @@ def findings(diagnoses: Mapping[str, Diagnosis], criterion: Criterion, denied: M
             by_subject.setdefault(_subject(worst, criterion), {})[family] = each
     found = [each for part in by_subject.values() for each in _findings(part, denied)]
     named: dict[str, list[Finding]] = {}
-    for each in found:
-        named.setdefault(each.cause.name if each.cause else "", []).append(each)
+    for one in found:
+        named.setdefault(one.cause.name if one.cause else "", []).append(one)
     joined = [_joined(some) for some in named.values()]
     return sorted(
         joined, key=lambda each: (each.cause is None, -each.cases, _BITS[each.cause.name] if each.cause else 0)

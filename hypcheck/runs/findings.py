@@ -28,9 +28,9 @@ from hypcheck.implementations.method import Method
 from hypcheck.implementations.questions import Answered
 from hypcheck.record.lines import FindingLine, GroupLine, MapLine
 from hypcheck.runs import judge, tally
+from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.score import score
-from hypcheck.runs.tally import CasePlace
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision, cubic
 from hypcheck.truth.kinds import Kind

@@ -38,6 +38,15 @@ def _angle(turn: Callable[[Floats], Floats]) -> Changed:
     return _axis(compute)
 
 
+def _in_float32(values: Floats) -> Floats:
+    return values.astype(np.float32).astype(np.float64)
+
+
+def _direction_in_float32(x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
+    length = np.sqrt(x * x + y * y + z * z)
+    return _in_float32(x / length), _in_float32(y / length), _in_float32(z / length)
+
+
 def _along(factor: Callable[[Rows], Floats]) -> Changed:
     """M = I/b² + (1/d² − 1/b²) f v vᵀ/(v·v): the spheroid that a factor f of 1 would leave as it is."""
 
@@ -128,17 +137,13 @@ _TILTED: tuple[tuple[str, str, str, Rule], ...] = (
         "axis-in-float32",
         "it rounds the axis to float32",
         "keep the axis in float64",
-        _axis(lambda x, y, z: tuple(each.astype(np.float32).astype(np.float64) for each in (x, y, z))),
+        _axis(lambda x, y, z: (_in_float32(x), _in_float32(y), _in_float32(z))),
     ),
     (
         "direction-in-float32",
         "it rounds the unit axis to float32",
         "keep the axis in float64",
-        _axis(
-            lambda x, y, z: tuple(
-                (each / np.sqrt(x * x + y * y + z * z)).astype(np.float32).astype(np.float64) for each in (x, y, z)
-            )
-        ),
+        _axis(_direction_in_float32),
     ),
     (
         "axis-is-d",

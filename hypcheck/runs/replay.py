@@ -221,7 +221,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         return Replay(*known, None, refused(case, implementation), None, None)
     truth = truth_of(pair_of(case.row))
     judgement = _judged(implementation, rows, truth, criterion)
-    choice, causes = None, ()
+    choice, causes = None, tuple[Cause, ...]()
     if isinstance(truth.pair, Pair):
         causes = _causes(truth, judgement, criterion)
         answered = None if judgement.answer == CANNOT_SAY else judgement.answer

@@ -22,12 +22,12 @@ from hypcheck.record.lines import Retest
 from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_exponents_of
 from hypcheck.runs.causes import Asked
-from hypcheck.runs.diagnosis import Diagnosis, diagnose
+from hypcheck.runs.diagnosis import CasePlace, Diagnosis, diagnose
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.known_failures import KnownFailure
 from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
-from hypcheck.runs.tally import STATUS_CODES, CasePlace, Tally, counts_of
+from hypcheck.runs.tally import STATUS_CODES, Tally, counts_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.frozen import InvalidRowFile

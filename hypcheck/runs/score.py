@@ -20,6 +20,7 @@ from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows
 from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import tally
+from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import DANGEROUS, Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.tally import (
@@ -27,7 +28,6 @@ from hypcheck.runs.tally import (
     STATUSES,
     UNANSWERED_KEPT,
     WORST_KEPT,
-    CasePlace,
     StatusCodes,
     Tally,
     UnansweredCase,

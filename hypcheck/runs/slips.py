@@ -136,60 +136,79 @@ class Formula:
         return answers
 
 
-def _coefficient(name: str, change: Callable[[Terms], Number]) -> Formula:
-    right = {"c0": _c0, "c1": _c1, "c2": _c2}[name]
-    return Formula(**{name: lambda t: right(t) + change(t)})
+_RIGHT = {"c0": _c0, "c1": _c1, "c2": _c2}
+_WRITTEN = {"c0": "c0 = −AB", "c1": "c1 = −AB + A − B + BP − AQ", "c2": "c2 = A − B + 1 − P − Q"}
+_NEGATED: dict[str, dict[str, Callable[[Terms], Number]]] = {
+    "c0": {"AB": lambda t: 2 * t.A * t.B * t.U},
+    "c1": {
+        "AB": lambda t: 2 * t.A * t.B,
+        "A": lambda t: -2 * t.A * t.U,
+        "B": lambda t: 2 * t.B * t.U,
+        "BP": lambda t: -2 * t.B * t.P,
+        "AQ": lambda t: 2 * t.A * t.Q,
+    },
+    "c2": {
+        "A": lambda t: -2 * t.A,
+        "B": lambda t: 2 * t.B,
+        "1": lambda t: -2 * t.U,
+        "P": lambda t: 2 * t.P,
+        "Q": lambda t: 2 * t.Q,
+    },
+}
+"""What turns the sign of each term of a coefficient; half of it takes the term away."""
 
 
-def _formulas() -> Iterator[tuple[str, str, str, Rule]]:
-    """Names, sentences, remedies and rules of formulas with one mistake."""
-    right = {"c0": "c0 = −AB", "c1": "c1 = −AB + A − B + BP − AQ", "c2": "c2 = A − B + 1 − P − Q"}
-    signs: dict[str, dict[str, Callable[[Terms], Number]]] = {
-        "c0": {"AB": lambda t: 2 * t.A * t.B * t.U},
-        "c1": {
-            "AB": lambda t: 2 * t.A * t.B,
-            "A": lambda t: -2 * t.A * t.U,
-            "B": lambda t: 2 * t.B * t.U,
-            "BP": lambda t: -2 * t.B * t.P,
-            "AQ": lambda t: 2 * t.A * t.Q,
-        },
-        "c2": {
-            "A": lambda t: -2 * t.A,
-            "B": lambda t: 2 * t.B,
-            "1": lambda t: -2 * t.U,
-            "P": lambda t: 2 * t.P,
-            "Q": lambda t: 2 * t.Q,
-        },
-    }
-    for name, terms in signs.items():
+def _changed(name: str, change: Callable[[Terms], Number], part: int) -> Formula:
+    """The formula with this coefficient changed, by all of the change or, where `part` is 2, by half of it."""
+
+    def coefficient(t: Terms) -> Number:
+        whole = change(t)
+        return _RIGHT[name](t) + (whole if part == 1 else _half(whole))
+
+    if name == "c0":
+        return Formula(c0=coefficient)
+    return Formula(c1=coefficient) if name == "c1" else Formula(c2=coefficient)
+
+
+def _half(value: Number) -> Number:
+    return value / 2 if value.dtype == np.float64 else value // 2
+
+
+def _coefficient_slips() -> Iterator[tuple[str, str, str, Rule]]:
+    """Names, sentences, remedies and rules of formulas with a sign or a term of a coefficient wrong."""
+    for name, terms in _NEGATED.items():
         for term, change in terms.items():
-            rule = _coefficient(name, change)
-            yield f"{name}-sign-{term}", f"it answers as if the sign of {term} in {name} were wrong", right[name], rule
+            sentence = f"it answers as if the sign of {term} in {name} were wrong"
+            yield f"{name}-sign-{term}", sentence, _WRITTEN[name], _changed(name, change, 1)
             if name != "c0":
-                lacking = _coefficient(name, lambda t, change=change: _half(change(t)))
-                yield f"{name}-without-{term}", f"it answers as if {name} lacked the term {term}", right[name], lacking
-    delta = "Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²"
-    names = ("c2³ c0", "c2² c1²", "c2 c1 c0", "c1³", "c0²")
-    for place, term in enumerate(names):
-        plain = Formula().delta
-        for what, other in (("the sign were wrong", -plain[place]), ("it were forgotten", 0)):
-            factors = tuple(other if each == place else factor for each, factor in enumerate(plain))
+                sentence = f"it answers as if {name} lacked the term {term}"
+                yield f"{name}-without-{term}", sentence, _WRITTEN[name], _changed(name, change, 2)
+
+
+_POWERS = ("c2³ c0", "c2² c1²", "c2 c1 c0", "c1³", "c0²")
+
+
+def _discriminant_slips() -> Iterator[tuple[str, str, str, Rule]]:
+    """The same of formulas with a term of Δ or the decision wrong."""
+    delta, plain = "Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²", Formula().delta
+    for place, term in enumerate(_POWERS):
+        for name, what, other in (("sign", "the sign were wrong", -plain[place]), ("without", "nothing stood", 0)):
+            factors = (*plain[:place], other, *plain[place + 1 :])
             sentence = f"it answers as if, at the term {term} of Δ, {what}"
-            yield f"delta-{place}-{what.split()[-1]}", sentence, delta, Formula(delta=_five(factors))
+            yield f"delta-{name}-{place + 1}", sentence, delta, Formula(delta=_five(factors))
     yield "delta-negative", "it answers as if Δ < 0 were asked for", delta, Formula(delta=(4, -1, -18, 4, 27))
-    rule = "three roots are positive exactly if c2 < 0 and c1 > 0"
-    yield (
-        "decision-c1",
-        "it answers as if c1 < 0 were asked for",
-        rule,
-        Formula(positive=lambda c1, c2: (c2 < 0) & (c1 < 0)),
-    )
-    yield (
-        "decision-c2",
-        "it answers as if c2 > 0 were asked for",
-        rule,
-        Formula(positive=lambda c1, c2: (c2 > 0) & (c1 > 0)),
-    )
+    right = "three roots are positive exactly if c2 < 0 and c1 > 0"
+    for name, positive in (("c1", _c1_negative), ("c2", _c2_positive)):
+        sentence = f"it answers as if the sign of {name} were asked for the other way"
+        yield f"decision-{name}", sentence, right, Formula(positive=positive)
+
+
+def _c1_negative(c1: Number, c2: Number) -> Number:
+    return (c2 < 0) & (c1 < 0)
+
+
+def _c2_positive(c1: Number, c2: Number) -> Number:
+    return (c2 > 0) & (c1 > 0)
 
 
 def _terms(**changed: Callable[[Lengths], Number]) -> Formula:
@@ -208,10 +227,6 @@ _TERMS: tuple[tuple[str, str, str, Rule], ...] = (
         _terms(P=lambda of: (abs(of.x) + abs(of.y)) * of.b * of.d**2),
     ),
 )
-
-
-def _half(value: Number) -> Number:
-    return value / 2 if value.dtype == np.float64 else value // 2
 
 
 def _five(factors: tuple[int, ...]) -> tuple[int, int, int, int, int]:
@@ -382,5 +397,7 @@ def causes_told(told: Iterable[tuple[str, str, str, Rule]], subject: str, standi
     return tuple(Cause(*each, standing=standing, subject=subject) for each in told)
 
 
-UPRIGHT_SLIPS = causes_told((*_SAME, *_ROWS, *_TERMS, *_formulas()), "upright", Standing.EVERYWHERE)
+UPRIGHT_SLIPS = causes_told(
+    (*_SAME, *_ROWS, *_TERMS, *_coefficient_slips(), *_discriminant_slips()), "upright", Standing.EVERYWHERE
+)
 """The simplest first."""

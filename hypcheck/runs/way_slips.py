@@ -17,31 +17,28 @@ from hypcheck.runs.passages import passage_of, time_is_right
 from hypcheck.runs.slips import always, causes_told
 
 
-def _way_ends(rows: Rows) -> tuple[Rows, Rows]:
-    """The rows of positions at the start and at the end of each way; with an axis where it has one."""
-    sizes, start, end, axis = rows[:, :4], rows[:, 4:7], rows[:, 7:10], rows[:, 10:]
-    return tuple(np.ascontiguousarray(np.hstack([sizes, each, axis])) for each in (start, end))  # type: ignore[return-value]
-
-
-def _touches(asked: Asked) -> tuple[Answers, Answers]:
-    return tuple((classify(each) == 0).astype(np.int8) for each in _way_ends(asked.rows))  # type: ignore[return-value]
+def _touches(asked: Asked, place: int) -> Answers:
+    """Whether the spheroid is in contact at the start (place 4) or the end (7) of each way, with its axis if any."""
+    rows = asked.rows
+    ends = np.hstack([rows[:, :4], rows[:, place : place + 3], rows[:, 10:]])
+    return np.asarray(classify(np.ascontiguousarray(ends)) == 0, dtype=np.int8)
 
 
 def _at_the_start(asked: Asked) -> Answers:
-    return _untimed(asked, _touches(asked)[0])
+    return _untimed(asked, _touches(asked, 4))
 
 
 def _at_the_end(asked: Asked) -> Answers:
-    return _untimed(asked, _touches(asked)[1])
+    return _untimed(asked, _touches(asked, 7))
 
 
 def _at_both_ends(asked: Asked) -> Answers:
-    return _untimed(asked, np.maximum(*_touches(asked)))
+    return _untimed(asked, np.maximum(_touches(asked, 4), _touches(asked, 7)))
 
 
 def _between(asked: Asked) -> Answers:
     """Clear where both ends are clear and the way between them is not."""
-    first, last = _touches(asked)
+    first, last = _touches(asked, 4), _touches(asked, 7)
     missed = (asked.truth == 1) & (asked.given == 0) & (first == 0) & (last == 0)
     return np.where(missed, 0, SILENT).astype(np.int8)
 

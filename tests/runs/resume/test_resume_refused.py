@@ -63,8 +63,8 @@ def refused(out, capsys, *more):
         (lambda lines: lines[-1].update(program="00"), 'the sha256 of hypcheck\'s own files was "00", and is'),
         (lambda lines: lines[-1]["declared"].update(version="9"), "the version that python:tests.runs.faulty"),
         (lambda lines: lines[0]["files"].update(dict.fromkeys(lines[0]["files"], "00")), "the sha256 of "),
-        (lambda lines: lines[-1].pop("state"), "line 5, progress: it lacks state"),
-        (lambda lines: lines[-1].update(state={}), "line 5, progress: state lacks done"),
+        (lambda lines: lines[-1].pop("state"), "line 6, progress: it lacks state"),
+        (lambda lines: lines[-1].update(state={}), "line 6, progress: state lacks done"),
     ],
 )
 def test_record_of_a_run_with_other_options_is_not_resumed(paused, tmp_path, capsys, change, said):
@@ -76,7 +76,7 @@ def test_record_of_a_run_with_other_options_is_not_resumed(paused, tmp_path, cap
 
 def test_record_with_an_edited_line_is_not_resumed(paused, tmp_path, capsys):
     (tmp_path / "other.jsonl").write_bytes(paused.replace(b'"number": 1', b'"number": 0'))
-    assert "is damaged in line 5, at byte" in refused(tmp_path, capsys, "--resume", str(tmp_path / "other.jsonl"))
+    assert "is damaged in line 6, at byte" in refused(tmp_path, capsys, "--resume", str(tmp_path / "other.jsonl"))
 
 
 def test_file_that_is_no_record_is_not_resumed(tmp_path, capsys):
