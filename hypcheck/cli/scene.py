@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from hypcheck.bench.scene import KernelSaving
     from hypcheck.kernel.specialise.plan import ScenePlan
+    from hypcheck.scene.model import SceneModel
 
 
 _PLAN_HELP = """Show what SCENE needs of the mathematics, what is left out, why that is allowed, and what it saves.
@@ -54,10 +55,16 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
 
 def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
     """The plan for a scene file or a shipped scene. Raises InputError."""
+    from hypcheck.kernel.specialise.plan import plan_of
+
+    return plan_of(asked_scene(scene, question), precision)
+
+
+def asked_scene(scene: str, question: str | None) -> SceneModel:
+    """A scene file or a shipped scene, with another question where one is given. Raises InputError."""
     from dataclasses import replace
 
     from hypcheck.errors import InputError
-    from hypcheck.kernel.specialise.plan import plan_of
     from hypcheck.scene.model import QUESTIONS
     from hypcheck.scene.reading import read_scene
 
@@ -66,7 +73,7 @@ def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
         if question not in QUESTIONS:
             raise InputError(f"the question is {question!r}; it must be one of {', '.join(QUESTIONS)}")
         found = replace(found, question=question)
-    return plan_of(found, precision)
+    return found
 
 
 def _measured(found: ScenePlan) -> Iterator[KernelSaving]:
@@ -96,6 +103,10 @@ C, C++ and Rust have the names and the signature that `verify library:` expects;
 `python:kernel.py:classify`; the JavaScript module takes the place of predicate.mjs in the adapter of
 `hypcheck init --language javascript`.
 
+With --whole the kernel also has the hyperboloids' places and heights and the mover's parts, in tables of any length,
+and one function more: hypcheck_whole(n, x, y, z, heading, answers), in JavaScript and Python whole(x, y, z, heading),
+the answer about the scene for the mover's centre in the scene's coordinates.
+
 Kernels that are linked into one program, or beside hypcheck.h, need different names: with `--prefix tower` the
 functions are tower_classify, tower_classify_scene and tower_describe (C, C++, Rust). `verify library:` asks for the
 default names.
@@ -107,6 +118,7 @@ default names.
 @click.option("--language", required=True, type=click.Choice(LANGUAGES), help="The language of the kernel.")
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
+@click.option("--whole", is_flag=True, help="The whole scene: places, heights and parts too, of any number of trees.")
 @click.option(
     "--prefix", default="hypcheck", show_default=True, metavar="NAME", help="The beginning of the functions' names."
 )
@@ -117,7 +129,14 @@ default names.
     "--proof", metavar="FILE", help="Also write a proof of the discriminant's bound, for Coq (docs/proofs.md)."
 )
 def emit(
-    scene: str, language: str, precision: str, question: str | None, prefix: str, output: str, proof: str | None
+    scene: str,
+    language: str,
+    precision: str,
+    question: str | None,
+    whole: bool,
+    prefix: str,
+    output: str,
+    proof: str | None,
 ) -> None:
     """Plan, and write the kernel."""
     from hypcheck.kernel.emission.kernel import PREFIX, emitted, require_prefix
@@ -125,12 +144,20 @@ def emit(
     from hypcheck.tables.streams import writing
 
     require_prefix(prefix, language)
-    plan = planned(scene, precision, question)
+    if whole:
+        from hypcheck.kernel.emission.whole import whole as whole_text
+        from hypcheck.kernel.emission.whole import whole_plan
+
+        asked = asked_scene(scene, question)
+        plan = whole_plan(asked, precision)
+    else:
+        plan = planned(scene, precision, question)
     command = ["hypcheck", "emit", "--scene", scene, "--language", language]
     command += [] if precision == "float64" else ["--precision", precision]
     command += [] if question is None else ["--question", question]
+    command += ["--whole"] if whole else []
     command += [] if prefix == PREFIX else ["--prefix", prefix]
-    text = emitted(plan, language, command, prefix)
+    text = whole_text(asked, plan, language, command, prefix) if whole else emitted(plan, language, command, prefix)
     proved = None if proof is None else proof_of(plan)
     with writing(output) as stream:
         stream.write(text.encode("utf-8"))

@@ -48,6 +48,17 @@ def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Diale
     return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
 
 
+def shape_lines(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> str:
+    """The same for settings that share a function, which is also given their numbers, c, and which setting it is, s."""
+    parts = list(_Body(plan, stages, place, dialect).lines())
+    read = set(re.findall(r"\w+", "\n".join(parts)))
+    unused = (dialect.say("unused", name=name) for name in ("x", "y", "z", "c", "s") if name not in read)
+    lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
+    indented = [f"{INDENT}{line}" if line else "" for line in lines]
+    begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name))
+    return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
+
+
 def beyond_height(cut: Span, precision: str, literal: Callable[[float], str]) -> Iterator[str]:
     """The conditions under which z is beyond the modelled height; an end that the format does not reach has none.
 

@@ -221,13 +221,13 @@ def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
     if not searches:
         return ""
     if not isinstance(searches[0], LeaningSearch):
-        return _search(plan, dialect)
+        return search_text(plan, dialect)
     names = ["leaning", "free"] if searches[0].free else ["leaning"]
     parts = leaning.parts(dialect)
     return "".join(filled(template(f"{name}.{dialect.extension}.tmpl"), parts) for name in names) + "\n"
 
 
-def _search(plan: ScenePlan, dialect: Dialect) -> str:
+def search_text(plan: ScenePlan, dialect: Dialect) -> str:
     """The search for an upright spheroid."""
 
     def printed(program: Program, *wanted: str) -> str:

@@ -25,7 +25,7 @@ from hypcheck.kernel.specialise.first_stages import AXIAL, CENTRE, RADIAL
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import counted, escaped
-from hypcheck.scene.model import FREE, Span
+from hypcheck.scene.model import FREE, SceneModel, Span
 from hypcheck.version import VERSION
 
 
@@ -89,6 +89,27 @@ FEW = 4
 def header(plan: ScenePlan, command: Sequence[str], prefix: str) -> str:
     """The lines of the comment, each after `prefix`."""
     lines = [line for paragraph in _paragraphs(plan, command) for line in (*_wrapped(paragraph), "")]
+    return "\n".join(f"{prefix}{line}".rstrip() for line in lines[:-1])
+
+
+def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], prefix: str) -> str:
+    """The same for the kernel of a whole scene, whose plan is of positions."""
+    name, question = comment_text(scene.name).replace('"', "'"), _question_in_comment(scene.question)
+    pairs = _question_in_comment(plan.question)
+    answers = f"It answers {CANNOT_SAY} outside of the scene's region, to numbers that are not finite, and beyond every"
+    asked = "`classify` and `predicate` are asked as those of other kernels: x, y and z as seen from the hyperboloid's"
+    paragraphs = (
+        f'The whole scene "{name}", by `whole`: {question}.',
+        f"Beside one hyperboloid, by `classify` and `predicate`: {pairs}.",
+        f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by",
+        "    " + comment_text(shlex.join(command)),
+        "`whole` takes the mover's centre in the scene's coordinates and its heading in degrees, which places parts.",
+        f"{answers} modelled height.",
+        f"There are {len(plan.settings)} pairs of sizes. {asked} centre; any other sizes are answered {CANNOT_SAY}.",
+        _bound(plan),
+        "`whole` asks each hyperboloid so, its offset from the mover rounded once: by a unit more.",
+    )
+    lines = [line for paragraph in paragraphs for line in (*_wrapped(paragraph), "")]
     return "\n".join(f"{prefix}{line}".rstrip() for line in lines[:-1])
 
 

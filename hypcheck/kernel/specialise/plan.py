@@ -122,8 +122,8 @@ class ScenePlan:
         return max(stages.bound_u for stages in self.settings)
 
 
-def plan_of(scene: SceneModel, precision: str = "float64") -> ScenePlan:
-    """The plan for a scene's own question.
+def plan_of(scene: SceneModel, precision: str = "float64", most: int = MOST_SETTINGS) -> ScenePlan:
+    """The plan for a scene's own question, of at most so many settings.
 
     Raises InputError for another format, too many or too extreme sizes, and where nothing is ever asked.
     """
@@ -133,10 +133,10 @@ def plan_of(scene: SceneModel, precision: str = "float64") -> ScenePlan:
         raise InputError(
             f"no kernel is made in {form.name}: where the mover leans, kernels compute in {LEANING_FORMAT}"
         )
-    if len(settings) > MOST_SETTINGS:
+    if len(settings) > most:
         raise InputError(
-            f"the scene has {len(settings)} different pairs of sizes; a plan holds at most {MOST_SETTINGS} "
-            "(hypcheck.Scene asks any number)"
+            f"the scene has {len(settings)} different pairs of sizes; a plan holds at most {most} "
+            "(hypcheck emit --whole keeps them in tables, and hypcheck.Scene asks any number)"
         )
     if not settings:
         raise InputError("no kernel is made: no hyperboloid's height meets the region, so nothing is ever asked there")

@@ -79,7 +79,7 @@ def answers(library, rows):
 def asking(path, language):
     """What answers rows: the built kernel in its own language, both entries of a library at once."""
     if language == "python":
-        return lambda rows: np.array(_module(path).classify(rows.tolist()), np.int8)
+        return lambda rows: np.array(load_module(path).classify(rows.tolist()), np.int8)
     if language == "javascript":
         return lambda rows: _asked_of_node(path, rows)
 
@@ -93,7 +93,8 @@ def asking(path, language):
     return ask
 
 
-def _module(path):
+def load_module(path):
+    """The Python module of a kernel."""
     spec = importlib.util.spec_from_file_location("kernel", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

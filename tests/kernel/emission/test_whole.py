@@ -1,0 +1,142 @@
+"""Kernels of whole scenes: what hypcheck.Scene answers, in all five languages, and what verify asks of every kernel."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import shutil
+import subprocess
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.whole import whole, whole_plan
+from hypcheck.kernel.scene import Scene
+from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+from tests.kernel.emission.building import (
+    COMMAND,
+    COMMANDS,
+    asking,
+    load_module,
+    pointer,
+    skip_without,
+    worst_error,
+)
+
+PARTS = (MoverPart(0.1, 0.05, 0.135, 45.0), MoverPart(0.1, 0.05, 0.135, 165.0), MoverPart(0.08, 0.05, 0.135, 285.0))
+
+
+def forest(trees, question="position", parts=PARTS, region=None):
+    rng = np.random.default_rng(trees)
+    sizes, centres = rng.uniform((0.2, 2), (1.5, 6), (trees, 2)).tolist(), rng.uniform(-6, 6, (trees, 2)).tolist()
+    bodies = tuple(
+        Hyperboloid(f"tree {k}", *size, (*centre, 0.25 * (k % 4)), Span(-1.0, 3.0 + 0.5 * (k % 3)) if k % 2 else None)
+        for k, (size, centre) in enumerate(zip(sizes, centres, strict=True))
+    )
+    return SceneModel("trees", question, bodies, Mover(0.25, 0.15, parts), region or Region(z=Span(-2.0, 6.0)))
+
+
+def built(folder, scene, language, plan):
+    path = folder / f"kernel.{DIALECTS[language].extension}"
+    path.write_text(whole(scene, plan, language, COMMAND), encoding="utf-8")
+    if language not in COMMANDS:
+        return path
+    library = folder / f"{language}-whole.so"
+    command = [*COMMANDS[language], str(path), *(["-lm"] if language == "c" else []), "-o", str(library)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return library
+
+
+def told(path, language, columns):
+    """What the kernel answers about the whole scene; `columns` are x, y, z and the heading."""
+    if language == "python":
+        return np.array([load_module(path).whole(*each) for each in columns.T.tolist()], np.int8)
+    if language == "javascript":
+        script = f"import {{ whole }} from {json.dumps(str(path))};\n"
+        script += "import { readFileSync } from 'fs';\n"
+        script += "console.log(JSON.stringify(JSON.parse(readFileSync(0)).map((each) => whole(...each))));"
+        asking_script = path.with_name("whole.mjs")
+        asking_script.write_text(script, encoding="utf-8")
+        node, sent = str(shutil.which("node")), json.dumps(columns.T.tolist())
+        done = subprocess.run([node, str(asking_script)], input=sent, capture_output=True, text=True, check=True)
+        return np.array(json.loads(done.stdout), np.int8)
+    found = np.full(columns.shape[1], 99, np.int8)
+    kept = [np.ascontiguousarray(column) for column in columns]
+    ctypes.CDLL(str(path)).hypcheck_whole(ctypes.c_size_t(len(found)), *map(pointer, kept), pointer(found))
+    return found
+
+
+def centres(count):
+    rng = np.random.default_rng(11)
+    return np.stack([*rng.uniform(-7, 7, (2, count)), rng.uniform(-2.5, 6.5, count), rng.uniform(0, 360, count)])
+
+
+def expected(scene, columns):
+    """What the scene says; 2 where the centre is outside of its region."""
+    found = Scene(scene).classify(*columns)
+    span = scene.region.z
+    return np.where((columns[2] < span.low) | (columns[2] > span.high), 2, found)
+
+
+@pytest.fixture(scope="module")
+def small():
+    """A scene, the plan of its kernel, centres, and what the scene says of them."""
+    scene, columns = forest(4), centres(700)
+    answers = expected(scene, columns)
+    assert set(answers.tolist()) == {-1, 0, 1, 2}
+    return scene, whole_plan(scene), columns, answers
+
+
+QUICK = ("c", "python")
+LANGUAGES = [pytest.param(name, marks=[] if name in QUICK else pytest.mark.thorough) for name in DIALECTS]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_whole_kernel_says_what_the_scene_says(language, small, tmp_path):
+    skip_without(language)
+    scene, plan, columns, answers = small
+    assert (told(built(tmp_path, scene, language, plan), language, columns) == answers).all()
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("language", DIALECTS)
+def test_the_pairs_of_a_whole_kernel_are_within_the_bound_of_other_kernels(language, small, tmp_path):
+    skip_without(language)
+    scene, plan, _, _ = small
+    worst, asked = worst_error(asking(built(tmp_path, scene, language, plan), language), plan, 2)
+    assert worst <= 8
+    assert asked > 50
+
+
+@pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
+def test_a_whole_kernel_answers_the_question_of_its_scene(question, small, tmp_path):
+    scene, columns = replace(small[0], question=question), small[2]
+    answers = expected(scene, columns)
+    assert set(answers.tolist()) == {0, 1, 2}
+    assert (told(built(tmp_path, scene, "python", small[1]), "python", columns) == answers).all()
+
+
+def test_a_whole_kernel_answers_2_where_there_is_nothing_to_say(small, tmp_path):
+    path = built(tmp_path, small[0], "python", small[1])
+    nan, most = float("nan"), 1.7976931348623157e308
+    for centre in ((nan, 0, 0, 0), (0, float("inf"), 0, 0), (0, 0, 7, 0), (0, 0, nan, 0), (0, 0, 0, nan)):
+        assert load_module(path).whole(*centre) == 2
+    assert load_module(path).whole(most, most, 0.0) == 1
+
+
+def test_a_whole_kernel_is_refused_where_the_mover_leans():
+    scene = replace(forest(2, parts=()), mover=Mover(0.25, 0.15, (), (1.0, 0.0, 1.0)))
+    with pytest.raises(InputError, match="no kernel is made for a whole scene whose mover leans"):
+        whole_plan(scene)
+
+
+@pytest.mark.thorough
+def test_two_hundred_different_trees_are_one_kernel(tmp_path):
+    skip_without("c")
+    scene, columns = forest(200, parts=()), centres(20_000)
+    path = built(tmp_path, scene, "c", whole_plan(scene))
+    assert (told(path, "c", columns) == expected(scene, columns)).all()
