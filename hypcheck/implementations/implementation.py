@@ -277,7 +277,13 @@ def open_implementation(
     try:
         return Implementation(spec, start, limits, instead)
     except StartError as error:
-        raise StartError(f"{spec} could not be started: {error}") from None
+        raise StartError(f"{spec} could not be started: {error}{_hint(str(error), limits)}") from None
+
+
+def _hint(trouble: str, limits: Limits) -> str:
+    """The end of a sentence where isolation may be why an implementation did not start."""
+    refused = any(sign in trouble for sign in ("Read-only", "ermission denied", "not permitted", "No module named"))
+    return "; it was isolated, and --isolate off starts it without" if refused and limits.isolation.means.names else ""
 
 
 def _start_builtin(spec: Spec, limits: Limits, run: int) -> Session:  # noqa: ARG001 - ours, so it is not limited

@@ -173,6 +173,38 @@ def test_daemon_without_a_mark_ends_with_its_program(ways, monkeypatch, tmp_path
     assert seconds not in sleeping()
 
 
+@both
+def test_isolated_program_ends_when_hypcheck_is_killed(ways, tmp_path):
+    """No guard is needed: the launcher sees that the pipe, which hypcheck holds open, is closed."""
+    seconds = f"{600 + os.getpid() / 1e7 + 0.5:.7f}"
+    code = (
+        "import sys\n"
+        "import hypcheck.isolation.launch as launch\n"
+        "from hypcheck.isolation.means import Means\n"
+        "from hypcheck.implementations.process import Process\n"
+        "from hypcheck.implementations.session import Limits\n"
+        f"launch.means_of = lambda mode: {ways!r}\n"
+        f"process = Process(('/bin/sh', '-c', 'setsid sleep {seconds} & exec sleep {seconds}'), Limits())\n"
+        "print('started', flush=True); sys.stdin.read()\n"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as ours:
+        assert ours.stdout.readline() == b"started\n"
+        ours.kill()
+    until = time.monotonic() + 5
+    while seconds in sleeping() and time.monotonic() < until:
+        time.sleep(0.01)
+    assert seconds not in sleeping()
+
+
+def test_implementation_that_does_not_start_isolated_is_told_how_it_would(tmp_path, monkeypatch):
+    monkeypatch.setattr("hypcheck.isolation.launch.means_of", lambda mode: HERE)
+    code = "open('/forged', 'w')"
+    if not HERE.names:
+        pytest.skip(f"a program here is {HERE.sentence}")
+    with pytest.raises(StartError, match=r"; it was isolated, and --isolate off starts it without$"):
+        open_implementation("command:" + json.dumps([sys.executable, "-I", "-S", "-c", code]), Limits())
+
+
 def sleeping() -> str:
     """The command lines of all processes."""
     return "\n".join(_line(each) for each in Path("/proc").glob("[0-9]*"))
