@@ -3,6 +3,7 @@
 PYTHON ?= python3
 VENV ?= .venv
 OUT ?= reports/latest
+ENGINES ?= python-fcl coal mujoco pybullet parry3d-f64 parry3d jolt-physics rapier3d ammo.js cannon-es
 VERSION = $(shell $(BIN)/python -c 'import hypcheck; print(hypcheck.__version__)')
 BIN := $(VENV)/bin
 
@@ -10,7 +11,7 @@ BIN := $(VENV)/bin
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants docs release format clean
+.PHONY: help verify bench deep engines reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants docs release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -23,6 +24,10 @@ bench: $(VENV)/ready ## error against run time of every method (under 5 minutes)
 
 deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
 	$(BIN)/hypcheck verify --self --out reports/reference --count 33000 --roots 20000 --meshes 20000
+
+engines: $(VENV)/ready ## what collision engines get wrong, each installed apart (half an hour); reports in reports/engines/
+	$(BIN)/hypcheck engines install $(ENGINES)
+	$(BIN)/hypcheck engines verify $(ENGINES)
 
 reference-bench: $(VENV)/ready ## every method on a quiet machine (under 5 minutes); reports in reports/reference/bench/
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,peers]'

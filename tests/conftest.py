@@ -35,6 +35,7 @@ SLOW = {
     "bench": "c_tier costs foreign kernel_targets plan_measure rounds run scenes",
     "cli": "completion detach exits pytest_plugin settings startup",
     "derivation": "formulas proofs repaired_formulas rounding",
+    "engines": "adapters cli findings placing scene",
     "implementations": "commands fcl_naive functions libraries processes",
     "kernel": "header parallel_lines printing_languages sanitizers",
     "kernel/emission": "conformance extremes foreign_text kernels limits prefix scenes text",

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import click
 
 from hypcheck.cli.commands import CommandGroup
-from hypcheck.cli.options import OutputPath
+from hypcheck.cli.options import IntegerOption, OutputPath
 from hypcheck.errors import InputError
+from hypcheck.messages import counted
 
 if TYPE_CHECKING:
     from hypcheck.engines.table import Engine
@@ -84,11 +85,45 @@ def install(names: tuple[str, ...], cache: Path | None) -> None:
 def verify(names: tuple[str, ...], out: Path, cache: Path | None) -> None:
     """Ask engines about rows at certified distances from contact; all that are installed, without a NAME.
 
-    Writes NAME.json for each engine into --out.
+    Writes into --out for each engine its record, a badge, and for its worst errors files that show them without
+    hypcheck; and README.md, the page of all that was ever measured into --out.
     """
+    from hypcheck.engines.findings import read_findings
+    from hypcheck.engines.reduce import findings_of
+    from hypcheck.engines.report import write_page
+    from hypcheck.engines.reproduce import write_findings
     from hypcheck.engines.run import record_of, write_record
 
     for engine in _installed(names, cache):
         record = record_of(engine, _folder(cache), lambda text: click.echo(text, err=True))
         write_record(out, record)
-        click.echo(f"measured {engine.name} {engine.version}")
+        others = [each for each in read_findings(out) if each.engine != engine.name]
+        found = list(findings_of(record, _folder(cache)))
+        write_findings(out, [*others, *found])
+        write_page(out)
+        click.echo(f"measured {engine.name} {engine.version}: {counted(len(found), 'finding')}")
+
+
+@engines.command(short_help="Compare engines by error and run time with every other method.")
+@click.argument("names", nargs=-1, metavar="[NAME]...")
+@click.option("--out", type=OutputPath(), default=Path("reports/engines/bench"), show_default=True)
+@click.option("--triangles", type=IntegerOption(100, 1_000_000), default=5000, show_default=True)
+@_CACHE
+@click.pass_context
+def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: int, cache: Path | None) -> None:
+    """Compare engines on the rows of `hypcheck bench --quick`, on the paper's tower as a mesh of so many triangles.
+
+    Their errors against their run times stand in its plot beside those of every other method.
+    """
+    from hypcheck.cli.bench import bench as compare
+    from hypcheck.engines.install import command
+    from hypcheck.engines.placing import FAMILIES
+    from hypcheck.engines.run import spec_of
+    from hypcheck.engines.scene import surface_mesh, write_scene
+
+    scene = _folder(cache) / "scenes" / f"body-{triangles}"
+    sizes = FAMILIES["body"].sizes
+    write_scene(scene, sizes, surface_mesh(sizes, triangles))
+    specs = [spec_of(command(engine, _folder(cache), scene.absolute())) for engine in _installed(names, cache)]
+    with compare.make_context("bench", ["--quick", "--out", str(out), *specs], parent=context) as made:
+        compare.invoke(made)

@@ -49,6 +49,7 @@ class Reported(Struct):
     missing: int
     median_mm: float | None
     worst_mm: float | None
+    worst_row: list[float] | None
     own_worst_mm: float | None
 
 
@@ -186,14 +187,14 @@ def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask) 
     family = placed.family
     there = which & np.isfinite(reported)
     if not there.any():
-        return Reported(0, int(which.sum()), None, None, None)
+        return Reported(0, int(which.sum()), None, None, None, None)
     errors = np.abs(reported - placed.gap)[there] * family.millimetres
     own = None
     if family.b == family.d:
         exact = (distances - 1.0) * family.sizes[2]
         own = float((np.abs(reported - exact)[there] * family.millimetres).max())
-    missing = int(which.sum() - there.sum())
-    return Reported(int(there.sum()), missing, float(np.median(errors)), float(errors.max()), own)
+    missing, worst = int(which.sum() - there.sum()), placed.rows[there][int(errors.argmax())].tolist()
+    return Reported(int(there.sum()), missing, float(np.median(errors)), float(errors.max()), worst, own)
 
 
 def _microseconds(asked: Implementation, rows: Rows) -> float | None:

@@ -21,7 +21,8 @@ from hypcheck.engines.table import Engine
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations.implementation import open_implementation
-from hypcheck.implementations.session import Limits
+from hypcheck.implementations.session import Limits, StartError
+from hypcheck.messages import escaped
 from hypcheck.version import VERSION
 
 SCHEMA = "1.0.0"
@@ -33,7 +34,7 @@ _LIMITS = Limits(startup_timeout=120.0, timeout=60.0, restarts=3)
 
 
 class EngineRecord(Struct):
-    """What one engine did: the record's file NAME.json. `skipped` are families that it cannot be asked."""
+    """What one engine did: the record's file NAME.json. `skipped` are families that it cannot be asked, and why."""
 
     schema: str
     hypcheck: str
@@ -41,7 +42,7 @@ class EngineRecord(Struct):
     name: str
     version: str
     measured: list[Measured]
-    skipped: list[str]
+    skipped: dict[str, str]
 
 
 @cache
@@ -77,21 +78,29 @@ def record_of(
     families: Sequence[str] = tuple(FAMILIES),
 ) -> EngineRecord:
     """Ask an installed engine everything. Raises InputError where it is not installed."""
-    found = EngineRecord(SCHEMA, VERSION, _machine(), engine.name, engine.version, [], [])
+    found = EngineRecord(SCHEMA, VERSION, _machine(), engine.name, engine.version, [], {})
     for name in families:
         if FAMILIES[name].leans and not engine.tilts:
-            found.skipped.append(name)
+            found.skipped[name] = "no spheroid leans"
             continue
         for triangles in meshes:
-            mesh, apart, beside = _mesh(name, each, triangles)
-            progress(f"{engine.name}: {name}, {len(mesh.triangles)} triangles")
-            with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
-                scene = Path(folder, "scene")
-                write_scene(scene, FAMILIES[name].sizes, mesh)
-                words = command(engine, cache_folder, scene)
-                with open_implementation(spec_of(words), _LIMITS) as asked:
-                    found.measured.append(measure(engine, words, asked, _placed(name, each), mesh, apart, beside))
+            progress(f"{engine.name}: {name}, about {triangles} triangles")
+            try:
+                found.measured.append(_asked(engine, cache_folder, name, each, triangles))
+            except StartError as error:
+                found.skipped[name] = escaped(str(error).rpartition("stderr: ")[2], 200)
+                break
     return found
+
+
+def _asked(engine: Engine, cache_folder: Path, name: str, each: int, triangles: int) -> Measured:
+    mesh, apart, beside = _mesh(name, each, triangles)
+    with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
+        scene = Path(folder, "scene")
+        write_scene(scene, FAMILIES[name].sizes, mesh)
+        words = command(engine, cache_folder, scene)
+        with open_implementation(spec_of(words), _LIMITS) as asked:
+            return measure(engine, words, asked, _placed(name, each), mesh, apart, beside)
 
 
 def _machine() -> str:

@@ -23,9 +23,14 @@ function world() {
   return new Jolt.JoltInterface(settings).GetPhysicsSystem();
 }
 
+function refuse(reason) {
+  console.error(reason);
+  process.exit(1);
+}
+
 function made(settings) {
   const result = settings.Create();
-  if (result.HasError()) throw new Error(result.GetError().c_str());
+  if (result.HasError()) refuse(`Jolt refuses the shape: ${result.GetError().c_str()}`);
   return result.Get();
 }
 

@@ -1,0 +1,231 @@
+"""From what the record says of an engine to its findings: the worst rows, reduced to one triangle in small numbers.
+
+An error of a whole mesh is looked for in ever smaller halves of the triangles near the body, by asking the engine's
+adapter about a scene of these alone. What is left of one triangle is moved so that the spheroid is about the origin,
+and the corners are rounded to as few binary digits as keep half of the error.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import floor, isfinite, log2, nan
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from hypcheck.engines.findings import Finding, best_direction, lower_bounds, nearest_point, nearest_shares, proved
+from hypcheck.engines.install import command
+from hypcheck.engines.measure import Measured
+from hypcheck.engines.placing import FAMILIES
+from hypcheck.engines.run import EngineRecord
+from hypcheck.engines.scene import TRIANGLES, SurfaceMesh, seen_from, surface_mesh, to_triangles, write_scene
+from hypcheck.engines.table import ENGINES, Engine
+from hypcheck.geometry.rows import Floats
+
+MOST_TRIED = 3
+"""So many rows are tried for each kind of error."""
+
+_NEAREST = 16
+_BITS = 44
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What an engine says: contact or not, and the signed distance that it reports, or NaN."""
+
+    contact: bool
+    reported: float
+
+
+@dataclass(frozen=True, slots=True)
+class Asker:
+    """An engine asked about an upright spheroid about the origin, of semi-axes b and d, and triangles."""
+
+    engine: Engine
+    cache: Path
+    b: float
+    d: float
+
+    def __call__(self, corners: Floats) -> Said | None:
+        """What it says of triangles (m, 3, 3); None where it ends without an answer."""
+        row = f"1 1 {self.b!r} {self.d!r} 0 0 0 0 0 1\n"
+        mesh = SurfaceMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3), 0.0)
+        with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
+            write_scene(Path(folder), (1.0, 1.0, self.b, self.d), mesh)
+            words = command(self.engine, self.cache, Path(folder))
+            question = f"classify 1 1 tilted-text\n{row}distance 2 1 tilted-text\n{row}"
+            done = subprocess.run(  # noqa: S603 - an adapter of ours
+                words, input=question, capture_output=True, text=True, check=False, timeout=120
+            )
+        lines = done.stdout.split("\n")
+        try:
+            return Said(lines[2] == "1", float(lines[4]) if len(lines) > 4 else nan)
+        except (IndexError, ValueError):
+            return None
+
+    @property
+    def hull(self) -> bool:
+        """Whether the engine has a hull in the spheroid's place: only what holds for all bodies within is an error."""
+        return self.engine.body == "hull" and self.b != self.d
+
+    def error(self, kind: str, said: Said | None, corners: Floats) -> float:
+        """The engine's error of this kind about one triangle (3, 3), in the unit of lengths; 0 without any."""
+        if said is None or (self.hull and kind in {"missed contact", "too far"}):
+            return 0.0
+        if kind == "missed contact":
+            inside = 1 - float(np.linalg.norm(nearest_point(corners / [self.b, self.b, self.d])))
+            return 0.0 if said.contact else max(0.0, inside * min(self.b, self.d))
+        way = best_direction(corners, self.b, self.d)
+        least = float(lower_bounds(corners, self.b, self.d, way[np.newaxis])[0])
+        if kind == "false contact":
+            return max(0.0, least) if said.contact else 0.0
+        if not isfinite(said.reported):
+            return 0.0
+        return max(0.0, least - said.reported if kind == "too near" else said.reported - least if least > 0 else 0.0)
+
+
+def findings_of(record: EngineRecord, cache: Path) -> Iterator[Finding]:
+    """The worst finding of each kind that an engine's record leads to, one in metres before any in other units."""
+    for kind in ("missed contact", "false contact", "too near", "too far"):
+        best: Finding | None = None
+        for measured, row in _candidates(record, kind):
+            found = _reduced(ENGINES[record.name], cache, kind, measured, np.array(row))
+            if found is not None and (best is None or _weight(found) > _weight(best)):
+                best = found
+        if best is not None:
+            yield best
+
+
+def _weight(found: Finding) -> tuple[bool, float]:
+    return found.millimetres == 1000.0, found.error_mm
+
+
+def _candidates(record: EngineRecord, kind: str) -> list[tuple[Measured, list[float]]]:
+    """Rows that may show this kind of error, one a family, the worst first; upright ones outside the tower."""
+    hull = ENGINES[record.name].body == "hull" and kind in {"missed contact", "too far"}
+    worst: dict[str, tuple[float, Measured, list[float]]] = {}
+    for each in record.measured:
+        family = FAMILIES[each.family]
+        if family.leans or family.inside or (hull and family.b != family.d):
+            continue
+        for size, row in _shown(each, kind):
+            if row is not None and (each.family not in worst or size > worst[each.family][0]):
+                worst[each.family] = (size, each, row)
+    found = sorted(worst.values(), key=lambda one: (FAMILIES[one[1].family].unit != 1, -one[0]))
+    return [(measured, row) for _, measured, row in found[:MOST_TRIED]]
+
+
+def _shown(each: Measured, kind: str) -> list[tuple[float, list[float] | None]]:
+    """The worst rows of one mesh for a kind of error, with their errors in millimetres."""
+    if kind in {"missed contact", "false contact"}:
+        return [(each.own_worst_mm, each.own_worst_row)]
+    reported = [(one.worst_mm or 0.0, one.worst_row) for one in (each.distance, each.penetration)]
+    return [(size, row) for size, row in reported if size > 1.5 * each.deviation_mm]
+
+
+def _reduced(engine: Engine, cache: Path, kind: str, measured: Measured, row: Floats) -> Finding | None:
+    family = FAMILIES[measured.family]
+    asker = Asker(engine, cache, *family.sizes[2:])
+    corners = _alone(asker, kind, _near(measured, row))
+    if corners is None:
+        return None
+    error = asker.error(kind, asker(corners[np.newaxis]), corners)
+    if not error > 0:
+        return None
+    small = _rounded(asker, kind, corners, error)
+    said = asker(small[np.newaxis])
+    if said is None:
+        return None
+    return _certified(asker, kind, small, said, family.millimetres)
+
+
+def _near(measured: Measured, row: Floats) -> Floats:
+    """The triangles nearest to a row's spheroid, or that it touches, (m, 3, 3) from its centre, the nearest first."""
+    sizes = FAMILIES[measured.family].sizes
+    mesh = next(
+        each for each in (surface_mesh(sizes, n) for n in TRIANGLES) if len(each.triangles) == measured.triangles
+    )
+    squares = to_triangles(seen_from(row, mesh.vertices)[mesh.triangles])
+    order = np.argsort(squares)
+    count = max(_NEAREST, int((squares <= 1.0).sum()))
+    return np.asarray((mesh.vertices - row[4:7])[mesh.triangles[order[:count]]])
+
+
+def _alone(asker: Asker, kind: str, corners: Floats) -> Floats | None:
+    """One of the triangles that shows the error by itself; None if there is none."""
+    if kind in {"missed contact", "too far"} or asker.error(kind, asker(corners[:1]), corners[0]) > 0:
+        return np.asarray(corners[0])
+    while len(corners) > 1:
+        halves = [corners[: len(corners) // 2], corners[len(corners) // 2 :]]
+        told = [asker(half) for half in halves]
+        marks = [_mark(kind, said) for said in told]
+        if max(marks) == -np.inf:
+            return None
+        corners = halves[int(np.argmax(marks))]
+    return np.asarray(corners[0])
+
+
+def _mark(kind: str, said: Said | None) -> float:
+    """The greater, the more an answer about many triangles looks like this error."""
+    if said is None:
+        return -np.inf
+    if kind == "false contact":
+        return float(said.contact) if said.contact else -np.inf
+    return -said.reported if isfinite(said.reported) else -np.inf
+
+
+def _rounded(asker: Asker, kind: str, corners: Floats, error: float) -> Floats:
+    """The corners in as few binary digits as keep half of the error; as they are where none do."""
+    least = min(asker.b, asker.d)
+    exponent = floor(log2(least))
+    for bits in range(max(2, floor(log2(least / error)) - 1), _BITS, 3):
+        unit = 2.0 ** (exponent - bits)
+        tried = np.round(corners / unit) * unit
+        if asker.error(kind, asker(tried[np.newaxis]), tried) >= error / 2:
+            return np.asarray(tried)
+    return corners
+
+
+def _certified(asker: Asker, kind: str, corners: Floats, said: Said, millimetres: float) -> Finding | None:
+    """The finding with its certificate in few digits; None where rationals do not prove it."""
+    error = asker.error(kind, said, corners)
+    way = best_direction(corners, asker.b, asker.d)
+    shares = nearest_shares(
+        corners / [asker.b, asker.b, asker.d] if kind == "missed contact" else corners - _foot(asker, way)
+    )
+    scale = millimetres
+    reported = said.reported if kind in {"too near", "too far"} else None
+    words = _words(kind, said, error, scale)
+    for digits in range(2, 17):
+        unit = 2.0 ** (3 * digits)
+        parts = np.round(shares * unit) / unit
+        parts[int(parts.argmax())] = 1.0 - (parts.sum() - parts.max())
+        found = Finding(
+            asker.engine.name, asker.engine.version, kind, asker.b, asker.d, corners.tolist(), reported,
+            [round(each, digits) for each in way.tolist()], parts.tolist(), error * scale, scale, *words, "", "",
+        )  # fmt: skip
+        if proved(found):
+            return found
+    return None
+
+
+def _foot(asker: Asker, way: Floats) -> Floats:
+    """The spheroid's point at a direction."""
+    pushed = way * [asker.b**2, asker.b**2, asker.d**2]
+    return np.asarray(pushed / np.sqrt(way @ pushed))
+
+
+def _words(kind: str, said: Said, error: float, scale: float) -> tuple[str, str]:
+    if kind == "missed contact":
+        return "clear", f"in contact: {error * scale:.2g} mm less in radius still touches"
+    if kind == "false contact":
+        return "contact", f"clear by {error * scale:.2g} mm"
+    reported, exact = said.reported * scale, (said.reported + (error if kind == "too near" else -error)) * scale
+    return _length(reported), f"{_length(exact)} at {'least' if exact > 0 and kind == 'too near' else 'most'}"
+
+
+def _length(millimetres: float) -> str:
+    return f"{millimetres:.3g} mm apart" if millimetres > 0 else f"{-millimetres:.3g} mm deep"

@@ -1,0 +1,89 @@
+"""Certificates of findings: right ones prove, changed ones do not; the committed reproductions run."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+from hypcheck.engines.findings import Finding, best_direction, lower_bounds, nearest_shares, proved, read_findings
+from hypcheck.engines.install import is_installed
+from hypcheck.engines.reproduce import drawing, reproduction, run_reproduction, write_findings
+from hypcheck.engines.table import ENGINES
+from tests.engines.test_adapters import CACHE
+
+REPORTS = Path(__file__).parents[2] / "reports" / "engines"
+COMMITTED = read_findings(REPORTS)
+
+ABOVE = [[-1.0, -1.0, 0.5], [1.0, -1.0, 0.5], [0.0, 1.0, 0.5]]
+"""A triangle half a unit above the origin; the spheroid of b = 1 and d = 1/4 is a quarter below it."""
+
+
+def finding(kind, reported=None, error=0.25, **changes):
+    made = Finding(
+        "python-fcl", "0", kind, 1.0, 0.25, ABOVE, reported, [0.0, 0.0, 1.0], [0.25, 0.25, 0.5], error, 1.0,
+        "said", "proved", "", "",
+    )  # fmt: skip
+    return replace(made, **changes)
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        (finding("false contact"), finding("false contact", error=0.3)),
+        (finding("false contact"), finding("false contact", direction=[0.0, 0.0, -1.0])),
+        (finding("too near", reported=0.0), finding("too near", reported=0.1)),
+        (finding("too near", reported=-0.75, d=1.0), finding("too near", reported=-0.7, d=1.0)),
+        (finding("too far", reported=0.5), finding("too far", reported=0.4)),
+        (finding("too far", reported=0.5), finding("too far", reported=0.5, shares=[0.5, 0.5, 0.5])),
+        (finding("missed contact", d=1.0), finding("missed contact", d=0.6)),
+        (finding("missed contact", d=1.0), finding("missed contact", d=1.0, shares=[0.0, 0.0, 1.0])),
+        (finding("missed contact", d=1.0), finding("missed contact", d=1.0, shares=[-0.5, 1.0, 0.5])),
+    ],
+)
+def test_a_certificate_proves_its_error_and_one_that_does_not_hold_proves_nothing(right, wrong):
+    assert proved(right)
+    assert not proved(wrong)
+
+
+def test_the_best_direction_gives_the_signed_distance_of_a_triangle_from_a_ball():
+    rng = np.random.default_rng(5)
+    for corners in rng.normal((0.0, 0.0, 2.0), size=(20, 3, 3)):
+        way = best_direction(corners, 0.5, 0.5)
+        point = nearest_shares(corners) @ corners
+        found = lower_bounds(corners, 0.5, 0.5, way[np.newaxis])[0]
+        assert found == pytest.approx(np.linalg.norm(point) - 0.5, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_every_engine_has_a_reproduction_with_its_certificate_and_numbers(name, tmp_path):
+    one = finding("false contact", engine=name)
+    text = reproduction(one)
+    assert "$" not in text.replace("${", "")
+    assert "Certificate: with n = (0.0, 0.0, 1.0)" in text
+    assert repr(ABOVE) in text
+    assert "hypcheck" not in text
+    assert drawing(one).count("<ellipse") == 1
+    (written,) = write_findings(tmp_path, [one])
+    assert (tmp_path / written.file).read_text() == text
+    assert read_findings(tmp_path) == [written]
+
+
+@pytest.mark.skipif(not is_installed(ENGINES["python-fcl"], CACHE), reason="python-fcl is not installed")
+def test_a_reproduction_of_what_the_engine_does_right_says_so(tmp_path):
+    right = write_findings(tmp_path, [finding("false contact"), finding("too near", reported=0.0)])
+    assert [run_reproduction(each, tmp_path, CACHE) for each in right] == [0, 0]
+
+
+@pytest.mark.parametrize("one", COMMITTED, ids=lambda one: one.file)
+def test_a_committed_finding_is_proved_and_its_files_are_what_would_be_written(one):
+    assert proved(one)
+    assert (REPORTS / one.file).read_text() == reproduction(one)
+    assert (REPORTS / one.picture).read_text() == drawing(one)
+
+
+@pytest.mark.parametrize("one", COMMITTED, ids=lambda one: one.file)
+def test_a_committed_reproduction_ends_with_1_where_its_engine_is_installed(one):
+    if not is_installed(ENGINES[one.engine], CACHE):
+        pytest.skip(f"{one.engine} is not installed; hypcheck engines install {one.engine}")
+    assert run_reproduction(one, REPORTS, CACHE) == 1
