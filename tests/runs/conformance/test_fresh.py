@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hypcheck.cli import verify
 from hypcheck.cli.main import main
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.cases import FRESH_SEEDS
@@ -41,7 +42,7 @@ def by_heart(tmp_path, monkeypatch):
 
 def test_implementation_that_knows_the_rows_by_heart_fails_on_fresh_rows_alone(by_heart, text_reports, capsys):
     words = ["verify", by_heart, "--families", "uniform", "--count", "20", "--out", "out"]
-    assert main([*words, "--fresh", "off"]) == 0
+    assert main(words) == 0
     assert main([*words, "--fresh", str(SEED)]) == 1
     assert f"; as many fresh rows, of seed {SEED}" in capsys.readouterr().err
     header, *lines = map(json.loads, Path("out/record.jsonl").read_text().splitlines())
@@ -52,15 +53,14 @@ def test_implementation_that_knows_the_rows_by_heart_fails_on_fresh_rows_alone(b
     assert re.search(rf"hypcheck replay uniform/\d+/{SEED}/\d+ {by_heart}", report)
 
 
-def test_ci_draws_another_seed_for_each_run_and_says_it(by_heart, text_reports, capsys, monkeypatch):
+def test_ci_draws_another_seed_for_each_run_and_a_desk_draws_none(monkeypatch):
+    assert verify._fresh_seed(None, None) is None
     monkeypatch.setenv("CI", "true")
-    seeds = set()
-    for _ in range(2):
-        assert main(["verify", by_heart, "--families", "uniform", "--count", "5", "--out", "out"]) == 1
-        first = next(line for line in capsys.readouterr().err.splitlines() if "verifying" in line)
-        seeds.add(re.search(r"as many fresh rows, of seed (\d+)", first)[1])
-    assert len(seeds) == 2
-    assert all(FRESH_SEEDS <= int(seed) < 2 * FRESH_SEEDS for seed in seeds)
+    seeds = {verify._fresh_seed(None, None) for _ in range(9)}
+    assert len(seeds) == 9
+    assert all(FRESH_SEEDS <= seed < 2 * FRESH_SEEDS for seed in seeds)
+    assert verify._fresh_seed("off", None) is None
+    assert verify._fresh_seed("5", None) == 5
 
 
 def test_family_with_a_known_failure_gets_no_fresh_rows(tmp_path):
