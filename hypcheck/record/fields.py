@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Protocol, TypeVar
 
-from msgspec import UNSET, Meta, Struct, UnsetType, convert, to_builtins
+from msgspec import UNSET, Meta, Struct, UnsetType, ValidationError, convert, to_builtins
 
 from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.messages import shortened
@@ -35,7 +35,10 @@ def decoded(value: object, kind: type[Kind]) -> Kind:
 
     Raises msgspec.ValidationError.
     """
-    return convert(value, kind, dec_hook=_extended, from_attributes=True)
+    try:
+        return convert(value, kind, dec_hook=_extended, from_attributes=True)
+    except UnicodeEncodeError:  # msgspec compares texts in UTF-8
+        raise ValidationError("a text has half of a character, a lone surrogate") from None
 
 
 def as_json(value: LinePart) -> Any:  # noqa: ANN401 - whatever JSON holds

@@ -8,7 +8,7 @@ import math
 import tracemalloc
 
 import pytest
-from msgspec import UNSET
+from msgspec import UNSET, ValidationError
 
 from hypcheck.errors import InputError
 from hypcheck.record import SCHEMA, Recorder, integrity, read
@@ -62,6 +62,11 @@ def written(path, close=True):
     record = recorder.close(0) if close else None
     path.write_text(stream.getvalue(), encoding="utf-8")
     return record
+
+
+def test_a_line_whose_field_has_half_of_a_character_in_its_name_is_refused():
+    with pytest.raises(ValidationError, match="a lone surrogate"):
+        decoded({**SAMPLE, "\ud800": 1}, ImplementationLine)
 
 
 @pytest.fixture
