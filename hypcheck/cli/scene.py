@@ -89,7 +89,10 @@ def _measured(found: ScenePlan) -> Iterator[KernelSaving]:
 
 LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 
-_EMIT_HELP = """Write a kernel that contains only what a scene needs: small, readable, without dependencies.
+_EMIT_HELP = """Write code to take: a kernel with only what a scene needs, or a method for one pair of any sizes.
+
+With --method exact the file answers every float64 row rightly: floats where a proved bound allows, whole numbers for
+the rest, without dependencies. With --method certified it has the floats alone, and says 2 where they cannot say.
 
 SCENE is a file (docs/scenes.md) or a shipped scene. Its sizes and constant heights are folded in, and only its question
 is answered; `hypcheck plan` shows what is left out and why. The head of the kernel says what is proved about it.
@@ -98,6 +101,7 @@ is answered; `hypcheck plan` shows what is left out and why. The head of the ker
 hypcheck emit --scene tower --language c --output kernel.c
 hypcheck emit --scene forest.toml --language rust --precision float32 --output kernel.rs
 cc -O3 -fPIC -shared kernel.c -lm -o kernel.so && hypcheck verify library:./kernel.so
+hypcheck emit --method exact --language c --output pair.c
 
 C, C++ and Rust have the names and the signature that `verify library:` expects; the Python file is for
 `python:kernel.py:classify`; the JavaScript module takes the place of predicate.mjs in the adapter of
@@ -113,8 +117,9 @@ default names.
 """
 
 
-@click.command(help=_EMIT_HELP, short_help="Write a kernel that contains only what a scene needs.")
-@click.option("--scene", required=True, metavar="SCENE", help="A scene file, or the name of a shipped scene.")
+@click.command(help=_EMIT_HELP, short_help="Write code to take, for a scene or for one pair.")
+@click.option("--method", metavar="METHOD", help="Of one pair of any sizes, without a scene: exact or certified.")
+@click.option("--scene", metavar="SCENE", help="A scene file, or the name of a shipped scene.")
 @click.option("--language", required=True, type=click.Choice(LANGUAGES), help="The language of the kernel.")
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
@@ -129,6 +134,46 @@ default names.
     "--proof", metavar="FILE", help="Also write a proof of the discriminant's bound, for Coq (docs/proofs.md)."
 )
 def emit(
+    method: str | None,
+    scene: str | None,
+    language: str,
+    precision: str,
+    question: str | None,
+    whole: bool,
+    prefix: str,
+    output: str,
+    proof: str | None,
+) -> None:
+    """Write the kernel of a scene, or the code for one pair."""
+    from hypcheck.errors import InputError
+
+    if method is not None:
+        scenes = {"--scene": scene, "--question": question, "--proof": proof}
+        extra = [name for name, value in scenes.items() if value is not None]
+        extra += [] if precision == "float64" else ["--precision"]
+        extra += ["--whole"] if whole else []
+        if extra:
+            raise InputError(f"{extra[0]} is for a scene; --method {method} is for one pair of any sizes, without it")
+        _write_pair(method, language, prefix, output)
+    elif scene is None:
+        raise InputError("emit needs --scene SCENE, or --method exact for one pair of any sizes")
+    else:
+        _write_kernel(scene, language, precision, question, whole, prefix, output, proof)
+
+
+def _write_pair(method: str, language: str, prefix: str, output: str) -> None:
+    from hypcheck.kernel.emission.kernel import PREFIX
+    from hypcheck.kernel.emission.pair import emitted_pair
+    from hypcheck.tables.streams import writing
+
+    command = ["hypcheck", "emit", "--method", method, "--language", language]
+    command += [] if prefix == PREFIX else ["--prefix", prefix]
+    text = emitted_pair(method, language, command, prefix)
+    with writing(output) as stream:
+        stream.write(text.encode("utf-8"))
+
+
+def _write_kernel(
     scene: str,
     language: str,
     precision: str,
@@ -138,7 +183,6 @@ def emit(
     output: str,
     proof: str | None,
 ) -> None:
-    """Plan, and write the kernel."""
     from hypcheck.kernel.emission.kernel import PREFIX, emitted, require_prefix
     from hypcheck.kernel.printing.coq import proof_of
     from hypcheck.tables.streams import writing

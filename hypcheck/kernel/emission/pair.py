@@ -1,0 +1,133 @@
+"""Code to take for one pair of any sizes: one file without dependencies, right for every float64 row.
+
+Two stages, both printed from the programs that the fast path runs. CERTIFIED decides in float64 where a proved bound
+excludes that rounding changes a sign (kernel/programs/certified.py); INTEGERS decides the rest in whole numbers. The
+method "certified" is the first stage alone, and says 2, "cannot say", where it does not decide.
+
+Python and JavaScript have integers of any size. C, C++ and Rust get some forty lines of them: each number of the
+straight-line program has room for the bits that are counted for it (`bits_counted`), so nothing is allocated in C.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from hypcheck.derivation.program import Program, needed
+from hypcheck.errors import InputError
+from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.kernel import PREFIX, filled, require_prefix, template
+from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
+from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
+from hypcheck.version import VERSION
+
+EXACT, CERTIFIED_ONLY = METHODS = ("exact", "certified")
+"""What `emit --method` takes."""
+
+_SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offset_at_A", "ring_excess")
+"""What the last stage asks the signs of."""
+
+_LIMB = 32
+
+_INPUT_BITS = 2150
+"""Bits of the largest float64 in units of 2⁻⁵³ times the power of two of the smallest, as C's frexp gives them."""
+
+
+def require_method(method: str) -> None:
+    """Raise InputError unless there is code for a pair by this method."""
+    if method in ("dual", "local-maximum"):
+        raise InputError(
+            f"--method is {method!r}, which proves clear but no contact in floats; take {EXACT}, or {CERTIFIED_ONLY} "
+            "where 2 for “cannot say” will do"
+        )
+    if method not in METHODS:
+        raise InputError(f"--method is {method!r}; it must be {' or '.join(METHODS)}")
+
+
+def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
+    """The text of the file. Raises InputError for another method, or a prefix that the language has no use for."""
+    require_method(method)
+    require_prefix(prefix, language)
+    dialect, whole = DIALECTS[language], method == EXACT
+    number = dialect.number_of("float64")
+    constants = [
+        dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in CONSTANTS.items()
+    ]
+    parts = {
+        "header": "\n".join(f"{dialect.comment}{line}".rstrip() for line in _head(method, command)),
+        "prefix": prefix,
+        "constants": "\n".join(constants),
+        "steps": "\n".join(dialect.statements(CERTIFIED, ("exterior", "interior", "decided"), "float64")),
+        "description": _described(method, language),
+        "last": _last(method, language),
+        "can": "" if whole else "const CANNOT_SAY: i8 = 2;\n",
+        "integers": "",
+    }
+    if whole:
+        steps = "\n".join(_whole(INTEGERS, language))
+        parts["integers"] = filled(template(f"integers.{_template(language)}.tmpl"), {"steps": steps})
+    return filled(template(f"pair.{_template(language)}.tmpl"), parts)
+
+
+def _last(method: str, language: str) -> str:
+    if method == CERTIFIED_ONLY:
+        return "CANNOT_SAY"
+    return "exactly(row)" if language == "rust" else "exactly(alpha, gamma, b, d, x, y, z)"
+
+
+def _template(language: str) -> str:
+    return "c" if language == "cpp" else DIALECTS[language].extension
+
+
+def _head(method: str, command: Sequence[str]) -> Iterator[str]:
+    yield f"Made by `{' '.join(command)}`, hypcheck {VERSION}."
+    yield ""
+    yield "A spheroid of semi-axes b, b, d at (x, y, z) against the hyperboloid (x² + y²)/alpha² − z²/gamma² = 1."
+    yield "+1 exterior, 0 contact (tangency included), −1 interior; 127 where a size is not finite and > 0, or a"
+    yield "coordinate is not finite."
+    if method == EXACT:
+        yield "Right for every float64 row: floats decide where a proved bound allows, whole numbers the rest."
+    else:
+        yield "2 where float64 cannot say; every other answer is right. The bound of 3Δ is E below, those of c1 and c2"
+        yield "are e1 and e2: an answer is given where |3Δ| > E and the signs that it asks for exceed their bounds."
+    yield "Keep the order of the operations (no -ffast-math); FMA and every rounding mode are allowed."
+
+
+def _described(method: str, language: str) -> str:
+    told: dict[str, Any] = {
+        "protocol": 1,
+        "name": f"pair, {method} ({language})",
+        "version": VERSION,
+        "language": language,
+        "precision": "exact",
+        "question": "position",
+        "refuses": True,
+        "domain": {"ratio": [0, sys.float_info.max], "magnitude": [0, sys.float_info.max]},
+    }
+    if language == "python":
+        return repr(told)
+    text = json.dumps(told)
+    return text if language == "javascript" else json.dumps(text)
+
+
+def _whole(program: Program, language: str) -> Iterator[str]:
+    """The steps in whole numbers: infix where the language has integers of any size, else a call for each."""
+    bits, operators = bits_counted(program, _INPUT_BITS), {"add": "+", "sub": "-", "mul": "*"}
+    calls = {"add": "add", "sub": "subtract", "mul": "multiply"}
+    for step in needed(program, _SIGNS):
+        first, second = step.arguments
+        if language == "python":
+            yield f"{step.name} = {first} {operators[step.operation]} {second}"
+        elif language == "javascript":
+            left, right = (f"{each}n" if isinstance(each, int) else each for each in (first, second))
+            yield f"const {step.name} = {left} {operators[step.operation]} {right};"
+        elif language == "rust":
+            left, right = (f"&small({each})" if isinstance(each, int) else f"&{each}" for each in (first, second))
+            yield f"let {step.name} = {calls[step.operation]}({left}, {right});"
+        else:
+            left, right = (f"&whole_{each}" if isinstance(each, int) else f"&{each}" for each in (first, second))
+            limbs = -(-bits[step.name] // _LIMB) + 2
+            yield f"uint32_t {step.name}_limbs[{limbs}]; whole {step.name} = {{0, 0, {step.name}_limbs}};"
+            yield f"{calls[step.operation]}(&{step.name}, {left}, {right});"
