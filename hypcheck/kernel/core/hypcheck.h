@@ -262,7 +262,7 @@ typedef struct {
    large, where it touches in the half plane of its centre, the direction of that, and how far the exact place is at most. */
 typedef struct {
     double low[HC_BLOCK], high[HC_BLOCK], inner_b[HC_BLOCK], inner_d[HC_BLOCK], outer_b[HC_BLOCK], outer_d[HC_BLOCK];
-    double radius[HC_BLOCK], height[HC_BLOCK], cosine[HC_BLOCK], sine[HC_BLOCK], error[HC_BLOCK];
+    double radius[HC_BLOCK], height[HC_BLOCK], cosine[HC_BLOCK], sine[HC_BLOCK], sign[HC_BLOCK], error[HC_BLOCK];
 } hc_touches;
 
 /* By columns: the end of the shortest gap on the hyperboloid, its length at most, the spheroid's half width along it, a
@@ -976,7 +976,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_f9ada3f33b9a2037
+#ifndef HC_EDITION_3621ad62039c5c59
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -2242,24 +2242,27 @@ static double hc_halve_distance(const double row[7], double low, double high, do
     return low;
 }
 
-/* factor - 1, rounded towards a side: exact from 1/2 to 2. */
+/* factor - 1, moved towards a side by more than its rounding; 0 stays. */
 static double hc_less_one(double factor, int up) {
     const double less = factor - 1;
-    if ((factor >= 0.5 && factor <= 2) || less == 0 || !(less < HC_greatest_grown)) return less;
+    if (less == 0 || !(less < HC_greatest_grown)) return less;
     return hc_next(less, (less > 0) == up ? 1 : -1);
 }
 
 /* Whether the bounds of errors hold for a row: ordinary lengths, and a direction from the axis that is known. */
 static int hc_ordinary(const double row[7]) {
-    const double across = HC_MAX_OF(hc_size(row[4]), hc_size(row[5])), most = HC_MAX_OF(across, hc_size(row[6]));
-    int k, ordinary = HC_FLOATS_DECIDE & (most <= HC_greatest) & ((across == 0) | (across >= HC_least_offset));
+    const double x = row[4], y = row[5], z = row[6], far = HC_greatest, off = HC_least_offset;
+    const int on_axis = (x == 0) & (y == 0), beside = (x >= off) | (x <= -off) | (y >= off) | (y <= -off);
+    int k, ordinary = HC_FLOATS_DECIDE & (on_axis | beside); /* no branch: what a row is like is not foreseen */
+    ordinary = ordinary & (x <= far) & (x >= -far) & (y <= far) & (y >= -far) & (z <= far) & (z >= -far);
     for (k = 0; k < 4; k++) ordinary = ordinary & (row[k] >= HC_least) & (row[k] <= HC_greatest);
     return ordinary & (row[2] <= HC_greatest_ratio * row[3]) & (row[3] <= HC_greatest_ratio * row[2]);
 }
 
 /* What is known of the rows of one block. */
 typedef struct {
-    double rows[HC_BLOCK][7], columns[7 * HC_BLOCK], sides[HC_BLOCK], low[HC_BLOCK], high[HC_BLOCK];
+    const double *rows[HC_BLOCK];
+    double columns[7 * HC_BLOCK], sides[HC_BLOCK], low[HC_BLOCK], high[HC_BLOCK];
     int ordinary[HC_BLOCK];
     hc_touches touches;
     hc_gaps gaps;
@@ -2289,11 +2292,9 @@ static void hc_factors(const hc_level_functions *level, hc_near *near, int count
     hc_settle_grown(level, near, touches->outer_b, touches->outer_d, outer);
     for (i = 0; i < count; i++) {
         const double low = touches->low[i], high = touches->high[i];
-        const int clear = near->ordinary[i] && (inner[i] == 1 || inner[i] == -1), meets = near->ordinary[i] && outer[i] == 0;
-        int position;
-        if (clear && low >= 1) position = inner[i];
-        else if (meets && high <= 1) position = 0;
-        else position = hc_position_of(near->rows[i]);
+        const int clear = near->ordinary[i] & ((inner[i] == 1) | (inner[i] == -1)), meets = near->ordinary[i] & (outer[i] == 0);
+        const int surely_clear = clear & (low >= 1), known = surely_clear | (meets & (high <= 1));
+        const int position = known ? surely_clear * inner[i] : hc_position_of(near->rows[i]);
         positions[i] = (int8_t)position;
         near->sides[i] = position;
         near->low[i] = clear && low > (position ? 1 : 0) ? low : (position ? 1 : 0);
@@ -2314,7 +2315,7 @@ static void hc_distance(const hc_near *near, int i, int layer, hypcheck_near *fo
             most = near->gaps.most[i];
             found->nearest[0] = near->gaps.radius[i] * near->touches.cosine[i];
             found->nearest[1] = near->gaps.radius[i] * near->touches.sine[i];
-            found->nearest[2] = row[6] < 0 ? -near->gaps.height[i] : near->gaps.height[i];
+            found->nearest[2] = near->touches.sign[i] * near->gaps.height[i];
         }
         if (tried > least && (layer == 1 || layer == -1)) least = tried;
         else if (most < HC_NEVER) least = hc_halve_distance(row, least, most, width);
@@ -2336,7 +2337,7 @@ static void hc_near_block(const hc_level_functions *level, hc_near *near, int co
     level->gaps(near->columns, HC_BLOCK, HC_BLOCK, near->sides, &near->touches, &near->gaps);
     hc_settle_grown(level, near, near->gaps.inner_b, near->gaps.inner_d, layers);
     for (i = 0; i < count; i++) {
-        const double lower = hc_less_one(near->low[i], 0), sign = near->rows[i][6] < 0 ? -1 : 1;
+        const double lower = hc_less_one(near->low[i], 0), sign = touches->sign[i];
         found[i].lower = lower > -1 ? lower : -1;
         found[i].upper = hc_less_one(near->high[i], 1);
         found[i].touch[0] = touches->radius[i] * touches->cosine[i];
@@ -2360,13 +2361,13 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
         uint64_t invalid = 0;
         for (i = 0; i < HC_BLOCK; i++) {
             const double *row = i < count ? rows + 7 * (start + (size_t)i) : benign;
-            if (!hc_valid(row)) {
+            near.ordinary[i] = hc_ordinary(row);
+            if (!near.ordinary[i] && !hc_valid(row)) {
                 row = benign;
                 invalid |= (uint64_t)1 << i;
             }
-            near.ordinary[i] = hc_ordinary(row);
             near.sides[i] = 1;
-            memcpy(near.rows[i], row, sizeof near.rows[i]);
+            near.rows[i] = row;
             for (k = 0; k < 7; k++) near.columns[k * HC_BLOCK + i] = row[k];
         }
         hc_near_block(level, &near, count, positions + start, found + start);
@@ -2385,7 +2386,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_f9ada3f33b9a2037
+#define HC_EDITION_3621ad62039c5c59
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -3836,6 +3837,7 @@ HC_TARGET static void HC_NAME(hc_touches)(const double *columns, size_t stride, 
             HC_STORE(found->height + at, zeta * d);
             HC_STORE(found->cosine + at, x_share * inverse);
             HC_STORE(found->sine + at, y_share * inverse);
+            HC_STORE(found->sign + at, HC_SELECT(HC_LT(z, zero), HC_SET(-1.0), one));
             HC_STORE(found->error + at, HC_SET(HC_more_than) * error);
         }
     }
@@ -3891,13 +3893,14 @@ HC_TARGET static void HC_NAME(hc_gaps)(const double *columns, size_t stride, int
             const HC_NUMBER terms = length + rho + zeta + HC_ABS(x) + HC_ABS(y) + level + largest;
             const HC_NUMBER most = length + HC_SET(HC_points) * terms;
             const HC_NUMBER tried = HC_MIN(gap, most) - HC_SET(HC_guess) * (HC_ABS(gap) + width), thick = width + tried;
+            const HC_NUMBER per_width = one / width;
             HC_STORE(found->radius + at, rho);
             HC_STORE(found->height + at, zeta);
             HC_STORE(found->most + at, most);
             HC_STORE(found->width + at, width);
             HC_STORE(found->tried + at, tried);
-            HC_STORE(found->inner_b + at, HC_SET(HC_outward) * HC_ROOT(thick * (bb / width + tried)));
-            HC_STORE(found->inner_d + at, HC_SET(HC_outward) * HC_ROOT(thick * (dd / width + tried)));
+            HC_STORE(found->inner_b + at, HC_SET(HC_outward) * HC_ROOT(thick * (bb * per_width + tried)));
+            HC_STORE(found->inner_d + at, HC_SET(HC_outward) * HC_ROOT(thick * (dd * per_width + tried)));
         }
     }
 }

@@ -62,24 +62,27 @@ static double hc_halve_distance(const double row[7], double low, double high, do
     return low;
 }
 
-/* factor - 1, rounded towards a side: exact from 1/2 to 2. */
+/* factor - 1, moved towards a side by more than its rounding; 0 stays. */
 static double hc_less_one(double factor, int up) {
     const double less = factor - 1;
-    if ((factor >= 0.5 && factor <= 2) || less == 0 || !(less < HC_greatest_grown)) return less;
+    if (less == 0 || !(less < HC_greatest_grown)) return less;
     return hc_next(less, (less > 0) == up ? 1 : -1);
 }
 
 /* Whether the bounds of errors hold for a row: ordinary lengths, and a direction from the axis that is known. */
 static int hc_ordinary(const double row[7]) {
-    const double across = HC_MAX_OF(hc_size(row[4]), hc_size(row[5])), most = HC_MAX_OF(across, hc_size(row[6]));
-    int k, ordinary = HC_FLOATS_DECIDE & (most <= HC_greatest) & ((across == 0) | (across >= HC_least_offset));
+    const double x = row[4], y = row[5], z = row[6], far = HC_greatest, off = HC_least_offset;
+    const int on_axis = (x == 0) & (y == 0), beside = (x >= off) | (x <= -off) | (y >= off) | (y <= -off);
+    int k, ordinary = HC_FLOATS_DECIDE & (on_axis | beside); /* no branch: what a row is like is not foreseen */
+    ordinary = ordinary & (x <= far) & (x >= -far) & (y <= far) & (y >= -far) & (z <= far) & (z >= -far);
     for (k = 0; k < 4; k++) ordinary = ordinary & (row[k] >= HC_least) & (row[k] <= HC_greatest);
     return ordinary & (row[2] <= HC_greatest_ratio * row[3]) & (row[3] <= HC_greatest_ratio * row[2]);
 }
 
 /* What is known of the rows of one block. */
 typedef struct {
-    double rows[HC_BLOCK][7], columns[7 * HC_BLOCK], sides[HC_BLOCK], low[HC_BLOCK], high[HC_BLOCK];
+    const double *rows[HC_BLOCK];
+    double columns[7 * HC_BLOCK], sides[HC_BLOCK], low[HC_BLOCK], high[HC_BLOCK];
     int ordinary[HC_BLOCK];
     hc_touches touches;
     hc_gaps gaps;
@@ -109,11 +112,9 @@ static void hc_factors(const hc_level_functions *level, hc_near *near, int count
     hc_settle_grown(level, near, touches->outer_b, touches->outer_d, outer);
     for (i = 0; i < count; i++) {
         const double low = touches->low[i], high = touches->high[i];
-        const int clear = near->ordinary[i] && (inner[i] == 1 || inner[i] == -1), meets = near->ordinary[i] && outer[i] == 0;
-        int position;
-        if (clear && low >= 1) position = inner[i];
-        else if (meets && high <= 1) position = 0;
-        else position = hc_position_of(near->rows[i]);
+        const int clear = near->ordinary[i] & ((inner[i] == 1) | (inner[i] == -1)), meets = near->ordinary[i] & (outer[i] == 0);
+        const int surely_clear = clear & (low >= 1), known = surely_clear | (meets & (high <= 1));
+        const int position = known ? surely_clear * inner[i] : hc_position_of(near->rows[i]);
         positions[i] = (int8_t)position;
         near->sides[i] = position;
         near->low[i] = clear && low > (position ? 1 : 0) ? low : (position ? 1 : 0);
@@ -134,7 +135,7 @@ static void hc_distance(const hc_near *near, int i, int layer, hypcheck_near *fo
             most = near->gaps.most[i];
             found->nearest[0] = near->gaps.radius[i] * near->touches.cosine[i];
             found->nearest[1] = near->gaps.radius[i] * near->touches.sine[i];
-            found->nearest[2] = row[6] < 0 ? -near->gaps.height[i] : near->gaps.height[i];
+            found->nearest[2] = near->touches.sign[i] * near->gaps.height[i];
         }
         if (tried > least && (layer == 1 || layer == -1)) least = tried;
         else if (most < HC_NEVER) least = hc_halve_distance(row, least, most, width);
@@ -156,7 +157,7 @@ static void hc_near_block(const hc_level_functions *level, hc_near *near, int co
     level->gaps(near->columns, HC_BLOCK, HC_BLOCK, near->sides, &near->touches, &near->gaps);
     hc_settle_grown(level, near, near->gaps.inner_b, near->gaps.inner_d, layers);
     for (i = 0; i < count; i++) {
-        const double lower = hc_less_one(near->low[i], 0), sign = near->rows[i][6] < 0 ? -1 : 1;
+        const double lower = hc_less_one(near->low[i], 0), sign = touches->sign[i];
         found[i].lower = lower > -1 ? lower : -1;
         found[i].upper = hc_less_one(near->high[i], 1);
         found[i].touch[0] = touches->radius[i] * touches->cosine[i];
@@ -180,13 +181,13 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
         uint64_t invalid = 0;
         for (i = 0; i < HC_BLOCK; i++) {
             const double *row = i < count ? rows + 7 * (start + (size_t)i) : benign;
-            if (!hc_valid(row)) {
+            near.ordinary[i] = hc_ordinary(row);
+            if (!near.ordinary[i] && !hc_valid(row)) {
                 row = benign;
                 invalid |= (uint64_t)1 << i;
             }
-            near.ordinary[i] = hc_ordinary(row);
             near.sides[i] = 1;
-            memcpy(near.rows[i], row, sizeof near.rows[i]);
+            near.rows[i] = row;
             for (k = 0; k < 7; k++) near.columns[k * HC_BLOCK + i] = row[k];
         }
         hc_near_block(level, &near, count, positions + start, found + start);

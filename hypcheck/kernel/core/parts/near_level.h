@@ -61,6 +61,7 @@ HC_TARGET static void HC_NAME(hc_touches)(const double *columns, size_t stride, 
             HC_STORE(found->height + at, zeta * d);
             HC_STORE(found->cosine + at, x_share * inverse);
             HC_STORE(found->sine + at, y_share * inverse);
+            HC_STORE(found->sign + at, HC_SELECT(HC_LT(z, zero), HC_SET(-1.0), one));
             HC_STORE(found->error + at, HC_SET(HC_more_than) * error);
         }
     }
@@ -116,13 +117,14 @@ HC_TARGET static void HC_NAME(hc_gaps)(const double *columns, size_t stride, int
             const HC_NUMBER terms = length + rho + zeta + HC_ABS(x) + HC_ABS(y) + level + largest;
             const HC_NUMBER most = length + HC_SET(HC_points) * terms;
             const HC_NUMBER tried = HC_MIN(gap, most) - HC_SET(HC_guess) * (HC_ABS(gap) + width), thick = width + tried;
+            const HC_NUMBER per_width = one / width;
             HC_STORE(found->radius + at, rho);
             HC_STORE(found->height + at, zeta);
             HC_STORE(found->most + at, most);
             HC_STORE(found->width + at, width);
             HC_STORE(found->tried + at, tried);
-            HC_STORE(found->inner_b + at, HC_SET(HC_outward) * HC_ROOT(thick * (bb / width + tried)));
-            HC_STORE(found->inner_d + at, HC_SET(HC_outward) * HC_ROOT(thick * (dd / width + tried)));
+            HC_STORE(found->inner_b + at, HC_SET(HC_outward) * HC_ROOT(thick * (bb * per_width + tried)));
+            HC_STORE(found->inner_d + at, HC_SET(HC_outward) * HC_ROOT(thick * (dd * per_width + tried)));
         }
     }
 }

@@ -88,7 +88,7 @@ typedef struct {
    large, where it touches in the half plane of its centre, the direction of that, and how far the exact place is at most. */
 typedef struct {
     double low[HC_BLOCK], high[HC_BLOCK], inner_b[HC_BLOCK], inner_d[HC_BLOCK], outer_b[HC_BLOCK], outer_d[HC_BLOCK];
-    double radius[HC_BLOCK], height[HC_BLOCK], cosine[HC_BLOCK], sine[HC_BLOCK], error[HC_BLOCK];
+    double radius[HC_BLOCK], height[HC_BLOCK], cosine[HC_BLOCK], sine[HC_BLOCK], sign[HC_BLOCK], error[HC_BLOCK];
 } hc_touches;
 
 /* By columns: the end of the shortest gap on the hyperboloid, its length at most, the spheroid's half width along it, a
