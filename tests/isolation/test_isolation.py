@@ -187,7 +187,9 @@ def test_isolated_program_ends_when_hypcheck_is_killed(ways, tmp_path):
         f"process = Process(('/bin/sh', '-c', 'setsid sleep {seconds} & exec sleep {seconds}'), Limits())\n"
         "print('started', flush=True); sys.stdin.read()\n"
     )
-    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as ours:
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}  # nobody is left to remove the scratch folder
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, "-c", code], env=environment, **pipes) as ours:
         assert ours.stdout.readline() == b"started\n"
         ours.kill()
     until = time.monotonic() + 5
