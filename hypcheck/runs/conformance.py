@@ -173,6 +173,9 @@ def add_reasons(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
         )
 
 
+_NOT_ASKED = {Status.SKIPPED.value}
+
+
 @dataclass(frozen=True)
 class ImplementationLines:
     """Makes the lines about one implementation: its SPEC, its description as declared and as used, and the rules."""
@@ -218,10 +221,8 @@ class ImplementationLines:
         )
 
     def _causes(self, tallies: Mapping[str, Tally]) -> Iterator[CauseLine]:
-        """Why its wrong answers are wrong. Families without one say which causes it has not."""
-        clean = [
-            family for family, each in tallies.items() if not each.diagnosis.explained and each.counts.get("right")
-        ]
+        """Why its wrong answers are wrong. Families with right answers alone say which causes it has not."""
+        clean = [family for family, each in tallies.items() if {Status.RIGHT.value} == each.counts.keys() - _NOT_ASKED]
         diagnoses = {family: each.diagnosis for family, each in tallies.items()}
         for each in causes_of(diagnoses, clean, self.rules.criterion, self.rules.domain):
             worst = tally.WorstCase.of(each.worst.worst, each.worst.place, each.worst.name, self.rules.criterion)
