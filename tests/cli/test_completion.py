@@ -37,7 +37,7 @@ complete --do-complete '{line}'
 """
 LINES = {
     "hypcheck mini": {"minimise"},
-    "hypcheck verify --f": {"--families", "--fail-on"},
+    "hypcheck verify --f": {"--families", "--fail-on", "--fresh"},
     "hypcheck verify --fail-on w": {"wrong"},
     "hypcheck simulate ''": {"forest", "tower"},
     "hypcheck completion z": {"zsh"},
