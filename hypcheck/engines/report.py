@@ -49,7 +49,8 @@ def _head(records: Sequence[EngineRecord]) -> str:
     lines = [
         "# What collision engines get wrong",
         "",
-        "Made by `make engines`, engine by engine. [docs/engines.md](../../docs/engines.md) says what is asked and how it is judged.",
+        "Made by `make engines`, engine by engine.",
+        "[docs/engines.md](../../docs/engines.md) says what is asked and how it is judged.",
         f"Made by hypcheck {records[0].hypcheck} on {records[0].machine}.",
     ]
     lines += ["", f"Not in this run: {', '.join(missing)}."] if missing else []
