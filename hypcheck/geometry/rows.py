@@ -211,6 +211,8 @@ class FixedSizes:
     def holds(self, rows: Rows, layout: Layout = PAIRS) -> Mask:
         """A mask (n,) of the rows with these sizes, this axis and the centre, on a way both its ends, in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
+        if not inside.any():  # the usual case where a scene has many sizes
+            return np.asarray(inside)
         if self.axis != "free":
             axes = with_axis(rows, layout)[:, len(layout.upright) :]
             inside &= (axes == (self.axis or UPRIGHT)).all(axis=1)
