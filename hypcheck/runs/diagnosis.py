@@ -261,7 +261,11 @@ def _findings(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) 
     rounding = [cause for cause in CAUSES if cause.standing is Standing.ROUNDING]
     first = best if best is not None and 2 * left.number(best) > left.number() else None
     places = [cause for cause in CAUSES if cause.standing is Standing.PLACE and _stands(cause, left)]
-    for cause in ([first] if first else []) + places:
+    if first is not None:
+        yield from _taken(left, first)
+    known = [*places, *rounding]
+    covered = sum(each.cases for (_, causes), each in left.explained.items() if any(_has(causes, one) for one in known))
+    for cause in places if 2 * covered >= left.number() else []:  # else something else is wrong, there too
         yield from _taken(left, cause)
     before = left.number()
     roundings = sum(
