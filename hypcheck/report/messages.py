@@ -152,12 +152,17 @@ def _declared_value(description: DescriptionPart, name: str) -> str:
     return domain_text(description.domain) if name == "domain" else str(getattr(description, name))
 
 
+_SIZES_NAMED = 4
+
+
 def domain_text(value: DomainPart) -> str:
     """A domain: "every regime, ratios 0.001 to 1,000, magnitudes not declared"."""
     regimes = listed(value.regimes) if value.regimes else "every regime"
     ranges = [f"ratios {_range(value.ratio)}", f"magnitudes {_range(value.magnitude)}"]
     settings = value.settings or ()
     sizes = [f"({', '.join(f'{size:.6g}' for size in each.sizes)})" for each in settings]
+    if len(sizes) > _SIZES_NAMED:
+        sizes = [*sizes[:_SIZES_NAMED], f"{len(sizes) - _SIZES_NAMED:,} more"]
     only = [f"only α, γ, b, d = {listed(sizes, 'or')}"] if sizes else []
     return ", ".join([regimes, *only, *ranges])
 
