@@ -229,6 +229,7 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
         ("init --language c", 0, "Type next"),
         ("init --language go --from 1.2.0", 0, "added to"),
         ("completion bash", 0, "complete -o"),
+        ("engines list", 0, "python-fcl"),
     ],
 }
 """Command lines in the order in which they are run in one empty folder, with the exit code and a part of the output."""

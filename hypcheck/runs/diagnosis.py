@@ -5,8 +5,9 @@ very answer are a set, and wrong answers are counted by set. Of the right answer
 errs at their rows is denied by them. Diagnoses of parts add up in any order, like tallies.
 
 At the end a cause stands where hardly any right answer denies it. One that is a whole rule has to give most of the
-wrong answers; it is asked first where it gives most of all. Then come the causes about places that are wrong in exact
-arithmetic, then those about rounding, and whole rules for what is left. What none explains is unexplained.
+wrong answers; it is asked first where it gives most of all, and more than the others together. Then come the causes
+about places that are wrong in exact arithmetic, then those about rounding, and whole rules for what is left. What none
+explains is unexplained.
 """
 
 from __future__ import annotations
@@ -170,6 +171,10 @@ class _Left:
         """How many a cause explains; all without one."""
         return sum(each.cases for (_, causes), each in self.explained.items() if cause is None or _has(causes, cause))
 
+    def covered(self, some: Sequence[Cause]) -> int:
+        """How many one of these causes explains at least."""
+        return sum(each.cases for (_, causes), each in self.explained.items() if any(_has(causes, one) for one in some))
+
     def take(self, cause: Cause | None = None) -> Finding | None:
         """What a cause explains, or all, which is no longer left; None if there is nothing."""
         found = {key: each for key, each in self.explained.items() if cause is None or _has(key[1], cause)}
@@ -259,19 +264,14 @@ def _findings(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) 
     everywhere = [cause for cause in CAUSES if cause.standing is Standing.EVERYWHERE and _stands(cause, left)]
     best = max(everywhere, key=left.number, default=None)
     rounding = [cause for cause in CAUSES if cause.standing is Standing.ROUNDING]
-    first = best if best is not None and 2 * left.number(best) > left.number() else None
     places = [cause for cause in CAUSES if cause.standing is Standing.PLACE and _stands(cause, left)]
-    if first is not None:
-        yield from _taken(left, first)
     known = [*places, *rounding]
-    covered = sum(each.cases for (_, causes), each in left.explained.items() if any(_has(causes, one) for one in known))
-    for cause in places if 2 * covered >= left.number() else []:  # else something else is wrong, there too
+    # A few families may hold nothing that denies a rule: what is known of their places explains as much then.
+    if best is not None and left.number(best) > max(left.number() / 2, left.covered(known)):
+        yield from _taken(left, best)
+    for cause in places if 2 * left.covered(known) >= left.number() else []:  # else something else is wrong, there too
         yield from _taken(left, cause)
-    before = left.number()
-    roundings = sum(
-        each.cases for (_, causes), each in left.explained.items() if any(_has(causes, one) for one in rounding)
-    )
-    if roundings >= ROUNDED * before:
+    if left.covered(rounding) >= ROUNDED * left.number():
         for cause in rounding:
             yield from _taken(left, cause)
     rest = [cause for cause in everywhere if left.number(cause) >= MOST * left.number() > 0]

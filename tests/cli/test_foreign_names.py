@@ -36,7 +36,8 @@ def record(tmp_path_factory):
         assert main(words) == 1
     lines = [json.loads(line) for line in (out / "record.jsonl").read_text().splitlines()]
     for line in lines:
-        for case in (*line.get("worst", ()), *line.get("faults", ())):
+        worst = line.get("worst", ())
+        for case in [worst] if isinstance(worst, dict) else [*worst, *line.get("faults", ())]:
             case["case"] += ACTS
     (out / "record.jsonl").write_bytes(resealed(lines))
     return out

@@ -85,6 +85,8 @@ def test_table_2_in_its_regime_errs_on_the_ring_and_by_rounding_alone():
 
     causes, _ = diagnosed(implementation, ("ring", "ring-neighbourhood"))
     assert set(causes) == {"ring", "lost-beside-the-ring"}
+    causes, _ = diagnosed(implementation, ("ring",))  # no other family denies a wrong sign in the discriminant
+    assert set(causes) == {"ring"}
 
 
 @pytest.mark.parametrize(
