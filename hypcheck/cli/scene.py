@@ -92,7 +92,8 @@ LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 _EMIT_HELP = """Write code to take: a kernel with only what a scene needs, or a method for one pair of any sizes.
 
 With --method exact the file answers every float64 row rightly: floats where a proved bound allows, whole numbers for
-the rest, without dependencies. With --method certified it has the floats alone, and says 2 where they cannot say.
+the rest, without dependencies. With --method certified it has the floats alone, and says 2 where they cannot say;
+so do dual and local-maximum, which prove the answer by a concave function instead of the discriminant.
 
 SCENE is a file (docs/scenes.md) or a shipped scene. Its sizes and constant heights are folded in, and only its question
 is answered; `hypcheck plan` shows what is left out and why. The head of the kernel says what is proved about it.
@@ -118,7 +119,11 @@ default names.
 
 
 @click.command(help=_EMIT_HELP, short_help="Write code to take, for a scene or for one pair.")
-@click.option("--method", metavar="METHOD", help="Of one pair of any sizes, without a scene: exact or certified.")
+@click.option(
+    "--method",
+    metavar="METHOD",
+    help="Of one pair, without a scene: exact, certified, dual or local-maximum.",
+)
 @click.option("--scene", metavar="SCENE", help="A scene file, or the name of a shipped scene.")
 @click.option("--language", required=True, type=click.Choice(LANGUAGES), help="The language of the kernel.")
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")

@@ -1,8 +1,9 @@
 """Code to take for one pair of any sizes: one file without dependencies, right for every float64 row.
 
-Two stages, both printed from the programs that the fast path runs. CERTIFIED decides in float64 where a proved bound
-excludes that rounding changes a sign (kernel/programs/certified.py); INTEGERS decides the rest in whole numbers. The
-method "certified" is the first stage alone, and says 2, "cannot say", where it does not decide.
+The method "exact" has two stages, both printed from the programs that the fast path runs. CERTIFIED decides in float64
+where a proved bound excludes that rounding changes a sign (kernel/programs/certified.py); INTEGERS decides the rest in
+whole numbers. The method "certified" is the first stage alone, and says 2, "cannot say", where it does not decide. So
+do "dual" and "local-maximum", whose proof is another (kernel/programs/dual.py).
 
 Python and JavaScript have integers of any size. C, C++ and Rust get some forty lines of them: each number of the
 straight-line program has room for the bits that are counted for it (`bits_counted`), so nothing is allocated in C.
@@ -19,12 +20,21 @@ from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import PREFIX, filled, require_prefix, template
+from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
 from hypcheck.version import VERSION
 
-EXACT, CERTIFIED_ONLY = METHODS = ("exact", "certified")
+EXACT, CERTIFIED_ONLY, DUAL, LOCAL_MAXIMUM = METHODS = ("exact", "certified", "dual", "local-maximum")
 """What `emit --method` takes."""
+
+_FLOATS = {
+    EXACT: (CERTIFIED, CONSTANTS),
+    CERTIFIED_ONLY: (CERTIFIED, CONSTANTS),
+    DUAL: (dual.DUAL, dual.CONSTANTS),
+    LOCAL_MAXIMUM: (dual.LOCAL_MAXIMUM, dual.CONSTANTS),
+}
+"""The program in float64 of a method, and its constants."""
 
 _SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offset_at_A", "ring_excess")
 """What the last stage asks the signs of."""
@@ -37,13 +47,8 @@ _INPUT_BITS = 2150
 
 def require_method(method: str) -> None:
     """Raise InputError unless there is code for a pair by this method."""
-    if method in ("dual", "local-maximum"):
-        raise InputError(
-            f"--method is {method!r}, which proves clear but no contact in floats; take {EXACT}, or {CERTIFIED_ONLY} "
-            "where 2 for “cannot say” will do"
-        )
     if method not in METHODS:
-        raise InputError(f"--method is {method!r}; it must be {' or '.join(METHODS)}")
+        raise InputError(f"--method is {method!r}; it must be {', '.join(METHODS[:-1])} or {METHODS[-1]}")
 
 
 def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
@@ -51,15 +56,13 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
     require_method(method)
     require_prefix(prefix, language)
     dialect, whole = DIALECTS[language], method == EXACT
-    number = dialect.number_of("float64")
-    constants = [
-        dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in CONSTANTS.items()
-    ]
+    number, (program, values) = dialect.number_of("float64"), _FLOATS[method]
+    constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
     parts = {
         "header": "\n".join(f"{dialect.comment}{line}".rstrip() for line in _head(method, command)),
         "prefix": prefix,
         "constants": "\n".join(constants),
-        "steps": "\n".join(dialect.statements(CERTIFIED, ("exterior", "interior", "decided"), "float64")),
+        "steps": "\n".join(dialect.statements(program, ("exterior", "interior", "decided"), "float64")),
         "description": _described(method, language),
         "last": _last(method, language),
         "can": "" if whole else "const CANNOT_SAY: i8 = 2;\n",
@@ -72,7 +75,7 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
 
 
 def _last(method: str, language: str) -> str:
-    if method == CERTIFIED_ONLY:
+    if method != EXACT:
         return "CANNOT_SAY"
     return "exactly(row)" if language == "rust" else "exactly(alpha, gamma, b, d, x, y, z)"
 
@@ -89,9 +92,14 @@ def _head(method: str, command: Sequence[str]) -> Iterator[str]:
     yield "coordinate is not finite."
     if method == EXACT:
         yield "Right for every float64 row: floats decide where a proved bound allows, whole numbers the rest."
-    else:
+    elif method == CERTIFIED_ONLY:
         yield "2 where float64 cannot say; every other answer is right. The bound of 3Δ is E below, those of c1 and c2"
         yield "are e1 and e2: an answer is given where |3Δ| > E and the signs that it asks for exceed their bounds."
+    else:
+        found = "Newton's steps" if method == DUAL else "the local maximum of the cubic, and Newton's steps"
+        yield "2 where float64 cannot say; every other answer is right. phi(lambda) > e proves clear, e bounding the"
+        yield "error. The tangent of phi, which is concave, proves contact, or a point of the hyperboloid at the"
+        yield f"centre's height. lambda is found by {found}; a bad one makes the answer 2."
     yield "Keep the order of the operations (no -ffast-math); FMA and every rounding mode are allowed."
 
 

@@ -69,7 +69,7 @@ CONSTANTS = {
 }
 """The inputs beside the seven columns, by name."""
 
-_USABLE = """
+USABLE = """
     alpha_usable = alpha > 0
     gamma_usable = gamma > 0
     b_not_small = b > least
@@ -224,7 +224,7 @@ CERTIFIED = program_of(
     (*COLUMNS, *CONSTANTS),
     TABLE_2,
     HESSIAN_DISCRIMINANT,
-    _USABLE,
+    USABLE,
     _COEFFICIENT_BOUNDS,
     _DISCRIMINANT_BOUND,
     "two_c2 = 2 * c2",

@@ -5,13 +5,18 @@ import importlib.util
 import json
 import shutil
 import subprocess
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
+from hypcheck.derivation.evaluation import outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.errors import InputError
+from hypcheck.geometry.pair import COLUMNS
 from hypcheck.kernel.emission.pair import METHODS, emitted_pair
+from hypcheck.kernel.programs import dual
 from hypcheck.vectors import frozen
 from tests.kernel.emission.building import COMMANDS, skip_without
 
@@ -74,11 +79,48 @@ def test_the_whole_numbers_of_the_other_languages_answer_every_row_rightly(tmp_p
     assert (answers(tmp_path, language, text.replace(before, after), rows) == positions).all()
 
 
-def test_the_certified_code_is_right_or_cannot_say(tmp_path, vectors):
+THOROUGH = [pytest.param(language, marks=pytest.mark.thorough) for language in ("cpp", "rust", "javascript")]
+
+
+@pytest.mark.parametrize("method", ["certified", "dual", "local-maximum"])
+@pytest.mark.parametrize("language", ["python", "c", *THOROUGH])
+def test_code_in_floats_alone_is_right_or_cannot_say(tmp_path, vectors, language, method):
     rows, positions = vectors
-    found = answers(tmp_path, "python", emitted_pair("certified", "python", COMMAND), rows)
+    found = answers(tmp_path, language, emitted_pair(method, language, COMMAND), rows)
     assert ((found == positions) | (found == 2)).all()
     assert 0.5 < (found == positions).mean() < 1
+
+
+@pytest.mark.parametrize("method", ["dual", "local-maximum"])
+def test_code_by_the_dual_form_decides_every_row_of_everyday_families_and_the_ring(tmp_path, method):
+    named = ("tower-body", "tower-rotors", "forest-type-1", "flight", "uniform", "on-surface", "ring")
+    found = [frozen.frozen_rows(name) for name in named]
+    rows, positions = np.vstack([each.rows for each in found]), np.concatenate([each.positions for each in found])
+    assert (answers(tmp_path, "python", emitted_pair(method, "python", COMMAND), rows) == positions).all()
+
+
+@pytest.mark.parametrize("method", ["dual", "local-maximum"])
+def test_a_bad_multiplier_leaves_rows_open_and_makes_no_answer_wrong(tmp_path, vectors, method):
+    rows, positions = vectors
+    text, found = emitted_pair(method, "python", COMMAND), "        lambda_found = B - v_"
+    assert text.count(found) == 1
+    given = answers(tmp_path, "python", text.replace(found, f"{found[:-6]}0.75 * B - 0.75 * v_"), rows)
+    assert ((given == positions) | (given == 2)).all()
+    assert 0.3 < (given == 2).mean() < 0.9
+
+
+def test_the_programs_of_the_dual_form_bound_the_errors_of_phi_and_its_slope(vectors):
+    rows, wanted = vectors[0][::2], ("in_range", "lambda_", "phi", "e", "phi_slope", "slope_error")
+    inputs = {**dict(zip(COLUMNS, rows.T, strict=True)), **dual.CONSTANTS}
+    in_range, *numbers = outputs(dual.DUAL, float_arithmetic("float64"), inputs, wanted)
+    assert in_range.sum() > 300
+    for row, found in zip(rows[in_range].tolist(), np.stack(numbers, axis=1)[in_range].tolist(), strict=True):
+        alpha, gamma, b, d, x, y, z = map(Fraction, row)
+        multiplier, phi, error, slope, slope_error = map(Fraction, found)
+        A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
+        V, W = B - multiplier, A + multiplier
+        assert abs(phi - (P * multiplier / W - Q * multiplier / V - multiplier - 1)) <= error
+        assert abs(slope - (P * A / W**2 - Q * B / V**2 - 1)) <= slope_error
 
 
 def test_the_exact_code_refuses_what_is_no_row(tmp_path):
@@ -92,8 +134,7 @@ def test_the_exact_code_refuses_what_is_no_row(tmp_path):
     [
         (["--method", "exact", "--scene", "tower"], "--scene is for a scene; --method exact is for one pair"),
         (["--method", "exact", "--precision", "float32"], "--precision is for a scene"),
-        (["--method", "dual"], "--method is 'dual', which proves clear but no contact in floats; take exact"),
-        (["--method", "fast"], "--method is 'fast'; it must be exact or certified"),
+        (["--method", "fast"], "--method is 'fast'; it must be exact, certified, dual or local-maximum"),
         ([], "emit needs --scene SCENE, or --method exact for one pair of any sizes"),
     ],
 )
@@ -103,6 +144,6 @@ def test_a_bad_combination_of_options_is_refused_in_a_sentence(capsys, words, sa
 
 
 def test_a_method_that_does_not_exist_is_refused():
-    with pytest.raises(InputError, match="it must be exact or certified"):
+    with pytest.raises(InputError, match="it must be exact, certified, dual or local-maximum"):
         emitted_pair("roots", "c", COMMAND)
-    assert METHODS == ("exact", "certified")
+    assert METHODS == ("exact", "certified", "dual", "local-maximum")
