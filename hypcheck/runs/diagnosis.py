@@ -267,7 +267,7 @@ def _findings(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) 
     places = [cause for cause in CAUSES if cause.standing is Standing.PLACE and _stands(cause, left)]
     known = [*places, *rounding]
     # A few families may hold nothing that denies a rule: what is known of their places explains as much then.
-    if best is not None and left.number(best) > max(left.number() / 2, left.covered(known)):
+    if best is not None and left.number(best) >= MOST * left.number() and left.number(best) > left.covered(known):
         yield from _taken(left, best)
     for cause in places if 2 * left.covered(known) >= left.number() else []:  # else something else is wrong, there too
         yield from _taken(left, cause)
