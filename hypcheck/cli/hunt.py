@@ -78,8 +78,8 @@ def opened(
     claimed = None if domain is None else parse_domain(domain)
     print_file_settings()
     bounds = limits_of(**limits)
-    print_isolation(spec, bounds)
     with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
+        print_isolation(spec, bounds)
         yield target_of(
             spec,
             implementation,
@@ -299,8 +299,8 @@ def replay(
     claimed = None if domain is None else parse_domain(domain)
     print_file_settings()
     bounds = limits_of(**limits)
-    print_isolation(spec, bounds)
     with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
+        print_isolation(spec, bounds)
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
         if used.asked.layout is WAYS:

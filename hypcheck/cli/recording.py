@@ -19,7 +19,7 @@ from hypcheck.cli.progress import summary_options, watched
 from hypcheck.cli.settings import print_settings
 from hypcheck.errors import Exit, HypcheckError, InputError, NothingJudgedError, system_reason
 from hypcheck.messages import escaped, printable
-from hypcheck.tables.streams import STREAM, same_file
+from hypcheck.tables.streams import same_file
 
 if TYPE_CHECKING:
     from hypcheck.processes import Stage
@@ -189,8 +189,6 @@ def resumed(
     from hypcheck.record.writer import folder_locked
     from hypcheck.runs.resume import require_same_run, resume
 
-    if str(path) == STREAM:
-        raise InputError(f"--resume {STREAM} is no file; name a record, or the folder of a run")
     file = interrupted_in(path)
     if file.name == GROWING:
         with folder_locked(file.parent):

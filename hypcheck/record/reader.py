@@ -23,7 +23,7 @@ from hypcheck.record.fields import RecordLine, decoded
 from hypcheck.record.integrity import Raw, RecordScan
 from hypcheck.record.lines import SCHEMA, FaultPart, FooterLine, GroupLine, HeaderLine, NotStartedLine, WrongAnswer
 from hypcheck.tables.numbers import shown_json
-from hypcheck.tables.streams import reading
+from hypcheck.tables.streams import STREAM, reading
 
 FILE = "record.jsonl"
 """The record's name in the folder of a run."""
@@ -70,7 +70,9 @@ def file_of(path: Path) -> Path:
 
 
 def interrupted_in(path: Path) -> Path:
-    """The record to resume; in a folder, that of a killed run takes precedence."""
+    """The record to resume; in a folder, that of a killed run takes precedence. Raises InputError for a stream."""
+    if str(path) == STREAM:
+        raise InputError(f"--resume {STREAM} is no file; name a record, or the folder of a run")
     return path / GROWING if (path / GROWING).is_file() else file_of(path)
 
 

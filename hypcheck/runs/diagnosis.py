@@ -92,7 +92,7 @@ def merged(parts: Iterable[Diagnosis]) -> Diagnosis:
         denied.update(part.denied)
         for causes, each in part.explained.items():
             by_set.setdefault(causes, []).append(each)
-    return Diagnosis({causes: together(some) for causes, some in by_set.items()}, dict(denied))
+    return Diagnosis({causes: together(by_set[causes]) for causes in sorted(by_set)}, dict(sorted(denied.items())))
 
 
 def diagnose(
@@ -119,7 +119,7 @@ def diagnose(
     by_set: dict[int, list[Explained]] = {}
     for causes, (case, (at, name)) in zip(sets, failing, strict=True):
         by_set.setdefault(causes, []).append(Explained(1, at, name, case))
-    return Diagnosis({causes: together(some) for causes, some in by_set.items()}, denied)
+    return Diagnosis({causes: together(by_set[causes]) for causes in sorted(by_set)}, dict(sorted(denied.items())))
 
 
 def denials(asked: Asked, suspected: Iterable[Cause]) -> dict[str, int]:
