@@ -38,6 +38,7 @@ def test_a_figure_is_fresh(name):
     DRAWN_WITH.read_text(encoding="utf-8") != versions(),
     reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",
 )
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["forest-space", "forest-walk", "tower-flights"])
 def test_a_picture_of_a_simulation_is_fresh(name):
     """`make figures` draws it anew."""
