@@ -155,7 +155,7 @@ def test_run_with_edited_lines_of_a_finished_implementation_is_not_resumed(tmp_p
     words = ["verify", *specs, "--families", "ring", "--count", "30", "--out", str(tmp_path)]
     assert main(words) == 1
     record = read(tmp_path / FILE)
-    group, whole = record.lines[:2]
+    group, _causes, whole = record.lines[:3]
     plan = replace(plan_of(specs[0]), families=("ring",), count=30)
     require_lines([group], whole, plan)
     edited = [record.header, structs.replace(group, failing=[]), whole]
