@@ -14,6 +14,7 @@ from hypcheck.report.plots.pictures import PLOTS, draw_plots
 from hypcheck.report.plots.style import ROLES, curve_style, decades, new_figure, power_of_ten, styled, ticks
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
+from tests.report.test_worst_way import THROUGH, case, ways
 
 
 def luminance(colour):
@@ -159,7 +160,9 @@ def test_powers_of_ten_are_written_as_on_an_axis():
 
 @pytest.mark.parametrize("name", PLOTS)
 def test_every_plot_has_named_axes_a_description_and_tooltips(name):
-    found = [plot for record in (record_samples.record(), bench_record()) for plot in draw_plots(name, record)]
+    about_ways = ways(case("way-long/1/1/3", *THROUGH, 2.0))
+    records = [about_ways] if name == "ways" else [record_samples.record(), bench_record()]
+    found = [plot for record in records for plot in draw_plots(name, record)]
     assert found
     for plot in found:
         assert plot.title
@@ -168,7 +171,7 @@ def test_every_plot_has_named_axes_a_description_and_tooltips(name):
         for axes in plot.figure.axes:
             assert axes.get_xlabel()
             assert axes.get_ylabel() or len(axes.get_yticklabels()) > 1
-        assert plot.tips or name in ("map", "places", "fields")
+        assert plot.tips or name in ("map", "places", "fields", "ways")
         for tips in plot.tips.values():
             assert all(tips)
 
