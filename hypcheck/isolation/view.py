@@ -111,14 +111,14 @@ def readable_paths(hidden: Sequence[str], private: Sequence[str], needed: Sequen
     something hidden in it is listed, and its other entries are read.
     """
     read, listed = [], []
-    todo = _entries("/") + [path for path in needed if any(within(path, folder) for folder in private)]
-    while todo:
-        path = todo.pop()
+    waiting = _entries("/") + [path for path in needed if any(within(path, folder) for folder in private)]
+    while waiting:
+        path = waiting.pop()
         if path in hidden or path in private:
             continue
         if any(within(each, path) for each in (*hidden, *private)):
             listed.append(path)
-            todo += _entries(path)
+            waiting += _entries(path)
         else:
             read.append(path)
     return read, listed

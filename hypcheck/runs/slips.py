@@ -26,7 +26,7 @@ Number = Any
 
 
 @dataclass(frozen=True)
-class Lengths:
+class SlipLengths:
     """The seven columns, float64 or whole numbers in a radial and an axial unit, on which no position depends."""
 
     alpha: Number
@@ -49,20 +49,20 @@ class Terms:
     U: Number
 
     @classmethod
-    def of(cls, of: Lengths) -> Terms:
+    def of(cls, of: SlipLengths) -> Terms:
         """Those of the paper."""
         bb, dd = of.b * of.b, of.d * of.d
         return cls(of.alpha**2 * dd, of.gamma**2 * bb, (of.x**2 + of.y**2) * dd, of.z**2 * bb, bb * dd)
 
 
-def _in_floats(rows: Rows) -> Lengths:
+def _in_floats(rows: Rows) -> SlipLengths:
     """The rows, with b and d as the two units."""
     alpha, gamma, b, d, x, y, z = rows.T
     one = np.ones(len(rows))
-    return Lengths(alpha / b, gamma / d, one, one, x / b, y / b, z / d)
+    return SlipLengths(alpha / b, gamma / d, one, one, x / b, y / b, z / d)
 
 
-def _in_whole_numbers(rows: Rows) -> Lengths:
+def _in_whole_numbers(rows: Rows) -> SlipLengths:
     columns: list[Any] = [None] * len(COLUMNS)
     for group in ((0, 2, 4, 5), (1, 3, 6)):
         mantissas, exponents = np.frexp(rows[:, group])
@@ -71,7 +71,7 @@ def _in_whole_numbers(rows: Rows) -> Lengths:
         whole = np.ldexp(mantissas, 53).astype(np.int64).astype(object) << shift
         for place, column in enumerate(group):
             columns[column] = whole[:, place]
-    return Lengths(*columns)
+    return SlipLengths(*columns)
 
 
 def _c0(t: Terms) -> Number:
@@ -91,13 +91,13 @@ def _all_positive(c1: Number, c2: Number) -> Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Formula:
+class SlippedRule:
     """The coefficient rule for all regimes, with one of its parts replaced.
 
     `delta` are the factors of the five terms of equation (13).
     """
 
-    terms: Callable[[Lengths], Terms] = Terms.of
+    terms: Callable[[SlipLengths], Terms] = Terms.of
     c0: Callable[[Terms], Number] = _c0
     c1: Callable[[Terms], Number] = _c1
     c2: Callable[[Terms], Number] = _c2
@@ -107,7 +107,7 @@ class Formula:
     throat: bool = True
     ring: bool = True
 
-    def positions(self, of: Lengths) -> Answers:
+    def positions(self, of: SlipLengths) -> Answers:
         """The positions, int8 (n,)."""
         with np.errstate(all="ignore"):
             t = self.terms(of)
@@ -158,7 +158,7 @@ _NEGATED: dict[str, dict[str, Callable[[Terms], Number]]] = {
 """What turns the sign of each term of a coefficient; half of it takes the term away."""
 
 
-def _changed(name: str, change: Callable[[Terms], Number], part: int) -> Formula:
+def _changed(name: str, change: Callable[[Terms], Number], part: int) -> SlippedRule:
     """The formula with this coefficient changed, by all of the change or, where `part` is 2, by half of it."""
 
     def coefficient(t: Terms) -> Number:
@@ -166,8 +166,8 @@ def _changed(name: str, change: Callable[[Terms], Number], part: int) -> Formula
         return _RIGHT[name](t) + (whole if part == 1 else _half(whole))
 
     if name == "c0":
-        return Formula(c0=coefficient)
-    return Formula(c1=coefficient) if name == "c1" else Formula(c2=coefficient)
+        return SlippedRule(c0=coefficient)
+    return SlippedRule(c1=coefficient) if name == "c1" else SlippedRule(c2=coefficient)
 
 
 def _half(value: Number) -> Number:
@@ -190,17 +190,17 @@ _POWERS = ("c2³ c0", "c2² c1²", "c2 c1 c0", "c1³", "c0²")
 
 def _discriminant_slips() -> Iterator[tuple[str, str, str, Rule]]:
     """The same of formulas with a term of Δ or the decision wrong."""
-    delta, plain = "Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²", Formula().delta
+    delta, plain = "Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²", SlippedRule().delta
     for place, term in enumerate(_POWERS):
         for name, what, other in (("sign", "the sign were wrong", -plain[place]), ("without", "nothing stood", 0)):
             factors = (*plain[:place], other, *plain[place + 1 :])
             sentence = f"it answers as if, at the term {term} of Δ, {what}"
-            yield f"delta-{name}-{place + 1}", sentence, delta, Formula(delta=_five(factors))
-    yield "delta-negative", "it answers as if Δ < 0 were asked for", delta, Formula(delta=(4, -1, -18, 4, 27))
+            yield f"delta-{name}-{place + 1}", sentence, delta, SlippedRule(delta=_five(factors))
+    yield "delta-negative", "it answers as if Δ < 0 were asked for", delta, SlippedRule(delta=(4, -1, -18, 4, 27))
     right = "three roots are positive exactly if c2 < 0 and c1 > 0"
     for name, positive in (("c1", _c1_negative), ("c2", _c2_positive)):
         sentence = f"it answers as if the sign of {name} were asked for the other way"
-        yield f"decision-{name}", sentence, right, Formula(positive=positive)
+        yield f"decision-{name}", sentence, right, SlippedRule(positive=positive)
 
 
 def _c1_negative(c1: Number, c2: Number) -> Number:
@@ -211,9 +211,11 @@ def _c2_positive(c1: Number, c2: Number) -> Number:
     return (c2 > 0) & (c1 > 0)
 
 
-def _terms(**changed: Callable[[Lengths], Number]) -> Formula:
+def _terms(**changed: Callable[[SlipLengths], Number]) -> SlippedRule:
     """The formula with some of A, B, P, Q (times b² d²) computed otherwise."""
-    return Formula(terms=lambda of: replace(Terms.of(of), **{name: compute(of) for name, compute in changed.items()}))
+    return SlippedRule(
+        terms=lambda of: replace(Terms.of(of), **{name: compute(of) for name, compute in changed.items()})
+    )
 
 
 _TERMS: tuple[tuple[str, str, str, Rule], ...] = (
