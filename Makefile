@@ -11,7 +11,7 @@ BIN := $(VENV)/bin
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants docs release format clean
+.PHONY: help verify bench deep engines reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants evidence docs release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -72,6 +72,9 @@ figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; doc
 
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; tests/tools/mutants/README.md
 	$(BIN)/python -m tests.tools.mutants --out tests/tools/mutants/README.md
+
+evidence: $(VENV)/ready-dev ## what mutants, fuzzing, coverage and faults find in our own code, anew; docs/evidence.md (an hour)
+	$(BIN)/python -m tests.tools.evidence all --write
 
 kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in five languages (half an hour)
 	HYPCHECK_KERNELS=all $(BIN)/python -m pytest tests/kernel/emission

@@ -1,0 +1,33 @@
+"""What the figures may not fall below, and what they may not rise above; a figure is named by its keys, joined by dots."""
+
+from __future__ import annotations
+
+from tests.tools.evidence.parts import Figures
+
+AT_LEAST: dict[str, dict[str, float]] = {}
+"""By part and figure."""
+
+AT_MOST: dict[str, dict[str, float]] = {}
+"""By part and figure: survivors, findings."""
+
+
+def broken(name: str, figures: Figures) -> list[str]:
+    """A sentence for each figure of the part `name` that has fallen."""
+    low = [
+        f"{name}: {key} is {_value(figures, key)}; it must be at least {floor}"
+        for key, floor in AT_LEAST.get(name, {}).items()
+        if not _value(figures, key) >= floor
+    ]
+    high = [
+        f"{name}: {key} is {_value(figures, key)}; it must be at most {ceiling}"
+        for key, ceiling in AT_MOST.get(name, {}).items()
+        if not _value(figures, key) <= ceiling
+    ]
+    return low + high
+
+
+def _value(figures: Figures, key: str) -> float:
+    found = figures
+    for name in key.split("."):
+        found = found[name]
+    return found
