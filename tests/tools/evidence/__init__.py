@@ -1,1 +1,1 @@
-"""Evidence about our own code: coverage, fuzzing, mutants and faults; docs/evidence.md is printed from their figures."""
+"""Evidence about our code: coverage, fuzzing, mutants and faults; docs/evidence.md is printed from their figures."""

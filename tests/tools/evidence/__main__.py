@@ -1,4 +1,4 @@
-"""`python -m tests.tools.evidence PART... [--write]`: measures parts of the evidence; ends with 1 where a figure fell."""
+"""`python -m tests.tools.evidence PART... [--write]`: measures parts of the evidence; ends with 1 if one fell."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.tools.evidence.parts import KEPT, PAGE, PARTS, Figures, Unavailable, 
 @click.command()
 @click.argument("names", metavar="PART...", nargs=-1, required=True, type=click.Choice(["all", *PARTS]))
 @click.option("--write", is_flag=True, help="Keep the figures, and print docs/evidence.md from them.")
-def main(names: tuple[str, ...], write: bool) -> None:  # noqa: FBT001 - click's
+def main(names: tuple[str, ...], write: bool) -> None:
     """Measure the named parts, or all, and print their sections."""
     figures, fallen = kept(), []
     for name in PARTS if "all" in names else names:

@@ -1,4 +1,4 @@
-"""What the figures may not fall below, and what they may not rise above; a figure is named by its keys, joined by dots."""
+"""What figures may not fall below, and not rise above; a figure is named by its keys, joined by dots."""
 
 from __future__ import annotations
 

@@ -7,10 +7,10 @@ from tests.tools.evidence.parts import PARTS, Figures, part
 OPENING = """\
 # Evidence about our own code
 
-The suite judges implementations by mutants, by fuzzing and by proofs. This page says what the same means find in our own
-code. `make evidence` measures every figure anew and prints this page; one part alone is
-`python -m tests.tools.evidence PART --write`. Continuous integration asks cheap forms of them, and does not let a figure
-fall below its floor (`tests/tools/evidence/floors.py`).
+The suite judges implementations by mutants, by fuzzing and by proofs. This page says what the same means find in
+our own code. `make evidence` measures every figure anew and prints this page; one part alone is
+`python -m tests.tools.evidence PART --write`. Continuous integration asks cheap forms of them, and does not let a
+figure fall below its floor (`tests/tools/evidence/floors.py`).
 """
 
 
