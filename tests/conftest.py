@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import resource
 import signal
 from pathlib import Path
 
@@ -143,3 +144,15 @@ def few_single_rows(monkeypatch):
 def text_reports(monkeypatch):
     """Runs of the test write their reports in text alone."""
     draw_nothing(monkeypatch)
+
+
+@pytest.fixture
+def small_files():
+    """Let files of this process grow to so many bytes only: writes fail as on a full disk. None: to any length."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+
+    def limit(most):
+        resource.setrlimit(resource.RLIMIT_FSIZE, before if most is None else (most, before[1]))
+
+    yield limit
+    limit(None)

@@ -86,6 +86,8 @@ def recording(
             if isinstance(error, OSError):
                 _require_folder(out, error)
             _ended_early(error, growing, recorder)
+            if isinstance(error, OSError) and error.filename == str(growing):
+                raise InputError(f"cannot write {growing}: {system_reason(error)}") from error
             raise
         _settle(recorder, growing, out / FILE)
         try:
@@ -133,7 +135,8 @@ def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> Non
     from hypcheck.report.write import write_reports
 
     if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not recorder.goes_on):
-        growing.unlink(missing_ok=True)
+        with suppress(OSError):  # the error that ended the run is the one to be told
+            growing.unlink(missing_ok=True)
         return
     out, path = growing.parent, growing.with_name(FILE)
     _settle(recorder, growing, path)

@@ -22,7 +22,7 @@ from typing import Any, BinaryIO, TextIO
 
 from msgspec import UNSET
 
-from hypcheck.errors import InputError
+from hypcheck.errors import InputError, system_reason
 from hypcheck.processes import interrupts_deferred
 from hypcheck.record.fields import RecordLine, as_json, plain
 from hypcheck.record.integrity import sealed
@@ -78,8 +78,8 @@ def _locked(place: int) -> bool:
 class GrowingFile:
     """A file that grows, as a context manager. Killed at any moment, it holds its old content or the new one.
 
-    Methods raise OSError if the system fails; the file is then as before, but for a line that may be cut off. A folder
-    that was removed is made again.
+    Methods raise OSError, naming the file, if the system fails; the file is then as before, but for a line that may be
+    cut off. A folder that was removed is made again.
     """
 
     def __init__(self, path: Path) -> None:
@@ -90,19 +90,38 @@ class GrowingFile:
     def __enter__(self) -> GrowingFile:
         return self
 
-    def __exit__(self, *_: object) -> None:
-        if self._file is not None:
-            self._file.close()
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        """Close the file. Raises InputError if data may be lost, and no other error says so already."""
+        try:
+            if self._file is not None:
+                self._file.close()
+        except OSError as error:
+            if kind is None:
+                raise InputError(f"cannot write {self._path}: {system_reason(error)}") from error
+
+    @contextmanager
+    def _errors_name_it(self) -> Iterator[None]:
+        """Within the block an error of the system names this file, not the one beside it, or none."""
+        try:
+            yield
+        except OSError as error:
+            error.filename, error.filename2 = str(self._path), None
+            raise
 
     def write(self, data: bytes) -> None:
         """Add to the end; the data survives if this process is killed."""
         if self._file is None:
             raise ValueError("a growing file must be renewed before anything is added to it")
-        self._file.write(data)
-        self._file.flush()
+        with self._errors_name_it():
+            self._file.write(data)
+            self._file.flush()
 
     def renew(self, data: bytes) -> None:
         """Replace the whole content by `data`, once that is on the disk."""
+        with self._errors_name_it():
+            self._renew(data)
+
+    def _renew(self, data: bytes) -> None:
         self._path.parent.mkdir(parents=True, exist_ok=True)
         file = _new_file(self._beside)
         try:
@@ -132,6 +151,7 @@ class GrowingFile:
     def move(self, path: Path) -> None:
         """Move the file to its final place."""
         self._path.replace(path)
+        self._path = path
 
 
 def _new_file(path: Path) -> BinaryIO:

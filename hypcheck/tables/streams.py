@@ -123,6 +123,11 @@ class Writer:
             if to_disk:
                 os.fsync(self._file.fileno())
 
+    def close(self) -> None:
+        """Close the file. Raises InputError."""
+        with _errors_name("write", self.name):
+            self._file.close()
+
 
 @contextmanager
 def reading(path: str) -> Iterator[Reader]:
@@ -154,8 +159,7 @@ def writing(path: str, *, follow: bool = True) -> Iterator[Writer]:
     if mode is not None and not stat.S_ISREG(mode):
         with _errors_name("write", path):
             device = open(path, "wb")  # noqa: SIM115 - as above
-        with device:
-            writer = Writer(device, path)
+        with _closed(Writer(device, path)) as writer:
             yield writer
             writer.flush()
         return
@@ -183,8 +187,7 @@ def _replacing(path: str, target: str, mode: int | None) -> Iterator[Writer]:
     with _errors_name("write", path):
         handle = os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_BINARY", 0), 0o666)
     try:
-        with os.fdopen(handle, "wb") as file:
-            writer = Writer(file, path)
+        with _closed(Writer(os.fdopen(handle, "wb"), path)) as writer:
             yield writer
             writer.flush(to_disk=True)
         with _errors_name("write", path):
@@ -195,6 +198,18 @@ def _replacing(path: str, target: str, mode: int | None) -> Iterator[Writer]:
         with suppress(OSError):
             os.unlink(beside)
         raise
+
+
+@contextmanager
+def _closed(writer: Writer) -> Iterator[Writer]:
+    """The writer, closed when the block ends; an error that ends the block is not replaced by one of closing."""
+    try:
+        yield writer
+    except BaseException:
+        with suppress(InputError):
+            writer.close()
+        raise
+    writer.close()
 
 
 def _mode(path: str) -> int | None:

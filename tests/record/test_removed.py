@@ -1,4 +1,4 @@
-"""What others do in the folder of a run: a record that is removed is not lost, and a planted link is not followed."""
+"""What befalls the folder of a run: a removed record is not lost, a link is not followed, a full disk is named."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ import shutil
 import stat
 
 import pytest
+from msgspec import structs
 
 from hypcheck.cli.recording import recording
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.record import read
-from hypcheck.record.fields import decoded
+from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.lines import DescriptionPart, Retest, UnavailableLine
 from hypcheck.record.progress import ProgressLine, SavedAllowance, SavedResult, SavedState
 from hypcheck.record.reader import FILE, GROWING
@@ -64,6 +65,22 @@ def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(
     with pytest.raises(InputError, match="out is not a folder any more; it was replaced or removed during the run"):
         run()
     assert out.read_text() == "a file"
+
+
+@pytest.mark.parametrize("how", ["keep", "add"])
+def test_a_run_on_a_full_disk_ends_with_a_sentence_about_its_record_and_keeps_what_it_has(tmp_path, small_files, how):
+    def run():
+        with recording(tmp_path, {}) as running:
+            running.recorder.keep(PROGRESS)
+            small_files((tmp_path / GROWING).stat().st_size + 9)
+            if how == "add":
+                running.recorder.add(UnavailableLine(oracle="mesh", reason="r"))
+            running.recorder.keep(structs.replace(PROGRESS, cases=10**12))
+
+    with pytest.raises(InputError, match=f"cannot write {tmp_path / GROWING}: file too large"):
+        run()
+    small_files(None)
+    assert as_json(read(tmp_path / FILE).lines[0]) == as_json(PROGRESS)
 
 
 def test_links_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):

@@ -121,6 +121,17 @@ def refused(capsys: pytest.CaptureFixture[str], source: object, target: object, 
     return errors.removeprefix("hypcheck: error: ").removesuffix("\n")
 
 
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
+def test_an_output_on_a_full_disk_is_named_with_the_reason_and_nothing_is_left(tmp_path, source, capsys, small_files):
+    assert refused(capsys, source, "/dev/full", "--format", "csv") == "cannot write /dev/full: no space left on device"
+    out = tmp_path / "out.csv"
+    small_files(0)
+    said = refused(capsys, source, out)
+    small_files(None)
+    assert said == f"cannot write {out}: file too large"
+    assert sorted(os.listdir(tmp_path)) == ["in.csv"]
+
+
 def test_a_file_that_cannot_be_opened_is_named_with_the_reason(tmp_path, source, capsys, monkeypatch):
     out = tmp_path / "out.csv"
     assert refused(capsys, tmp_path / "no.csv", out) == f"cannot read {tmp_path / 'no.csv'}: no such file or directory"

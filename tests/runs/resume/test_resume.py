@@ -21,7 +21,7 @@ from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.record.fields import as_json
 from hypcheck.record.progress import ProgressLine
-from hypcheck.record.reader import FILE
+from hypcheck.record.reader import FILE, GROWING
 from hypcheck.runs.resume import ProgressWriter, finished_part
 from tests.report.test_schemas import RECORD
 from tests.runs.interruption import (
@@ -206,7 +206,7 @@ def test_finished_implementations_of_a_cut_record_are_kept(paused, data):
 @pytest.mark.parametrize("most", [3000, 12000])
 def test_run_whose_files_cannot_grow_ends_with_an_error(whole, tmp_path, here, most):
     code, said = ended(tmp_path, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
-    assert (code, "cannot write: file too large" in said) == (2, True)
+    assert (code, f"cannot write {tmp_path / GROWING}: file too large" in said) == (2, True)
     assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
     assert came_to(tmp_path) == whole[0]
 
@@ -226,6 +226,6 @@ def small_disk(tmp_path):
 
 def test_run_on_a_full_disk_ends_with_an_error_and_can_be_resumed(whole, small_disk, tmp_path, here):
     code, said = ended(small_disk)
-    assert (code, "cannot write: no space left on device" in said) == (2, True)
+    assert (code, f"cannot write {small_disk / GROWING}: no space left on device" in said) == (2, True)
     assert here(tmp_path, "--resume", str(small_disk))[0] == CODE
     assert came_to(tmp_path) == whole[0]
