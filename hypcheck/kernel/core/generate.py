@@ -18,7 +18,7 @@ from hypcheck.geometry.pair import COLUMNS
 from hypcheck.kernel import clearance
 from hypcheck.kernel.core import tilted
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
-from hypcheck.kernel.programs import certified, lines, tilted_lines, ways
+from hypcheck.kernel.programs import certified, fixed, lines, tilted_lines, ways
 from hypcheck.kernel.programs import tilted as tilted_program
 from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
 
@@ -79,6 +79,7 @@ PLAIN = Spelling(
 PARTS = (
     "platform",
     "integers",
+    "fixed",
     "tilted_integers",
     "levels",
     "scene",
@@ -158,6 +159,40 @@ def _integers(wanted: tuple[str, ...], known: tuple[str, ...] = ()) -> list[str]
     return [_integer_statement(step, bits) for step in needed(INTEGERS, wanted) if step not in before]
 
 
+_MOVED = {"p_t": "by_t", "s_t": "by_t", "q_s": "by_q", "p_q": "by_q"}
+
+
+def _fixed(program: Program, ranges: Mapping[str, fixed.Range], wanted: tuple[str, ...]) -> list[str]:
+    """The steps in fixed point, by the functions for the signs that their numbers can have."""
+    return [f"const hc_fixed {step.name} = {_fixed_value(step, ranges)};" for step in needed(program, wanted)]
+
+
+def _fixed_value(step: Step, ranges: Mapping[str, fixed.Range]) -> str:
+    left, right = step.arguments
+    if step.operation != "mul":
+        return f"hc_fixed_{'plus' if step.operation == 'add' else 'minus'}({left}, {right})"
+    if isinstance(left, int):
+        return f"hc_fixed_times({left}, {right})"
+    if left == right:
+        return f"hc_fixed_square({left})"
+    negative = [str(name) for name in (left, right) if ranges[str(name)].low < 0]
+    first, *rest = sorted((str(left), str(right)), key=lambda name: name not in negative)
+    return f"hc_fixed_{('', 'signed_', 'both_signed_')[len(negative)]}product({first}, {', '.join(rest)})"
+
+
+def _fixed_poles(pole: str) -> list[str]:
+    """The products with `whole_q` and `whole_t` that it reads, moved as n2 is, and the offset and the slope."""
+    wanted = (f"offset_at_{pole}", f"slope_at_{pole}")
+    read = {name for step in needed(fixed.POLES, wanted) for name in step.reads}
+    ranges = fixed.RANGES["terms"]
+    moved = [
+        f"const hc_fixed {name} = hc_fixed_down({_fixed_value(fixed.TERMS.step(name), ranges)}, terms->{by});"
+        for name, by in _MOVED.items()
+        if name in read
+    ]
+    return moved + _fixed(fixed.POLES, fixed.RANGES["poles"], wanted)
+
+
 _DELTA = ("delta", "n2", "n1")
 
 
@@ -214,6 +249,11 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     ],
     "CERTIFIED": lambda: statements(certified.CERTIFIED, ("exterior", "interior", "decided"), VECTOR),
     "LINE_FUNCTIONS": _line_functions,
+    "FIXED_ERRORS": lambda: [f"#define HC_fixed_{name} {value}" for name, value in fixed.ERRORS.items()],
+    "FIXED_TERMS": lambda: _fixed(fixed.TERMS, fixed.RANGES["terms"], fixed.TERM_RESULTS),
+    "FIXED_DISCRIMINANT": lambda: _fixed(fixed.DISCRIMINANT, fixed.RANGES["discriminant"], ("delta", "middle")),
+    "FIXED_AT_B": lambda: _fixed_poles("B"),
+    "FIXED_AT_A": lambda: _fixed_poles("A"),
     "INTEGER_INPUTS": lambda: [f"HC_INTEGER({name}, {FLOAT64_BITS});" for name in COLUMNS],
     "INTEGERS": lambda: _integers(_DELTA),
     "INTEGERS_AT_B": lambda: _integers(("offset_at_B", "slope_at_B"), _DELTA),

@@ -293,6 +293,21 @@ static int hc_lowest_bit(uint64_t bits) {
 #endif
 }
 
+/* The place of the highest bit of a number that is not 0. */
+static int hc_highest_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+    return 63 - __builtin_clzll(bits);
+#else
+    int at = 0, step;
+    for (step = 32; step; step /= 2)
+        if (bits >> step) {
+            bits >>= step;
+            at += step;
+        }
+    return at;
+#endif
+}
+
 /* A root for choosing places: good to a few digits, no libm. */
 static double hc_rough_root(double square) {
     uint64_t bits;
@@ -472,7 +487,7 @@ static void hc_in_units(hc_integer *number, hc_parts parts, int unit) {
 static int hc_least(int left, int right) { return left < right ? left : right; }
 
 /* The position of a valid row, by the rule for all regimes (kernel/integers.py of hypcheck, docs/kernel.md). */
-static int hc_exact_position(const double row[7]) {
+static int hc_position_by_integers(const double row[7]) {
     const hc_parts alpha_parts = hc_parts_of(row[0]), gamma_parts = hc_parts_of(row[1]), b_parts = hc_parts_of(row[2]),
                    d_parts = hc_parts_of(row[3]), x_parts = hc_parts_of(row[4]), y_parts = hc_parts_of(row[5]),
                    z_parts = hc_parts_of(row[6]);
@@ -592,6 +607,336 @@ static int hc_valid(const double row[7]) {
         if (i < 4 && (bits >> 63 || bits == 0)) return 0; /* a size that is negative, -0.0 or 0 */
     }
     return 1;
+}
+
+
+/* ---- fixed point: the rule in 128 bits, before the exact integers ---- */
+
+/* What is cut at most, in units (programs/fixed.py of hypcheck): of n2 and n1, of offsets and slopes at the poles, and of delta
+   and `middle` for each 2^grown. */
+#define HC_fixed_coefficient 8
+#define HC_fixed_pole 22
+#define HC_fixed_delta 31
+#define HC_fixed_middle 39
+#define HC_MOST_GROWN 100
+
+/* A number in two's complement, of units that are told beside it. */
+typedef struct {
+    uint64_t low, high;
+} hc_fixed;
+
+/* The 128 bits of a product. */
+static inline hc_fixed hc_fixed_full(uint64_t left, uint64_t right) {
+    hc_fixed product;
+#if HC_LIMB_BITS == 64
+    const hc_wide wide = (hc_wide)left * right;
+    product.low = (uint64_t)wide;
+    product.high = (uint64_t)(wide >> 64);
+#else
+    const uint64_t half = 0xffffffffu, low = (left & half) * (right & half);
+    const uint64_t mixed = (left >> 32) * (right & half) + (low >> 32);
+    const uint64_t other = (left & half) * (right >> 32) + (mixed & half);
+    product.low = other << 32 | (low & half);
+    product.high = (left >> 32) * (right >> 32) + (mixed >> 32) + (other >> 32);
+#endif
+    return product;
+}
+
+static inline hc_fixed hc_fixed_plus(hc_fixed left, hc_fixed right) {
+    hc_fixed sum;
+    sum.low = left.low + right.low;
+    sum.high = left.high + right.high + (sum.low < left.low);
+    return sum;
+}
+
+static inline hc_fixed hc_fixed_minus(hc_fixed left, hc_fixed right) {
+    hc_fixed difference;
+    difference.low = left.low - right.low;
+    difference.high = left.high - right.high - (left.low < right.low);
+    return difference;
+}
+
+/* All bits of a number < 0, none of another. */
+static inline uint64_t hc_fixed_negative(hc_fixed number) { return 0 - (number.high >> 63); }
+
+/* The highest 128 of the 256 bits of a product of numbers >= 0, less than 3 units too low. */
+static inline hc_fixed hc_fixed_product(hc_fixed left, hc_fixed right) {
+    const uint64_t mixed = hc_fixed_full(left.high, right.low).high, other = hc_fixed_full(left.low, right.high).high;
+    hc_fixed product = hc_fixed_full(left.high, right.high);
+    product.low += mixed;
+    product.high += product.low < mixed;
+    product.low += other;
+    product.high += product.low < other;
+    return product;
+}
+
+/* The same where the first factor, or both, may be < 0: 2^128 more of it than is meant gave so much of the other too much. */
+static inline hc_fixed hc_fixed_signed_product(hc_fixed left, hc_fixed right) {
+    const uint64_t mask = hc_fixed_negative(left);
+    hc_fixed excess;
+    excess.low = right.low & mask;
+    excess.high = right.high & mask;
+    return hc_fixed_minus(hc_fixed_product(left, right), excess);
+}
+
+static inline hc_fixed hc_fixed_both_signed_product(hc_fixed left, hc_fixed right) {
+    const uint64_t mask = hc_fixed_negative(right);
+    hc_fixed excess;
+    excess.low = left.low & mask;
+    excess.high = left.high & mask;
+    return hc_fixed_minus(hc_fixed_signed_product(left, right), excess);
+}
+
+static inline hc_fixed hc_fixed_square(hc_fixed number) {
+    const uint64_t mask = hc_fixed_negative(number), low = (number.low ^ mask) - mask;
+    const uint64_t high = (number.high ^ mask) + (mask & (low == 0)), mixed = hc_fixed_full(high, low).high;
+    hc_fixed square = hc_fixed_full(high, high);
+    square.high += mixed >> 63;
+    square.low += mixed << 1;
+    square.high += square.low < mixed << 1;
+    return square;
+}
+
+/* number 2^by, by being 0 .. 127 */
+static inline hc_fixed hc_fixed_up(hc_fixed number, int by) {
+    const int rest = by & 63;
+    const uint64_t low = number.low << rest, high = number.high << rest | number.low >> 1 >> (63 - rest);
+    hc_fixed moved;
+    moved.low = by & 64 ? 0 : low;
+    moved.high = by & 64 ? low : high;
+    return moved;
+}
+
+/* number / 2^by rounded down; beyond 127, as for 127, 0 or -1 */
+static inline hc_fixed hc_fixed_down(hc_fixed number, int by) {
+    const uint64_t mask = hc_fixed_negative(number);
+    const int most = by < 127 ? by : 127, rest = most & 63;
+    const uint64_t low = number.low >> rest | number.high << 1 << (63 - rest), high = number.high >> rest | mask << 1 << (63 - rest);
+    hc_fixed moved;
+    moved.low = most & 64 ? high : low;
+    moved.high = most & 64 ? mask : high;
+    return moved;
+}
+
+/* 2, 3, 4 or 9 times the number */
+static inline hc_fixed hc_fixed_times(int factor, hc_fixed number) {
+    const hc_fixed most = hc_fixed_up(number, factor == 9 ? 3 : factor == 4 ? 2 : 1);
+    return factor & 1 ? hc_fixed_plus(most, number) : most;
+}
+
+/* The bits of the size of a number, 1 for 0 and -1. */
+static inline int hc_fixed_bits(hc_fixed number) {
+    const uint64_t mask = hc_fixed_negative(number), high = number.high ^ mask, low = number.low ^ mask;
+    return high ? 65 + hc_highest_bit(high) : 1 + hc_highest_bit(low | 1);
+}
+
+/* The sign of a number that is farther from 0 than `error` 2^grown, else 0. */
+static inline int hc_fixed_sign(hc_fixed number, uint64_t error, int grown) {
+    const uint64_t mask = hc_fixed_negative(number), high = number.high ^ mask, low = number.low ^ mask;
+    hc_fixed limit = {0, 0};
+    limit.low = error;
+    limit = hc_fixed_up(limit, grown);
+    return high > limit.high || (high == limit.high && low > limit.low) ? (mask ? -1 : 1) : 0;
+}
+
+/* A finite double as mantissa 2^(exponent - 1075), the mantissa having 53 bits, or as 0 with an exponent below all others. */
+static inline hc_parts hc_fixed_parts_of(double value) {
+    const uint64_t leading = (uint64_t)1 << 52;
+    hc_parts parts;
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    parts.sign = 1;
+    parts.exponent = (int)(bits >> 52 & 0x7ff);
+    parts.mantissa = bits & (leading - 1);
+    if (parts.exponent) {
+        parts.mantissa |= leading;
+    } else if (parts.mantissa) {
+        const int zeros = 52 - hc_highest_bit(parts.mantissa);
+        parts.mantissa <<= zeros;
+        parts.exponent = 1 - zeros;
+    } else {
+        parts.exponent = -4096;
+    }
+    return parts;
+}
+
+/* The square of the mantissa, 1/4 at least and less than 1, in units of 2^-126. */
+static inline hc_fixed hc_fixed_whole(hc_parts parts) { return hc_fixed_full(parts.mantissa << 10, parts.mantissa << 10); }
+
+/* What the rule is made of, in the units of the program "fixed-terms" (programs/fixed.py of hypcheck). What has a factor b²
+   was divided by 2^by_q besides, and what has d² by 2^by_t; n2 is so 2^small times as large. */
+typedef struct {
+    hc_fixed p, q, s, t, S, R, whole_q, whole_t, N, n2, n1, ps;
+    int by_q, by_t, small;
+    int top_N, top_ps; /* N is below 2^top_N, ps below 2^top_ps */
+} hc_fixed_terms;
+
+static hc_fixed_terms hc_fixed_terms_of(const double row[7]) {
+    const hc_parts alpha = hc_fixed_parts_of(row[0]), gamma = hc_fixed_parts_of(row[1]), b = hc_fixed_parts_of(row[2]),
+                   d = hc_fixed_parts_of(row[3]), x = hc_fixed_parts_of(row[4]), y = hc_fixed_parts_of(row[5]),
+                   z = hc_fixed_parts_of(row[6]);
+    const int radial = HC_MAX_OF(HC_MAX_OF(alpha.exponent, b.exponent), HC_MAX_OF(x.exponent, y.exponent));
+    const int axial = HC_MAX_OF(HC_MAX_OF(gamma.exponent, d.exponent), z.exponent);
+    const int small_p = 2 * (radial - alpha.exponent), small_q = 2 * (radial - b.exponent);
+    const int small_s = 2 * (axial - gamma.exponent), small_t = 2 * (axial - d.exponent);
+    const int small = HC_MIN_OF(small_q, small_t), by_q = small_q - small, by_t = small_t - small;
+    const hc_fixed whole_p = hc_fixed_whole(alpha), whole_q = hc_fixed_whole(b), whole_s = hc_fixed_whole(gamma),
+                   whole_t = hc_fixed_whole(d);
+    const hc_fixed p = hc_fixed_down(whole_p, small_p), q = hc_fixed_down(whole_q, small_q),
+                   s = hc_fixed_down(whole_s, small_s), t = hc_fixed_down(whole_t, small_t),
+                   xx = hc_fixed_down(hc_fixed_whole(x), 2 * (radial - x.exponent)),
+                   yy = hc_fixed_down(hc_fixed_whole(y), 2 * (radial - y.exponent)),
+                   S = hc_fixed_down(hc_fixed_whole(z), 2 * (axial - z.exponent));
+    hc_fixed_terms terms;
+    /* printed from the program "fixed-terms" */
+    const hc_fixed R = hc_fixed_plus(xx, yy);
+    const hc_fixed p_plus_q = hc_fixed_plus(p, q);
+    const hc_fixed p_q_R = hc_fixed_minus(p_plus_q, R);
+    const hc_fixed radial_2 = hc_fixed_signed_product(p_q_R, whole_t);
+    const hc_fixed s_plus_S = hc_fixed_plus(s, S);
+    const hc_fixed axial_2 = hc_fixed_product(s_plus_S, whole_q);
+    const hc_fixed t_minus_s = hc_fixed_minus(t, s);
+    const hc_fixed t_s_S = hc_fixed_minus(t_minus_s, S);
+    const hc_fixed axial_1 = hc_fixed_signed_product(t_s_S, p);
+    const hc_fixed R_minus_q = hc_fixed_minus(R, q);
+    const hc_fixed radial_1 = hc_fixed_signed_product(R_minus_q, s);
+    const hc_fixed n1 = hc_fixed_plus(axial_1, radial_1);
+    const hc_fixed N = hc_fixed_product(whole_q, whole_t);
+    const hc_fixed ps = hc_fixed_product(whole_p, whole_s);
+    /* end of the program "fixed-terms" */
+    terms.p = p, terms.q = q, terms.s = s, terms.t = t, terms.S = S, terms.R = R;
+    terms.whole_q = whole_q, terms.whole_t = whole_t;
+    terms.N = N, terms.n1 = n1, terms.ps = ps;
+    terms.n2 = hc_fixed_minus(hc_fixed_down(radial_2, by_t), hc_fixed_down(axial_2, by_q));
+    terms.by_q = by_q, terms.by_t = by_t, terms.small = small;
+    terms.top_N = -small_q - small_t, terms.top_ps = -small_p - small_s;
+    return terms;
+}
+
+/* delta and `middle` of the program "fixed-discriminant", whose errors are 2^grown units, and the sign of n2 and n1. */
+typedef struct {
+    hc_fixed delta, middle;
+    int grown;
+} hc_fixed_cubic;
+
+static hc_fixed_cubic hc_fixed_cubic_of(const hc_fixed_terms *terms) {
+    const int bits_2 = hc_fixed_bits(terms->n2), bits_1 = hc_fixed_bits(terms->n1);
+    const int top_2 = bits_2 - 124 - terms->small, top_1 = bits_1 - 124, top_0 = terms->top_ps, top_3 = terms->top_N;
+    /* 2^k is about |n1 / n2|, but not where one of them has vanished: then the others tell the size of the roots. */
+    const int least = HC_MAX_OF(top_1 - top_2, (top_0 - top_2) / 2), most = HC_MAX_OF((top_1 - top_3) / 2, (top_0 - top_3) / 3);
+    const int k = HC_MIN_OF(least, most);
+    const int top = HC_MAX_OF(HC_MAX_OF(top_3 + 3 * k, top_2 + 2 * k), HC_MAX_OF(top_1 + k, top_0));
+    const int down_3 = top - top_3 - 3 * k, down_2 = top - top_2 - 2 * k, down_1 = top - top_1 - k, down_0 = top - top_0;
+    const int up_2 = 126 - bits_2, up_1 = 126 - bits_1;
+    const hc_fixed N = hc_fixed_down(hc_fixed_up(terms->N, 1), down_3), ps = hc_fixed_down(hc_fixed_up(terms->ps, 1), down_0),
+                   n2 = hc_fixed_down(hc_fixed_up(terms->n2, up_2), down_2 + 1),
+                   n1 = hc_fixed_down(hc_fixed_up(terms->n1, up_1), down_1 + 1);
+    hc_fixed_cubic cubic;
+    /* printed from the program "fixed-discriminant" */
+    const hc_fixed n2_n2 = hc_fixed_square(n2);
+    const hc_fixed N_n1 = hc_fixed_signed_product(n1, N);
+    const hc_fixed N_n1_3 = hc_fixed_times(3, N_n1);
+    const hc_fixed h1 = hc_fixed_minus(n2_n2, N_n1_3);
+    const hc_fixed n2_n1 = hc_fixed_both_signed_product(n2, n1);
+    const hc_fixed N_ps = hc_fixed_product(N, ps);
+    const hc_fixed N_ps_9 = hc_fixed_times(9, N_ps);
+    const hc_fixed h2 = hc_fixed_plus(n2_n1, N_ps_9);
+    const hc_fixed n1_n1 = hc_fixed_square(n1);
+    const hc_fixed n2_ps = hc_fixed_signed_product(n2, ps);
+    const hc_fixed n2_ps_3 = hc_fixed_times(3, n2_ps);
+    const hc_fixed h3 = hc_fixed_plus(n1_n1, n2_ps_3);
+    const hc_fixed h1_h3 = hc_fixed_both_signed_product(h1, h3);
+    const hc_fixed h1_h3_4 = hc_fixed_times(4, h1_h3);
+    const hc_fixed h2_h2 = hc_fixed_square(h2);
+    const hc_fixed delta = hc_fixed_minus(h1_h3_4, h2_h2);
+    const hc_fixed n2_h1 = hc_fixed_both_signed_product(n2, h1);
+    const hc_fixed n2_h1_2 = hc_fixed_times(2, n2_h1);
+    const hc_fixed N_h2 = hc_fixed_signed_product(h2, N);
+    const hc_fixed N_h2_3 = hc_fixed_times(3, N_h2);
+    const hc_fixed middle = hc_fixed_minus(n2_h1_2, N_h2_3);
+    /* end of the program "fixed-discriminant" */
+    cubic.delta = delta;
+    cubic.middle = middle;
+    cubic.grown = HC_MAX_OF(0, HC_MAX_OF(up_2 - down_2, up_1 - down_1) - 1);
+    return cubic;
+}
+
+/* The signs of 3B + c2 and of g'(B), 0 where they are not certain. */
+static void hc_fixed_at_B(const hc_fixed_terms *terms, int *offset, int *slope) {
+    const hc_fixed p = terms->p, s = terms->s, t = terms->t, S = terms->S, R = terms->R, n2 = terms->n2;
+    const hc_fixed whole_q = terms->whole_q, whole_t = terms->whole_t;
+    /* printed from the program "fixed-poles" */
+    const hc_fixed p_t = hc_fixed_down(hc_fixed_product(p, whole_t), terms->by_t);
+    const hc_fixed s_t = hc_fixed_down(hc_fixed_product(s, whole_t), terms->by_t);
+    const hc_fixed q_s = hc_fixed_down(hc_fixed_product(s, whole_q), terms->by_q);
+    const hc_fixed q_s_3 = hc_fixed_times(3, q_s);
+    const hc_fixed offset_at_B = hc_fixed_plus(q_s_3, n2);
+    const hc_fixed p_t_q_s = hc_fixed_plus(p_t, q_s);
+    const hc_fixed t_plus_s = hc_fixed_plus(t, s);
+    const hc_fixed rise_at_B = hc_fixed_product(p_t_q_s, t_plus_s);
+    const hc_fixed q_s_2 = hc_fixed_times(2, q_s);
+    const hc_fixed p_t_q_s_2 = hc_fixed_plus(p_t, q_s_2);
+    const hc_fixed axial_fall = hc_fixed_product(p_t_q_s_2, S);
+    const hc_fixed radial_fall = hc_fixed_product(s_t, R);
+    const hc_fixed rise_less_axial = hc_fixed_minus(rise_at_B, axial_fall);
+    const hc_fixed slope_at_B = hc_fixed_minus(rise_less_axial, radial_fall);
+    /* end of the program "fixed-poles" */
+    *offset = hc_fixed_sign(offset_at_B, HC_fixed_pole, 0);
+    *slope = hc_fixed_sign(slope_at_B, HC_fixed_pole, 0);
+}
+
+/* The signs of 3A - c2 and of g'(-A). */
+static void hc_fixed_at_A(const hc_fixed_terms *terms, int *offset, int *slope) {
+    const hc_fixed p = terms->p, q = terms->q, s = terms->s, S = terms->S, R = terms->R, n2 = terms->n2;
+    const hc_fixed whole_q = terms->whole_q, whole_t = terms->whole_t;
+    /* printed from the program "fixed-poles" */
+    const hc_fixed p_t = hc_fixed_down(hc_fixed_product(p, whole_t), terms->by_t);
+    const hc_fixed q_s = hc_fixed_down(hc_fixed_product(s, whole_q), terms->by_q);
+    const hc_fixed p_q = hc_fixed_down(hc_fixed_product(p, whole_q), terms->by_q);
+    const hc_fixed p_t_q_s = hc_fixed_plus(p_t, q_s);
+    const hc_fixed p_t_3 = hc_fixed_times(3, p_t);
+    const hc_fixed offset_at_A = hc_fixed_minus(p_t_3, n2);
+    const hc_fixed p_t_2 = hc_fixed_times(2, p_t);
+    const hc_fixed p_t_2_q_s = hc_fixed_plus(p_t_2, q_s);
+    const hc_fixed radial_rise = hc_fixed_product(p_t_2_q_s, R);
+    const hc_fixed axial_rise = hc_fixed_product(p_q, S);
+    const hc_fixed p_less_q = hc_fixed_minus(p, q);
+    const hc_fixed width_at_A = hc_fixed_signed_product(p_less_q, p_t_q_s);
+    const hc_fixed rise_at_A = hc_fixed_plus(radial_rise, axial_rise);
+    const hc_fixed slope_at_A = hc_fixed_plus(rise_at_A, width_at_A);
+    /* end of the program "fixed-poles" */
+    *offset = hc_fixed_sign(offset_at_A, HC_fixed_pole, 0);
+    *slope = hc_fixed_sign(slope_at_A, HC_fixed_pole, 0);
+}
+
+/* The position of a valid row; 2 where the bounds do not tell. */
+static int hc_fixed_position(const double row[7]) {
+    const hc_fixed_terms terms = hc_fixed_terms_of(row);
+    const hc_fixed_cubic cubic = hc_fixed_cubic_of(&terms);
+    const int delta = cubic.grown > HC_MOST_GROWN ? 0 : hc_fixed_sign(cubic.delta, HC_fixed_delta, cubic.grown);
+    const int c2 = hc_fixed_sign(terms.n2, HC_fixed_coefficient, 0), c1 = hc_fixed_sign(terms.n1, HC_fixed_coefficient, 0);
+    int offset, slope;
+    if (delta < 0) return 0;
+    if (c2 < 0 && c1 > 0) { /* where delta > 0, three positive roots */
+        hc_fixed_at_B(&terms, &offset, &slope);
+        if (delta > 0 && (offset > 0 || slope < 0)) return 1;
+        if (offset < 0 && slope > 0) return 0; /* whatever delta is */
+        /* g > 0 at its inflection, which lies between 0 and B: the ring, or nearly so */
+        return offset > 0 && cubic.grown <= HC_MOST_GROWN && hc_fixed_sign(cubic.middle, HC_fixed_middle, cubic.grown) > 0 ? 1 : 2;
+    }
+    if (c2 > 0 || c1 < 0) { /* where delta > 0, two negative roots; they lie above -A if alpha >= b */
+        if (delta > 0 && row[0] >= row[2]) return -1;
+        hc_fixed_at_A(&terms, &offset, &slope);
+        if (offset < 0 || slope < 0) return 0; /* whatever delta is: on the ring all roots are positive */
+        return delta > 0 && offset > 0 && slope > 0 ? -1 : 2;
+    }
+    return 2;
+}
+
+/* The position of a valid row. */
+static int hc_exact_position(const double row[7]) {
+    const int position = hc_fixed_position(row);
+    return position == 2 ? hc_position_by_integers(row) : position;
 }
 
 
@@ -976,7 +1321,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_3621ad62039c5c59
+#ifndef HC_EDITION_f5d2993a26796fac
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1599,7 +1944,7 @@ typedef struct {
     int count;
 } hc_waiting;
 
-/* The second and the third stage for all that wait. Returns the number of invalid rows. */
+/* The later stages for all that wait. Returns the number of invalid rows. */
 static size_t hc_settle(const hc_level_functions *level, int question, hc_waiting *waiting, int8_t *answers) {
     const hc_bits found = level->certified(waiting->columns, HC_BLOCK, waiting->count);
     int8_t positions[HC_BLOCK];
@@ -2386,7 +2731,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_3621ad62039c5c59
+#define HC_EDITION_f5d2993a26796fac
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -88,7 +88,7 @@ typedef struct {
     int count;
 } hc_waiting;
 
-/* The second and the third stage for all that wait. Returns the number of invalid rows. */
+/* The later stages for all that wait. Returns the number of invalid rows. */
 static size_t hc_settle(const hc_level_functions *level, int question, hc_waiting *waiting, int8_t *answers) {
     const hc_bits found = level->certified(waiting->columns, HC_BLOCK, waiting->count);
     int8_t positions[HC_BLOCK];

@@ -158,7 +158,7 @@ static void hc_in_units(hc_integer *number, hc_parts parts, int unit) {
 static int hc_least(int left, int right) { return left < right ? left : right; }
 
 /* The position of a valid row, by the rule for all regimes (kernel/integers.py of hypcheck, docs/kernel.md). */
-static int hc_exact_position(const double row[7]) {
+static int hc_position_by_integers(const double row[7]) {
     const hc_parts alpha_parts = hc_parts_of(row[0]), gamma_parts = hc_parts_of(row[1]), b_parts = hc_parts_of(row[2]),
                    d_parts = hc_parts_of(row[3]), x_parts = hc_parts_of(row[4]), y_parts = hc_parts_of(row[5]),
                    z_parts = hc_parts_of(row[6]);

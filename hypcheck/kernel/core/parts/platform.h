@@ -119,6 +119,21 @@ static int hc_lowest_bit(uint64_t bits) {
 #endif
 }
 
+/* The place of the highest bit of a number that is not 0. */
+static int hc_highest_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+    return 63 - __builtin_clzll(bits);
+#else
+    int at = 0, step;
+    for (step = 32; step; step /= 2)
+        if (bits >> step) {
+            bits >>= step;
+            at += step;
+        }
+    return at;
+#endif
+}
+
 /* A root for choosing places: good to a few digits, no libm. */
 static double hc_rough_root(double square) {
     uint64_t bits;

@@ -1,0 +1,244 @@
+"""The programs of the stage before the integers: the same rule in fixed point, 128 bits with a bound of what is cut.
+
+Each number is a whole number of units, in two's complement; a product keeps the highest 128 of its 256 bits. Nothing is
+rounded by the machine's floats, so one bound holds under every rounding mode.
+
+Units. Lengths of one kind (α, b, x, y, or γ, d, z) are measured by the power of two above the longest of them, so each
+square is below 1; it is a number of units of 2⁻¹²⁶, and at most one unit of it is cut. `whole_p` is p times the power
+of four that makes it at least 1/4: nothing of it is cut, and N, ps and the factors of n2 are as exact for short lengths
+as for long ones. A product of numbers in units of 2⁻ᶠ and 2⁻ᵍ is in units of 2¹²⁸⁻ᶠ⁻ᵍ.
+
+Balance. g(λ) and g(2ᵏλ) have discriminants of one sign; so N, n2, n1, ps may be multiplied by 2^(3k+a), 2^(2k+a),
+2^(k+a) and 2^a. Any k and a are right; with |n1/n2| for 2ᵏ, which is within a factor of two of a double root, n2, n1
+and ps become about 1, the unit is 2⁻¹²⁵, and the discriminant of three terms of one size is left with some 100 bits.
+Where n2 or n1 is moved up by 2^grown in that, its error is too.
+
+`errors` follows both what is cut and how large a number can be through every step, in whole units. ERRORS are the
+bounds that it gives for what the stage compares with 0; 2^grown multiplies those of `delta` and `middle`.
+
+What is asked. INTEGERS has delta; `middle` is 27 N³ g(−c2/3), g at its inflection. Near a tangency the two lower roots
+are close and the third is not: `middle` < 0. On the ring and near it the two upper ones are close, delta vanishes,
+and `middle` > 0 is a proof of exterior where −c2/3 lies in (0, B). The signs at the poles decide contact whatever delta
+is, where they are against the clear position (docs/mathematics.md, "The coefficient rule for all regimes").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from hypcheck.derivation.program import Argument, Program, cut, program_of, steps_of
+from hypcheck.kernel.programs.integers import INTEGERS
+
+BITS = 128
+SQUARE, PRODUCT, BALANCED = 126, 124, 125
+"""A square is a number of units of 2⁻¹²⁶, N, n2, n1 and ps are of 2⁻¹²⁴, and balanced of 2⁻¹²⁵."""
+
+MOST_GROWN = 100
+
+WHOLE = {"whole_p": "p", "whole_q": "q", "whole_s": "s", "whole_t": "t"}
+
+TERMS = program_of(
+    "fixed-terms",
+    ("p", "q", "s", "t", "xx", "yy", "S", *WHOLE),
+    """
+    R = xx + yy
+    p_plus_q = p + q
+    p_q_R = p_plus_q - R
+    radial_2 = p_q_R * whole_t
+    s_plus_S = s + S
+    axial_2 = s_plus_S * whole_q
+    t_minus_s = t - s
+    t_s_S = t_minus_s - S
+    axial_1 = t_s_S * p
+    R_minus_q = R - q
+    radial_1 = R_minus_q * s
+    n1 = axial_1 + radial_1
+    N = whole_q * whole_t
+    ps = whole_p * whole_s
+    p_t = p * whole_t
+    s_t = s * whole_t
+    q_s = s * whole_q
+    p_q = p * whole_q
+""",
+)
+"""What has the factor `whole_t` is then divided by a power of two, what has `whole_q` by another: one of them is 1."""
+
+TERM_RESULTS = ("R", "radial_2", "axial_2", "n1", "N", "ps")
+
+_BALANCED = ("N", "n2", "n1", "ps")
+
+DISCRIMINANT = Program(
+    "fixed-discriminant",
+    _BALANCED,
+    cut(INTEGERS, _BALANCED, ("delta",)).steps
+    + steps_of("""
+    n2_h1 = n2 * h1
+    n2_h1_2 = 2 * n2_h1
+    N_h2 = N * h2
+    N_h2_3 = 3 * N_h2
+    middle = n2_h1_2 - N_h2_3
+"""),
+)
+"""delta = 3 N⁴ Δ and middle = 27 N³ g(−c2/3)."""
+
+POLES = program_of(
+    "fixed-poles",
+    ("n2", "p_t", "q_s", "s_t", "p_q", "p", "q", "s", "t", "R", "S"),
+    """
+    q_s_3 = 3 * q_s
+    offset_at_B = q_s_3 + n2
+    p_t_q_s = p_t + q_s
+    t_plus_s = t + s
+    rise_at_B = p_t_q_s * t_plus_s
+    q_s_2 = 2 * q_s
+    p_t_q_s_2 = p_t + q_s_2
+    axial_fall = p_t_q_s_2 * S
+    radial_fall = s_t * R
+    rise_less_axial = rise_at_B - axial_fall
+    slope_at_B = rise_less_axial - radial_fall
+    p_t_3 = 3 * p_t
+    offset_at_A = p_t_3 - n2
+    p_t_2 = 2 * p_t
+    p_t_2_q_s = p_t_2 + q_s
+    radial_rise = p_t_2_q_s * R
+    axial_rise = p_q * S
+    p_less_q = p - q
+    width_at_A = p_less_q * p_t_q_s
+    rise_at_A = radial_rise + axial_rise
+    slope_at_A = rise_at_A + width_at_A
+""",
+)
+"""q t² g'(B), q² t g'(−A), q t (3B + c2) and q t (3A − c2): those of INTEGERS without a common factor t or q."""
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A number of units between `low` and `high`, less the exact value: between `under` and `over`."""
+
+    low: int
+    high: int
+    under: int = 0
+    over: int = 0
+
+    @property
+    def error(self) -> int:
+        """The most that the number differs from the exact value."""
+        return max(-self.under, self.over)
+
+
+def errors(program: Program, inputs: Mapping[str, Range]) -> dict[str, Range]:
+    """Every input and step with the least and the greatest value and error that it can have.
+
+    Raises ValueError where a number may leave the 128 bits, unsigned if it is never negative, or for an operation
+    that is none of fixed point.
+    """
+    known = dict(inputs)
+
+    def of(argument: Argument) -> Range:
+        return known[argument] if isinstance(argument, str) else Range(argument, argument)
+
+    for step in program.steps:
+        left, right = (of(argument) for argument in step.arguments)
+        rule = _RULES.get("scale" if isinstance(step.arguments[0], int) else step.operation)
+        if rule is None:
+            raise ValueError(
+                f"program {program.name}: step {step.name}: {step.operation} is no operation in fixed point"
+            )
+        found = rule(left, right)
+        limit = 2 ** (BITS - (found.low < 0))
+        if found.high >= limit or found.low < -limit:
+            raise ValueError(f"program {program.name}: step {step.name} may leave {BITS} bits")
+        known[step.name] = found
+    return known
+
+
+def _sum(left: Range, right: Range) -> Range:
+    return Range(left.low + right.low, left.high + right.high, left.under + right.under, left.over + right.over)
+
+
+def _negative(number: Range) -> Range:
+    return Range(-number.high, -number.low, -number.over, -number.under)
+
+
+def _scaled(factor: Range, number: Range) -> Range:
+    k = factor.low
+    return Range(k * number.low, k * number.high, k * number.under, k * number.over)
+
+
+CUT = 3
+"""Units: a product lacks that of both lower halves, and the lower halves of the two mixed ones."""
+
+
+def _product(left: Range, right: Range) -> Range:
+    """âb̂ − ab = â eb + b̂ ea − ea eb, of which 128 bits are cut, rounded down, and up to CUT units more."""
+    values = [a * b for a in (left.low, left.high) for b in (right.low, right.high)]
+    mixed = [a * e for a in (left.low, left.high) for e in (right.under, right.over)]
+    other = [b * e for b in (right.low, right.high) for e in (left.under, left.over)]
+    both = [d * e for d in (left.under, left.over) for e in (right.under, right.over)]
+    scale = 2**BITS
+    low = min(values) // scale - CUT
+    return Range(
+        low if min(values) < 0 else max(0, low),
+        max(values) // scale,
+        (min(mixed) + min(other) - max(both)) // scale - CUT,
+        -(-(max(mixed) + max(other) - min(both)) // scale),
+    )
+
+
+_RULES: dict[str, Callable[[Range, Range], Range]] = {
+    "add": _sum,
+    "sub": lambda left, right: _sum(left, _negative(right)),
+    "mul": _product,
+    "scale": _scaled,
+}
+
+
+def moved_down(number: Range) -> Range:
+    """The number divided by any power of two, 1 included, and rounded down."""
+    return Range(min(0, number.low), max(0, number.high), min(0, number.under) - 1, max(0, number.over))
+
+
+def _terms() -> dict[str, Range]:
+    most = (2**53 - 1) ** 2 * 2 ** (SQUARE - 106)
+    square, whole = Range(0, most, -1, 0), Range(2 ** (SQUARE - 2), most)
+    found = errors(TERMS, {name: whole if name in WHOLE else square for name in TERMS.inputs})
+    for name in ("radial_2", "axial_2", "p_t", "s_t", "q_s", "p_q"):
+        found[name] = moved_down(found[name])
+    return found
+
+
+def _balanced(terms: Mapping[str, Range], grown: int) -> dict[str, Range]:
+    """The inputs of DISCRIMINANT: below 2^125 in size; N and ps are doubled, n2 and n1 moved by up to 2^grown."""
+
+    def moved(number: Range, factor: int) -> Range:
+        most = 2**BALANCED
+        return Range(-most if number.low < 0 else 0, most, factor * number.under - 1, factor * number.over)
+
+    return {name: moved(terms[name], 2**grown if name in {"n2", "n1"} else 2) for name in _BALANCED}
+
+
+def _ranges() -> dict[str, dict[str, Range]]:
+    terms = _terms()
+    terms["n2"] = _sum(terms["radial_2"], _negative(terms["axial_2"]))
+    poles = errors(POLES, {name: terms[name] for name in POLES.inputs})
+    return {"terms": terms, "discriminant": errors(DISCRIMINANT, _balanced(terms, 0)), "poles": poles}
+
+
+RANGES = _ranges()
+"""What each number of the three programs can be, for the printer: whether it is ever negative."""
+
+
+def _errors() -> dict[str, int]:
+    """An error is at most c0 + c1 2^grown + c2 4^grown, so its share of 2^grown is largest at an end."""
+    terms, poles = RANGES["terms"], RANGES["poles"]
+    grown = {end: errors(DISCRIMINANT, _balanced(terms, end)) for end in (0, MOST_GROWN)}
+    return {
+        "coefficient": max(terms[name].error for name in ("n2", "n1")),
+        "pole": max(poles[f"{part}_at_{pole}"].error for part in ("offset", "slope") for pole in "AB"),
+        **{name: max(-(-found[name].error // 2**end) for end, found in grown.items()) for name in ("delta", "middle")},
+    }
+
+
+ERRORS = _errors()
+"""In units: of n2 and n1, of offsets and slopes at the poles, and, for 2^grown = 1, of delta and of middle."""
