@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from tests.tools.evidence.parts import Figures
 
-AT_LEAST: dict[str, dict[str, float]] = {}
+AT_LEAST: dict[str, dict[str, float]] = {
+    "fuzz": {"short.executions": 100},
+}
 """By part and figure."""
 
-AT_MOST: dict[str, dict[str, float]] = {}
+AT_MOST: dict[str, dict[str, float]] = {
+    "fuzz": {"short.findings": 0},
+}
 """By part and figure: survivors, findings."""
 
 

@@ -18,7 +18,9 @@ ROOT = Path(__file__).resolve().parents[3]
 KEPT = Path(__file__).with_name("figures.json")
 PAGE = ROOT / "docs" / "evidence.md"
 
-PARTS: dict[str, str] = {}
+PARTS: dict[str, str] = {
+    "fuzz": "fuzz",
+}
 """The module of each part, by its name on the command line; the page has them in this order."""
 
 Figures = dict[str, Any]

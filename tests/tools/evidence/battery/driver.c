@@ -1,0 +1,201 @@
+/* Asks hypcheck.h everything that a file of questions holds and compares the answers with the file's. Ends with 1 and the
+   first row that is answered wrong; else it prints how much each stage decided, which a weaker bound would lower.
+
+   The file has batches: kind, rounding modes as bits, rows, numbers a row; the rows; and an answer for each. */
+
+#include <fenv.h>
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define HYPCHECK_IMPLEMENTATION
+#include "hypcheck.h"
+#include "guards.h"
+
+enum { ROWS, LEANING, SCENE, LEANING_SCENE, WAYS, LEANING_WAYS, CLEARANCES };
+enum { MODES = 4 };
+static const int modes[MODES] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+
+typedef struct {
+    int32_t kind, modes, n, width;
+    double *rows;
+    int8_t *right;
+} batch;
+
+static long counts[16];
+static const char *const names[] = {"single", "certified", "one line", "two lines", "tilted", "one plane", "two planes",
+                                    "ways", "times", "clearances", "touches", "distances", "gaps"};
+enum { SINGLE, CERTIFIED, ONE_LINE, TWO_LINES, TILTED, ONE_PLANE, TWO_PLANES, DECIDED_WAYS, TIMES, NARROW, TOUCHES, DISTANCES, GAPS, ALL };
+
+static void wrong(const batch *b, int mode, int i, const char *what, int found) {
+    int k;
+    fesetround(FE_TONEAREST);
+    printf("wrong: kind %d, mode %d, %s: %d, right is %d:", (int)b->kind, mode, what, found, b->right[i]);
+    for (k = 0; k < b->width; k++) printf(" %a", b->rows[b->width * i + k]);
+    printf("\n");
+    exit(1);
+}
+
+static long ones(uint64_t bits) {
+    long count = 0;
+    for (; bits; bits &= bits - 1) count++;
+    return count;
+}
+
+static int answer_of(int question, int position) {
+    if (position == 127) return 127;
+    return question == 1 ? position > 0 : question == 2 ? position < 0 : question == 3 ? position == 0 : position;
+}
+
+static void ask_rows(const batch *b, int mode) {
+    int8_t *answers = malloc((size_t)b->n);
+    int i, leaning = b->kind == LEANING;
+    if (leaning) hypcheck_ask_tilted(HYPCHECK_POSITION, (size_t)b->n, b->rows, answers);
+    else hypcheck_ask(HYPCHECK_POSITION, (size_t)b->n, b->rows, answers);
+    for (i = 0; i < b->n; i++) {
+        const double *r = b->rows + b->width * i;
+        if (answers[i] != b->right[i]) wrong(b, mode, i, "an answer", answers[i]);
+        if (leaning) {
+            counts[TILTED] += (long)(hc_tilted_plain(r, 1, 1).decided & 1);
+            continue;
+        }
+        counts[SINGLE] += hc_single(r) != 2;
+        counts[CERTIFIED] += (long)(hc_certified_plain(r, 1, 1).decided & 1);
+        if (hypcheck_position(r[0], r[1], r[2], r[3], r[4], r[5], r[6]) != b->right[i]) wrong(b, mode, i, "one row", 3);
+    }
+    free(answers);
+}
+
+/* Counts what is decided, and compares it with what is right. */
+static void check_blocks(const batch *b, int mode, int question, const int8_t *answers, const uint64_t *left, long *count) {
+    int block, i;
+    for (block = 0; block < b->n / HC_BLOCK; block++) {
+        *count += 64 - ones(left[block]);
+        for (i = 0; i < 64; i++) {
+            const int row = 64 * block + i;
+            if (!(left[block] >> i & 1) && answers[row] != answer_of(question, b->right[row]))
+                wrong(b, mode, row, "half planes", answers[row]);
+        }
+    }
+}
+
+static void ask_lines(const batch *b, int mode, const double *x, const double *y, const double *z, int8_t *answers, uint64_t *left) {
+    hc_scene scene;
+    int question, lines;
+    if (!hc_make_scene(&scene, b->rows, (size_t)b->n, z)) return;
+    for (question = 0; question < 4; question++)
+        for (lines = 0; lines < 2; lines++) {
+            const hc_lines_function ask = lines ? hc_level()->two_lines[question] : hc_level()->one_line[question];
+            ask(&scene, b->n / HC_BLOCK, x, y, z, question & 1, answers, left);
+            check_blocks(b, mode, question, answers, left, counts + ONE_LINE + lines);
+        }
+}
+
+static void ask_planes(const batch *b, int mode, const double *x, const double *y, const double *z, int8_t *answers, uint64_t *left) {
+    hc_tilted_scene scene;
+    double axis[3];
+    int planes;
+    memcpy(axis, b->rows + 7, sizeof axis);
+    if (!hc_make_tilted_scene(&scene, b->rows, axis, (size_t)b->n, x, y, z)) return;
+    for (planes = 0; planes < 2; planes++) {
+        if (planes) hc_make_planes(&scene, 1, 2);
+        (planes ? hc_level()->two_planes : hc_level()->one_plane)(&scene, b->n / HC_BLOCK, x, y, z, planes, answers, left);
+        check_blocks(b, mode, 0, answers, left, counts + ONE_PLANE + planes);
+    }
+}
+
+static void ask_scene(const batch *b, int mode) {
+    const int leaning = b->kind == LEANING_SCENE;
+    double *x = malloc(8 * (size_t)b->n), *y = malloc(8 * (size_t)b->n), *z = malloc(8 * (size_t)b->n);
+    int8_t *answers = malloc((size_t)b->n);
+    uint64_t *left = calloc((size_t)b->n / HC_BLOCK + 1, 8);
+    int i, question;
+    for (i = 0; i < b->n; i++) {
+        const double *r = b->rows + b->width * i;
+        x[i] = r[4], y[i] = r[5], z[i] = r[6];
+    }
+    for (question = 0; question < 4; question += 1 + mode) {
+        if (leaning) hypcheck_ask_tilted_scene(question, b->rows, b->rows + 7, (size_t)b->n, x, y, z, answers);
+        else hypcheck_ask_scene(question, b->rows, (size_t)b->n, x, y, z, answers);
+        for (i = 0; i < b->n; i++)
+            if (answers[i] != answer_of(question, b->right[i])) wrong(b, mode, i, "a scene's answer", answers[i]);
+    }
+    if (leaning) ask_planes(b, mode, x, y, z, answers, left);
+    else ask_lines(b, mode, x, y, z, answers, left);
+    free(x), free(y), free(z), free(answers), free(left);
+}
+
+static void ask_ways(const batch *b, int mode) {
+    int8_t *hits = malloc((size_t)b->n), *alone = malloc((size_t)b->n);
+    double *times = malloc(8 * (size_t)b->n);
+    int i;
+    (b->kind == WAYS ? hypcheck_passage : hypcheck_passage_tilted)((size_t)b->n, b->rows, hits, times);
+    (b->kind == WAYS ? hypcheck_passage : hypcheck_passage_tilted)((size_t)b->n, b->rows, alone, NULL);
+    for (i = 0; i < b->n; i++) {
+        if (hits[i] != b->right[i] && (hits[i] != 2 || b->right[i] == 127)) wrong(b, mode, i, "a hit", hits[i]);
+        if (alone[i] != b->right[i] && (alone[i] != 2 || b->right[i] == 127)) wrong(b, mode, i, "a hit alone", alone[i]);
+        if (times[i] == times[i] ? hits[i] != 1 || times[i] < 0 || times[i] > 1 : 0) wrong(b, mode, i, "a time", hits[i]);
+        counts[DECIDED_WAYS] += (hits[i] != 2) + (alone[i] != 2);
+        counts[TIMES] += times[i] == times[i];
+    }
+    free(hits), free(alone), free(times);
+}
+
+/* The 8th number of a row is its clearance, within 2^-50 of 1 + its size; NaN for an invalid row. */
+static void ask_clearances(const batch *b, int mode) {
+    double *rows = malloc(56 * (size_t)b->n);
+    int8_t *positions = malloc((size_t)b->n);
+    hypcheck_near *found = malloc(sizeof *found * (size_t)b->n);
+    int i, k;
+    for (i = 0; i < b->n; i++)
+        for (k = 0; k < 7; k++) rows[7 * i + k] = b->rows[8 * i + k];
+    hypcheck_clearance((size_t)b->n, rows, positions, found);
+    fesetround(FE_TONEAREST);
+    for (i = 0; i < b->n; i++) {
+        const hypcheck_near *const near = found + i;
+        const double clearance = b->rows[8 * i + 7], off = 8.9e-16 * (1 + hc_size(clearance)), width = near->upper - near->lower;
+        if (positions[i] != b->right[i]) wrong(b, mode, i, "the position of a clearance", positions[i]);
+        if (positions[i] == 127) continue;
+        if (!(near->lower <= clearance + off) || !(near->upper >= clearance - off)) wrong(b, mode, i, "a clearance", 0);
+        if (positions[i] ? !(near->lower >= 0) : !(near->upper <= 0)) wrong(b, mode, i, "a clearance's sign", 0);
+        if (!(near->distance_lower <= near->distance_upper)) wrong(b, mode, i, "a distance", 0);
+        counts[NARROW] += width <= HC_width * (1 + HC_MAX_OF(clearance, 0));
+        counts[TOUCHES] += near->touch_error < DBL_MAX;
+        counts[DISTANCES] += near->distance_upper - near->distance_lower <= 1e-6 * near->distance_upper;
+        counts[GAPS] += near->nearest[0] == near->touch[0] && near->nearest[2] == near->touch[2];
+    }
+    fesetround(modes[mode]);
+    free(rows), free(positions), free(found);
+}
+
+int main(int argc, char **argv) {
+    FILE *file = argc > 1 ? fopen(argv[1], "rb") : NULL;
+    batch b;
+    int mode, i;
+    if (!file) return 2;
+#ifdef HC_MUTANTS
+    if (argc > 2) hc_mutant = atoi(argv[2]);
+#endif
+    if (argc > 3 && !hypcheck_use_level(argv[3])) return 3;
+    check_guards();
+    while (fread(&b, 4, 4, file) == 4) {
+        const size_t n = (size_t)b.n, width = (size_t)b.width;
+        b.rows = malloc(8 * n * width);
+        b.right = malloc(n);
+        if (fread(b.rows, 8 * width, n, file) != n || fread(b.right, 1, n, file) != n) return 2;
+        for (mode = 0; mode < MODES; mode++) {
+            if (!(b.modes >> mode & 1)) continue;
+            fesetround(modes[mode]);
+            if (b.kind < SCENE) ask_rows(&b, mode);
+            else if (b.kind < WAYS) ask_scene(&b, mode);
+            else if (b.kind < CLEARANCES) ask_ways(&b, mode);
+            else ask_clearances(&b, mode);
+            fesetround(FE_TONEAREST);
+        }
+        free(b.rows);
+        free(b.right);
+    }
+    for (i = 0; i < ALL; i++) printf("%s%s: %ld", i ? ", " : "", names[i], counts[i]);
+    printf("\n");
+    return 0;
+}

@@ -1,0 +1,34 @@
+"""The header answers the battery's questions right in every rounding mode, and no stage decides less than it did."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+
+from tests.tools.evidence.battery import asked, built
+from tests.tools.evidence.battery.questions import write
+
+pytestmark = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C compiler")
+
+DECIDED = (
+    "single: 1440, certified: 3831, one line: 26242, two lines: 26494, tilted: 1160, one plane: 3554, "
+    "two planes: 3742, ways: 1536, times: 494, clearances: 2498, touches: 2406, distances: 2068, gaps: 1343"
+)
+"""Rows that each stage of the plain level decides, of the frozen questions under their rounding modes."""
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory):
+    return built(tmp_path_factory.mktemp("battery"), None, "-O1")
+
+
+def test_frozen_questions_are_answered_right_and_each_stage_decides_as_many_as_it_did(program, tmp_path):
+    """More is better: put the new numbers here. Fewer means that a bound or a guard has become weaker."""
+    found = asked(program, write(tmp_path / "questions", 6, ()))
+    assert (found.what, found.says) == ("right", DECIDED)
+
+
+@pytest.mark.thorough
+def test_drawn_questions_are_answered_right(program, tmp_path):
+    assert asked(program, write(tmp_path / "questions")).what == "right"
