@@ -6,6 +6,9 @@ OUT ?= reports/latest
 ENGINES ?= python-fcl coal mujoco pybullet parry3d-f64 parry3d jolt-physics rapier3d ammo.js cannon-es
 VERSION = $(shell $(BIN)/python -c 'import hypcheck; print(hypcheck.__version__)')
 BIN := $(VENV)/bin
+# Bytecode is made for the modules that are used, which are few. The tree is found by its path: a finder would take a tenth
+# of the time in which a process starts, and tests start a thousand.
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --config-settings editable_mode=compat --editable
 
 # Hundreds of processes start in a run of the tests: each would compile hypcheck anew where no bytecode is kept.
 unexport PYTHONDONTWRITEBYTECODE
@@ -30,7 +33,7 @@ engines: $(VENV)/ready ## what collision engines get wrong, each installed apart
 	$(BIN)/hypcheck engines verify $(ENGINES)
 
 reference-bench: $(VENV)/ready ## every method on a quiet machine (under 5 minutes); reports in reports/reference/bench/
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,peers]'
+	$(INSTALL) '.[report,peers]'
 	$(BIN)/hypcheck bench --out reports/reference/bench
 	$(BIN)/hypcheck report reports/reference/bench --format overview --out reports/reference/bench/README.md
 
@@ -41,7 +44,7 @@ quick: $(VENV)/ready-dev
 	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow and not thorough'
 
 test: $(VENV)/ready-dev lint ## lint, format, strict types, import layers and every test but the thorough ones
-	$(BIN)/python -m pytest -n auto --dist worksteal -m 'not thorough' || { \
+	$(BIN)/python -m pytest --assert plain -n auto --dist worksteal -m 'not thorough' || { \
 		echo "What failed beside other tests runs once more, alone: a loaded machine refuses no change. What fails twice fails."; \
 		$(BIN)/python -m pytest -m 'not thorough' --last-failed --last-failed-no-failures none --maxfail 3; }
 
@@ -126,14 +129,14 @@ $(BIN)/python:
 
 KERNEL := setup.py hypcheck/kernel/core/binding.c hypcheck/kernel/core/hypcheck.h hypcheck/implementations/calls.c $(wildcard hypcheck/isolation/*.[ch])
 $(VENV)/ready: pyproject.toml $(KERNEL) | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report]'
+	$(INSTALL) '.[report]'
 	@touch $@
 
 $(VENV)/ready-dev: pyproject.toml $(KERNEL) | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,dev]'
+	$(INSTALL) '.[report,dev]'
 	-@$(BIN)/hypcheck engines install python-fcl cannon-es --cache $(VENV)/engines
 	@touch $(VENV)/ready $@
 
 $(VENV)/ready-docs: pyproject.toml $(KERNEL) | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[report,docs]'
+	$(INSTALL) '.[report,docs]'
 	@touch $(VENV)/ready $@

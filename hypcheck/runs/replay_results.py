@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hypcheck.answer import kind_as_text, proof_as_json, proof_lines
 from hypcheck.geometry.pair import REFUSED, Pair, Position, columns_of
@@ -16,9 +16,6 @@ from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
 from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement
 from hypcheck.tables.numbers import hex_of
-
-if TYPE_CHECKING:
-    from hypcheck.paper.ledger.entry import LedgerEntry
 
 DIGITS = 17
 """Digits of the numbers in the JSON table of values. They are texts, because exact ones need not fit float64."""
@@ -155,15 +152,11 @@ def _cause_lines(cause: Cause) -> Iterator[str]:
     """Why the answer is wrong, the paper's claim that is the reason with the ledger's verdict, and the right line."""
     yield from _titled("cause", cause.sentence)
     if cause.claim:
-        entry = _claim(cause.claim)
+        from hypcheck.paper.ledger.book import statement  # noqa: PLC0415 - loads sympy
+
+        entry = statement(cause.claim)
         yield from _titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
     yield from _titled("fix", cause.remedy)
-
-
-def _claim(number: str) -> LedgerEntry:
-    from hypcheck.paper.ledger.book import entries  # noqa: PLC0415 - loads sympy
-
-    return next(each for each in entries() if each.number == number)
 
 
 def _judgement_lines(done: Replay) -> Iterator[str]:

@@ -133,7 +133,6 @@ def _integer_text(number: int) -> str:
     return _integer_text(high) + str(low).zfill(_PIECE_DIGITS)
 
 
-_ZEROS = re.compile(r"\.?0+(?=p)")
 _RATIONAL = re.compile(r"(-?)(0|[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
 _LONGEST_RATIONAL = 100_000
 """Characters of a rational. Shipped ones have 1,236 at most; reading takes a time that grows with the square."""
@@ -146,7 +145,8 @@ def decimal_of(value: float) -> str:
 
 def hex_of(value: float) -> str:
     """`value` exactly, as C's %a writes it and strtod reads it: 0x1.8p+1, -0x0p+0; inf and nan by name."""
-    return _ZEROS.sub("", value.hex())
+    digits, _, exponent = value.hex().partition("p")
+    return f"{digits.rstrip('0').rstrip('.')}p{exponent}" if exponent else digits
 
 
 def is_shortest(number: float | int) -> bool:

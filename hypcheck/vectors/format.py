@@ -22,7 +22,7 @@ from hypcheck.geometry.pair import (
     Position,
     trouble_with,
 )
-from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, is_shortest, rational_of, shown_json
+from hypcheck.tables.numbers import Literal, decimal_of, exact_text, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.family import (
@@ -175,6 +175,8 @@ def listed(place: JsonPlace, what: str, value: Any, length: int | None = None) -
 
 def number_of(place: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
     """A finite number that is written as the shortest decimal of its float64. Raises InputError."""
+    if isinstance(value, Literal) and value.text == repr(value):  # as we write it
+        return float(value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"{place}: {what} is {shown_json(value)}; it must be a number")
     if not is_shortest(value):

@@ -15,12 +15,13 @@ from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import counted, suggestion
 from hypcheck.tables.numbers import hex_of, readable_text
 from hypcheck.tables.streams import writing
+from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata, Vector, VectorFile
 from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
-from hypcheck.vectors.format import vector_text
+from hypcheck.vectors.format import content_of, read_metadata, vector_text
 from hypcheck.vectors.frozen import InvalidRow, InvalidRowFile
 from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, tilted_vector_text
 from hypcheck.vectors.ways.format import WayFile, WayVector, way_text
@@ -46,12 +47,15 @@ _LABEL = 12
 
 def list_lines() -> Iterator[str]:
     """Every set of vectors: its name, how many are frozen, and what it is."""
-    files: dict[str, AnyFile] = {name: _load(name) for name in SHOWN}
-    width = max(map(len, files))
-    for name, file in files.items():
-        mark = " (extreme: taken when asked for)" if file.head.extreme else ""
-        yield f"{name:{width}}  {len(file.cases):4}  {file.head.title}{mark}"
-    yield f"{'together':{width}}  {sum(len(file.cases) for file in files.values()):4}"
+    width, together = max(map(len, SHOWN)), 0
+    for name in SHOWN:
+        path = str(frozen.path_of(name))
+        document = read_document(path)  # of the cases the number alone is asked for
+        head, _ = read_metadata(document, path, content_of(document, path))
+        together += len(document.cases)
+        mark = " (extreme: taken when asked for)" if head.extreme else ""
+        yield f"{name:{width}}  {len(document.cases):4}  {head.title}{mark}"
+    yield f"{'together':{width}}  {together:4}"
 
 
 def _load(name: str) -> AnyFile:

@@ -9,6 +9,7 @@ The ledger has displayed formulas first, then what the text states, section by s
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -258,6 +259,21 @@ COQ = {
 @cache
 def entries() -> tuple[LedgerEntry, ...]:
     """Every entry, in order."""
-    stated = (*propositions(), regime_of_section_4(), *procedures(), *costs(), *flights(), *prose())
-    ordered = (*equations(), *sorted(stated, key=lambda entry: entry.section))
-    return tuple(replace(entry, coq=COQ.get(entry.number, ())) for entry in ordered)
+    ordered = (*equations(), *sorted(_statements(), key=lambda entry: entry.section))
+    return tuple(map(_with_theorems, ordered))
+
+
+def statement(number: str) -> LedgerEntry:
+    """The entry of a statement in words; only those before it are derived. Raises StopIteration if there is none."""
+    return _with_theorems(next(entry for entry in _statements() if entry.number == number))
+
+
+def _statements() -> Iterator[LedgerEntry]:
+    yield from propositions()
+    yield regime_of_section_4()
+    for part in (procedures, costs, flights, prose):
+        yield from part()
+
+
+def _with_theorems(entry: LedgerEntry) -> LedgerEntry:
+    return replace(entry, coq=COQ.get(entry.number, ()))

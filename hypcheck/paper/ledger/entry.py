@@ -13,6 +13,7 @@ from functools import cached_property
 from hypcheck.derivation.chain_book import chains, proved
 from hypcheck.derivation.decisions import decisions
 from hypcheck.derivation.formulas import Formula
+from hypcheck.derivation.links import known
 from hypcheck.derivation.proofs import proofs_of
 from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger.leaning import LeaningWitness
@@ -110,6 +111,11 @@ def by_chain(name: str) -> Evidence:
     """That a chain of the derivation holds, with all it needs."""
     links = len(chains()[name].links)
     return Evidence("chain", f"{links} links of “{name}” hold", proved(name), chain=name)
+
+
+def by_identity(text: str) -> Evidence:
+    """That one of the derivation's own identities holds, by its sentence."""
+    return Evidence("identity", text, known(text).holds)
 
 
 def by_coq(theorem: str) -> Evidence:

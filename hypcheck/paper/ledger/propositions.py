@@ -16,6 +16,7 @@ from hypcheck.paper.ledger.entry import (
     Evidence,
     LedgerEntry,
     by_chain,
+    by_identity,
     harmless_where,
     with_counterexample,
     without_counterexample,
@@ -60,7 +61,6 @@ def _holds(*numbers: str) -> bool:
 
 
 def _known_root() -> LedgerEntry:
-    factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
     return LedgerEntry(
         "after (12)",
         "2",
@@ -68,20 +68,20 @@ def _known_root() -> LedgerEntry:
         PROVED,
         "f is (a² + λ)·g(λ) times a constant",
         "three roots, or three coefficients, decide; the fourth root is always there",
-        lambda: (Evidence("identity", factor.text, factor.holds),),
+        lambda: (by_identity("det(λH + S) = (A + λ)·g(λ)/(A²·B)"),),
     )
 
 
 def _remark_2() -> LedgerEntry:
-    product = known("Δ is the product of the squared differences of the roots")
+    product = "Δ is the product of the squared differences of the roots"
     return LedgerEntry(
         "Remark 2",
         "2",
         "(13) is the discriminant and (14) the coefficients",
         PROVED,
-        product.text,
+        product,
         "Δ > 0 means three different real roots",
-        lambda: (Evidence("identity", product.text, product.holds and _holds("13", "14")),),
+        lambda: (Evidence("identity", product, known(product).holds and _holds("13", "14")),),
     )
 
 

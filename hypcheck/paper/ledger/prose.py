@@ -80,9 +80,13 @@ def _slips_of_section_2() -> tuple[LedgerEntry, ...]:
     )
 
 
-def _later_slips() -> tuple[LedgerEntry, ...]:
-    degree = sympy.degree(pencil.cubic().g, pencil.LAMBDA)
+def _roots_of_f() -> tuple[Evidence]:
     factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
+    degree = sympy.degree(pencil.cubic().g, pencil.LAMBDA)
+    return (Evidence("identity", factor.text, factor.holds and degree == 3),)
+
+
+def _later_slips() -> tuple[LedgerEntry, ...]:
     return (
         LedgerEntry(
             "Section 3.1, f in (12)",
@@ -91,7 +95,7 @@ def _later_slips() -> tuple[LedgerEntry, ...]:
             MISPRINT,
             "(12) is g, a cubic; f is given in (11) and has one root more, −a²",
             "read “f given in (11)”; the roots of g decide",
-            lambda: (Evidence("identity", factor.text, factor.holds and degree == 3),),
+            _roots_of_f,
             "the roots of the polynomial f given in (11)",
         ),
         LedgerEntry(
