@@ -19,7 +19,7 @@ from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
 from hypcheck.implementations.builtin import builtin_methods
 from hypcheck.implementations.description import Domain
-from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, Engine, height_of, rows_by_sizes, scene_mesh
+from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshLibrary, height_of, rows_by_sizes, scene_mesh
 from hypcheck.implementations.method import Answers
 
 TRIANGLES = (100, 1_000, 10_000, 100_000)
@@ -125,7 +125,7 @@ def mesh_contenders() -> Iterable[Contender]:
             yield replace(found, amortised=FOR_EACH, singles=8, needs=FCL.title, note=note, quick=False)
 
 
-def built_once(engine: Engine, pairing: str, triangles: int) -> Contender:
+def built_once(engine: MeshLibrary, pairing: str, triangles: int) -> Contender:
     """A pairing with one mesh of about so many triangles for a scene, or for each of a few scenes."""
     return Contender(
         name=f"{engine.name}-{pairing}-{triangles}",

@@ -18,7 +18,7 @@ from hypcheck.bench.contenders import COMPILER, contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.errors import UnavailableError
 from hypcheck.implementations.description import QUESTIONS
-from hypcheck.implementations.meshes import COAL, FCL, Engine
+from hypcheck.implementations.meshes import COAL, FCL, MeshLibrary
 from hypcheck.implementations.session import StartError
 from hypcheck.record import Recorder
 from hypcheck.record.fields import decoded
@@ -88,7 +88,7 @@ def _compiler(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     return replace(plan, compiled=library)
 
 
-def _engine(engine: Engine) -> Callable[[BenchPlan, Recorder], BenchPlan]:
+def _engine(engine: MeshLibrary) -> Callable[[BenchPlan, Recorder], BenchPlan]:
     def find(plan: BenchPlan, _recorder: Recorder) -> BenchPlan:
         trouble = engine.trouble()
         if trouble is not None:

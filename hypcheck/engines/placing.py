@@ -36,7 +36,7 @@ SLACK, FUZZ = 1e-6, 1e-14
 
 
 @dataclass(frozen=True, slots=True)
-class Family:
+class SpotFamily:
     """A column of the record: the spheroid's b and d in metres, and what is special about its rows.
 
     `unit` is how many metres are one unit of length of the rows; `leans`: axes in all directions; `inside`: the
@@ -66,14 +66,14 @@ class Family:
 FAMILIES = {
     family.name: family
     for family in (
-        Family("ball", "a ball of 0.25 m outside the tower", 0.25, 0.25),
-        Family("body", "the paper's quadcopter, 0.25 m by 0.15 m, upright, outside", 0.25, 0.15),
-        Family("leaning", "the same with its axis in any direction", 0.25, 0.15, leans=True),
-        Family("inside", "the same inside the tower", 0.25, 0.15, inside=True),
-        Family("disc", "a flat spheroid, 0.25 m by 0.01 m, upright, outside", 0.25, 0.01),
-        Family("small", "a small one, 5 mm by 3 mm, upright, outside", 0.005, 0.003),
-        Family("millimetres", "family body with all lengths in millimetres", 0.25, 0.15, unit=0.001),
-        Family("kilometres", "family body with all lengths in kilometres", 0.25, 0.15, unit=1000.0),
+        SpotFamily("ball", "a ball of 0.25 m outside the tower", 0.25, 0.25),
+        SpotFamily("body", "the paper's quadcopter, 0.25 m by 0.15 m, upright, outside", 0.25, 0.15),
+        SpotFamily("leaning", "the same with its axis in any direction", 0.25, 0.15, leans=True),
+        SpotFamily("inside", "the same inside the tower", 0.25, 0.15, inside=True),
+        SpotFamily("disc", "a flat spheroid, 0.25 m by 0.01 m, upright, outside", 0.25, 0.01),
+        SpotFamily("small", "a small one, 5 mm by 3 mm, upright, outside", 0.005, 0.003),
+        SpotFamily("millimetres", "family body with all lengths in millimetres", 0.25, 0.15, unit=0.001),
+        SpotFamily("kilometres", "family body with all lengths in kilometres", 0.25, 0.15, unit=1000.0),
     )
 }
 
@@ -82,13 +82,13 @@ FAMILIES = {
 class Spot:
     """Where spheroids touch the surface: normals (n, 3) towards the spheroids, their axes, and their centres there."""
 
-    family: Family
+    family: SpotFamily
     normal: Floats
     axis: Floats
     center: Floats
 
     @classmethod
-    def at(cls, family: Family, azimuth: Floats, height: Floats, axis: Floats) -> Spot:
+    def at(cls, family: SpotFamily, azimuth: Floats, height: Floats, axis: Floats) -> Spot:
         """The spots at these azimuths and heights in metres, with these axes (n, 3) of length 1."""
         alpha, gamma, b, d = family.sizes
         z = height / family.unit
@@ -134,7 +134,7 @@ class Spot:
 class Placed:
     """Rows (n, 10) of a family, each clear by `gap` > 0 or in contact by −`gap` > 0, as is proved."""
 
-    family: Family
+    family: SpotFamily
     rows: Rows
     gap: Floats
 
@@ -144,14 +144,14 @@ class Placed:
         return np.asarray(self.gap < 0)
 
 
-def placed(family: Family, each: int, seed: int = 1) -> Placed:
+def placed(family: SpotFamily, each: int, seed: int = 1) -> Placed:
     """Up to `each` clear rows and contacts of every decade; what is not certified is left out."""
     spot, gap = drawn(family, each, seed)
     good = spot.certifies(gap)
     return Placed(family, spot.rows(gap)[good], gap[good])
 
 
-def drawn(family: Family, each: int, seed: int = 1) -> tuple[Spot, Floats]:
+def drawn(family: SpotFamily, each: int, seed: int = 1) -> tuple[Spot, Floats]:
     """Spots all over the surface, and `each` gaps of both signs of every decade, in the unit of the rows."""
     n = 2 * each * len(DECADES)
     draw = Draw("engines", family.name, 1, seed)
@@ -161,7 +161,7 @@ def drawn(family: Family, each: int, seed: int = 1) -> tuple[Spot, Floats]:
     return spot, gap / family.unit
 
 
-def _axes(family: Family, draw: Draw, n: int) -> Floats:
+def _axes(family: SpotFamily, draw: Draw, n: int) -> Floats:
     if not family.leans:
         return np.tile([0.0, 0.0, 1.0], (n, 1))
     up, around = 2 * draw.unit(n) - 1, 2 * pi * draw.unit(n)

@@ -52,7 +52,7 @@ PAIRINGS = ("point", "sphere", "ellipsoid")
 
 
 @dataclass(frozen=True, slots=True)
-class Engine:
+class MeshLibrary:
     """A collision engine; `trouble` gives the reason why it cannot be used, or None.
 
     `question` takes pairing, vertices, triangles, b and d, and returns None if the engine refuses the mesh; `distance`
@@ -163,8 +163,8 @@ def _coal_trouble() -> str | None:
     return None
 
 
-FCL = Engine("fcl", "FCL", availability, _fcl, _fcl_distance)
-COAL = Engine("coal", "coal", _coal_trouble, _coal, _coal_distance)
+FCL = MeshLibrary("fcl", "FCL", availability, _fcl, _fcl_distance)
+COAL = MeshLibrary("coal", "coal", _coal_trouble, _coal, _coal_distance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -265,7 +265,7 @@ class SceneMesh:
         )
 
 
-def scene_mesh(engine: Engine, pairing: str, sizes: Sizes, height: float, triangles: int) -> SceneMesh:
+def scene_mesh(engine: MeshLibrary, pairing: str, sizes: Sizes, height: float, triangles: int) -> SceneMesh:
     """The scene's mesh for one of PAIRINGS."""
     alpha, gamma, b, d = sizes
     scaled = grid_of(alpha / b, gamma / d, height / d, triangles)

@@ -32,7 +32,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
-from hypcheck.implementations.meshes import COAL, FCL, LARGEST, Engine, MeshGrid, grid_of, rows_by_sizes
+from hypcheck.implementations.meshes import COAL, FCL, LARGEST, MeshGrid, MeshLibrary, grid_of, rows_by_sizes
 from hypcheck.implementations.method import Answers
 from hypcheck.implementations.ways import MOST_ADVANCES, NEARNESS, HitsAndTimes
 from hypcheck.truth.mesh import Triangles, Vertices, fcl_module, mesh_object
@@ -56,7 +56,7 @@ class WaySolver:
 
     name: str
     title: str
-    engine: Engine
+    engine: MeshLibrary
     meets: Callable[[Vertices, Triangles, float, float], Meets | None]
     scaled: bool = True
     times: bool = True
@@ -196,7 +196,7 @@ def ball_mesh(triangles: int) -> tuple[Vertices, Triangles]:
     return vertices, np.concatenate([np.stack(corners, axis=1) for corners in [*caps, *belts]])
 
 
-def _stepping(engine: Engine) -> Callable[[Vertices, Triangles, float, float], Meets | None]:
+def _stepping(engine: MeshLibrary) -> Callable[[Vertices, Triangles, float, float], Meets | None]:
     """Conservative advancement: from each time as far as the centre's distance from the mesh allows, in radii."""
 
     def make(vertices: Vertices, triangles: Triangles, _b: float, _d: float) -> Meets | None:

@@ -147,7 +147,7 @@ def _part(asked: Asked, places: list[int]) -> Asked:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class CountedCause:
     """A cause that stands, None where wrong answers are unexplained; their number in each family, and the worst."""
 
     cause: Cause | None
@@ -175,7 +175,7 @@ class _Left:
         """How many one of these causes explains at least."""
         return sum(each.cases for (_, causes), each in self.explained.items() if any(_has(causes, one) for one in some))
 
-    def take(self, cause: Cause | None = None) -> Finding | None:
+    def take(self, cause: Cause | None = None) -> CountedCause | None:
         """What a cause explains, or all, which is no longer left; None if there is nothing."""
         found = {key: each for key, each in self.explained.items() if cause is None or _has(key[1], cause)}
         if not found:
@@ -184,7 +184,7 @@ class _Left:
         for key, each in found.items():
             families[key[0]] += each.cases
             del self.explained[key]
-        return Finding(cause, dict(families), together(found.values()))
+        return CountedCause(cause, dict(families), together(found.values()))
 
 
 CLEAN = 16
@@ -193,7 +193,7 @@ CLEAN = 16
 
 def causes_of(
     diagnoses: Mapping[str, Diagnosis], clean: Sequence[str], criterion: Criterion, domain: Domain
-) -> list[Finding]:
+) -> list[CountedCause]:
     """The causes that stand, of the diagnoses of all families; `clean` families were asked and have no wrong answer."""
     suspected = suspects(merged(diagnoses.values()))
     if not suspected:
@@ -225,7 +225,7 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
         yield Asked(rows, truth, given, criterion)
 
 
-def findings(diagnoses: Mapping[str, Diagnosis], criterion: Criterion, denied: Mapping[str, int]) -> list[Finding]:
+def findings(diagnoses: Mapping[str, Diagnosis], criterion: Criterion, denied: Mapping[str, int]) -> list[CountedCause]:
     """The causes that stand, most wrong answers first, what is unexplained last; `denied` comes from other families."""
     by_subject: dict[str, dict[str, Diagnosis]] = {}
     for family, each in diagnoses.items():
@@ -233,7 +233,7 @@ def findings(diagnoses: Mapping[str, Diagnosis], criterion: Criterion, denied: M
             worst = next(iter(each.explained.values())).worst
             by_subject.setdefault(_subject(worst, criterion), {})[family] = each
     found = [each for part in by_subject.values() for each in _findings(part, denied)]
-    named: dict[str, list[Finding]] = {}
+    named: dict[str, list[CountedCause]] = {}
     for one in found:
         named.setdefault(one.cause.name if one.cause else "", []).append(one)
     joined = [_joined(some) for some in named.values()]
@@ -242,11 +242,11 @@ def findings(diagnoses: Mapping[str, Diagnosis], criterion: Criterion, denied: M
     )
 
 
-def _joined(some: list[Finding]) -> Finding:
+def _joined(some: list[CountedCause]) -> CountedCause:
     families: Counter[str] = Counter()
     for each in some:
         families.update(each.families)
-    return Finding(some[0].cause, dict(sorted(families.items())), together(each.worst for each in some))
+    return CountedCause(some[0].cause, dict(sorted(families.items())), together(each.worst for each in some))
 
 
 def _subject(case: WrongCase, criterion: Criterion) -> str:
@@ -255,7 +255,7 @@ def _subject(case: WrongCase, criterion: Criterion) -> str:
     return "upright" if len(case.row) == len(COLUMNS) else "tilted"
 
 
-def _findings(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) -> Iterator[Finding]:
+def _findings(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) -> Iterator[CountedCause]:
     """The causes that stand, of families with rows of one subject."""
     denied = Counter(merged(diagnoses.values()).denied) + Counter(elsewhere)
     left = _Left(
@@ -280,7 +280,7 @@ def _findings(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) 
     yield from _taken(left, None)
 
 
-def _taken(left: _Left, cause: Cause | None) -> Iterator[Finding]:
+def _taken(left: _Left, cause: Cause | None) -> Iterator[CountedCause]:
     found = left.take(cause)
     if found is not None:
         yield found
