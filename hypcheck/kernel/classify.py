@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from operator import index
 from typing import Literal, Protocol
 
@@ -36,8 +37,33 @@ ROWS_AT_A_TIME = 1 << 22
 """Rows that are made at a time of centres with an axis each: some 300 MB, and work for four threads."""
 
 
+USUAL_QUESTION: Question = "position"
+USUAL_CARE: Literal["raise", "flag"] = "raise"
+ONE: Literal[1] = 1
+"""Recognised by identity, which costs nothing: C answers an ordinary call with these alone."""
+
+
 class Kernel(Protocol):
     """What a module that answers has. The first two return answers, 127 for invalid rows, and how many those are."""
+
+    def rows_at_once(self, rows: ArrayLike, out: Positions | None, threads: int | None) -> Positions | None:
+        """Positions of an ordinary call: contiguous float64 arrays, all rows valid, one thread wanted or enough.
+
+        None, and no output, for any other.
+        """
+
+    def scene_at_once(
+        self, sizes: object, x: ArrayLike, y: ArrayLike, z: ArrayLike, out: Positions | None, threads: int | None
+    ) -> Positions | None:
+        """The same for the centres of an upright spheroid."""
+
+    def fill_valid_scene(
+        self, sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
+    ) -> bool:
+        """Whether all centres of contiguous columns are valid: then `out`, contiguous and apart, has positions.
+
+        False, and no output, also where a kernel gains nothing by it.
+        """
 
     def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
         """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
@@ -62,7 +88,12 @@ class Kernel(Protocol):
 
 def kernel() -> Kernel:
     """The module that choice() names. Raises InputError where the environment asks for one that is not there."""
-    if choice().kernel == "compiled":
+    return _kernel_named(choice().kernel)
+
+
+@cache
+def _kernel_named(name: str) -> Kernel:
+    if name == "compiled":
         from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
 
         return compiled_kernel
@@ -75,8 +106,8 @@ def classify(
     rows: ArrayLike,
     *,
     out: Positions | None = None,
-    on_invalid: Literal["raise", "flag"] = "raise",
-    question: Question = "position",
+    on_invalid: Literal["raise", "flag"] = USUAL_CARE,
+    question: Question = USUAL_QUESTION,
     threads: int | None = None,
 ) -> Positions:
     """The exact position of every row: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
@@ -92,6 +123,10 @@ def classify(
     is not raises InputError (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are
     marked 127.
     """
+    if question is USUAL_QUESTION and on_invalid is USUAL_CARE and (threads is None or threads is ONE):
+        at_once = kernel().rows_at_once(rows, out, threads)
+        if at_once is not None:
+            return at_once
     number = required(question, threads, on_invalid)
     queries = as_rows(rows, tilted=True)
     _require_fitting(out, len(queries))
@@ -109,8 +144,8 @@ def classify_scene(
     out: Positions | None = None,
     *,
     axis: ArrayLike | None = None,
-    on_invalid: Literal["raise", "flag"] = "raise",
-    question: Question = "position",
+    on_invalid: Literal["raise", "flag"] = USUAL_CARE,
+    question: Question = USUAL_QUESTION,
     threads: int | None = None,
 ) -> Positions:
     """The exact position of one spheroid at many centres; int8 (n,), numbers and options as in classify.
@@ -121,6 +156,11 @@ def classify_scene(
     with on_invalid="flag" such centres are marked 127, all of them where the one axis is not valid. Sizes that are not
     valid are always refused.
     """
+    usual = question is USUAL_QUESTION and on_invalid is USUAL_CARE and (threads is None or threads is ONE)
+    if usual and axis is None:
+        at_once = kernel().scene_at_once(sizes, x, y, z, out, threads)
+        if at_once is not None:
+            return at_once
     number = required(question, threads, on_invalid)
     four = _sizes(sizes)
     axes = None if axis is None else _axes(axis)
@@ -131,6 +171,9 @@ def classify_scene(
     u, v, w = as_columns(CENTER, (x, y, z))
     _require_fitting(out, len(u))
     one = None if axes is None else _one_axis(axes, on_invalid)
+    in_place = out is not None and question == USUAL_QUESTION and _lie_apart(out, (u, v, w))
+    if out is not None and in_place and kernel().fill_valid_scene(four, (u, v, w), out, number, one):
+        return out
     result, refused = kernel().answer_scene(four, (u, v, w), question, number, one)
     if refused and on_invalid == "raise":
         _require_finite(u, v, w)
@@ -222,6 +265,14 @@ def _require_fitting(out: object, count: int) -> None:
     else:
         return
     raise InputError(f"out is {found}; it must be a writable int8 array of shape ({count},)")
+
+
+def _lie_apart(out: Positions, columns: Columns) -> bool:
+    """Whether all are contiguous, and `out` shares no memory with a column."""
+    every = (out, *columns)
+    return all(each.flags.c_contiguous and each.flags.aligned for each in every) and not any(
+        np.may_share_memory(out, column) for column in columns
+    )
 
 
 def _into(out: Positions | None, result: Positions) -> Positions:

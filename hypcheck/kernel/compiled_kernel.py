@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from functools import cache
+from sys import maxsize
+from types import ModuleType
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.geometry.pair import Axis, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Positions, Rows
@@ -17,8 +21,37 @@ ROWS_A_THREAD = 1 << 20
 BLOCK = 64
 """Rows that the kernel takes at once: a part has a whole number of them."""
 
+KEPT = 16
+"""Bytes that keep the answers of a block."""
+
 CHUNK = 1 << 16
 """Rows of a column copied at a time where it is not contiguous."""
+
+
+AT_ONCE = 2 * ROWS_A_THREAD - 1
+"""The most rows of a call that one thread answers, unless more are asked for."""
+
+
+@cache
+def _core() -> ModuleType:
+    """The extension, which knows numpy's arrays from now on."""
+    module = compiled()
+    module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8))
+    return module
+
+
+def scene_at_once(
+    sizes: object, x: ArrayLike, y: ArrayLike, z: ArrayLike, out: Positions | None, threads: int | None
+) -> Positions | None:
+    """As classify.Kernel has it."""
+    answers: Positions | None = _core().scene_at_once(sizes, x, y, z, out, maxsize if threads else AT_ONCE)
+    return answers
+
+
+def rows_at_once(rows: ArrayLike, out: Positions | None, threads: int | None) -> Positions | None:
+    """As classify.Kernel has it."""
+    answers: Positions | None = _core().rows_at_once(rows, out, maxsize if threads else AT_ONCE)
+    return answers
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
@@ -67,6 +100,30 @@ def fill_scene(
     return in_parts(part, len(answers), threads)
 
 
+def fill_valid_scene(
+    sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
+) -> bool:
+    """Fill a contiguous array with positions if all centres are valid, or leave it alone and return False.
+
+    It must not overlap the columns. What a thread decides is kept as bits until all threads have ended.
+    """
+    core, leaning = _core(), () if axis is None else (axis,)
+    kept: NDArray[np.int8] = np.empty(-(-len(out) // BLOCK) * KEPT, dtype=np.int8)
+
+    def part(start: int, stop: int) -> int:
+        these = kept[start // BLOCK * KEPT : -(-stop // BLOCK) * KEPT]
+        return int(core.keep_scene(0, sizes, *(column[start:stop] for column in columns), these, *leaning))
+
+    def write(start: int, stop: int) -> int:
+        core.spread(kept[start // BLOCK * KEPT : -(-stop // BLOCK) * KEPT], out[start:stop])
+        return 0
+
+    if in_parts(part, len(out), threads):
+        return False
+    in_parts(write, len(out), threads)
+    return True
+
+
 def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
     """As classify.Kernel has it."""
     decide = compiled().passage
@@ -103,8 +160,11 @@ def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -
 
     What a part raises is raised here, once all have ended.
     """
-    number = min(most_threads(), count // ROWS_A_THREAD) if threads is None else min(threads, count // BLOCK)
-    number = max(1, number)
+    number = 1
+    if threads is not None:
+        number = max(1, min(threads, count // BLOCK))
+    elif count // ROWS_A_THREAD > 1:
+        number = min(most_threads(), count // ROWS_A_THREAD)
     bounds = [count * k // number // BLOCK * BLOCK for k in range(number)] + [count]
     results, troubles = [0] * number, list[BaseException]()
 

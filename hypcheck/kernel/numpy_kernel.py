@@ -98,6 +98,25 @@ def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis
     return result
 
 
+def rows_at_once(rows: object, out: object, threads: object) -> None:
+    """As classify.Kernel has it; no call is ordinary here."""
+
+
+def scene_at_once(sizes: object, x: object, y: object, z: object, out: object, threads: object) -> None:
+    """As classify.Kernel has it; no call is ordinary here."""
+
+
+def fill_valid_scene(
+    sizes: Sizes,  # noqa: ARG001
+    columns: Columns,  # noqa: ARG001
+    out: Positions,  # noqa: ARG001
+    threads: int | None = None,  # noqa: ARG001
+    axis: Axis | None = None,  # noqa: ARG001
+) -> bool:
+    """As classify.Kernel has it; never, because nothing is gained here."""
+    return False
+
+
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:  # noqa: ARG001
     """As classify.Kernel has it; always one thread."""
     return _answers(positions(rows), question)

@@ -6,6 +6,8 @@
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 
+#include <stdlib.h>
+
 #define HYPCHECK_IMPLEMENTATION
 #include "hypcheck.h"
 
@@ -55,25 +57,36 @@ static PyObject *py_ask(PyObject *self, PyObject *arguments) {
     return result;
 }
 
-static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
+/* Calls for one scene: with `keep`, positions go as bits to a buffer of two 64-bit words for each 64 rows, until all rows
+   are known to be valid and `spread` writes them. */
+static PyObject *asked_scene(PyObject *arguments, int keep) {
     PyObject *columns[3], *answers_object, *result = NULL;
     Py_buffer buffers[3], answers;
     double sizes[4], axis[3] = {0, 0, 1};
     int question, held = 0, fits = 1, k;
-    (void)self;
     if (!PyArg_ParseTuple(arguments, "i(dddd)OOOO|(ddd)", &question, sizes, sizes + 1, sizes + 2, sizes + 3, columns,
                           columns + 1, columns + 2, &answers_object, axis, axis + 1, axis + 2))
         return NULL;
     if (!known_question(question)) return NULL;
     while (held < 3 && filled(columns[held], buffers + held, "d", 0)) held++;
     if (held == 3 && filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
-        for (k = 0; k < 3; k++) fits = fits && buffers[k].len == (Py_ssize_t)sizeof(double) * answers.len;
-        if (fits) {
+        const size_t count = (size_t)buffers[0].len / sizeof(double);
+        const size_t wanted = keep ? hc_blocks(count) * sizeof(hc_signs) : count;
+        const int aligned = !keep || (uintptr_t)answers.buf % sizeof(uint64_t) == 0;
+        for (k = 0; k < 3; k++) fits = fits && buffers[k].len == buffers[0].len;
+        if (fits && aligned && (size_t)answers.len == wanted) {
+            const double *const x = buffers[0].buf, *const y = buffers[1].buf, *const z = buffers[2].buf;
             size_t refused;
             Py_BEGIN_ALLOW_THREADS
-            refused = hypcheck_ask_tilted_scene(question, sizes, axis, (size_t)answers.len, (const double *)buffers[0].buf,
-                                                (const double *)buffers[1].buf, (const double *)buffers[2].buf,
-                                                (int8_t *)answers.buf);
+            if (keep) {
+                hypcheck_scene scene;
+                hc_prepared made;
+                hypcheck_prepare(&scene, sizes, axis, count, x, y, z);
+                memcpy(&made, &scene, sizeof made);
+                refused = made.valid ? hc_ask_kept(question, &made, count, x, y, z, NULL, (hc_signs *)answers.buf) : count;
+            } else {
+                refused = hypcheck_ask_tilted_scene(question, sizes, axis, count, x, y, z, (int8_t *)answers.buf);
+            }
             Py_END_ALLOW_THREADS
             result = PyLong_FromSize_t(refused);
         } else {
@@ -82,6 +95,46 @@ static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
         PyBuffer_Release(&answers);
     }
     while (held) PyBuffer_Release(buffers + --held);
+    return result;
+}
+
+static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
+    (void)self;
+    return asked_scene(arguments, 0);
+}
+
+static PyObject *py_keep_scene(PyObject *self, PyObject *arguments) {
+    (void)self;
+    return asked_scene(arguments, 1);
+}
+
+/* The answers that were kept, as bytes. */
+static void spread(const hc_signs *kept, size_t count, int8_t *answers) {
+    const size_t whole = count / HC_BLOCK;
+    int8_t last[HC_BLOCK];
+    hc_level()->spread_all(answers, kept, whole);
+    if (count % HC_BLOCK == 0) return;
+    hc_level()->spread_all(last, kept + whole, 1);
+    memcpy(answers + HC_BLOCK * whole, last, count % HC_BLOCK);
+}
+
+static PyObject *py_spread(PyObject *self, PyObject *arguments) {
+    PyObject *kept_object, *answers_object, *result = NULL;
+    Py_buffer kept, answers;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "OO", &kept_object, &answers_object) || !filled(kept_object, &kept, "b", 0)) return NULL;
+    if (filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
+        if ((size_t)kept.len == hc_blocks((size_t)answers.len) * sizeof(hc_signs)) {
+            Py_BEGIN_ALLOW_THREADS
+            spread((const hc_signs *)kept.buf, (size_t)answers.len, (int8_t *)answers.buf);
+            Py_END_ALLOW_THREADS
+            result = Py_NewRef(Py_None);
+        } else {
+            PyErr_SetString(PyExc_ValueError, "two words for each 64 answers");
+        }
+        PyBuffer_Release(&answers);
+    }
+    PyBuffer_Release(&kept);
     return result;
 }
 
@@ -160,7 +213,7 @@ static int axis_of(PyObject *object, double axis[3]) {
 
 static PyObject *py_position(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
     double row[10];
-    Py_ssize_t k;
+    int floats = 1, k;
     int8_t answer = 127;
     (void)self;
     if (count != 7) {
@@ -172,11 +225,14 @@ static PyObject *py_position(PyObject *self, PyObject *const *arguments, Py_ssiz
         PyErr_SetString(PyExc_TypeError, "position() takes one keyword: axis");
         return NULL;
     }
-    for (k = 0; k < 7 && PyFloat_Check(arguments[k]); k++) row[k] = PyFloat_AS_DOUBLE(arguments[k]);
-    if (k == 7 && keywords == NULL)
-        answer = (int8_t)hypcheck_position(row[0], row[1], row[2], row[3], row[4], row[5], row[6]);
-    else if (k == 7 && axis_of(arguments[7], row + 7))
-        hypcheck_classify_tilted(1, row, &answer);
+    for (k = 0; k < 7; k++) floats &= PyFloat_CheckExact(arguments[k]);
+    if (!floats)
+        for (floats = 1, k = 0; k < 7; k++) floats &= PyFloat_Check(arguments[k]);
+    if (floats) {
+        for (k = 0; k < 7; k++) row[k] = PyFloat_AS_DOUBLE(arguments[k]);
+        if (keywords == NULL) answer = (int8_t)hc_position_of(row);
+        else if (axis_of(arguments[7], row + 7)) hypcheck_classify_tilted(1, row, &answer);
+    }
     if (answer != 127) return PyLong_FromLong(answer);
     if (slow_position == NULL) return PyLong_FromLong(127);
     return PyObject_Vectorcall(slow_position, arguments, (size_t)count, keywords);
@@ -189,6 +245,260 @@ static PyObject *py_set_slow_position(PyObject *self, PyObject *function) {
     slow_position = function;
     Py_XDECREF(before);
     Py_RETURN_NONE;
+}
+
+/* ---- ordinary calls of classify_scene and classify, with no step in Python ----
+
+   They take exactly numpy's arrays, which lie in memory as C wants them, and answer; or they answer nothing (None), change
+   nothing, and leave the call to Python, which converts what can be converted and says what is wrong with the rest. */
+
+static PyObject *array_type = NULL, *new_array = NULL, *answer_type = NULL; /* numpy.ndarray, empty, dtype("int8") */
+
+enum { FEW = 1024, FREE_FROM = 256 }; /* rows held on the stack; rows for which the interpreter is set free meanwhile */
+
+static PyObject *py_use_arrays(PyObject *self, PyObject *arguments) {
+    PyObject *type, *make, *answers;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "OOO", &type, &make, &answers)) return NULL;
+    Py_XSETREF(array_type, Py_NewRef(type));
+    Py_XSETREF(new_array, Py_NewRef(make));
+    Py_XSETREF(answer_type, Py_NewRef(answers));
+    Py_RETURN_NONE;
+}
+
+/* The memory of an array of that format and of so many dimensions, each row behind the other; 0 for anything else. */
+static int lent(PyObject *object, Py_buffer *buffer, const char *format, size_t size, int dimensions, int flags) {
+    if ((PyObject *)Py_TYPE(object) != array_type) return 0;
+    if (PyObject_GetBuffer(object, buffer, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT | flags) != 0) {
+        PyErr_Clear();
+        return 0;
+    }
+    if (buffer->ndim == dimensions && strcmp(buffer->format, format) == 0 && (uintptr_t)buffer->buf % size == 0) return 1;
+    PyBuffer_Release(buffer);
+    return 0;
+}
+
+static int apart(const Py_buffer *one, const Py_buffer *other) {
+    const uintptr_t start = (uintptr_t)one->buf, begin = (uintptr_t)other->buf;
+    return start + (uintptr_t)one->len <= begin || begin + (uintptr_t)other->len <= start;
+}
+
+/* The arguments of a call: columns of a scene, a number standing for a whole one, or rows; and where answers go. */
+typedef struct {
+    Py_buffer inputs[3], out;
+    int lends[3], has_out, width; /* 7 or 10 numbers in a row; 0 for a scene */
+    double numbers[3], room[3][FEW];
+    const double *columns[3];
+    Py_ssize_t count;
+} taken;
+
+static void give_back(taken *these) {
+    int k;
+    for (k = 0; k < 3; k++)
+        if (these->lends[k]) PyBuffer_Release(these->inputs + k);
+    if (these->has_out) PyBuffer_Release(&these->out);
+}
+
+static int take_out(taken *these, PyObject *out) {
+    int k;
+    if (out == Py_None) return 1;
+    if (!(these->has_out = lent(out, &these->out, "b", 1, 1, PyBUF_WRITABLE)) || these->out.len != these->count) return 0;
+    for (k = 0; k < 3; k++)
+        if (these->lends[k] && !apart(&these->out, these->inputs + k)) return 0;
+    return 1;
+}
+
+static int take_scene(taken *these, PyObject *const *columns, PyObject *out) {
+    int k, i, arrays = 0;
+    these->lends[0] = these->lends[1] = these->lends[2] = these->has_out = these->width = 0;
+    these->count = 1;
+    for (k = 0; k < 3; k++) {
+        if (PyFloat_Check(columns[k])) {
+            these->numbers[k] = PyFloat_AS_DOUBLE(columns[k]);
+            continue;
+        }
+        if (!(these->lends[k] = lent(columns[k], these->inputs + k, "d", sizeof(double), 1, 0))) return 0;
+        if (arrays++ && these->inputs[k].shape[0] != these->count) return 0;
+        these->count = these->inputs[k].shape[0];
+        these->columns[k] = (const double *)these->inputs[k].buf;
+    }
+    for (k = 0; k < 3; k++) {
+        if (these->lends[k]) continue;
+        if (these->count > FEW) return 0;
+        for (i = 0; i < these->count; i++) these->room[k][i] = these->numbers[k];
+        these->columns[k] = these->room[k];
+    }
+    return take_out(these, out);
+}
+
+static int take_rows(taken *these, PyObject *rows, PyObject *out) {
+    these->lends[1] = these->lends[2] = these->has_out = 0;
+    if (!(these->lends[0] = lent(rows, these->inputs, "d", sizeof(double), 2, 0))) return 0;
+    these->count = these->inputs[0].shape[0];
+    these->width = (int)these->inputs[0].shape[1];
+    these->columns[0] = (const double *)these->inputs[0].buf;
+    return (these->width == 7 || these->width == 10) && take_out(these, out);
+}
+
+/* Four floats, or the bytes of a hypcheck_scene; 0 for anything else, and for sizes that are not valid. */
+static int scene_of(PyObject *object, hypcheck_scene *scene, double sizes[4], int *prepared) {
+    double row[7] = {0};
+    Py_ssize_t k;
+    *prepared = PyBytes_CheckExact(object);
+    if (*prepared) {
+        if (PyBytes_GET_SIZE(object) != (Py_ssize_t)sizeof *scene) return 0;
+        memcpy(scene, PyBytes_AS_STRING(object), sizeof *scene);
+        return 1;
+    }
+    if (!(PyTuple_CheckExact(object) || PyList_CheckExact(object)) || PySequence_Fast_GET_SIZE(object) != 4) return 0;
+    for (k = 0; k < 4; k++) {
+        PyObject *const number = PySequence_Fast_GET_ITEM(object, k);
+        if (!PyFloat_Check(number)) return 0;
+        row[k] = sizes[k] = PyFloat_AS_DOUBLE(number);
+    }
+    return hc_valid(row);
+}
+
+static size_t decided(const taken *these, const hypcheck_scene *scene, const double sizes[4], int8_t *answers) {
+    const double *const *const at = these->columns;
+    const size_t count = (size_t)these->count;
+    if (these->width == 7) return hypcheck_ask(HYPCHECK_POSITION, count, at[0], answers);
+    if (these->width == 10) return hypcheck_ask_tilted(HYPCHECK_POSITION, count, at[0], answers);
+    if (scene != NULL) return hypcheck_ask_prepared(HYPCHECK_POSITION, scene, count, at[0], at[1], at[2], answers);
+    return hypcheck_ask_scene(HYPCHECK_POSITION, sizes, count, at[0], at[1], at[2], answers);
+}
+
+/* Fills `out`, or nothing of it. Returns the number of invalid rows, or 1 where memory is missing: Python then tries.
+   Until all rows are known to be valid their answers are kept elsewhere; those of a scene as bits, for there to write and
+   read a byte a row would take a tenth of the time. */
+static size_t filled_whole(const taken *these, const hypcheck_scene *scene, const double sizes[4]) {
+    const double *const *const at = these->columns;
+    const size_t count = (size_t)these->count;
+    const int bits = these->width == 0 && count > FEW;
+    int8_t few[FEW], *const out = (int8_t *)these->out.buf;
+    void *const kept = count <= FEW ? few : malloc(bits ? hc_blocks(count) * sizeof(hc_signs) : count);
+    hypcheck_scene own;
+    hc_prepared made;
+    size_t refused;
+    if (kept == NULL) return 1;
+    if (bits) {
+        if (scene == NULL) hypcheck_prepare(&own, sizes, NULL, count, at[0], at[1], at[2]);
+        memcpy(&made, scene != NULL ? scene : &own, sizeof made);
+        refused = made.valid ? hc_ask_kept(HYPCHECK_POSITION, &made, count, at[0], at[1], at[2], NULL, kept) : count;
+        if (refused == 0) spread(kept, count, out);
+    } else {
+        refused = decided(these, scene, sizes, kept);
+        if (refused == 0) memcpy(out, kept, count);
+    }
+    if (kept != few) free(kept);
+    return refused;
+}
+
+static PyObject *new_answers(Py_ssize_t count) {
+    PyObject *arguments[2] = {PyLong_FromSsize_t(count), answer_type}, *made;
+    if (arguments[0] == NULL) return NULL;
+    made = PyObject_Vectorcall(new_array, arguments, 2, NULL);
+    Py_DECREF(arguments[0]);
+    return made;
+}
+
+/* The answers of a call whose arguments are taken: `out`, a new array, or None where a row is invalid. */
+static PyObject *answered(taken *these, PyObject *out, const hypcheck_scene *scene, const double sizes[4]) {
+    PyObject *answers = out == Py_None ? new_answers(these->count) : Py_NewRef(out);
+    PyThreadState *state = NULL;
+    size_t refused;
+    if (answers == NULL) return NULL;
+    if (out == Py_None && !(these->has_out = lent(answers, &these->out, "b", 1, 1, PyBUF_WRITABLE))) {
+        Py_DECREF(answers);
+        Py_RETURN_NONE;
+    }
+    if (these->count >= FREE_FROM) state = PyEval_SaveThread();
+    refused = out == Py_None ? decided(these, scene, sizes, (int8_t *)these->out.buf) : filled_whole(these, scene, sizes);
+    if (state != NULL) PyEval_RestoreThread(state);
+    if (refused == 0) return answers;
+    Py_DECREF(answers);
+    Py_RETURN_NONE;
+}
+
+static PyObject *answered_or_given_back(taken *these, int took, Py_ssize_t most, PyObject *out, const hypcheck_scene *scene,
+                                        const double sizes[4]) {
+    PyObject *result = took && these->count > 0 && these->count <= most ? answered(these, out, scene, sizes) : Py_NewRef(Py_None);
+    give_back(these);
+    return result;
+}
+
+static int few_enough(PyObject *const *arguments, Py_ssize_t count, Py_ssize_t wanted, Py_ssize_t *most) {
+    if (count != wanted) {
+        PyErr_Format(PyExc_TypeError, "%zd arguments are needed, not %zd", wanted, count);
+        return 0;
+    }
+    *most = PyLong_AsSsize_t(arguments[wanted - 1]);
+    return !(*most == -1 && PyErr_Occurred());
+}
+
+static PyObject *py_scene_at_once(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
+    hypcheck_scene scene;
+    double sizes[4];
+    taken these;
+    Py_ssize_t most;
+    int prepared, took;
+    (void)self;
+    if (!few_enough(arguments, count, 6, &most)) return NULL;
+    if (!scene_of(arguments[0], &scene, sizes, &prepared)) Py_RETURN_NONE;
+    took = take_scene(&these, arguments + 1, arguments[4]);
+    return answered_or_given_back(&these, took, most, arguments[4], prepared ? &scene : NULL, sizes);
+}
+
+static PyObject *py_rows_at_once(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
+    taken these;
+    Py_ssize_t most;
+    (void)self;
+    if (!few_enough(arguments, count, 3, &most)) return NULL;
+    return answered_or_given_back(&these, take_rows(&these, arguments[0], arguments[1]), most, arguments[1], NULL, NULL);
+}
+
+/* What a call cannot do without, for the benchmark: to take the arrays and give them back; and to be called at all. */
+static PyObject *py_take(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
+    taken these;
+    (void)self;
+    if (count != 5) {
+        PyErr_SetString(PyExc_TypeError, "five arguments are needed");
+        return NULL;
+    }
+    if (!take_scene(&these, arguments + 1, arguments[4])) PyErr_SetString(PyExc_ValueError, "these are no ordinary arrays");
+    give_back(&these);
+    if (PyErr_Occurred()) return NULL;
+    Py_RETURN_NONE;
+}
+
+static PyObject *py_nothing(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
+    (void)self, (void)arguments, (void)count, (void)keywords;
+    Py_RETURN_NONE;
+}
+
+static PyObject *py_prepare(PyObject *self, PyObject *arguments) {
+    PyObject *columns[3];
+    Py_buffer buffers[3];
+    double sizes[4], axis[3];
+    hypcheck_scene scene;
+    PyObject *result = NULL;
+    int held = 0;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "(dddd)(ddd)OOO", sizes, sizes + 1, sizes + 2, sizes + 3, axis, axis + 1, axis + 2,
+                          columns, columns + 1, columns + 2))
+        return NULL;
+    while (held < 3 && filled(columns[held], buffers + held, "d", 0)) held++;
+    if (held == 3) {
+        if (buffers[0].len == buffers[1].len && buffers[0].len == buffers[2].len) {
+            hypcheck_prepare(&scene, sizes, axis, (size_t)buffers[0].len / sizeof(double), (const double *)buffers[0].buf,
+                             (const double *)buffers[1].buf, (const double *)buffers[2].buf);
+            result = PyBytes_FromStringAndSize((const char *)&scene, (Py_ssize_t)sizeof scene);
+        } else {
+            PyErr_SetString(PyExc_ValueError, "as many x as y and z");
+        }
+    }
+    while (held) PyBuffer_Release(buffers + --held);
+    return result;
 }
 
 static PyObject *py_level(PyObject *self, PyObject *unused) {
@@ -205,6 +515,15 @@ static PyObject *py_use_level(PyObject *self, PyObject *name) {
 static PyMethodDef functions[] = {
     {"ask", py_ask, METH_VARARGS, "ask(question, rows, answers) -> the number of invalid rows, which are answered 127"},
     {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers, axis=upright) -> as ask"},
+    {"keep_scene", py_keep_scene, METH_VARARGS, "keep_scene(0, sizes, x, y, z, kept, axis=upright) -> as ask; see spread"},
+    {"spread", py_spread, METH_VARARGS, "spread(kept, answers): write the answers that keep_scene kept"},
+    {"prepare", py_prepare, METH_VARARGS, "prepare(sizes, axis, x, y, z) -> the bytes of a hypcheck_scene"},
+    {"use_arrays", py_use_arrays, METH_VARARGS, "use_arrays(ndarray, empty, dtype('int8')): what scene_at_once takes and makes"},
+    {"scene_at_once", (PyCFunction)(void (*)(void))py_scene_at_once, METH_FASTCALL,
+     "scene_at_once(sizes or prepared, x, y, z, out or None, most) -> answers, or None where Python must look at the call"},
+    {"rows_at_once", (PyCFunction)(void (*)(void))py_rows_at_once, METH_FASTCALL, "rows_at_once(rows, out or None, most): the same for rows"},
+    {"take", (PyCFunction)(void (*)(void))py_take, METH_FASTCALL, "take(sizes, x, y, z, out or None): take the arrays, do nothing"},
+    {"nothing", (PyCFunction)(void (*)(void))py_nothing, METH_FASTCALL | METH_KEYWORDS, "nothing(...): be called, do nothing"},
     {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
     {"clearance", py_clearance, METH_VARARGS, "clearance(rows, positions, found) -> the number of invalid rows; eleven numbers a row"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,

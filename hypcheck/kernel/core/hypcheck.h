@@ -70,6 +70,20 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
 size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
                                  const double *y, const double *z, int8_t *answers);
 
+/* One scene, prepared once and asked many times: what can be computed before centres are known is kept. Answers are those
+   of hypcheck_ask_tilted_scene; only time differs, most of all in batches of 64 to some thousand rows. `axis` NULL is
+   upright. x, y, z are n centres like those that will be asked about; n = 0, where none is known, takes heights about the
+   waist. Invalid sizes, or such an axis, are answered 127 everywhere. A hypcheck_scene holds 576 bytes and no pointer: it may
+   be copied, kept anywhere, and asked by any number of threads at once. Only hypcheck_prepare writes it, and only the build
+   of this header that wrote it reads it. */
+typedef struct {
+    double kept[72];
+} hypcheck_scene;
+void hypcheck_prepare(hypcheck_scene *scene, const double sizes[4], const double axis[3], size_t n, const double *x,
+                      const double *y, const double *z);
+size_t hypcheck_ask_prepared(int question, const hypcheck_scene *scene, size_t n, const double *x, const double *y,
+                             const double *z, int8_t *answers);
+
 /* One position. */
 int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);
 
@@ -164,7 +178,9 @@ int hypcheck_use_level(const char *name);
 #define HC_AHEAD 512
 #define HC_TURNS 8 /* of Newton's method, at most, for a multiplier */
 #define HC_settled 1e-6 /* its last relative change */
-#define HC_LINES_FROM 1024 /* rows from which the constants of the lines are worth their making */
+#define HC_LINES_FROM 256 /* rows from which the constants of the lines are worth their making, */
+#define HC_PLANES_FROM 512 /* and those of the planes, which cost more to make and save more */
+#define HC_WIDEST 8 /* doubles in the widest vector of any level */
 
 #define HC_u_4 8.881792667330725e-16 /* 0x1.0000100000000p-50 */
 #define HC_u_8 1.776358533466145e-15 /* 0x1.0000100000000p-49 */
@@ -230,6 +246,12 @@ typedef struct {
     uint64_t plus, minus, decided;
 } hc_bits;
 
+/* The answers of a block as bits: exterior (or "yes"), interior. A quarter of the bytes: so answers are kept that must not
+   be written before all rows are known to be valid. */
+typedef struct {
+    uint64_t plus, minus;
+} hc_signs;
+
 /* The half planes R > K + M T, R < K + M T, R < K + M T, R >= K + M T of one scene, three of each. */
 typedef struct {
     double K, M;
@@ -255,6 +277,7 @@ typedef struct {
     hc_plane beyond[3], within[3], under[3], above[3];
     double reach, heights[3];
     hc_ball A1, A2, B;
+    int has_two; /* whether the half spaces 1 and 2 are made */
     double zeta; /* a computed square is within zeta (P1 + P2 + Q) of the exact one */
 } hc_tilted_scene;
 
@@ -1321,7 +1344,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_f5d2993a26796fac
+#ifndef HC_EDITION_05cdd8121eef6164
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1394,13 +1417,15 @@ static int hc_single(const double row[7]) {
     const double e2 = u_8 * M2;
     const double BB = B * B;
     /* end of the program "single" */
-    if (!(alpha > 0 && gamma > 0 && b > HC_least && b < HC_greatest && d > HC_least && d < HC_greatest)) return 2;
-    if (!(A > HC_slack && A < HC_greatest && B > HC_least && B < HC_greatest && BB > HC_slack * A)) return 2;
-    if (!(P_plus_Q < HC_farthest)) return 2; /* beyond, products overflow: rounded towards zero, they would look finite */
-    if (delta_3 < -E) return 0;
-    if (!(delta_3 > E)) return 2;
-    if (c2 < -e2 && c1 > e1) return 1;
-    return c2 > e2 || c1 < -e1 ? -1 : 2;
+    /* Without a branch for each comparison: which side it is no processor can foresee, and a wrong guess costs as much as
+       half of the arithmetic. P + Q beyond `farthest` is left: products overflow there, and rounded towards zero they would
+       look finite. */
+    const int sizes_fit = (alpha > 0) & (gamma > 0) & (b > HC_least) & (b < HC_greatest) & (d > HC_least) & (d < HC_greatest);
+    const int ratios_fit = (A > HC_slack) & (A < HC_greatest) & (B > HC_least) & (B < HC_greatest) & (BB > HC_slack * A);
+    const int contact = delta_3 < -E, apart = delta_3 > E;
+    const int outside = (c2 < -e2) & (c1 > e1), inside = (c2 > e2) | (c1 < -e1);
+    if (!(sizes_fit & ratios_fit & (P_plus_Q < HC_farthest) & (contact | (apart & (outside | inside))))) return 2;
+    return apart * (outside - inside);
 }
 
 static int hc_position_of(const double row[7]) {
@@ -1851,21 +1876,23 @@ static int hc_make_tilted_scene(hc_tilted_scene *scene, const double sizes[4], c
     Q[2] = greatest > HC_least ? 1.125 * greatest : HC_least;
     Q[1] = least < greatest && least > 0.3 * Q[2] ? 0.999 * least : 0.3 * Q[2];
     hc_make_planes(scene, 0, 0);
+    scene->has_two = 0;
     return HC_FLOATS_DECIDE;
 }
 
 /* ---- which instruction set, and the public functions ---- */
 
 typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const double *, const double *, int,
-                                  int8_t *, uint64_t *);
+                                  hc_signs *, uint64_t *);
 
 typedef void (*hc_planes_function)(const hc_tilted_scene *, int, const double *, const double *, const double *, int,
-                                   int8_t *, uint64_t *);
+                                   hc_signs *, uint64_t *);
 
 typedef struct {
     const char *name;
     hc_bits (*certified)(const double *, size_t, int), (*tilted)(const double *, size_t, int);
     void (*spread)(int8_t *, uint64_t, uint64_t);
+    void (*spread_all)(int8_t *, const hc_signs *, size_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
     hc_planes_function one_plane, two_planes;
     void (*touches)(const double *, size_t, int, hc_touches *);
@@ -1875,8 +1902,9 @@ typedef struct {
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
-    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), \
-      hc_one_plane_##level, hc_two_planes_##level, hc_touches_##level, hc_gaps_##level }
+    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, hc_spread_all_##level, \
+      HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), hc_one_plane_##level, hc_two_planes_##level, \
+      hc_touches_##level, hc_gaps_##level }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),
@@ -1941,8 +1969,16 @@ static int8_t hc_answer(int question, int position) {
 typedef struct {
     double columns[7 * HC_BLOCK];
     size_t places[HC_BLOCK];
+    hc_signs *kept; /* where answers are kept as bits; NULL: they are written as bytes */
     int count;
 } hc_waiting;
+
+static void hc_note(hc_signs *kept, size_t place, int answer) {
+    hc_signs *const signs = kept + place / HC_BLOCK;
+    const uint64_t bit = (uint64_t)1 << place % HC_BLOCK;
+    signs->plus = answer == 1 ? signs->plus | bit : signs->plus & ~bit;
+    signs->minus = answer == -1 ? signs->minus | bit : signs->minus & ~bit;
+}
 
 /* The later stages for all that wait. Returns the number of invalid rows. */
 static size_t hc_settle(const hc_level_functions *level, int question, hc_waiting *waiting, int8_t *answers) {
@@ -1959,7 +1995,8 @@ static size_t hc_settle(const hc_level_functions *level, int question, hc_waitin
             if (hc_valid(row)) answer = hc_answer(question, hc_exact_position(row));
             else answer = 127, refused++;
         }
-        answers[waiting->places[i]] = answer;
+        if (waiting->kept != NULL) hc_note(waiting->kept, waiting->places[i], answer);
+        else answers[waiting->places[i]] = answer;
     }
     waiting->count = 0;
     return refused;
@@ -1989,39 +2026,65 @@ static size_t hc_wait(const hc_level_functions *level, int question, hc_waiting 
     return waiting->count == HC_BLOCK ? hc_settle(level, question, waiting, answers) : 0;
 }
 
-size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
-                          const double *z, int8_t *answers) {
-    const double probe[7] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0};
+static size_t hc_blocks(size_t rows) { return (rows + HC_BLOCK - 1) / HC_BLOCK; }
+
+/* Makes place for n rows of one scene, or for a block of them. What a vector reads behind the last row is a number, too. */
+static void hc_begin(hc_waiting *waiting, const double sizes[4], size_t n, hc_signs *kept) {
+    const int rows = n < HC_BLOCK ? ((int)n + HC_WIDEST - 1) / HC_WIDEST * HC_WIDEST : HC_BLOCK;
+    int k, i;
+    for (k = 0; k < 7; k++)
+        for (i = 0; i < rows; i++) waiting->columns[k * HC_BLOCK + i] = k < 4 ? sizes[k] : 0;
+    waiting->count = 0;
+    waiting->kept = kept;
+}
+
+/* Answers for valid sizes; `scene` has their half planes, or is NULL where the first stage is left out. They are written, or
+   kept as bits where `kept` is not NULL: one hc_signs for each block of rows, and 0 for invalid ones. */
+static size_t hc_ask_upright(int question, const double sizes[4], const hc_scene *scene, size_t n, const double *x,
+                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
     const hc_level_functions *level = hc_level();
     const int asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
     hc_lines_function lines = level->one_line[asked];
     hc_waiting waiting;
-    hc_scene scene;
+    hc_signs own[HC_STRIP / HC_BLOCK];
     uint64_t left[HC_STRIP / HC_BLOCK];
     size_t refused = 0, start, i;
-    int has_lines, block, k;
-    if (!hc_valid(probe)) {
-        memset(answers, 127, n);
-        return n;
-    }
-    memset(&waiting, 0, sizeof waiting);
-    for (k = 0; k < 4 * HC_BLOCK; k++) waiting.columns[k] = sizes[k / HC_BLOCK];
-    has_lines = n >= HC_LINES_FROM && hc_make_scene(&scene, sizes, n, z);
+    int block;
+    hc_begin(&waiting, sizes, n, kept);
     for (start = 0; start < n; start += HC_STRIP) {
         const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = has_lines ? (int)((end - start) / HC_BLOCK) : 0;
+        const int blocks = scene != NULL ? (int)((end - start) / HC_BLOCK) : 0;
+        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
+        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
         int lefts = 0;
-        if (blocks) lines(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, answers + start, left);
+        if (blocks) lines(scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
+        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
+        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
         for (block = 0; block < blocks; block++)
             for (; left[block]; left[block] &= left[block] - 1, lefts++) {
                 i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
                 refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
             }
         if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[asked];
-        for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
+        for (i = beyond; i < end; i++)
             refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
     }
     return refused + hc_settle(level, question, &waiting, answers);
+}
+
+static size_t hc_refuse_all(size_t n, int8_t *answers) {
+    memset(answers, 127, n);
+    return n;
+}
+
+size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
+                          const double *z, int8_t *answers) {
+    const double probe[7] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0};
+    hc_scene scene;
+    int has_lines;
+    if (!hc_valid(probe)) return hc_refuse_all(n, answers);
+    has_lines = n >= HC_LINES_FROM && hc_make_scene(&scene, sizes, n, z);
+    return hc_ask_upright(question, sizes, has_lines ? &scene : NULL, n, x, y, z, answers, NULL);
 }
 
 void hypcheck_classify(size_t n, const double *rows, int8_t *positions) {
@@ -2044,6 +2107,7 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 typedef struct {
     double columns[10 * HC_BLOCK];
     size_t places[HC_BLOCK];
+    hc_signs *kept; /* as in hc_waiting */
     int count;
 } hc_tilted_waiting;
 
@@ -2085,7 +2149,8 @@ static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc
             if (hc_valid(row) && hc_has_direction(row + 7)) answer = hc_answer(question, hc_exact_tilted_position(row));
             else answer = 127, refused++;
         }
-        answers[waiting->places[i]] = answer;
+        if (waiting->kept != NULL) hc_note(waiting->kept, waiting->places[i], answer);
+        else answers[waiting->places[i]] = answer;
     }
     waiting->count = 0;
     return refused;
@@ -2128,32 +2193,33 @@ static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_t
     return waiting->count == HC_BLOCK ? hc_tilted_settle(level, question, waiting, answers) : 0;
 }
 
-size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
-                                 const double *y, const double *z, int8_t *answers) {
-    double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
+/* As hc_ask_upright, and the question is the position where answers are kept: sizes and an axis with a direction, scaled, that is not
+   upright, are valid, and `probe` has them as a row. `known` has
+   the half spaces, or is NULL where the first stage is left out; the second ones are made when they are needed. */
+static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
+                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
     const hc_level_functions *level = hc_level();
     hc_planes_function planes = level->one_plane;
     hc_tilted_waiting waiting;
     hc_tilted_scene scene;
+    hc_signs own[HC_STRIP / HC_BLOCK];
     uint64_t left[HC_STRIP / HC_BLOCK];
     size_t refused = 0, start, i;
-    int has_planes, block, k;
-    if (!(hc_valid(probe) && hc_has_direction(axis))) {
-        memset(answers, 127, n);
-        return n;
-    }
-    if (hc_is_upright(probe)) return hypcheck_ask_scene(question, sizes, n, x, y, z, answers);
-    hc_scale_axis(probe + 7);
+    int block, k;
+    if (known != NULL) scene = *known;
     memset(&waiting, 0, sizeof waiting);
+    waiting.kept = kept;
     for (k = 0; k < 10 * HC_BLOCK; k++) waiting.columns[k] = probe[k / HC_BLOCK];
-    has_planes = n >= HC_LINES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
     for (start = 0; start < n; start += HC_STRIP) {
         const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = has_planes ? (int)((end - start) / HC_BLOCK) : 0;
+        const int blocks = known != NULL ? (int)((end - start) / HC_BLOCK) : 0;
         const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
+        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
         int lefts = 0;
-        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, answers + start, left);
-        if (question != HYPCHECK_POSITION)
+        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
+        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
+        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
+        if (kept == NULL && question != HYPCHECK_POSITION)
             for (i = start; i < beyond; i++) answers[i] = hc_answer(question, answers[i]);
         for (block = 0; block < blocks; block++)
             for (; left[block]; left[block] &= left[block] - 1, lefts++) {
@@ -2161,12 +2227,24 @@ size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const doub
                 refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
             }
         if (lefts > HC_TOO_MANY_BY_PLANES && planes != level->two_planes) {
-            hc_make_planes(&scene, 1, 2);
+            if (!scene.has_two) hc_make_planes(&scene, 1, 2);
             planes = level->two_planes;
         }
         for (i = beyond; i < end; i++) refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
     }
     return refused + hc_tilted_settle(level, question, &waiting, answers);
+}
+
+size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
+                                 const double *y, const double *z, int8_t *answers) {
+    double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
+    hc_tilted_scene scene;
+    int has_planes;
+    if (!(hc_valid(probe) && hc_has_direction(axis))) return hc_refuse_all(n, answers);
+    if (hc_is_upright(probe)) return hypcheck_ask_scene(question, sizes, n, x, y, z, answers);
+    hc_scale_axis(probe + 7);
+    has_planes = n >= HC_PLANES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
+    return hc_ask_leaning(question, probe, has_planes ? &scene : NULL, n, x, y, z, answers, NULL);
 }
 
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions) {
@@ -2176,6 +2254,62 @@ void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions)
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions) {
     hypcheck_ask_tilted_scene(HYPCHECK_POSITION, sizes, axis, n, x, y, z, positions);
+}
+
+/* ---- a scene that is prepared once ---- */
+
+/* What a hypcheck_scene holds. `lines` and `planes` say whether the first stage has its half planes, or half spaces. */
+typedef struct {
+    double probe[10];
+    int valid, upright, lines, planes;
+    union {
+        hc_scene upright;
+        hc_tilted_scene leaning;
+    } of;
+} hc_prepared;
+
+typedef char hc_prepared_fits[sizeof(hc_prepared) <= sizeof(hypcheck_scene) ? 1 : -1];
+
+/* Heights for a scene of which no centre is known: as far up as the hyperboloid is about twice as wide as at its waist. */
+static void hc_prepare_lines(hc_prepared *made, size_t n, const double *x, const double *y, const double *z) {
+    const double *const sizes = made->probe;
+    const double usual_x[2] = {0, sizes[0]}, usual_y[2] = {0, 0}, usual_z[2] = {0, 1.75 * sizes[1]};
+    if (n == 0) n = 2, x = usual_x, y = usual_y, z = usual_z;
+    if (made->upright) {
+        made->lines = hc_make_scene(&made->of.upright, sizes, n, z);
+    } else {
+        made->planes = hc_make_tilted_scene(&made->of.leaning, sizes, made->probe + 7, n, x, y, z);
+        if (made->planes) hc_make_planes(&made->of.leaning, 1, 2), made->of.leaning.has_two = 1;
+    }
+}
+
+void hypcheck_prepare(hypcheck_scene *scene, const double sizes[4], const double axis[3], size_t n, const double *x,
+                      const double *y, const double *z) {
+    hc_prepared made;
+    memset(&made, 0, sizeof made);
+    memcpy(made.probe, sizes, 4 * sizeof *sizes);
+    made.probe[9] = 1;
+    if (axis != NULL) memcpy(made.probe + 7, axis, 3 * sizeof *axis);
+    made.valid = hc_valid(made.probe) && hc_has_direction(made.probe + 7);
+    made.upright = hc_is_upright(made.probe);
+    if (!made.upright) hc_scale_axis(made.probe + 7);
+    if (made.valid) hc_prepare_lines(&made, n, x, y, z);
+    memset(scene, 0, sizeof *scene);
+    memcpy(scene, &made, sizeof made);
+}
+
+static size_t hc_ask_kept(int question, const hc_prepared *made, size_t n, const double *x, const double *y, const double *z,
+                          int8_t *answers, hc_signs *kept) {
+    if (made->upright)
+        return hc_ask_upright(question, made->probe, made->lines ? &made->of.upright : NULL, n, x, y, z, answers, kept);
+    return hc_ask_leaning(question, made->probe, made->planes ? &made->of.leaning : NULL, n, x, y, z, answers, kept);
+}
+
+size_t hypcheck_ask_prepared(int question, const hypcheck_scene *scene, size_t n, const double *x, const double *y,
+                             const double *z, int8_t *answers) {
+    hc_prepared made;
+    memcpy(&made, scene, sizeof made);
+    return made.valid ? hc_ask_kept(question, &made, n, x, y, z, answers, NULL) : hc_refuse_all(n, answers);
 }
 
 /* ---- straight ways ---- */
@@ -2731,7 +2865,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_f5d2993a26796fac
+#define HC_EDITION_05cdd8121eef6164
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -2862,6 +2996,12 @@ HC_TARGET static void HC_NAME(hc_spread)(int8_t *bytes, uint64_t plus, uint64_t 
     int i;
     for (i = 0; i < HC_BLOCK; i++) bytes[i] = (int8_t)((int)(plus >> i & 1) - (int)(minus >> i & 1));
 #endif
+}
+
+HC_TARGET static void HC_NAME(hc_spread_all)(int8_t *bytes, const hc_signs *signs, size_t blocks) {
+    size_t block;
+    for (block = 0; block < blocks; block++)
+        HC_NAME(hc_spread)(bytes + HC_BLOCK * block, signs[block].plus, signs[block].minus);
 }
 
 /* The second stage on at most HC_BLOCK rows; column k begins at columns + k stride and is readable up to a multiple of
@@ -3083,10 +3223,10 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
     return found;
 }
 
-/* The first stage on whole blocks of one scene: what it decides is written, and `left` has a bit for each other row. To
+/* The first stage on whole blocks of one scene: what it decides is in `signs`, and `left` has a bit for each other row. To
    collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
 HC_TARGET static void HC_NAME(hc_one_line_position)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
     const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
@@ -3141,13 +3281,14 @@ HC_TARGET static void HC_NAME(hc_one_line_position)(const hc_scene *scene, int b
             found.minus |= HC_BITS(interior) << at;
             found.decided |= HC_BITS(decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_one_line_exterior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
     const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
@@ -3189,13 +3330,14 @@ HC_TARGET static void HC_NAME(hc_one_line_exterior)(const hc_scene *scene, int b
             found.plus |= HC_BITS(exterior) << at;
             found.decided |= HC_BITS(exterior_decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_one_line_interior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_within_0 = HC_SET(scene->within[0].K);
     const HC_NUMBER M_within_0 = HC_SET(scene->within[0].M);
@@ -3237,13 +3379,14 @@ HC_TARGET static void HC_NAME(hc_one_line_interior)(const hc_scene *scene, int b
             found.plus |= HC_BITS(interior) << at;
             found.decided |= HC_BITS(interior_decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_one_line_contact)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
     const HC_NUMBER M_beyond_0 = HC_SET(scene->beyond[0].M);
@@ -3297,13 +3440,14 @@ HC_TARGET static void HC_NAME(hc_one_line_contact)(const hc_scene *scene, int bl
             found.plus |= HC_BITS(contact) << at;
             found.decided |= HC_BITS(decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_position)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
     const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
@@ -3382,13 +3526,14 @@ HC_TARGET static void HC_NAME(hc_two_lines_position)(const hc_scene *scene, int 
             found.minus |= HC_BITS(interior) << at;
             found.decided |= HC_BITS(decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_exterior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
     const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
@@ -3442,13 +3587,14 @@ HC_TARGET static void HC_NAME(hc_two_lines_exterior)(const hc_scene *scene, int 
             found.plus |= HC_BITS(exterior) << at;
             found.decided |= HC_BITS(exterior_decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_interior)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_within_1 = HC_SET(scene->within[1].K);
     const HC_NUMBER M_within_1 = HC_SET(scene->within[1].M);
@@ -3502,13 +3648,14 @@ HC_TARGET static void HC_NAME(hc_two_lines_interior)(const hc_scene *scene, int 
             found.plus |= HC_BITS(interior) << at;
             found.decided |= HC_BITS(interior_decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                          const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                          const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
     const HC_NUMBER M_beyond_1 = HC_SET(scene->beyond[1].M);
@@ -3586,7 +3733,8 @@ HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int b
             found.plus |= HC_BITS(contact) << at;
             found.decided |= HC_BITS(decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
@@ -3891,7 +4039,7 @@ HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride
 
 /* As the functions of lines, with half spaces of one orientation. */
 HC_TARGET static void HC_NAME(hc_one_plane)(const hc_tilted_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                      const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                      const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER a_beyond_0 = HC_SET(scene->beyond[0].a);
     const HC_NUMBER K_beyond_0 = HC_SET(scene->beyond[0].K);
@@ -3982,13 +4130,14 @@ HC_TARGET static void HC_NAME(hc_one_plane)(const hc_tilted_scene *scene, int bl
             found.minus |= HC_BITS(interior) << at;
             found.decided |= HC_BITS(decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
 
 HC_TARGET static void HC_NAME(hc_two_planes)(const hc_tilted_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                      const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                      const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     const HC_NUMBER a_beyond_1 = HC_SET(scene->beyond[1].a);
     const HC_NUMBER K_beyond_1 = HC_SET(scene->beyond[1].K);
@@ -4115,7 +4264,8 @@ HC_TARGET static void HC_NAME(hc_two_planes)(const hc_tilted_scene *scene, int b
             found.minus |= HC_BITS(interior) << at;
             found.decided |= HC_BITS(decided) << at;
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }

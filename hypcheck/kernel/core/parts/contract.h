@@ -70,6 +70,20 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
 size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
                                  const double *y, const double *z, int8_t *answers);
 
+/* One scene, prepared once and asked many times: what can be computed before centres are known is kept. Answers are those
+   of hypcheck_ask_tilted_scene; only time differs, most of all in batches of 64 to some thousand rows. `axis` NULL is
+   upright. x, y, z are n centres like those that will be asked about; n = 0, where none is known, takes heights about the
+   waist. Invalid sizes, or such an axis, are answered 127 everywhere. A hypcheck_scene holds 576 bytes and no pointer: it may
+   be copied, kept anywhere, and asked by any number of threads at once. Only hypcheck_prepare writes it, and only the build
+   of this header that wrote it reads it. */
+typedef struct {
+    double kept[72];
+} hypcheck_scene;
+void hypcheck_prepare(hypcheck_scene *scene, const double sizes[4], const double axis[3], size_t n, const double *x,
+                      const double *y, const double *z);
+size_t hypcheck_ask_prepared(int question, const hypcheck_scene *scene, size_t n, const double *x, const double *y,
+                             const double *z, int8_t *answers);
+
 /* One position. */
 int hypcheck_position(double alpha, double gamma, double b, double d, double x, double y, double z);
 

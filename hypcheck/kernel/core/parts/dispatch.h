@@ -1,15 +1,16 @@
 /* ---- which instruction set, and the public functions ---- */
 
 typedef void (*hc_lines_function)(const hc_scene *, int, const double *, const double *, const double *, int,
-                                  int8_t *, uint64_t *);
+                                  hc_signs *, uint64_t *);
 
 typedef void (*hc_planes_function)(const hc_tilted_scene *, int, const double *, const double *, const double *, int,
-                                   int8_t *, uint64_t *);
+                                   hc_signs *, uint64_t *);
 
 typedef struct {
     const char *name;
     hc_bits (*certified)(const double *, size_t, int), (*tilted)(const double *, size_t, int);
     void (*spread)(int8_t *, uint64_t, uint64_t);
+    void (*spread_all)(int8_t *, const hc_signs *, size_t);
     hc_lines_function one_line[4], two_lines[4]; /* by question */
     hc_planes_function one_plane, two_planes;
     void (*touches)(const double *, size_t, int, hc_touches *);
@@ -19,8 +20,9 @@ typedef struct {
 #define HC_QUESTIONS(lines, level) \
     { hc_##lines##_position_##level, hc_##lines##_exterior_##level, hc_##lines##_interior_##level, hc_##lines##_contact_##level }
 #define HC_LEVEL_FUNCTIONS(level) \
-    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), \
-      hc_one_plane_##level, hc_two_planes_##level, hc_touches_##level, hc_gaps_##level }
+    { #level, hc_certified_##level, hc_tilted_##level, hc_spread_##level, hc_spread_all_##level, \
+      HC_QUESTIONS(one_line, level), HC_QUESTIONS(two_lines, level), hc_one_plane_##level, hc_two_planes_##level, \
+      hc_touches_##level, hc_gaps_##level }
 
 static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(plain),
@@ -85,8 +87,16 @@ static int8_t hc_answer(int question, int position) {
 typedef struct {
     double columns[7 * HC_BLOCK];
     size_t places[HC_BLOCK];
+    hc_signs *kept; /* where answers are kept as bits; NULL: they are written as bytes */
     int count;
 } hc_waiting;
+
+static void hc_note(hc_signs *kept, size_t place, int answer) {
+    hc_signs *const signs = kept + place / HC_BLOCK;
+    const uint64_t bit = (uint64_t)1 << place % HC_BLOCK;
+    signs->plus = answer == 1 ? signs->plus | bit : signs->plus & ~bit;
+    signs->minus = answer == -1 ? signs->minus | bit : signs->minus & ~bit;
+}
 
 /* The later stages for all that wait. Returns the number of invalid rows. */
 static size_t hc_settle(const hc_level_functions *level, int question, hc_waiting *waiting, int8_t *answers) {
@@ -103,7 +113,8 @@ static size_t hc_settle(const hc_level_functions *level, int question, hc_waitin
             if (hc_valid(row)) answer = hc_answer(question, hc_exact_position(row));
             else answer = 127, refused++;
         }
-        answers[waiting->places[i]] = answer;
+        if (waiting->kept != NULL) hc_note(waiting->kept, waiting->places[i], answer);
+        else answers[waiting->places[i]] = answer;
     }
     waiting->count = 0;
     return refused;
@@ -133,39 +144,65 @@ static size_t hc_wait(const hc_level_functions *level, int question, hc_waiting 
     return waiting->count == HC_BLOCK ? hc_settle(level, question, waiting, answers) : 0;
 }
 
-size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
-                          const double *z, int8_t *answers) {
-    const double probe[7] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0};
+static size_t hc_blocks(size_t rows) { return (rows + HC_BLOCK - 1) / HC_BLOCK; }
+
+/* Makes place for n rows of one scene, or for a block of them. What a vector reads behind the last row is a number, too. */
+static void hc_begin(hc_waiting *waiting, const double sizes[4], size_t n, hc_signs *kept) {
+    const int rows = n < HC_BLOCK ? ((int)n + HC_WIDEST - 1) / HC_WIDEST * HC_WIDEST : HC_BLOCK;
+    int k, i;
+    for (k = 0; k < 7; k++)
+        for (i = 0; i < rows; i++) waiting->columns[k * HC_BLOCK + i] = k < 4 ? sizes[k] : 0;
+    waiting->count = 0;
+    waiting->kept = kept;
+}
+
+/* Answers for valid sizes; `scene` has their half planes, or is NULL where the first stage is left out. They are written, or
+   kept as bits where `kept` is not NULL: one hc_signs for each block of rows, and 0 for invalid ones. */
+static size_t hc_ask_upright(int question, const double sizes[4], const hc_scene *scene, size_t n, const double *x,
+                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
     const hc_level_functions *level = hc_level();
     const int asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
     hc_lines_function lines = level->one_line[asked];
     hc_waiting waiting;
-    hc_scene scene;
+    hc_signs own[HC_STRIP / HC_BLOCK];
     uint64_t left[HC_STRIP / HC_BLOCK];
     size_t refused = 0, start, i;
-    int has_lines, block, k;
-    if (!hc_valid(probe)) {
-        memset(answers, 127, n);
-        return n;
-    }
-    memset(&waiting, 0, sizeof waiting);
-    for (k = 0; k < 4 * HC_BLOCK; k++) waiting.columns[k] = sizes[k / HC_BLOCK];
-    has_lines = n >= HC_LINES_FROM && hc_make_scene(&scene, sizes, n, z);
+    int block;
+    hc_begin(&waiting, sizes, n, kept);
     for (start = 0; start < n; start += HC_STRIP) {
         const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = has_lines ? (int)((end - start) / HC_BLOCK) : 0;
+        const int blocks = scene != NULL ? (int)((end - start) / HC_BLOCK) : 0;
+        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
+        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
         int lefts = 0;
-        if (blocks) lines(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, answers + start, left);
+        if (blocks) lines(scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
+        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
+        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
         for (block = 0; block < blocks; block++)
             for (; left[block]; left[block] &= left[block] - 1, lefts++) {
                 i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
                 refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
             }
         if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[asked];
-        for (i = start + (size_t)(HC_BLOCK * blocks); i < end; i++)
+        for (i = beyond; i < end; i++)
             refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
     }
     return refused + hc_settle(level, question, &waiting, answers);
+}
+
+static size_t hc_refuse_all(size_t n, int8_t *answers) {
+    memset(answers, 127, n);
+    return n;
+}
+
+size_t hypcheck_ask_scene(int question, const double sizes[4], size_t n, const double *x, const double *y,
+                          const double *z, int8_t *answers) {
+    const double probe[7] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0};
+    hc_scene scene;
+    int has_lines;
+    if (!hc_valid(probe)) return hc_refuse_all(n, answers);
+    has_lines = n >= HC_LINES_FROM && hc_make_scene(&scene, sizes, n, z);
+    return hc_ask_upright(question, sizes, has_lines ? &scene : NULL, n, x, y, z, answers, NULL);
 }
 
 void hypcheck_classify(size_t n, const double *rows, int8_t *positions) {

@@ -129,6 +129,12 @@ HC_TARGET static void HC_NAME(hc_spread)(int8_t *bytes, uint64_t plus, uint64_t 
 #endif
 }
 
+HC_TARGET static void HC_NAME(hc_spread_all)(int8_t *bytes, const hc_signs *signs, size_t blocks) {
+    size_t block;
+    for (block = 0; block < blocks; block++)
+        HC_NAME(hc_spread)(bytes + HC_BLOCK * block, signs[block].plus, signs[block].minus);
+}
+
 /* The second stage on at most HC_BLOCK rows; column k begins at columns + k stride and is readable up to a multiple of
    HC_WIDTH rows. */
 HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t stride, int count) {
@@ -147,7 +153,7 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
     return found;
 }
 
-/* The first stage on whole blocks of one scene: what it decides is written, and `left` has a bit for each other row. To
+/* The first stage on whole blocks of one scene: what it decides is in `signs`, and `left` has a bit for each other row. To
    collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
 @LINE_FUNCTIONS@
 @TILTED_LEVEL@

@@ -1,5 +1,5 @@
 HC_TARGET static void HC_NAME(hc_@NAME@)(const hc_tilted_scene *scene, int blocks, const double *x_of, const double *y_of,
-                                      const double *z_of, int fetch, int8_t *answers, uint64_t *left) {
+                                      const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
     @PLANE_CONSTANTS@
     for (block = 0; block < blocks; block++) {
@@ -23,7 +23,8 @@ HC_TARGET static void HC_NAME(hc_@NAME@)(const hc_tilted_scene *scene, int block
             sum = sum + distance;
             @PLANE_RESULTS@
         }
-        HC_NAME(hc_spread)(answers + base, found.plus, found.minus);
+        signs[block].plus = found.plus;
+        signs[block].minus = found.minus;
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }

@@ -42,7 +42,9 @@
 #define HC_AHEAD 512
 #define HC_TURNS 8 /* of Newton's method, at most, for a multiplier */
 #define HC_settled 1e-6 /* its last relative change */
-#define HC_LINES_FROM 1024 /* rows from which the constants of the lines are worth their making */
+#define HC_LINES_FROM 256 /* rows from which the constants of the lines are worth their making, */
+#define HC_PLANES_FROM 512 /* and those of the planes, which cost more to make and save more */
+#define HC_WIDEST 8 /* doubles in the widest vector of any level */
 
 @CONSTANTS@
 #define HC_NEVER DBL_MAX
@@ -55,6 +57,12 @@
 typedef struct {
     uint64_t plus, minus, decided;
 } hc_bits;
+
+/* The answers of a block as bits: exterior (or "yes"), interior. A quarter of the bytes: so answers are kept that must not
+   be written before all rows are known to be valid. */
+typedef struct {
+    uint64_t plus, minus;
+} hc_signs;
 
 /* The half planes R > K + M T, R < K + M T, R < K + M T, R >= K + M T of one scene, three of each. */
 typedef struct {
@@ -81,6 +89,7 @@ typedef struct {
     hc_plane beyond[3], within[3], under[3], above[3];
     double reach, heights[3];
     hc_ball A1, A2, B;
+    int has_two; /* whether the half spaces 1 and 2 are made */
     double zeta; /* a computed square is within zeta (P1 + P2 + Q) of the exact one */
 } hc_tilted_scene;
 

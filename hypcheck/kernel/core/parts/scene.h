@@ -7,13 +7,15 @@ static int hc_single(const double row[7]) {
     /* printed from the program "single" */
     @SINGLE@
     /* end of the program "single" */
-    if (!(alpha > 0 && gamma > 0 && b > HC_least && b < HC_greatest && d > HC_least && d < HC_greatest)) return 2;
-    if (!(A > HC_slack && A < HC_greatest && B > HC_least && B < HC_greatest && BB > HC_slack * A)) return 2;
-    if (!(P_plus_Q < HC_farthest)) return 2; /* beyond, products overflow: rounded towards zero, they would look finite */
-    if (delta_3 < -E) return 0;
-    if (!(delta_3 > E)) return 2;
-    if (c2 < -e2 && c1 > e1) return 1;
-    return c2 > e2 || c1 < -e1 ? -1 : 2;
+    /* Without a branch for each comparison: which side it is no processor can foresee, and a wrong guess costs as much as
+       half of the arithmetic. P + Q beyond `farthest` is left: products overflow there, and rounded towards zero they would
+       look finite. */
+    const int sizes_fit = (alpha > 0) & (gamma > 0) & (b > HC_least) & (b < HC_greatest) & (d > HC_least) & (d < HC_greatest);
+    const int ratios_fit = (A > HC_slack) & (A < HC_greatest) & (B > HC_least) & (B < HC_greatest) & (BB > HC_slack * A);
+    const int contact = delta_3 < -E, apart = delta_3 > E;
+    const int outside = (c2 < -e2) & (c1 > e1), inside = (c2 > e2) | (c1 < -e1);
+    if (!(sizes_fit & ratios_fit & (P_plus_Q < HC_farthest) & (contact | (apart & (outside | inside))))) return 2;
+    return apart * (outside - inside);
 }
 
 static int hc_position_of(const double row[7]) {

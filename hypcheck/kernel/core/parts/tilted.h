@@ -4,6 +4,7 @@
 typedef struct {
     double columns[10 * HC_BLOCK];
     size_t places[HC_BLOCK];
+    hc_signs *kept; /* as in hc_waiting */
     int count;
 } hc_tilted_waiting;
 
@@ -45,7 +46,8 @@ static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc
             if (hc_valid(row) && hc_has_direction(row + 7)) answer = hc_answer(question, hc_exact_tilted_position(row));
             else answer = 127, refused++;
         }
-        answers[waiting->places[i]] = answer;
+        if (waiting->kept != NULL) hc_note(waiting->kept, waiting->places[i], answer);
+        else answers[waiting->places[i]] = answer;
     }
     waiting->count = 0;
     return refused;
@@ -88,32 +90,33 @@ static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_t
     return waiting->count == HC_BLOCK ? hc_tilted_settle(level, question, waiting, answers) : 0;
 }
 
-size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
-                                 const double *y, const double *z, int8_t *answers) {
-    double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
+/* As hc_ask_upright, and the question is the position where answers are kept: sizes and an axis with a direction, scaled, that is not
+   upright, are valid, and `probe` has them as a row. `known` has
+   the half spaces, or is NULL where the first stage is left out; the second ones are made when they are needed. */
+static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
+                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
     const hc_level_functions *level = hc_level();
     hc_planes_function planes = level->one_plane;
     hc_tilted_waiting waiting;
     hc_tilted_scene scene;
+    hc_signs own[HC_STRIP / HC_BLOCK];
     uint64_t left[HC_STRIP / HC_BLOCK];
     size_t refused = 0, start, i;
-    int has_planes, block, k;
-    if (!(hc_valid(probe) && hc_has_direction(axis))) {
-        memset(answers, 127, n);
-        return n;
-    }
-    if (hc_is_upright(probe)) return hypcheck_ask_scene(question, sizes, n, x, y, z, answers);
-    hc_scale_axis(probe + 7);
+    int block, k;
+    if (known != NULL) scene = *known;
     memset(&waiting, 0, sizeof waiting);
+    waiting.kept = kept;
     for (k = 0; k < 10 * HC_BLOCK; k++) waiting.columns[k] = probe[k / HC_BLOCK];
-    has_planes = n >= HC_LINES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
     for (start = 0; start < n; start += HC_STRIP) {
         const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = has_planes ? (int)((end - start) / HC_BLOCK) : 0;
+        const int blocks = known != NULL ? (int)((end - start) / HC_BLOCK) : 0;
         const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
+        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
         int lefts = 0;
-        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, answers + start, left);
-        if (question != HYPCHECK_POSITION)
+        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
+        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
+        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
+        if (kept == NULL && question != HYPCHECK_POSITION)
             for (i = start; i < beyond; i++) answers[i] = hc_answer(question, answers[i]);
         for (block = 0; block < blocks; block++)
             for (; left[block]; left[block] &= left[block] - 1, lefts++) {
@@ -121,12 +124,24 @@ size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const doub
                 refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
             }
         if (lefts > HC_TOO_MANY_BY_PLANES && planes != level->two_planes) {
-            hc_make_planes(&scene, 1, 2);
+            if (!scene.has_two) hc_make_planes(&scene, 1, 2);
             planes = level->two_planes;
         }
         for (i = beyond; i < end; i++) refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
     }
     return refused + hc_tilted_settle(level, question, &waiting, answers);
+}
+
+size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
+                                 const double *y, const double *z, int8_t *answers) {
+    double probe[10] = {sizes[0], sizes[1], sizes[2], sizes[3], 0, 0, 0, axis[0], axis[1], axis[2]};
+    hc_tilted_scene scene;
+    int has_planes;
+    if (!(hc_valid(probe) && hc_has_direction(axis))) return hc_refuse_all(n, answers);
+    if (hc_is_upright(probe)) return hypcheck_ask_scene(question, sizes, n, x, y, z, answers);
+    hc_scale_axis(probe + 7);
+    has_planes = n >= HC_PLANES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
+    return hc_ask_leaning(question, probe, has_planes ? &scene : NULL, n, x, y, z, answers, NULL);
 }
 
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions) {
@@ -136,4 +151,60 @@ void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions)
 void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
                                     const double *y, const double *z, int8_t *positions) {
     hypcheck_ask_tilted_scene(HYPCHECK_POSITION, sizes, axis, n, x, y, z, positions);
+}
+
+/* ---- a scene that is prepared once ---- */
+
+/* What a hypcheck_scene holds. `lines` and `planes` say whether the first stage has its half planes, or half spaces. */
+typedef struct {
+    double probe[10];
+    int valid, upright, lines, planes;
+    union {
+        hc_scene upright;
+        hc_tilted_scene leaning;
+    } of;
+} hc_prepared;
+
+typedef char hc_prepared_fits[sizeof(hc_prepared) <= sizeof(hypcheck_scene) ? 1 : -1];
+
+/* Heights for a scene of which no centre is known: as far up as the hyperboloid is about twice as wide as at its waist. */
+static void hc_prepare_lines(hc_prepared *made, size_t n, const double *x, const double *y, const double *z) {
+    const double *const sizes = made->probe;
+    const double usual_x[2] = {0, sizes[0]}, usual_y[2] = {0, 0}, usual_z[2] = {0, 1.75 * sizes[1]};
+    if (n == 0) n = 2, x = usual_x, y = usual_y, z = usual_z;
+    if (made->upright) {
+        made->lines = hc_make_scene(&made->of.upright, sizes, n, z);
+    } else {
+        made->planes = hc_make_tilted_scene(&made->of.leaning, sizes, made->probe + 7, n, x, y, z);
+        if (made->planes) hc_make_planes(&made->of.leaning, 1, 2), made->of.leaning.has_two = 1;
+    }
+}
+
+void hypcheck_prepare(hypcheck_scene *scene, const double sizes[4], const double axis[3], size_t n, const double *x,
+                      const double *y, const double *z) {
+    hc_prepared made;
+    memset(&made, 0, sizeof made);
+    memcpy(made.probe, sizes, 4 * sizeof *sizes);
+    made.probe[9] = 1;
+    if (axis != NULL) memcpy(made.probe + 7, axis, 3 * sizeof *axis);
+    made.valid = hc_valid(made.probe) && hc_has_direction(made.probe + 7);
+    made.upright = hc_is_upright(made.probe);
+    if (!made.upright) hc_scale_axis(made.probe + 7);
+    if (made.valid) hc_prepare_lines(&made, n, x, y, z);
+    memset(scene, 0, sizeof *scene);
+    memcpy(scene, &made, sizeof made);
+}
+
+static size_t hc_ask_kept(int question, const hc_prepared *made, size_t n, const double *x, const double *y, const double *z,
+                          int8_t *answers, hc_signs *kept) {
+    if (made->upright)
+        return hc_ask_upright(question, made->probe, made->lines ? &made->of.upright : NULL, n, x, y, z, answers, kept);
+    return hc_ask_leaning(question, made->probe, made->planes ? &made->of.leaning : NULL, n, x, y, z, answers, kept);
+}
+
+size_t hypcheck_ask_prepared(int question, const hypcheck_scene *scene, size_t n, const double *x, const double *y,
+                             const double *z, int8_t *answers) {
+    hc_prepared made;
+    memcpy(&made, scene, sizeof made);
+    return made.valid ? hc_ask_kept(question, &made, n, x, y, z, answers, NULL) : hc_refuse_all(n, answers);
 }

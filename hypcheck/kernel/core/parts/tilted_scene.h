@@ -247,5 +247,6 @@ static int hc_make_tilted_scene(hc_tilted_scene *scene, const double sizes[4], c
     Q[2] = greatest > HC_least ? 1.125 * greatest : HC_least;
     Q[1] = least < greatest && least > 0.3 * Q[2] ? 0.999 * least : 0.3 * Q[2];
     hc_make_planes(scene, 0, 0);
+    scene->has_two = 0;
     return HC_FLOATS_DECIDE;
 }

@@ -1,0 +1,147 @@
+"""Ordinary calls, which C answers alone: the same answers as step by step, in place, and nothing for invalid rows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import tilted_rows
+from hypcheck.kernel import compiled_kernel
+from hypcheck.kernel.choice import LEVELS
+
+core = pytest.importorskip("hypcheck.kernel._compiled")
+if hypcheck.kernel.choice.choice().kernel != "compiled":
+    pytest.skip("the compiled kernel is not in use", allow_module_level=True)
+
+SIZES = (2.0, 17.8, 0.25, 0.15)
+COUNTS = (1, 10, 63, 64, 65, 255, 256, 300, 1023, 1024, 1025, 5000)
+
+
+@pytest.fixture(scope="module")
+def columns():
+    """Centres about the tower, the first ones in contact with it."""
+    random = np.random.default_rng(3)
+    x, y, z = random.uniform(-4, 4, 5000), random.uniform(-4, 4, 5000), random.uniform(-18, 18, 5000)
+    turn = random.uniform(0, 6.3, 100)
+    x[::50], y[::50], z[::50] = 2.25 * np.cos(turn), 2.25 * np.sin(turn), 0.0
+    return x, y, z
+
+
+def step_by_step(sizes, x, y, z, **options):
+    """The answers of a call that is not ordinary, because it asks for two threads."""
+    return hypcheck.classify_scene(sizes, x, y, z, threads=2, **options)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_an_ordinary_call_answers_as_step_by_step(columns, count):
+    x, y, z = (column[:count] for column in columns)
+    expected = step_by_step(SIZES, x, y, z)
+    rows = tilted_rows(SIZES, (x, y, z), (0.3, 0.1, 0.9))
+    for found in (
+        compiled_kernel.scene_at_once(SIZES, x, y, z, None, None),
+        compiled_kernel.scene_at_once(list(SIZES), x, y, z, np.full(count, 99, np.int8), 1),
+        compiled_kernel.rows_at_once(np.ascontiguousarray(rows[:, :7]), None, None),
+        compiled_kernel.rows_at_once(np.ascontiguousarray(rows[:, :7]), np.full(count, 99, np.int8), 1),
+    ):
+        assert found.dtype == np.int8
+        assert found.tolist() == expected.tolist()
+    leaning = hypcheck.classify(rows, threads=2).tolist()
+    assert compiled_kernel.rows_at_once(rows, np.full(count, 99, np.int8), None).tolist() == leaning
+    assert step_by_step(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
+
+
+def test_a_number_stands_for_a_column(columns):
+    x = columns[0][:1000]
+    expected = step_by_step(SIZES, x, 0.5, 3.0)
+    assert compiled_kernel.scene_at_once(SIZES, x, 0.5, np.float64(3), None, None).tolist() == expected.tolist()
+    assert compiled_kernel.scene_at_once(SIZES, 2.25, 0.0, 0.0, None, None).tolist() == [0]
+    assert compiled_kernel.scene_at_once(SIZES, columns[0], 0.5, 3.0, None, None) is None  # too many to write out
+
+
+@pytest.mark.parametrize("count", [3, 1025, 5000])
+@pytest.mark.parametrize("options", [{}, {"threads": 1}, {"threads": 2}, {"axis": (0.3, 0.1, 0.9)}])
+def test_out_is_filled_in_place_and_left_alone_where_a_row_is_invalid(columns, count, options):
+    x, y, z = (column[:count].copy() for column in columns)
+    expected = hypcheck.classify_scene(SIZES, x, y, z, threads=2, axis=options.get("axis"))
+    out = np.full(count, 99, np.int8)
+    assert hypcheck.classify_scene(SIZES, x, y, z, out=out, **options) is out
+    assert (out == expected).all()
+    for place in (0, count // 2, count - 1):
+        out[:], before = 98, z[place]
+        z[place] = np.nan
+        with pytest.raises(InputError, match=f"row {place}: z is nan"):
+            hypcheck.classify_scene(SIZES, x, y, z, out=out, **options)
+        with pytest.raises(InputError, match=f"row {place}: z is nan"):
+            hypcheck.classify_scene(SIZES, x, y, z, **options)
+        z[place] = before
+        assert (out == 98).all()
+
+
+def test_rows_with_an_invalid_one_leave_out_alone():
+    rows = np.tile([2.0, 17.8, 0.25, 0.15, 1.0, 2.0, 3.0], (3000, 1))
+    rows[2999, 0], out = -1, np.full(3000, 98, np.int8)
+    with pytest.raises(InputError, match=r"row 2999: alpha is -1\.0"):
+        hypcheck.classify(rows, out=out)
+    assert (out == 98).all()
+
+
+UNUSUAL = {
+    "a list": lambda x, out: ([*x], out),
+    "strides": lambda x, out: (np.repeat(x, 2)[::2], out),
+    "float32": lambda x, out: (x.astype(np.float32), out),
+    "another byte order": lambda x, out: (x.astype(">f8"), out),
+    "unaligned": lambda x, out: (np.frombuffer(b"-" + x.tobytes(), dtype=np.int8)[1:].view(np.float64), out),
+    "masked": lambda x, out: (np.ma.masked_array(x, mask=False), out),
+    "a subclass": lambda x, out: (x.view(np.recarray), out),
+    "a whole number": lambda _x, out: (1, out),
+    "two dimensions": lambda x, out: (x[None], out),
+    "too few": lambda x, out: (x[:-1], out),
+    "out of strides": lambda x, out: (x, np.repeat(out, 2)[::2]),
+    "out of another type": lambda x, out: (x, out.view(np.uint8)),
+    "out too long": lambda x, out: (x, np.append(out, np.int8(0))),
+    "out a list": lambda x, out: (x, [*out]),
+    "out that overlaps": lambda x, _out: (x, x.view(np.int8)[: len(x)]),
+}
+
+
+@pytest.mark.parametrize("change", UNUSUAL.values(), ids=UNUSUAL)
+def test_any_other_call_is_left_to_python_and_changes_nothing(columns, change):
+    x, y, z = (column[:20].copy() for column in columns)
+    x, out = change(x, np.full(20, 97, np.int8))
+    before, kept = np.array(x), np.array(out)
+    assert compiled_kernel.scene_at_once(SIZES, x, y, z, out, None) is None
+    assert (np.array(out) == kept).all()
+    assert (np.array(x) == before).all()
+
+
+@pytest.mark.parametrize(
+    "sizes", [SIZES[:3], (2, 17.8, 0.25, 0.15), (2.0, 17.8, 0.0, 0.15), None, b"", np.array(SIZES)]
+)
+def test_other_sizes_are_left_to_python(sizes):
+    assert compiled_kernel.scene_at_once(sizes, 1.0, 2.0, 3.0, None, None) is None
+
+
+def test_a_read_only_out_is_left_to_python_which_refuses_it():
+    out = np.zeros(1, np.int8)
+    out.flags.writeable = False
+    with pytest.raises(InputError, match="out is read-only"):
+        hypcheck.classify_scene(SIZES, 1.0, 2.0, 3.0, out=out)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_answers_kept_as_bits_are_those_that_are_written(level, columns):
+    used = core.level()
+    if not core.use_level(level):
+        pytest.skip(f"this machine has no {level}")
+    try:
+        for axis in (None, (0.3, 0.1, 0.9)):
+            for count in (1, 64, 700, 4096, 5000):
+                these = tuple(column[:count] for column in columns)
+                out, expected = np.full(count, 99, np.int8), np.full(count, 99, np.int8)
+                assert compiled_kernel.fill_valid_scene(SIZES, these, out, 3, axis)
+                compiled_kernel.fill_scene(SIZES, these, expected, "position", 1, axis)
+                assert (out == expected).all()
+    finally:
+        core.use_level(used)
