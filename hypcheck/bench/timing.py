@@ -271,7 +271,11 @@ def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDAr
 
 @dataclass(frozen=True, slots=True)
 class KernelTarget:
-    """A target: `wanted` is a least number, or a greatest one if `at_most`; `text` describes it."""
+    """A target: `wanted` is a least number, or a greatest one if `at_most`; `text` describes it.
+
+    What is measured is a ratio to a ceiling, work that nothing here can do without, timed beside it in the same rounds:
+    so it depends on the code, and as little as can be on the machine and on what else runs there.
+    """
 
     name: str
     text: str
@@ -279,9 +283,9 @@ class KernelTarget:
     at_most: bool = False
 
     def line(self, measured: list[float], says: str) -> KernelLine:
-        """The record's line: the median over rounds, with its 95 % interval."""
+        """The record's line: the median over rounds, with its 95 % interval. A miss is one of the whole interval."""
         found = estimate([measured])
-        met = found.median <= self.wanted if self.at_most else found.median >= self.wanted
+        met = found.low <= self.wanted if self.at_most else found.high >= self.wanted
         return KernelLine(
             name=self.name,
             target=self.text,
@@ -317,6 +321,11 @@ def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, S
 def times_as_fast(mine: Samples, other: Samples) -> list[float]:
     """Rows that one answers in the time in which the other answers one, in each round."""
     return [theirs / own for own, theirs in zip(mine.samples_ns, other.samples_ns, strict=True)]
+
+
+def times_as_long(mine: Samples, other: Samples) -> list[float]:
+    """The time of one row of the one in rows of the other, in each round."""
+    return times_as_fast(other, mine)
 
 
 def rate_text(samples: Samples) -> str:

@@ -37,25 +37,8 @@ ROWS_AT_A_TIME = 1 << 22
 """Rows that are made at a time of centres with an axis each: some 300 MB, and work for four threads."""
 
 
-USUAL_QUESTION: Question = "position"
-USUAL_CARE: Literal["raise", "flag"] = "raise"
-ONE: Literal[1] = 1
-"""Recognised by identity, which costs nothing: C answers an ordinary call with these alone."""
-
-
 class Kernel(Protocol):
     """What a module that answers has. The first two return answers, 127 for invalid rows, and how many those are."""
-
-    def rows_at_once(self, rows: ArrayLike, out: Positions | None, threads: int | None) -> Positions | None:
-        """Positions of an ordinary call: contiguous float64 arrays, all rows valid, one thread wanted or enough.
-
-        None, and no output, for any other.
-        """
-
-    def scene_at_once(
-        self, sizes: object, x: ArrayLike, y: ArrayLike, z: ArrayLike, out: Positions | None, threads: int | None
-    ) -> Positions | None:
-        """The same for the centres of an upright spheroid."""
 
     def fill_valid_scene(
         self, sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
@@ -106,8 +89,8 @@ def classify(
     rows: ArrayLike,
     *,
     out: Positions | None = None,
-    on_invalid: Literal["raise", "flag"] = USUAL_CARE,
-    question: Question = USUAL_QUESTION,
+    on_invalid: Literal["raise", "flag"] = "raise",
+    question: Question = "position",
     threads: int | None = None,
 ) -> Positions:
     """The exact position of every row: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
@@ -123,10 +106,6 @@ def classify(
     is not raises InputError (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are
     marked 127.
     """
-    if question is USUAL_QUESTION and on_invalid is USUAL_CARE and (threads is None or threads is ONE):
-        at_once = kernel().rows_at_once(rows, out, threads)
-        if at_once is not None:
-            return at_once
     number = required(question, threads, on_invalid)
     queries = as_rows(rows, tilted=True)
     _require_fitting(out, len(queries))
@@ -144,8 +123,8 @@ def classify_scene(
     out: Positions | None = None,
     *,
     axis: ArrayLike | None = None,
-    on_invalid: Literal["raise", "flag"] = USUAL_CARE,
-    question: Question = USUAL_QUESTION,
+    on_invalid: Literal["raise", "flag"] = "raise",
+    question: Question = "position",
     threads: int | None = None,
 ) -> Positions:
     """The exact position of one spheroid at many centres; int8 (n,), numbers and options as in classify.
@@ -156,11 +135,6 @@ def classify_scene(
     with on_invalid="flag" such centres are marked 127, all of them where the one axis is not valid. Sizes that are not
     valid are always refused.
     """
-    usual = question is USUAL_QUESTION and on_invalid is USUAL_CARE and (threads is None or threads is ONE)
-    if usual and axis is None:
-        at_once = kernel().scene_at_once(sizes, x, y, z, out, threads)
-        if at_once is not None:
-            return at_once
     number = required(question, threads, on_invalid)
     four = _sizes(sizes)
     axes = None if axis is None else _axes(axis)
@@ -171,7 +145,7 @@ def classify_scene(
     u, v, w = as_columns(CENTER, (x, y, z))
     _require_fitting(out, len(u))
     one = None if axes is None else _one_axis(axes, on_invalid)
-    in_place = out is not None and question == USUAL_QUESTION and _lie_apart(out, (u, v, w))
+    in_place = out is not None and question == "position" and _lie_apart(out, (u, v, w))
     if out is not None and in_place and kernel().fill_valid_scene(four, (u, v, w), out, number, one):
         return out
     result, refused = kernel().answer_scene(four, (u, v, w), question, number, one)

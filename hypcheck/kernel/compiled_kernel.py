@@ -5,11 +5,10 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from functools import cache
-from sys import maxsize
 from types import ModuleType
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Axis, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Positions, Rows
@@ -28,30 +27,12 @@ CHUNK = 1 << 16
 """Rows of a column copied at a time where it is not contiguous."""
 
 
-AT_ONCE = 2 * ROWS_A_THREAD - 1
-"""The most rows of a call that one thread answers, unless more are asked for."""
-
-
 @cache
-def _core() -> ModuleType:
+def extension() -> ModuleType:
     """The extension, which knows numpy's arrays from now on."""
     module = compiled()
-    module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8))
+    module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8), 2 * ROWS_A_THREAD - 1)
     return module
-
-
-def scene_at_once(
-    sizes: object, x: ArrayLike, y: ArrayLike, z: ArrayLike, out: Positions | None, threads: int | None
-) -> Positions | None:
-    """As classify.Kernel has it."""
-    answers: Positions | None = _core().scene_at_once(sizes, x, y, z, out, maxsize if threads else AT_ONCE)
-    return answers
-
-
-def rows_at_once(rows: ArrayLike, out: Positions | None, threads: int | None) -> Positions | None:
-    """As classify.Kernel has it."""
-    answers: Positions | None = _core().rows_at_once(rows, out, maxsize if threads else AT_ONCE)
-    return answers
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
@@ -107,7 +88,7 @@ def fill_valid_scene(
 
     It must not overlap the columns. What a thread decides is kept as bits until all threads have ended.
     """
-    core, leaning = _core(), () if axis is None else (axis,)
+    core, leaning = extension(), () if axis is None else (axis,)
     kept: NDArray[np.int8] = np.empty(-(-len(out) // BLOCK) * KEPT, dtype=np.int8)
 
     def part(start: int, stop: int) -> int:

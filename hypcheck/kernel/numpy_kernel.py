@@ -98,14 +98,6 @@ def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis
     return result
 
 
-def rows_at_once(rows: object, out: object, threads: object) -> None:
-    """As classify.Kernel has it; no call is ordinary here."""
-
-
-def scene_at_once(sizes: object, x: object, y: object, z: object, out: object, threads: object) -> None:
-    """As classify.Kernel has it; no call is ordinary here."""
-
-
 def fill_valid_scene(
     sizes: Sizes,  # noqa: ARG001
     columns: Columns,  # noqa: ARG001

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import inspect
+import pickle
+
 import numpy as np
 import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import tilted_rows
+from hypcheck.kernel import classify as step_by_step
 from hypcheck.kernel import compiled_kernel
 from hypcheck.kernel.choice import LEVELS
 
@@ -15,8 +19,19 @@ core = pytest.importorskip("hypcheck.kernel._compiled")
 if hypcheck.kernel.choice.choice().kernel != "compiled":
     pytest.skip("the compiled kernel is not in use", allow_module_level=True)
 
+LEFT = "left to Python"
+
 SIZES = (2.0, 17.8, 0.25, 0.15)
 COUNTS = (1, 10, 63, 64, 65, 255, 256, 300, 1023, 1024, 1025, 5000)
+
+
+@pytest.fixture
+def alone():
+    """The functions in C, which say it where they leave a call to Python."""
+    assert hypcheck.classify is core.classify  # from now on C knows numpy's arrays
+    core.set_slow_calls(lambda *_call, **_options: LEFT, lambda *_call, **_options: LEFT)
+    yield core
+    core.set_slow_calls(step_by_step.classify, step_by_step.classify_scene)
 
 
 @pytest.fixture(scope="module")
@@ -29,35 +44,30 @@ def columns():
     return x, y, z
 
 
-def step_by_step(sizes, x, y, z, **options):
-    """The answers of a call that is not ordinary, because it asks for two threads."""
-    return hypcheck.classify_scene(sizes, x, y, z, threads=2, **options)
-
-
 @pytest.mark.parametrize("count", COUNTS)
-def test_an_ordinary_call_answers_as_step_by_step(columns, count):
+def test_an_ordinary_call_answers_as_step_by_step(columns, count, alone):
     x, y, z = (column[:count] for column in columns)
-    expected = step_by_step(SIZES, x, y, z)
+    expected = step_by_step.classify_scene(SIZES, x, y, z)
     rows = tilted_rows(SIZES, (x, y, z), (0.3, 0.1, 0.9))
     for found in (
-        compiled_kernel.scene_at_once(SIZES, x, y, z, None, None),
-        compiled_kernel.scene_at_once(list(SIZES), x, y, z, np.full(count, 99, np.int8), 1),
-        compiled_kernel.rows_at_once(np.ascontiguousarray(rows[:, :7]), None, None),
-        compiled_kernel.rows_at_once(np.ascontiguousarray(rows[:, :7]), np.full(count, 99, np.int8), 1),
+        alone.classify_scene(SIZES, x, y, z, None, threads=None),
+        alone.classify_scene(list(SIZES), x, y, z, np.full(count, 99, np.int8), threads=1),
+        alone.classify(np.ascontiguousarray(rows[:, :7]), out=None, threads=None),
+        alone.classify(np.ascontiguousarray(rows[:, :7]), out=np.full(count, 99, np.int8), threads=1),
     ):
         assert found.dtype == np.int8
         assert found.tolist() == expected.tolist()
-    leaning = hypcheck.classify(rows, threads=2).tolist()
-    assert compiled_kernel.rows_at_once(rows, np.full(count, 99, np.int8), None).tolist() == leaning
-    assert step_by_step(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
+    leaning = step_by_step.classify(rows).tolist()
+    assert alone.classify(rows, out=np.full(count, 99, np.int8), threads=None).tolist() == leaning
+    assert step_by_step.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
 
 
-def test_a_number_stands_for_a_column(columns):
+def test_a_number_stands_for_a_column(columns, alone):
     x = columns[0][:1000]
-    expected = step_by_step(SIZES, x, 0.5, 3.0)
-    assert compiled_kernel.scene_at_once(SIZES, x, 0.5, np.float64(3), None, None).tolist() == expected.tolist()
-    assert compiled_kernel.scene_at_once(SIZES, 2.25, 0.0, 0.0, None, None).tolist() == [0]
-    assert compiled_kernel.scene_at_once(SIZES, columns[0], 0.5, 3.0, None, None) is None  # too many to write out
+    expected = step_by_step.classify_scene(SIZES, x, 0.5, 3.0)
+    assert alone.classify_scene(SIZES, x, 0.5, np.float64(3), None, threads=None).tolist() == expected.tolist()
+    assert alone.classify_scene(SIZES, 2.25, 0.0, 0.0, None, threads=None).tolist() == [0]
+    assert alone.classify_scene(SIZES, columns[0], 0.5, 3.0, None, threads=None) == LEFT  # too many to write out
 
 
 @pytest.mark.parametrize("count", [3, 1025, 5000])
@@ -107,11 +117,11 @@ UNUSUAL = {
 
 
 @pytest.mark.parametrize("change", UNUSUAL.values(), ids=UNUSUAL)
-def test_any_other_call_is_left_to_python_and_changes_nothing(columns, change):
+def test_any_other_call_is_left_to_python_and_changes_nothing(columns, change, alone):
     x, y, z = (column[:20].copy() for column in columns)
     x, out = change(x, np.full(20, 97, np.int8))
     before, kept = np.array(x), np.array(out)
-    assert compiled_kernel.scene_at_once(SIZES, x, y, z, out, None) is None
+    assert alone.classify_scene(SIZES, x, y, z, out, threads=None) == LEFT
     assert (np.array(out) == kept).all()
     assert (np.array(x) == before).all()
 
@@ -119,8 +129,8 @@ def test_any_other_call_is_left_to_python_and_changes_nothing(columns, change):
 @pytest.mark.parametrize(
     "sizes", [SIZES[:3], (2, 17.8, 0.25, 0.15), (2.0, 17.8, 0.0, 0.15), None, b"", np.array(SIZES)]
 )
-def test_other_sizes_are_left_to_python(sizes):
-    assert compiled_kernel.scene_at_once(sizes, 1.0, 2.0, 3.0, None, None) is None
+def test_other_sizes_are_left_to_python(sizes, alone):
+    assert alone.classify_scene(sizes, 1.0, 2.0, 3.0, None, threads=None) == LEFT
 
 
 def test_a_read_only_out_is_left_to_python_which_refuses_it():
@@ -145,3 +155,22 @@ def test_answers_kept_as_bits_are_those_that_are_written(level, columns):
                 assert (out == expected).all()
     finally:
         core.use_level(used)
+
+
+@pytest.mark.parametrize(
+    "options", [{"question": "exterior"}, {"on_invalid": "flag"}, {"threads": 2}, {"threads": True}, {"axis": None}]
+)
+def test_a_call_with_another_option_is_left_to_python(options, alone):
+    assert alone.classify_scene(SIZES, 1.0, 2.0, 3.0, **options) == LEFT
+    assert alone.classify(np.ones((1, 7)), **options) == LEFT
+
+
+def test_the_public_functions_have_the_signatures_and_the_descriptions_of_those_in_python():
+    for name in ("classify", "classify_scene"):
+        public, written = getattr(hypcheck, name), getattr(step_by_step, name)
+        said, told = (inspect.signature(each).parameters.values() for each in (public, written))
+        assert [(each.name, each.kind, each.default) for each in said] == [
+            (each.name, each.kind, each.default) for each in told
+        ]
+        assert inspect.getdoc(public) == inspect.getdoc(written)
+        assert pickle.loads(pickle.dumps(public)) is public  # noqa: S301 - as a pool of processes does

@@ -253,13 +253,14 @@ static PyObject *py_set_slow_position(PyObject *self, PyObject *function) {
    nothing, and leave the call to Python, which converts what can be converted and says what is wrong with the rest. */
 
 static PyObject *array_type = NULL, *new_array = NULL, *answer_type = NULL; /* numpy.ndarray, empty, dtype("int8") */
+static Py_ssize_t for_one_thread = 0; /* rows that one thread answers where the caller does not ask for one */
 
 enum { FEW = 1024, FREE_FROM = 256 }; /* rows held on the stack; rows for which the interpreter is set free meanwhile */
 
 static PyObject *py_use_arrays(PyObject *self, PyObject *arguments) {
     PyObject *type, *make, *answers;
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "OOO", &type, &make, &answers)) return NULL;
+    if (!PyArg_ParseTuple(arguments, "OOOn", &type, &make, &answers, &for_one_thread)) return NULL;
     Py_XSETREF(array_type, Py_NewRef(type));
     Py_XSETREF(new_array, Py_NewRef(make));
     Py_XSETREF(answer_type, Py_NewRef(answers));
@@ -420,41 +421,70 @@ static PyObject *answered(taken *these, PyObject *out, const hypcheck_scene *sce
     Py_RETURN_NONE;
 }
 
-static PyObject *answered_or_given_back(taken *these, int took, Py_ssize_t most, PyObject *out, const hypcheck_scene *scene,
-                                        const double sizes[4]) {
+static PyObject *answered_or_given_back(taken *these, int took, PyObject *threads, PyObject *out,
+                                        const hypcheck_scene *scene, const double sizes[4]) {
+    const Py_ssize_t most = threads == Py_None ? for_one_thread : PY_SSIZE_T_MAX;
     PyObject *result = took && these->count > 0 && these->count <= most ? answered(these, out, scene, sizes) : Py_NewRef(Py_None);
     give_back(these);
     return result;
 }
 
-static int few_enough(PyObject *const *arguments, Py_ssize_t count, Py_ssize_t wanted, Py_ssize_t *most) {
-    if (count != wanted) {
-        PyErr_Format(PyExc_TypeError, "%zd arguments are needed, not %zd", wanted, count);
-        return 0;
+/* The functions in Python that take any call, of classify and of classify_scene. */
+static PyObject *slow_calls[2] = {NULL, NULL};
+
+/* Where `out` and `threads` of a call are said; 0 for a call with another option. */
+static int ordinary(PyObject *const *arguments, Py_ssize_t count, PyObject *keywords, Py_ssize_t inputs, PyObject **out,
+                    PyObject **threads) {
+    const Py_ssize_t named = keywords == NULL ? 0 : PyTuple_GET_SIZE(keywords);
+    Py_ssize_t k;
+    *out = *threads = Py_None;
+    if (count < inputs || count > inputs + 1) return 0;
+    if (count > inputs) *out = arguments[inputs];
+    for (k = 0; k < named; k++) {
+        PyObject *const name = PyTuple_GET_ITEM(keywords, k);
+        if (PyUnicode_CompareWithASCIIString(name, "out") == 0 && count == inputs) *out = arguments[count + k];
+        else if (PyUnicode_CompareWithASCIIString(name, "threads") == 0) *threads = arguments[count + k];
+        else return 0;
     }
-    *most = PyLong_AsSsize_t(arguments[wanted - 1]);
-    return !(*most == -1 && PyErr_Occurred());
+    return *threads == Py_None || (PyLong_CheckExact(*threads) && PyLong_AsSsize_t(*threads) == 1);
 }
 
-static PyObject *py_scene_at_once(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
+static PyObject *or_slowly(PyObject *answers, int which, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
+    if (answers != Py_None || slow_calls[which] == NULL) return answers;
+    Py_DECREF(answers);
+    return PyObject_Vectorcall(slow_calls[which], arguments, (size_t)count, keywords);
+}
+
+static PyObject *scene_at_once(PyObject *const *arguments, PyObject *out, PyObject *threads) {
     hypcheck_scene scene;
     double sizes[4];
     taken these;
-    Py_ssize_t most;
     int prepared, took;
-    (void)self;
-    if (!few_enough(arguments, count, 6, &most)) return NULL;
     if (!scene_of(arguments[0], &scene, sizes, &prepared)) Py_RETURN_NONE;
-    took = take_scene(&these, arguments + 1, arguments[4]);
-    return answered_or_given_back(&these, took, most, arguments[4], prepared ? &scene : NULL, sizes);
+    took = take_scene(&these, arguments + 1, out);
+    return answered_or_given_back(&these, took, threads, out, prepared ? &scene : NULL, sizes);
 }
 
-static PyObject *py_rows_at_once(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
+static PyObject *rows_at_once(PyObject *const *arguments, PyObject *out, PyObject *threads) {
     taken these;
-    Py_ssize_t most;
+    const int took = take_rows(&these, arguments[0], out);
+    return answered_or_given_back(&these, took, threads, out, NULL, NULL);
+}
+
+static PyObject *py_classify(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
+    PyObject *out, *threads, *answers = Py_None;
     (void)self;
-    if (!few_enough(arguments, count, 3, &most)) return NULL;
-    return answered_or_given_back(&these, take_rows(&these, arguments[0], arguments[1]), most, arguments[1], NULL, NULL);
+    if (!ordinary(arguments, count, keywords, 1, &out, &threads) || count > 1) Py_INCREF(answers);
+    else answers = rows_at_once(arguments, out, threads);
+    return or_slowly(answers, 0, arguments, count, keywords);
+}
+
+static PyObject *py_classify_scene(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
+    PyObject *out, *threads, *answers = Py_None;
+    (void)self;
+    if (!ordinary(arguments, count, keywords, 4, &out, &threads)) Py_INCREF(answers);
+    else answers = scene_at_once(arguments, out, threads);
+    return or_slowly(answers, 1, arguments, count, keywords);
 }
 
 /* What a call cannot do without, for the benchmark: to take the arrays and give them back; and to be called at all. */
@@ -512,16 +542,18 @@ static PyObject *py_use_level(PyObject *self, PyObject *name) {
     return text == NULL ? NULL : PyBool_FromLong(hypcheck_use_level(text));
 }
 
+static PyObject *py_set_slow_calls(PyObject *self, PyObject *arguments);
+
 static PyMethodDef functions[] = {
     {"ask", py_ask, METH_VARARGS, "ask(question, rows, answers) -> the number of invalid rows, which are answered 127"},
     {"ask_scene", py_ask_scene, METH_VARARGS, "ask_scene(question, sizes, x, y, z, answers, axis=upright) -> as ask"},
     {"keep_scene", py_keep_scene, METH_VARARGS, "keep_scene(0, sizes, x, y, z, kept, axis=upright) -> as ask; see spread"},
     {"spread", py_spread, METH_VARARGS, "spread(kept, answers): write the answers that keep_scene kept"},
     {"prepare", py_prepare, METH_VARARGS, "prepare(sizes, axis, x, y, z) -> the bytes of a hypcheck_scene"},
-    {"use_arrays", py_use_arrays, METH_VARARGS, "use_arrays(ndarray, empty, dtype('int8')): what scene_at_once takes and makes"},
-    {"scene_at_once", (PyCFunction)(void (*)(void))py_scene_at_once, METH_FASTCALL,
-     "scene_at_once(sizes or prepared, x, y, z, out or None, most) -> answers, or None where Python must look at the call"},
-    {"rows_at_once", (PyCFunction)(void (*)(void))py_rows_at_once, METH_FASTCALL, "rows_at_once(rows, out or None, most): the same for rows"},
+    {"use_arrays", py_use_arrays, METH_VARARGS, "use_arrays(ndarray, empty, dtype('int8'), rows): what scene_at_once takes, makes, and leaves to threads"},
+    {"classify", (PyCFunction)(void (*)(void))py_classify, METH_FASTCALL | METH_KEYWORDS, NULL},
+    {"classify_scene", (PyCFunction)(void (*)(void))py_classify_scene, METH_FASTCALL | METH_KEYWORDS, NULL},
+    {"set_slow_calls", py_set_slow_calls, METH_VARARGS, "set_slow_calls(classify, classify_scene): what these call for any other call"},
     {"take", (PyCFunction)(void (*)(void))py_take, METH_FASTCALL, "take(sizes, x, y, z, out or None): take the arrays, do nothing"},
     {"nothing", (PyCFunction)(void (*)(void))py_nothing, METH_FASTCALL | METH_KEYWORDS, "nothing(...): be called, do nothing"},
     {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
@@ -533,6 +565,33 @@ static PyMethodDef functions[] = {
     {"use_level", py_use_level, METH_O, "use_level(name) -> whether this machine and build have it"},
     {NULL, NULL, 0, NULL},
 };
+
+static const char *const signatures[2] = {
+    "classify(rows, *, out=None, on_invalid='raise', question='position', threads=None)\n--\n\n",
+    "classify_scene(sizes, x, y, z, out=None, *, axis=None, on_invalid='raise', question='position', threads=None)\n--\n\n",
+};
+
+/* The functions that Python has for all calls. Their descriptions become those of the functions here, too. */
+static PyObject *py_set_slow_calls(PyObject *self, PyObject *arguments) {
+    static char said[2][4096];
+    PyObject *calls[2];
+    int k;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "OO", calls, calls + 1)) return NULL;
+    for (k = 0; k < 2; k++) {
+        PyObject *const description = PyObject_GetAttrString(calls[k], "__doc__");
+        const char *const text = description == NULL || description == Py_None ? "" : PyUnicode_AsUTF8(description);
+        PyMethodDef *each = functions;
+        if (text == NULL) PyErr_Clear();
+        PyOS_snprintf(said[k], sizeof said[k], "%s%s", signatures[k], text == NULL ? "" : text);
+        Py_XDECREF(description);
+        while (each->ml_meth != (PyCFunction)(void (*)(void))(k == 0 ? py_classify : py_classify_scene)) each++;
+        each->ml_doc = said[k];
+        Py_XSETREF(slow_calls[k], Py_NewRef(calls[k]));
+    }
+    PyErr_Clear();
+    Py_RETURN_NONE;
+}
 
 static struct PyModuleDef module = {
     PyModuleDef_HEAD_INIT, "_compiled", "The compiled kernel; see core/hypcheck.h.", 0, functions, NULL, NULL, NULL, NULL,

@@ -1,0 +1,29 @@
+"""hypcheck.classify and hypcheck.classify_scene: C answers ordinary calls alone, Python all others.
+
+An ordinary call has contiguous float64 arrays (a float may stand for a short column), all rows valid, no option but
+`out` and `threads=1`, and no more rows than one thread answers. C leaves any other to the functions of classify.py,
+which convert what can be converted and say what is wrong with the rest. Where nothing is compiled they take all calls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from hypcheck.geometry.rows import Positions
+from hypcheck.kernel import classify as step_by_step
+from hypcheck.kernel.choice import choice
+
+Call = Callable[..., Positions]
+
+
+def _calls() -> tuple[Call, Call]:
+    if choice().kernel == "numpy":
+        return step_by_step.classify, step_by_step.classify_scene
+    from hypcheck.kernel.compiled_kernel import extension  # noqa: PLC0415 - only where it is there
+
+    module = extension()
+    module.set_slow_calls(step_by_step.classify, step_by_step.classify_scene)
+    return module.classify, module.classify_scene
+
+
+classify, classify_scene = _calls()
