@@ -11,9 +11,11 @@ import pytest
 from msgspec import UNSET, ValidationError
 
 from hypcheck.errors import InputError
-from hypcheck.record import SCHEMA, Recorder, integrity, read
-from hypcheck.record.fields import decoded
-from hypcheck.record.lines import DriftLine, FooterLine, ImplementationLine
+from hypcheck.record import SCHEMA, Record, Recorder, integrity, read
+from hypcheck.record.fields import FARTHEST, decoded
+from hypcheck.record.lines import DriftLine, FooterLine, GroupLine, HeaderLine, ImplementationLine
+from hypcheck.record.progress import SavedTally
+from hypcheck.record.reader import recorded_cases
 from tests.support.records import resealed
 
 HEADER = {
@@ -67,6 +69,32 @@ def written(path, close=True):
 def test_a_line_whose_field_has_half_of_a_character_in_its_name_is_refused():
     with pytest.raises(ValidationError, match="a lone surrogate"):
         decoded({**SAMPLE, "\ud800": 1}, ImplementationLine)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("octaves", {"half": {}}), ("size_bins", [[0, 0, 1, 2]]), ("place_bins", [[0, FARTHEST + 1, 1, 1]])],
+)
+def test_a_line_with_impossible_bins_is_refused_and_the_farthest_bin_is_not(field, value):
+    """Of a group as of the progress of a family."""
+    counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": [[-FARTHEST, FARTHEST, 1, 1]]}
+    names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
+    for kind, line in (
+        (GroupLine, {"type": "group", **names, "asked": 1, "worst": [], **counts}),
+        (SavedTally, {"asked": 1, "dangerous": 0, "worst": [], "faults": [], **counts}),
+    ):
+        decoded(line, kind)
+        with pytest.raises(ValidationError, match=field):
+            decoded({**line, field: value}, kind)
+
+
+def test_the_cases_of_a_record_are_numbered_from_1_the_worst_of_a_group_before_its_faults():
+    counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": []}
+    names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
+    fault = {"case": "f-1", "row": [(1.0).hex()] * 7, "status": "crash", "reason": "it left"}
+    group = decoded({"type": "group", **names, "asked": 2, "worst": [], "faults": [fault, fault], **counts}, GroupLine)
+    record = Record(decoded(HEADER, HeaderLine), (group,), None)
+    assert [each.number for each in recorded_cases(record)] == [1, 2]
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.lines import DescriptionPart, Retest, UnavailableLine
 from hypcheck.record.progress import ProgressLine, SavedAllowance, SavedResult, SavedState
 from hypcheck.record.reader import FILE, GROWING
+from hypcheck.record.writer import GrowingFile
 from tests.record.test_reading import DESCRIPTION
 
 NOTHING = SavedResult(
@@ -67,11 +68,25 @@ def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(
     assert out.read_text() == "a file"
 
 
+def test_a_growing_file_shows_what_was_added_and_is_replaced_once_the_new_content_is_on_the_disk(tmp_path, monkeypatch):
+    path, synced = tmp_path / "file", []
+    monkeypatch.setattr(os, "fsync", lambda number: synced.append((os.fstat(number).st_size, path.read_bytes())))
+    path.write_bytes(b"before")
+    with GrowingFile(path) as file:
+        file.renew(b"first")
+        file.write(b", second")
+        assert path.read_bytes() == b"first, second"
+        assert (file.is_there, path.unlink(), file.is_there) == (True, None, False)
+    assert synced == [(len(b"first"), b"before")]
+
+
 @pytest.mark.parametrize("how", ["keep", "add"])
 def test_a_run_on_a_full_disk_ends_with_a_sentence_about_its_record_and_keeps_what_it_has(tmp_path, small_files, how):
     def run():
         with recording(tmp_path, {}) as running:
+            assert not running.recorder.goes_on
             running.recorder.keep(PROGRESS)
+            assert running.recorder.goes_on
             small_files((tmp_path / GROWING).stat().st_size + 9)
             if how == "add":
                 running.recorder.add(UnavailableLine(oracle="mesh", reason="r"))

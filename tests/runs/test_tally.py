@@ -16,7 +16,7 @@ from hypcheck.implementations.session import Outcome
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.score import score
-from hypcheck.runs.tally import UnansweredCase
+from hypcheck.runs.tally import UnansweredCase, WorstCase
 from hypcheck.truth import float_filter
 
 CRITERION = Criterion(tolerance=Fraction(0))
@@ -95,6 +95,7 @@ def test_sparse_and_dense_bins_give_the_same_counts():
     found = tally.by_size(rows, amiss)
     assert found == tally.added(tally.by_size(rows[i::3], amiss[i::3]) for i in range(3))
     assert found.table[:, 2:].sum(axis=0).tolist() == [3000, amiss.sum()]
+    assert found.as_lists() == sorted(found.as_lists())
     assert tally.Histogram.of_lists(found.as_lists()) == found
     assert tally.added([]) == tally.Histogram()
 
@@ -130,6 +131,16 @@ def test_the_worst_cases_are_those_with_the_largest_errors():
     assert [case.error for case in tallied(rows).worst] == errors[:3]
 
 
+def test_wrong_answers_are_kept_before_tolerated_ones_and_the_first_of_equal_ones():
+    def case(number, status, error):
+        return WorstCase((1, number), f"case-{number}", (1.0,), 0, 1, "false-clear", status, error)
+
+    kept = [case(0, "tolerated", 9.0), case(1, "wrong", 1.0), case(2, "wrong", 2.0), case(3, "wrong", 1.0)]
+    merged = tally.merged_tally([tally.Tally(worst=(each,)) for each in kept])
+    assert [each.place[1] for each in merged.worst] == [2, 1, 3]
+    assert tally.Histogram() != [[]]
+
+
 def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
     faults = [UnansweredCase((1, n), f"case-{n}", (1.0,), "error", "why") for n in range(20)]
     faults += [
@@ -137,5 +148,11 @@ def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
         for n, name in enumerate(("crash", "timeout"))
     ]
     tallied = tally.merged_tally([tally.Tally(unanswered=(fault,)) for fault in reversed(faults)])
+    assert Counter(fault.status for fault in tallied.unanswered) == {"error": 5, "crash": 1, "timeout": 1}
     shown = [(fault.case, fault.status) for fault in line_of(tallied).faults]
     assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]
+    faults += [
+        UnansweredCase((1, n), f"case-{n}", (1.0,), name, "why") for n, name in ((22, "not-run"), (23, "protocol"))
+    ]
+    shown = [fault.status for fault in line_of(tally.Tally(unanswered=tuple(faults))).faults]
+    assert shown == ["error", "crash", "timeout", "not-run", "protocol"]

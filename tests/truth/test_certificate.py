@@ -59,6 +59,11 @@ def test_a_proof_by_hand_is_accepted(pair, certificate):
             Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(3.75, 0, 0))),
             "outside the spheroid",
         ),
+        (
+            CROSSING,
+            Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(4, 0, 1.2))),
+            "outside the spheroid, and above",
+        ),
     ],
 )
 def test_a_flawed_proof_is_refused(pair, certificate, flaw):

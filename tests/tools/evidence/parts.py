@@ -20,6 +20,7 @@ PAGE = ROOT / "docs" / "evidence.md"
 
 PARTS: dict[str, str] = {
     "fuzz": "fuzz",
+    "faults": "faults",
 }
 """The module of each part, by its name on the command line; the page has them in this order."""
 
