@@ -108,7 +108,7 @@ def test_errors_are_whole_units_and_the_worst_of_the_ranges():
     ("listing", "high", "trouble"),
     [
         ("r = a + a\ns = r - a", 2**127, "step r may leave 128 bits"),
-        ("r = a / a", 1, "div is none of fixed point"),
+        ("r = a / a", 1, "div is no operation in fixed point"),
     ],
 )
 def test_a_program_that_fixed_point_cannot_run_is_refused(listing, high, trouble):
@@ -136,7 +136,10 @@ void of_one(hc_fixed *a, int by, hc_fixed *to, int *bits) {
     *bits = hc_fixed_bits(*a);
 }
 int sign(hc_fixed *a, uint64_t error, int grown) { return hc_fixed_sign(*a, error, grown); }
-int of_row(double *row) { return hc_fixed_position(row); }
+int of_row(double *row) {
+    double about;
+    return hc_fixed_position(row, &about);
+}
 """
 
 

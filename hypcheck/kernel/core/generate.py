@@ -80,6 +80,7 @@ PARTS = (
     "platform",
     "integers",
     "fixed",
+    "tangency",
     "tilted_integers",
     "levels",
     "scene",

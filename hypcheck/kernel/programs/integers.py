@@ -6,7 +6,7 @@ n2, n1 and −n0 = p s are N c2, N c1 and N c0's size; delta is 3 N⁴ Δ, slope
 
 from __future__ import annotations
 
-from hypcheck.derivation.program import Argument, Program, program_of
+from hypcheck.derivation.program import Argument, Program, needed, program_of
 from hypcheck.geometry.pair import COLUMNS
 
 INTEGERS = program_of(
@@ -101,3 +101,18 @@ def bits_counted(program: Program, of_inputs: int = FLOAT64_BITS) -> dict[str, i
         else:
             raise ValueError(f"program {program.name}: step {step.name}: {step.operation} is no operation on integers")
     return bits
+
+
+def limb_products(program: Program, wanted: tuple[str, ...], of_inputs: int = FLOAT64_BITS, limb: int = 64) -> int:
+    """The most products of two limbs that the steps which lead to `wanted` take, by the method of school."""
+    bits = bits_counted(program, of_inputs)
+
+    def limbs(argument: Argument) -> int:
+        return -(-(bits[argument] if isinstance(argument, str) else abs(argument).bit_length()) // limb)
+
+    products = (step.arguments for step in needed(program, wanted) if step.operation == "mul")
+    return sum(limbs(left) * limbs(right) for left, right in products)
+
+
+WORST = ("delta", "slope_at_B", "ring_excess")
+"""What the rule asks of a row at most: where there is no ring it is less."""

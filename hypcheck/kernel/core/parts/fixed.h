@@ -186,10 +186,10 @@ static hc_fixed_terms hc_fixed_terms_of(const double row[7]) {
     return terms;
 }
 
-/* delta and `middle` of the program "fixed-discriminant", whose errors are 2^grown units, and the sign of n2 and n1. */
+/* Numbers of the program "fixed-discriminant", whose errors are multiples of 2^grown units, of roots divided by 2^k. */
 typedef struct {
-    hc_fixed delta, middle;
-    int grown;
+    hc_fixed delta, middle, h1, h2, N, n2;
+    int grown, k;
 } hc_fixed_cubic;
 
 static hc_fixed_cubic hc_fixed_cubic_of(const hc_fixed_terms *terms) {
@@ -210,6 +210,7 @@ static hc_fixed_cubic hc_fixed_cubic_of(const hc_fixed_terms *terms) {
     /* end of the program "fixed-discriminant" */
     cubic.delta = delta;
     cubic.middle = middle;
+    cubic.h1 = h1, cubic.h2 = h2, cubic.N = N, cubic.n2 = n2, cubic.k = k;
     cubic.grown = HC_MAX_OF(0, HC_MAX_OF(up_2 - down_2, up_1 - down_1) - 1);
     return cubic;
 }
@@ -236,13 +237,31 @@ static void hc_fixed_at_A(const hc_fixed_terms *terms, int *offset, int *slope) 
     *slope = hc_fixed_sign(slope_at_A, HC_fixed_pole, 0);
 }
 
-/* The position of a valid row; 2 where the bounds do not tell. */
-static int hc_fixed_position(const double row[7]) {
+/* About the number, as good as a guess has to be. */
+static inline double hc_fixed_value(hc_fixed number) {
+    return (double)(int64_t)number.high * 18446744073709551616.0 + 2.0 * (double)(int64_t)(number.low >> 1);
+}
+
+/* About the double root that the cubic has if delta is 0, or 0 where there is no guess. */
+static double hc_fixed_double_root(const hc_fixed_cubic *cubic) {
+    const int most = 1000;
+    const uint64_t bits = (uint64_t)(cubic->k + 1023) << 52;
+    double power;
+    if (cubic->k < -most || cubic->k > most || cubic->grown > HC_MOST_GROWN) return 0;
+    memcpy(&power, &bits, sizeof power);
+    if (hc_fixed_sign(cubic->h1, 64, cubic->grown) == 0) /* a triple one */
+        return hc_fixed_value(cubic->n2) / (-3 * hc_fixed_value(cubic->N)) * power;
+    return -0.5 * hc_fixed_value(cubic->h2) / hc_fixed_value(cubic->h1) * power;
+}
+
+/* The position of a valid row; 2 where the bounds do not tell: then `about` is about the double root, if it is one. */
+static int hc_fixed_position(const double row[7], double *about) {
     const hc_fixed_terms terms = hc_fixed_terms_of(row);
     const hc_fixed_cubic cubic = hc_fixed_cubic_of(&terms);
     const int delta = cubic.grown > HC_MOST_GROWN ? 0 : hc_fixed_sign(cubic.delta, HC_fixed_delta, cubic.grown);
     const int c2 = hc_fixed_sign(terms.n2, HC_fixed_coefficient, 0), c1 = hc_fixed_sign(terms.n1, HC_fixed_coefficient, 0);
     int offset, slope;
+    *about = delta ? 0 : hc_fixed_double_root(&cubic);
     if (delta < 0) return 0;
     if (c2 < 0 && c1 > 0) { /* where delta > 0, three positive roots */
         hc_fixed_at_B(&terms, &offset, &slope);
@@ -258,10 +277,4 @@ static int hc_fixed_position(const double row[7]) {
         return delta > 0 && offset > 0 && slope > 0 ? -1 : 2;
     }
     return 2;
-}
-
-/* The position of a valid row. */
-static int hc_exact_position(const double row[7]) {
-    const int position = hc_fixed_position(row);
-    return position == 2 ? hc_position_by_integers(row) : position;
 }

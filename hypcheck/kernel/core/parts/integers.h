@@ -78,25 +78,37 @@ static void hc_subtract(hc_integer *difference, const hc_integer *left, const hc
     hc_combine(difference, left, right, -1);
 }
 
+/* to += factor from, or to = factor from for the first one; returns the limb behind the last. */
+static hc_limb hc_add_row(hc_limb *to, const hc_limb *from, int length, hc_limb factor, int first) {
+    hc_wide carry = 0;
+    int i;
+    if (first) {
+        for (i = 0; i < length; i++) {
+            carry += (hc_wide)from[i] * factor;
+            to[i] = (hc_limb)carry;
+            carry >>= HC_LIMB_BITS;
+        }
+    } else {
+        for (i = 0; i < length; i++) {
+            carry += (hc_wide)from[i] * factor + to[i];
+            to[i] = (hc_limb)carry;
+            carry >>= HC_LIMB_BITS;
+        }
+    }
+    return (hc_limb)carry;
+}
+
 static void hc_multiply(hc_integer *product, const hc_integer *left, const hc_integer *right) {
     const hc_integer *const longer = left->length < right->length ? right : left;
     const hc_integer *const shorter = left->length < right->length ? left : right;
     hc_limb *const limbs = product->limbs;
     const int length = longer->length;
-    int i, j;
+    int j;
     product->sign = left->sign * right->sign;
     product->length = 0;
     if (product->sign == 0) return;
-    for (j = 0; j < shorter->length; j++) {
-        const hc_wide factor = shorter->limbs[j];
-        hc_limb carry = 0;
-        for (i = 0; i < length; i++) {
-            const hc_wide sum = longer->limbs[i] * factor + (j == 0 ? 0 : limbs[i + j]) + carry;
-            limbs[i + j] = (hc_limb)sum;
-            carry = (hc_limb)(sum >> HC_LIMB_BITS);
-        }
-        limbs[i + j] = carry;
-    }
+    for (j = 0; j < shorter->length; j++)
+        limbs[length + j] = hc_add_row(limbs + j, longer->limbs, length, shorter->limbs[j], j == 0);
     product->length = length + shorter->length;
     if (limbs[product->length - 1] == 0) product->length--;
 }
