@@ -78,6 +78,7 @@ LEVEL_FLAGS = {
     "avx512": (("-march=native", "-mprefer-vector-width=512"), ("-march=native", "-mprefer-vector-width=256")),
     "avx2": (("-mavx2", "-mfma", "-mbmi2"),),
     "sse2": ((),),
+    "neon": ((),),
     "plain": ((),),
 }
 

@@ -4,7 +4,7 @@ The compiled kernel answers if it was built and loads, otherwise numpy. Environm
 first asked for:
 
     HYPCHECK_KERNEL   "compiled" or "numpy" forces that one
-    HYPCHECK_LEVEL    "avx512", "avx2", "sse2" or "plain" forces the instruction set of the compiled one
+    HYPCHECK_LEVEL    "avx512", "avx2", "sse2", "neon" or "plain" forces the instruction set of the compiled one
     HYPCHECK_THREADS  the most threads it may use; by default the processors this process may run on
 """
 
@@ -22,7 +22,7 @@ from hypcheck.scene.model import QUESTIONS
 
 EXTENSION = "hypcheck.kernel._compiled"
 KERNELS = ("compiled", "numpy")
-LEVELS = ("avx512", "avx2", "sse2", "plain")
+LEVELS = ("avx512", "avx2", "sse2", "neon", "plain")
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ def test_forcing_a_missing_kernel_raises_an_input_error(fresh):
     ("name", "value", "sentence"),
     [
         ("HYPCHECK_KERNEL", "numba", "HYPCHECK_KERNEL is 'numba'; it must be compiled or numpy, or unset"),
-        ("HYPCHECK_LEVEL", "avx", "HYPCHECK_LEVEL is 'avx'; it must be one of avx512, avx2, sse2, plain, or unset"),
+        ("HYPCHECK_LEVEL", "avx", "HYPCHECK_LEVEL is 'avx'; it must be one of avx512, avx2, sse2, neon, plain, or unset"),
     ],
 )
 def test_invalid_environment_variables_raise_an_error_with_valid_values(fresh, name, value, sentence):

@@ -16,7 +16,7 @@
    and the others include the header alone. C99 or C++11, no library, not even libm. Before it, that file may define
 
        HYPCHECK_SELF "other.h"   where the header has another name: it includes itself once for each instruction set
-       HYPCHECK_PLAIN            to leave the instruction sets of x86-64 out
+       HYPCHECK_PLAIN            to leave the instruction sets of x86-64 and aarch64 out
        HYPCHECK_SMALL_LIMBS      to do without 128-bit integers
 
    Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z; or 10, for an axis
@@ -120,7 +120,7 @@ typedef struct {
 enum { HYPCHECK_NEAR_NUMBERS = 11 };
 size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypcheck_near *found);
 
-/* The instruction set in use: "avx512", "avx2", "sse2" or "plain". The best that this machine has, unless
+/* The instruction set in use: "avx512", "avx2", "sse2", "neon" or "plain". The best that this machine has, unless
    hypcheck_use_level chose another; that returns 0, and changes nothing, where this machine or build lacks it. */
 const char *hypcheck_level(void);
 int hypcheck_use_level(const char *name);
@@ -146,8 +146,8 @@ int hypcheck_use_level(const char *name);
 #include <float.h>
 #include <string.h>
 
-/* Clang defines no macro for the parts of -ffast-math, such as -funsafe-math-optimizations: they are taken back. */
-#if defined(__clang__) && __clang_major__ >= 12 && (defined(__x86_64__) || defined(__aarch64__))
+/* Clang defines no macro for the parts of -ffast-math, such as -funsafe-math-optimizations: they are taken back where it can. */
+#if defined(__clang__) && ((defined(__x86_64__) && __clang_major__ >= 12) || (defined(__aarch64__) && __clang_major__ >= 15))
 #define HC_PRECISE 1
 #pragma float_control(precise, on, push)
 #else
@@ -155,12 +155,29 @@ int hypcheck_use_level(const char *name);
 #endif
 
 /* The bounds ask for one rounding to double in each operation. Where the machine rounds otherwise (x87), floats decide
-   nothing and the integers everything: right, and slow. 16 is said of machines with _Float16, and is 0 for double. */
-#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 16
+   nothing and the integers everything: right, and slow. 16 is said of machines with _Float16, and is 0 for double. GCC's
+   <float.h> says it only to C99 and C++11, the compiler to all; a machine that says nothing gets the integers. */
+#if defined(FLT_EVAL_METHOD)
+#define HC_EVALUATION FLT_EVAL_METHOD
+#elif defined(__FLT_EVAL_METHOD__)
+#define HC_EVALUATION __FLT_EVAL_METHOD__
+#else
+#define HC_EVALUATION (-1)
+#endif
+#if HC_EVALUATION == 0 || HC_EVALUATION == 1 || HC_EVALUATION == 16
 #define HC_FLOATS_DECIDE 1
+#define HC_STORED double
 #else
 #define HC_FLOATS_DECIDE 0
+#define HC_STORED volatile double
 #endif
+
+/* What x87 does to the bounds of clearances, which are not left to the integers. With a control word of 53 bits or 64, each
+   result is rounded to that many as the mode says, and once more to double where it is stored. To nearest the two are off
+   by 2^-64 + 2^-53 (1 + 2^-64) < u = 2^-52 at most; in a directed mode, both going the same way, they are the one rounding
+   to double. So each result, as any next step sees it, is within the u that every bound counts, and from a wider range
+   less underflows and nothing more overflows. But one step may see a value as stored and another see it as it was: the
+   names of which a bound needs one value are HC_STORED, read from memory each time. */
 
 #if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(HYPCHECK_PLAIN)
 #define HC_X86 1
@@ -168,6 +185,17 @@ int hypcheck_use_level(const char *name);
 #include <immintrin.h>
 #else
 #define HC_X86 0
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__aarch64__) && !defined(HYPCHECK_PLAIN)
+#define HC_NEON 1
+#include <arm_neon.h>
+#else
+#define HC_NEON 0
+#endif
+
+/* There a product of 128 bits is a call into the compiler's library. */
+#if defined(__wasm__) && !defined(HYPCHECK_SMALL_LIMBS)
+#define HYPCHECK_SMALL_LIMBS
 #endif
 
 #define HC_BLOCK 64  /* rows that share one word of bits */
@@ -1594,7 +1622,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_e4dd6dbf6775d3a3
+#ifndef HC_EDITION_7bf07f9881656da8
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1605,6 +1633,11 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #undef HC_LEVEL
 #define HC_LEVEL 3
+#include HYPCHECK_SELF
+#undef HC_LEVEL
+#endif
+#if HC_NEON
+#define HC_LEVEL 4
 #include HYPCHECK_SELF
 #undef HC_LEVEL
 #endif
@@ -2162,6 +2195,8 @@ static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(sse2),
     HC_LEVEL_FUNCTIONS(avx2),
     HC_LEVEL_FUNCTIONS(avx512),
+#elif HC_NEON
+    HC_LEVEL_FUNCTIONS(neon),
 #endif
 };
 
@@ -2184,7 +2219,7 @@ static int hc_best_level(void) {
     return (b & avx2) == avx2 && (saved & of_avx) == of_avx ? 2 : 1;
 }
 #else
-static int hc_best_level(void) { return 0; }
+static int hc_best_level(void) { return HC_NEON; } /* every aarch64 has it */
 #endif
 
 static volatile int hc_level_in_use = -1;
@@ -2362,9 +2397,11 @@ typedef struct {
 } hc_tilted_waiting;
 
 /* An axis of any length as one for which floats have room: times a power of two, where no number becomes subnormal by it.
-   A number of exponent field 0 may be 2^52 smaller than that says. NaN stays. */
+   A number of exponent field 0 may be 2^52 smaller than that says. NaN stays. The integers need none of it, and x87 may be
+   set to 24 bits, where these products are rounded. */
 static void hc_scale_axis(double axis[3]) {
     int i, most = -4096, least = 4096;
+    if (!HC_FLOATS_DECIDE) return;
     for (i = 0; i < 3; i++) {
         const uint64_t word = hc_word(axis[i]) << 1;
         const int top = (int)(word >> 53);
@@ -2944,7 +2981,8 @@ static void hc_halve_factor(const double row[7], double *low, double *high) {
     int turn;
     for (turn = 0; turn < HC_MOST_HALVINGS; turn++) {
         const double least = HC_MAX_OF(*low, HC_width / 2), most = HC_MIN_OF(*high, largest);
-        double middle, grown[2];
+        double grown[2];
+        HC_STORED middle;
         if (!(*high - *low > HC_width * HC_MAX_OF(*low, 1))) return;
         middle = most > 2 * least ? hc_fine_root(least) * hc_fine_root(most) : least + 0.5 * (most - least);
         if (!(middle > *low && middle < *high)) return;
@@ -2958,7 +2996,7 @@ static void hc_halve_factor(const double row[7], double *low, double *high) {
 static double hc_halve_distance(const double row[7], double low, double high, double width) {
     int turn;
     for (turn = 0; turn < HC_MOST_HALVINGS && high - low > HC_width * (low + width); turn++) {
-        const double middle = low + 0.5 * (high - low);
+        const HC_STORED middle = low + 0.5 * (high - low);
         double grown[2];
         int k, clear = 1;
         for (k = 0; k < 2; k++) {
@@ -3115,7 +3153,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_e4dd6dbf6775d3a3
+#define HC_EDITION_7bf07f9881656da8
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -3185,6 +3223,28 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #define HC_MIN(a, b) _mm_min_pd(a, b)
 #define HC_MAX(a, b) _mm_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm_or_pd(_mm_and_pd(truth, a), _mm_andnot_pd(truth, b))
+#elif HC_LEVEL == 4
+#define HC_NAME(name) name##_neon
+#define HC_TARGET
+#define HC_WIDTH 2
+#define HC_NUMBER float64x2_t
+#define HC_TRUTH uint64x2_t
+#define HC_LOAD(from) vld1q_f64(from)
+#define HC_SET(value) vdupq_n_f64(value)
+#define HC_ABS(a) vabsq_f64(a)
+#define HC_GT(a, b) vcgtq_f64(a, b)
+#define HC_LT(a, b) vcltq_f64(a, b)
+#define HC_GE(a, b) vcgeq_f64(a, b)
+#define HC_LE(a, b) vcleq_f64(a, b)
+#define HC_AND(a, b) vandq_u64(a, b)
+#define HC_OR(a, b) vorrq_u64(a, b)
+#define HC_BITS(truth) ((vgetq_lane_u64(truth, 0) & 1) | (vgetq_lane_u64(truth, 1) & 2))
+#define HC_SQRT(a) vsqrtq_f64(a)
+#define HC_ROOT(a) vsqrtq_f64(a)
+#define HC_STORE(to, a) vst1q_f64(to, a)
+#define HC_MIN(a, b) vbslq_f64(vcltq_f64(a, b), a, b)
+#define HC_MAX(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)
+#define HC_SELECT(truth, a, b) vbslq_f64(truth, a, b)
 #else
 #define HC_NAME(name) name##_plain
 #define HC_TARGET
@@ -3241,6 +3301,14 @@ HC_TARGET static void HC_NAME(hc_spread)(int8_t *bytes, uint64_t plus, uint64_t 
         const __m128i is_minus = _mm_cmpeq_epi8(_mm_and_si128(eight_m, bit), bit);
         _mm_storeu_si128((__m128i *)(void *)(bytes + 16 * part),
                          _mm_or_si128(is_minus, _mm_sub_epi8(_mm_setzero_si128(), is_plus)));
+    }
+#elif HC_LEVEL == 4
+    const uint8x8_t bit = vcreate_u8(0x8040201008040201u);
+    int part;
+    for (part = 0; part < 8; part++) {
+        const int8x8_t p = vreinterpret_s8_u8(vtst_u8(vdup_n_u8((uint8_t)(plus >> 8 * part)), bit));
+        const int8x8_t m = vreinterpret_s8_u8(vtst_u8(vdup_n_u8((uint8_t)(minus >> 8 * part)), bit));
+        vst1_s8(bytes + 8 * part, vsub_s8(m, p)); /* each is 0 or -1 */
     }
 #else
     int i;
@@ -4519,6 +4587,10 @@ HC_TARGET static void HC_NAME(hc_two_planes)(const hc_tilted_scene *scene, int b
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
+#if HC_LEVEL == 0 /* on x87 a name of these has one value */
+#undef HC_NUMBER
+#define HC_NUMBER HC_STORED
+#endif
 /* Near the places where spheroids first touch, and the shortest gaps, by columns as in hc_certified. Both are guesses, but for
    the error of the touch, which is proved: hypcheck/kernel/clearance_points.py has the derivations. */
 HC_TARGET static void HC_NAME(hc_touches)(const double *columns, size_t stride, int count, hc_touches *found) {

@@ -16,7 +16,7 @@
    and the others include the header alone. C99 or C++11, no library, not even libm. Before it, that file may define
 
        HYPCHECK_SELF "other.h"   where the header has another name: it includes itself once for each instruction set
-       HYPCHECK_PLAIN            to leave the instruction sets of x86-64 out
+       HYPCHECK_PLAIN            to leave the instruction sets of x86-64 and aarch64 out
        HYPCHECK_SMALL_LIMBS      to do without 128-bit integers
 
    Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z; or 10, for an axis
@@ -120,7 +120,7 @@ typedef struct {
 enum { HYPCHECK_NEAR_NUMBERS = 11 };
 size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypcheck_near *found);
 
-/* The instruction set in use: "avx512", "avx2", "sse2" or "plain". The best that this machine has, unless
+/* The instruction set in use: "avx512", "avx2", "sse2", "neon" or "plain". The best that this machine has, unless
    hypcheck_use_level chose another; that returns 0, and changes nothing, where this machine or build lacks it. */
 const char *hypcheck_level(void);
 int hypcheck_use_level(const char *name);

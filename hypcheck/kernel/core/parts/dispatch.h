@@ -30,6 +30,8 @@ static const hc_level_functions hc_levels[] = {
     HC_LEVEL_FUNCTIONS(sse2),
     HC_LEVEL_FUNCTIONS(avx2),
     HC_LEVEL_FUNCTIONS(avx512),
+#elif HC_NEON
+    HC_LEVEL_FUNCTIONS(neon),
 #endif
 };
 
@@ -52,7 +54,7 @@ static int hc_best_level(void) {
     return (b & avx2) == avx2 && (saved & of_avx) == of_avx ? 2 : 1;
 }
 #else
-static int hc_best_level(void) { return 0; }
+static int hc_best_level(void) { return HC_NEON; } /* every aarch64 has it */
 #endif
 
 static volatile int hc_level_in_use = -1;

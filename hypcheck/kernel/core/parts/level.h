@@ -66,6 +66,28 @@
 #define HC_MIN(a, b) _mm_min_pd(a, b)
 #define HC_MAX(a, b) _mm_max_pd(a, b)
 #define HC_SELECT(truth, a, b) _mm_or_pd(_mm_and_pd(truth, a), _mm_andnot_pd(truth, b))
+#elif HC_LEVEL == 4
+#define HC_NAME(name) name##_neon
+#define HC_TARGET
+#define HC_WIDTH 2
+#define HC_NUMBER float64x2_t
+#define HC_TRUTH uint64x2_t
+#define HC_LOAD(from) vld1q_f64(from)
+#define HC_SET(value) vdupq_n_f64(value)
+#define HC_ABS(a) vabsq_f64(a)
+#define HC_GT(a, b) vcgtq_f64(a, b)
+#define HC_LT(a, b) vcltq_f64(a, b)
+#define HC_GE(a, b) vcgeq_f64(a, b)
+#define HC_LE(a, b) vcleq_f64(a, b)
+#define HC_AND(a, b) vandq_u64(a, b)
+#define HC_OR(a, b) vorrq_u64(a, b)
+#define HC_BITS(truth) ((vgetq_lane_u64(truth, 0) & 1) | (vgetq_lane_u64(truth, 1) & 2))
+#define HC_SQRT(a) vsqrtq_f64(a)
+#define HC_ROOT(a) vsqrtq_f64(a)
+#define HC_STORE(to, a) vst1q_f64(to, a)
+#define HC_MIN(a, b) vbslq_f64(vcltq_f64(a, b), a, b)
+#define HC_MAX(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)
+#define HC_SELECT(truth, a, b) vbslq_f64(truth, a, b)
 #else
 #define HC_NAME(name) name##_plain
 #define HC_TARGET
@@ -123,6 +145,14 @@ HC_TARGET static void HC_NAME(hc_spread)(int8_t *bytes, uint64_t plus, uint64_t 
         _mm_storeu_si128((__m128i *)(void *)(bytes + 16 * part),
                          _mm_or_si128(is_minus, _mm_sub_epi8(_mm_setzero_si128(), is_plus)));
     }
+#elif HC_LEVEL == 4
+    const uint8x8_t bit = vcreate_u8(0x8040201008040201u);
+    int part;
+    for (part = 0; part < 8; part++) {
+        const int8x8_t p = vreinterpret_s8_u8(vtst_u8(vdup_n_u8((uint8_t)(plus >> 8 * part)), bit));
+        const int8x8_t m = vreinterpret_s8_u8(vtst_u8(vdup_n_u8((uint8_t)(minus >> 8 * part)), bit));
+        vst1_s8(bytes + 8 * part, vsub_s8(m, p)); /* each is 0 or -1 */
+    }
 #else
     int i;
     for (i = 0; i < HC_BLOCK; i++) bytes[i] = (int8_t)((int)(plus >> i & 1) - (int)(minus >> i & 1));
@@ -157,6 +187,10 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
    collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
 @LINE_FUNCTIONS@
 @TILTED_LEVEL@
+#if HC_LEVEL == 0 /* on x87 a name of these has one value */
+#undef HC_NUMBER
+#define HC_NUMBER HC_STORED
+#endif
 @NEAR_LEVEL@
 #undef HC_NAME
 #undef HC_TARGET

@@ -28,3 +28,8 @@
 #include HYPCHECK_SELF
 #undef HC_LEVEL
 #endif
+#if HC_NEON
+#define HC_LEVEL 4
+#include HYPCHECK_SELF
+#undef HC_LEVEL
+#endif

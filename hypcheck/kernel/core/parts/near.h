@@ -35,7 +35,8 @@ static void hc_halve_factor(const double row[7], double *low, double *high) {
     int turn;
     for (turn = 0; turn < HC_MOST_HALVINGS; turn++) {
         const double least = HC_MAX_OF(*low, HC_width / 2), most = HC_MIN_OF(*high, largest);
-        double middle, grown[2];
+        double grown[2];
+        HC_STORED middle;
         if (!(*high - *low > HC_width * HC_MAX_OF(*low, 1))) return;
         middle = most > 2 * least ? hc_fine_root(least) * hc_fine_root(most) : least + 0.5 * (most - least);
         if (!(middle > *low && middle < *high)) return;
@@ -49,7 +50,7 @@ static void hc_halve_factor(const double row[7], double *low, double *high) {
 static double hc_halve_distance(const double row[7], double low, double high, double width) {
     int turn;
     for (turn = 0; turn < HC_MOST_HALVINGS && high - low > HC_width * (low + width); turn++) {
-        const double middle = low + 0.5 * (high - low);
+        const HC_STORED middle = low + 0.5 * (high - low);
         double grown[2];
         int k, clear = 1;
         for (k = 0; k < 2; k++) {

@@ -10,8 +10,8 @@
 #include <float.h>
 #include <string.h>
 
-/* Clang defines no macro for the parts of -ffast-math, such as -funsafe-math-optimizations: they are taken back. */
-#if defined(__clang__) && __clang_major__ >= 12 && (defined(__x86_64__) || defined(__aarch64__))
+/* Clang defines no macro for the parts of -ffast-math, such as -funsafe-math-optimizations: they are taken back where it can. */
+#if defined(__clang__) && ((defined(__x86_64__) && __clang_major__ >= 12) || (defined(__aarch64__) && __clang_major__ >= 15))
 #define HC_PRECISE 1
 #pragma float_control(precise, on, push)
 #else
@@ -19,12 +19,29 @@
 #endif
 
 /* The bounds ask for one rounding to double in each operation. Where the machine rounds otherwise (x87), floats decide
-   nothing and the integers everything: right, and slow. 16 is said of machines with _Float16, and is 0 for double. */
-#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 16
+   nothing and the integers everything: right, and slow. 16 is said of machines with _Float16, and is 0 for double. GCC's
+   <float.h> says it only to C99 and C++11, the compiler to all; a machine that says nothing gets the integers. */
+#if defined(FLT_EVAL_METHOD)
+#define HC_EVALUATION FLT_EVAL_METHOD
+#elif defined(__FLT_EVAL_METHOD__)
+#define HC_EVALUATION __FLT_EVAL_METHOD__
+#else
+#define HC_EVALUATION (-1)
+#endif
+#if HC_EVALUATION == 0 || HC_EVALUATION == 1 || HC_EVALUATION == 16
 #define HC_FLOATS_DECIDE 1
+#define HC_STORED double
 #else
 #define HC_FLOATS_DECIDE 0
+#define HC_STORED volatile double
 #endif
+
+/* What x87 does to the bounds of clearances, which are not left to the integers. With a control word of 53 bits or 64, each
+   result is rounded to that many as the mode says, and once more to double where it is stored. To nearest the two are off
+   by 2^-64 + 2^-53 (1 + 2^-64) < u = 2^-52 at most; in a directed mode, both going the same way, they are the one rounding
+   to double. So each result, as any next step sees it, is within the u that every bound counts, and from a wider range
+   less underflows and nothing more overflows. But one step may see a value as stored and another see it as it was: the
+   names of which a bound needs one value are HC_STORED, read from memory each time. */
 
 #if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(HYPCHECK_PLAIN)
 #define HC_X86 1
@@ -32,6 +49,17 @@
 #include <immintrin.h>
 #else
 #define HC_X86 0
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__aarch64__) && !defined(HYPCHECK_PLAIN)
+#define HC_NEON 1
+#include <arm_neon.h>
+#else
+#define HC_NEON 0
+#endif
+
+/* There a product of 128 bits is a call into the compiler's library. */
+#if defined(__wasm__) && !defined(HYPCHECK_SMALL_LIMBS)
+#define HYPCHECK_SMALL_LIMBS
 #endif
 
 #define HC_BLOCK 64  /* rows that share one word of bits */

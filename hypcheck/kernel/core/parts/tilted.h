@@ -9,9 +9,11 @@ typedef struct {
 } hc_tilted_waiting;
 
 /* An axis of any length as one for which floats have room: times a power of two, where no number becomes subnormal by it.
-   A number of exponent field 0 may be 2^52 smaller than that says. NaN stays. */
+   A number of exponent field 0 may be 2^52 smaller than that says. NaN stays. The integers need none of it, and x87 may be
+   set to 24 bits, where these products are rounded. */
 static void hc_scale_axis(double axis[3]) {
     int i, most = -4096, least = 4096;
+    if (!HC_FLOATS_DECIDE) return;
     for (i = 0; i < 3; i++) {
         const uint64_t word = hc_word(axis[i]) << 1;
         const int top = (int)(word >> 53);
