@@ -14,7 +14,7 @@ INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference-bench attack pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants evidence docs release format clean
+.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants evidence docs release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -87,6 +87,9 @@ wheel: $(VENV)/ready-dev ## every command of the installed wheel and sdist, with
 
 attack: $(VENV)/ready-dev ## ten million rows at the borders, every kernel and instruction set; ends with 1 where one is wrong
 	$(BIN)/python -m tests.tools.attack
+
+processors: $(VENV)/ready-dev ## the C header on ARM, RISC-V, IBM Z, x87, WebAssembly (half an hour); docs/processors.md
+	$(BIN)/python -m tests.tools.processors $(INSTALL) --out docs/processors.md
 
 pace: $(VENV)/ready-dev ## rows a second of verify from 1e6 to 1e9 rows; ends with 1 where they differ by over 15 %
 	$(BIN)/python -m tests.tools.pace

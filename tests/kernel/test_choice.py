@@ -47,7 +47,11 @@ def test_forcing_a_missing_kernel_raises_an_input_error(fresh):
     ("name", "value", "sentence"),
     [
         ("HYPCHECK_KERNEL", "numba", "HYPCHECK_KERNEL is 'numba'; it must be compiled or numpy, or unset"),
-        ("HYPCHECK_LEVEL", "avx", "HYPCHECK_LEVEL is 'avx'; it must be one of avx512, avx2, sse2, neon, plain, or unset"),
+        (
+            "HYPCHECK_LEVEL",
+            "avx",
+            "HYPCHECK_LEVEL is 'avx'; it must be one of avx512, avx2, sse2, neon, plain, or unset",
+        ),
     ],
 )
 def test_invalid_environment_variables_raise_an_error_with_valid_values(fresh, name, value, sentence):
@@ -69,7 +73,7 @@ def test_a_level_that_this_machine_lacks_is_refused(fresh):
 
 
 OF_AVX2 = {"avx2", "fma", "bmi2"}
-NEEDS = {"avx512": OF_AVX2 | {"avx512f", "avx512bw", "avx512dq", "avx512vl"}, "avx2": OF_AVX2}
+NEEDS = {"avx512": OF_AVX2 | {"avx512f", "avx512bw", "avx512dq", "avx512vl"}, "avx2": OF_AVX2, "neon": {"neon"}}
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64" or not CPUINFO.exists(), reason="it is read where Linux tells it")

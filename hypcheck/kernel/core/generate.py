@@ -107,7 +107,7 @@ def header() -> str:
 def _part(name: str) -> str:
     text = (HERE / "parts" / name).read_text(encoding="utf-8")
     printed = {key: make() for key, make in _TEXTS.items() if f"@{key}@" in text}
-    said = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(_kilobytes()), "TILTED_KILOBYTES": str(tilted.kilobytes())}
+    said = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(kilobytes()), "TILTED_KILOBYTES": str(tilted.kilobytes())}
     return re.sub(r"@(\w+)@", lambda match: said.get(match[1], match[0]), _filled(text, printed))
 
 
@@ -197,7 +197,8 @@ def _fixed_poles(pole: str) -> list[str]:
 _DELTA = ("delta", "n2", "n1")
 
 
-def _kilobytes() -> int:
+def kilobytes() -> int:
+    """What the stack holds at most for an upright row: the integers, and what calls them."""
     limbs = sum(bits // 64 + 2 for bits in bits_counted(INTEGERS).values())
     return -(-(8 * limbs + 24 * 70 + 16 * 1024) // 1024)
 
