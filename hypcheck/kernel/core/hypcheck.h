@@ -172,12 +172,12 @@ int hypcheck_use_level(const char *name);
 #define HC_STORED volatile double
 #endif
 
-/* What x87 does to the bounds of clearances, which are not left to the integers. With a control word of 53 bits or 64, each
-   result is rounded to that many as the mode says, and once more to double where it is stored. To nearest the two are off
-   by 2^-64 + 2^-53 (1 + 2^-64) < u = 2^-52 at most; in a directed mode, both going the same way, they are the one rounding
-   to double. So each result, as any next step sees it, is within the u that every bound counts, and from a wider range
-   less underflows and nothing more overflows. But one step may see a value as stored and another see it as it was: the
-   names of which a bound needs one value are HC_STORED, read from memory each time. */
+/* What x87 does to clearances, where exact decisions about grown spheroids are all that decides there. With a control word of
+   53 bits or 64, a product is rounded to that many as the mode says, and once more to double where it is stored. To nearest
+   the two are off by 2^-64 + 2^-53 (1 + 2^-64) < 2^-52, less than the last place; in a directed mode, both going the same
+   way, they are the one rounding to double. So hc_next reaches past the exact product, and a bound that counts 2^-52 for an
+   operation holds. But one step may see a value as stored and another as it was in its register: a factor that is proved is
+   HC_STORED, so that it is the one that is returned. */
 
 #if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(HYPCHECK_PLAIN)
 #define HC_X86 1
@@ -1622,7 +1622,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_7bf07f9881656da8
+#ifndef HC_EDITION_e0d9ec42135774df
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3153,7 +3153,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_7bf07f9881656da8
+#define HC_EDITION_e0d9ec42135774df
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -4587,10 +4587,6 @@ HC_TARGET static void HC_NAME(hc_two_planes)(const hc_tilted_scene *scene, int b
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
-#if HC_LEVEL == 0 /* on x87 a name of these has one value */
-#undef HC_NUMBER
-#define HC_NUMBER HC_STORED
-#endif
 /* Near the places where spheroids first touch, and the shortest gaps, by columns as in hc_certified. Both are guesses, but for
    the error of the touch, which is proved: hypcheck/kernel/clearance_points.py has the derivations. */
 HC_TARGET static void HC_NAME(hc_touches)(const double *columns, size_t stride, int count, hc_touches *found) {

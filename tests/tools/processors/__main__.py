@@ -54,9 +54,10 @@ def require(builds: list[Build], *, install: bool) -> None:
     """Raises a UsageError with one sentence where a compiler or an emulator is missing, or installs it."""
     missing = packages_for(builds)
     if missing and install:
-        command = [shutil.which("apt-get") or "apt-get", "install", "--yes", "--no-install-recommends", *missing]
-        done = subprocess.run(command, check=False)
-        missing = packages_for(builds) if done.returncode == 0 else missing
+        apt = shutil.which("apt-get") or "apt-get"
+        for command in ([apt, "update"], [apt, "install", "--yes", "--no-install-recommends", *missing]):
+            subprocess.run(command, check=False, env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"})
+        missing = packages_for(builds)
     if missing:
         lacking = ", ".join(build.name for build in builds if build.missing)
         packages = " ".join(missing)

@@ -187,10 +187,6 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
    collect these here would be a branch on data just loaded, and its misses cost more than the arithmetic. */
 @LINE_FUNCTIONS@
 @TILTED_LEVEL@
-#if HC_LEVEL == 0 /* on x87 a name of these has one value */
-#undef HC_NUMBER
-#define HC_NUMBER HC_STORED
-#endif
 @NEAR_LEVEL@
 #undef HC_NAME
 #undef HC_TARGET

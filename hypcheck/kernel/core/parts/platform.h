@@ -36,12 +36,12 @@
 #define HC_STORED volatile double
 #endif
 
-/* What x87 does to the bounds of clearances, which are not left to the integers. With a control word of 53 bits or 64, each
-   result is rounded to that many as the mode says, and once more to double where it is stored. To nearest the two are off
-   by 2^-64 + 2^-53 (1 + 2^-64) < u = 2^-52 at most; in a directed mode, both going the same way, they are the one rounding
-   to double. So each result, as any next step sees it, is within the u that every bound counts, and from a wider range
-   less underflows and nothing more overflows. But one step may see a value as stored and another see it as it was: the
-   names of which a bound needs one value are HC_STORED, read from memory each time. */
+/* What x87 does to clearances, where exact decisions about grown spheroids are all that decides there. With a control word of
+   53 bits or 64, a product is rounded to that many as the mode says, and once more to double where it is stored. To nearest
+   the two are off by 2^-64 + 2^-53 (1 + 2^-64) < 2^-52, less than the last place; in a directed mode, both going the same
+   way, they are the one rounding to double. So hc_next reaches past the exact product, and a bound that counts 2^-52 for an
+   operation holds. But one step may see a value as stored and another as it was in its register: a factor that is proved is
+   HC_STORED, so that it is the one that is returned. */
 
 #if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && !defined(HYPCHECK_PLAIN)
 #define HC_X86 1
