@@ -2,6 +2,7 @@
 
     hypcheck.classify(rows) -> int8 (n,)
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
+    hypcheck.Prepared(sizes, axis=...): what classify_scene keeps between calls, given to it in the place of the sizes
     hypcheck.position(alpha, gamma, b, d, x, y, z, axis=...) -> int
     hypcheck.clearance(rows) -> hypcheck.Clearance: .lower, .upper, .distance_lower, .distance_upper, .nearest, .touch
     hypcheck.passage((alpha, gamma, b, d), start, end, axis=None) -> .hit, .first_lower, .first_upper
@@ -18,7 +19,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from hypcheck.errors import InputError
-    from hypcheck.kernel.classify import classify, classify_scene
+    from hypcheck.kernel.classify import Prepared, classify, classify_scene
     from hypcheck.kernel.clearance import Clearance, clearance
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.scene import Scene
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Clearance",
     "InputError",
+    "Prepared",
     "Scene",
     "__version__",
     "classify",
@@ -41,6 +43,7 @@ _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
     "Clearance": ("hypcheck.kernel.clearance", "Clearance"),
     "InputError": ("hypcheck.errors", "InputError"),
+    "Prepared": ("hypcheck.kernel.classify", "Prepared"),
     "Scene": ("hypcheck.kernel.scene", "Scene"),
     "classify": ("hypcheck.kernel.at_once", "classify"),
     "classify_scene": ("hypcheck.kernel.at_once", "classify_scene"),

@@ -22,7 +22,7 @@ def _calls() -> tuple[Call, Call]:
     from hypcheck.kernel.compiled_kernel import extension  # noqa: PLC0415 - only where it is there
 
     module = extension()
-    module.set_slow_calls(step_by_step.classify, step_by_step.classify_scene)
+    module.set_slow_calls(step_by_step.classify, step_by_step.classify_scene, step_by_step.Prepared)
     return module.classify, module.classify_scene
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import InitVar, dataclass, field
 from functools import cache
 from operator import index
 from typing import Literal, Protocol
@@ -48,6 +49,9 @@ class Kernel(Protocol):
         False, and no output, also where a kernel gains nothing by it.
         """
 
+    def prepared(self, sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
+        """What is kept of valid sizes, a valid axis and centres like those to come; of no meaning elsewhere."""
+
     def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
         """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
 
@@ -85,6 +89,35 @@ def _kernel_named(name: str) -> Kernel:
     return numpy_kernel
 
 
+@dataclass(frozen=True)
+class Prepared:
+    """One spheroid beside one hyperboloid, prepared once: it stands for the sizes in any number of calls.
+
+    `classify_scene(Prepared(sizes), x, y, z)` answers as `classify_scene(sizes, x, y, z)`; what can be computed before
+    centres are known is kept, which saves most in batches of 64 to some thousand centres. `axis` (3,) is the spheroid's
+    as in classify_scene. `like`, three columns x, y, z, are centres like those to come: they change no answer, but how
+    many centres the first stage decides. Without them heights about the waist are taken. Raises InputError for sizes or
+    an axis that are not valid.
+    """
+
+    sizes: Sizes
+    axis: Axis | None = None
+    like: InitVar[tuple[ArrayLike, ArrayLike, ArrayLike]] = ((), (), ())
+    kept: bytes = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self, like: tuple[ArrayLike, ArrayLike, ArrayLike]) -> None:
+        sizes, axis = _sizes(self.sizes), self.axis
+        if axis is not None:
+            axes = _axes(axis)
+            if axes.ndim == 2:
+                raise InputError(f"axis is of shape {axes.shape}; it must be three numbers, {', '.join(AXIS)}")
+            axis = _one_axis(axes, "raise")
+        columns = as_columns(CENTER, like)
+        kept = kernel().prepared(sizes, (columns[0], columns[1], columns[2]), axis)
+        for name, value in (("sizes", sizes), ("axis", axis), ("kept", kept)):
+            object.__setattr__(self, name, value)
+
+
 def classify(
     rows: ArrayLike,
     *,
@@ -116,7 +149,7 @@ def classify(
 
 
 def classify_scene(
-    sizes: Sizes,
+    sizes: Sizes | Prepared,
     x: ArrayLike,
     y: ArrayLike,
     z: ArrayLike,
@@ -133,9 +166,13 @@ def classify_scene(
     `axis` is the spheroid's axis as in classify: (3,) for all centres, or (n, 3); without it the spheroid is upright.
     The first centre or axis that is not valid raises InputError (its index counted from 0) and `out` is left alone;
     with on_invalid="flag" such centres are marked 127, all of them where the one axis is not valid. Sizes that are not
-    valid are always refused.
+    valid are always refused. In the place of `sizes` may be Prepared(sizes, axis), with no other axis.
     """
     number = required(question, threads, on_invalid)
+    if isinstance(sizes, Prepared):
+        if axis is not None:
+            raise InputError("axis is given, and the scene was prepared with its own; it must be given once")
+        sizes, axis = sizes.sizes, sizes.axis
     four = _sizes(sizes)
     axes = None if axis is None else _axes(axis)
     if axes is not None and axes.ndim == 2:

@@ -10,7 +10,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import Axis, Sizes
+from hypcheck.geometry.pair import UPRIGHT, Axis, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Positions, Rows
 from hypcheck.kernel.choice import NUMBER_OF, Question, compiled, most_threads
 
@@ -33,6 +33,13 @@ def extension() -> ModuleType:
     module = compiled()
     module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8), 2 * ROWS_A_THREAD - 1)
     return module
+
+
+def prepared(sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
+    """As classify.Kernel has it: a hypcheck_scene of core/parts/contract.h."""
+    columns = (np.require(column, np.float64, ["C", "A"]) for column in like)
+    found: bytes = extension().prepare(sizes, axis or UPRIGHT, *columns)
+    return found
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:

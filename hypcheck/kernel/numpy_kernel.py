@@ -109,6 +109,11 @@ def fill_valid_scene(
     return False
 
 
+def prepared(sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:  # noqa: ARG001
+    """As classify.Kernel has it; nothing is kept."""
+    return b""
+
+
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:  # noqa: ARG001
     """As classify.Kernel has it; always one thread."""
     return _answers(positions(rows), question)

@@ -29,9 +29,9 @@ COUNTS = (1, 10, 63, 64, 65, 255, 256, 300, 1023, 1024, 1025, 5000)
 def alone():
     """The functions in C, which say it where they leave a call to Python."""
     assert hypcheck.classify is core.classify  # from now on C knows numpy's arrays
-    core.set_slow_calls(lambda *_call, **_options: LEFT, lambda *_call, **_options: LEFT)
+    core.set_slow_calls(lambda *_call, **_options: LEFT, lambda *_call, **_options: LEFT, hypcheck.Prepared)
     yield core
-    core.set_slow_calls(step_by_step.classify, step_by_step.classify_scene)
+    core.set_slow_calls(step_by_step.classify, step_by_step.classify_scene, hypcheck.Prepared)
 
 
 @pytest.fixture(scope="module")
@@ -174,3 +174,32 @@ def test_the_public_functions_have_the_signatures_and_the_descriptions_of_those_
         ]
         assert inspect.getdoc(public) == inspect.getdoc(written)
         assert pickle.loads(pickle.dumps(public)) is public  # noqa: S301 - as a pool of processes does
+
+
+@pytest.mark.parametrize("axis", [None, (0.3, 0.1, 0.9), (0.0, 0.0, -2.0)])
+@pytest.mark.parametrize("known", [False, True], ids=["no-centre-known", "centres-known"])
+def test_a_prepared_scene_answers_as_its_sizes(axis, known, columns, alone):
+    prepared = hypcheck.Prepared(SIZES, axis, columns if known else ((), (), ()))
+    for count in COUNTS:
+        x, y, z = (column[:count] for column in columns)
+        expected = step_by_step.classify_scene(SIZES, x, y, z, axis=axis).tolist()
+        assert alone.classify_scene(prepared, x, y, z).tolist() == expected
+        assert alone.classify_scene(prepared, x, y, z, np.full(count, 99, np.int8)).tolist() == expected
+        assert step_by_step.classify_scene(prepared, x, y, z).tolist() == expected
+
+
+def test_a_prepared_scene_is_a_value_and_refuses_what_classify_scene_refuses():
+    prepared = hypcheck.Prepared([2, 17.8, 0.25, 0.15], [[0.3, 0.1, 0.9]])
+    assert prepared == hypcheck.Prepared(SIZES, (0.3, 0.1, 0.9), ([1.0], [2.0], [3.0]))
+    assert repr(prepared) == "Prepared(sizes=(2.0, 17.8, 0.25, 0.15), axis=(0.3, 0.1, 0.9))"
+    assert pickle.loads(pickle.dumps(prepared)) == prepared  # noqa: S301 - as a pool of processes does
+    with pytest.raises(InputError, match="d is -1"):
+        hypcheck.Prepared((1, 2, 1, -1))
+    with pytest.raises(InputError, match="axis_x, axis_y, axis_z are 0, 0, 0"):
+        hypcheck.Prepared(SIZES, (0, 0, 0))
+    with pytest.raises(InputError, match=r"axis is of shape \(2, 3\)"):
+        hypcheck.Prepared(SIZES, [[0, 0, 1], [1, 0, 0]])
+    with pytest.raises(InputError, match="axis is given, and the scene was prepared with its own"):
+        hypcheck.classify_scene(prepared, 1.0, 2.0, 3.0, axis=(0, 0, 1))
+    with pytest.raises(InputError, match="row 0: y is nan"):
+        hypcheck.classify_scene(prepared, 1.0, np.nan, 3.0)

@@ -252,6 +252,7 @@ static PyObject *py_set_slow_position(PyObject *self, PyObject *function) {
    They take exactly numpy's arrays, which lie in memory as C wants them, and answer; or they answer nothing (None), change
    nothing, and leave the call to Python, which converts what can be converted and says what is wrong with the rest. */
 
+static PyObject *prepared_type = NULL; /* hypcheck.Prepared */
 static PyObject *array_type = NULL, *new_array = NULL, *answer_type = NULL; /* numpy.ndarray, empty, dtype("int8") */
 static Py_ssize_t for_one_thread = 0; /* rows that one thread answers where the caller does not ask for one */
 
@@ -341,15 +342,19 @@ static int take_rows(taken *these, PyObject *rows, PyObject *out) {
     return (these->width == 7 || these->width == 10) && take_out(these, out);
 }
 
-/* Four floats, or the bytes of a hypcheck_scene; 0 for anything else, and for sizes that are not valid. */
+/* Four floats, or a hypcheck.Prepared, which has the bytes of a hypcheck_scene; 0 for anything else, and for sizes that are
+   not valid. */
 static int scene_of(PyObject *object, hypcheck_scene *scene, double sizes[4], int *prepared) {
     double row[7] = {0};
     Py_ssize_t k;
-    *prepared = PyBytes_CheckExact(object);
+    *prepared = (PyObject *)Py_TYPE(object) == prepared_type;
     if (*prepared) {
-        if (PyBytes_GET_SIZE(object) != (Py_ssize_t)sizeof *scene) return 0;
-        memcpy(scene, PyBytes_AS_STRING(object), sizeof *scene);
-        return 1;
+        PyObject *const kept = PyObject_GetAttrString(object, "kept");
+        const int fits = kept != NULL && PyBytes_CheckExact(kept) && PyBytes_GET_SIZE(kept) == (Py_ssize_t)sizeof *scene;
+        if (fits) memcpy(scene, PyBytes_AS_STRING(kept), sizeof *scene);
+        if (kept == NULL) PyErr_Clear();
+        Py_XDECREF(kept);
+        return fits;
     }
     if (!(PyTuple_CheckExact(object) || PyList_CheckExact(object)) || PySequence_Fast_GET_SIZE(object) != 4) return 0;
     for (k = 0; k < 4; k++) {
@@ -553,7 +558,7 @@ static PyMethodDef functions[] = {
     {"use_arrays", py_use_arrays, METH_VARARGS, "use_arrays(ndarray, empty, dtype('int8'), rows): what scene_at_once takes, makes, and leaves to threads"},
     {"classify", (PyCFunction)(void (*)(void))py_classify, METH_FASTCALL | METH_KEYWORDS, NULL},
     {"classify_scene", (PyCFunction)(void (*)(void))py_classify_scene, METH_FASTCALL | METH_KEYWORDS, NULL},
-    {"set_slow_calls", py_set_slow_calls, METH_VARARGS, "set_slow_calls(classify, classify_scene): what these call for any other call"},
+    {"set_slow_calls", py_set_slow_calls, METH_VARARGS, "set_slow_calls(classify, classify_scene, Prepared): what these call for any other call"},
     {"take", (PyCFunction)(void (*)(void))py_take, METH_FASTCALL, "take(sizes, x, y, z, out or None): take the arrays, do nothing"},
     {"nothing", (PyCFunction)(void (*)(void))py_nothing, METH_FASTCALL | METH_KEYWORDS, "nothing(...): be called, do nothing"},
     {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
@@ -574,10 +579,11 @@ static const char *const signatures[2] = {
 /* The functions that Python has for all calls. Their descriptions become those of the functions here, too. */
 static PyObject *py_set_slow_calls(PyObject *self, PyObject *arguments) {
     static char said[2][4096];
-    PyObject *calls[2];
+    PyObject *calls[2], *type;
     int k;
     (void)self;
-    if (!PyArg_ParseTuple(arguments, "OO", calls, calls + 1)) return NULL;
+    if (!PyArg_ParseTuple(arguments, "OOO", calls, calls + 1, &type)) return NULL;
+    Py_XSETREF(prepared_type, Py_NewRef(type));
     for (k = 0; k < 2; k++) {
         PyObject *const description = PyObject_GetAttrString(calls[k], "__doc__");
         const char *const text = description == NULL || description == Py_None ? "" : PyUnicode_AsUTF8(description);
