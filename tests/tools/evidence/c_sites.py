@@ -32,12 +32,14 @@ GUESSES = {
     "hc_way_multiplier",
 }
 OF_THE_MACHINE = {"hc_best_level", "hc_level", "hypcheck_level", "hypcheck_use_level", "hc_lowest_bit", "hc_spread"}
-_SIZES = (
-    r"HC_(?:BLOCK|STRIP|LIMB_BITS|WIDTH|LEVEL|PRECISE|FLOATS_DECIDE|X86|AHEAD|FAR_FROM|LINES_FROM|\w*TURNS|\w*LIMBS)"
-)
+_OTHERS = "BLOCK STRIP LIMB_BITS WIDTH LEVEL PRECISE FLOATS_DECIDE X86 AHEAD FAR_FROM LINES_FROM guess"
+_SIZES = rf"HC_(?:{_OTHERS.replace(' ', '|')}|\w*TURNS|\w*LIMBS|TOO_MANY_\w+|\w*settled)"
+"""Constants that sizes of arrays are made of, or that choose a shortcut alone."""
 
 _OPERATOR = re.compile(r"(?<= )(<=|>=|==|!=|<|>|&&|\|\|)(?= )")
 _NUMBER = re.compile(r"(?<![\w.\[])(\d+\.\d+(?:e[+-]?\d+)?|\d+e[+-]?\d+|\d+)(?![\w.\]])")
+_OF_SIDES = re.compile(r"\bside [<>] 0$")
+"""A side is 1 or -1: with 0 among the less or the greater ones the same is said."""
 _LEFT_OUT = re.compile(r"\bfor \(|\bstatic\b|\bcase\b|\w\[.*\];$")
 _GUARD = re.compile(r"\bif \(")
 _FUNCTION = re.compile(r"^(?:HC_TARGET )?(?:[\w*]+ )*?\*?(?:HC_NAME\()?(\w+)\)?\([^;]*$", re.MULTILINE)
@@ -176,6 +178,8 @@ def _others(text: str) -> Iterator[str]:
         yield from _values(text)
         return
     for match in _OPERATOR.finditer(text):
+        if _OF_SIDES.search(text[: match.end() + 2]):
+            continue
         yield f"({text[: match.start()]}{OTHER[match[1]]}{text[match.end() :]})"
     for match in _MACRO.finditer(text):
         yield f"({text[: match.start()]}HC_{PRINTED[match[1]]}{text[match.end() :]})"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 from collections import Counter
@@ -15,6 +16,9 @@ from tests.tools.evidence.parts import Figures
 
 TITLE = "Mutants of the compiled kernel"
 
+MANY = "HYPCHECK_EVIDENCE" in os.environ
+"""Whether what lives is asked all questions: hours where a machine is busy."""
+
 
 def measure() -> Figures:
     """Runs every mutant against few questions, and those that live against many."""
@@ -25,7 +29,7 @@ def measure() -> Figures:
         program = built(folder, folder, "-DHC_MUTANTS")
         told: Counter[str] = Counter()
         living = mutants
-        for questions in (write(folder / "few", 6, ()), write(folder / "many", 1, (5,))):
+        for questions in _stages(folder):
             still = []
             for mutant, what in outcomes(program, questions, living):
                 told[what] += 1
@@ -38,6 +42,15 @@ def measure() -> Figures:
         "told by": dict(sorted(told.items())),
         "living": [mutant.name for mutant in living],
     }
+
+
+def _stages(folder: Path) -> Iterator[Path]:
+    """The guards alone, then some frozen questions, then those at the borders too."""
+    (folder / "none").write_bytes(b"")
+    yield folder / "none"
+    yield write(folder / "few", 12, ())
+    if MANY:
+        yield write(folder / "many", 1, (5,))
 
 
 def outcomes(program: Path, questions: Path, mutants: Iterable[Mutant]) -> Iterator[tuple[Mutant, str]]:
@@ -58,8 +71,31 @@ def told(found: Outcome, right: Outcome) -> str:
 
 
 def section(figures: Figures) -> str:
-    """Figures and survivors."""
-    return f"{figures['mutants']} mutants; told by {figures['told by']}; living {len(figures['living'])}\n"
+    """Figures, and where the survivors are."""
+    by = figures["told by"]
+    counts = Counter(name.partition(":")[0] for name in figures["living"])
+    places = ", ".join(f"`{name}` {count}" for name, count in counts.most_common())
+    return f"""\
+Every comparison, junction, guard and float constant of `hypcheck.h` is changed, {figures["mutants"]} changes in all:
+`<` to `<=`, `&&` to `||`, a condition to 0, a constant to half and twice, a whole number by 1. Loops, what chooses an
+instruction set, and functions that only guess where a proof is looked for are left alone. The plain level is asked
+about each guard at its limit and about frozen vectors, in all rounding modes (`tests/tools/evidence/battery/`).
+
+| told by | mutants |
+| --- | --- |
+| a wrong answer, or a guard that says other than it should | {by.get("wrong", 0)} |
+| a crash | {by.get("crash", 0)} |
+| no end | {by.get("endless", 0)} |
+| right answers, and stages that decide more or fewer of them | {by.get("counts", 0)} |
+| nothing | {len(figures["living"])} |
+
+What nothing tells is mostly of these kinds. *It is the same program*: an equality that the line before excludes, a
+sign that is 0 where the header proves that it decides nothing (`hc_exact_position`), the longer of two of one length.
+*It is slower*: a shortcut before an exact decision, a branch that waits for more rows. *It has room to spare*: a
+constant of a bound, which a test of its derivation tells (next section). *It meets no row*: two floats would have to
+be equal to the last bit. They have not been proved equivalent one by one. `figures.json` lists them; by function:
+{places}.
+"""
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from tests.tools.evidence.parts import ROOT, Unavailable
 DRIVER = Path(__file__).with_name("driver.c")
 CORE = ROOT / "hypcheck" / "kernel" / "core"
 SECONDS = 60
-OPTIONS = ("-std=gnu99", "-O2", "-w", "-ffp-contract=off", "-DHYPCHECK_PLAIN")
+OPTIONS = ("-std=gnu99", "-O2", "-Werror=incompatible-pointer-types", "-ffp-contract=off", "-DHYPCHECK_PLAIN")
 """Of the compiler: the same arithmetic on every machine."""
 
 

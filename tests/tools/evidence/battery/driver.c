@@ -67,40 +67,42 @@ static void ask_rows(const batch *b, int mode) {
 }
 
 /* Counts what is decided, and compares it with what is right. */
-static void check_blocks(const batch *b, int mode, int question, const int8_t *answers, const uint64_t *left, long *count) {
+static void check_blocks(const batch *b, int mode, int question, const hc_signs *signs, const uint64_t *left, long *count) {
     int block, i;
     for (block = 0; block < b->n / HC_BLOCK; block++) {
         *count += 64 - ones(left[block]);
         for (i = 0; i < 64; i++) {
-            const int row = 64 * block + i;
-            if (!(left[block] >> i & 1) && answers[row] != answer_of(question, b->right[row]))
-                wrong(b, mode, row, "half planes", answers[row]);
+            const int row = 64 * block + i, found = (int)(signs[block].plus >> i & 1) - (int)(signs[block].minus >> i & 1);
+            if (!(left[block] >> i & 1) && found != answer_of(question, b->right[row])) wrong(b, mode, row, "half planes", found);
         }
     }
 }
 
-static void ask_lines(const batch *b, int mode, const double *x, const double *y, const double *z, int8_t *answers, uint64_t *left) {
+static void ask_lines(const batch *b, int mode, const double *x, const double *y, const double *z, hc_signs *signs, uint64_t *left) {
     hc_scene scene;
-    int question, lines;
+    int question, lines, fetch;
     if (!hc_make_scene(&scene, b->rows, (size_t)b->n, z)) return;
     for (question = 0; question < 4; question++)
-        for (lines = 0; lines < 2; lines++) {
-            const hc_lines_function ask = lines ? hc_level()->two_lines[question] : hc_level()->one_line[question];
-            ask(&scene, b->n / HC_BLOCK, x, y, z, question & 1, answers, left);
-            check_blocks(b, mode, question, answers, left, counts + ONE_LINE + lines);
-        }
+        for (lines = 0; lines < 2; lines++)
+            for (fetch = 0; fetch < 2; fetch++) {
+                const hc_lines_function ask = lines ? hc_level()->two_lines[question] : hc_level()->one_line[question];
+                ask(&scene, b->n / HC_BLOCK, x, y, z, fetch, signs, left);
+                check_blocks(b, mode, question, signs, left, counts + ONE_LINE + lines);
+            }
 }
 
-static void ask_planes(const batch *b, int mode, const double *x, const double *y, const double *z, int8_t *answers, uint64_t *left) {
+static void ask_planes(const batch *b, int mode, const double *x, const double *y, const double *z, hc_signs *signs, uint64_t *left) {
     hc_tilted_scene scene;
     double axis[3];
-    int planes;
+    int planes, fetch;
     memcpy(axis, b->rows + 7, sizeof axis);
     if (!hc_make_tilted_scene(&scene, b->rows, axis, (size_t)b->n, x, y, z)) return;
     for (planes = 0; planes < 2; planes++) {
         if (planes) hc_make_planes(&scene, 1, 2);
-        (planes ? hc_level()->two_planes : hc_level()->one_plane)(&scene, b->n / HC_BLOCK, x, y, z, planes, answers, left);
-        check_blocks(b, mode, 0, answers, left, counts + ONE_PLANE + planes);
+        for (fetch = 0; fetch < 2; fetch++) {
+            (planes ? hc_level()->two_planes : hc_level()->one_plane)(&scene, b->n / HC_BLOCK, x, y, z, fetch, signs, left);
+            check_blocks(b, mode, 0, signs, left, counts + ONE_PLANE + planes);
+        }
     }
 }
 
@@ -109,6 +111,7 @@ static void ask_scene(const batch *b, int mode) {
     double *x = malloc(8 * (size_t)b->n), *y = malloc(8 * (size_t)b->n), *z = malloc(8 * (size_t)b->n);
     int8_t *answers = malloc((size_t)b->n);
     uint64_t *left = calloc((size_t)b->n / HC_BLOCK + 1, 8);
+    hc_signs *signs = calloc((size_t)b->n / HC_BLOCK + 1, sizeof *signs);
     int i, question;
     for (i = 0; i < b->n; i++) {
         const double *r = b->rows + b->width * i;
@@ -120,9 +123,9 @@ static void ask_scene(const batch *b, int mode) {
         for (i = 0; i < b->n; i++)
             if (answers[i] != answer_of(question, b->right[i])) wrong(b, mode, i, "a scene's answer", answers[i]);
     }
-    if (leaning) ask_planes(b, mode, x, y, z, answers, left);
-    else ask_lines(b, mode, x, y, z, answers, left);
-    free(x), free(y), free(z), free(answers), free(left);
+    if (leaning) ask_planes(b, mode, x, y, z, signs, left);
+    else ask_lines(b, mode, x, y, z, signs, left);
+    free(x), free(y), free(z), free(answers), free(left), free(signs);
 }
 
 static void ask_ways(const batch *b, int mode) {

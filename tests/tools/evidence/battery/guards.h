@@ -33,7 +33,7 @@ static void check_single(void) {
     CHECK(ratio_of(1, 1, two(50), two(40), two(60)) == 2 && ratio_of(1, 1, two(49), two(40), two(60)) == 1);
     CHECK(ratio_of(1, 1, 4, two(50), two(60)) == 2 && ratio_of(1, 1, 4, two(49), two(60)) == 1);
     CHECK(ratio_of(1, 1, 4, 2, 100) == 2 && ratio_of(1, 1, 4, 2.125, 100) == 1 && ratio_of(1, 1, 4, 0.5, 100) == 2);
-    CHECK(ratio_of(1, 1, 4, 4, two(100)) == 2 && ratio_of(1, 1, 4, 4, two(99)) == 1);
+    CHECK(ratio_of(1, 1, 4, 4, two(100)) == 2 && ratio_of(1, 1, 4, 4, 1.75 * two(99)) == 1);
     CHECK(ratio_of(1, 1, 4, 4, 5) == 2 && ratio_of(1, 1, 4, 4, 3) == 2);
     CHECK(hypcheck_position(4, 4, 1, 1, 5, 0, 0) == 0 && hypcheck_position(4, 4, 1, 1, NAN, 0, 0) == 127);
     CHECK(single_of(4, 4, NAN, 1, 100, 0) == 2 && single_of(4, 4, 1, NAN, 100, 0) == 2);
@@ -66,6 +66,55 @@ static void check_valid(void) {
         axis[(i + 1) % 3] = NAN;
         CHECK(!hc_has_direction(axis));
     }
+}
+
+/* Whether floats decide a spheroid that leans, all lengths times `scale`, the axis times `length`, b times `tall` for d. */
+static int tilted_decides(double a, double c, double tall, double r, double scale, double length) {
+    const double row[10] = {a * scale, c * scale, scale, tall * scale, r * scale, 0, 0, length, 0, length};
+    const hc_bits found = hc_tilted_plain(row, 1, 1);
+    return (int)(found.decided & 1);
+}
+
+/* The limits of programs/tilted.py: b, then squares of ratios to b, the axis' square and the distance's. */
+static void check_tilted_limits(void) {
+    const double turned[10] = {4, 4, 1, 2, 100, 0, 0, 1, 0, 1};
+    int k;
+    CHECK(tilted_decides(4, 4, 2, 100, 1, 1));
+    CHECK(!tilted_decides(4, 4, 2, 100, two(-300), 1) && tilted_decides(4, 4, 2, 100, 1.25 * two(-300), 1));
+    CHECK(!tilted_decides(4, 4, 2, 100, two(300), 1) && tilted_decides(4, 4, 2, 100, 0.8 * two(300), 1));
+    CHECK(!tilted_decides(two(-27), 4, 2, 100, 1, 1) && tilted_decides(1.25 * two(-27), 4, 2, 100, 1, 1));
+    CHECK(!tilted_decides(two(27), 4, 2, two(40), 1, 1) && tilted_decides(0.8 * two(27), 4, 2, two(40), 1, 1));
+    CHECK(!tilted_decides(4, two(-27), 2, 100, 1, 1) && tilted_decides(4, 1.25 * two(-27), 2, 0, 1, 1));
+    CHECK(!tilted_decides(4, two(27), 2, 100, 1, 1) && tilted_decides(4, 0.8 * two(27), 2, 100, 1, 1));
+    CHECK(!tilted_decides(4, 4, two(-27), 100, 1, 1) && tilted_decides(4, 4, 1.25 * two(-27), 100, 1, 1));
+    CHECK(!tilted_decides(4, 4, two(27), two(40), 1, 1) && tilted_decides(4, 4, 0.8 * two(27), two(40), 1, 1));
+    CHECK(!tilted_decides(4, 4, 2, two(54), 1, 1) && tilted_decides(4, 4, 2, 0.8 * two(54), 1, 1));
+    CHECK(!tilted_decides(4, 4, 2, 100, 1, 0.7 * two(-50)) && tilted_decides(4, 4, 2, 100, 1, 0.8 * two(-50)));
+    CHECK(!tilted_decides(4, 4, 2, 100, 1, 0.8 * two(50)) && tilted_decides(4, 4, 2, 100, 1, 0.7 * two(50)));
+    for (k = 0; k < 4; k++) {
+        double row[10];
+        memcpy(row, turned, sizeof row);
+        CHECK(hc_tilted_plain(row, 1, 1).decided & 1);
+        row[k] = -row[k];
+        CHECK(!(hc_tilted_plain(row, 1, 1).decided & 1));
+        row[k] = NAN;
+        CHECK(!(hc_tilted_plain(row, 1, 1).decided & 1));
+    }
+}
+
+static int scaled(double x, double y, double z, double first) {
+    double axis[3];
+    axis[0] = x, axis[1] = y, axis[2] = z;
+    hc_scale_axis(axis);
+    return axis[0] == first && (x == 0 || (y / x == axis[1] / axis[0] && z / x == axis[2] / axis[0]));
+}
+
+static void check_axes(void) {
+    CHECK(scaled(3, 1, 2, 3) && scaled(two(40), 1, 2, two(40) / two(40)) && scaled(two(39), 1, 2, two(39)));
+    CHECK(scaled(two(-40), 0, 0, 1) && scaled(two(-39), 0, 0, two(-39)) && scaled(-two(-40), two(-41), 0, -1));
+    CHECK(scaled(two(-1074), 0, 0, two(-51)) && scaled(two(1000), two(900), 0, 1) && scaled(0, 0, 0, 0));
+    CHECK(scaled(two(1000), two(-19), 0, 1) && scaled(two(1000), two(-21), 0, two(1000)));
+    CHECK(scaled(two(-61), two(-1050), 0, two(-61)));
 }
 
 /* ---- half planes of one scene ---- */
@@ -131,6 +180,7 @@ static void check_chords(void) {
     }
     CHECK(chord_of(0, 1, 0, 1, 1).M == 0 && chord_of(0, 0, 0, 0, -1).K == 0 && chord_of(1, 0.125, 2, 1, -1).K == HC_least_constant);
     CHECK(chord_proves(0, two(-298), 1, two(-297), 1) && !chord_proves(0, two(-300), 1, two(-299), 1));
+    CHECK(chord_of(1, 0.125, 2, 1, -1).M < 0.51 && chord_proves(1, 2, 1, 1, 1) && chord_proves(1, 2, 1, 1, -1));
     CHECK(chord_of(0, two(-310), 1, two(-309), -1).K == HC_least_constant);
 }
 
@@ -148,7 +198,9 @@ static int tilted_scene_made(double alpha, double gamma, double b, double d) {
 
 static void check_scenes(void) {
     const double steep[3] = {1, 0, two(-12)}, sizes[4] = {2, 2, 1, 1}, thin[4] = {2, 2, 1, two(-40)}, where[2] = {1, 2};
-    hc_tilted_scene scene;
+    const double flat[4] = {2, 2, 1, two(-8)}, flatter[4] = {2, 2, 1, two(-10)}, slanted[3] = {1, 0, 1}, vast[3] = {two(300), two(300), 0};
+    hc_tilted_scene scene, other;
+    hc_scene upright;
     hc_point point;
     int i;
     CHECK(scene_made(2, 2, 1, 1) == HC_FLOATS_DECIDE && tilted_scene_made(2, 3, 1, 1.5) == HC_FLOATS_DECIDE);
@@ -160,10 +212,19 @@ static void check_scenes(void) {
         low[i] = two(-99), high[i] = two(99);
         CHECK(scene_made(low[0], low[1], low[2], low[3]) && scene_made(high[0], high[1], high[2], high[3]));
     }
+    CHECK(!tilted_scene_made(two(101), two(102), two(100), two(101)) && tilted_scene_made(two(98), two(99), two(97), two(98)));
+    CHECK(!tilted_scene_made(two(-99), two(-98), two(-100), two(-99)) && tilted_scene_made(two(-97), two(-98), two(-99), two(-98)));
     CHECK(hc_make_tilted_scene(&scene, sizes, steep, 2, where, where, where));
     CHECK(!hc_make_tilted_scene(&scene, thin, steep, 2, where, where, where) || scene.zeta < HC_greatest_zeta);
+    CHECK(hc_make_tilted_scene(&scene, flat, slanted, 2, where, where, where) && scene.zeta > two(-18) && scene.under[0].K > 0);
+    CHECK(!hc_make_tilted_scene(&other, flatter, slanted, 2, where, where, where) && other.zeta < 2 * HC_greatest_zeta);
+    CHECK(scene.reach < scene.heights[2] - scene.zeta * (8 * scene.under[0].K + 2 * scene.heights[2]));
+    CHECK(!hc_make_tilted_scene(&scene, sizes, vast, 2, where, where, where));
+    for (i = 0; i < 2; i++) CHECK((hc_word(hc_short(1.0 / 3, i)) & 0x7ffffff) == 0 && (hc_short(1.0 / 3, i) > 1.0 / 3) == i);
+    CHECK(hc_make_scene(&upright, sizes, 2, where) && upright.reach < hc_short(2.125, 1) * hc_short(2.125, 1) * (1 - 8 * DBL_EPSILON));
     point = hc_known_point(sizes, 0, 9, 1); /* the border of exterior positions at height 0 */
     CHECK(point.T == 0 && point.R > 8.9 && point.R < 9 && hypcheck_position(2, 2, 1, 1, sqrt(point.R), 0, 0) == 0);
+    CHECK(hc_known_point(sizes, 0, two(402), 1).R == -1);
     point = hc_known_point(sizes, 0, 9.5, 1);
     CHECK(point.R == -1); /* no step of 2^-8 reaches contact */
     point = hc_known_point(sizes, 0, 1, -1);
@@ -179,6 +240,8 @@ static void check_balls(void) {
     hc_ball a, b;
     CHECK(is_known(hc_ball_of(two(399), 0)) && !is_known(hc_ball_of(two(400), 0)) && !is_known(hc_ball_of(-two(400), 0)));
     CHECK(is_known(hc_ball_of(1, two(399))) && !is_known(hc_ball_of(1, two(400))) && !is_known(hc_ball_of(NAN, 0)));
+    a.v = a.e = 1;
+    CHECK(!is_known(hc_root(a)));
     a = hc_exactly(3), b = hc_ball_of(1, 1);
     CHECK(hc_exactly(3).e == 0 && hc_over(a, hc_exactly(2)).v == 1.5 && !is_known(hc_over(a, b)) && !is_known(hc_over(a, hc_exactly(0))));
     CHECK(is_known(hc_root(hc_exactly(2))) && !is_known(hc_root(hc_exactly(0))) && !is_known(hc_root(hc_exactly(-1))));
@@ -227,6 +290,7 @@ static hc_tilted_scene upright_poles(double A1, double A2, double B) {
 
 static void check_tilted_tangents(void) {
     const hc_tilted_scene scene = upright_poles(16, 4, 4), other = upright_poles(4, 16, 4);
+    hc_tilted_scene vague = scene;
     CHECK(hc_tilted_tangent(&scene, 1, 1).K != HC_NEVER && hc_tilted_tangent(&scene, -2, -1).K != -1);
     CHECK(hc_tilted_tangent(&scene, 4, 1).K == HC_NEVER && hc_tilted_tangent(&scene, 5, 1).K == HC_NEVER);
     CHECK(hc_tilted_tangent(&scene, -1, 1).K == HC_NEVER && hc_tilted_tangent(&scene, 1, -1).K == -1);
@@ -240,6 +304,8 @@ static void check_tilted_tangents(void) {
     CHECK(!hc_below_tangent(scene.A2, scene.B, 8, 0, 4, 1) && !hc_below_tangent(scene.A2, scene.B, 8, 0, -4, -1));
     CHECK(hc_below_tangent(scene.A2, scene.B, 2, 0, -1, -1) && !hc_below_tangent(scene.A2, scene.B, 0.5, 0, -1, -1));
     CHECK(hc_tilted_chord(&scene, 0, 1, 1).K != -1 && hc_tilted_chord(&scene, 0, 1, -1).K != HC_NEVER);
+    vague.A1.e = 15; /* no corner on its axis is proved */
+    CHECK(hc_tilted_chord(&vague, 0, 1, 1).K == -1 && hc_tilted_chord(&vague, 0, 1, -1).K == HC_NEVER);
     CHECK(hc_tilted_chord(&scene, 0, 0, 1).M <= 0 || hc_tilted_chord(&scene, 0, 0, 1).K == -1);
 }
 
@@ -315,6 +381,31 @@ static void check_clearances(void) {
 
 /* ---- the public functions: what they say of odd questions ---- */
 
+static int hit_of(double x, double to_x, double alpha, int timed) {
+    const double row[10] = {alpha, 2, 1, 1, x, 0, 0, to_x, 0, 0};
+    double time;
+    int8_t hit;
+    hypcheck_passage(1, row, &hit, timed ? &time : NULL);
+    CHECK(!timed || (time == time) <= (hit == 1));
+    return hit;
+}
+
+static void check_passages(void) {
+    double upright[100 * 10];
+    int8_t answers[100];
+    int i;
+    CHECK(hit_of(5, 6, 2, 1) == 0 && hit_of(5, 4, 2, 0) == 0 && hit_of(5, 0, 2, 1) == 1 && hit_of(5, 0, 2, 0) == 1 && hit_of(3, 5, 2, 1) == 1);
+    CHECK(hit_of(two(150), 5, 2, 1) == 2 && hit_of(two(150), 0, 2, 1) == 1 && hit_of(two(149), 0, 2, 0) == 1);
+    CHECK(hit_of(two(160), -two(160), 2, 1) == 2 && hit_of(5, -5, 2, 1) == 1 && hit_of(5, -5, 2, 0) == 1);
+    CHECK(hit_of(0, 0.5, two(150), 1) == 2 && hit_of(NAN, 0, 2, 1) == 127);
+    for (i = 0; i < 100; i++) {
+        const double row[10] = {2, 2, 1, 1, 4, 0, 0, 0, 0, 1};
+        memcpy(upright + 10 * i, row, sizeof row);
+    }
+    CHECK(hypcheck_ask_tilted(0, 100, upright, answers) == 0 && answers[0] == 1 && answers[99] == 1);
+    CHECK(hc_exact_tilted_position(upright) == 1);
+}
+
 static void check_questions(void) {
     enum { MANY = (1 << 19) + 4096 + 70 };
     static double x[MANY], y[MANY], z[MANY];
@@ -349,6 +440,8 @@ static void check_questions(void) {
 static void check_guards(void) {
     check_single();
     check_valid();
+    check_tilted_limits();
+    check_axes();
     check_tangents();
     check_chords();
     check_scenes();
@@ -357,5 +450,6 @@ static void check_guards(void) {
     check_tilted_tangents();
     check_ways();
     check_clearances();
+    check_passages();
     check_questions();
 }

@@ -1,0 +1,133 @@
+"""Mutants of the constants and rules that proofs need: a test of the derivation tells each, with no row of any kind.
+
+A mutant is a text of a module and what is put in its place. A process of its own imports the changed module and runs
+the tests that ought to tell.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from dataclasses import dataclass
+
+from tests.tools.evidence.parts import ROOT, Figures
+
+TITLE = "Mutants of the kernel's constants"
+
+CERTIFIED, LINES, INTEGERS = (f"hypcheck/kernel/programs/{name}.py" for name in ("certified", "lines", "integers"))
+PROGRAMS, GUARDS = (f"tests/kernel/test_{name}.py" for name in ("programs", "guards"))
+RULE = "decides_by_the_rule"
+
+
+@dataclass(frozen=True)
+class Change:
+    """`before` becomes `after` in the module `path`; tests of `tests` with one of `words` in the name ought to tell."""
+
+    path: str
+    before: str
+    after: str
+    tests: str
+    words: str
+
+
+CHANGES = (
+    Change(
+        CERTIFIED, '{"u_8": 8 * U * SLACK, "u_12": 12 *', '{"u_8": 8 * U * SLACK, "u_12": 6 *', PROGRAMS, "coefficients"
+    ),
+    Change(CERTIFIED, '{"u_8": 8 * U * SLACK, "u_12"', '{"u_8": 7 * U * SLACK, "u_12"', PROGRAMS, "coefficients"),
+    Change(CERTIFIED, '"u_1536": 48 * 32', '"u_1536": 42 * 32', PROGRAMS, "in_single"),
+    Change(CERTIFIED, '    "u_12": 12 *', '    "u_12": 10 *', PROGRAMS, "coefficients"),
+    Change(CERTIFIED, '    "u_8": 8 *', '    "u_8": 7 *', PROGRAMS, "coefficients"),
+    Change(CERTIFIED, '    "u_16": 16 *', '    "u_16": 8 *', PROGRAMS, "slopes"),
+    Change(CERTIFIED, '    "u_4": 4 *', '    "u_4": 2 *', PROGRAMS, "discriminants_parts"),
+    Change(CERTIFIED, "SLACK = 1 + 2.0**-20", "SLACK = 1 + 2.0**-50", PROGRAMS, "slack"),
+    Change(CERTIFIED, '"farthest": 2.0**200', '"farthest": 2.0**230', GUARDS, "overflows"),
+    Change(CERTIFIED, '"least": 2.0**-100', '"least": 2.0**-300', GUARDS, "underflows"),
+    Change(CERTIFIED, '"greatest": 2.0**100', '"greatest": 2.0**170', GUARDS, "overflows or underflows"),
+    Change(
+        CERTIFIED, "inflection_beyond_B and rises_B", "inflection_beyond_B or rises_B", GUARDS, "decides_by_the_rule"
+    ),
+    Change(
+        CERTIFIED, "inflection_inside_B or falls_B", "inflection_inside_B and falls_B", GUARDS, "decides_by_the_rule"
+    ),
+    Change(
+        CERTIFIED, "inflection_inside_A and rises_A", "inflection_inside_A or rises_A", GUARDS, "decides_by_the_rule"
+    ),
+    Change(
+        CERTIFIED, "inflection_beyond_A or falls_A", "inflection_beyond_A and falls_A", GUARDS, "decides_by_the_rule"
+    ),
+    Change(
+        CERTIFIED, "three_roots = distinct and usable", "three_roots = distinct or usable", GUARDS, "rule or limits"
+    ),
+    Change(CERTIFIED, "crossing = one_root and usable", "crossing = one_root or usable", GUARDS, RULE),
+    Change(CERTIFIED, "not_too_far = P_plus_Q < farthest", "not_too_far = P_plus_Q <= farthest", GUARDS, "limits"),
+    Change(LINES, "CAP = 2.0**400\n", "CAP = 2.0**1000\n", GUARDS, "overflows"),
+    Change(LINES, "LEAST_CONSTANT = 2.0**-300", "LEAST_CONSTANT = 2.0**-1020", GUARDS, "overflows"),
+    Change(LINES, "\nGREATEST_SLOPE = 2.0**400", "\nGREATEST_SLOPE = 2.0**700", GUARDS, "overflows"),
+    Change(LINES, "\nMARGIN = 16 * U", "\nMARGIN = 4 * U", PROGRAMS, "margins"),
+    Change(LINES, "MORE, LESS = 1 + 2 * MARGIN", "MORE, LESS = 1 + MARGIN / 2", PROGRAMS, "margins"),
+    Change(
+        LINES, "LESS = 1 + 2 * MARGIN, 1 - 2 * MARGIN", "LESS = 1 + 2 * MARGIN, 1 - MARGIN / 2", PROGRAMS, "margins"
+    ),
+    Change(LINES, "below = below_0 and below_1", "below = below_0 or below_1", GUARDS, "chord"),
+    Change(LINES, "above = above_0 and above_1", "above = above_0 or above_1", GUARDS, "chord"),
+    Change(LINES, "FLOAT32_TINY = 2.0**-80", "FLOAT32_TINY = 0.0", GUARDS, "tiny"),
+    Change(LINES, "FLOAT32_MARGIN = 16 *", "FLOAT32_MARGIN = 8 *", PROGRAMS, "single_precision"),
+    Change(LINES, "FLOAT32_GREATEST_SLOPE = 2.0**40", "FLOAT32_GREATEST_SLOPE = 2.0**60", GUARDS, "tiny"),
+    Change(INTEGERS, "FLOAT64_BITS = 2098", "FLOAT64_BITS = 2046", GUARDS, "longest"),
+)
+"""The constants and rules of the programs, those that no row shows among them."""
+
+_RUN = """
+import hypothesis.strategies, importlib.machinery, json, os, pytest, sys, sympy
+import hypcheck.derivation.formulas, hypcheck.derivation.proofs, hypcheck.derivation.rounding
+assert not any(name.startswith("hypcheck.kernel") for name in sys.modules)
+
+def run(path, before, after, tests, words):
+    get = importlib.machinery.SourceFileLoader.get_code
+    def changed(self, name):
+        if not self.path.endswith(path):
+            return get(self, name)
+        text = open(self.path, encoding="utf-8").read()
+        if text.count(before) != 1:
+            os._exit(9)
+        return compile(text.replace(before, after), self.path, "exec")
+    importlib.machinery.SourceFileLoader.get_code = changed
+    return pytest.main(["-q", "-x", "-p", "no:cacheprovider", "--assert=plain", tests, "-k", words])
+
+for change in json.load(sys.stdin):
+    child = os.fork()
+    if child == 0:
+        code = 9
+        try:
+            code = int(run(*change))
+        finally:
+            os._exit(code)
+    code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    print(f"\\nended: {code}", flush=True)
+"""
+"""One process imports what does not change; a child of it for each change imports the rest."""
+
+
+def measure() -> Figures:
+    """Runs the tests against every change. Raises AssertionError where a change or its tests are not found."""
+    changes = [(each.path, each.before, each.after, each.tests, each.words) for each in CHANGES]
+    command = [sys.executable, "-c", _RUN]
+    done = subprocess.run(command, cwd=ROOT, input=json.dumps(changes), capture_output=True, text=True, check=False)
+    codes = [int(code) for code in re.findall(r"^ended: (-?\d+)$", done.stdout, re.MULTILINE)]
+    if len(codes) != len(CHANGES) or not set(codes) <= {0, 1}:
+        raise AssertionError(f"{list(zip(CHANGES, codes, strict=False))}\n{done.stderr[-2000:]}")
+    living = [f"{each.before} → {each.after}" for each, code in zip(CHANGES, codes, strict=True) if code == 0]
+    return {"mutants": len(CHANGES), "told": len(CHANGES) - len(living), "lives": len(living), "living": living}
+
+
+def section(figures: Figures) -> str:
+    """What was changed, and what no test told."""
+    living = "".join(f"- `{each}`\n" for each in figures["living"]) or "None lives.\n"
+    return f"""\
+A bound has room to spare: a smaller one may answer every row right that anyone asks. Such constants are told by their
+derivation: a test counts the roundings that the program has and compares the constant with them. {figures["mutants"]}
+constants and rules of `hypcheck/kernel/programs/` are changed one at a time. The tests of `tests/kernel/` tell
+{figures["told"]}. {living}"""
