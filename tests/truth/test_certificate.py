@@ -64,10 +64,25 @@ def test_a_proof_by_hand_is_accepted(pair, certificate):
             Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(4, 0, 1.2))),
             "outside the spheroid, and above",
         ),
+        (
+            CROSSING,
+            Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(4, 1.2, 0))),
+            "outside the spheroid, and beside",
+        ),
     ],
 )
 def test_a_flawed_proof_is_refused(pair, certificate, flaw):
     assert not check_certificate(pair, certificate), flaw
+
+
+def test_a_point_counts_up_to_the_border_of_the_spheroid_and_not_beyond():
+    pair, center, outside = Pair(5, 5, 3, 0.5, 4, 3, 0.25), _point(4, 3, 0.25), _point(7, 3, 0.25)
+    for axis, radius in enumerate((3, 3, Fraction(1, 2))):
+        for way in (radius, -radius):
+            for stretch, holds in ((1, True), (1 + Fraction(1, 1024), False)):
+                point = tuple(at + way * stretch * (axis == place) for place, at in enumerate(center))
+                certificate = Certificate(Position.CONTACT, points=(point, center, outside))
+                assert check_certificate(pair, certificate) is holds
 
 
 def test_a_value_that_is_positive_only_by_rounding_is_no_proof():

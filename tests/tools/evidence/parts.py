@@ -21,6 +21,8 @@ PAGE = ROOT / "docs" / "evidence.md"
 PARTS: dict[str, str] = {
     "fuzz": "fuzz",
     "faults": "faults",
+    "python-coverage": "python_coverage",
+    "python-mutants": "python_mutants",
 }
 """The module of each part, by its name on the command line; the page has them in this order."""
 

@@ -1,0 +1,85 @@
+"""Mutants of Python code are small changes of functions that are loaded, and the figures know the code."""
+
+from __future__ import annotations
+
+import importlib.util
+
+import pytest
+
+from tests.tools.evidence.mutations import apply, functions_of, mutations
+from tests.tools.evidence.parts import ROOT, kept
+from tests.tools.evidence.python_mutants import chosen
+
+SOURCE = '''\
+from functools import cache
+
+LIMIT = 3
+
+
+def within(value: int, least: int = 1) -> bool:
+    """Whether it is."""
+    if not value > least:
+        raise ValueError(f"{value + 1} is too small")
+    return least + 1 <= value and value < LIMIT
+
+
+class Doubling:
+    @property
+    def two(self):
+        return [each * 2 for each in (1,)]
+'''
+
+
+@pytest.fixture
+def module(tmp_path):
+    path = tmp_path / "mutated_here.py"
+    path.write_text(SOURCE, encoding="utf-8")
+    spec = importlib.util.spec_from_file_location("mutated_here", path)
+    found = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(found)
+    return found
+
+
+def test_every_operator_and_constant_of_a_function_is_changed_and_no_message_default_or_annotation():
+    found = [(each.line, each.what) for each in mutations("mutated_here.py", SOURCE)]
+    assert sorted(found) == [
+        (8, "Gt becomes GtE"),
+        (8, "Not left out"),
+        (10, "1 becomes 2"),
+        (10, "Add becomes Sub"),
+        (10, "And becomes Or"),
+        (10, "Lt becomes LtE"),
+        (10, "LtE becomes Lt"),
+        (10, "returns None"),
+        (16, "1 becomes 2"),
+        (16, "2 becomes 3"),
+        (16, "Mult becomes Add"),
+        (16, "returns None"),
+    ]
+
+
+def test_a_mutant_changes_what_living_functions_answer(module):
+    changes = {(each.line, each.what): each for each in mutations("mutated_here.py", SOURCE)}
+    living = functions_of(module.__file__)
+    assert (module.within(2), module.within(3), module.Doubling().two) == (True, False, [2])
+    assert apply(changes[10, "Lt becomes LtE"], module.__file__, SOURCE, living)
+    assert module.within(3)
+    assert apply(changes[16, "Mult becomes Add"], module.__file__, SOURCE, living)
+    assert module.Doubling().two == [3]
+
+
+def test_tests_of_the_own_file_come_first_and_at_most_two_of_a_function():
+    own = [f"tests/runs/test_score.py::test_a[{n}]" for n in range(4)]
+    near, far = "tests/runs/test_tally.py::test_b", "tests/cli/test_score.py::test_c"
+    assert chosen("hypcheck/runs/score.py", [far, near, *own], 10, 9.0) == [*own[:2], near, far]
+    assert chosen("hypcheck/runs/score.py", [far, near, *own], 3, 9.0) == [*own[:2], near]
+
+
+def test_the_figures_know_nearly_all_code():
+    """A new file is not measured at once; when they are many, `make evidence` has to be run."""
+    known = set(kept()["python-coverage"]["files"])
+    omitted = ("adapter.py", "speak.py", "predicate.py")
+    files = [path for path in (ROOT / "hypcheck").rglob("*.py") if path.name not in omitted]
+    sizes = {str(path.relative_to(ROOT)): path.stat().st_size for path in files}
+    unknown = sum(size for name, size in sizes.items() if name not in known)
+    assert unknown < 0.05 * sum(sizes.values())
