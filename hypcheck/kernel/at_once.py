@@ -1,8 +1,9 @@
 """hypcheck.classify and hypcheck.classify_scene: C answers ordinary calls alone, Python all others.
 
 An ordinary call has contiguous float64 arrays (a float may stand for a short column), all rows valid, no option but
-`out` and `threads=1`, and no more rows than one thread answers. C leaves any other to the functions of classify.py,
-which convert what can be converted and say what is wrong with the rest. Where nothing is compiled they take all calls.
+`out`, `threads=1` and `axis` as three floats, and no more rows than one thread answers. C leaves any other to the
+functions of classify.py, which convert what can be converted and say what is wrong with the rest. Where nothing is
+compiled they take all calls.
 """
 
 from __future__ import annotations

@@ -60,6 +60,9 @@ def test_an_ordinary_call_answers_as_step_by_step(columns, count, alone):
     leaning = step_by_step.classify(rows).tolist()
     assert alone.classify(rows, out=np.full(count, 99, np.int8), threads=None).tolist() == leaning
     assert step_by_step.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
+    assert alone.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
+    assert alone.classify_scene(SIZES, x, y, z, np.full(count, 99, np.int8), axis=[0.3, 0.1, 0.9]).tolist() == leaning
+    assert alone.classify_scene(SIZES, x, y, z, axis=(0.0, 0.0, 0.0)) == LEFT
 
 
 def test_a_number_stands_for_a_column(columns, alone):
@@ -158,7 +161,8 @@ def test_answers_kept_as_bits_are_those_that_are_written(level, columns):
 
 
 @pytest.mark.parametrize(
-    "options", [{"question": "exterior"}, {"on_invalid": "flag"}, {"threads": 2}, {"threads": True}, {"axis": None}]
+    "options",
+    [{"question": "exterior"}, {"on_invalid": "flag"}, {"threads": 2}, {"threads": True}, {"axis": [0, 0, 1]}],
 )
 def test_a_call_with_another_option_is_left_to_python(options, alone):
     assert alone.classify_scene(SIZES, 1.0, 2.0, 3.0, **options) == LEFT

@@ -289,7 +289,7 @@ static int apart(const Py_buffer *one, const Py_buffer *other) {
 typedef struct {
     Py_buffer inputs[3], out;
     int lends[3], has_out, width; /* 7 or 10 numbers in a row; 0 for a scene */
-    double numbers[3], room[3][FEW];
+    double axis[3], numbers[3], room[3][FEW];
     const double *columns[3];
     Py_ssize_t count;
 } taken;
@@ -371,7 +371,7 @@ static size_t decided(const taken *these, const hypcheck_scene *scene, const dou
     if (these->width == 7) return hypcheck_ask(HYPCHECK_POSITION, count, at[0], answers);
     if (these->width == 10) return hypcheck_ask_tilted(HYPCHECK_POSITION, count, at[0], answers);
     if (scene != NULL) return hypcheck_ask_prepared(HYPCHECK_POSITION, scene, count, at[0], at[1], at[2], answers);
-    return hypcheck_ask_scene(HYPCHECK_POSITION, sizes, count, at[0], at[1], at[2], answers);
+    return hypcheck_ask_tilted_scene(HYPCHECK_POSITION, sizes, these->axis, count, at[0], at[1], at[2], answers);
 }
 
 /* Fills `out`, or nothing of it. Returns the number of invalid rows, or 1 where memory is missing: Python then tries.
@@ -388,7 +388,7 @@ static size_t filled_whole(const taken *these, const hypcheck_scene *scene, cons
     size_t refused;
     if (kept == NULL) return 1;
     if (bits) {
-        if (scene == NULL) hypcheck_prepare(&own, sizes, NULL, count, at[0], at[1], at[2]);
+        if (scene == NULL) hypcheck_prepare(&own, sizes, these->axis, count, at[0], at[1], at[2]);
         memcpy(&made, scene != NULL ? scene : &own, sizeof made);
         refused = made.valid ? hc_ask_kept(HYPCHECK_POSITION, &made, count, at[0], at[1], at[2], NULL, kept) : count;
         if (refused == 0) spread(kept, count, out);
@@ -437,18 +437,20 @@ static PyObject *answered_or_given_back(taken *these, int took, PyObject *thread
 /* The functions in Python that take any call, of classify and of classify_scene. */
 static PyObject *slow_calls[2] = {NULL, NULL};
 
-/* Where `out` and `threads` of a call are said; 0 for a call with another option. */
+/* Where `out`, `threads` and, if there may be one, `axis` of a call are said; 0 for a call with another option. */
 static int ordinary(PyObject *const *arguments, Py_ssize_t count, PyObject *keywords, Py_ssize_t inputs, PyObject **out,
-                    PyObject **threads) {
+                    PyObject **threads, PyObject **axis) {
     const Py_ssize_t named = keywords == NULL ? 0 : PyTuple_GET_SIZE(keywords);
     Py_ssize_t k;
     *out = *threads = Py_None;
+    if (axis != NULL) *axis = Py_None;
     if (count < inputs || count > inputs + 1) return 0;
     if (count > inputs) *out = arguments[inputs];
     for (k = 0; k < named; k++) {
         PyObject *const name = PyTuple_GET_ITEM(keywords, k);
         if (PyUnicode_CompareWithASCIIString(name, "out") == 0 && count == inputs) *out = arguments[count + k];
         else if (PyUnicode_CompareWithASCIIString(name, "threads") == 0) *threads = arguments[count + k];
+        else if (axis != NULL && PyUnicode_CompareWithASCIIString(name, "axis") == 0) *axis = arguments[count + k];
         else return 0;
     }
     return *threads == Py_None || (PyLong_CheckExact(*threads) && PyLong_AsSsize_t(*threads) == 1);
@@ -460,12 +462,13 @@ static PyObject *or_slowly(PyObject *answers, int which, PyObject *const *argume
     return PyObject_Vectorcall(slow_calls[which], arguments, (size_t)count, keywords);
 }
 
-static PyObject *scene_at_once(PyObject *const *arguments, PyObject *out, PyObject *threads) {
+static PyObject *scene_at_once(PyObject *const *arguments, PyObject *out, PyObject *threads, PyObject *axis) {
     hypcheck_scene scene;
     double sizes[4];
     taken these;
     int prepared, took;
-    if (!scene_of(arguments[0], &scene, sizes, &prepared)) Py_RETURN_NONE;
+    if (!scene_of(arguments[0], &scene, sizes, &prepared) || (prepared && axis != Py_None)) Py_RETURN_NONE;
+    if (!axis_of(axis, these.axis)) Py_RETURN_NONE;
     took = take_scene(&these, arguments + 1, out);
     return answered_or_given_back(&these, took, threads, out, prepared ? &scene : NULL, sizes);
 }
@@ -479,16 +482,16 @@ static PyObject *rows_at_once(PyObject *const *arguments, PyObject *out, PyObjec
 static PyObject *py_classify(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
     PyObject *out, *threads, *answers = Py_None;
     (void)self;
-    if (!ordinary(arguments, count, keywords, 1, &out, &threads) || count > 1) Py_INCREF(answers);
+    if (!ordinary(arguments, count, keywords, 1, &out, &threads, NULL) || count > 1) Py_INCREF(answers);
     else answers = rows_at_once(arguments, out, threads);
     return or_slowly(answers, 0, arguments, count, keywords);
 }
 
 static PyObject *py_classify_scene(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
-    PyObject *out, *threads, *answers = Py_None;
+    PyObject *out, *threads, *axis, *answers = Py_None;
     (void)self;
-    if (!ordinary(arguments, count, keywords, 4, &out, &threads)) Py_INCREF(answers);
-    else answers = scene_at_once(arguments, out, threads);
+    if (!ordinary(arguments, count, keywords, 4, &out, &threads, &axis)) Py_INCREF(answers);
+    else answers = scene_at_once(arguments, out, threads, axis);
     return or_slowly(answers, 1, arguments, count, keywords);
 }
 
