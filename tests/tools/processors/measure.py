@@ -29,6 +29,8 @@ LEANING = (
     "hypcheck_ask_tilted_scene",
     "hypcheck_classify_tilted",
     "hypcheck_classify_tilted_scene",
+    "hypcheck_prepare",
+    "hypcheck_ask_prepared",
 )
 
 

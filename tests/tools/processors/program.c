@@ -47,6 +47,21 @@ static void measure(void (*ask)(size_t), size_t n) {
     if (used > depth) depth = used;
 }
 
+/* A scene that was prepared answers as others do: where it does not, its answer becomes 99. */
+static void compare_prepared(int leans, size_t n, const double *centres) {
+    const double *const x = centres, *const y = x + n, *const z = y + n;
+    static int8_t again[MOST];
+    hypcheck_scene scene;
+    size_t i;
+    int question;
+    hypcheck_prepare(&scene, numbers, leans ? numbers + 4 : NULL, n, x, y, z);
+    for (question = 0; question < 4; question++) {
+        hypcheck_ask_prepared(question, &scene, n, x, y, z, again);
+        for (i = 0; i < n; i++)
+            if (again[i] != answers[(size_t)question * n + i]) answers[(size_t)question * n + i] = 99;
+    }
+}
+
 /* Answers a job. Returns how many bytes of answers and of times there are, or 0 for what is no job. */
 static int answer(const job *asked, size_t *bytes, size_t *doubles) {
     const size_t n = asked->n;
@@ -68,6 +83,7 @@ static int answer(const job *asked, size_t *bytes, size_t *doubles) {
             else hypcheck_ask_tilted_scene(question, numbers, numbers + 4, n, x, y, z, to);
         }
         *bytes = 4 * n;
+        compare_prepared(asked->what == LEANING_SCENE, n, centres);
         break;
     case ONE:
         for (i = 0; i < n; i++) {
