@@ -382,7 +382,7 @@ def near_contact(folder: Path, rounds: int) -> Iterator[KernelLine]:
     ]
     found = measured_samples(entries, rounds)
     touching, product = found["touching"], found["product"]
-    says = f"{rate_text(touching)}; the exact integers decide nearly all of them; a product: {product.median_ns:.3g} ns"
+    says = f"{rate_text(touching)}; fixed point decides nearly all of them; a product: {product.median_ns:.3g} ns"
     yield TOUCHING.line(times_as_long(touching, product), says)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets, tilted_targets
+from hypcheck.bench import call_targets, compiled_targets, slow_rows, tilted_targets
 from hypcheck.bench.compiled_targets import TOWER_SIZES, uniform_columns
 from hypcheck.bench.timing import (
     Clocked,
@@ -246,6 +246,7 @@ def _groups() -> Iterator[Group]:
         yield lambda folder, quick: compiled_targets.in_cache(folder, _rounds(quick))
         yield lambda folder, quick: compiled_targets.threads_in_cache(folder, _rounds(quick))
         yield lambda folder, quick: compiled_targets.near_contact(folder, _rounds(quick))
+        yield lambda _folder, quick: slow_rows.slowest_row(_rounds(quick))
         yield lambda _folder, quick: tilted_targets.one_orientation(_rounds(quick))
         yield lambda _folder, quick: tilted_targets.axis_along_z(_rounds(quick))
         yield lambda folder, quick: tilted_targets.an_axis_each(folder, _rounds(quick))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets, targets, tilted_targets
+from hypcheck.bench import call_targets, compiled_targets, slow_rows, targets, tilted_targets
 from hypcheck.bench.compiled_targets import LEVEL_FLAGS, TOWER_SIZES, c_baselines, touching_columns, uniform_columns
 from hypcheck.bench.timing import KernelTarget, Samples
 from hypcheck.errors import UnavailableError
@@ -49,6 +49,7 @@ def small(monkeypatch):
             {"MANY": 4096, "CACHED": 2048, "WORST": 64, "AGAIN": 2, "PART": 1024, "PARTS": 2, "LEAST_PARTS": 2},
         ),
         (tilted_targets, {"MANY": 4096, "CACHED": 2048, "FEW": 64, "WORST": 64}),
+        (slow_rows, {"EACH": 4, "TURNS": 1, "NEIGHBOURS": 1}),
         (targets, {"MANY": 20_000, "FEW": 3, "TRIANGLES": 60, "AGAIN": 0}),
         (call_targets, {"MANY": 20_000, "CALLS": 20, "BATCHES": (1000,)}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),

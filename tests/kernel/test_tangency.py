@@ -46,6 +46,10 @@ int bits_of(double *row) {
     uint64_t lengths[7];
     return hc_short_lengths(row, lengths);
 }
+int in_plane(double *row) {
+    uint64_t lengths[7];
+    return hc_short_lengths(row, lengths) > HC_TANGENCY_BITS ? 2 : hc_position_in_plane(lengths);
+}
 int exact(double *row) { return hc_exact_position(row); }
 size_t count(void) {
     const size_t so_many = counted;
@@ -90,7 +94,7 @@ def test_a_tangency_is_told_and_a_row_one_ulp_beside_it_is_not(library):
         beside = rows[rows[:, column] != 0]
         beside[:, column] = np.nextafter(beside[:, column], np.inf)
         found = asked(library.beside, beside)
-        assert (found == UNSURE).mean() > 0.5  # where z = 0, gamma and d may not matter
+        assert (found[beside[:, 6] != 0] == UNSURE).mean() > 0.5
         assert (found == float_filter.positions(beside))[found != UNSURE].all()
 
 
@@ -105,6 +109,17 @@ def test_a_hair_moves_a_tangency_to_the_position_beside_it(library, hair):
         assert (found == truth)[found != UNSURE].all()
         assert (found != UNSURE).mean() > 0.8
         assert len(set(truth.tolist())) > 1
+
+
+@needs_compiler
+def test_rows_in_the_plane_of_the_waist_are_told_without_a_guess(library):
+    random = np.random.default_rng(8)
+    whole = random.integers(1, 6, (300, 4)) * [1.0, 5.0, 1.0, 1.0]
+    rows = np.column_stack([whole, random.integers(0, 20, (300, 2)) / 4, np.zeros(300)])
+    found, truth = asked(library.in_plane, rows), float_filter.positions(rows)
+    assert (found == truth)[found != UNSURE].all()
+    assert (found != UNSURE).mean() > 0.8
+    assert set(found.tolist()) == {-1, 0, 1, UNSURE}
 
 
 def told() -> dict[str, int]:

@@ -192,7 +192,25 @@ static int hc_touches_by_short(const uint64_t lengths[7], double about) {
     return hc_fixed_negative(hc_fixed_minus(hc_fixed_full(s, D), hc_fixed_full(M, t))) ? 2 : 1;
 }
 
-/* The position of a row that touches, but for coordinates of a hair's breadth, which move it off; 2 for other rows. Where
+/* The position of a row in the plane of the waist, z = 0, or 2. There g is B - l times -(l² - w l + A), w = P - 1 - A: contact
+   where w² <= 4A, exterior where w > 0 and the lower root is below B, interior where w < 0 and the mean -w/2 is above -A. */
+static int hc_position_in_plane(const uint64_t lengths[7]) {
+    const hc_fixed p = hc_fixed_full(lengths[0], lengths[0]), q = hc_fixed_full(lengths[2], lengths[2]);
+    const hc_fixed R = hc_fixed_plus(hc_fixed_full(lengths[4], lengths[4]), hc_fixed_full(lengths[5], lengths[5]));
+    const hc_fixed W = hc_fixed_minus(hc_fixed_minus(R, q), p), opposite = hc_fixed_minus(hc_fixed_plus(p, q), R);
+    const hc_fixed twice_p = hc_fixed_plus(p, p), twice_q = hc_fixed_plus(q, q), size = hc_fixed_negative(W) ? opposite : W;
+    const hc_long four_A = hc_long_product(twice_p, twice_q), square = hc_long_product(size, size);
+    hc_fixed s, t;
+    if (!hc_long_is_negative(hc_long_sum(four_A, square, 1))) return 0;
+    if (hc_fixed_negative(W)) {
+        const hc_fixed mean = hc_fixed_plus(W, twice_p);
+        return !hc_fixed_negative(mean) && (mean.low | mean.high) != 0 ? -1 : 0;
+    }
+    s = hc_fixed_full(lengths[1], lengths[1]), t = hc_fixed_full(lengths[3], lengths[3]);
+    return hc_long_is_negative(hc_long_sum(hc_long_product(twice_q, s), hc_long_product(W, t), 1)) ? 2 : 1;
+}
+
+/* The position of a row in the plane of the waist, or of one that touches, but for coordinates of a hair's breadth; else 2. Where
    x² + y² grows, a tangency from without becomes exterior, and one from within contact; where z² grows, contact and interior. A
    hair is too short to lead through contact to the other side (docs/kernel.md of hypcheck). */
 static int hc_position_beside_tangency(const double row[7], double about) {
@@ -210,6 +228,8 @@ static int hc_position_beside_tangency(const double row[7], double about) {
     }
     bits = radial && axial ? 64 : hc_short_lengths(bare, lengths);
     if (bits > HC_TANGENCY_BITS) return 2;
+    side = radial || axial || lengths[6] ? 2 : hc_position_in_plane(lengths);
+    if (side != 2) return side;
     side = bits <= 23 ? hc_touches_by_short(lengths, about) : hc_touches_by(lengths, about);
     if (side == 2) return 2;
     return (side > 0 && radial) || (side < 0 && axial) ? side : 0;
