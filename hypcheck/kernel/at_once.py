@@ -9,6 +9,7 @@ compiled they take all calls.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from hypcheck.geometry.rows import Positions
 from hypcheck.kernel import classify as step_by_step
@@ -27,4 +28,8 @@ def _calls() -> tuple[Call, Call]:
     return module.classify, module.classify_scene
 
 
-classify, classify_scene = _calls()
+if TYPE_CHECKING:  # for those who read and check types: the same signatures and descriptions
+    from hypcheck.kernel.classify import classify as classify
+    from hypcheck.kernel.classify import classify_scene as classify_scene
+else:
+    classify, classify_scene = _calls()
