@@ -29,7 +29,6 @@ def _calls() -> tuple[Call, Call]:
 
 
 if TYPE_CHECKING:  # for those who read and check types: the same signatures and descriptions
-    from hypcheck.kernel.classify import classify as classify
-    from hypcheck.kernel.classify import classify_scene as classify_scene
+    from hypcheck.kernel.classify import classify, classify_scene
 else:
     classify, classify_scene = _calls()
