@@ -23,6 +23,9 @@ PARTS: dict[str, str] = {
     "faults": "faults",
     "python-coverage": "python_coverage",
     "python-mutants": "python_mutants",
+    "coverage": "coverage",
+    "kernel-mutants": "kernel_mutants",
+    "constants": "program_mutants",
 }
 """The module of each part, by its name on the command line; the page has them in this order."""
 
