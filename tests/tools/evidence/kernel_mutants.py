@@ -89,11 +89,11 @@ about each guard at its limit and about frozen vectors, in all rounding modes (`
 | right answers, and stages that decide more or fewer of them | {by.get("counts", 0)} |
 | nothing | {len(figures["living"])} |
 
-What nothing tells has not been sorted one by one. Among it are these kinds. *It is the same program*: an equality that the line before
-excludes, a sign that is 0 where the header proves that it decides nothing (`hc_exact_position`), the longer of two of one length.
-*It is slower*: a shortcut before an exact decision, a branch that waits for more rows. *It has room to spare*: a
-constant of a bound, which a test of its derivation tells (next section). *It meets no row*: two floats would have to
-be equal to the last bit. And there are those that ask for a test. `figures.json` lists them all; by function:
+What nothing tells has not been sorted one by one. Among it are these kinds. *It is the same program*: an equality
+that the line before excludes, a sign that is 0 where the header proves that it decides nothing, the longer of two
+of one length. *It is slower*: a shortcut before an exact decision, a branch that waits for more rows. *It has room*: a
+constant of a bound, which a test of its derivation tells (next section). *It meets no row*: two floats would have to be
+equal to the last bit. And there are those that ask for a test. `figures.json` lists them all; by function:
 {places}.
 """
 
