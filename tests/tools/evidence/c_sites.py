@@ -45,6 +45,10 @@ _GUARD = re.compile(r"\bif \(")
 _FUNCTION = re.compile(r"^(?:HC_TARGET )?(?:[\w*]+ )*?\*?(?:HC_NAME\()?(\w+)\)?\([^;]*$", re.MULTILINE)
 
 
+_CHOSEN = "#ifndef HC_CHOSEN\n#define HC_CHOSEN\nstatic volatile int hc_mutant;\n#endif\n"
+"""The header includes itself."""
+
+
 @dataclass(frozen=True)
 class Mutant:
     """A change: its number, the function it is in, what stands there, and what is put there."""
@@ -87,7 +91,7 @@ def schemata(source: str) -> tuple[str, list[Mutant]]:
             text = f"(hc_mutant == {known[key]} ? {other} : {text})"
         pieces += [source[at : place.start], text]
         at = place.end
-    return "static volatile int hc_mutant;\n" + "".join(pieces) + source[at:], mutants
+    return _CHOSEN + "".join(pieces) + source[at:], mutants
 
 
 def _program(function: str) -> str:

@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 from tests.tools.evidence.battery import CORE
-from tests.tools.evidence.c_sites import HEADER, schemata
+from tests.tools.evidence.c_sites import HEADER
 from tests.tools.evidence.fuzz import FUZZING, corpus_kept, figures_of
 from tests.tools.evidence.seeds import seeds
 
@@ -52,10 +52,10 @@ def test_kept_inputs_and_frozen_rows_are_answered_as_the_oracle_says(compiled, t
 
 @pytest.mark.thorough
 def test_a_wrong_header_is_found(compiled, tmp_path):
-    """The last stage calls three positive roots exterior wherever they lie."""
-    text, mutants = schemata(HEADER.read_text(encoding="utf-8"))
-    wrong = next(each.number for each in mutants if "offset_at_B.sign < 0 && slope_at_B.sign > 0" in each.before)
-    (tmp_path / "hypcheck.h").write_text(text.replace("int hc_mutant;", f"int hc_mutant = {wrong};"), encoding="utf-8")
+    """The second stage calls what is exterior interior too."""
+    text, right = HEADER.read_text(encoding="utf-8"), "found.minus |= HC_BITS(interior) << at;"
+    assert right in text
+    (tmp_path / "hypcheck.h").write_text(text.replace(right, right.replace("interior", "exterior")), encoding="utf-8")
     done = replayed(compiled(tmp_path), tmp_path, list(seeds(4)))
     assert done.returncode != 0
     assert done.stdout.startswith("WRONG: kind ")
