@@ -172,7 +172,7 @@ def classify_scene(
     if isinstance(sizes, Prepared):
         if axis is not None:
             raise InputError("axis is given, and the scene was prepared with its own; it must be given once")
-        sizes, axis = sizes.sizes, sizes.axis
+        axis, sizes = sizes.axis, sizes.sizes
     four = _sizes(sizes)
     axes = None if axis is None else _axes(axis)
     if axes is not None and axes.ndim == 2:
