@@ -207,7 +207,7 @@ def test_foreign_text_at_the_start_of_a_line_starts_no_block(foreign):
 
 
 @pytest.mark.parametrize("old", ["table-2-float32", "ring", "the ring: Δ = 0 without contact", "how fast path works"])
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(foreign=record_samples.FOREIGN)
 def test_foreign_text_breaks_no_table(old, foreign):
     changed = record_samples.rewritten(record_samples.lines(), old, foreign)
