@@ -41,14 +41,16 @@ LOOP = "an empty loop over the same calls is taken off"
 ONE_CALL = KernelTarget("one pair", "hypcheck.position, to an empty C call of seven floats", 2.0, at_most=True)
 PLAIN_CALL = KernelTarget(
     "one pair, plain Python",
-    "the same without the compiled kernel, to Table 2 in plain Python, uncertified",
+    "hypcheck.position without the compiled kernel, to Table 2 in plain Python, uncertified",
     2.6,
     at_most=True,
 )
 TEN_CENTRES = KernelTarget(
     "ten centres", "classify_scene, to an empty C call that takes the same arrays", 5.0, at_most=True
 )
-TEN_IN_PLACE = KernelTarget("ten centres, out=", "the same with out=", 5.0, at_most=True)
+TEN_IN_PLACE = KernelTarget(
+    "ten centres, out=", "classify_scene with out=, to an empty C call that takes the same arrays", 5.0, at_most=True
+)
 
 _BATCH = "one thread, of the speed of the C function and one empty call{made}; {count:.0e} rows"
 

@@ -277,7 +277,11 @@ IN_CACHE = KernelTarget(
     "plain C, in cache", "certified, one thread, of the speed of the plain formula in C; 1e5 rows", 0.6
 )
 THREADS = KernelTarget("two threads", "what two threads gain, of what reading the rows gains from two; 1e7 rows", 0.95)
-CACHED_THREADS = KernelTarget("two threads, in cache", "the same; 1e5 rows each, over and over", 0.95)
+CACHED_THREADS = KernelTarget(
+    "two threads, in cache",
+    "what two threads gain, of what reading the rows gains from two; 1e5 rows each, over and over",
+    0.95,
+)
 TOUCHING = KernelTarget(
     "near contact", f"a row within 1e-15 of contact, in products of integers of {32 * WORDS} bits", 0.6, at_most=True
 )

@@ -34,7 +34,9 @@ AXIS = (0.3, 0.1, 0.9)
 ONE_AXIS = KernelTarget(
     "one orientation", "classify_scene with an axis, of the speed of the upright one; 1e7 rows", 0.5
 )
-ONE_AXIS_CACHED = KernelTarget("one orientation, in cache", "the same; 1e5 rows", 0.5)
+ONE_AXIS_CACHED = KernelTarget(
+    "one orientation, in cache", "classify_scene with an axis, of the speed of the upright one; 1e5 rows", 0.5
+)
 UPRIGHT = KernelTarget(
     "axis along z",
     "classify of rows (n, 10) with the axis 0, 0, 1, of the speed per byte of rows (n, 7); 1e5 rows",

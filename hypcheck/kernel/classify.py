@@ -117,6 +117,10 @@ class Prepared:
         for name, value in (("sizes", sizes), ("axis", axis), ("kept", kept)):
             object.__setattr__(self, name, value)
 
+    def __reduce__(self) -> tuple[type[Prepared], tuple[Sizes, Axis | None]]:
+        """Sizes and axis: what is kept means something to the build that made it alone, so a copy prepares anew."""
+        return Prepared, (self.sizes, self.axis)
+
 
 def classify(
     rows: ArrayLike,
