@@ -7,7 +7,8 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from tests.tools.evidence.parts import ROOT, Figures, Unavailable
@@ -33,46 +34,80 @@ LEFT = {
 
 
 def measure() -> Figures:
-    """The tests of each room under coverage; `make thorough`'s are left out, which repeat what others test."""
+    """The tests of each room under coverage, two rooms at a time; `rooms` names what is measured."""
     try:
         import coverage  # noqa: F401 - only asked for
     except ImportError:
         raise Unavailable("coverage is missing; the extra `dev` has it") from None
     shutil.rmtree(DATA, ignore_errors=True)
-    for room, paths in rooms().items():
-        ran(room, paths)
-    return figures_of(sorted(DATA.glob("*/c")))
+    measure_rooms(rooms())
+    return kept_figures()
 
 
 def rooms() -> dict[str, list[str]]:
     """The tests of each room; those beside the rooms have the name top."""
     folders = sorted(path for path in (ROOT / "tests").iterdir() if any(path.glob("**/test_*.py")))
-    found = {path.name: [f"tests/{path.name}"] for path in folders if path.name != "tools"}
+    found = {path.name: [f"tests/{path.name}"] for path in folders}
     return found | {"top": [f"tests/{path.name}" for path in sorted((ROOT / "tests").glob("test_*.py"))]}
 
 
-def ran(room: str, paths: Iterable[str]) -> None:
-    """Run the tests of a room; what they covered is kept in DATA, by test."""
-    place = DATA / room
-    place.mkdir(parents=True)
-    _coverage(place, "run", "-m", "pytest", "-q", "-m", "not thorough", "-p", "no:xdist", "-p", CONTEXTS, *paths)
-    _coverage(place, "combine", "-q", str(place))
+def measure_rooms(chosen: Mapping[str, Iterable[str]]) -> None:
+    """Run the tests of these rooms; what other rooms covered stays kept."""
+    with ThreadPoolExecutor(LANES) as lanes:
+        for done in [lanes.submit(ran, room, paths) for room, paths in chosen.items()]:
+            done.result()
 
+
+LANES = 2
+"""So many rooms are measured at a time."""
 
 CONTEXTS = "tests.tools.evidence.contexts"
 
 
+def ran(room: str, paths: Iterable[str]) -> None:
+    """Run the tests of a room; what they covered is kept in DATA.
+
+    What `make test` runs is kept by test, for the mutants; the thorough tests, which no mutant meets, apart from it.
+    """
+    paths = [*paths]
+    _ran(room, "-m", "not thorough", "-p", CONTEXTS, *paths)
+    _ran(f"{room}-thorough", "-m", "thorough", *paths)
+
+
+def _ran(name: str, *words: str) -> None:
+    place = DATA / name
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir(parents=True)
+    _coverage(place, "run", "-m", "pytest", "-q", "-p", "no:xdist", "-p", "no:cacheprovider", *words)
+    if any(place.glob("c.*")):
+        _coverage(place, "combine", "-q", str(place))
+
+
 def _coverage(place: Path, *words: str) -> None:
+    """Run coverage on the data of a place; what it prints is added to the log there."""
     environment = os.environ | {"HYPCHECK_COVERAGE": str(place / "c")}
-    done = subprocess.run([sys.executable, "-m", "coverage", *words], cwd=ROOT, env=environment, check=False)
-    if done.returncode > 1:  # 1: a test failed, as a slow one may
-        raise Unavailable(f"`coverage {words[0]}` ended with {done.returncode}")
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # a thousand processes would compile all modules
+    with open(place / "log", "a", encoding="utf-8") as log:
+        command = [sys.executable, "-m", "coverage", *words]
+        done = subprocess.run(command, cwd=ROOT, env=environment, stdout=log, stderr=log, check=False)
+    if done.returncode not in (0, 1, NO_TESTS):  # 1: a test failed, as a slow one may
+        raise Unavailable(f"`coverage {words[0]}` ended with {done.returncode}; {place / 'log'} says more")
+
+
+NO_TESTS = 5
+"""The exit code of pytest where no test is chosen, as in a room without thorough tests."""
+
+
+def kept_figures() -> Figures:
+    """The figures of what all rooms covered that are kept."""
+    return figures_of(sorted(DATA.glob("*/c")))
 
 
 def figures_of(data: list[Path]) -> Figures:
     """The figures of what several rooms covered together."""
-    whole = DATA / "whole"
-    whole.mkdir(exist_ok=True, parents=True)
+    whole = DATA.parent / "whole"
+    shutil.rmtree(whole, ignore_errors=True)
+    whole.mkdir(parents=True)
     _coverage(whole, "combine", "-q", "--keep", *map(str, data))
     _coverage(whole, "json", "-q", "-o", str(whole / "report.json"))
     report = json.loads((whole / "report.json").read_text(encoding="utf-8"))
@@ -90,7 +125,6 @@ def figures_of(data: list[Path]) -> Figures:
         "percent": round(totals["percent_covered"], 1),
         "percent of lines": round(100 * totals["covered_lines"] / totals["num_statements"], 1),
         "percent of branches": round(100 * totals["covered_branches"] / totals["num_branches"], 1),
-        "left out": "those of `make thorough`",
         "files": sorted(report["files"]),
         "missing": missing,
     }
@@ -130,3 +164,7 @@ def reason(name: str) -> str:
     """Why lines of a file are left."""
     known = [why for place, why in LEFT.items() if name == place or name.startswith(f"{place}/")]
     return known[-1] if known else "not explained yet"
+
+
+if __name__ == "__main__":  # `python -m tests.tools.evidence.python_coverage ROOM...` measures these rooms anew
+    measure_rooms({room: rooms()[room] for room in sys.argv[1:]})
