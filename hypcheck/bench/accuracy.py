@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from hypcheck.bench.contender import Contender, LoadedMethod
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import PASSAGE, WORKLOADS, BenchPlan, Workload, chosen_names
-from hypcheck.bench.tilted_workloads import workloads_of
+from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
+from hypcheck.bench.workloads import WORKLOADS, Workload, workloads_of
 from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.method import Answers

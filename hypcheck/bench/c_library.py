@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from hypcheck.bench.c_source import FAST, CBody, Ready, dual, of_formula, source, trigonometric
 from hypcheck.bench.contender import EmptyCall, PreparedWork
-from hypcheck.bench.plan import scene_of
 from hypcheck.bench.timing import Clocked
+from hypcheck.bench.workloads import scene_of
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.rows import Rows

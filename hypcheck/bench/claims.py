@@ -12,8 +12,9 @@ import numpy as np
 from hypcheck.bench.c_library import InC, bodies_asked, place_of
 from hypcheck.bench.c_source import NAMES
 from hypcheck.bench.contender import InPython, PreparedWork
-from hypcheck.bench.plan import WORKLOADS, BenchPlan
+from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import clocked
+from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.derivation.costs import cost_of
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, ROOTS_TRIGONOMETRIC, Formula
 from hypcheck.derivation.program import Operations, count

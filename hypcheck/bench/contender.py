@@ -13,8 +13,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.plan import scene_of
 from hypcheck.bench.timing import Clocked, clocked
+from hypcheck.bench.workloads import scene_of
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.description import QUESTIONS, Domain, claimed
 from hypcheck.implementations.method import Answers, ByScene, Method

@@ -1,30 +1,45 @@
 """All contenders by name: numpy and Python, C, meshes of collision engines, and implementations under test.
 
-Methods in C are printed and compiled when bench starts. A run about spheroids that lean has contenders of its own.
+Methods in C are printed and compiled when bench starts. Runs about spheroids that lean and runs about ways have
+contenders of their own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from hypcheck.bench import foreign
 from hypcheck.bench.c_library import InC, bodies
 from hypcheck.bench.c_source import FAST
 from hypcheck.bench.contender import Contender, InPython, InScalars, of_method
-from hypcheck.bench.mesh_contenders import mesh_contenders
-from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
-from hypcheck.bench.tilted_contenders import tilted_contenders
-from hypcheck.bench.way_contenders import way_contenders
+from hypcheck.bench.mesh_contenders import COAL_TRIANGLES, ONCE, TRIANGLES, InEngine, built_once, mesh_contenders
+from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_names
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.implementations import alternatives
+from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Rows
+from hypcheck.implementations import alternatives, tilted_alternatives
 from hypcheck.implementations.alternatives import dual_by_scene
-from hypcheck.implementations.builtin import builtin_methods, fast_scene
-from hypcheck.implementations.method import ByScene, Method, by_scene
+from hypcheck.implementations.builtin import (
+    SAMPLES,
+    builtin_methods,
+    fast_positions,
+    fast_scene,
+    passage_mesh_methods,
+    passage_methods,
+)
+from hypcheck.implementations.description import EVERYWHERE, Domain
+from hypcheck.implementations.meshes import COAL, FCL
+from hypcheck.implementations.method import Answers, ByScene, Method, by_scene
+from hypcheck.implementations.way_meshes import WAY_SOLVERS, height_of_ways, way_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
+from hypcheck.truth.tilted import batch
+from hypcheck.truth.tilted.pair import TiltedPair
 
 ALGEBRAIC = ("coefficients", "hessian", "shared", "local-maximum", "dual")
 PRECISIONS = ("float32", "float64")
@@ -144,6 +159,114 @@ def c_contenders(library: Path | None) -> Iterable[Contender]:
 
 def _without_format(name: str) -> str:
     return name.rpartition("-")[0] or name
+
+
+ELLIPSOID = "ellipsoid"
+"""The one pairing that an axis can pose: a mesh scaled to a unit sphere is another one for each axis."""
+
+
+def tilted_contenders() -> Iterable[Contender]:
+    """All of them, including the reference."""
+    if choice().kernel == "compiled":
+        note = f"{CERTIFIED}; as installed, called from Python, on one thread, {choice().level}"
+        yield _ours("fast", "C", "certified", "the fast path, as installed", fast_positions, fast_scene, note=note)
+    yield _ours(
+        "fast-numpy", "numpy", "certified", "the fast path in numpy",
+        numpy_kernel.positions, numpy_kernel.positions_of_scene, note=CERTIFIED, timed=8192,
+    )  # fmt: skip
+    yield _ours("exact-oracle", "python", "exact", _ORACLE, batch.positions, judged=3000, timed=96)
+    yield _ours("nearest-point", "python", "exact", _NEAREST, _nearest, judged=240, timed=16, note=_TELLS)
+    yield _ours(
+        TILTED_REFERENCE, "numpy", "algebraic", "eigenvectors by numpy.linalg.eigh, then the dual function, float64",
+        tilted_alternatives.by_eigenvectors, tilted_alternatives.by_eigenvectors_scene, timed=4096,
+        note="its multiplier is found by plain bisection",
+    )  # fmt: skip
+    yield _ours("roots", "numpy", "roots", _ROOTS, tilted_alternatives.by_roots, timed=4096)
+    shapes = "another shape in the spheroid's place"
+    yield _ours(
+        "upright", "C" if choice().kernel == "compiled" else "numpy", "bounding", _UPRIGHT,
+        tilted_alternatives.upright, tilted_alternatives.upright_scene, note="wrong by its axis alone",
+    )  # fmt: skip
+    yield _ours(
+        "bounding-sphere", "numpy", "bounding", "the circumscribed sphere in the spheroid's place, exact",
+        tilted_alternatives.bounding_sphere, tilted_alternatives.bounding_sphere_scene, note=shapes,
+    )  # fmt: skip
+    for triangles in TRIANGLES:
+        yield built_once(FCL, ELLIPSOID, triangles)
+    for triangles in COAL_TRIANGLES:
+        yield built_once(COAL, ELLIPSOID, triangles)
+
+
+_ORACLE = "the exact oracle: the sign of a quartic between its poles, in integers"
+_NEAREST = "the nearest point, in intervals of mpmath"
+_ROOTS = "the roots of the quartic det(S + λH) by numpy.linalg.eigvals, float64"
+_UPRIGHT = "the spheroid taken for upright, exact"
+_TELLS = "tells the distance too"
+
+
+def _ours(
+    name: str,
+    tier: str,
+    kind: str,
+    title: str,
+    answer: Callable[[Rows], Answers],
+    scene: Callable[..., Answers] | None = None,
+    **more: Any,  # noqa: ANN401 - fields of a contender
+) -> Contender:
+    """One of our methods; those that promise to be exact are asked everywhere."""
+    exact = kind in ("certified", "exact")
+    load = partial(InPython, answer, scene)
+    domain = EVERYWHERE if exact else Domain()
+    return Contender(name, title, tier, kind, "float64", "position", domain, load, exact=exact, **more)
+
+
+def _nearest(rows: Rows) -> Answers:
+    from hypcheck.truth.tilted import nearest  # noqa: PLC0415 - loads mpmath
+
+    found = (nearest.position(TiltedPair.from_row(row)) for row in rows.tolist())
+    return np.array([CANNOT_SAY if each is None else each for each in found], dtype=np.int8)
+
+
+_JUMPS = "it cannot see what lies between two of its times"
+_BISECTED = "its distance is found by plain bisection, which nothing was done to make fast; a graze takes many steps"
+
+WAYS_JUDGED, WAYS_JUDGED_QUICK = 200, 24
+"""Ways of a workload that an engine is asked: where sizes differ, each takes a mesh."""
+
+WAYS_TIMED, SLOW_FOR_WAYS, FEW_WAYS = 8, ("passage-fcl-advancement", "passage-fcl-polynomial"), 3
+"""Ways of a timed batch: few of the solvers that take twenty milliseconds for one."""
+
+
+def way_contenders() -> Iterable[Contender]:
+    """All of them, including the reference."""
+    methods = passage_methods()
+    yield of_method(methods["passage-exact"], "python", "exact", timed=16, singles=8)
+    compiled = choice().kernel == "compiled"
+    tier, timed, singles = ("C", 2048, 32) if compiled else ("numpy", 16, 1)
+    yield of_method(methods["passage-certified"], tier, "certified", timed=timed, singles=singles, note=CERTIFIED)
+    for count in SAMPLES:
+        yield of_method(methods[f"passage-sampled-{count}"], tier, "sampling", timed=32_768 // count, note=_JUMPS)
+    for name, kind in (("passage-advancement", "advancement"), ("passage-capsule", "bounding")):
+        found = of_method(methods[name], "numpy", kind, judged=WAYS_JUDGED, timed=8, singles=0, note=_BISECTED)
+        yield replace(found, quick=False)
+    yield from _in_engines()
+
+
+def _in_engines() -> Iterable[Contender]:
+    """Each solver with a mesh of the whole surface for each scene, which is built before its time is taken."""
+    for name, solver in WAY_SOLVERS.items():
+        timed = FEW_WAYS if name in SLOW_FOR_WAYS else WAYS_TIMED
+        found = of_method(
+            passage_mesh_methods()[name], "FCL", "mesh", judged=WAYS_JUDGED, timed=timed, singles=FEW_WAYS
+        )
+        yield replace(
+            found,
+            load=partial(InEngine, partial(way_mesh, solver), height_of_ways, WAYS),
+            amortised=ONCE,
+            needs=solver.engine.title,
+            note="the time of a way is without that of building its mesh",
+            quick_judged=WAYS_JUDGED_QUICK,
+        )
 
 
 _SLOW = 1_000

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from hypcheck.bench.contender import Contender
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import NEAR_SCENES, WORKLOADS, BenchPlan, near
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, near
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import alternatives

@@ -10,9 +10,8 @@ from functools import partial
 import numpy as np
 
 from hypcheck.bench.contender import Contender, EmptyCall, PreparedWork, of_method
-from hypcheck.bench.plan import NEAR_SCENES, WORKLOADS, scene_of
 from hypcheck.bench.timing import Clocked, TimingRefusedError
-from hypcheck.bench.way_workloads import WAY_WORKLOADS
+from hypcheck.bench.workloads import NEAR_SCENES, WAY_WORKLOADS, WORKLOADS, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.implementations.builtin import builtin

@@ -13,8 +13,8 @@ from typing import Protocol
 import numpy as np
 
 from hypcheck.bench.contender import Contender, EmptyCall, InPython, PreparedWork, of_method, one_by_one
-from hypcheck.bench.plan import scene_of
 from hypcheck.bench.timing import clocked
+from hypcheck.bench.workloads import scene_of
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
 from hypcheck.implementations.builtin import builtin_methods

@@ -13,8 +13,8 @@ from hypcheck.bench.baseline import Baseline, alike, comparisons, gated, read_ba
 from hypcheck.bench.contender import Contender
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.needs import governor, load, needs_met, plan_with_needs
-from hypcheck.bench.plan import PASSAGE, BenchPlan, scene_of
-from hypcheck.bench.tilted_workloads import leaning_scenes
+from hypcheck.bench.plan import PASSAGE, BenchPlan
+from hypcheck.bench.workloads import leaning_scenes, scene_of
 from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome
 from hypcheck.implementations.meshes import FCL
 from hypcheck.processes import Advance, Stage, perform, processes, usable_processors

@@ -11,8 +11,9 @@ from hypcheck.bench.accuracy import answers_print, chosen_workloads, timed_rows
 from hypcheck.bench.claims import CostClaim, cost_claims
 from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import BenchPlan, Workload
+from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import Samples, TimingEntry, measure
+from hypcheck.bench.workloads import Workload
 from hypcheck.geometry.rows import Rows
 
 MODES: Mapping[str, Callable[[LoadedMethod, Rows], PreparedWork | None]] = {

@@ -10,7 +10,8 @@ import pytest
 
 from hypcheck.bench.accuracy import NEAREST, MethodAnswers, WorkloadTruth, accuracy_line, reliable_above
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import WORKLOADS, BenchPlan
+from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.runs import judge
 from hypcheck.truth import float_filter

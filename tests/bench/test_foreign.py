@@ -11,8 +11,9 @@ from msgspec import structs
 from hypcheck.bench import foreign
 from hypcheck.bench.baseline import alike, speeds_of
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import WORKLOADS, BenchPlan
+from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import TimingEntry, TimingRefusedError, measure
+from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.implementations import implementation
 from hypcheck.implementations.session import Limits, StartError
 from hypcheck.record.fields import decoded

@@ -10,7 +10,8 @@ import pytest
 
 from hypcheck.bench import accuracy, error_maps
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import QUICK, WORKLOADS, BenchPlan
+from hypcheck.bench.plan import QUICK, BenchPlan
+from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.meshes import FCL

@@ -11,8 +11,8 @@ import hypcheck
 from hypcheck.bench import foreign
 from hypcheck.bench.contender import InPython
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import TILTED_REFERENCE, BenchPlan, scene_of
-from hypcheck.bench.tilted_workloads import TILTED_WORKLOADS, scene_workloads
+from hypcheck.bench.plan import TILTED_REFERENCE, BenchPlan
+from hypcheck.bench.workloads import TILTED_WORKLOADS, scene_of, scene_workloads
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import first_trouble
 from hypcheck.implementations.meshes import COAL

@@ -10,8 +10,8 @@ import pytest
 from hypcheck.bench import foreign
 from hypcheck.bench.accuracy import WorkloadTruth, workload_truths
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan, scene_of
-from hypcheck.bench.way_workloads import WAY_WORKLOADS, frozen_ways
+from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan
+from hypcheck.bench.workloads import WAY_WORKLOADS, frozen_ways, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, first_trouble
 from hypcheck.implementations.builtin import passage_methods

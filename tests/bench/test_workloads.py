@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hypcheck.bench.plan import NEAR_SCENES, WORKLOADS, scene_of
+from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, scene_of
 from hypcheck.geometry.rows import first_trouble
 from hypcheck.runs import judge
 from hypcheck.truth import float_filter

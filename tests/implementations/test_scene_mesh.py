@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench.plan import WORKLOADS
+from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.meshes import (
     COAL,

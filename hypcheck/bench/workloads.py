@@ -1,0 +1,414 @@
+"""The workloads of a benchmark: rows on which methods are compared, of upright and leaning spheroids and of ways.
+
+Some are timed and judged, the others only judged. A workload's rows depend only on its name, the seed and their place;
+a shorter call returns the first rows of a longer one (vectors/draw.py). Pairs of spheroids that lean whose nearest
+point is not unique are in none of them, because there the estimated error, which rests on derivatives, is too large.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, partial
+from math import radians, tan
+
+import numpy as np
+
+from hypcheck.bench.plan import PASSAGE, BenchPlan
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import SIZES
+from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Layout, Rows, tilted_rows
+from hypcheck.kernel.specialise.settings import REACH, Setting, settings_of
+from hypcheck.scene.model import FREE, SceneModel, leans
+from hypcheck.scene.reading import read_scene
+from hypcheck.vectors import frozen
+from hypcheck.vectors.draw import Draw, in_turn
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES, family_of
+from hypcheck.vectors.family import BLOCK
+from hypcheck.vectors.random_pairs import Sizes, beside_surface, centred
+from hypcheck.vectors.scenes import BODY, ROTOR, TOWER
+from hypcheck.vectors.tilted.families import Vectors, anywhere, beside
+
+NEAR_SCENES = (
+    (*TOWER, *BODY),
+    (*TOWER, *ROTOR),
+    (0.6, 3.0, 0.35, 0.85),  # a trunk wider than the walker
+    (0.2, 2.0, 0.35, 0.9),  # a trunk narrower than the walker
+    (30.0, 65.0, 0.01, 0.01),  # a large tower and a 1 cm drone: where Δ overflows in float32
+    (5.0, 2.0, 1.0, 1.0),  # (γ/d)² < α/b: outside the regime of the paper's Proposition 3
+)
+"""α, γ, b, d of the pairs of bodies that the workload near contact uses in turn."""
+
+NEAR_GAPS = (-57, -2)
+"""Distances from contact, in spheroid radii, are m 2^e with 1 ≤ m < 2 and e of this range: 1e-17 to 0.5."""
+
+
+_Rows = Callable[[int, int], Rows]
+"""The first rows for a seed, as many as are asked for."""
+
+
+@dataclass(frozen=True)
+class Workload:
+    """`rows(seed, n)` are n of its rows, or all that there are, float64 (n, as many as the layout has).
+
+    `timed`: methods are timed on it, not only judged. One in `share` of the rows that a run judges is judged. `layout`
+    says what the columns mean.
+    """
+
+    name: str
+    title: str
+    text: str
+    rows: _Rows
+    timed: bool = True
+    share: int = 1
+    layout: Layout = PAIRS
+
+    def judged(self, plan: BenchPlan) -> int:
+        """The number of rows of it that a fast method is asked."""
+        return plan.amounts.judged // self.share
+
+
+def scene_of(rows: Rows, layout: Layout = PAIRS) -> tuple[float, float, float, float] | None:
+    """α, γ, b, d if all rows share them, and the axis where they have one; else None."""
+    places = slice(len(SIZES), len(layout.upright))
+    if not len(rows) or (np.delete(rows, places, axis=1) != np.delete(rows[0], places)).any():
+        return None
+    alpha, gamma, b, d = rows[0, :4].tolist()
+    return alpha, gamma, b, d
+
+
+def near_contact(seed: int, count: int) -> Rows:
+    """Centres near contact, in the scenes of NEAR_SCENES in turn."""
+    scenes, numbers = np.array(NEAR_SCENES), range(-(-count // BLOCK))
+    turns = ((number * BLOCK + np.arange(BLOCK)) % len(scenes) for number in numbers)
+    blocks = [
+        near(Draw("bench-near-contact", 1, seed, number), Sizes(*scenes[turn].T), NEAR_GAPS)
+        for number, turn in zip(numbers, turns, strict=True)
+    ]
+    return np.concatenate([np.empty((0, 7)), *blocks])[:count]
+
+
+def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
+    """Centres at one radius from the surface, plus or minus m 2^e with e in the range `gaps`, on either side."""
+    n = len(size.b)
+    near_the_waist = draw.words(n) >> np.uint64(63) == 0
+    height = draw.unit(n) * np.where(near_the_waist, np.minimum(size.c, 8.0), size.c)
+    gap = draw.signs(n) * draw.log_uniform(n, *gaps)
+    # Inside, a ball touches only a throat that is wider than itself.
+    side = np.where(size.a >= 1, draw.signs(n), 1.0)
+    return centred(draw, size, *beside_surface(size.a, size.c, height, side * (1 + gap)))
+
+
+def _in_turn(stream: str, names: tuple[str, ...]) -> _Rows:
+    """Rows of several families with one layout in turn, from random numbers of that name."""
+    families = [family_of(name) for name in names]
+    make, width = in_turn(*(family.make for family in families)), len(families[0].columns)
+
+    def rows(seed: int, count: int) -> Rows:
+        blocks = [make(Draw(stream, *names, 1, seed, number), BLOCK) for number in range(-(-count // BLOCK))]
+        return np.concatenate([np.empty((0, width)), *blocks])[:count]
+
+    return rows
+
+
+WORKLOADS = {
+    workload.name: workload
+    for workload in (
+        Workload(
+            "uniform",
+            "uniform around the tower",
+            "A quadcopter's body, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m about the paper's cooling tower.",
+            FAMILIES["tower-body"].rows,
+        ),
+        Workload(
+            "flight",
+            "along random flights",
+            "Positions asked for along the paper's random flights in the tower, 32 consecutive rows a flight, so that "
+            "neighbours resemble each other.",
+            FAMILIES["flight"].rows,
+        ),
+        Workload(
+            "near-contact",
+            "near contact",
+            "Six pairs of bodies in turn, at distances from touching that are log-uniform from 1e-17 to 0.5 spheroid "
+            "radii, apart and overlapping, outside and inside; sizes differ from row to row.",
+            near_contact,
+        ),
+        Workload(
+            "ring",
+            "on the ring and next to it",
+            "Half clear positions where Δ = 0 exactly, half within 1e-12 to 1e-2 radii of such (docs/mathematics.md).",
+            _in_turn("bench", ("ring", "ring-neighbourhood")),
+            timed=False,
+        ),
+        Workload(
+            "zero-coefficient",
+            "where c1 or c2 is 0",
+            "Positions at which one of the coefficients vanishes exactly, which the paper's Proposition 5 forgets.",
+            FAMILIES["coefficient-zero"].rows,
+            timed=False,
+        ),
+        Workload(
+            "ladder",
+            "a ladder of ulps beside tangency",
+            "Exact tangencies of many sizes with one length moved by 1, 2, 4 … 2⁴⁰ ulp, both ways.",
+            FAMILIES["tangent-ladder"].rows,
+            timed=False,
+        ),
+    )
+}
+"""Those of upright spheroids, by name, in the order of the record."""
+
+WAY_SHARE = 6
+"""A way takes about a millisecond to decide, so a sixth of the rows of other workloads is judged."""
+
+
+def _frozen_ways(_seed: int, count: int) -> Rows:
+    return frozen_ways()[:count].copy()
+
+
+@cache
+def frozen_ways() -> Rows:
+    """The frozen ways of upright spheroids, all families in turn."""
+    families = [frozen.load_ways(name).rows for name, family in WAY_FAMILIES.items() if not family.tilted]
+    places = np.concatenate([np.arange(len(rows)) for rows in families])
+    return np.concatenate(families)[np.argsort(places, kind="stable")]
+
+
+def _way_workload(name: str, title: str, text: str, rows: _Rows, *, timed: bool = False) -> Workload:
+    return Workload(name, title, text, rows, timed, WAY_SHARE, WAYS)
+
+
+WAY_WORKLOADS = {
+    workload.name: workload
+    for workload in (
+        _way_workload(
+            "tower",
+            "down through the tower's waist",
+            "A quadcopter's body straight down through the waist of the paper's cooling tower and out, about as near "
+            "to the wall as it may come (the family way-tower).",
+            _in_turn("bench-ways", ("way-tower",)),
+            timed=True,
+        ),
+        _way_workload(
+            "anywhere",
+            "anywhere about the waist",
+            "Both ends uniform in a box about the waist; sizes differ from row to row (the family way-anywhere).",
+            _in_turn("bench-ways", ("way-anywhere",)),
+            timed=True,
+        ),
+        _way_workload(
+            "tunnelling",
+            "steps that are too long",
+            "Straight through a wall, through the whole waist, past the surface from far away: both ends are mostly "
+            "clear and contact is between (the families way-tunnelling, way-across and way-long).",
+            _in_turn("bench-ways", ("way-tunnelling", "way-across", "way-long")),
+        ),
+        _way_workload(
+            "grazing",
+            "grazing or nearly so",
+            "Tangent at one instant or at an end, or by 2⁻⁵⁰ to 2⁻³ of the size from it (the families way-near-graze, "
+            "way-grazing and way-end).",
+            _in_turn("bench-ways", ("way-near-graze", "way-grazing", "way-end")),
+        ),
+        _way_workload(
+            "frozen",
+            "the frozen ways",
+            "The certified vectors of ways of upright spheroids, all 18 families in turn (cases/way-*.json).",
+            _frozen_ways,
+        ),
+    )
+}
+"""Those of ways, by name, in the order of the record."""
+
+PITCH = 20.0
+"""Degrees by which the quadcopter leans along x in the workload of one axis."""
+
+TILTED_SHARE = 4
+"""To estimate a row's distance to another position takes ten milliseconds: a quarter of the rows is judged."""
+
+_TiltedBlock = Callable[[Draw, int, int], Rows]
+"""Rows of a block: from its random numbers, its size, and the number of rows before it."""
+
+
+def _tilted_rows(name: str, make: _TiltedBlock) -> _Rows:
+    """Blocks with a random stream each, so that a shorter call gives the beginning of a longer one."""
+
+    def rows(seed: int, count: int) -> Rows:
+        numbers = range(-(-count // BLOCK))
+        blocks = [make(Draw("bench-tilted", name, 1, seed, number), BLOCK, number * BLOCK) for number in numbers]
+        return np.ascontiguousarray(np.concatenate([np.empty((0, 10)), *blocks])[:count])
+
+    return rows
+
+
+def _one_axis(draw: Draw, n: int, _before: int) -> Rows:
+    return tilted_rows(TOWER + BODY, _in_the_box(draw, n), (tan(radians(PITCH)), 0.0, 1.0))
+
+
+def _an_axis_each(draw: Draw, n: int, _before: int) -> Rows:
+    cosine, sine = draw.circle(n)
+    lean = draw.unit(n)  # up to 45°
+    return tilted_rows(TOWER + BODY, _in_the_box(draw, n), (lean * cosine, lean * sine, np.ones(n)))
+
+
+def _in_the_box(draw: Draw, n: int) -> Vectors:
+    """Centres uniform in the box of the workload "uniform"."""
+    alpha, gamma = TOWER
+    return (
+        draw.between(n, -2 * alpha, 2 * alpha),
+        draw.between(n, -2 * alpha, 2 * alpha),
+        draw.between(n, -gamma, gamma),
+    )
+
+
+def _tilted_near_contact(draw: Draw, n: int, before: int) -> Rows:
+    scenes = np.array(NEAR_SCENES)
+    return _tilted_near(draw, Sizes(*scenes[(before + np.arange(n)) % len(scenes)].T), anywhere(draw, n))
+
+
+def _tilted_near(draw: Draw, size: Sizes, axis: Vectors) -> Rows:
+    """Centres at one radius from a point of the surface, plus or minus m 2^e with e in NEAR_GAPS, on either side."""
+    n = len(size.b)
+    height = draw.signs(n) * draw.unit(n)
+    gap = draw.signs(n) * draw.log_uniform(n, *NEAR_GAPS)
+    return beside(draw, size, height, axis, draw.signs(n) * (1 + gap))
+
+
+def _tilted_in_turn(*names: str) -> _TiltedBlock:
+    families = [family for name in names for family in (TILTED_FAMILIES[name],)]
+
+    def make(draw: Draw, n: int, _before: int) -> Rows:
+        rows = np.empty((n, 10))
+        for turn, family in enumerate(families):
+            rows[turn :: len(families)] = family.make(draw, len(range(turn, n, len(families))))
+        return rows
+
+    return make
+
+
+def _tilted_workload(name: str, title: str, text: str, make: _TiltedBlock, *, timed: bool = True) -> Workload:
+    return Workload(name, title, text, _tilted_rows(name, make), timed, TILTED_SHARE)
+
+
+TILTED_WORKLOADS = {
+    workload.name: workload
+    for workload in (
+        _tilted_workload(
+            "one-axis",
+            "leaning one way around the tower",
+            f"A quadcopter's body that leans by {PITCH:g}° along x, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m "
+            "about the paper's cooling tower.",
+            _one_axis,
+        ),
+        _tilted_workload(
+            "an-axis-each",
+            "an axis each around the tower",
+            "The same body in the same box; each row leans to any side, by up to 45°.",
+            _an_axis_each,
+        ),
+        _tilted_workload(
+            "near-contact",
+            "near contact",
+            "Six pairs of bodies in turn, axes in all directions, at distances from touching that are log-uniform from "
+            "1e-17 to 0.5 spheroid radii, apart and overlapping, outside and inside.",
+            _tilted_near_contact,
+        ),
+        _tilted_workload(
+            "all-sizes",
+            "near contact, of all sizes",
+            "From 2⁻⁵² to 2⁻⁴ radii off contact, sizes of all four regimes (the family tilted-near-contact).",
+            _tilted_in_turn("tilted-near-contact"),
+            timed=False,
+        ),
+        _tilted_workload(
+            "stiff",
+            "of very different sizes",
+            "Near contact with ratios of sizes up to 1e8, and axes that almost stand or lie (the families tilted-stiff "
+            "and tilted-slight).",
+            _tilted_in_turn("tilted-stiff", "tilted-slight"),
+            timed=False,
+        ),
+    )
+}
+"""Those of spheroids that lean, by name, in the order of the record."""
+
+
+def leaning_scenes(names: tuple[str, ...]) -> list[str]:
+    """The scenes whose mover leans, or may. Raises InputError for a scene that does not exist."""
+    return [name for name in names if leans(read_scene(name).mover.axis)]
+
+
+@cache
+def scene_workloads(name: str) -> dict[str, Workload]:
+    """The workloads of a scene whose mover leans.
+
+    Raises InputError if a hyperboloid leans as well, or if nothing is ever asked in the scene.
+    """
+    scene = read_scene(name)
+    lean = next((body for body in scene.hyperboloids if leans(body.axis)), None)
+    if lean is not None:
+        raise InputError(
+            f"the scene {scene.name!r} is not measured: the hyperboloid {lean.name!r} leans, and rows of ten numbers "
+            "are about upright ones"
+        )
+    settings = settings_of(scene)
+    if not settings:
+        raise InputError(f"the scene {scene.name!r} is not measured: no hyperboloid's height meets its region")
+    region, near = partial(_in_region, scene, settings), partial(_near_in_scene, scene, settings)
+    axis = "an axis each, in all directions" if scene.mover.axis == FREE else "the mover's axis"
+    known = (
+        _tilted_workload(
+            "region", f"in the scene {scene.name}", f"Centres uniform in the scene's region, {axis}.", region
+        ),
+        _tilted_workload(
+            "near-contact",
+            "near contact",
+            f"The scene's bodies, {axis}, at distances from touching that are log-uniform from 1e-17 to 0.5 spheroid "
+            "radii.",
+            near,
+        ),
+    )
+    return {each.name: each for each in known}
+
+
+def _axes_of(scene: SceneModel, draw: Draw, n: int) -> Vectors:
+    if scene.mover.axis == FREE:
+        return anywhere(draw, n)
+    x, y, z = (np.full(n, float(each)) for each in scene.mover.axis)
+    return x, y, z
+
+
+def _sizes_in_turn(settings: tuple[Setting, ...], n: int, before: int) -> Floats:
+    """α, γ, b, d of the settings in turn, (n, 4)."""
+    return np.array([each.sizes for each in settings])[(before + np.arange(n)) % len(settings)]
+
+
+def _in_region(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
+    sizes = _sizes_in_turn(settings, n, before)
+    ends = np.array([_ends(each) for each in settings])[(before + np.arange(n)) % len(settings)]
+    centre = [low + (high - low) * draw.unit(n) for low, high in np.transpose(ends, (1, 2, 0))]
+    return np.column_stack([sizes, *centre, *_axes_of(scene, draw, n)]) + 0.0
+
+
+def _ends(setting: Setting) -> list[tuple[float, float]]:
+    """The least and the greatest x, y, z of a centre; where the region is open, about the surface."""
+    alpha, gamma, b, d = setting.sizes
+    open_ends = (REACH * (alpha + b), REACH * (alpha + b), REACH * (gamma + d))
+    return [
+        (-far, far) if span is None else (span.low, span.high)
+        for span, far in zip(setting.box.spans, open_ends, strict=True)
+    ]
+
+
+def _near_in_scene(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
+    return _tilted_near(draw, Sizes(*_sizes_in_turn(settings, n, before).T), _axes_of(scene, draw, n))
+
+
+def workloads_of(plan: BenchPlan) -> dict[str, Workload]:
+    """The workloads that the plan can choose from, by name."""
+    if plan.scenes:
+        return scene_workloads(*plan.scenes)
+    if plan.question == PASSAGE:
+        return WAY_WORKLOADS
+    return TILTED_WORKLOADS if plan.tilted else WORKLOADS
