@@ -28,7 +28,8 @@ from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
 from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT, Tally, WorstCase
-from hypcheck.vectors import families, frozen
+from hypcheck.vectors import frozen
+from hypcheck.vectors.fixed_sizes import MARK
 
 _OFF = (Status.WRONG, Status.TOLERATED, Status.UNDECIDED, Status.EXCUSED)
 _ENDED_AS = tuple(outcome for outcome in Outcome if outcome is not Outcome.ANSWERED)
@@ -57,7 +58,7 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     tallied = {line.family: sum(line.counts.values()) for line in groups}
     if len(tallied) < len(groups):
         raise ValueError("a family has two lines")
-    fixed_sizes = {family: plan.count for family in tallied if families.MARK in family and not plan.filtered}
+    fixed_sizes = {family: plan.count for family in tallied if MARK in family and not plan.filtered}
     layout = QUESTIONS[whole.used.question].layout
     refuses = frozen.INVALID_NAMES[layout][0] in tallied
     planned = planned_cases(plan, refuses=refuses, tilt=whole.used.tilt is True, layout=layout)

@@ -34,8 +34,9 @@ from hypcheck.runs.hunt import ClusterKey, Hunt, HuntFindings, ask_rows, finding
 from hypcheck.runs.hunt_ways import around_way, size_factors, size_mask
 from hypcheck.runs.judge import exact_positions
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES, families_for
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import Family
+from hypcheck.vectors.fixed_sizes import families_for
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
 
 MOVERS: dict[str, tuple[int, ...]] = {

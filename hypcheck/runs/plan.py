@@ -18,8 +18,7 @@ from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.known_failures import KnownFailure, read_known_failures
 from hypcheck.runs.results import InvalidRows, JudgingRules
 from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
-from hypcheck.vectors import families as fixed_sizes
-from hypcheck.vectors import frozen
+from hypcheck.vectors import fixed_sizes, frozen
 from hypcheck.vectors.families import select
 from hypcheck.vectors.family import Family
 

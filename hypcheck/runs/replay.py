@@ -49,8 +49,9 @@ from hypcheck.truth.tilted.certificate import TiltedCertificate
 from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors import frozen
-from hypcheck.vectors.families import MARK, WAY_FAMILIES, is_extreme, parse_case_id
+from hypcheck.vectors.families import WAY_FAMILIES, is_extreme, parse_case_id
 from hypcheck.vectors.family import BLOCK
+from hypcheck.vectors.fixed_sizes import MARK
 from hypcheck.vectors.showing import invalid_row_of, vector_of
 
 _RECORDED = re.compile(r"(.+):([0-9]+)", re.ASCII | re.DOTALL)

@@ -18,7 +18,7 @@ from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant
 from hypcheck.kernel.specialise.settings import FORMATS, Box, Setting, position_of_box, scaled
 from hypcheck.scene.model import Span
 from hypcheck.truth import exact, float_filter
-from hypcheck.vectors.families import families_for
+from hypcheck.vectors.fixed_sizes import families_for
 
 SIZES = [
     (2.0, 17.8, 0.25, 0.15),

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.truth import exact
-from hypcheck.vectors import families
+from hypcheck.vectors import fixed_sizes
 
 SIDES = (Position.EXTERIOR, Position.INTERIOR)
 SIZES = (
@@ -32,9 +32,9 @@ def position(sizes, x, z):
 @pytest.mark.parametrize("z", [0.0, -1.0, 17.8])
 def test_a_step_inward_from_the_edge_is_on_the_other_side_of_it(sizes, z):
     for side in SIDES:
-        x = families._edge(sizes, z, side)
+        x = fixed_sizes._edge(sizes, z, side)
         assert is_beyond(sizes, x, z, side) or (
-            x == families.FARTHEST and not is_beyond(sizes, sys.float_info.max, z, side)
+            x == fixed_sizes.FARTHEST and not is_beyond(sizes, sys.float_info.max, z, side)
         )
         assert x == 0.0 or not is_beyond(sizes, math.nextafter(x, 0.0), z, side)
 
@@ -53,14 +53,14 @@ def test_the_edge_is_found_in_as_many_steps_as_a_float_has_bits(sizes, monkeypat
         return decide(lengths)
 
     decide = exact.position
-    monkeypatch.setattr(families.exact, "position", counted)
+    monkeypatch.setattr(fixed_sizes.exact, "position", counted)
     for side in SIDES:
         asked.clear()
-        families._edge(sizes, 1.0, side)
+        fixed_sizes._edge(sizes, 1.0, side)
         assert len(asked) <= 65
 
 
-@pytest.mark.parametrize("trap", [trap.name for trap in families.TRAPS])
+@pytest.mark.parametrize("trap", [trap.name for trap in fixed_sizes.TRAPS])
 @pytest.mark.parametrize(
     "sizes",
     [
@@ -76,22 +76,22 @@ def test_the_edge_is_found_in_as_many_steps_as_a_float_has_bits(sizes, monkeypat
     ],
 )
 def test_all_rows_are_finite_where_float64_ends(trap, sizes):
-    rows = families.family_at(f"{trap}@{','.join(map(repr, sizes))}").block(1, 0)
+    rows = fixed_sizes.family_at(f"{trap}@{','.join(map(repr, sizes))}").block(1, 0)
     assert np.isfinite(rows).all()
 
 
 @given(st.floats(0.0, sys.float_info.max))
 def test_float_at_inverts_ordinal(x):
-    ordinal = families._ordinal(x)
-    assert families._float_at(ordinal) == x
-    assert ordinal == 0 or families._float_at(ordinal - 1) == math.nextafter(x, 0.0)
+    ordinal = fixed_sizes._ordinal(x)
+    assert fixed_sizes._float_at(ordinal) == x
+    assert ordinal == 0 or fixed_sizes._float_at(ordinal - 1) == math.nextafter(x, 0.0)
 
 
 @pytest.mark.parametrize(
     "sizes", [(5e-324, 5e-324, 5e-324, 5e-324), (1e-300, 1e-300, 1e-300, 1e-300), (1.0, 1e150, 1.0, 1.0)]
 )
 def test_steps_from_the_edge_do_not_leave_the_least_of_subnormals(sizes):
-    (razor,) = (each for each in families.families_for((FixedSizes(sizes),)) if each.name.startswith("razor"))
+    (razor,) = (each for each in fixed_sizes.families_for((FixedSizes(sizes),)) if each.name.startswith("razor"))
     rows = razor.rows(1, 300)
     assert np.isfinite(rows).all()
     assert 0 < np.abs(rows[:, 4][rows[:, 4] != 0]).min() < 1e-300

@@ -16,7 +16,7 @@ from hypcheck.vectors.double_roots import gather
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import WAY_FAMILIES, case_id, family_of, parse_case_id, row_of, select
 from hypcheck.vectors.family import BLOCK
-from hypcheck.vectors.ways import families as ways
+from hypcheck.vectors.ways import coincidences
 
 DIGESTS = {
     "way-anywhere": "c884c53f71228633130e82191fad30f9ee7dac62c2bd9bc9a7dd0c309a6cfbb5",
@@ -81,12 +81,12 @@ def test_rows_of_ways_are_those_of_their_generator_versions():
 
 def test_generated_ways_across_a_ring_are_clear_where_rings_beside_the_surface_were_replaced():
     rows = WAY_FAMILIES["way-ring"].rows(1, BLOCK)
-    before = gather(Draw("way-ring", 1, 1, 0), BLOCK, ways.ring_attempt)
+    before = gather(Draw("way-ring", 1, 1, 0), BLOCK, coincidences.ring_attempt)
     replaced = (rows != before).any(axis=1)
     assert 0 < replaced.sum() < 0.05 * BLOCK
     assert all(hits_at_size(row) for row in before[replaced].tolist())
     assert not any(hits_at_size(row) for row in rows[:64].tolist())
-    near = ~ways.more_than_a_radius_away(rows)
+    near = ~coincidences.more_than_a_radius_away(rows)
     assert near.any()
     assert not any(hits_at_size(row) for row in rows[near].tolist())
 

@@ -20,7 +20,7 @@ from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
-from hypcheck.vectors.families import families_for
+from hypcheck.vectors.fixed_sizes import families_for
 
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
 LIBRARY = ("-O2", "-fPIC", "-shared")

@@ -9,7 +9,7 @@ import subprocess
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.vectors import families
+from hypcheck.vectors import fixed_sizes
 from tests.kernel.emission.building import COMMANDS, skip_without
 
 pytestmark = pytest.mark.usefixtures("text_reports")
@@ -33,7 +33,7 @@ def gated(folder, spec, count=60):
 def test_an_emitted_library_passes_the_conformance_run(language, precision, scene, tmp_path, capsys, monkeypatch):
     skip_without(language)
     if scene == "forest":  # of 58 settings; test_scenes.py asks its kernel the rows that are searched for each
-        monkeypatch.setattr(families, "TRAPS", [trap for trap in families.TRAPS if trap.name != "razor"])
+        monkeypatch.setattr(fixed_sizes, "TRAPS", [trap for trap in fixed_sizes.TRAPS if trap.name != "razor"])
     code, library = tmp_path / "kernel.source", tmp_path / "kernel.so"
     emit(code, language, "--precision", precision, scene=scene)
     kind = {"c": ["-x", "c"], "cpp": ["-x", "c++"], "rust": []}[language]

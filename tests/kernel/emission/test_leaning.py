@@ -19,13 +19,13 @@ from hypcheck.kernel.specialise.leaning import FRAME_NAMES, leaning_search
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
-from hypcheck.vectors import families
+from hypcheck.vectors import families, fixed_sizes
 from tests.kernel.emission.building import (
     COMMAND,
-    _module,
     answers,
     asking,
     built,
+    load_module,
     needs,
     skip_without,
     worst_error,
@@ -84,7 +84,7 @@ def test_a_kernel_for_a_mover_that_leans_never_errs_about_clear_where_everything
     options = ("-O3", "-march=native", "-ffp-contract=fast")
     library = built(tmp_path, tower(FREE), "c", "float64", *options)
     (setting,) = domain_of(description(plan_of(tower(FREE)), "c")["domain"], "the domain").settings
-    beside = next(family for family in families.families_for((setting,)) if family.name.startswith("leaning-beside"))
+    beside = next(family for family in fixed_sizes.families_for((setting,)) if family.name.startswith("leaning-beside"))
     rows = beside.rows(0, 3000)
     truth, found = judge.exact_positions(rows), answers(library, rows)
     assert (found[found != 0] == truth[found != 0]).all()
@@ -118,7 +118,7 @@ def _library(kernel):
 @pytest.fixture(scope="module")
 def last_stage(tmp_path_factory):
     """The kernel's last stage in Python, for any sizes: what its other stages leave, asked of all rows."""
-    kernel = _module(built(tmp_path_factory.mktemp("leaning"), tower(FREE), "python"))
+    kernel = load_module(built(tmp_path_factory.mktemp("leaning"), tower(FREE), "python"))
 
     def ask(row, *, free):
         axis = tuple(row[7:])

@@ -1,0 +1,357 @@
+"""The families for given sizes: the traps that one spheroid beside one hyperboloid has, at every scale of nearness.
+
+A kernel that was made for a scene knows its own sizes alone, so other families ask it next to nothing. The names of
+these families carry the sizes and the spans of the centre, as in `razor@2.0,17.8,0.25,0.15,z=-17.8:17.8`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import struct
+import sys
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import CENTER, SIZES, Pair, Position, trouble_with
+from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows, with_axis
+from hypcheck.truth import exact
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors.draw import Draw, ldexp, stepped, turns
+from hypcheck.vectors.family import Family
+from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
+from hypcheck.vectors.tilted import families as tilted_families
+
+MARK = "@"
+OPEN = 2.0
+"""Where the centre may be anywhere, rows lie within so many waist radii of the axis and heights γ of the waist."""
+
+FARTHEST = 2.0**1000
+"""Metres; what lies farther out, as of sizes with ratios near 10¹⁰⁰ it may, is asked here."""
+
+_SPAN = re.compile(r"([xyz])=([^:]+):([^:]+)")
+
+
+@dataclass(frozen=True, slots=True)
+class _Trap:
+    """A generator of rows for fixed sizes, and what is said of its family."""
+
+    name: str
+    title: str
+    purpose: str
+    make: Callable[[FixedSizes, Draw, int], Rows]
+
+
+def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
+    """The families of every setting; of each all traps that it has."""
+    return tuple(_family(trap, setting) for setting in settings for trap in _traps(setting))
+
+
+def _traps(setting: FixedSizes) -> tuple[_Trap, ...]:
+    return TRAPS if setting.axis is None else LEANING_TRAPS
+
+
+def family_at(name: str) -> Family:
+    """The family that such a name names; raises InputError saying what is wrong with it."""
+    trap, _, text = name.partition(MARK)
+    known = {each.name: each for each in (*TRAPS, *LEANING_TRAPS)}
+    if trap not in known:
+        raise InputError(f"there is no family {trap!r} for fixed sizes; there are {', '.join(known)}")
+    setting = _parsed_sizes(text, name)
+    if known[trap] not in _traps(setting):
+        with_axis = "an axis" if known[trap] in LEANING_TRAPS else "no axis"
+        raise InputError(f"{name!r} names no family: {trap} takes {with_axis}")
+    return _family(known[trap], setting)
+
+
+def _family(trap: _Trap, setting: FixedSizes) -> Family:
+    _require_room(setting)
+    return Family(
+        name=f"{trap.name}{MARK}{_sizes_text(setting)}",
+        version=1,
+        title=trap.title,
+        source="made for the sizes of one scene",
+        purpose=trap.purpose,
+        game="a kernel made for one level is wrong where that level is played",
+        drone="a kernel made for one mission is wrong on it",
+        regimes="that of the sizes",
+        make=partial(_made, trap, setting),
+        tilted=setting.axis is not None,
+    )
+
+
+def _made(trap: _Trap, setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """The trap's rows; where sizes are so far apart that its formulas leave float64, `_rows` puts finite centres."""
+    with np.errstate(all="ignore"):
+        return trap.make(setting, draw, n)
+
+
+def _require_room(setting: FixedSizes) -> None:
+    """Raise InputError where centres about the hyperboloid, or in the spans, are beyond float64."""
+    alpha, gamma, b, d = setting.sizes
+    widths = [2 * OPEN * (alpha + b), 2 * OPEN * (gamma + d), *(span[1] - span[0] for span in setting.spans if span)]
+    if not all(map(math.isfinite, widths)):
+        raise InputError(f"the sizes {_sizes_text(setting)} leave no room in float64 for the centres about them")
+
+
+def _sizes_text(setting: FixedSizes) -> str:
+    spans = [f"{name}={span[0]!r}:{span[1]!r}" for name, span in zip(CENTER, setting.spans, strict=True) if span]
+    axis = () if setting.axis is None else (f"axis={':'.join(_words(setting.axis))}",)
+    return ",".join([*map(repr, setting.sizes), *spans, *axis])
+
+
+def _words(axis: tuple[float, float, float] | Literal["free"]) -> Iterable[str]:
+    return (axis,) if isinstance(axis, str) else map(repr, axis)
+
+
+def _parsed_sizes(text: str, name: str) -> FixedSizes:
+    words = text.split(",")
+    try:
+        alpha, gamma, b, d = (float(word) for word in words[: len(SIZES)])
+        axis = _axis(words[-1]) if words[-1].startswith("axis=") else None
+        spans = dict(_span(word) for word in words[len(SIZES) : len(words) - (axis is not None)])
+    except ValueError:
+        raise InputError(
+            f"{name!r} names no family; after {MARK} stand alpha,gamma,b,d and, optionally, x=low:high, y=…, z=…, "
+            "axis=x:y:z or axis=free"
+        ) from None
+    for column, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
+        trouble = trouble_with(column, value)
+        if trouble is not None:
+            raise InputError(f"{name!r} names no family: {trouble}")
+    return FixedSizes((alpha, gamma, b, d), **spans, axis=axis)
+
+
+def _axis(word: str) -> tuple[float, float, float] | Literal["free"]:
+    value = word.removeprefix("axis=")
+    if value == "free":
+        return "free"
+    x, y, z = map(float, value.split(":"))
+    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z) and (x or y or z)):
+        raise ValueError(word)
+    return x, y, z
+
+
+def _span(word: str) -> tuple[str, Range]:
+    match = _SPAN.fullmatch(word)
+    if match is None:
+        raise ValueError(word)
+    low, high = float(match.group(2)), float(match.group(3))
+    if not low <= high:
+        raise ValueError(word)
+    return match.group(1), (low, high)
+
+
+def _span_or(span: Range | None, reach: float) -> Range:
+    return span if span is not None else (-reach, reach)
+
+
+def _rows(setting: FixedSizes, x: Floats, y: Floats, z: Floats) -> Rows:
+    n = len(x)
+    alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
+    low, high = _span_or(setting.z, FARTHEST)
+    z = np.where(np.isnan(z), 0.0, z)
+    return stack(Sizes(alpha, gamma, b, d), x, y, np.clip(z, low, high))
+
+
+def _turned(setting: FixedSizes, draw: Draw, radius: Floats, z: Floats) -> Rows:
+    cosine, sine = draw.circle(len(radius))
+    radius = np.where(radius <= FARTHEST, radius, FARTHEST)
+    return _rows(setting, radius * cosine, radius * sine, z)
+
+
+def _heights(setting: FixedSizes, draw: Draw, n: int) -> Floats:
+    """Heights in the span: half of them uniform, half near the waist."""
+    low, high = _span_or(setting.z, OPEN * (setting.sizes[1] + setting.sizes[3]))
+    near = np.clip(draw.signs(n) * setting.sizes[3] * draw.log_uniform(n, -40, 3), low, high)
+    return np.where(turns(n, True, False), draw.between(n, low, high), near)
+
+
+def _box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    alpha, gamma, b, d = setting.sizes
+    reaches = (OPEN * (alpha + b), OPEN * (alpha + b), OPEN * (gamma + d))
+    spans = [_span_or(span, reach) for span, reach in zip(setting.spans, reaches, strict=True)]
+    x, y, z = (draw.between(n, low, high) for low, high in spans)
+    return _rows(setting, x, y, z)
+
+
+def _beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Centres one radius (1 ± 2⁻⁵² … 1) off the surface, on either side, along the normal."""
+    alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
+    offset = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -53, 0))
+    height = np.abs(_heights(setting, draw, n)) / d
+    radius, level = beside_surface(alpha / b, gamma / d, height, offset)
+    return _turned(setting, draw, radius * b, level * d * draw.signs(n))
+
+
+def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """On and about r² = (c² + 1)(a² + c²)/c², where the discriminant vanishes far from the surface if c² > a."""
+    alpha, gamma, b, d = setting.sizes
+    a, c = np.float64(alpha) / b, np.float64(gamma) / d  # numpy's, which divide by a c of 0
+    radius: Floats = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
+    radius = radius * (1 + turns(n, 0.0, 1.0) * draw.signs(n) * draw.log_uniform(n, -53, -2))
+    height = turns(n, 0.0, 0.0, 1.0) * draw.signs(n) * d * draw.log_uniform(n, -50, 0)
+    return _turned(setting, draw, radius, height)
+
+
+def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Where c1 = 0 or c2 = 0, or nearly: a strict inequality of the paper fails there."""
+    alpha, gamma, b, d = setting.sizes
+    a, c = np.float64(alpha) / b, np.float64(gamma) / d
+    A, B = a * a, c * c
+    z = _heights(setting, draw, n)
+    Q = (z / d) * (z / d)
+    P = np.where(turns(n, True, False), A - B + 1 - Q, (A * B - A + B + A * Q) / B)
+    steps = draw.signs(n) * draw.log_uniform(n, -53, -3) * turns(n, 0.0, 1.0, 1.0)
+    return _turned(setting, draw, b * np.sqrt(np.maximum(P * (1 + steps), 0.0)), z)
+
+
+def _axes(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """On the axis or a hair beside it, at any height; and far out, at any azimuth."""
+    alpha, gamma = setting.sizes[:2]
+    hair = alpha * draw.log_uniform(n, -60, 1) * turns(n, 0.0, 1.0)
+    far = alpha * draw.log_uniform(n, 0, 12)
+    z = np.where(turns(n, True, False, False), 0.0, _heights(setting, draw, n))
+    away = turns(n, False, False, True)
+    up = draw.signs(n) * gamma * draw.log_uniform(n, 0, 12)
+    return _turned(setting, draw, np.where(away, far, hair), np.where(away & turns(n, True, False), up, z))
+
+
+def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """The last floats before contact and the first in it, on both sides, at sixteen heights a block and y = 0."""
+    heights = np.clip(_heights(setting, draw, 16), *_span_or(setting.z, np.inf))
+    sides = (Position.EXTERIOR, Position.INTERIOR)
+    edges = [(_edge(setting.sizes, z, side), z) for z in heights.tolist() for side in sides]
+    table = np.resize(np.array(edges), (n, 2))
+    edge, steps = np.ascontiguousarray(table[:, 0]), draw.integers(n, -6, 6)
+    x = stepped(edge, np.maximum(steps, -edge.view(np.int64)))  # not past 0, among the least of subnormals
+    return _rows(setting, draw.signs(n) * x, np.zeros(n), table[:, 1])
+
+
+def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) -> float:
+    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side: 0 if it never is, FARTHEST if always."""
+
+    def outward(x: float) -> bool:
+        position = exact.position(Pair(*sizes, x, 0.0, z).lengths)
+        return position is Position.EXTERIOR if side is Position.EXTERIOR else position is not Position.INTERIOR
+
+    if outward(0.0):
+        return 0.0
+    if not outward(sys.float_info.max):
+        return FARTHEST
+    # Halving how many floats lie between them takes 63 steps at any scale; halving their distance up to two thousand.
+    first, last = 0, _ordinal(sys.float_info.max)
+    while last - first > 1:
+        middle = (first + last) // 2
+        first, last = (first, middle) if outward(_float_at(middle)) else (middle, last)
+    return _float_at(last)
+
+
+def _ordinal(x: float) -> int:
+    """How many floats lie between 0 and x ≥ 0."""
+    return int.from_bytes(struct.pack(">d", x), "big")
+
+
+def _float_at(ordinal: int) -> float:
+    return float(struct.unpack(">d", ordinal.to_bytes(8, "big"))[0])
+
+
+TRAPS = (
+    _Trap("box", "anywhere in the region", "the everyday case, each stage in its share", _box),
+    _Trap("beside", "one radius off the surface, or nearly", "the boundary itself, from 1 to 2⁻⁵³ off it", _beside),
+    _Trap("razor", "a few floats before and behind contact", "the last digit decides", _razor),
+    _Trap("ring-about", "clear, with Δ next to 0", "an invisible wall far from the surface", _ring),
+    _Trap("zeros", "c1 or c2 is 0, or nearly", "a coefficient's sign is no help", _zeros),
+    _Trap("axes", "on the axis, in the plane of the waist, or far out", "zeros, and squares that are far apart", _axes),
+)
+
+
+def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted_families.Vectors:
+    """The axis of the setting; a free one in every direction, a third of them in a plane of the coordinates."""
+    if setting.axis is None or setting.axis == "free":
+        x, y, z = tilted_families.anywhere(draw, n)
+        return x * turns(n, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0), y, z * turns(n, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0)
+    x, y, z = (np.full(n, part) for part in setting.axis)
+    return x, y, z
+
+
+def _leaning_rows(setting: FixedSizes, draw: Draw, n: int, offset: Floats) -> Rows:
+    """Centres `offset` radii off the surface."""
+    size = Sizes(*(np.full(n, value) for value in setting.sizes))
+    heights = _heights(setting, draw, n) / setting.sizes[1]
+    return tilted_families.beside(draw, size, heights, _axes_of(setting, draw, n), offset)
+
+
+def _held(setting: FixedSizes, rows: Rows) -> Rows:
+    """The rows with finite centres, their heights in the span."""
+    centre = np.where(np.abs(rows[:, 4:7]) <= FARTHEST, rows[:, 4:7], 0.0)
+    rows[:, 4:7] = centre
+    rows[:, 6] = np.clip(centre[:, 2], *_span_or(setting.z, FARTHEST))
+    return rows + 0.0
+
+
+def _leaning_box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    rows = with_axis(_box(setting, draw, n))
+    rows[:, 7:] = np.stack(_axes_of(setting, draw, n), axis=1)
+    return rows + 0.0
+
+
+def _leaning_beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    offset = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -53, 0))
+    return _held(setting, _leaning_rows(setting, draw, n, offset))
+
+
+def _leaning_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """The last floats before contact and the first in it, at sixteen places a block, a few ulps to each side of x."""
+    touching = _held(setting, _leaning_rows(setting, draw, 16, np.zeros(16)))
+    spread = draw.signs(16) * max(setting.sizes[2:]) * 4.0
+    edges = np.array([_leaning_edge(row, way) for row, way in zip(touching, spread.tolist(), strict=True)])
+    rows = np.resize(edges, (n, 10))
+    rows[:, 4] = stepped(np.ascontiguousarray(rows[:, 4]), draw.integers(n, -6, 6))
+    return rows + 0.0
+
+
+def _leaning_edge(row: Rows, way: float) -> Rows:
+    """The row of a centre on the surface, moved outward or inward across z until it is clear; far, if it never is."""
+    start, far = float(row[4]), float(row[4]) + way
+    found = row.copy()
+
+    def is_contact(x: float) -> bool:
+        lengths = TiltedPair.from_row((*row[:4].tolist(), x, *row[5:].tolist())).lengths
+        return tilted_exact.position(lengths) is Position.CONTACT
+
+    while math.nextafter(start, far) != far:
+        middle = start + (far - start) / 2
+        if middle in (start, far):
+            break
+        start, far = (middle, far) if is_contact(middle) else (start, middle)
+    found[4] = far
+    return found
+
+
+def _leaning_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Coordinates that are 0: on the axis, in the plane of the waist, in a plane of symmetry; and far out."""
+    rows = _leaning_box(setting, draw, n)
+    far = ldexp(1, draw.integers(n, 0, 12))
+    rows[:, 4] *= turns(n, 1.0, 0.0, 0.0, 1.0, 1.0)
+    rows[:, 5] *= turns(n, 0.0, 1.0, 0.0, 1.0, 1.0)
+    rows[:, 6] *= turns(n, 1.0, 1.0, 1.0, 0.0, 1.0)
+    rows[:, 4:6] *= np.where(turns(n, False, False, False, False, True), far, 1.0)[:, None]
+    return _held(setting, rows)
+
+
+LEANING_TRAPS = (
+    _Trap("leaning-box", "anywhere in the region", "the everyday case, each stage in its share", _leaning_box),
+    _Trap(
+        "leaning-beside", "one radius off the surface", "the boundary itself, from 1 to 2⁻⁵³ off it", _leaning_beside
+    ),
+    _Trap("leaning-razor", "a few floats before and behind contact", "the last digit decides", _leaning_razor),
+    _Trap("leaning-zeros", "coordinates that are 0, and far out", "where poles and double roots lie", _leaning_zeros),
+)
+"""What a spheroid that leans is asked."""
