@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import subprocess
 import sys
 from fractions import Fraction
@@ -11,67 +10,30 @@ from math import isqrt
 import pytest
 
 from hypcheck.derivation.evaluation import EXACT, outputs
-from hypcheck.derivation.program import cut
 from hypcheck.geometry.pair import Lengths, Pair, Position, to_integers
 from hypcheck.kernel import integers, scene_lines
-from hypcheck.kernel.programs import certified, lines
+from hypcheck.kernel.programs import certified, lines, tilted
 from hypcheck.kernel.programs.integers import FLOAT64_BITS
 from hypcheck.truth import exact
+from tests.kernel import program_rules
 from tests.kernel.compiling import STRICT, needs_compiler, program
 
 GREATEST = Fraction(sys.float_info.max)
 LEAST_NORMAL = Fraction(sys.float_info.min)
 U = Fraction(certified.U)
 
-BOUNDS = {
-    "delta_3": "E",
-    "c1": "e1",
-    "c2": "e2",
-    "slope_B": "bound_B",
-    "offset_B": "offset_bound_B",
-    "slope_A": "bound_A",
-    "offset_A": "offset_bound_A",
-}
-"""What the second stage compares, and the bound that each is compared with."""
-
-
-def rule(delta: int, c1: int, c2: int, slope_B: int, offset_B: int, slope_A: int, offset_A: int) -> Position | None:
-    """The rule for all regimes (docs/mathematics.md), each sign +1, −1, or 0 where it is not certain."""
-    if delta <= 0:
-        return Position.CONTACT if delta else None
-    if c2 < 0 < c1:  # three positive roots: B lies before all of them, or two lie before B
-        if offset_B > 0 or slope_B < 0:
-            return Position.EXTERIOR
-        return Position.CONTACT if offset_B < 0 and slope_B > 0 else None
-    if c2 > 0 or c1 < 0:  # two negative ones: both lie above −A, or −A above one of them
-        if offset_A > 0 and slope_A > 0:
-            return Position.INTERIOR
-        return Position.CONTACT if offset_A < 0 or slope_A < 0 else None
-    return None
-
 
 def test_the_second_stage_decides_by_the_rule_for_all_signs():
-    sizes = dict.fromkeys(("alpha", "gamma", "b", "d", "A", "B"), 1)
-    wanted = ("exterior", "interior", "decided")
-    decision = cut(certified.CERTIFIED, (*sizes, "P_plus_Q", *BOUNDS, *BOUNDS.values()), wanted)
-    inputs = {**certified.CONSTANTS, **sizes, **dict.fromkeys(BOUNDS.values(), 2), "P_plus_Q": 1}
-    for signs in itertools.product((-1, 0, 1), repeat=len(BOUNDS)):
-        told = {**inputs, **{name: 3 * sign or 2 for name, sign in zip(BOUNDS, signs, strict=True)}}
-        exterior, interior, decided = outputs(decision, EXACT, told, wanted)
-        found = rule(*signs)
-        assert (decided, exterior - interior) == (found is not None, found or 0), signs
+    assert program_rules.wrong_signs(certified.CERTIFIED) == []
 
 
-@pytest.mark.parametrize("name", ["alpha", "gamma", "b", "d", "A", "B", "P_plus_Q"])
-def test_the_second_stage_answers_only_within_its_limits(name):
-    least, most, far = (Fraction(certified.CONSTANTS[each]) for each in ("least", "greatest", "farthest"))
-    known = ("alpha", "gamma", "b", "d", "A", "B", "P_plus_Q")
-    part = cut(certified.CERTIFIED, known, ("usable",))
-    inputs = {**certified.CONSTANTS, **dict.fromkeys(known, Fraction(1))}
-    beyond = {"alpha": [0, -1], "gamma": [0, -1], "P_plus_Q": [far, 2 * far]}.get(name, [least, most, 0])
-    assert outputs(part, EXACT, inputs, ("usable",)) == (True,)
-    for value in beyond:
-        assert outputs(part, EXACT, {**inputs, name: value}, ("usable",)) == (False,)
+def test_the_stage_of_leaning_rows_decides_by_its_rule_for_all_signs():
+    assert program_rules.wrong_signs_of_leaning_rows(tilted.TILTED) == []
+
+
+@pytest.mark.parametrize("program", [certified.CERTIFIED, tilted.TILTED], ids=lambda program: program.name)
+def test_the_float_stages_answer_within_their_limits_alone(program):
+    assert program_rules.wrong_limits(program) == []
 
 
 def test_nothing_overflows_where_the_second_stage_decides():

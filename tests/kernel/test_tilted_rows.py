@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
+from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.program import cut
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.kernel.programs import tilted
@@ -72,26 +72,10 @@ def test_bounds_are_rounded_by_less_than_their_slack():
     assert max(relative_error_counts(room, ("room", "width")).counts[name] for name in ("room", "width")) < 4
 
 
-RANGE = (
-    ("b", "least_b", "greatest_b"),
-    ("p", "least_square", "greatest_square"),
-    ("s", "least_square", "greatest_square"),
-    ("t", "least_square", "greatest_square"),
-    ("w", "least_axis", "greatest_axis"),
-)
-
-
-@pytest.mark.parametrize(("name", "least", "greatest"), RANGE)
-def test_rows_beyond_the_range_are_left_to_the_integers(name, least, greatest):
-    known = ("alpha", "gamma", "b", "d", "p", "s", "t", "w", "distance", "l")
-    part = cut(tilted.TILTED, known, ("usable",))
-    inputs = {**EXACTLY, **dict.fromkeys(known, Fraction(1))}
-    assert outputs(part, EXACT, inputs, ("usable",)) == (True,)
-    beyond = {name: [EXACTLY[least], EXACTLY[greatest], Fraction(0)], "distance": [EXACTLY["farthest_square"]]}
-    beyond |= {"l": [EXACTLY["greatest_l"], -EXACTLY["greatest_l"]], "alpha": [-1], "gamma": [-1], "d": [-1]}
-    for each, values in beyond.items():
-        for other in values:
-            assert outputs(part, EXACT, {**inputs, each: Fraction(other)}, ("usable",)) == (False,), each
+@pytest.mark.parametrize("row", small_rows(13, 6))
+def test_at_the_multiplier_0_the_value_proves_no_side(row):
+    values = found(row, 0)
+    assert values["F"] == -values["d_l"] == -values["p"] * values["k"]
 
 
 def test_nothing_overflows_and_underflows_are_within_a_unit_in_the_range():

@@ -32,7 +32,7 @@ GUESSES = {
     "hc_way_multiplier",
 }
 OF_THE_MACHINE = {"hc_best_level", "hc_level", "hypcheck_level", "hypcheck_use_level", "hc_lowest_bit", "hc_spread"}
-_OTHERS = "BLOCK STRIP LIMB_BITS WIDTH LEVEL PRECISE FLOATS_DECIDE X86 AHEAD FAR_FROM LINES_FROM guess"
+_OTHERS = "BLOCK STRIP LIMB_BITS WIDTH LEVEL PRECISE FLOATS_DECIDE X86 NEON AHEAD FAR_FROM LINES_FROM PLANES_FROM guess"
 _SIZES = rf"HC_(?:{_OTHERS.replace(' ', '|')}|\w*TURNS|\w*LIMBS|TOO_MANY_\w+|\w*settled)"
 """Constants that sizes of arrays are made of, or that choose a shortcut alone."""
 
@@ -196,7 +196,9 @@ def _others(text: str) -> Iterator[str]:
 
 
 def _values(number: str) -> tuple[str, ...]:
-    """Half and twice of a float, one less and one more of a whole number."""
+    """Half and twice of a float other than 0, one less and one more of a whole number."""
+    if re.fullmatch(r"0\.0*", number):
+        return ()
     if re.fullmatch(r"\d+", number):
         return (str(int(number) - 1), str(int(number) + 1))
     return (repr(float(number) / 2), repr(float(number) * 2))

@@ -12,6 +12,7 @@ from pathlib import Path
 from tests.tools.evidence.battery import Outcome, asked, built
 from tests.tools.evidence.battery.questions import write
 from tests.tools.evidence.c_sites import HEADER, Mutant, schemata
+from tests.tools.evidence.kernel_explained import reason, rules, told_by_proof
 from tests.tools.evidence.parts import Figures
 
 TITLE = "Mutants of the compiled kernel"
@@ -21,36 +22,58 @@ MANY = "HYPCHECK_EVIDENCE" in os.environ
 
 
 def measure() -> Figures:
-    """Runs every mutant against few questions, and those that live against many."""
+    """Asks few questions of every mutant, then proofs and explanations, and many questions of what lives."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         text, mutants = schemata(HEADER.read_text(encoding="utf-8"))
         (folder / "hypcheck.h").write_text(text, encoding="utf-8")
-        program = built(folder, folder, "-DHC_MUTANTS")
+        program = built(folder, folder, "-DHC_MUTANTS", "-w")
         told: Counter[str] = Counter()
         living = mutants
-        for questions in _stages(folder):
-            still = []
-            for mutant, what in outcomes(program, questions, living):
-                told[what] += 1
-                if what == "nothing":
-                    still.append(mutant)
-            told.pop("nothing", None)
-            living = still
+        for questions in _few(folder):
+            living = _asked(program, questions, living, told)
+        living, explained = sorted_out(living, told)
+        if MANY:
+            living = _asked(program, write(folder / "many", 1, (5,)), living, told)
     return {
         "mutants": len(mutants),
         "told by": dict(sorted(told.items())),
+        "explained": len(explained),
         "living": [mutant.name for mutant in living],
+        "count": len(living),
     }
 
 
-def _stages(folder: Path) -> Iterator[Path]:
-    """The guards alone, then some frozen questions, then those at the borders too."""
+def _asked(program: Path, questions: Path, mutants: list[Mutant], told: Counter[str]) -> list[Mutant]:
+    """Those that nothing tells; the others are counted."""
+    living = []
+    for mutant, what in outcomes(program, questions, mutants):
+        if what == "nothing":
+            living.append(mutant)
+        else:
+            told[what] += 1
+    return living
+
+
+def sorted_out(mutants: list[Mutant], told: Counter[str]) -> tuple[list[Mutant], list[Mutant]]:
+    """Those that no proof tells and nothing explains, and those that are explained; what a proof tells is counted."""
+    table, left, explained = rules(), [], []
+    for mutant in mutants:
+        what = told_by_proof(mutant)
+        if what is not None:
+            told[what] += 1
+        elif reason(mutant, table) is not None:
+            explained.append(mutant)
+        else:
+            left.append(mutant)
+    return left, explained
+
+
+def _few(folder: Path) -> Iterator[Path]:
+    """The guards alone, then some frozen questions."""
     (folder / "none").write_bytes(b"")
     yield folder / "none"
     yield write(folder / "few", 12, ())
-    if MANY:
-        yield write(folder / "many", 1, (5,))
 
 
 def outcomes(program: Path, questions: Path, mutants: Iterable[Mutant]) -> Iterator[tuple[Mutant, str]]:
@@ -87,13 +110,25 @@ about each guard at its limit and about frozen vectors, in all rounding modes (`
 | a crash | {by.get("crash", 0)} |
 | no end | {by.get("endless", 0)} |
 | right answers, and stages that decide more or fewer of them | {by.get("counts", 0)} |
+| the rule of a program for all signs, or its limits, in exact arithmetic | {by.get("rule", 0)} |
+| the derivation of a constant | {by.get("derivation", 0)} |
+| nothing, and it is explained | {figures["explained"]} |
 | nothing | {len(figures["living"])} |
 
-What nothing tells has not been sorted one by one. Among it are these kinds. *It is the same program*: an equality
-that the line before excludes, a sign that is 0 where the header proves that it decides nothing, the longer of two
-of one length. *It is slower*: a shortcut before an exact decision, a branch that waits for more rows. *It has room*: a
-constant of a bound, which a test of its derivation tells (next section). *It meets no row*: two floats would have to be
-equal to the last bit. And there are those that ask for a test. `figures.json` lists them all; by function:
+Explained are those that no row can tell, each with its reason in `explained_kernel_mutants.json`:
+
+{_reasons()}
+{_not_sorted(places) if figures["living"] else ""}"""
+
+
+def _reasons() -> str:
+    """The table of explanations, by the functions and their reasons."""
+    return "".join(f"- `{rule.functions}`: {rule.reason}\n" for rule in rules())
+
+
+def _not_sorted(places: str) -> str:
+    return f"""\
+What nothing tells and nobody has explained asks for a test; `figures.json` lists it. By function:
 {places}.
 """
 

@@ -162,7 +162,7 @@ static void ask_clearances(const batch *b, int mode) {
         if (!(near->lower <= clearance + off) || !(near->upper >= clearance - off)) wrong(b, mode, i, "a clearance", 0);
         if (positions[i] ? !(near->lower >= 0) : !(near->upper <= 0)) wrong(b, mode, i, "a clearance's sign", 0);
         if (!(near->distance_lower <= near->distance_upper)) wrong(b, mode, i, "a distance", 0);
-        counts[NARROW] += width <= HC_width * (1 + HC_MAX_OF(clearance, 0));
+        counts[NARROW] += width <= 9.3132257461547852e-10 /* 2^-30 */ * (1 + HC_MAX_OF(clearance, 0));
         counts[TOUCHES] += near->touch_error < DBL_MAX;
         counts[DISTANCES] += near->distance_upper - near->distance_lower <= 1e-6 * near->distance_upper;
         counts[GAPS] += near->nearest[0] == near->touch[0] && near->nearest[2] == near->touch[2];

@@ -1,0 +1,121 @@
+"""For each constant of hypcheck.h: whether its derivation holds with a value in its place, in rational arithmetic.
+
+A constant that bounds an error is covered by what the derivation counts, and is not twice as large as that. A constant
+that limits a range may be any for which nothing is lost or overflows within it: another one of these leaves more rows,
+or fewer, to the exact stages.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+from hypcheck.derivation.program import cut
+from hypcheck.derivation.rounding import gamma, relative_error_counts
+from hypcheck.kernel import core
+from hypcheck.kernel.programs import certified, fixed, lines, tilted
+
+U = Fraction(certified.U)
+GREATEST, LEAST_NORMAL = Fraction(sys.float_info.max), Fraction(sys.float_info.min)
+CAP, GREATEST_SLOPE, LEAST_CONSTANT = (
+    Fraction(each) for each in (lines.CAP, lines.GREATEST_SLOPE, lines.LEAST_CONSTANT)
+)
+LEVEL = Path(core.__file__).parent / "parts" / "level.h"
+
+Proof = Callable[[Fraction], bool]
+
+
+def covers(needed: Fraction) -> Proof:
+    """The bound of an error: at least what is needed, and less than twice that."""
+    return lambda value: needed <= value < 2 * needed
+
+
+def _count(program: str, step: str) -> Fraction:
+    """The bound that the roundings counted in a step need, with one unit for the second order."""
+    found = {"certified": certified.CERTIFIED, "single": certified.SINGLE}[program]
+    return (relative_error_counts(found, [step]).counts[step] + 1) * U
+
+
+def _parts(names: tuple[str, ...], known: tuple[str, ...]) -> Fraction:
+    """The most that the roundings of these steps can do, counted from what is known."""
+    counts = (relative_error_counts(cut(certified.CERTIFIED, known, (name,)), (name,)).counts[name] for name in names)
+    return gamma(max(counts), U)
+
+
+def _leaning(name: str) -> Fraction:
+    """The roundings of a value of a leaning row, and one unit for what underflows."""
+    return gamma(tilted.counted().counts[name], U) + U
+
+
+def _less_sure(value: Fraction) -> bool:
+    """Below it by no more than a thousandth, and by more than what both sides of its comparison are rounded by."""
+    known = ("minus_F_least", "d_least", "psi", "e_psi", "p", "s_along", "t")
+    part = cut(tilted.TILTED, known, ("room", "slope_most"))
+    counts = relative_error_counts(part, ("room", "slope_most")).counts
+    count = counts["room"] + counts["slope_most"] + 2  # the product with it, and s_along
+    return 1 - Fraction(1, 1000) < value <= (1 - U) ** count
+
+
+def _greatest_l(value: Fraction) -> bool:
+    """With the squares at their limits no value overflows, and what underflows is within a unit of the least bound."""
+    square, far = (Fraction(tilted.CONSTANTS[name]) for name in ("greatest_square", "farthest_square"))
+    p = s = t = square
+    k = p * s + value * (s * (t + 1) + p * (t + 1) + t * value)
+    d, m = (p + value) * k, t * far + (t + 1) * far
+    g = s * far + p * far + value * m
+    N, N_slope = value * (t + 1) * (s + p) * far + (p + value) * g, (t + 1) * (s + p) * far + g + (p + value) * m
+    k_slope = s * (t + 1) + p * (t + 1) + 2 * t * value
+    psi = d * (N + value * N_slope + d) + value * N * (k + (p + value) * k_slope)
+    least = Fraction(tilted.CONSTANTS["least_square"])
+    lost = LEAST_NORMAL * 2 * psi * Fraction(tilted.CONSTANTS["greatest_axis"])
+    return psi * (p + s * (t + 1) / least) < GREATEST and lost < U * least**6
+
+
+def _lost(value: Fraction) -> bool:
+    """It covers what a number and the 4 products in its bound lose at most, a least normal number each, 2¹⁰ times.
+
+    The room is for a quotient, whose bound is divided by less than 1: what its product loses is below 2⁻²⁰ of a bound
+    of 2⁻¹⁰⁰⁰, which that already has.
+    """
+    return 5 * LEAST_NORMAL * 2**10 <= value <= LEAST_CONSTANT**3
+
+
+def _height(value: Fraction) -> bool:
+    """What underflows in its square is below a unit of it, and what is above `cap` is left to the next stage."""
+    return 2 * LEAST_NORMAL < U * value**2 and value**2 < CAP and GREATEST_SLOPE * value**2 < GREATEST
+
+
+def widths() -> list[int]:
+    """Doubles in a vector of each level."""
+    return [int(each) for each in re.findall(r"#define HC_WIDTH (\d+)", LEVEL.read_text(encoding="utf-8"))]
+
+
+def _way(value: Fraction) -> bool:
+    """Coordinates of a way below it keep x² + y² + z² below `cap`, whatever the time."""
+    return 3 * (2 * value) ** 2 < CAP
+
+
+PROOFS: dict[str, Proof] = {
+    "u_4": covers(_parts(("h1", "h2", "h3"), ("c0", "c1", "c2"))),
+    "u_8": covers(_count("certified", "c2")),
+    "u_12": covers(_count("certified", "c1")),
+    "u_16": covers(_parts(("slope_A", "slope_B", "offset_A", "offset_B"), ("c1", "c2"))),
+    "u_1536": covers(32 * _count("single", "delta_3")),
+    **{f"u_{name}": covers(_leaning(name)) for name in tilted.BOUNDED},
+    "less_sure": _less_sure,
+    "greatest_l": _greatest_l,
+    "lost": _lost,
+    "least_height": _height,
+    "greatest_height": _height,
+    "less_than": lambda value: 1 - Fraction(1, 1000) < value <= (1 - U) ** 4,
+    "WIDEST": lambda value: value == math.lcm(*widths()),
+    "FARTHEST_WAY": _way,
+    "MOST_GROWN": lambda value: 0 < value <= 127 - max(fixed.ERRORS.values()).bit_length(),
+    "GREATEST_SLACK": lambda value: 0 < value < 1,
+    **{f"fixed_{name}": lambda value, worst=worst: value == worst for name, worst in fixed.ERRORS.items()},
+}
+"""By the name of a constant, without HC_: whether the derivation holds with a value."""
