@@ -43,7 +43,7 @@ CORE = "hypcheck/kernel/core"
 KERNEL = Extension(
     "hypcheck.kernel._compiled",
     sources=[f"{CORE}/binding.c"],
-    depends=[f"{CORE}/hypcheck.h"],
+    depends=[f"{CORE}/hypcheck.h", f"{CORE}/at_once.h"],
     include_dirs=[CORE],
     # FMA may replace a product and a sum: the bounds hold with and without. Never -ffast-math: hypcheck.h refuses it.
     extra_compile_args=[] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=fast"],
@@ -60,7 +60,7 @@ ISOLATION = "hypcheck/isolation"
 LAUNCHER = Extension(
     "hypcheck.isolation.launcher",
     sources=[f"{ISOLATION}/launcher.c"],
-    depends=[f"{ISOLATION}/filter.h", f"{ISOLATION}/landlock.h"],
+    depends=[f"{ISOLATION}/{name}.h" for name in ("filter", "landlock", "mounts")],
     optional=True,  # without it nothing is isolated, and each run says so
 )
 
