@@ -20,7 +20,7 @@ from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_fun
 from hypcheck.kernel.emission.plan_text import comment_text, header
 from hypcheck.kernel.specialise import last_stages
 from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DualSearch
-from hypcheck.kernel.specialise.leaning import LeaningSearch
+from hypcheck.kernel.specialise.leaning_search import LeaningSearch
 from hypcheck.kernel.specialise.plan import ScenePlan
 from hypcheck.messages import escaped
 from hypcheck.scene.model import FREE

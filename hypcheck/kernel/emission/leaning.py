@@ -8,7 +8,7 @@ from hypcheck.derivation.program import Program
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.printing.languages import Spelling, statements
 from hypcheck.kernel.specialise import leaning
-from hypcheck.kernel.specialise.leaning import DoubleDouble, LeaningSearch
+from hypcheck.kernel.specialise.leaning_search import DoubleDouble, LeaningSearch
 
 _CALLS = {
     "add": "dd_add({0}, {1})",

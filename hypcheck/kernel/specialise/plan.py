@@ -26,7 +26,7 @@ from hypcheck.kernel.specialise.first_stages import (
     thresholds,
 )
 from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, discriminant, search
-from hypcheck.kernel.specialise.leaning import LeaningSearch, leaning_search
+from hypcheck.kernel.specialise.leaning_search import LeaningSearch, leaning_search
 from hypcheck.kernel.specialise.settings import (
     REACH,
     ScaledSetting,
