@@ -21,16 +21,11 @@ import numpy as np
 
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import frames
-from hypcheck.implementations.foreign import (
-    ForeignCode,
-    Library,
-    LoadError,
-    PythonFunction,
-    error_text,
-)
+from hypcheck.implementations.foreign import ForeignCode, LoadError, PythonFunction, error_text
 from hypcheck.implementations.frames import WIDTH, Call, GivenAnswers
 from hypcheck.implementations.guarded import GuardedMemory
 from hypcheck.implementations.leftovers import ContractError, Leftovers
+from hypcheck.implementations.library import Library
 from hypcheck.messages import escaped
 
 KINDS: Mapping[str, Callable[..., ForeignCode]] = MappingProxyType({"python": PythonFunction, "library": Library})

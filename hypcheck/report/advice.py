@@ -28,8 +28,7 @@ from hypcheck.report.document import (
     prose,
     table,
 )
-from hypcheck.report.messages import figure, listed, with_interval
-from hypcheck.report.model import (
+from hypcheck.report.measured import (
     BATCH,
     SINGLE,
     MeasuredMethod,
@@ -39,6 +38,7 @@ from hypcheck.report.model import (
     way_totals,
     workloads,
 )
+from hypcheck.report.messages import figure, listed, with_interval
 
 DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
 """Distances below which errors may not matter: of a metre, 1e-12 is an atom's width, 1e-3 a millimetre."""

@@ -30,8 +30,8 @@ from hypcheck.report.document import (
     table,
 )
 from hypcheck.report.explorer import ON_THE_RING, can_be_drawn
+from hypcheck.report.measured import measured_methods
 from hypcheck.report.messages import figure, settings_facts
-from hypcheck.report.model import measured_methods
 from hypcheck.report.sections import accuracy, causes, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts

@@ -24,6 +24,7 @@ from hypcheck.record.measurements import (
     SpeedLine,
     UnmeasuredLine,
 )
+from hypcheck.report.measured import measured_methods
 from hypcheck.report.messages import (
     Replays,
     classify_command,
@@ -37,7 +38,6 @@ from hypcheck.report.model import (
     explanation,
     implementations,
     in_order,
-    measured_methods,
     oracle_totals,
     under_test,
     worst_case,

@@ -36,12 +36,11 @@ from hypcheck.record.lines import (
 )
 from hypcheck.record.lines import ImplementationLine as Tested
 from hypcheck.record.schema import DRAFT, components
+from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.model import (
     ImplementationTotal,
-    MeasuredMethod,
     OracleTotal,
     implementations,
-    measured_methods,
     oracle_totals,
     timing_totals,
     under_test,

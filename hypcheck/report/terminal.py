@@ -24,6 +24,7 @@ from hypcheck.report.changes import (
 )
 from hypcheck.report.drawings import ReportContext
 from hypcheck.report.formats import WrittenReport
+from hypcheck.report.measured import NEAREST, MeasuredMethod, WayTotal, measured_methods, way_totals, workloads
 from hypcheck.report.messages import (
     Replays,
     error_text,
@@ -35,17 +36,11 @@ from hypcheck.report.messages import (
     tolerance_of,
 )
 from hypcheck.report.model import (
-    NEAREST,
     ImplementationTotal,
-    MeasuredMethod,
-    WayTotal,
     implementations,
-    measured_methods,
     oracle_totals,
     timing_totals,
     under_test,
-    way_totals,
-    workloads,
     worst_error_u,
 )
 from hypcheck.report.verdict import failures, verdict

@@ -18,14 +18,13 @@ from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, ForestLine, KernelLine, RefusedLine, SceneLine
+from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.messages import Replays, classify_command, error_text, figure, from_hex, listed, with_interval
 from hypcheck.report.model import (
     ImplementationTotal,
-    MeasuredMethod,
     OracleTotal,
     implementations,
     in_order,
-    measured_methods,
     names_in,
     oracle_totals,
     subject_of,

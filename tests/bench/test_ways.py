@@ -21,7 +21,7 @@ from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
 from hypcheck.report import markdown
 from hypcheck.report.advice import recommendations
-from hypcheck.report.model import way_totals
+from hypcheck.report.measured import way_totals
 from hypcheck.report.plots.pictures import draw_plots
 from hypcheck.report.terminal import summary_lines
 from hypcheck.truth.passage_error import size_error

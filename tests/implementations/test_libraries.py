@@ -12,7 +12,7 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.implementations import foreign as libraries
+from hypcheck.implementations import library as libraries
 from hypcheck.implementations.frames import CALLS
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome, StartError

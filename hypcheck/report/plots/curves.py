@@ -19,16 +19,9 @@ from matplotlib.lines import Line2D
 from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.measurements import AccuracyLine
+from hypcheck.report.measured import TIERS, MeasuredMethod, measured_methods, principal, workloads
 from hypcheck.report.messages import figure
-from hypcheck.report.model import (
-    TIERS,
-    ImplementationTotal,
-    MeasuredMethod,
-    implementations,
-    measured_methods,
-    principal,
-    workloads,
-)
+from hypcheck.report.model import ImplementationTotal, implementations
 from hypcheck.report.plots.style import (
     LIMIT,
     NONE_WRONG,

@@ -22,8 +22,9 @@ from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
 from hypcheck.record.measurements import PlacesLine
+from hypcheck.report.measured import is_wrong_somewhere
 from hypcheck.report.messages import listed
-from hypcheck.report.model import ImplementationTotal, implementations, is_wrong_somewhere
+from hypcheck.report.model import ImplementationTotal, implementations
 from hypcheck.report.plots import heat
 from hypcheck.report.plots.colours import MISTAKES
 from hypcheck.report.plots.style import SMALL, WIDTH, colour, new_figure

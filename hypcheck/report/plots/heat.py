@@ -14,8 +14,9 @@ from matplotlib.path import Path
 
 from hypcheck.record import Record
 from hypcheck.record.measurements import StabilityLine
+from hypcheck.report.measured import is_unstable, stability_title
 from hypcheck.report.messages import figure
-from hypcheck.report.model import implementations, is_unstable, stability_title
+from hypcheck.report.model import implementations
 from hypcheck.report.plots.colours import STEPS
 from hypcheck.report.plots.style import SMALL, colour, decades, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot

@@ -13,8 +13,8 @@ from matplotlib.lines import Line2D
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
+from hypcheck.report.measured import TIERS, WayTotal, principal, way_totals, workloads
 from hypcheck.report.messages import figure
-from hypcheck.report.model import TIERS, WayTotal, principal, way_totals, workloads
 from hypcheck.report.plots.pareto import RING, mark_style, place_labels
 from hypcheck.report.plots.style import WIDTH, log_axis, new_figure
 from hypcheck.report.plots.svg import Plot

@@ -19,8 +19,8 @@ from matplotlib.transforms import Bbox
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
+from hypcheck.report.measured import BATCH, TIERS, MeasuredMethod, lost, measured_methods, principal, workloads
 from hypcheck.report.messages import figure
-from hypcheck.report.model import BATCH, TIERS, MeasuredMethod, lost, measured_methods, principal, workloads
 from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, log_axis, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
 

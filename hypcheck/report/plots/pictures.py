@@ -8,7 +8,7 @@ from typing import Any
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
-from hypcheck.report.model import way_totals
+from hypcheck.report.measured import way_totals
 from hypcheck.report.plots import (
     curves,
     forest_walk,

@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.measurements import BoundingLine, ConvergenceLine, ForestLine, SpeedLine
+from hypcheck.report.measured import TIERS, lost, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.messages import figure
-from hypcheck.report.model import TIERS, lost, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.plots.style import (
     LIMIT,
     MARKERS,

@@ -37,18 +37,9 @@ from hypcheck.report.document import (
     prose,
     table,
 )
+from hypcheck.report.measured import is_unstable, is_wrong_somewhere, measured_methods, stability_title, workloads
 from hypcheck.report.messages import Replays, figure, from_hex
-from hypcheck.report.model import (
-    ImplementationTotal,
-    implementations,
-    is_unstable,
-    is_wrong_somewhere,
-    measured_methods,
-    stability_title,
-    workloads,
-    worst_case,
-    worst_error_u,
-)
+from hypcheck.report.model import ImplementationTotal, implementations, worst_case, worst_error_u
 from hypcheck.report.plots.colours import MISTAKES, STEPS
 from hypcheck.report.sections.ways import way_sections
 from hypcheck.runs.judge import Mistake, Status

@@ -38,8 +38,8 @@ from hypcheck.report.document import (
     prose,
     table,
 )
+from hypcheck.report.measured import lost, measured_methods, noise_floor, workloads
 from hypcheck.report.messages import figure, with_interval
-from hypcheck.report.model import lost, measured_methods, noise_floor, workloads
 
 _TIMES = prose(
     "Medians over interleaved rounds in fresh processes, with 95 % intervals. A ratio is of times in the same round, to"

@@ -18,8 +18,8 @@ from hypcheck.report.document import (
     prose,
     table,
 )
+from hypcheck.report.measured import WayTotal, principal, reference, way_totals, workloads
 from hypcheck.report.messages import figure, with_interval
-from hypcheck.report.model import WayTotal, principal, reference, way_totals, workloads
 
 _WAYS = prose(
     "A *missed contact* (dangerous) is a way that was called clear and has contact; a *false contact* closes a way that"

@@ -1,0 +1,245 @@
+"""A shared library with a C ABI, in the worker: its entries, and the guarded memory that they are given.
+
+The functions that a library exports are in foreign.py.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import time
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import PAIRS, Rows
+from hypcheck.implementations.frames import CALLS, ENTRIES, UNWRITTEN, Call, GivenAnswers, IntegerAnswers, entry_name
+from hypcheck.implementations.guarded import GuardedMemory
+from hypcheck.implementations.leftovers import ContractError
+from hypcheck.messages import counted
+
+try:
+    from hypcheck.implementations import _calls
+except ImportError:  # not compiled: ctypes makes the calls
+    _calls = None  # type: ignore[assignment]
+
+
+from hypcheck.implementations.foreign import LoadError
+
+_FENCE = 64
+_HINTS = (
+    (("wrong ELF class", "architecture"), "it is built for another machine"),
+    (("invalid ELF header", "file too short", "not a mach-o", "slice is not valid"), "it is not a shared library"),
+    (("undefined symbol", "symbol not found"), "it needs a symbol that no library it names has"),
+)
+
+
+class Library:
+    """A library and its entries; each call has one for rows with an axis and one for others. Raises LoadError."""
+
+    def __init__(self, path: str) -> None:
+        library = _loaded(path)
+        self._entries = {name: _entry(getattr(library, name), name) for name in ENTRIES if _has(library, name)}
+        self.entries = tuple(self._entries)
+        self.description = _description(library, path)
+        self._memory = _Memory()
+
+    def classify(self, rows: Rows, call: Call) -> GivenAnswers:
+        """Answers to rows; raises ContractError if it writes outside the memory for answers and times."""
+        room = _AnswerRoom(self._memory, rows, call)
+        self._entry(rows, call)(len(rows), rows.ctypes.data, *room.words)
+        return room.written()
+
+    def classify_scene(self, rows: Rows) -> IntegerAnswers:
+        """Answers to rows that share sizes and axis; raises ContractError if it writes outside the positions."""
+        room = _AnswerRoom(self._memory, rows)
+        parts = self._memory.scene(rows)
+        self._entry(rows, scene=True)(*_scene_words(parts, len(rows)), *room.words)
+        return room.written().integers
+
+    def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
+        """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
+        room, n = _AnswerRoom(self._memory, rows, call), len(rows)
+        if by_scene:
+            parts = self._memory.scene(rows)  # kept alive, because the pointers do not do that
+            words: tuple[int | None, ...] = (*_scene_words(parts, n), *room.words)
+        else:
+            words = (n, rows.ctypes.data, *room.words)
+        function = self._entry(rows, call, scene=by_scene)
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            function(*words)
+        took = time.perf_counter_ns() - start
+        return took, room.total()
+
+    def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
+
+        A compiled loop makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of a
+        function of ours, or with ctypes of this library without rows.
+        """
+        room, n = _AnswerRoom(self._memory, rows, call), len(rows)
+        if _calls is None or call.layout is not PAIRS:  # it calls functions of three arguments
+            return self._seconds_by_ctypes(rows, repeat, call, room)
+        address = ctypes.cast(self._entry(rows), ctypes.c_void_p).value or 0 if n else 0
+        words = (address, rows.ctypes.data, rows.shape[1], room.answers.ctypes.data, max(1, n), repeat)
+        start = time.perf_counter_ns()
+        _calls.each(*words)
+        took = time.perf_counter_ns() - start
+        return took, room.total()
+
+    def _seconds_by_ctypes(self, rows: Rows, repeat: int, call: Call, room: _AnswerRoom) -> tuple[int, int]:
+        function, begin, n = self._entry(rows, call), rows.ctypes.data, len(rows)
+        calls = [(1, begin + 8 * rows.shape[1] * place, *room.words_at(place)) for place in range(n)]
+        calls = calls or [(0, begin, *room.words)]
+        start = time.perf_counter_ns()
+        for _ in range(repeat):
+            for words in calls:
+                function(*words)
+        took = time.perf_counter_ns() - start
+        return took, room.total()
+
+    def _entry(self, rows: Rows, call: Call = CALLS[0], *, scene: bool = False) -> Any:  # noqa: ANN401 - ctypes' own is private
+        return self._entries[entry_name(call.entry, tilt=call.layout.lean(rows), scene=scene)]
+
+
+def _scene_words(parts: Sequence[NDArray[np.float64]], n: int) -> tuple[int, ...]:
+    """The addresses of the parts of a scene, and n before those of x, y, z."""
+    *fixed, x, y, z = (part.ctypes.data for part in parts)
+    return (*fixed, n, x, y, z)
+
+
+class _Memory:
+    """The guarded memory of a library's arguments, each with another address modulo 64."""
+
+    def __init__(self) -> None:
+        self.answers, self.times = GuardedMemory("the answers", 1), GuardedMemory("the times", 2)
+        parts = ("the sizes", "the axis", "the x", "the y", "the z")
+        self._parts = {name: GuardedMemory(name, 3 + 3 * place) for place, name in enumerate(parts)}
+
+    def scene(self, rows: Rows) -> Sequence[NDArray[np.float64]]:
+        """Sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
+        x, y, z = rows[:, 4:7].T
+        given = {"the sizes": rows[0, :4], "the axis": rows[0, 7:], "the x": x, "the y": y, "the z": z}
+        if not PAIRS.lean(rows):
+            del given["the axis"]
+        return [self._placed(self._parts[name], part) for name, part in given.items()]
+
+    @staticmethod
+    def _placed(memory: GuardedMemory, part: NDArray[np.float64]) -> NDArray[np.float64]:
+        place = memory.place(8 * part.size)
+        placed = memory.bytes[place].view(np.float64)
+        placed[...] = part
+        memory.read_only()
+        return placed
+
+
+class _AnswerRoom:
+    """Memory for answers, and for times if a call gives them, between fences.
+
+    `words` are the arguments of the call behind the rows.
+    """
+
+    def __init__(self, memory: _Memory, rows: Rows, call: Call = CALLS[0]) -> None:
+        self._call = call
+        self._answers = _Fenced(memory.answers, len(rows), np.dtype(np.int8))
+        self._times = _Fenced(memory.times, len(rows), np.dtype(np.float64)) if call.times else None
+        self.words = self.words_at(0)
+
+    def words_at(self, place: int) -> tuple[int | None, ...]:
+        """The arguments for the row at that place."""
+        answers = self._answers.address + place
+        if self._call.layout is PAIRS:
+            return (answers,)
+        return answers, None if self._times is None else self._times.address + 8 * place
+
+    @property
+    def answers(self) -> NDArray[np.int8]:
+        """The memory for the answers."""
+        answers: NDArray[np.int8] = self._answers.values
+        return answers
+
+    def written(self) -> GivenAnswers:
+        """What was written; raises ContractError if anything was written outside."""
+        self._answers.check("position" if self._call.layout is PAIRS else "hit")
+        if self._times is not None:
+            self._times.check("time")
+        return GivenAnswers(self.answers, None if self._times is None else self._times.values)
+
+    def total(self) -> int:
+        """The sum of the answers that were written; raises ContractError as written does."""
+        return int(self.written().integers.sum(dtype=np.int64))
+
+
+class _Fenced:
+    """Memory for n values of that type; what is beside them is a fence, or a guard page."""
+
+    def __init__(self, memory: GuardedMemory, n: int, kind: np.dtype[Any]) -> None:
+        self._n = n
+        place = memory.place(n * kind.itemsize, kind.itemsize)
+        near = memory.bytes[max(0, place.start - _FENCE) : place.stop + _FENCE].view(np.int8)
+        near.fill(UNWRITTEN)
+        first = min(place.start, _FENCE)
+        self._before, self._after = near[:first], near[first + n * kind.itemsize :]
+        self.values: NDArray[Any] = memory.bytes[place].view(kind)
+        self.address = self.values.ctypes.data
+
+    def check(self, what: str) -> None:
+        """Raise ContractError if a fence was written to."""
+        if (self._before != UNWRITTEN).any() or (self._after != UNWRITTEN).any():
+            raise ContractError(f"it wrote outside the {counted(self._n, what)} that it was given")
+
+
+def _loaded(path: str) -> ctypes.CDLL:
+    if not os.path.exists(path):
+        raise LoadError(f"there is no file {path!r}")
+    try:
+        return ctypes.CDLL(os.path.abspath(path))  # with a bare name the loader would search elsewhere
+    except (OSError, UnicodeDecodeError) as error:  # the latter if the loader names a path that is not UTF-8
+        reason = os.fsdecode(error.object) if isinstance(error, UnicodeDecodeError) else str(error)
+        hints = [hint for signs, hint in _HINTS if any(sign in reason for sign in signs)]
+        raise LoadError(f"{path!r} cannot be loaded: {'; '.join([*hints[:1], reason])}") from None
+
+
+_POINTER = ctypes.c_void_p
+_ARGUMENTS = dict(
+    zip(
+        ENTRIES,
+        (
+            (ctypes.c_size_t, _POINTER, _POINTER),
+            (ctypes.c_size_t, _POINTER, _POINTER),
+            (_POINTER, ctypes.c_size_t, *[_POINTER] * 4),
+            (_POINTER, _POINTER, ctypes.c_size_t, *[_POINTER] * 4),
+            (ctypes.c_size_t, *[_POINTER] * 3),
+            (ctypes.c_size_t, *[_POINTER] * 3),
+        ),
+        strict=True,
+    )
+)
+
+
+def _entry(function: Any, name: str) -> Any:  # noqa: ANN401 - ctypes' own is private
+    function.argtypes, function.restype = _ARGUMENTS[name], None
+    return function
+
+
+def _has(library: ctypes.CDLL, name: str) -> bool:
+    """Whether a library exports a name. The loader's error names the path, which may not be UTF-8."""
+    try:
+        return hasattr(library, name)
+    except UnicodeDecodeError:
+        return False
+
+
+def _description(library: ctypes.CDLL, path: str) -> str:
+    if not _has(library, "hypcheck_describe"):
+        return ""
+    library.hypcheck_describe.argtypes, library.hypcheck_describe.restype = (), ctypes.c_char_p
+    description: bytes | None = library.hypcheck_describe()
+    if description is None:
+        raise LoadError(f"{path!r}: hypcheck_describe returned a null pointer; it must be a JSON text")
+    text = description.decode("utf-8", "replace")
+    return text if text.strip() else json.dumps("")

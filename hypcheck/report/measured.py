@@ -1,0 +1,210 @@
+"""The totals of a benchmark: each measured method with its errors, times and memory."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from hypcheck.record import Record
+from hypcheck.record.measurements import (
+    AccuracyLine,
+    MemoryLine,
+    MethodLine,
+    NoiseLine,
+    Octave,
+    PlacesLine,
+    SpeedLine,
+    StabilityLine,
+    WorkloadLine,
+)
+from hypcheck.report.model import PASSAGE
+
+BATCH, SINGLE = "batch", "single"
+
+PRINCIPAL = "near-contact"
+"""The workload that has cases at every distance."""
+
+LEAST_NS = 0.01
+"""The time that a benchmark records if a call took no longer than an empty one: the true time is not known."""
+
+NEAREST = 2.0**-75
+"""The value of `reliable_above` that a benchmark records for a method that is wrong only at exact tangencies."""
+
+TIERS = ("C", "numpy", "python", "FCL", "foreign")
+"""The languages of methods, the fastest first; only methods of one tier compare as algorithms."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MeasuredMethod:
+    """A method and its lines: errors by workload, times by workload and mode, memory."""
+
+    name: str
+    line: MethodLine
+    accuracy: Mapping[str, AccuracyLine]
+    speed: Mapping[tuple[str, str], SpeedLine]
+    memory: MemoryLine | None
+
+    @property
+    def tier(self) -> str:
+        """The language that it is written in."""
+        return str(self.line.tier)
+
+    @property
+    def exact(self) -> bool:
+        """Whether it promises never to be wrong."""
+        return bool(self.line.exact)
+
+    @property
+    def asked(self) -> int:
+        """The number of judged answers, on all workloads."""
+        return sum(line.asked for line in self.accuracy.values())
+
+    @property
+    def wrong(self) -> int:
+        """The number of wrong answers, on all workloads."""
+        return sum(line.wrong for line in self.accuracy.values())
+
+    @property
+    def never_wrong(self) -> bool:
+        """Whether it promises to be exact, and was right about every row."""
+        return self.exact and self.asked > 0 and self.reliable_above == 0
+
+    @property
+    def reliable_above(self) -> float:
+        """The distance above which at most 1 answer in 1000 is wrong or missing, on every workload."""
+        return max((float(line.reliable_above) for line in self.accuracy.values()), default=math.inf)
+
+    def ratio(self, workload: str, mode: str = BATCH) -> float | None:
+        """Its time divided by that of the reference method; None if it was not timed or not compared."""
+        line = self.speed.get((workload, mode))
+        return None if line is None or line.ratio is None or lost(line) else float(line.ratio)
+
+
+def lost(line: SpeedLine) -> bool:
+    """Whether a speed line has no time, because a call took no longer than an empty one."""
+    return float(line.median_ns) <= LEAST_NS
+
+
+def measured_methods(record: Record) -> list[MeasuredMethod]:
+    """Every method of a benchmark in the order of the record."""
+    accuracy: dict[str, dict[str, AccuracyLine]] = {}
+    speed: dict[str, dict[tuple[str, str], SpeedLine]] = {}
+    for line in record.of(AccuracyLine):
+        accuracy.setdefault(line.method, {})[line.workload] = line
+    for time in record.of(SpeedLine):
+        speed.setdefault(time.method, {})[time.workload, time.mode] = time
+    memory = {line.method: line for line in record.of(MemoryLine)}
+    return [
+        MeasuredMethod(name, line, accuracy.get(name, {}), speed.get(name, {}), memory.get(name))
+        for line in record.of(MethodLine)
+        for name in (line.method,)
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class WayTotal:
+    """A method for ways: its answers on all workloads together, and the time of a way on the principal one.
+
+    typical: half of the wrong answers need about this change of the spheroid's size at least; 0 without any.
+    worst: the greatest such change, of those that were measured exactly.
+    """
+
+    name: str
+    tier: str
+    exact: bool
+    asked: int
+    missed: int
+    false: int
+    abstained: int
+    typical: float
+    worst: float
+    time_ns: float | None
+    ratio: float | None
+    ratio_ci95: tuple[float, float] | None
+
+    def share(self, part: int) -> float:
+        """The share that these are of all ways asked."""
+        return part / self.asked
+
+
+def way_totals(record: Record) -> list[WayTotal]:
+    """Every method that answers about ways and was judged, in the order of the record."""
+    where = principal(record), BATCH
+    return [
+        _way_total(each, each.speed.get(where))
+        for each in measured_methods(record)
+        if each.line.question == PASSAGE and each.asked
+    ]
+
+
+def _way_total(each: MeasuredMethod, speed: SpeedLine | None) -> WayTotal:
+    lines = each.accuracy.values()
+    timed = speed if speed is not None and not lost(speed) else None
+    return WayTotal(
+        name=each.name,
+        tier=each.tier,
+        exact=each.exact,
+        asked=each.asked,
+        missed=sum(line.false_clear for line in lines),
+        false=sum(line.false_contact for line in lines),
+        abstained=sum(line.abstained for line in lines),
+        typical=_median_size([octave for line in lines for octave in line.octaves]),
+        worst=max((float(case.flip_distance) for line in lines for case in line.worst), default=0.0),
+        time_ns=None if timed is None else float(timed.median_ns),
+        ratio=None if timed is None else timed.ratio,
+        ratio_ci95=None if timed is None else timed.ratio_ci95,
+    )
+
+
+def _median_size(octaves: Sequence[Octave]) -> float:
+    """The lower end of the octave in which the median of the wrong answers lies; 0 without any, or of tangencies."""
+    wrong = sorted((float(exponent), number) for exponent, _, number in octaves if number)
+    left = sum(number for _, number in wrong) / 2
+    for exponent, number in wrong:
+        left -= number
+        if left <= 0:
+            return float(2.0**exponent)
+    return 0.0
+
+
+def workloads(record: Record) -> dict[str, WorkloadLine]:
+    """The workloads by name, in the order of the record, also those that are measured but not described."""
+    found = {line.workload: line for line in record.of(WorkloadLine)}
+    judged, timed = record.of(AccuracyLine), record.of(SpeedLine)
+    for name in [*(line.workload for line in judged), *(line.workload for line in timed)]:
+        found.setdefault(name, WorkloadLine(workload=name, title=name, text="", rows=0, seed=0))
+    return found
+
+
+def principal(record: Record) -> str:
+    """The workload that has cases at every distance from contact; the first one if it was not measured."""
+    known = workloads(record)
+    return PRINCIPAL if PRINCIPAL in known else next(iter(known), "")
+
+
+def reference(record: Record) -> str | None:
+    """The name of the reference method, if the record has one."""
+    named = record.header.options.get("reference")
+    return None if named is None else str(named)
+
+
+def noise_floor(record: Record, workload: str, mode: str) -> float | None:
+    """The relative difference below which two times of this run count as equal."""
+    floors = [line.floor for line in record.of(NoiseLine) if (line.workload, line.mode) == (workload, mode)]
+    return float(floors[0]) if floors else None
+
+
+def stability_title(line: StabilityLine) -> str:
+    """The name of a method with the precision that it was measured in."""
+    return line.method if line.method.endswith(line.precision) else f"{line.method}, {line.precision}"
+
+
+def is_unstable(line: StabilityLine) -> bool:
+    """Whether a method was wrong at any of the sizes of a stability line."""
+    return any(wrong for *_, wrong in line.bins)
+
+
+def is_wrong_somewhere(line: PlacesLine) -> bool:
+    """Whether a method was wrong at any grid point of a places line, in which "." is right."""
+    return any(set(text) - {"."} for text in line.wrong)
