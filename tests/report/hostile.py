@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 from tests.report import bench_lines, record_samples
+from tests.report.test_worst_way import THROUGH, case, ways_group
 
 SCRIPT = "</script><script>alert(1)</script><img src=x onerror=alert(1)>"
 MARKS = "\"'><b>&amp;{{7*7}}{% raw %}\u202e\u200f\x00\x1b[31m\r\n\u2028\ud800"
@@ -42,9 +43,10 @@ def _spoil(value, number):
 
 
 def hostile_record():
-    """A verification and a benchmark at once, with one name of a megabyte."""
+    """A verification, a run about ways and a benchmark at once, with one name of a megabyte."""
     kept = {each[0] for each in bench_lines.METHODS[:4]}
     few = [line for line in bench_lines.lines() if line.get("method") in (None, *kept) or line["type"] == "places"]
-    lines = [spoilt(line, number) for number, line in enumerate([*record_samples.lines(), *few])]
+    about_ways = ways_group(case("way-long/1/1/3", *THROUGH, 2.0))
+    lines = [spoilt(line, number) for number, line in enumerate([*record_samples.lines(), about_ways, *few])]
     lines.append({**record_samples.group(ENDLESS, "float64", "ring", {"wrong": 3}), "title": ENDLESS})
     return record_samples.record(lines, exit_code=1)

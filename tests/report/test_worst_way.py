@@ -36,9 +36,14 @@ def case(name, start, end, error, *, answer=0, truth=1, axis=None, **others):
 
 def ways(*cases, tested=True):
     """The record of a run about ways with these worst cases."""
+    return record([ways_group(*cases, tested=tested)], exit_code=1)
+
+
+def ways_group(*cases, tested=True):
+    """The line of an implementation with these worst cases about ways."""
     under_test = {"spec": "builtin:mine", "failing": ["wrong"], "faults": []} if tested else {}
     counts = {"right": 10, "wrong": len(cases)}
-    return record([group("mine", "float64", "way-long", counts, cases, question="passage", **under_test)], exit_code=1)
+    return group("mine", "float64", "way-long", counts, cases, question="passage", **under_test)
 
 
 def test_the_picture_shows_the_worst_case_of_an_upright_spheroid():
