@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import subprocess
 
 import pytest
 
@@ -55,3 +56,36 @@ def test_without_latex_derive_writes_the_source_and_says_that_it_is_not_compiled
 def test_an_erratum_takes_no_part_and_no_claim(capsys, more):
     assert main(["derive", "--format", "erratum", *more]) == Exit.USAGE
     assert "takes neither --claim nor --only" in capsys.readouterr().err
+
+
+def latex(monkeypatch, tmp_path, script):
+    """A program in the place of pdflatex."""
+    program = tmp_path / "latex"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(erratum, "COMPILER", str(program))
+    target = tmp_path / "out" / "erratum.tex"
+    target.parent.mkdir()
+    target.write_text("the source")
+    return target
+
+
+def test_what_latex_made_of_the_source_is_written_beside_it(monkeypatch, tmp_path):
+    target = latex(monkeypatch, tmp_path, "for last; do :; done; cp $last note.pdf; touch note.aux")
+    assert erratum.compile_note(target) == f"wrote {target.with_suffix('.pdf')}"
+    assert target.with_suffix(".pdf").read_text() == "the source"
+    assert {path.name for path in target.parent.iterdir()} == {"erratum.tex", "erratum.pdf"}
+
+
+def test_where_latex_fails_or_hangs_a_sentence_says_so_and_nothing_is_written(monkeypatch, tmp_path):
+    target = latex(monkeypatch, tmp_path, "exit 3")
+    assert erratum.compile_note(target) == (
+        f"not compiled: {erratum.COMPILER} ended with 3; run it on {target} to see why"
+    )
+
+    def hangs(*words, timeout, **others):
+        raise subprocess.TimeoutExpired(words, timeout)
+
+    monkeypatch.setattr(erratum.subprocess, "run", hangs)
+    assert erratum.compile_note(target) == f"not compiled: {erratum.COMPILER} took longer than 120 s"
+    assert not target.with_suffix(".pdf").exists()
