@@ -18,21 +18,10 @@ from hypcheck.tables.strict_json import JsonDocument, read_document
 from hypcheck.vectors import cancellation, frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import FamilyDescription, FlagFacts, Metadata
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
-from hypcheck.vectors.format import (
-    REFUSALS,
-    TILTED_POSITIONS,
-    TILTED_WAYS,
-    WAYS,
-    content_of,
-    vectors_of,
-)
+from hypcheck.vectors.file_types import type_of_content
+from hypcheck.vectors.format import REFUSALS, content_of
 from hypcheck.vectors.frozen import invalid_rows_of
-from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors
-from hypcheck.vectors.tilted.format import tilted_vectors_of
-from hypcheck.vectors.tilted.labels import faults_of_tilted
-from hypcheck.vectors.ways.format import ways_of
-from hypcheck.vectors.ways.labels import faults_of_ways
+from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows
 
 DESCRIPTIONS: Mapping[str, FamilyDescription] = {
     **FAMILIES,
@@ -108,18 +97,11 @@ def examine(paths: Iterable[str]) -> Iterator[FileReport]:
             bad = invalid_rows_of(document, path)
             head = _metadata_faults(document, "family", wrong_description(bad.head))
             report = FileReport(path, len(bad.cases), head, tuple(faults_of_invalid_rows(bad)))
-        elif content == TILTED_POSITIONS:
-            tilted = tilted_vectors_of(document, path)
-            head = _head_faults(document, tilted.head, tilted.flags, TILTED_FLAGS)
-            report = FileReport(path, len(tilted.cases), head, tuple(faults_of_tilted(tilted)))
-        elif content in (WAYS, TILTED_WAYS):
-            ways = ways_of(document, path)
-            head = _head_faults(document, ways.head, ways.flags, WAY_FLAGS)
-            report = FileReport(path, len(ways.cases), head, tuple(faults_of_ways(ways)))
         else:
-            file = vectors_of(document, path)
-            head = _head_faults(document, file.head, file.flags, FLAGS)
-            report = FileReport(path, len(file.cases), head, tuple(faults_of_vectors(file)))
+            kind = type_of_content(content)
+            file = kind.of_document(document, path)
+            head = _head_faults(document, file.head, file.flags, kind.known)
+            report = FileReport(path, len(file.cases), head, tuple(kind.faults(file)))
         if not report.count:
             raise NothingJudgedError(f"{path} has no cases; nothing was checked")
         yield report

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -170,14 +171,40 @@ class FlagFacts:
     bug_type: str
 
 
+Case = TypeVar("Case", bound="LabelledCase")
+
+
+class LabelledCase(Protocol):
+    """What the cases of all files with answers have."""
+
+    @property
+    def id(self) -> str:
+        """Its name, its own for ever."""
+        ...
+
+    @property
+    def row(self) -> Row:
+        """The numbers that are asked about."""
+        ...
+
+    @property
+    def flags(self) -> tuple[str, ...]:
+        """The names of what is special about it."""
+        ...
+
+
 @dataclass(frozen=True)
-class VectorFile:
+class CaseFile(Generic[Case]):
     """A file of cases. `lines` are the lines on which they stood where it was read, for messages."""
 
     head: Metadata
     flags: Mapping[str, FlagFacts]
-    cases: tuple[Vector, ...]
+    cases: tuple[Case, ...]
     lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
+
+
+class VectorFile(CaseFile[Vector]):
+    """A file about positions of upright spheroids."""
 
     @property
     def rows(self) -> Rows:

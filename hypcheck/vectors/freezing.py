@@ -13,24 +13,19 @@ import struct
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
+from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.tables.streams import writing
 from hypcheck.vectors import cancellation
 from hypcheck.vectors import frozen as refusals
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES, case_id, parse_case_id
-from hypcheck.vectors.family import BLOCK, Family, FamilyDescription, Metadata, Row, Vector, VectorFile
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
-from hypcheck.vectors.format import read_vectors, vectors_text
-from hypcheck.vectors.frozen import InvalidRowFile, invalid_rows_text, read_invalid_rows
-from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows, faults_of_vectors, labelled
-from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, read_tilted_vectors, tilted_vectors_text
-from hypcheck.vectors.tilted.labels import faults_of_tilted, labelled_tilted
-from hypcheck.vectors.ways.format import WayFile, WayVector, read_ways, ways_text
-from hypcheck.vectors.ways.labels import faults_of_ways, labelled_ways
+from hypcheck.vectors.family import BLOCK, CaseFile, Family, FamilyDescription, LabelledCase, Metadata, Row
+from hypcheck.vectors.file_types import FileType, type_of_rows
+from hypcheck.vectors.frozen import AnyVector, InvalidRowFile, invalid_rows_text, read_invalid_rows
+from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows
 
 SEED = 1
 
@@ -105,8 +100,9 @@ _NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)
 
 NAMES = (*COUNTS, cancellation.NAME, *TILTED_COUNTS, *WAY_COUNTS, *refusals.INVALID_METADATA)
 
+_FAMILIES = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}
+
 Progress = Callable[[str], object]
-File = TypeVar("File", VectorFile, TiltedVectorFile, WayFile)
 
 
 def freeze(names: Iterable[str], folder: Path, tell: Progress = lambda _: None) -> None:
@@ -134,51 +130,40 @@ def _text(name: str, path: Path) -> str:
         invalid = frozen_invalid_rows(read_invalid_rows(str(path)) if path.exists() else None, name)
         _require_no_faults(faults_of_invalid_rows(invalid))
         return invalid_rows_text(invalid)
-    if name in TILTED_COUNTS:
-        tilted = frozen_tilted(name, _before(name, path, read_tilted_vectors))
-        _require_no_faults(faults_of_tilted(tilted))
-        return tilted_vectors_text(tilted)
-    if name in WAY_COUNTS:
-        ways = frozen_ways(name, _before(name, path, read_ways))
-        _require_no_faults(faults_of_ways(ways))
-        return ways_text(ways)
-    file = frozen(name, _before(name, path, read_vectors))
-    _require_no_faults(faults_of_vectors(file))
-    return vectors_text(file)
+    kind = _type_of(name)
+    file = frozen(name, _before(name, path, kind))
+    _require_no_faults(kind.faults(file))
+    return kind.text(file)
 
 
-def frozen(name: str, before: VectorFile | None = None) -> VectorFile:
-    """The file of that name, labelled anew; the cases of an earlier one keep their ids and places."""
-    head = (
-        cancellation.METADATA
-        if name == cancellation.NAME
-        else metadata_of(FAMILIES[name], f"hypcheck cases freeze {name}")
-    )
-    named = [(case.id, case.row) for case in before.cases] if before else []
-    return assembled(head, labelled(extended(name, named, [tuple(row) for row in planned(name).tolist()])))
+def _type_of(name: str) -> FileType[Any]:
+    family = _FAMILIES.get(name)
+    return type_of_rows() if family is None else type_of_rows(family.layout, tilted=family.tilted)
 
 
-def frozen_tilted(name: str, before: TiltedVectorFile | None = None) -> TiltedVectorFile:
-    """The file about tilted spheroids of that name; the cases of an earlier one are kept with their labels."""
-    family = TILTED_FAMILIES[name]
-    kept = before.cases if before else ()
-    wanted = [tuple(row) for row in family.rows(SEED, TILTED_COUNTS[name]).tolist()]
-    added = extended(name, [(case.id, case.row) for case in kept], wanted)[len(kept) :]
-    return assembled_tilted(metadata_of(family, f"hypcheck cases freeze {name}"), (*kept, *labelled_tilted(added)))
+def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
+    """The file of that name; the cases of an earlier one keep their ids and places, and their labels if they are slow.
+
+    Labels of positions of upright spheroids are made quickly: all of them are made anew.
+    """
+    kind, made_by = _type_of(name), f"hypcheck cases freeze {name}"
+    head = cancellation.METADATA if name == cancellation.NAME else metadata_of(_FAMILIES[name], made_by)
+    old = before.cases if before else ()
+    cases = extended(name, _named(old), [tuple(row) for row in planned(name).tolist()])
+    kept = () if kind is type_of_rows() else old
+    return kind.assembled(head, (*kept, *kind.labelled(cases[len(kept) :])))
 
 
-def frozen_ways(name: str, before: WayFile | None = None) -> WayFile:
-    """The file about ways of that name; the cases of an earlier one are kept with their labels."""
-    family = WAY_FAMILIES[name]
-    kept = before.cases if before else ()
-    wanted = [tuple(row) for row in family.rows(SEED, WAY_COUNTS[name]).tolist()]
-    added = extended(name, [(case.id, case.row) for case in kept], wanted)[len(kept) :]
-    return assembled_ways(metadata_of(family, f"hypcheck cases freeze {name}"), (*kept, *labelled_ways(added)))
+def _named(cases: Iterable[LabelledCase]) -> list[tuple[str, Row]]:
+    return [(case.id, case.row) for case in cases]
 
 
 def planned(name: str) -> Rows:
-    """The rows that a file must have, float64 (n, 7), some of them perhaps twice."""
-    return cancellation.worst_rows() if name == cancellation.NAME else FAMILIES[name].rows(SEED, COUNTS[name])
+    """The rows that a file must have, float64 (n, as many numbers as a row has), some of them perhaps twice."""
+    if name == cancellation.NAME:
+        return cancellation.worst_rows()
+    (count,) = (counts[name] for counts in (COUNTS, TILTED_COUNTS, WAY_COUNTS) if name in counts)
+    return _FAMILIES[name].rows(SEED, count)
 
 
 def metadata_of(family: Family, made_by: str) -> Metadata:
@@ -206,47 +191,22 @@ def _next_number(ids: Iterable[str]) -> int:
     return 1 + max((int(match.group(1)) for match in found if match), default=-1)
 
 
-def assembled(head: Metadata, cases: Iterable[Vector]) -> VectorFile:
-    """A file of these cases, with the meaning of the flags that they have."""
-    kept = tuple(cases)
-    used = {flag for case in kept for flag in case.flags}
-    return VectorFile(head, {name: facts for name, facts in FLAGS.items() if name in used}, kept)
-
-
-def assembled_tilted(head: Metadata, cases: Iterable[TiltedVector]) -> TiltedVectorFile:
-    """A file of these cases, with the meaning of the flags that they have."""
-    kept = tuple(cases)
-    used = {flag for case in kept for flag in case.flags}
-    return TiltedVectorFile(head, {name: facts for name, facts in TILTED_FLAGS.items() if name in used}, kept)
-
-
-def assembled_ways(head: Metadata, cases: Iterable[WayVector]) -> WayFile:
-    """A file of these cases, with the meaning of the flags that they have."""
-    kept = tuple(cases)
-    used = {flag for case in kept for flag in case.flags}
-    return WayFile(head, {name: facts for name, facts in WAY_FLAGS.items() if name in used}, kept)
-
-
-def generated_case(name: str) -> Vector | TiltedVector | WayVector:
+def generated_case(name: str) -> AnyVector:
     """The generated case of that id, labelled and proved. Raises InputError where there is none."""
     case = parse_case_id(name)
     block, place = divmod(case.index, BLOCK)
     row = tuple(case.family.block(case.seed, block)[place].tolist())
-    named = [(case_id(case.family, case.seed, case.index), row)]
-    if case.family.layout is WAYS:
-        return labelled_ways(named)[0]
-    return labelled_tilted(named)[0] if case.family.tilted else labelled(named)[0]
+    kind = type_of_rows(case.family.layout, tilted=case.family.tilted)
+    found: list[AnyVector] = kind.labelled([(case_id(case.family, case.seed, case.index), row)])
+    return found[0]
 
 
 def generated_text(family: Family, seed: int, count: int) -> str:
     """A vector file of the first rows of a family's seed, with generated ids."""
     named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
     head = metadata_of(family, f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
-    if family.layout is WAYS:
-        return ways_text(assembled_ways(head, labelled_ways(named)))
-    if family.tilted:
-        return tilted_vectors_text(assembled_tilted(head, labelled_tilted(named)))
-    return vectors_text(assembled(head, labelled(named)))
+    kind = type_of_rows(family.layout, tilted=family.tilted)
+    return kind.text(kind.assembled(head, kind.labelled(named)))
 
 
 def frozen_invalid_rows(before: InvalidRowFile | None = None, name: str = refusals.INVALID_NAME) -> InvalidRowFile:
@@ -260,11 +220,11 @@ def frozen_invalid_rows(before: InvalidRowFile | None = None, name: str = refusa
     return InvalidRowFile(made.head, (*kept, *renamed), made.content)
 
 
-def _before(name: str, path: Path, read: Callable[[str], File]) -> File | None:
+def _before(name: str, path: Path, kind: FileType[Any]) -> CaseFile[Any] | None:
     """The file that is there. Raises InputError where it is of another family."""
     if not path.exists():
         return None
-    before = read(str(path))
+    before = kind.read(str(path))
     if before.head.name != name:
         raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
     return before
@@ -285,10 +245,7 @@ def _require_no_faults(faults: list[LabelFault]) -> None:
 
 def require_keepable(path: str, *, tilted: bool = False, layout: Layout = PAIRS) -> None:
     """Check before a long hunt that rows can be added to this file. Raises InputError as `keep_rows` would."""
-    if layout is WAYS:
-        _ways_before(path, "", tilted=tilted)
-    elif Path(path).exists():
-        read_tilted_vectors(path) if tilted else read_vectors(path)
+    _found_before(path, "", tilted=tilted, layout=layout)
     folder = Path(path).resolve().parent
     if not folder.is_dir():
         raise InputError(f"cannot write {path}: there is no folder {folder}")
@@ -303,44 +260,21 @@ def keep_rows(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool = Fa
     spheroids. A new file names `made_by` as the command that made it. Cases of an existing file stay as they are.
     Raises InputError if the file is no such vector file, or cannot be written.
     """
-    if layout is WAYS:
-        return _keep_ways(path, rows, made_by, tilted=tilted)
-    return _keep_tilted(path, rows, made_by) if tilted else _keep_upright(path, rows, made_by)
-
-
-def _keep_upright(path: str, rows: Sequence[Row], made_by: str) -> int:
-    before = read_vectors(path) if Path(path).exists() else VectorFile(_found_metadata(made_by), {}, ())
-    known = [(case.id, case.row) for case in before.cases]
-    added = labelled(extended(before.head.name, known, rows)[len(known) :])
+    kind, before = type_of_rows(layout, tilted=tilted), _found_before(path, made_by, tilted=tilted, layout=layout)
+    known = _named(before.cases)
+    added = kind.labelled(extended(before.head.name, known, rows)[len(known) :])
     with writing(path) as writer:
-        writer.write(vectors_text(assembled(before.head, (*before.cases, *added))).encode())
+        writer.write(kind.text(kind.assembled(before.head, (*before.cases, *added))).encode())
     return len(added)
 
 
-def _keep_tilted(path: str, rows: Sequence[Row], made_by: str) -> int:
-    before = read_tilted_vectors(path) if Path(path).exists() else TiltedVectorFile(_found_metadata(made_by), {}, ())
-    known = [(case.id, case.row) for case in before.cases]
-    added = labelled_tilted(extended(before.head.name, known, rows)[len(known) :])
-    with writing(path) as writer:
-        writer.write(tilted_vectors_text(assembled_tilted(before.head, (*before.cases, *added))).encode())
-    return len(added)
-
-
-def _keep_ways(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool) -> int:
-    before = _ways_before(path, made_by, tilted=tilted)
-    known = [(case.id, case.row) for case in before.cases]
-    added = labelled_ways(extended(before.head.name, known, rows)[len(known) :])
-    with writing(path) as writer:
-        writer.write(ways_text(assembled_ways(before.head, (*before.cases, *added))).encode())
-    return len(added)
-
-
-def _ways_before(path: str, made_by: str, *, tilted: bool) -> WayFile:
-    """The file about ways that is there, an empty one if there is none. Raises InputError if its rows are others."""
+def _found_before(path: str, made_by: str, *, tilted: bool, layout: Layout) -> CaseFile[Any]:
+    """The file that is there, an empty one if there is none. Raises InputError if its rows are others."""
+    kind = type_of_rows(layout, tilted=tilted)
     if not Path(path).exists():
-        return WayFile(_found_metadata(made_by), {}, ())
-    before = read_ways(path)
-    width = len(WAYS.tilted if tilted else WAYS.upright)
+        return kind.assembled(_found_metadata(made_by), ())
+    before = kind.read(path)
+    width = len(layout.tilted if tilted else layout.upright)
     if before.cases and len(before.cases[0].row) != width:
         numbers = len(before.cases[0].row)
         raise InputError(f"{path} has rows of {numbers} numbers; it must have rows of {width}, to add these")

@@ -26,7 +26,7 @@ from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, read_document
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.family import Metadata, Row, VectorFile
+from hypcheck.vectors.family import Metadata, Row, Vector, VectorFile
 from hypcheck.vectors.format import (
     COLUMNS_OF,
     INVALID,
@@ -42,8 +42,8 @@ from hypcheck.vectors.format import (
     read_metadata,
     read_vectors,
 )
-from hypcheck.vectors.tilted.format import TiltedVectorFile, read_tilted_vectors
-from hypcheck.vectors.ways.format import WayFile, read_ways
+from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, read_tilted_vectors
+from hypcheck.vectors.ways.format import WayFile, WayVector, read_ways
 
 INVALID_NAME, TILTED_INVALID_NAME = "invalid", "tilted-invalid"
 WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME = "way-invalid", "tilted-way-invalid"
@@ -358,6 +358,13 @@ def path_of(name: str) -> Path:
     return folder() / f"{name}.json"
 
 
+AnyVector = Vector | TiltedVector | WayVector
+"""A case with an answer."""
+
+VectorsFile = VectorFile | TiltedVectorFile | WayFile
+"""A file of such cases."""
+
+
 @cache
 def load(name: str) -> VectorFile:
     """The frozen cases of that name. Raises InputError where there are none, or their file is not as it must be."""
@@ -379,6 +386,13 @@ def load_ways(name: str) -> WayFile:
     return read_ways(str(path_of(name)))
 
 
+def load_any(name: str) -> VectorsFile:
+    """The frozen cases of that name, whatever they are about. Raises InputError as `load` does."""
+    if name in WAY_NAMES:
+        return load_ways(name)
+    return load_tilted(name) if name in TILTED_NAMES else load(name)
+
+
 def _require_answers(name: str) -> None:
     if name in INVALID_METADATA:
         raise InputError(f"the rows of {name!r} have no answers; they must be refused")
@@ -392,8 +406,6 @@ def load_invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
 
 def frozen_rows(name: str) -> FrozenRows:
     """The rows and right answers of the frozen cases of that name. Raises InputError as load does."""
-    if name in WAY_NAMES:
-        ways = load_ways(name)
-        return FrozenRows(tuple(case.id for case in ways.cases), ways.rows, ways.hits)
-    file = load_tilted(name) if name in TILTED_NAMES else load(name)
-    return FrozenRows(tuple(case.id for case in file.cases), file.rows, file.positions)
+    file = load_any(name)
+    answers = file.hits if isinstance(file, WayFile) else file.positions
+    return FrozenRows(tuple(case.id for case in file.cases), file.rows, answers)

@@ -22,7 +22,7 @@ from hypcheck.vectors.families import EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata, Vector, VectorFile
 from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
 from hypcheck.vectors.format import content_of, read_metadata, vector_text
-from hypcheck.vectors.frozen import InvalidRow, InvalidRowFile
+from hypcheck.vectors.frozen import AnyVector, InvalidRow, InvalidRowFile, VectorsFile
 from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, tilted_vector_text
 from hypcheck.vectors.ways.format import WayFile, WayVector, way_text
 
@@ -35,9 +35,6 @@ SHOWN = (
     *frozen.INVALID_NAMES[WAYS],
 )
 """The files, in the order in which they are listed."""
-
-AnyFile = VectorFile | TiltedVectorFile | WayFile | InvalidRowFile
-AnyVector = Vector | TiltedVector | WayVector
 
 WIDTH = 100
 """Columns of a line of running text."""
@@ -58,12 +55,8 @@ def list_lines() -> Iterator[str]:
     yield f"{'together':{width}}  {together:4}"
 
 
-def _load(name: str) -> AnyFile:
-    if name in frozen.INVALID_METADATA:
-        return frozen.load_invalid_rows(name)
-    if name in frozen.WAY_NAMES:
-        return frozen.load_ways(name)
-    return frozen.load_tilted(name) if name in frozen.TILTED_NAMES else frozen.load(name)
+def _load(name: str) -> VectorsFile | InvalidRowFile:
+    return frozen.load_invalid_rows(name) if name in frozen.INVALID_METADATA else frozen.load_any(name)
 
 
 def family_lines(name: str) -> Iterator[str]:

@@ -16,7 +16,18 @@ from hypcheck.vectors.double_roots import big_integers, big_integers_of_any_leng
 from hypcheck.vectors.draw import Draw, circle_at, exponent, in_turn, ldexp, stepped, to_bits, turns
 
 N = 5000
-LABELLED = {"cancellation", "examining", "family", "flags", "format", "freezing", "frozen", "labels", "showing"}
+LABELLED = {
+    "cancellation",
+    "examining",
+    "family",
+    "flags",
+    "format",
+    "file_types",
+    "freezing",
+    "frozen",
+    "labels",
+    "showing",
+}
 """Modules that label, write, read and show cases; all others generate rows."""
 
 MODULES = [path for path in sorted(Path(vectors.__file__).parent.glob("*.py")) if path.stem not in LABELLED]

@@ -6,7 +6,7 @@ All but the cases themselves is as in files about upright spheroids (vectors/for
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -20,7 +20,7 @@ from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read
 from hypcheck.truth.tilted.certificate import TiltedCertificate
 from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.truth.tilted.pair import TiltedPair
-from hypcheck.vectors.family import FlagFacts, Metadata, Row, StoredCertificate
+from hypcheck.vectors.family import CaseFile, FlagFacts, Row, StoredCertificate
 from hypcheck.vectors.format import (
     TILTED_POSITIONS,
     cases_of,
@@ -75,14 +75,8 @@ class TiltedVector:
         return TiltedCertificate(self.position, self.witness.multiplier, points, self.witness.double_root)
 
 
-@dataclass(frozen=True)
-class TiltedVectorFile:
-    """A file of cases. `lines` are the lines on which they stood where it was read, for messages."""
-
-    head: Metadata
-    flags: Mapping[str, FlagFacts]
-    cases: tuple[TiltedVector, ...]
-    lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
+class TiltedVectorFile(CaseFile[TiltedVector]):
+    """A file about positions of spheroids that lean."""
 
     @property
     def rows(self) -> Rows:

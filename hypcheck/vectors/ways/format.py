@@ -6,7 +6,7 @@ All but the cases themselves is as in files about positions (vectors/format.py).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import NO_DIRECTION, WAY_COLUMNS
-from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.geometry.rows import Rows
 from hypcheck.tables.numbers import exact_text, hex_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
 from hypcheck.truth.passage_certificate import PassageCertificate, place
-from hypcheck.vectors.family import FlagFacts, Metadata, Offset, Row
+from hypcheck.vectors.family import CaseFile, FlagFacts, Offset, Row
 from hypcheck.vectors.format import (
     COLUMNS_OF,
     TILTED_WAYS,
@@ -85,14 +85,8 @@ class WayVector:
         return PassageCertificate(self.witness.pieces, time, points, self.witness.double_root)
 
 
-@dataclass(frozen=True)
-class WayFile:
-    """A file of cases. `lines` are the lines on which they stood where it was read, for messages."""
-
-    head: Metadata
-    flags: Mapping[str, FlagFacts]
-    cases: tuple[WayVector, ...]
-    lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
+class WayFile(CaseFile[WayVector]):
+    """A file about ways."""
 
     @property
     def rows(self) -> Rows:
@@ -103,11 +97,6 @@ class WayFile:
     def hits(self) -> NDArray[np.int8]:
         """The right answers: 1 for contact on the way, 0 for none, int8 (n,)."""
         return np.asarray([case.hit for case in self.cases], dtype=np.int8)
-
-    @property
-    def firsts(self) -> Floats:
-        """Bounds of the first contact, float64 (n, 2), NaN where there is none."""
-        return np.asarray([case.first or (np.nan, np.nan) for case in self.cases], dtype=np.float64)
 
 
 def read_ways(path: str) -> WayFile:

@@ -19,7 +19,7 @@ from hypcheck.tables.numbers import Literal, decimal_of, exact_text, hex_of, is_
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.prove import prove
-from hypcheck.vectors import freezing
+from hypcheck.vectors import file_types, freezing
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cancellation import BEGINNINGS, STRATA, CancellationSearch, searches, worst_row
 from hypcheck.vectors.families import FAMILIES
@@ -269,7 +269,10 @@ def test_freezing_does_not_overwrite_a_file_of_another_family(tmp_path):
 def test_freezing_refuses_a_label_that_fails_its_check(tmp_path, monkeypatch):
     """A maker of labels that lies about the clearance is found out before anything is written."""
     monkeypatch.setitem(freezing.COUNTS, "ring", 3)
-    monkeypatch.setattr(freezing, "labelled", lambda cases: [replace(case, clearance=1.0) for case in labelled(cases)])
+    wrong = replace(
+        file_types.UPRIGHT, labelled=lambda cases: [replace(case, clearance=1.0) for case in labelled(cases)]
+    )
+    monkeypatch.setattr(file_types, "UPRIGHT", wrong)
     with pytest.raises(DisagreementError, match="ring-0000"):
         freezing.freeze(["ring"], tmp_path)
     assert list(tmp_path.iterdir()) == []
