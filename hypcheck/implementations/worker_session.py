@@ -36,7 +36,7 @@ WORKER_MODULES = (
     *("__init__", "errors", "messages", "geometry/__init__", "geometry/pair", "geometry/rows"),
     *(
         f"implementations/{name}"
-        for name in ("__init__", "foreign", "frames", "guarded", "leftovers", "spec", "worker")
+        for name in ("__init__", "foreign", "frames", "guarded", "leftovers", "library", "spec", "worker")
     ),
 )
 """What the worker imports of this package: nothing that could answer a question, or tell an answer."""
