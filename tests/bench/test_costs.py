@@ -22,7 +22,7 @@ from hypcheck.bench.claims import (
     TRIGONOMETRIC,
 )
 from hypcheck.bench.plan import QUICK, BenchPlan
-from hypcheck.bench.session import COST_OF, FIRST_AGAIN, Measurement
+from hypcheck.bench.session import COST_OF, FIRST_AGAIN, Measurement, MeasuringSession, _compared
 from hypcheck.bench.timing import Estimate, Samples
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import count
@@ -137,3 +137,12 @@ def test_cost_lines_hold_the_findings():
     noisy = {**times["procedures-numpy"], FIRST_AGAIN: 360.0}
     found = measured({**times, "procedures-numpy": noisy})
     assert next(speed.cost_lines(BenchPlan(amounts=FEW), found)).verdict == "inconclusive"
+
+
+def test_the_first_alternative_of_a_claim_is_measured_twice_to_know_the_noise(plan):
+    claim = claims.cost_claims(plan)[0]
+    together = _compared(MeasuringSession(plan, 0, {}, {}), claim)
+    *names, again = together.ready
+    assert names == list(claim.compared(plan))
+    assert again == FIRST_AGAIN
+    assert together.ready[again] is together.ready[names[0]]

@@ -140,6 +140,17 @@ def test_what_misses_its_target_is_measured_again_and_a_chance_is_forgiven(tmp_p
     assert len(calls) == 1 + targets.AGAIN
 
 
+def test_targets_that_are_all_met_are_measured_once(tmp_path):
+    target, calls = KernelTarget("speed", "", 2.0), []
+
+    def fast(_folder, _quick):
+        calls.append(1)
+        return [target.line([3.0], "")]
+
+    assert [line.met for line in targets._lines(fast, tmp_path, quick=True)] == [True]
+    assert len(calls) == 1
+
+
 def test_a_multiple_of_an_expression_is_asked_up_to_what_the_ceiling_allows():
     target = next(each for each in targets.TARGETS if each.target.name == "numpy, products")
     found = {

@@ -7,7 +7,7 @@ import gc
 import numpy as np
 import pytest
 
-from hypcheck.bench.timing import MOST_LOOPS, TimingEntry, clocked, measure
+from hypcheck.bench.timing import MOST_LOOPS, TimingEntry, TimingRefusedError, clocked, measure, measured_samples
 
 
 class Clock:
@@ -114,3 +114,21 @@ def test_garbage_collection_is_off_in_a_round_and_as_before_after_it(enabled):
         assert seen[1:] == [False] * 3
     finally:
         (gc.enable if before else gc.disable)()
+
+
+def test_a_method_that_refuses_to_be_timed_in_a_round_keeps_its_reason_and_is_asked_no_more():
+    asked = []
+
+    def refusing(repeat):
+        asked.append(repeat)
+        if len(asked) > 1:
+            raise TimingRefusedError("it is gone")
+        return 1000, 7
+
+    entry = TimingEntry("a", 1, refusing, 7, 1)
+    found = measured([entry], rounds=3)["a"]
+    assert (found.refused, found.samples_ns) == ("it is gone", [])
+    assert len(asked) == 2
+    asked.clear()
+    with pytest.raises(AssertionError, match="a: it is gone"):
+        measured_samples([entry], 3)

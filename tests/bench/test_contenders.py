@@ -1,0 +1,143 @@
+"""Each way to ask a method gives the same answers: rows at once, one by one, by numbers, by a mesh built once."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pytest
+
+from hypcheck.bench import accuracy, needs, run
+from hypcheck.bench.c_library import Compiler
+from hypcheck.bench.contender import Contender, InPython, InScalars
+from hypcheck.bench.contenders import contenders
+from hypcheck.bench.mesh_contenders import InEngine
+from hypcheck.bench.plan import QUICK, BenchPlan
+from hypcheck.errors import Exit, RunOutcome, UnavailableError
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations.description import Domain
+from hypcheck.implementations.meshes import FCL, scene_mesh
+from hypcheck.record.measurements import AbsentLine, KernelLine
+from tests.support.fractions_truth import exact_position
+from tests.support.tilted_fractions import exact_position as exact_tilted
+
+SIZES, OTHER = (2.0, 3.0, 0.25, 0.15), (1.0, 2.0, 0.25, 0.15)
+CENTRES = ((2.1, 0.0, 0.5), (5.0, 0.0, 1.0), (0.5, 0.0, 0.0), (0.0, 2.2, -0.5))
+ROWS = np.array([(*SIZES, *centre) for centre in CENTRES])
+TWO_SCENES = np.vstack([ROWS, [(*OTHER, *centre) for centre in CENTRES]])
+RIGHT, RIGHT_OF_TWO = ([exact_position(tuple(row)) for row in rows.tolist()] for rows in (ROWS, TWO_SCENES))
+
+
+class Recorder:
+    """Keeps lines."""
+
+    def __init__(self):
+        self.lines = []
+
+    def add(self, line):
+        """Keep the line."""
+        self.lines.append(line)
+
+
+def contender(**changes):
+    given = {"name": "mine", "title": "", "tier": "python", "kind": "exact", "precision": "float64"}
+    return Contender(**{**given, "question": "position", "domain": Domain(), "load": partial(InPython, len), **changes})
+
+
+def test_a_function_of_numbers_gives_the_same_answers_at_once_and_by_calls():
+    way = contenders(BenchPlan(amounts=QUICK))["position-python"].load()
+    assert isinstance(way, InScalars)
+    for answers in (way.answer(ROWS), way.batch(ROWS).answers(), way.single(ROWS).answers()):
+        assert answers.tolist() == RIGHT
+    _, total = way.single(ROWS).run(3)
+    assert total == sum(RIGHT)
+    assert way.build(ROWS) is None
+    assert way.empty(ROWS, "batch") is None
+    assert way.empty(ROWS, "single").ready.answers().tolist() == [0] * len(ROWS)
+    way.close()
+
+
+@pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl is not installed")
+def test_an_engine_builds_the_mesh_of_a_scene_once_and_answers_rows_of_several_scenes():
+    built = []
+
+    def make(sizes, high):
+        built.append(sizes)
+        return scene_mesh(FCL, "sphere", sizes, high, triangles=5000)
+
+    way = InEngine(make)
+    assert way.answer(TWO_SCENES).tolist() == RIGHT_OF_TWO
+    assert way.batch(TWO_SCENES).answers().tolist() == RIGHT_OF_TWO
+    assert way.single(TWO_SCENES).answers().tolist() == RIGHT_OF_TWO
+    assert sorted(set(built)) == sorted([SIZES, OTHER])
+    assert len(built) == 2
+    assert way.batch(ROWS).answers().tolist() == way.single(ROWS).answers().tolist() == RIGHT
+    assert way.build(TWO_SCENES) is None
+    work = way.build(ROWS)
+    known = work.answers().tolist()
+    assert work.run(1)[1] == known[0] == way.mesh(SIZES, ROWS).triangles
+    assert len(built) >= 3
+    assert way.empty(ROWS, "build") is None
+    assert way.empty(ROWS, "batch") is not None
+    way.close()
+    assert way.meshes == {}
+
+
+def test_the_nearest_point_of_a_leaning_spheroid_answers_as_fractions_do():
+    rows = np.array([(*row, 1.0, 0.0, 1.0) for row in ROWS.tolist()])
+    way = contenders(BenchPlan(amounts=QUICK, tilted=True))["nearest-point"].load()
+    answers = way.answer(rows).tolist()
+    assert CANNOT_SAY not in answers
+    assert answers == [exact_tilted(tuple(row)) for row in rows.tolist()]
+
+
+def test_rows_of_more_scenes_than_a_method_takes_are_not_asked():
+    assert contender(scenes=2).asked(TWO_SCENES).tolist() == list(range(len(TWO_SCENES)))
+    assert contender(scenes=1).asked(TWO_SCENES).tolist() == []
+
+
+def test_memory_is_what_a_method_needs_beyond_its_rows(monkeypatch):
+    def greedy(rows):
+        held = np.ones(8_000_000 if len(rows) > 1 else 1)
+        return np.full(len(rows), int(held[-1]), dtype=np.int8)
+
+    found = {"greedy": contender(load=partial(InPython, greedy), timed=64)}
+    monkeypatch.setattr(accuracy, "contenders", lambda plan: found)
+    line = accuracy._memory_line((BenchPlan(amounts=QUICK), "greedy"))
+    assert (line.method, line.rows) == ("greedy", 64)
+    assert 60e6 < line.peak_bytes < 90e6
+
+
+def test_a_kernel_that_misses_a_target_ends_the_run_as_slower(monkeypatch):
+    lines = [KernelLine(name=name, target="", wanted=2.0, measured=1.0, ci95=None, met=met, says=f"{name} says")
+             for name, met in (("fast", True), ("slow", False))]  # fmt: skip
+    monkeypatch.setattr(run.targets, "run", lambda recorder, advance, quick: recorder.lines.extend(lines))
+    recorder, outcome = Recorder(), RunOutcome()
+    (stage,) = run.stages(BenchPlan(kernel=True), recorder, outcome)
+    stage.run(lambda steps: None)
+    assert dict(outcome.because) == {Exit.SLOWER: ["slow: slow says"]}
+
+
+def test_a_library_that_was_compiled_is_in_the_plan_and_one_that_was_not_is_recorded_once(monkeypatch, tmp_path):
+    def fails(folder):
+        raise UnavailableError("no compiler is here")
+
+    recorder, plan = Recorder(), BenchPlan(amounts=QUICK)
+    monkeypatch.setattr(needs, "compiled", lambda folder: (tmp_path, Compiler("cc", "1", ("-O3",))))
+    assert needs.plan_with_needs(plan, recorder).compiled == tmp_path
+    assert [line.program for line in recorder.lines if not isinstance(line, AbsentLine)] == ["cc"]
+    monkeypatch.setattr(needs, "compiled", fails)
+    recorder = Recorder()
+    found = needs.plan_with_needs(needs.plan_with_needs(plan, recorder), recorder)
+    reasons = [line.reason for line in recorder.lines if isinstance(line, AbsentLine)]
+    assert reasons.count("no compiler is here") == 1
+    assert found.compiled is None
+    assert found.missing
+
+
+def test_a_system_that_does_not_tell_its_load_has_none(monkeypatch):
+    def refused():
+        raise OSError
+
+    monkeypatch.setattr(needs.os, "getloadavg", refused)
+    assert needs.load() is None
