@@ -11,7 +11,7 @@ from msgspec import UNSET, UnsetType
 from hypcheck.isolation.means import isolation_text
 from hypcheck.messages import counted
 from hypcheck.record import Record
-from hypcheck.record.lines import IsolationPart
+from hypcheck.record.lines import CauseLine, IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes
 from hypcheck.report.document import (
@@ -21,18 +21,22 @@ from hypcheck.report.document import (
     Column,
     Either,
     Explorer,
+    Paragraph,
     Section,
     Strong,
     TableBlock,
     TableCell,
     Text,
     bullets,
+    count,
+    number,
+    prose,
     table,
 )
 from hypcheck.report.explorer import ON_THE_RING, can_be_drawn
 from hypcheck.report.measured import measured_methods
-from hypcheck.report.messages import figure, settings_facts
-from hypcheck.report.sections import accuracy, causes, times, verification
+from hypcheck.report.messages import Replays, error_text, families_text, figure, settings_facts
+from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.verdict import Failure, Verdict, failures, verdict
@@ -116,6 +120,32 @@ def _omitted_failures(left_out: int) -> list[Text]:
     return [(f"… and {counted(left_out, 'more failure')}; ", *files, " list them all.")]
 
 
+_CAUSES = prose(
+    "A cause is a rule that is known to be wrong: at each of these rows it gives the very answer that was given, and"
+    " where it errs no right answer denies it. *Unexplained* are those that no known rule gives."
+)
+
+
+def cause_sections(record: Record) -> Iterator[Section]:
+    """The causes of wrong answers with their remedies; none if nothing was wrong, or the record is of before 1.7.0."""
+    found, replays = record.of(CauseLine), Replays.of(record)
+    if not found:
+        return
+    rows = [
+        (
+            Code(line.method),
+            count(line.cases, bad=True),
+            TableCell(line.sentence + (f" ({line.claim})" if line.claim else "")),
+            families_text(line, len(line.families)),
+            line.remedy,
+            (error_text(line.worst), ": ", Code(replays.of_case(line.worst.case, line.spec))),
+        )
+        for line in found
+    ]
+    columns = ("implementation", number("wrong"), "why", "where", "what to do", "the worst of them")
+    yield Section("Why wrong answers are wrong", (Paragraph(_CAUSES), table("causes", columns, rows)))
+
+
 def explorer_sections(record: Record) -> Iterator[Section]:
     """The bodies of the first failing case, or on the ring, to be moved."""
     rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
@@ -162,7 +192,7 @@ def _remarks(line: MethodLine) -> Iterator[str]:
 
 
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
-    causes.cause_sections,
+    cause_sections,
     failure_sections,
     settings_sections,
     times.baseline_sections,
@@ -203,7 +233,7 @@ def content(record: Record, against: Record | None = None) -> Content:
     """The content of a report; with another record, the changes follow the failures."""
     sections = [section for part in PARTS for section in part(record)]
     if against is not None:
-        failing = sum(1 for part in (causes.cause_sections, failure_sections) for _ in part(record))
+        failing = sum(1 for part in (cause_sections, failure_sections) for _ in part(record))
         sections[failing:failing] = changes.change_sections(record, against)
     return Content(report_title(record), verdict(record), tuple(sections))
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.report.drawings import pictures
-from hypcheck.tables.streams import writing
+from hypcheck.tables.streams import remove_file, writing
 
 PICTURES = {
     "forest": ("forest-walk", "forest-space"),
@@ -51,7 +51,7 @@ def write_simulation(result: dict[str, Any], directory: Path) -> list[str]:
     files = {_json(kind): text.encode(), **{_svg(name): content for name, content in drawn.items()}}
     for name in PICTURES[kind]:
         if name not in drawn:
-            _remove(directory / _svg(name))
+            remove_file(directory / _svg(name))
     return [_written(directory / name, content) for name, content in files.items()] + notes
 
 
@@ -67,10 +67,3 @@ def _written(path: Path, content: bytes) -> str:
     with writing(str(path), follow=False) as file:
         file.write(content)
     return f"wrote {path}"
-
-
-def _remove(path: Path) -> None:
-    try:
-        path.unlink(missing_ok=True)
-    except OSError as error:
-        raise InputError(f"cannot remove {path}: {system_reason(error)}") from error

@@ -5,7 +5,7 @@ jinja2 and matplotlib, which are extras, are loaded for the reports that need th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
@@ -13,21 +13,22 @@ from types import ModuleType
 from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report import badge, csv, gitlab, junit, markdown, sarif, summary, terminal
+from hypcheck.report import csv, junit, markdown, summary, terminal
+from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
 from hypcheck.report.drawings import ReportContext, draw_ahead, pictures, render_picture
 from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
 from hypcheck.report.model import drawn_way, implementations
-from hypcheck.tables.streams import writing
+from hypcheck.tables.streams import remove_file, writing
 
-FOR_PROGRAMS: Mapping[str, ModuleType] = {
-    "json": summary,
-    "junit": junit,
-    "sarif": sarif,
-    "gitlab": gitlab,
-    "badge": badge,
-    "csv": csv,
+FOR_PROGRAMS: Mapping[str, Callable[[Record], bytes]] = {
+    "json": summary.render,
+    "junit": junit.render,
+    "sarif": render_sarif,
+    "gitlab": render_gitlab,
+    "badge": render_badge,
+    "csv": csv.render,
 }
-"""The modules that make what programs read: of the record alone, whatever other reports there are."""
+"""What programs read: made of the record alone, whatever other reports there are."""
 
 
 def _html() -> ModuleType:
@@ -46,7 +47,7 @@ def render(name: str, record: Record, context: ReportContext | None = None) -> b
     """The report of that format. Raises UnavailableError if it cannot be made here."""
     context = context or ReportContext()
     if name in FOR_PROGRAMS:
-        return bytes(FOR_PROGRAMS[name].render(record))
+        return FOR_PROGRAMS[name](record)
     match name:
         case "terminal":
             return terminal.render(record, context)
@@ -84,7 +85,7 @@ def _has_content(report: ReportFormat, record: Record) -> bool:
 def remove_reports(directory: Path) -> None:
     """Remove the reports of an earlier run, which do not show the run that begins. Raises InputError."""
     for name in kept_formats():
-        _remove(directory / REPORTS[name].file)
+        remove_file(directory / REPORTS[name].file)
 
 
 def write_reports(
@@ -105,7 +106,7 @@ def write_reports(
     for name in wanted:
         report = REPORTS[name]
         if not _has_content(report, record):
-            _remove(directory / report.file)
+            remove_file(directory / report.file)
             continue
         beside = {each.path.name for each in done if each.skipped is None}
         done.append(_write(name, record, directory / report.file, ReportContext(beside, against, drawings)))
@@ -116,15 +117,8 @@ def _write(name: str, record: Record, path: Path, context: ReportContext) -> Wri
     try:
         content = render(name, record, context)
     except UnavailableError as error:
-        _remove(path)
+        remove_file(path)
         return WrittenReport(path, str(error))
     with writing(str(path), follow=False) as file:
         file.write(content)
     return WrittenReport(path)
-
-
-def _remove(path: Path) -> None:
-    try:
-        path.unlink(missing_ok=True)
-    except OSError as error:
-        raise InputError(f"cannot remove {path}: {system_reason(error)}") from error

@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import chain
+from pathlib import Path
 from typing import BinaryIO, TextIO
 
 from hypcheck.errors import InputError, system_reason
@@ -139,6 +140,12 @@ def reading(path: str) -> Iterator[Reader]:
         file = open(path, "rb")  # noqa: SIM115 - only errors of opening name the path, not those of the caller's block
     with file:
         yield Reader(file, path)
+
+
+def remove_file(path: Path) -> None:
+    """Remove a file, if there is one. Raises InputError if the system refuses."""
+    with _errors_name("remove", str(path)):
+        path.unlink(missing_ok=True)
 
 
 @contextmanager

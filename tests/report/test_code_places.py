@@ -12,7 +12,7 @@ from pydantic_sarif.model import StaticAnalysisResultsFormatSarifVersion210JsonS
 
 from hypcheck.cli.main import main
 from hypcheck.record import Record
-from hypcheck.report import badge, gitlab, sarif
+from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
 from hypcheck.report.places import UNKNOWN, Place, placed_failures
 from hypcheck.report.verdict import failures
 from tests.report import record_samples
@@ -52,7 +52,7 @@ def place_of(spec, files):
 
 @pytest.mark.parametrize("record", [made(exit_code=0), made(*FAILING, exit_code=6), made(exit_code=None)])
 def test_every_failure_of_a_run_is_a_result_of_valid_sarif(record):
-    log = json.loads(sarif.render(record))
+    log = json.loads(render_sarif(record))
     Sarif.model_validate(log)  # made from the published schema; unknown keys are refused
     (run,) = log["runs"]
     messages = [each["message"]["text"] for each in run["results"]]
@@ -63,7 +63,7 @@ def test_every_failure_of_a_run_is_a_result_of_valid_sarif(record):
 
 
 def test_a_key_that_sarif_does_not_have_is_noticed():
-    log = json.loads(sarif.render(made(*FAILING, exit_code=6)))
+    log = json.loads(render_sarif(made(*FAILING, exit_code=6)))
     log["runs"][0]["results"][0]["mesage"] = {"text": "misspelt"}
     with pytest.raises(ValueError, match="mesage"):
         Sarif.model_validate(log)
@@ -71,7 +71,7 @@ def test_a_key_that_sarif_does_not_have_is_noticed():
 
 @pytest.mark.parametrize("record", [made(exit_code=0), made(*FAILING, exit_code=6), made(exit_code=None)])
 def test_every_failure_of_a_run_is_an_issue_with_the_keys_that_gitlab_reads(record):
-    issues = json.loads(gitlab.render(record))
+    issues = json.loads(render_gitlab(record))
     assert len(issues) == len(failures(record)) + (record.footer is None)
     for issue in issues:
         assert set(issue) == {"description", "check_name", "fingerprint", "severity", "location"}
@@ -83,8 +83,8 @@ def test_every_failure_of_a_run_is_an_issue_with_the_keys_that_gitlab_reads(reco
 
 def test_a_run_that_was_cut_off_does_not_look_like_one_in_which_nothing_failed():
     record = made(exit_code=None)
-    assert "TRUNCATED" in json.loads(gitlab.render(record))[0]["description"]
-    (run,) = json.loads(sarif.render(record))["runs"]
+    assert "TRUNCATED" in json.loads(render_gitlab(record))[0]["description"]
+    (run,) = json.loads(render_sarif(record))["runs"]
     assert run["results"][0]["ruleId"] == "run/unfinished"
     assert not run["invocations"][0]["executionSuccessful"]
 
@@ -131,7 +131,7 @@ def test_an_implementation_is_placed_as_far_as_its_file_is_known(spec, files, pl
 
 
 def test_a_path_in_sarif_is_a_uri():
-    (run,) = json.loads(sarif.render(made(refused("library:my lib#1.so"), exit_code=5)))["runs"]
+    (run,) = json.loads(render_sarif(made(refused("library:my lib#1.so"), exit_code=5)))["runs"]
     location = run["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]
     assert location == {"uri": "my%20lib%231.so", "uriBaseId": "%SRCROOT%"}
 
@@ -148,7 +148,7 @@ def test_a_path_in_sarif_is_a_uri():
     ],
 )
 def test_the_badge_says_how_the_run_ended(lines, exit_code, message, color):
-    shown = json.loads(badge.render(made(*lines, exit_code=exit_code)))
+    shown = json.loads(render_badge(made(*lines, exit_code=exit_code)))
     assert shown == {"schemaVersion": 1, "label": "hypcheck", "message": message, "color": color}
 
 

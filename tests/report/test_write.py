@@ -9,7 +9,7 @@ import pytest
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.record import read
 from hypcheck.record.lines import MapLine
-from hypcheck.report import csv, html, junit, markdown, summary
+from hypcheck.report import csv, html, junit, markdown, summary, write
 from hypcheck.report.drawings import ReportContext
 from hypcheck.report.formats import REPORTS
 from hypcheck.report.plots import pictures
@@ -103,7 +103,7 @@ def test_an_error_while_a_report_is_made_leaves_the_old_report(tmp_path, monkeyp
     def broken(record):
         raise RuntimeError("a defect")
 
-    monkeypatch.setattr(summary, "render", broken)
+    monkeypatch.setattr(write, "FOR_PROGRAMS", {**write.FOR_PROGRAMS, "json": broken})
     with pytest.raises(RuntimeError):
         write_reports(record_samples.record(), tmp_path)
     assert (tmp_path / "summary.json").read_text(encoding="utf-8") == "old"
