@@ -61,7 +61,7 @@ def measure_rooms(chosen: Mapping[str, Iterable[str]]) -> None:
 LANES = 2
 """So many rooms are measured at a time."""
 
-CONTEXTS = "tests.tools.evidence.contexts"
+CONTEXTS, CHILDREN = "tests.tools.evidence.contexts", "tests.tools.evidence.children"
 
 
 def ran(room: str, paths: Iterable[str]) -> None:
@@ -78,7 +78,7 @@ def _ran(name: str, *words: str) -> None:
     place = DATA / name
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
-    _coverage(place, "run", "-m", "pytest", "-q", "-p", "no:xdist", "-p", "no:cacheprovider", *words)
+    _coverage(place, "run", "-m", "pytest", "-q", "-p", "no:xdist", "-p", "no:cacheprovider", "-p", CHILDREN, *words)
     if any(place.glob("c.*")):
         _coverage(place, "combine", "-q", str(place))
 
