@@ -139,7 +139,7 @@ def test_an_oracles_counts_add_up():
     assert exact.stages == {"certificate refused": 1, "proved": 11}
 
 
-def test_an_implementations_totals():
+def test_the_totals_of_an_implementation_add_up_its_families():
     fast, low, high = implementations(record_samples.record())
     assert (fast.name, fast.exact, fast.asked, fast.worst) == ("fast", True, 40, None)
     assert (low.spec, low.asked) == ("builtin:table-2-float32", 39)
