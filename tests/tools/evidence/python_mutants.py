@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
-import random
 import subprocess
 import sys
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 
@@ -18,11 +18,18 @@ from tests.tools.evidence.python_coverage import DATA
 
 TITLE = "Mutants of the Python code"
 
-SEED = 25
+SEED = "25"
 
 SAMPLES = {
     "truth": (1000, ["hypcheck/truth/**/*.py"]),
-    "kernel": (600, ["hypcheck/kernel/*.py", "hypcheck/kernel/specialise/*.py"]),
+    "kernel": (
+        600,
+        [
+            "hypcheck/kernel/*.py",
+            "hypcheck/kernel/specialise/*.py",
+            *(f"hypcheck/kernel/programs/{name}.py" for name in ("tilted", "ways", "dual")),
+        ],
+    ),
     "record and score": (
         450,
         [
@@ -32,15 +39,18 @@ SAMPLES = {
         ],
     ),
 }
-"""How many mutants are drawn of which files. The kernel's programs and what they print have a part of their own."""
+"""How many mutants are drawn of which files. The kernel's constants and what is printed have parts of their own."""
 
-MOST, SECONDS = 10, 1.6
-"""Tests that a mutant meets at first; one that survives meets more."""
+MOST, SECONDS = 12, 2.5
+"""Tests that a mutant meets at first, and what they take under coverage; one that survives meets more."""
 
-MOST_AGAIN, SECONDS_AGAIN = 60, 12.0
+MOST_AGAIN, SECONDS_AGAIN = 80, 20.0
 
 EXPLAINED = Path(__file__).with_name("explained_mutants.json")
-"""Survivors that are no gap of the tests, by place and change, with the reason."""
+"""Survivors that are no gap of the tests, by module, function and changed code, with the reason."""
+
+KILLERS = DATA.parent / "killers.json"
+"""The test that killed a mutant the last time, which it meets first; a run without this file only takes longer."""
 
 
 def measure() -> Figures:
@@ -87,43 +97,66 @@ def draw(ran: Contexts, count: int, patterns: Iterable[str]) -> list[Mutation]:
         for each in mutations(file, (ROOT / file).read_text(encoding="utf-8"))
         if ran[file].get(each.line)
     ]
-    dice = random.Random(SEED)  # noqa: S311
-    dice.shuffle(every)
-    return every[:count]
+    return sorted(every, key=_lot)[:count]
+
+
+def _lot(mutation: Mutation) -> bytes:
+    """A mutant's place in the draw, which depends on its own text alone: an edit of other code draws no others."""
+    return hashlib.sha256(f"{SEED} {mutation.key}".encode()).digest()
 
 
 def tried(name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float) -> list[dict[str, object]]:
     """What became of the mutants, each against so many of its tests that take so many seconds of a processor."""
+    took = _seconds()
+    killers = json.loads(KILLERS.read_text(encoding="utf-8")) if KILLERS.exists() else {}
     tasks = [
-        {"mutation": asdict(each), "tests": chosen(each.module, ran[each.module][each.line], most, seconds)}
+        {
+            "mutation": asdict(each),
+            "tests": chosen(each.module, ran[each.module][each.line], most, seconds, took),
+            "first": killers.get(each.key),
+        }
         for each in mutants
     ]
     if not tasks:
         return []
-    files = sorted({test.partition("::")[0] for task in tasks for test in task["tests"]})
+    names = {test for task in tasks for test in (*task["tests"], task["first"]) if test}
+    files = sorted({each.partition("::")[0] for each in names})
     place, results = DATA.parent / f"{name}.json", DATA.parent / f"{name}.jsonl"
-    place.write_text(json.dumps({"files": files, "mutants": tasks, "seconds": {}}), encoding="utf-8")
+    found = {"files": files, "mutants": tasks, "seconds": {each: took.get(each, USUAL_S) for each in names}}
+    place.write_text(json.dumps(found), encoding="utf-8")
     results.unlink(missing_ok=True)
     subprocess.run([sys.executable, "-m", "tests.tools.evidence.mutant_runs", place, results], cwd=ROOT, check=False)
-    return [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()]
+    done = [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()]
+    killers |= {each["mutation"]["key"]: each["by"] for each in done if each["outcome"] in ("killed", "timeout")}
+    KILLERS.write_text(json.dumps(killers), encoding="utf-8")
+    return done
 
 
-def chosen(module: str, tests: Iterable[str], most: int, seconds: float) -> list[str]:
-    """The tests to try, those of the module's own file first, at most two of one function."""
+def _seconds() -> dict[str, float]:
+    """What each test took under coverage."""
+    found: dict[str, float] = {}
+    for path in sorted(DATA.glob("*/seconds.json")):
+        found |= json.loads(path.read_text(encoding="utf-8"))
+    return found
+
+
+def chosen(module: str, tests: Iterable[str], most: int, seconds: float, took: Mapping[str, float]) -> list[str]:
+    """The tests to try, those of the module's own file first, then quick ones, at most two of one function."""
     folder, own = "/".join(module.split("/")[1:-1]), f"test_{Path(module).name}"
 
-    def far(test: str) -> tuple[int, str]:
+    def far(test: str) -> tuple[int, float, str]:
         file = test.partition("::")[0]
         near = file.startswith(f"tests/{folder}/")
-        return (0 if near and file.endswith(f"/{own}") else 1 if near else 2, test)
+        return (0 if near and file.endswith(f"/{own}") else 1 if near else 2, took.get(test, USUAL_S), test)
 
     alike: Counter[str] = Counter()
     found: list[str] = []
     for test in sorted(tests, key=far):
         function = test.partition("[")[0]
-        if alike[function] < 2 and len(found) < min(most, seconds / USUAL_S):
+        if alike[function] < 2 and len(found) < most and took.get(test, USUAL_S) <= seconds:
             alike[function] += 1
             found.append(test)
+            seconds -= took.get(test, USUAL_S)
     return found
 
 
@@ -131,7 +164,7 @@ def summary(results: list[dict[str, object]]) -> Figures:
     """Counts, and the survivors that are not explained."""
     made = [each for each in results if each["outcome"] != "not-made"]
     reasons = json.loads(EXPLAINED.read_text(encoding="utf-8"))
-    survived = [place_of(each["mutation"]) for each in made if each["outcome"] == "survived"]
+    survived = [each["mutation"]["key"] for each in made if each["outcome"] == "survived"]
     killed = len(made) - len(survived)
     explained = sorted(each for each in survived if each in reasons)
     return {
@@ -141,11 +174,6 @@ def summary(results: list[dict[str, object]]) -> Figures:
         "explained": {each: reasons[each] for each in explained},
         "left": sorted(set(survived) - set(explained)),
     }
-
-
-def place_of(mutation: dict[str, object]) -> str:
-    """A mutant's file, line and change."""
-    return f"{mutation['module']}:{mutation['line']}:{mutation['column']} {mutation['what']}"
 
 
 def with_totals(figures: Figures) -> Figures:
