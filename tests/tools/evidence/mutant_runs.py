@@ -21,11 +21,12 @@ from types import FunctionType
 from typing import Any
 
 import pytest
+from hypothesis import Phase, settings
 
 from tests.tools.evidence.mutations import Mutation, apply, functions_of
 
-LEAST_S = 1.5
-"""Seconds of a processor that any mutant may take; beyond that, three times what its tests usually take."""
+LEAST_S = 1.0
+"""Seconds of a processor that any mutant may take; beyond that, twice what its tests take under coverage."""
 
 USUAL_S = 0.15
 """What a test takes of which nothing is known."""
@@ -52,6 +53,8 @@ class Runner:
     @pytest.hookimpl(tryfirst=True)
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Run every mutant, and then each test that killed one without a change, where it must pass."""
+        settings.register_profile("mutants", settings.default, phases=(Phase.explicit, Phase.generate))
+        settings.load_profile("mutants")  # a test that fails has told all: no example is made smaller
         items = {item.nodeid: item for item in session.items}
         sound: dict[str, bool] = {}
         with self._results.open("a", encoding="utf-8") as file:
@@ -82,7 +85,7 @@ class Runner:
 
     def _judged(self, mutation: Mutation, names: Sequence[str], items: dict[str, pytest.Item]) -> dict[str, Any]:
         ordered = sorted(names, key=lambda name: -self._kills[mutation.module, name])
-        limit = LEAST_S + 3 * sum(self._tasks["seconds"].get(name, USUAL_S) for name in names)
+        limit = LEAST_S + 2 * sum(self._tasks["seconds"].get(name, USUAL_S) for name in names)
         file = str(Path(mutation.module).resolve())
         if file not in self._living:
             self._living[file] = functions_of(file)

@@ -137,6 +137,8 @@ def _run_nodes(node: ast.AST) -> Iterator[ast.AST]:
     yield node
     skipped = [node.annotation] if isinstance(node, ast.AnnAssign) else []
     skipped += [node.exc, node.cause] if isinstance(node, ast.Raise) else []
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "zip":
+        skipped += node.keywords  # strict= checks lengths, and changes no result
     for child in ast.iter_child_nodes(node):
         if not any(child is each for each in skipped):
             yield from _run_nodes(child)

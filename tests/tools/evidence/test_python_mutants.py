@@ -26,7 +26,7 @@ def within(value: int, least: int = 1) -> bool:
 class Doubling:
     @property
     def two(self):
-        return [each * 2 for each in (1,)]
+        return [each * 2 for each, _ in zip((1,), "a", strict=True)]
 '''
 
 
@@ -40,7 +40,7 @@ def module(tmp_path):
     return found
 
 
-def test_every_operator_and_constant_of_a_function_is_changed_and_no_message_default_or_annotation():
+def test_every_operator_and_constant_of_a_function_is_changed_and_no_message_default_annotation_or_check_of_lengths():
     found = [(each.line, each.what) for each in mutations("mutated_here.py", SOURCE)]
     assert sorted(found) == [
         (8, "Gt becomes GtE"),
