@@ -44,7 +44,7 @@ SAMPLES = {
 MOST, SECONDS = 8, 1.5
 """Tests that a mutant meets at first, and what they take under coverage; one that survives meets more."""
 
-MOST_AGAIN, SECONDS_AGAIN = 40, 6.0
+MOST_AGAIN, SECONDS_AGAIN = 25, 4.0
 
 EXPLAINED = Path(__file__).with_name("explained_mutants.json")
 """Survivors that are no gap of the tests, by module, function and changed code, with the reason."""
