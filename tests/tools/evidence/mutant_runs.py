@@ -25,7 +25,7 @@ from hypothesis import Phase, settings
 
 from tests.tools.evidence.mutations import Mutation, apply, functions_of
 
-LEAST_S = 1.0
+LEAST_S = 0.7
 """Seconds of a processor that any mutant may take; beyond that, twice what its tests take under coverage."""
 
 USUAL_S = 0.15
