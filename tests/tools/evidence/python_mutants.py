@@ -9,7 +9,9 @@ import sys
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from tests.tools.evidence.mutant_runs import USUAL_S
 from tests.tools.evidence.mutations import Mutation, mutations
@@ -49,20 +51,22 @@ MOST_AGAIN, SECONDS_AGAIN = 25, 4.0
 EXPLAINED = Path(__file__).with_name("explained_mutants.json")
 """Survivors that are no gap of the tests, by module, function and changed code, with the reason."""
 
-KILLERS = DATA.parent / "killers.json"
-"""The test that killed a mutant the last time, which it meets first; a run without this file only takes longer."""
+RESULTS = DATA.parent / "mutants.json"
+"""What became of each mutant the last time. It counts again while the module and the tests that judged it are the same;
+else the test that killed it is tried first. A run without this file only takes longer."""
 
 
 def measure() -> Figures:
-    """Draw the mutants, run their tests, run more tests against the survivors."""
+    """Draw the mutants, run their tests, run more tests against the survivors that are not explained."""
     ran = _contexts(sorted(DATA.glob("*/c")))
+    reasons = json.loads(EXPLAINED.read_text(encoding="utf-8"))
     figures: Figures = {}
     for name, (count, patterns) in SAMPLES.items():
-        drawn = draw(ran, count, patterns)
-        first = tried(f"{name}-first", drawn, ran, MOST, SECONDS)
-        left = [Mutation(**each["mutation"]) for each in first if each["outcome"] == "survived"]
-        second = tried(f"{name}-again", left, ran, MOST_AGAIN, SECONDS_AGAIN)
-        figures[name] = summary([each for each in first if each["outcome"] != "survived"] + second)
+        first = tried(f"{name}-first", draw(ran, count, patterns), ran, MOST, SECONDS)
+        left = [each for each in first if each["outcome"] == "survived" and each["mutation"]["key"] not in reasons]
+        again = [Mutation(**each["mutation"]) for each in left]
+        second = tried(f"{name}-again", again, ran, MOST_AGAIN, SECONDS_AGAIN)
+        figures[name] = summary([each for each in first if each not in left] + second, reasons)
     return with_totals(figures)
 
 
@@ -105,31 +109,50 @@ def _lot(mutation: Mutation) -> bytes:
     return hashlib.sha256(f"{SEED} {mutation.key}".encode()).digest()
 
 
-def tried(name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float) -> list[dict[str, object]]:
+def tried(name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float) -> list[dict[str, Any]]:
     """What became of the mutants, each against so many of its tests that take so many seconds of a processor."""
-    took = _seconds()
-    killers = json.loads(KILLERS.read_text(encoding="utf-8")) if KILLERS.exists() else {}
-    tasks = [
-        {
-            "mutation": asdict(each),
-            "tests": chosen(each.module, ran[each.module][each.line], most, seconds, took),
-            "first": killers.get(each.key),
-        }
-        for each in mutants
-    ]
+    took, before = _seconds(), json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    tasks, known = [], []
+    for each in mutants:
+        tests = chosen(each.module, ran[each.module][each.line], most, seconds, took)
+        last = before.get(each.key, {"outcome": "", "by": ""})
+        judges = [last["by"]] if last["by"] else tests
+        if last["outcome"] and last["mark"] == _mark(each.module, judges):
+            known.append({**last, "mutation": asdict(each)})
+        else:
+            tasks.append({"mutation": asdict(each), "tests": tests, "first": last["by"]})
+    for task, found in zip(tasks, _run(name, tasks, took), strict=True):
+        mark = _mark(found["mutation"]["module"], [found["by"]] if found["by"] else task["tests"])
+        before[found["mutation"]["key"]] = {"outcome": found["outcome"], "by": found["by"], "mark": mark}
+        known.append(found)
+    RESULTS.write_text(json.dumps(before, indent=1), encoding="utf-8")
+    return known
+
+
+def _run(name: str, tasks: list[dict[str, Any]], took: Mapping[str, float]) -> list[dict[str, Any]]:
     if not tasks:
         return []
     names = {test for task in tasks for test in (*task["tests"], task["first"]) if test}
-    files = sorted({each.partition("::")[0] for each in names})
+    files = sorted(file for file in {each.partition("::")[0] for each in names} if (ROOT / file).exists())
     place, results = DATA.parent / f"{name}.json", DATA.parent / f"{name}.jsonl"
     found = {"files": files, "mutants": tasks, "seconds": {each: took.get(each, USUAL_S) for each in names}}
     place.write_text(json.dumps(found), encoding="utf-8")
     results.unlink(missing_ok=True)
     subprocess.run([sys.executable, "-m", "tests.tools.evidence.mutant_runs", place, results], cwd=ROOT, check=False)
-    done = [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()]
-    killers |= {each["mutation"]["key"]: each["by"] for each in done if each["outcome"] in ("killed", "timeout")}
-    KILLERS.write_text(json.dumps(killers), encoding="utf-8")
-    return done
+    return [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()]
+
+
+@cache
+def _text(file: str) -> str:
+    path = ROOT / file
+    return path.read_text(encoding="utf-8") if path.exists() else ""
+
+
+def _mark(module: str, tests: Iterable[str]) -> str:
+    """A checksum of a module, of tests, and of their files."""
+    names = sorted(tests)
+    texts = [_text(file) for file in (module, *sorted({each.partition("::")[0] for each in names}))]
+    return hashlib.sha256("\0".join([*texts, *names]).encode()).hexdigest()[:16]
 
 
 def _seconds() -> dict[str, float]:
@@ -160,10 +183,9 @@ def chosen(module: str, tests: Iterable[str], most: int, seconds: float, took: M
     return found
 
 
-def summary(results: list[dict[str, object]]) -> Figures:
+def summary(results: list[dict[str, Any]], reasons: Mapping[str, str]) -> Figures:
     """Counts, and the survivors that are not explained."""
     made = [each for each in results if each["outcome"] != "not-made"]
-    reasons = json.loads(EXPLAINED.read_text(encoding="utf-8"))
     survived = [each["mutation"]["key"] for each in made if each["outcome"] == "survived"]
     killed = len(made) - len(survived)
     explained = sorted(each for each in survived if each in reasons)
