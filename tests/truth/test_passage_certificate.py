@@ -88,6 +88,13 @@ def test_a_tangency_in_two_points_is_proved_where_nothing_moves(row):
     assert check_passage(row, certificate, first)
 
 
+def test_a_way_that_ends_in_tangency_is_proved_by_its_end():
+    row = (*GRAZING[:7], 0.0, *GRAZING[8:])
+    found, first, certificate = prove(row)
+    assert found.first[1] == certificate.time == first[1] == 1
+    assert check_passage(row, certificate, first)
+
+
 def test_no_damaged_proof_of_a_clear_way_holds():
     _, first, certificate = prove(OUTSIDE)
     assert first is None
