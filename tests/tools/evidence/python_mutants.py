@@ -46,7 +46,8 @@ SAMPLES = {
 MOST, SECONDS = 6, 0.8
 """Tests that a mutant meets at first, and what they take under coverage; one that survives meets more."""
 
-MOST_AGAIN, SECONDS_AGAIN = 25, 4.0
+MOST_AGAIN, SECONDS_AGAIN = 25, 5.0
+"""These are the longest that fit, which try the most."""
 
 EXPLAINED = Path(__file__).with_name("explained_mutants.json")
 """Survivors that are no gap of the tests, by module, function and changed code, with the reason."""
@@ -65,7 +66,7 @@ def measure() -> Figures:
         first = tried(f"{name}-first", draw(ran, count, patterns), ran, MOST, SECONDS)
         left = [each for each in first if each["outcome"] == "survived" and each["mutation"]["key"] not in reasons]
         again = [Mutation(**each["mutation"]) for each in left]
-        second = tried(f"{name}-again", again, ran, MOST_AGAIN, SECONDS_AGAIN)
+        second = tried(f"{name}-again", again, ran, MOST_AGAIN, SECONDS_AGAIN, longest=True)
         figures[name] = summary([each for each in first if each not in left] + second, reasons)
     return with_totals(figures)
 
@@ -109,12 +110,14 @@ def _lot(mutation: Mutation) -> bytes:
     return hashlib.sha256(f"{SEED} {mutation.key}".encode()).digest()
 
 
-def tried(name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float) -> list[dict[str, Any]]:
+def tried(
+    name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float, *, longest: bool = False
+) -> list[dict[str, Any]]:
     """What became of the mutants, each against so many of its tests that take so many seconds of a processor."""
     took, before = _seconds(), json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
     tasks, known = [], []
     for each in mutants:
-        tests = chosen(each.module, ran[each.module][each.line], most, seconds, took)
+        tests = chosen(each.module, ran[each.module][each.line], most, seconds, took, longest=longest)
         last = before.get(each.key, {"outcome": "", "by": ""})
         judges = [last["by"]] if last["by"] else tests
         if last["outcome"] and last["mark"] == _mark(each.module, judges):
@@ -163,20 +166,32 @@ def _seconds() -> dict[str, float]:
     return found
 
 
-def chosen(module: str, tests: Iterable[str], most: int, seconds: float, took: Mapping[str, float]) -> list[str]:
-    """The tests to try, those of the module's own file first, then quick ones, at most two of one function."""
-    folder, own = "/".join(module.split("/")[1:-1]), f"test_{Path(module).name}"
+def chosen(
+    module: str,
+    tests: Iterable[str],
+    most: int,
+    seconds: float,
+    took: Mapping[str, float],
+    *,
+    longest: bool = False,
+) -> list[str]:
+    """The tests to try, those of the module's own file first, then quick ones or long ones, two of a function at most.
+
+    None of the long ones may take more than two fifths of the time.
+    """
+    folder, own = "/".join(module.split("/")[1:-1]), f"test_{Path(module).stem}"
+    sign, most_of_one = (-1, 0.4 * seconds) if longest else (1, seconds)
 
     def far(test: str) -> tuple[int, float, str]:
         file = test.partition("::")[0]
         near = file.startswith(f"tests/{folder}/")
-        return (0 if near and file.endswith(f"/{own}") else 1 if near else 2, took.get(test, USUAL_S), test)
+        return (0 if near and f"/{own}" in file else 1 if near else 2, sign * took.get(test, USUAL_S), test)
 
     alike: Counter[str] = Counter()
     found: list[str] = []
     for test in sorted(tests, key=far):
         function = test.partition("[")[0]
-        if alike[function] < 2 and len(found) < most and took.get(test, USUAL_S) <= seconds:
+        if alike[function] < 2 and len(found) < most and took.get(test, USUAL_S) <= min(seconds, most_of_one):
             alike[function] += 1
             found.append(test)
             seconds -= took.get(test, USUAL_S)
