@@ -136,4 +136,4 @@ def test_a_hit_without_a_time_and_a_time_without_a_checksum_break_the_protocol()
     assert raised.value.reason == "answer 2 of 2 is '1'; it must be 1 and the time, one blank between"
     with pytest.raises(FaultError) as raised:
         TimeReply(7).length(bytearray(b"7 100\n"))
-    assert raised.value.reason == "it wrote '7 100\\n' where '7 NANOSECONDS CHECKSUM' had to come"
+    assert raised.value.reason == "it wrote '7 100' where '7 NANOSECONDS CHECKSUM' had to come"
