@@ -98,6 +98,7 @@ def test_convergence_counts_triangles_against_errors():
     assert lines[0].query_ns > 0
 
 
+@pytest.mark.slow
 def test_memory_is_what_a_batch_takes():
     names = ["table-2-float64", "bounding-cylinder"]
     found = {line.method: line for line in accuracy.memory_lines(replace(PLAN, workers=2), names)}

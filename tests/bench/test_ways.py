@@ -78,6 +78,7 @@ def small(tmp_path_factory):
         return ended(tmp_path_factory.mktemp("ways"), "--question", "passage", *chosen)
 
 
+@pytest.mark.slow
 def test_a_run_counts_missed_and_false_contacts_and_times_ways(small):
     code, record = small
     assert code == 0

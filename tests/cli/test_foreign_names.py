@@ -58,6 +58,7 @@ def test_report_of_a_record_escapes_the_names_of_its_cases(form, record, capsys)
         said(capsys, "report", record, "--format", form)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     [

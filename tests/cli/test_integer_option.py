@@ -64,6 +64,7 @@ def test_a_count_may_be_written_with_an_exponent(tmp_path, capsys, text_reports)
     assert "360 right" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("families", [(), ("ring", "tower-body"), ("extreme-*",)])
 def test_the_planned_size_of_a_run_is_the_sum_of_its_chunks(families):
     plan = ConformancePlan(("builtin:fast",), families=families, count=70_000)

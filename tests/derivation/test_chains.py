@@ -44,6 +44,7 @@ def everything():
     return {chain.name: chain for chain in (*chains().values(), *walk())}
 
 
+@pytest.mark.slow
 def test_every_chain_and_section_is_tested_here():
     assert tuple(everything()) == CHAINS
 
@@ -77,6 +78,7 @@ def broken(part):
         yield replace(part, cases=())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CHAINS)
 def test_a_mistake_in_any_part_makes_its_link_and_chain_fail(name):
     chain = everything()[name]

@@ -33,6 +33,7 @@ def triples(draw):
     return tuple(surd(draw(rationals), draw(rationals), h) for _ in range(3))
 
 
+@pytest.mark.slow
 @given(triples())
 def test_surds_obey_the_laws_of_a_field(numbers):
     x, y, z = numbers
@@ -48,6 +49,7 @@ def test_surds_obey_the_laws_of_a_field(numbers):
         assert y * (1 / y) == 1
 
 
+@pytest.mark.slow
 @given(triples(), rationals, comparisons)
 def test_comparisons_of_surds_agree_with_two_hundred_digits(numbers, rational, compare):
     x, y, _ = numbers

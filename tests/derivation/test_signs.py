@@ -63,6 +63,7 @@ terms = st.lists(
 values = st.fractions(Fraction(1, 9), 9)
 
 
+@pytest.mark.slow
 @given(terms, terms, values, st.fractions(-9, 9), st.one_of(st.just(Fraction(0)), values))
 def test_signs_that_has_sign_shows_are_true_of_random_numbers(top, bottom, a, b, p):
     """A is above 0, P not below it, and of B nothing is said."""

@@ -81,6 +81,7 @@ def test_roots_are_right_where_contact_is_not_near(answer):
     assert (answer(rows[:750]) == truth[:750]).all()
 
 
+@pytest.mark.slow
 def test_more_digits_settle_what_fewer_cannot():
     rows = WORKLOADS["near-contact"].rows(1, 150)
     truth = float_filter.positions(rows)

@@ -93,6 +93,7 @@ def test_a_library_is_called_by_its_entry_for_ways(flags, tmp_path):
         assert answered.times is None
 
 
+@pytest.mark.slow
 def test_a_library_that_writes_one_time_too_many_broke_the_protocol(tmp_path):
     library = compiled("passage", tmp_path / "beyond.so", *SHARED, "-DTIMES", "-DBEYOND")
     with open_implementation(f"library:{library}", LIMITS) as it:

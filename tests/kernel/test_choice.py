@@ -103,6 +103,7 @@ print(json.dumps([choice().kernel, choice().level, by_row, by_scene, one_by_one]
 """
 
 
+@pytest.mark.slow
 def test_every_kernel_and_level_can_be_forced_and_answers_the_same():
     pytest.importorskip("hypcheck.kernel._compiled")
     found = {}

@@ -7,6 +7,8 @@ import re
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from hypcheck.kernel.core import generate
 from hypcheck.kernel.programs import certified
 from tests.kernel.compiling import STRICT, needs_compiler, program
@@ -33,6 +35,7 @@ def test_python_sessions_in_the_docs_give_what_they_show():
     assert results.failed == 0
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_the_c_program_in_the_docs_prints_what_the_page_shows(tmp_path):
     (source,) = blocks("c")

@@ -68,6 +68,7 @@ def test_sizes_of_the_terms_of_the_discriminant_are_bounded_by_a_product():
     assert min(sympy.Poly(sympy.expand(32 * product_squared - magnitude), a, c, r, h).coeffs()) > 0
 
 
+@pytest.mark.slow
 @given(sevens)
 def test_terms_of_the_bounds_are_the_counted_magnitudes(values):
     row = dict(zip(COLUMNS, values, strict=True))
@@ -119,6 +120,7 @@ def test_bounds_are_rounded_by_less_than_their_slack():
         assert (1 - U) ** -100 < Fraction(certified.SLACK)
 
 
+@pytest.mark.slow
 @given(sevens, st.fractions(Fraction(1, 64), 8, max_denominator=64))
 def test_tangents_are_the_half_planes_of_the_page(values, multiplier):
     alpha, gamma_, b, d = values[:4]
@@ -135,6 +137,7 @@ def test_tangents_are_the_half_planes_of_the_page(values, multiplier):
     assert (fall, M_high) == (-K, M)
 
 
+@pytest.mark.slow
 @given(st.tuples(*[st.fractions(-8, 8, max_denominator=64)] * 7), positives, st.sampled_from([1, -1]))
 def test_a_piece_of_a_way_is_the_distance_from_a_line_as_a_quadratic(numbers, M, side):
     x, y, z, u, v, w, K = numbers

@@ -94,6 +94,7 @@ def test_a_difference_of_centres_that_rounds_to_contact_is_decided_exactly():
         assert Scene(scene).classify(x, 1e-200, 0.0)[0] == truth_about(near, scene.mover, (x, 1e-200, 0.0))
 
 
+@pytest.mark.slow
 def test_hyperboloids_that_the_grid_leaves_out_are_out_of_reach():
     scene = forest(80, 9)
     bodies = bodies_of(scene.hyperboloids)

@@ -27,6 +27,7 @@ def hull_of(number):
     return hull.facts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", ["Table 4", "Table 4, caption"])
 def test_the_rotors_of_the_witness_are_inside_and_the_movement_is_refused(number):
     hull = hull_of(number)

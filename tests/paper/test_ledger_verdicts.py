@@ -109,6 +109,7 @@ def test_every_numbered_statement_of_the_paper_is_in_the_ledger():
     assert len(found) == len(entries())
 
 
+@pytest.mark.slow
 def test_each_verdict_is_the_known_one_and_is_confirmed():
     for entry in entries():
         assert entry.verdict == OTHERWISE.get(entry.number, PROVED), entry.number

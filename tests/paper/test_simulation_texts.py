@@ -77,6 +77,7 @@ def ways(**changes):
     }
 
 
+@pytest.mark.slow
 def test_the_text_of_the_tower_says_what_touches_on_the_ways_of_flights_and_of_the_table(flown):
     text = list(tower_lines({**flown, "flights": {**flown["flights"], "ways": ways()}}))
     assert text[

@@ -112,6 +112,7 @@ def really_recorded():
     return stream.getvalue()
 
 
+@pytest.mark.slow
 def test_the_record_of_a_run_fits_its_schema(really_recorded):
     lines = list(lines_of(really_recorded))
     assert {"header", "oracle", "finding", "group", "map", "footer"} <= {line["type"] for line in lines}

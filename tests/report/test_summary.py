@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import pytest
 from hypothesis import given
 
 from hypcheck.report.summary import render
@@ -100,6 +101,7 @@ def test_the_order_of_keys_does_not_depend_on_the_run():
     )
 
 
+@pytest.mark.slow
 @given(record_samples.FOREIGN)
 def test_a_summary_with_any_foreign_name_is_json_in_utf_8(name):
     changed = record_samples.rewritten(record_samples.lines(), "table-2-float32", name)

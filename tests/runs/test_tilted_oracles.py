@@ -33,6 +33,7 @@ def test_the_frozen_vectors_of_every_family_but_the_extreme_one_are_asked(batche
     assert oracles.tilted_batches(SelfCheckPlan(families=("ring",))) == ()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(ORACLES["mesh"].available() is not None, reason="python-fcl is not installed")
 def test_four_oracles_are_asked_about_tilted_spheroids_and_agree_with_the_labels(batches):
     tasks = oracles.oracle_tasks(PLAN, batches)

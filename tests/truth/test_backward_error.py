@@ -39,6 +39,7 @@ def test_backward_errors_are_those_worked_out_by_hand(row, answer, expected, why
     assert error(row, answer) == pytest.approx(expected, rel=2e-4), why
 
 
+@pytest.mark.slow
 @given(pairs, POSITIONS)
 def test_an_answer_flips_at_its_backward_error(pair, answer):
     lengths = pair.lengths
@@ -70,6 +71,7 @@ def test_clear_positions_are_monotone_in_the_change(pair, first, second, side):
         assert exact.position(corner(pair.lengths, more, toward)) is toward
 
 
+@pytest.mark.slow
 @given(ordinary_pairs, st.lists(st.fractions(-1, 1), min_size=7, max_size=7), st.sampled_from([-1, 1]))
 def test_no_change_inside_the_box_does_better_than_the_corner(pair, shares, side):
     toward, box = Position(side), Fraction(1, 4)

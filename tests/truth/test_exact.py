@@ -28,6 +28,7 @@ def test_kinds_of_known_witnesses_are_right(row, kind):
     assert exact.decide(Pair.from_row(row).lengths).kind is kind
 
 
+@pytest.mark.slow
 @given(pairs)
 def test_every_exact_answer_gets_a_certificate(pair):
     decision = exact.decide(pair.lengths)

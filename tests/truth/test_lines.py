@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -41,6 +42,7 @@ def assert_right(rows):
     return decided
 
 
+@pytest.mark.slow
 @given(sizes, st.floats(0, 4))
 def test_no_wrong_position_is_proved_beside_a_line(some, share):
     assert_right(beside_lines(some, share * some[1]))

@@ -17,6 +17,7 @@ from hypcheck.truth.mesh_meridian import REACH, UNIT, bounds_of, cell_of, halves
 from tests.support.fractions_truth import everyday, rows_of
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(rows_of(*everyday(-3, 3)), st.integers(0, 12), st.integers(0, 4095))
 def test_cells_are_one_sided_and_their_triangle_holds_the_arc(row, level, path):
@@ -47,6 +48,7 @@ def test_cells_are_one_sided_and_their_triangle_holds_the_arc(row, level, path):
         assert level_of(between(corner, q, share)) <= 0
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(rows_of(*everyday(-3, 3)), st.fractions(0, 1))
 def test_nothing_within_reach_is_left_out_of_the_window(row, share):

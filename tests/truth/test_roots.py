@@ -107,6 +107,7 @@ def prescribed(draw):
     return Invariants(A, B, P, Q), roots
 
 
+@pytest.mark.slow
 @given(prescribed())
 def test_prescribed_roots_are_found(case):
     """Each root lies in its own enclosure, with its multiplicity, in its place."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import mpmath
+import pytest
 from hypothesis import given
 
 from hypcheck.geometry.pair import Pair
@@ -33,6 +34,7 @@ def real_roots(pair: Pair) -> list[Fraction] | None:
         return [Fraction(*(int(part) for part in mpmath.libmp.to_rational(root._mpf_))) for root in real]
 
 
+@pytest.mark.slow
 @given(ordinary_pairs)
 def test_roots_by_mpmath_lie_in_the_enclosures(pair):
     found = real_roots(pair)

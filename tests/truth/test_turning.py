@@ -35,6 +35,7 @@ def positions_near(row):
     return {exact_position((*sizes, x * change, y * change, z)) for change in (1 - 1e-12, 1 + 1e-12)}
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(
     st.tuples(_size, _size, _size, _size),

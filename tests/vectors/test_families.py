@@ -90,6 +90,7 @@ def test_a_family_is_described_in_full(family: Family) -> None:
     assert family.extreme == is_extreme(family.name) == is_extreme(case_id(family, 1, 0))
 
 
+@pytest.mark.slow
 @every_family
 def test_rows_are_valid_and_a_longer_call_begins_with_a_shorter_one(family: Family) -> None:
     long = family.rows(3, BLOCK + 40)
@@ -129,6 +130,7 @@ def test_every_digest_has_a_family() -> None:
     assert set(DIGESTS) == set(FAMILIES)
 
 
+@pytest.mark.slow
 def test_rows_do_not_depend_on_the_instruction_set() -> None:
     """The same digests with every instruction set beyond numpy's baseline turned off."""
     optional = [name for name in numpy_core.__cpu_dispatch__ if numpy_core.__cpu_features__[name]]

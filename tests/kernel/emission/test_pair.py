@@ -71,6 +71,7 @@ def test_the_exact_code_answers_every_row_rightly_with_and_without_its_floats(tm
     assert (answers(tmp_path, language, text, rows) == positions).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["cpp", "rust", "javascript"])
 def test_the_whole_numbers_of_the_other_languages_answer_every_row_rightly(tmp_path, vectors, language):
     text, (rows, positions) = emitted_pair("exact", language, COMMAND), vectors

@@ -50,6 +50,7 @@ def test_samples_that_miss_contact_or_are_late_fail_and_are_counted_apart(tmp_pa
     assert "in contact on the way" in report
 
 
+@pytest.mark.slow
 def test_right_function_passes_with_its_times_when_asked_again(tmp_path):
     assert verified(tmp_path, function("passage"), *FEW) == 0
     group, refused = (line for line in read(tmp_path).of(GroupLine))
@@ -60,6 +61,7 @@ def test_right_function_passes_with_its_times_when_asked_again(tmp_path):
     assert (line.again.within, line.again.beyond) == (0, 0)
 
 
+@pytest.mark.slow
 def test_known_failures_of_ways_are_excused_and_one_that_is_right_again_fails_the_run(tmp_path, capsys):
     listed = tmp_path / "known.toml"
     some = [case.id for case in frozen.load_ways("way-still").cases[:3]]
@@ -99,6 +101,7 @@ def test_families_and_questions_that_do_not_fit_together_are_refused(words, sent
     assert sentence in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_rows_that_are_no_ways_are_asked_of_implementations_that_refuse(tmp_path):
     assert verified(tmp_path, "python:tests.runs.moving:clear_from_infinity", *FEW) == 1
     found = {line.family: line for line in read(tmp_path).of(GroupLine)}

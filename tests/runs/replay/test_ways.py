@@ -47,6 +47,7 @@ def test_generated_way_is_replayed_by_its_id(capsys):
     assert "judged      right" in said.out
 
 
+@pytest.mark.slow
 def test_a_row_that_is_no_way_must_be_refused(capsys):
     code, said = replayed(capsys, "way-invalid-0040", "python:tests.runs.moving:exact")
     assert code == 0

@@ -47,6 +47,7 @@ def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_po
     assert side in ("(0,R) R²", "R² >R", "R³", "(0,R) R >R")
 
 
+@pytest.mark.slow
 def test_positions_are_those_of_the_matrices():
     for family, row in rows(["uniform", "near", "stiff", "slight", "symmetric", "grid"], 60, seed=8):
         assert roots.position(TiltedPair.from_row(row)) == exact_position(row), (family, row)

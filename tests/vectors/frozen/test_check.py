@@ -172,6 +172,7 @@ def test_a_changed_number_is_a_fault(case, place):
     assert sentences(case, row=tuple(row))
 
 
+@pytest.mark.slow
 def test_labels_of_frozen_files_hold():
     """A sample of every file, the first case and the last among it, by certificate, roots, nearest point and flips."""
     for name in frozen.NAMES:

@@ -23,6 +23,7 @@ def program(tmp_path_factory):
     return built(tmp_path_factory.mktemp("battery"), None, "-O1")
 
 
+@pytest.mark.slow
 def test_frozen_questions_are_answered_right_and_each_stage_decides_as_many_as_it_did(program, tmp_path):
     """More is better: put the new numbers here. Fewer means that a bound or a guard has become weaker."""
     found = asked(program, write(tmp_path / "questions", 6, ()))

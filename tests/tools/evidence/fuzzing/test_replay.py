@@ -45,6 +45,7 @@ def few_inputs():
     return [*corpus_kept()[::12], *list(seeds(12))[::40]]
 
 
+@pytest.mark.slow
 def test_kept_inputs_and_frozen_rows_are_answered_as_the_oracle_says(compiled, tmp_path):
     done = replayed(compiled(CORE), tmp_path, few_inputs())
     assert (done.returncode, done.stdout) == (0, "")
