@@ -234,7 +234,10 @@ def _mode(path: str) -> int | None:
 
 def _mode_to_replace(path: str) -> int | None:
     """The mode of a regular file at `path`, None if a new file may take the place. Raises OSError."""
-    linked = os.path.islink(path) or not (os.path.isfile(path) or os.path.isdir(path))
+    try:
+        linked = os.path.islink(path) or not (os.path.isfile(path) or os.path.isdir(path))
+    except ValueError:  # opening the file reports what is wrong with its name
+        return None
     return None if linked else _mode(path)
 
 

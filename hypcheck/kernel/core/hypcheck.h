@@ -973,9 +973,10 @@ static void hc_fixed_at_A(const hc_fixed_terms *terms, int *offset, int *slope) 
     *slope = hc_fixed_sign(slope_at_A, HC_fixed_pole, 0);
 }
 
-/* About the number, as good as a guess has to be. */
+/* About the number, as good as a guess has to be; a small number, such as the product of two short lengths, exactly. */
 static inline double hc_fixed_value(hc_fixed number) {
-    return (double)(int64_t)number.high * 18446744073709551616.0 + 2.0 * (double)(int64_t)(number.low >> 1);
+    const double low = 2.0 * (double)(int64_t)(number.low >> 1) + (double)(int)(number.low & 1);
+    return (double)(int64_t)number.high * 18446744073709551616.0 + low;
 }
 
 /* About the double root that the cubic has if delta is 0, or 0 where there is no guess. */
@@ -1219,10 +1220,8 @@ static int hc_position_in_plane(const uint64_t lengths[7]) {
     const hc_long four_A = hc_long_product(twice_p, twice_q), square = hc_long_product(size, size);
     hc_fixed s, t;
     if (!hc_long_is_negative(hc_long_sum(four_A, square, 1))) return 0;
-    if (hc_fixed_negative(W)) {
-        const hc_fixed mean = hc_fixed_plus(W, twice_p);
-        return !hc_fixed_negative(mean) && (mean.low | mean.high) != 0 ? -1 : 0;
-    }
+    /* W = -2p, where R = q - p >= 0, is not here: A <= 1 then, so that w² = 4A² is not above 4A. */
+    if (hc_fixed_negative(W)) return hc_fixed_negative(hc_fixed_plus(W, twice_p)) ? 0 : -1;
     s = hc_fixed_full(lengths[1], lengths[1]), t = hc_fixed_full(lengths[3], lengths[3]);
     return hc_long_is_negative(hc_long_sum(hc_long_product(twice_q, s), hc_long_product(W, t), 1)) ? 2 : 1;
 }
@@ -1249,7 +1248,7 @@ static int hc_position_beside_tangency(const double row[7], double about) {
     if (side != 2) return side;
     side = bits <= 23 ? hc_touches_by_short(lengths, about) : hc_touches_by(lengths, about);
     if (side == 2) return 2;
-    return (side > 0 && radial) || (side < 0 && axial) ? side : 0;
+    return (side > 0 ? radial : axial) ? side : 0;
 }
 
 /* The position of a valid row. */
@@ -1321,10 +1320,10 @@ static hc_integer hc_shifted(hc_pool *pool, const hc_integer *number, int shift)
     hc_integer result = hc_taken(pool, length);
     int i;
     for (i = 0; i < length; i++) {
-        const int from = i * HC_LIMB_BITS - shift; /* the bit that becomes the lowest one of limb i */
+        const int from = i * HC_LIMB_BITS - shift; /* the bit that becomes the lowest one of limb i; the number has more bits */
         const int limb = from < 0 ? -((HC_LIMB_BITS - 1 - from) / HC_LIMB_BITS) : from / HC_LIMB_BITS;
         const int off = from - limb * HC_LIMB_BITS;
-        const hc_limb low = limb >= 0 && limb < number->length ? number->limbs[limb] : 0;
+        const hc_limb low = limb >= 0 ? number->limbs[limb] : 0;
         const hc_limb high = limb >= -1 && limb + 1 < number->length ? number->limbs[limb + 1] : 0;
         result.limbs[i] = off ? (hc_limb)(low >> off) | (hc_limb)(high << (HC_LIMB_BITS - off)) : low;
     }
@@ -1642,7 +1641,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_48c0d0700a2a374b
+#ifndef HC_EDITION_9d923f45aaa6c900
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -1765,7 +1764,7 @@ static double hc_best_multiplier(double A, double B, double Q, int side) {
         const double first = A * inverse * inverse, second = weight * other * other;
         const double step = (first - 1 - second) / (2 * (first * inverse + side * second * other));
         const double moved = at + step;
-        if (!(moved > 0.25 * at && moved < 4 * at)) break;
+        if (!(moved > 0.25 * at)) break; /* NaN: a step is shorter than half of `at` otherwise */
         at = side > 0 && moved > 0.5 * (at + B) ? 0.5 * (at + B) : moved;
     }
     return at;
@@ -1880,7 +1879,7 @@ static void hc_chord(hc_point from, hc_point to, int side, hc_line *line) {
     const int above = above_0 & above_1;
     /* end of the program "chord" */
     const int known = R_0 >= 0 && R_1 >= 0 && M >= 0 && M <= HC_greatest_slope;
-    const int proves = known && (side > 0 ? below && K >= HC_least_constant : above);
+    const int beyond = side > 0 ? below : above, proves = known && beyond && (side < 0 || K >= HC_least_constant);
     line->K = proves ? K : side > 0 ? -1 : HC_NEVER;
     line->M = proves ? M : 0;
 }
@@ -2221,22 +2220,28 @@ static const hc_level_functions hc_levels[] = {
 };
 
 #if HC_X86
+/* The level of a processor with these bits of leaf 1, ecx, and leaf 7, ebx, where the system saves these registers. */
+static int hc_level_of(unsigned leaf_1, unsigned leaf_7, unsigned saved) {
+    const unsigned fma = 1u << 12, avx2 = 1u << 5 | 1u << 8; /* with bmi2 */
+    const unsigned avx512 = avx2 | 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31; /* f, dq, bw, vl */
+    const unsigned of_avx = 0x06, of_avx512 = 0xe6;
+    if (!(leaf_1 & fma)) return 1;
+    if ((leaf_7 & avx512) == avx512 && (saved & of_avx512) == of_avx512) return 3;
+    return (leaf_7 & avx2) == avx2 && (saved & of_avx) == of_avx ? 2 : 1;
+}
+
 /* What the processor has and the system saves. __builtin_cpu_supports would say it too, but not with every compiler:
    zig's runtime says no to everything. */
 static int hc_best_level(void) {
-    const unsigned fma = 1u << 12, system_saves = 1u << 27; /* leaf 1, ecx */
-    const unsigned avx2 = 1u << 5 | 1u << 8; /* leaf 7, ebx: with bmi2 */
-    const unsigned avx512 = avx2 | 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31; /* f, dq, bw, vl */
-    const unsigned of_avx = 0x06, of_avx512 = 0xe6; /* registers saved */
-    unsigned a, b, c, d, saved, saved_high;
+    const unsigned system_saves = 1u << 27;
+    unsigned a, b, c, d, leaf_1, saved, saved_high;
     if (__get_cpuid_max(0, NULL) < 7) return 1;
-    __cpuid(1, a, b, c, d);
-    if (!(c & system_saves) || !(c & fma)) return 1;
+    __cpuid(1, a, b, leaf_1, d);
+    if (!(leaf_1 & system_saves)) return 1; /* xgetbv would end the program */
     __asm__ volatile("xgetbv" : "=a"(saved), "=d"(saved_high) : "c"(0));
     __cpuid_count(7, 0, a, b, c, d);
     (void)a, (void)c, (void)d, (void)saved_high;
-    if ((b & avx512) == avx512 && (saved & of_avx512) == of_avx512) return 3;
-    return (b & avx2) == avx2 && (saved & of_avx) == of_avx ? 2 : 1;
+    return hc_level_of(leaf_1, b, saved);
 }
 #else
 static int hc_best_level(void) { return HC_NEON; } /* every aarch64 has it */
@@ -2780,7 +2785,7 @@ static double hc_way_root(double here, double slope, double bend) {
 static double hc_leaning_multiplier(const hc_way *way, const hc_ball at[3], int side, double *before) {
     const double poles[3] = {way->poles.A1.v, way->poles.A2.v, way->poles.B.v};
     const double nearer = poles[0] < poles[1] ? poles[0] : poles[1], pole = side > 0 ? poles[2] : nearer;
-    double low = 0, high = 1 / HC_settled, v = *before > 0 && *before < high ? *before : 1;
+    double low = 0, high = 1 / HC_settled, v = *before > 0 ? *before : 1; /* below `high`: each one kept was, and lost HC_settled² */
     int i, k;
     for (i = 0; i < 48; i++) {
         const double inverse = 1 / (1 + v), m = pole * v * inverse;
@@ -2895,11 +2900,11 @@ static double hc_way_reach(hc_way *way, double time, int position) {
 }
 
 /* A time of contact not long after one from which steps come to nothing; 2 where none is found. */
-static double hc_way_look(const hc_way *way, double time, double contact) {
+static double hc_way_look(const hc_way *way, double time) {
     double ahead;
-    for (ahead = HC_SHORTEST; time + ahead < contact && time + ahead < 1; ahead *= 8)
+    for (ahead = HC_SHORTEST; time + ahead < 1; ahead *= 8)
         if (hc_way_touches(way, time + ahead, 1 - way->slack)) return time + ahead;
-    return contact;
+    return 2;
 }
 
 /* 1, 0, or 2 where the bounds do not tell, for a valid row, with an axis if it leans; the time is NULL where it is not
@@ -2929,7 +2934,7 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
             if (!time) return 1;
         }
     }
-    if (contact == 2) contact = hc_way_look(&way, now, contact);
+    if (contact == 2) contact = hc_way_look(&way, now);
     if (contact == 2) return 2;
     if (time && hc_way_touches(&way, now, 1 + HC_SEEN * way.slack)) *time = now;
     return 1;
@@ -2966,8 +2971,6 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 
 /* ---- clearances, distances and nearest points ---- */
 
-#define HC_MOST_HALVINGS 160
-
 /* The next number farther from 0 (step 1), or nearer (-1), than a positive finite one. */
 static double hc_next(double number, int step) {
     uint64_t word;
@@ -2995,15 +2998,15 @@ static int hc_position_grown(const double row[7], const double grown[2]) {
     return hc_position_of(other);
 }
 
-/* Halves what is known of 1 + clearance, by exact decisions, until it is HC_width wide or nothing more is proved. */
+/* Halves what is known of 1 + clearance, by exact decisions, until it is HC_width wide or nothing more is proved. Each turn halves
+   the exponents from `least` to `most`, or what lies between the two: some 45 turns at most, as these are in 2^±1100. Where x87 is
+   set to 24 bits, the middle of two near numbers may round to beyond either. */
 static void hc_halve_factor(const double row[7], double *low, double *high) {
     const double largest = HC_greatest_grown / HC_MAX_OF(row[2], row[3]) / 2;
-    int turn;
-    for (turn = 0; turn < HC_MOST_HALVINGS; turn++) {
+    while (*high - *low > HC_width * HC_MAX_OF(*low, 1)) {
         const double least = HC_MAX_OF(*low, HC_width / 2), most = HC_MIN_OF(*high, largest);
         double grown[2];
         HC_STORED middle;
-        if (!(*high - *low > HC_width * HC_MAX_OF(*low, 1))) return;
         middle = most > 2 * least ? hc_fine_root(least) * hc_fine_root(most) : least + 0.5 * (most - least);
         if (!(middle > *low && middle < *high)) return;
         if (hc_grow(row, middle, 1, grown) && hc_position_grown(row, grown) != 0) *low = middle;
@@ -3012,16 +3015,16 @@ static void hc_halve_factor(const double row[7], double *low, double *high) {
     }
 }
 
-/* The same for a distance, by spheroids that hold all points so near: `width` is the half width along the gap. */
+/* The same for a distance, by spheroids that hold all points so near: `width` is the half width along the gap. Each turn halves
+   high - low, which ends at the least at HC_width low, far above the last places of both. */
 static double hc_halve_distance(const double row[7], double low, double high, double width) {
-    int turn;
-    for (turn = 0; turn < HC_MOST_HALVINGS && high - low > HC_width * (low + width); turn++) {
+    while (high - low > HC_width * (low + width)) {
         const HC_STORED middle = low + 0.5 * (high - low);
         double grown[2];
         int k, clear = 1;
         for (k = 0; k < 2; k++) {
             grown[k] = HC_outward * hc_fine_root((width + middle) * (row[2 + k] * row[2 + k] / width + middle));
-            clear = clear && grown[k] > HC_least_grown && grown[k] < HC_greatest_grown;
+            clear = clear && grown[k] > HC_least_grown; /* a root is below 2^513, or NaN */
         }
         if (clear && hc_position_grown(row, grown) != 0) low = middle;
         else high = middle;
@@ -3173,7 +3176,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_48c0d0700a2a374b
+#define HC_EDITION_9d923f45aaa6c900
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

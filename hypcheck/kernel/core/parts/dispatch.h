@@ -36,22 +36,28 @@ static const hc_level_functions hc_levels[] = {
 };
 
 #if HC_X86
+/* The level of a processor with these bits of leaf 1, ecx, and leaf 7, ebx, where the system saves these registers. */
+static int hc_level_of(unsigned leaf_1, unsigned leaf_7, unsigned saved) {
+    const unsigned fma = 1u << 12, avx2 = 1u << 5 | 1u << 8; /* with bmi2 */
+    const unsigned avx512 = avx2 | 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31; /* f, dq, bw, vl */
+    const unsigned of_avx = 0x06, of_avx512 = 0xe6;
+    if (!(leaf_1 & fma)) return 1;
+    if ((leaf_7 & avx512) == avx512 && (saved & of_avx512) == of_avx512) return 3;
+    return (leaf_7 & avx2) == avx2 && (saved & of_avx) == of_avx ? 2 : 1;
+}
+
 /* What the processor has and the system saves. __builtin_cpu_supports would say it too, but not with every compiler:
    zig's runtime says no to everything. */
 static int hc_best_level(void) {
-    const unsigned fma = 1u << 12, system_saves = 1u << 27; /* leaf 1, ecx */
-    const unsigned avx2 = 1u << 5 | 1u << 8; /* leaf 7, ebx: with bmi2 */
-    const unsigned avx512 = avx2 | 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31; /* f, dq, bw, vl */
-    const unsigned of_avx = 0x06, of_avx512 = 0xe6; /* registers saved */
-    unsigned a, b, c, d, saved, saved_high;
+    const unsigned system_saves = 1u << 27;
+    unsigned a, b, c, d, leaf_1, saved, saved_high;
     if (__get_cpuid_max(0, NULL) < 7) return 1;
-    __cpuid(1, a, b, c, d);
-    if (!(c & system_saves) || !(c & fma)) return 1;
+    __cpuid(1, a, b, leaf_1, d);
+    if (!(leaf_1 & system_saves)) return 1; /* xgetbv would end the program */
     __asm__ volatile("xgetbv" : "=a"(saved), "=d"(saved_high) : "c"(0));
     __cpuid_count(7, 0, a, b, c, d);
     (void)a, (void)c, (void)d, (void)saved_high;
-    if ((b & avx512) == avx512 && (saved & of_avx512) == of_avx512) return 3;
-    return (b & avx2) == avx2 && (saved & of_avx) == of_avx ? 2 : 1;
+    return hc_level_of(leaf_1, b, saved);
 }
 #else
 static int hc_best_level(void) { return HC_NEON; } /* every aarch64 has it */

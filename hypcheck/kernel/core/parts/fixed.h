@@ -237,9 +237,10 @@ static void hc_fixed_at_A(const hc_fixed_terms *terms, int *offset, int *slope) 
     *slope = hc_fixed_sign(slope_at_A, HC_fixed_pole, 0);
 }
 
-/* About the number, as good as a guess has to be. */
+/* About the number, as good as a guess has to be; a small number, such as the product of two short lengths, exactly. */
 static inline double hc_fixed_value(hc_fixed number) {
-    return (double)(int64_t)number.high * 18446744073709551616.0 + 2.0 * (double)(int64_t)(number.low >> 1);
+    const double low = 2.0 * (double)(int64_t)(number.low >> 1) + (double)(int)(number.low & 1);
+    return (double)(int64_t)number.high * 18446744073709551616.0 + low;
 }
 
 /* About the double root that the cubic has if delta is 0, or 0 where there is no guess. */

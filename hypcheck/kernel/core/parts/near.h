@@ -1,7 +1,5 @@
 /* ---- clearances, distances and nearest points ---- */
 
-#define HC_MOST_HALVINGS 160
-
 /* The next number farther from 0 (step 1), or nearer (-1), than a positive finite one. */
 static double hc_next(double number, int step) {
     uint64_t word;
@@ -29,15 +27,15 @@ static int hc_position_grown(const double row[7], const double grown[2]) {
     return hc_position_of(other);
 }
 
-/* Halves what is known of 1 + clearance, by exact decisions, until it is HC_width wide or nothing more is proved. */
+/* Halves what is known of 1 + clearance, by exact decisions, until it is HC_width wide or nothing more is proved. Each turn halves
+   the exponents from `least` to `most`, or what lies between the two: some 45 turns at most, as these are in 2^±1100. Where x87 is
+   set to 24 bits, the middle of two near numbers may round to beyond either. */
 static void hc_halve_factor(const double row[7], double *low, double *high) {
     const double largest = HC_greatest_grown / HC_MAX_OF(row[2], row[3]) / 2;
-    int turn;
-    for (turn = 0; turn < HC_MOST_HALVINGS; turn++) {
+    while (*high - *low > HC_width * HC_MAX_OF(*low, 1)) {
         const double least = HC_MAX_OF(*low, HC_width / 2), most = HC_MIN_OF(*high, largest);
         double grown[2];
         HC_STORED middle;
-        if (!(*high - *low > HC_width * HC_MAX_OF(*low, 1))) return;
         middle = most > 2 * least ? hc_fine_root(least) * hc_fine_root(most) : least + 0.5 * (most - least);
         if (!(middle > *low && middle < *high)) return;
         if (hc_grow(row, middle, 1, grown) && hc_position_grown(row, grown) != 0) *low = middle;
@@ -46,16 +44,16 @@ static void hc_halve_factor(const double row[7], double *low, double *high) {
     }
 }
 
-/* The same for a distance, by spheroids that hold all points so near: `width` is the half width along the gap. */
+/* The same for a distance, by spheroids that hold all points so near: `width` is the half width along the gap. Each turn halves
+   high - low, which ends at the least at HC_width low, far above the last places of both. */
 static double hc_halve_distance(const double row[7], double low, double high, double width) {
-    int turn;
-    for (turn = 0; turn < HC_MOST_HALVINGS && high - low > HC_width * (low + width); turn++) {
+    while (high - low > HC_width * (low + width)) {
         const HC_STORED middle = low + 0.5 * (high - low);
         double grown[2];
         int k, clear = 1;
         for (k = 0; k < 2; k++) {
             grown[k] = HC_outward * hc_fine_root((width + middle) * (row[2 + k] * row[2 + k] / width + middle));
-            clear = clear && grown[k] > HC_least_grown && grown[k] < HC_greatest_grown;
+            clear = clear && grown[k] > HC_least_grown; /* a root is below 2^513, or NaN */
         }
         if (clear && hc_position_grown(row, grown) != 0) low = middle;
         else high = middle;

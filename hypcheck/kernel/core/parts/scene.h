@@ -52,7 +52,7 @@ static double hc_best_multiplier(double A, double B, double Q, int side) {
         const double first = A * inverse * inverse, second = weight * other * other;
         const double step = (first - 1 - second) / (2 * (first * inverse + side * second * other));
         const double moved = at + step;
-        if (!(moved > 0.25 * at && moved < 4 * at)) break;
+        if (!(moved > 0.25 * at)) break; /* NaN: a step is shorter than half of `at` otherwise */
         at = side > 0 && moved > 0.5 * (at + B) ? 0.5 * (at + B) : moved;
     }
     return at;
@@ -122,7 +122,7 @@ static void hc_chord(hc_point from, hc_point to, int side, hc_line *line) {
     @CHORD@
     /* end of the program "chord" */
     const int known = R_0 >= 0 && R_1 >= 0 && M >= 0 && M <= HC_greatest_slope;
-    const int proves = known && (side > 0 ? below && K >= HC_least_constant : above);
+    const int beyond = side > 0 ? below : above, proves = known && beyond && (side < 0 || K >= HC_least_constant);
     line->K = proves ? K : side > 0 ? -1 : HC_NEVER;
     line->M = proves ? M : 0;
 }

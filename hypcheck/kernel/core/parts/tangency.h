@@ -202,10 +202,8 @@ static int hc_position_in_plane(const uint64_t lengths[7]) {
     const hc_long four_A = hc_long_product(twice_p, twice_q), square = hc_long_product(size, size);
     hc_fixed s, t;
     if (!hc_long_is_negative(hc_long_sum(four_A, square, 1))) return 0;
-    if (hc_fixed_negative(W)) {
-        const hc_fixed mean = hc_fixed_plus(W, twice_p);
-        return !hc_fixed_negative(mean) && (mean.low | mean.high) != 0 ? -1 : 0;
-    }
+    /* W = -2p, where R = q - p >= 0, is not here: A <= 1 then, so that w² = 4A² is not above 4A. */
+    if (hc_fixed_negative(W)) return hc_fixed_negative(hc_fixed_plus(W, twice_p)) ? 0 : -1;
     s = hc_fixed_full(lengths[1], lengths[1]), t = hc_fixed_full(lengths[3], lengths[3]);
     return hc_long_is_negative(hc_long_sum(hc_long_product(twice_q, s), hc_long_product(W, t), 1)) ? 2 : 1;
 }
@@ -232,7 +230,7 @@ static int hc_position_beside_tangency(const double row[7], double about) {
     if (side != 2) return side;
     side = bits <= 23 ? hc_touches_by_short(lengths, about) : hc_touches_by(lengths, about);
     if (side == 2) return 2;
-    return (side > 0 && radial) || (side < 0 && axial) ? side : 0;
+    return (side > 0 ? radial : axial) ? side : 0;
 }
 
 /* The position of a valid row. */

@@ -58,10 +58,10 @@ static hc_integer hc_shifted(hc_pool *pool, const hc_integer *number, int shift)
     hc_integer result = hc_taken(pool, length);
     int i;
     for (i = 0; i < length; i++) {
-        const int from = i * HC_LIMB_BITS - shift; /* the bit that becomes the lowest one of limb i */
+        const int from = i * HC_LIMB_BITS - shift; /* the bit that becomes the lowest one of limb i; the number has more bits */
         const int limb = from < 0 ? -((HC_LIMB_BITS - 1 - from) / HC_LIMB_BITS) : from / HC_LIMB_BITS;
         const int off = from - limb * HC_LIMB_BITS;
-        const hc_limb low = limb >= 0 && limb < number->length ? number->limbs[limb] : 0;
+        const hc_limb low = limb >= 0 ? number->limbs[limb] : 0;
         const hc_limb high = limb >= -1 && limb + 1 < number->length ? number->limbs[limb + 1] : 0;
         result.limbs[i] = off ? (hc_limb)(low >> off) | (hc_limb)(high << (HC_LIMB_BITS - off)) : low;
     }

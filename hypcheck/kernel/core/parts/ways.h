@@ -142,7 +142,7 @@ static double hc_way_root(double here, double slope, double bend) {
 static double hc_leaning_multiplier(const hc_way *way, const hc_ball at[3], int side, double *before) {
     const double poles[3] = {way->poles.A1.v, way->poles.A2.v, way->poles.B.v};
     const double nearer = poles[0] < poles[1] ? poles[0] : poles[1], pole = side > 0 ? poles[2] : nearer;
-    double low = 0, high = 1 / HC_settled, v = *before > 0 && *before < high ? *before : 1;
+    double low = 0, high = 1 / HC_settled, v = *before > 0 ? *before : 1; /* below `high`: each one kept was, and lost HC_settled² */
     int i, k;
     for (i = 0; i < 48; i++) {
         const double inverse = 1 / (1 + v), m = pole * v * inverse;
@@ -219,11 +219,11 @@ static double hc_way_reach(hc_way *way, double time, int position) {
 }
 
 /* A time of contact not long after one from which steps come to nothing; 2 where none is found. */
-static double hc_way_look(const hc_way *way, double time, double contact) {
+static double hc_way_look(const hc_way *way, double time) {
     double ahead;
-    for (ahead = HC_SHORTEST; time + ahead < contact && time + ahead < 1; ahead *= 8)
+    for (ahead = HC_SHORTEST; time + ahead < 1; ahead *= 8)
         if (hc_way_touches(way, time + ahead, 1 - way->slack)) return time + ahead;
-    return contact;
+    return 2;
 }
 
 /* 1, 0, or 2 where the bounds do not tell, for a valid row, with an axis if it leans; the time is NULL where it is not
@@ -253,7 +253,7 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
             if (!time) return 1;
         }
     }
-    if (contact == 2) contact = hc_way_look(&way, now, contact);
+    if (contact == 2) contact = hc_way_look(&way, now);
     if (contact == 2) return 2;
     if (time && hc_way_touches(&way, now, 1 + HC_SEEN * way.slack)) *time = now;
     return 1;
