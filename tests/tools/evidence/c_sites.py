@@ -42,7 +42,7 @@ _OF_SIDES = re.compile(r"\bside [<>] 0$")
 """A side is 1 or -1: with 0 among the less or the greater ones the same is said."""
 _LEFT_OUT = re.compile(r"\bfor \(|\bstatic\b|\bcase\b|\w\[.*\];$")
 _GUARD = re.compile(r"\bif \(")
-_FUNCTION = re.compile(r"^(?:HC_TARGET )?(?:[\w*]+ )*?\*?(?:HC_NAME\()?(\w+)\)?\([^;]*$", re.MULTILINE)
+FUNCTION = re.compile(r"^(?:HC_TARGET )?(?:[\w*]+ )*?\*?(?:HC_NAME\()?(\w+)\)?\([^;]*$", re.MULTILINE)
 
 
 _CHOSEN = "#ifndef HC_CHOSEN\n#define HC_CHOSEN\nstatic volatile int hc_mutant;\n#endif\n"
@@ -123,7 +123,7 @@ def _places(source: str, code: str) -> Iterator[_Place]:
 
 def _stretches(code: str) -> Iterator[tuple[int, int, str]]:
     """Where the expressions are that have an operator, a guard or a constant in them, and the function around each."""
-    starts = [(match.start(), match[1]) for match in _FUNCTION.finditer(code) if not match[0].startswith(("#", " "))]
+    starts = [(match.start(), match[1]) for match in FUNCTION.finditer(code) if not match[0].startswith(("#", " "))]
     for line in re.finditer(r"[^\n]+", code):
         text = line[0]
         if text.startswith("#"):

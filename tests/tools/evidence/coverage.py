@@ -14,6 +14,7 @@ from typing import Any
 
 from tests.tools.evidence.battery import CORE, DRIVER
 from tests.tools.evidence.battery.questions import write
+from tests.tools.evidence.c_sites import FUNCTION
 from tests.tools.evidence.gaps import reason
 from tests.tools.evidence.parts import Figures, Unavailable
 
@@ -52,7 +53,7 @@ def measure() -> Figures:
     found = tools()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        program, questions = folder / "driver", write(folder / "questions", 6, (5,))
+        program, questions = folder / "driver", write(folder / "questions", 1, (5, 6))
         command = [found.clang, *OPTIONS, f"-I{CORE}", str(DRIVER), "-lm", "-o", str(program)]
         subprocess.run(command, check=True)
         levels = [level for level in LEVELS if _asked(program, questions, level)]
@@ -89,21 +90,33 @@ def _counted(summary: dict[str, int]) -> dict[str, float]:
 
 
 def gaps_of(file: dict[str, Any]) -> Iterator[str]:
-    """What was never true, never false, or in a decision never shown to matter, as text of the source.
+    """What was never true, never false, or in a decision never shown to matter: the function, and text of the source.
 
     A branch is [line, column, end line, end column, times true, times false, …], a decision ends in a list of whether
     each of its conditions was shown to matter.
     """
-    lines = Path(file["filename"]).read_text(encoding="utf-8").split("\n")
+    source = Path(file["filename"]).read_text(encoding="utf-8")
+    lines, functions = source.split("\n"), _functions(source)
     for line, column, end_line, end, true, false, *_ in file["branches"]:
         text = lines[line - 1][column - 1 : end - 1 if line == end_line else None].strip()
         if not true:
-            yield f"never true: {text}"
+            yield f"{functions[line - 1]}: never true: {text}"
         if not false:
-            yield f"never false: {text}"
+            yield f"{functions[line - 1]}: never false: {text}"
     for line, column, end_line, end, *_, conditions in file["mcdc_records"]:
         text = lines[line - 1][column - 1 : end - 1 if line == end_line else None].strip()
-        yield from (f"MC/DC of condition {n}: {text}" for n, shown in enumerate(conditions, 1) if not shown)
+        missing = (n for n, shown in enumerate(conditions, 1) if not shown)
+        yield from (f"{functions[line - 1]}: MC/DC of condition {n}: {text}" for n in missing)
+
+
+def _functions(source: str) -> list[str]:
+    """The function that each line belongs to."""
+    found, name = [], ""
+    for line in source.split("\n"):
+        begun = None if line.startswith(("#", " ")) else FUNCTION.match(line)
+        name = begun[1] if begun else name
+        found.append(name)
+    return found
 
 
 def section(figures: Figures) -> str:
@@ -113,7 +126,9 @@ def section(figures: Figures) -> str:
         for name, title in (("functions", "functions"), ("branches", "branches"), ("mcdc", "conditions, MC/DC"))
     )
     gaps = "\n".join(
-        f"- `{gap}`: {reason(gap) or 'no reason is known; a row has still to be found'}" for gap in figures["gaps"]
+        f"- {why or 'no reason is known; a row has still to be found'}:\n"
+        + "\n".join(f"  - `{gap}`" for gap in figures["gaps"] if reason(gap) == why)
+        for why in dict.fromkeys(map(reason, figures["gaps"]))
     )
     return f"""\
 clang compiles `hypcheck.h` with `-fcoverage-mcdc`. It is asked the frozen vectors, scenes made of them, rows and scenes

@@ -11,6 +11,7 @@
 #define HYPCHECK_IMPLEMENTATION
 #include "hypcheck.h"
 #include "guards.h"
+#include "exact_guards.h"
 
 enum { ROWS, LEANING, SCENE, LEANING_SCENE, WAYS, LEANING_WAYS, CLEARANCES };
 enum { MODES = 4 };
@@ -22,10 +23,12 @@ typedef struct {
     int8_t *right;
 } batch;
 
-static long counts[16];
-static const char *const names[] = {"single", "certified", "one line", "two lines", "tilted", "one plane", "two planes",
+static long counts[24];
+static const char *const names[] = {"single", "certified", "fixed point", "tangencies", "roots in 128 bits", "roots in 256 bits",
+                                    "in the plane", "one line", "two lines", "tilted", "one plane", "two planes",
                                     "ways", "times", "clearances", "touches", "distances", "gaps"};
-enum { SINGLE, CERTIFIED, ONE_LINE, TWO_LINES, TILTED, ONE_PLANE, TWO_PLANES, DECIDED_WAYS, TIMES, NARROW, TOUCHES, DISTANCES, GAPS, ALL };
+enum { SINGLE, CERTIFIED, FIXED, TANGENCIES, IN_128, IN_256, IN_PLANE, ONE_LINE, TWO_LINES, TILTED, ONE_PLANE, TWO_PLANES,
+       DECIDED_WAYS, TIMES, NARROW, TOUCHES, DISTANCES, GAPS, ALL };
 
 static void wrong(const batch *b, int mode, int i, const char *what, int found) {
     int k;
@@ -47,6 +50,34 @@ static int answer_of(int question, int position) {
     return question == 1 ? position > 0 : question == 2 ? position < 0 : question == 3 ? position == 0 : position;
 }
 
+static void no_other(const batch *b, int mode, int i, const char *what, int found) {
+    if (found != 2 && found != b->right[i]) wrong(b, mode, i, what, found);
+}
+
+/* The exact stages one by one, those too that an earlier stage spares: each says what is right, or that it does not tell. Few of
+   their numbers are floats: once, rounding to nearest, is enough. */
+static void ask_exact_stages(const batch *b, int mode, int i) {
+    const double *const r = b->rows + b->width * i;
+    const hc_fixed_terms terms = hc_fixed_terms_of(r);
+    const hc_fixed_cubic cubic = hc_fixed_cubic_of(&terms);
+    uint64_t lengths[7];
+    double about;
+    const int fixed = hc_fixed_position(r, &about), bits = hc_short_lengths(r, lengths);
+    const double guess = hc_fixed_double_root(&cubic);
+    const int beside = hc_position_beside_tangency(r, guess), integers = hc_position_by_integers(r);
+    no_other(b, mode, i, "fixed point", fixed);
+    no_other(b, mode, i, "beside a tangency", beside);
+    if (integers != b->right[i]) wrong(b, mode, i, "integers", integers);
+    counts[FIXED] += fixed != 2;
+    counts[TANGENCIES] += fixed == 2 && hc_position_beside_tangency(r, about) != 2;
+    if (bits > HC_TANGENCY_BITS) return;
+    if (hc_touches_by(lengths, guess) != 2) counts[IN_256]++, no_other(b, mode, i, "a double root in 256 bits", 0);
+    if (bits <= 23 && hc_touches_by_short(lengths, guess) != 2) counts[IN_128]++, no_other(b, mode, i, "a double root", 0);
+    if (r[6] != 0) return;
+    no_other(b, mode, i, "the plane of the waist", hc_position_in_plane(lengths));
+    counts[IN_PLANE] += hc_position_in_plane(lengths) != 2;
+}
+
 static void ask_rows(const batch *b, int mode) {
     int8_t *answers = malloc((size_t)b->n);
     int i, leaning = b->kind == LEANING;
@@ -57,8 +88,10 @@ static void ask_rows(const batch *b, int mode) {
         if (answers[i] != b->right[i]) wrong(b, mode, i, "an answer", answers[i]);
         if (leaning) {
             counts[TILTED] += (long)(hc_tilted_plain(r, 1, 1).decided & 1);
+            if (mode == 0 && b->right[i] != 127 && hc_exact_tilted_position(r) != b->right[i]) wrong(b, mode, i, "tilted integers", 3);
             continue;
         }
+        if (b->right[i] != 127 && mode == 0) ask_exact_stages(b, mode, i);
         counts[SINGLE] += hc_single(r) != 2;
         counts[CERTIFIED] += (long)(hc_certified_plain(r, 1, 1).decided & 1);
         if (hypcheck_position(r[0], r[1], r[2], r[3], r[4], r[5], r[6]) != b->right[i]) wrong(b, mode, i, "one row", 3);
@@ -106,6 +139,32 @@ static void ask_planes(const batch *b, int mode, const double *x, const double *
     }
 }
 
+/* Scenes prepared with and without their centres, the answers written and kept as bits. */
+static void ask_prepared(const batch *b, int mode, int question, const double *x, const double *y, const double *z, int8_t *answers) {
+    const size_t n = (size_t)b->n;
+    const double *const axis = b->kind == LEANING_SCENE ? b->rows + 7 : NULL;
+    hc_signs *const kept = malloc((n / HC_BLOCK + 1) * sizeof *kept);
+    size_t i, known;
+    for (known = 0; known < 2; known++) {
+        hypcheck_scene scene;
+        hc_prepared made;
+        hypcheck_prepare(&scene, b->rows, axis, known ? n : 0, x, y, z);
+        hypcheck_ask_prepared(question, &scene, n, x, y, z, answers);
+        for (i = 0; i < n; i++)
+            if (answers[i] != answer_of(question, b->right[i])) wrong(b, mode, (int)i, "a prepared scene's answer", answers[i]);
+        memcpy(&made, &scene, sizeof made);
+        if (!made.valid) continue;
+        memset(kept, 0xff, (n / HC_BLOCK + 1) * sizeof *kept);
+        hc_ask_kept(HYPCHECK_POSITION, &made, n, x, y, z, NULL, kept);
+        for (i = 0; i < n; i++) {
+            const int plus = (int)(kept[i / HC_BLOCK].plus >> i % HC_BLOCK & 1), minus = (int)(kept[i / HC_BLOCK].minus >> i % HC_BLOCK & 1);
+            const int right = b->right[i] == 127 ? 0 : b->right[i];
+            if (plus - minus != right || (plus && minus)) wrong(b, mode, (int)i, "a kept answer", plus - minus);
+        }
+    }
+    free(kept);
+}
+
 static void ask_scene(const batch *b, int mode) {
     const int leaning = b->kind == LEANING_SCENE;
     double *x = malloc(8 * (size_t)b->n), *y = malloc(8 * (size_t)b->n), *z = malloc(8 * (size_t)b->n);
@@ -122,6 +181,7 @@ static void ask_scene(const batch *b, int mode) {
         else hypcheck_ask_scene(question, b->rows, (size_t)b->n, x, y, z, answers);
         for (i = 0; i < b->n; i++)
             if (answers[i] != answer_of(question, b->right[i])) wrong(b, mode, i, "a scene's answer", answers[i]);
+        ask_prepared(b, mode, question, x, y, z, answers);
     }
     if (leaning) ask_planes(b, mode, x, y, z, signs, left);
     else ask_lines(b, mode, x, y, z, signs, left);
@@ -181,6 +241,7 @@ int main(int argc, char **argv) {
 #endif
     if (argc > 3 && !hypcheck_use_level(argv[3])) return 3;
     check_guards();
+    check_exact_guards();
     while (fread(&b, 4, 4, file) == 4) {
         const size_t n = (size_t)b.n, width = (size_t)b.width;
         b.rows = malloc(8 * n * width);

@@ -15,6 +15,7 @@ import numpy as np
 
 from tests.tools.attack import places, tilted_places
 from tests.tools.attack.strike import truth_of
+from tests.tools.evidence.battery.constructed import constructed
 from tests.tools.evidence.parts import ROOT
 from tests.tools.evidence.seeds import CLEARANCES, LEANING, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, WAYS, numbers
 
@@ -104,7 +105,8 @@ def drawn(seed: int = 5) -> Iterator[Questions]:
 
 def write(path: Path, every: int = 6, seeds: tuple[int, ...] = (5,)) -> Path:
     """Writes the file of questions that driver.c reads; what takes longest, scenes, comes last."""
-    asked = [*frozen(every), *frozen_scenes(), *(each for seed in seeds for each in drawn(seed))]
+    made = [Questions(kind, rows, right, NEAREST | 4) for kind, rows, right in constructed()]
+    asked = [*frozen(every), *made, *frozen_scenes(), *(each for seed in seeds for each in drawn(seed))]
     with path.open("wb") as file:
         for questions in sorted(asked, key=lambda each: each.kind in (SCENE, LEANING_SCENE)):
             file.write(questions.data)
