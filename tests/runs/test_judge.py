@@ -140,3 +140,18 @@ def test_flip_exponents_are_those_of_the_distance_to_the_nearest_other_position(
 )
 def test_in_words_names_answers_and_keeps_other_numbers(answer, question, words):
     assert judge.in_words(answer, question) == words
+
+
+def test_the_distance_of_a_leaning_spheroid_to_the_other_answer_is_estimated_near_the_proved_one():
+    leaning = (2.0, 3.0, 0.5, 0.25, 2.54, 0.0, 0.5, 0.0, 1.0, 1.0)
+    proved = judge.error_of(leaning, 0, "position")
+    assert 0 < proved < 0.01
+    assert judge.about_error_of(leaning, 0, "position") == pytest.approx(proved, rel=0.05)
+    assert judge.flip_exponents(np.array([leaning])).tolist() == [math.floor(math.log2(proved))]
+
+
+def test_the_distance_of_an_upright_spheroid_is_the_same_with_and_without_its_axis():
+    upright = (2.0, 3.0, 0.5, 0.25, 3.0, 0.0, 0.5)
+    assert judge.about_error_of((*upright, 0.0, 0.0, 1.0), 0, "position") == judge.error_of(upright, 0, "position")
+    with_axis = judge.flip_exponents(np.array([(*upright, 0.0, 0.0, 1.0)]))
+    assert with_axis.tolist() == judge.flip_exponents(np.array([upright])).tolist()

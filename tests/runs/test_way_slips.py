@@ -1,0 +1,109 @@
+"""Each known mistake about ways gives the answers of an implementation that makes it, and is silent about others."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.runs.causes import SILENT, Asked
+from hypcheck.runs.judge import Criterion
+from hypcheck.runs.way_slips import WAY_SLIPS
+from tests.support.fractions_truth import exact_position
+
+SIZES = (2.0, 3.0, 0.25, 0.15)
+COUNT = 150
+RULES = {cause.name: cause.rule for cause in WAY_SLIPS}
+
+
+def ways(count, seed=7):
+    ends = np.random.default_rng(seed).uniform(-4.0, 4.0, (count, 6))
+    return np.hstack([np.tile(SIZES, (count, 1)), ends])
+
+
+ROWS = ways(COUNT)
+TRUTH = [hypcheck.passage(row[:4], row[4:7], row[7:]) for row in ROWS.tolist()]
+HITS = np.array([each.hit for each in TRUTH], dtype=np.int8)
+FIRST = np.array([each.first_lower if each.hit else np.nan for each in TRUTH])
+STARTS, ENDS = (
+    np.array([exact_position((*SIZES, *row[place : place + 3])) == 0 for row in ROWS.tolist()], dtype=np.int8)
+    for place in (4, 7)
+)
+
+
+def asked(given, times=None, rows=ROWS, truth=HITS):
+    return Asked(rows, truth, np.asarray(given, dtype=np.int8), Criterion("passage"), times)
+
+
+def hits_of(change):
+    return [hypcheck.passage(row[:4], row[4:7], row[7:]).hit for row in map(change, ROWS.tolist())]
+
+
+def test_the_ways_here_have_contacts_at_their_ends_between_them_and_none():
+    assert 5 < STARTS.sum() < 50
+    assert 5 < (HITS & ~STARTS & ~ENDS & 1).sum()
+    assert 5 < (HITS == 0).sum()
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("only-the-start", STARTS),
+        ("only-the-end", ENDS),
+        ("only-the-ends", STARTS | ENDS),
+        ("way-always-0", np.zeros(COUNT)),
+        ("way-always-1", np.ones(COUNT)),
+        ("way-x-z", hits_of(lambda r: [*r[:4], r[6], r[5], r[4], r[9], r[8], r[7]])),
+        ("way-b-d", hits_of(lambda r: [r[0], r[1], r[3], r[2], *r[4:]])),
+        ("way-level", hits_of(lambda r: [*r[:9], r[6]])),
+    ],
+)
+def test_a_rule_gives_the_answers_of_an_implementation_that_errs_so(name, given):
+    assert RULES[name](asked(given)).tolist() == np.asarray(given, dtype=np.int8).tolist()
+
+
+def test_positions_between_clear_ends_explain_missed_contacts_alone():
+    given = STARTS | ENDS
+    said = RULES["between-positions"](asked(given))
+    missed = (HITS == 1) & (given == 0)
+    assert missed.any()
+    assert (said[missed] == 0).all()
+    assert (said[~missed] == SILENT).all()
+
+
+def test_columns_that_change_places_say_nothing_of_spheroids_that_lean():
+    leaning = np.hstack([ROWS, np.tile([0.0, 0.0, 1.0], (COUNT, 1))])
+    assert (RULES["way-x-z"](asked(HITS, rows=leaning)) == SILENT).all()
+    assert RULES["only-the-start"](asked(HITS, rows=leaning)).tolist() == STARTS.tolist()
+
+
+def test_a_hit_at_another_time_than_the_rule_gives_is_not_explained_by_it():
+    times = np.where(STARTS == 1, 0.0, np.nan)
+    assert RULES["only-the-start"](asked(STARTS, times)).tolist() == STARTS.tolist()
+    later = RULES["only-the-start"](asked(STARTS, times + 0.5))
+    assert (later[STARTS == 1] == SILENT).all()
+
+
+ON_THE_WAY = (HITS == 1) & (FIRST > 0.01) & (FIRST < 0.45)
+
+
+def explained(name, times):
+    return RULES[name](asked(HITS, times)) == 1
+
+
+def test_times_from_the_end_are_told_from_right_ones():
+    assert explained("times-from-the-end", 1 - FIRST)[ON_THE_WAY].all()
+    assert not explained("times-from-the-end", FIRST)[ON_THE_WAY].any()
+
+
+@pytest.mark.parametrize(("name", "off"), [("late-times", 1e-4), ("early-times", -1e-4)])
+def test_times_that_are_a_little_off_are_told_by_their_direction(name, off):
+    assert ON_THE_WAY.sum() > 5
+    assert explained(name, FIRST + off)[ON_THE_WAY].all()
+    for other in (FIRST - off, FIRST, FIRST + 100 * off):
+        assert not explained(name, other)[ON_THE_WAY].any()
+
+
+@pytest.mark.parametrize("name", ["times-from-the-end", "late-times"])
+def test_rules_about_times_say_nothing_where_there_are_none(name):
+    assert (RULES[name](asked(HITS)) == SILENT).all()
