@@ -1,0 +1,128 @@
+"""What a plan of a run refuses, whoever makes it, and small texts and numbers at their limits."""
+
+from __future__ import annotations
+
+import math
+import os
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from hypcheck.errors import InputError
+from hypcheck.runs import fingerprint
+from hypcheck.runs.fingerprint import MAX_FILES_NAMED, FileSnapshot, files_to_ship, sha256
+from hypcheck.runs.hunt_place import _ratio
+from hypcheck.runs.intermediates import relative_error
+from hypcheck.runs.known_failures import read_known_failures
+from hypcheck.runs.plan import ConformancePlan, check_cluster_address
+from hypcheck.runs.replay_results import _change, answer_said
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"specs": ()}, "no implementation is given"),
+        ({"fail_on": "all"}, "--fail-on is 'all'; it must be one of wrong, false-clear"),
+        ({"max_abstained": -1}, "--max-abstained is -1; it must be 0 or more"),
+        ({"cluster": "nowhere"}, "--cluster is 'nowhere'; it must be that of a dask.distributed scheduler"),
+        ({"cluster": "local:2", "workers": 2}, "a cluster has workers of its own"),
+    ],
+)
+def test_a_plan_with_impossible_options_is_refused(changes, message):
+    with pytest.raises(InputError, match=message):
+        ConformancePlan(**{"specs": ("builtin:fast",), **changes})
+    ConformancePlan(specs=("builtin:fast",))
+
+
+@pytest.mark.parametrize("address", ["tcp://10.0.0.1:8786", "tls://host:1", "host:65535", "local:3"])
+def test_addresses_of_clusters_are_accepted(address):
+    check_cluster_address(address)
+
+
+@pytest.mark.parametrize(
+    "address", ["", "host", "tcp://host", "host:65536", "local:", "local:x", "http://host:80", "a b:1"]
+)
+def test_other_texts_are_no_addresses_of_clusters(address):
+    with pytest.raises(InputError, match="--cluster is "):
+        check_cluster_address(address)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('known_failure = ["ring"]', "it must be a table with"),
+        ("[[known_failure]]\ncase = 7\nreason = 'it is so'", "names 7; it must be a text"),
+    ],
+)
+def test_a_file_of_known_failures_with_other_values_is_refused(tmp_path, text, message):
+    path = tmp_path / "known-failures.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=message):
+        read_known_failures(path)
+
+
+def test_a_file_of_known_failures_that_is_missing_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"cannot read .*none\.toml: no such file or directory"):
+        read_known_failures(tmp_path / "none.toml")
+
+
+def test_a_file_that_cannot_be_read_has_the_reason_in_the_place_of_a_digest(tmp_path):
+    (tmp_path / "file").write_bytes(b"abc")
+    assert sha256(tmp_path / "file").startswith("ba7816bf8f01cfea414140de5dae2223")
+    assert sha256(tmp_path / "none") == "no such file or directory"
+    os.mkfifo(tmp_path / "pipe")
+    assert sha256(tmp_path / "pipe") == "is no regular file"
+
+
+def test_a_file_that_cannot_be_sent_to_a_cluster_is_named(tmp_path, monkeypatch):
+    path = tmp_path / "mine.py"
+    path.write_text("def f(rows): ...")
+    assert [each.content for each in files_to_ship(f"python:{path}:f")] == [b"def f(rows): ..."]
+
+    def unreadable(self):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "read_bytes", unreadable)
+    with pytest.raises(InputError, match=r"mine\.py cannot be sent to a cluster: permission denied"):
+        files_to_ship(f"python:{path}:f")
+
+
+def test_changes_of_our_own_files_and_of_those_under_test_are_told_and_many_are_counted(monkeypatch, tmp_path):
+    tested = tmp_path / "tested.py"
+    tested.write_text("new")
+    ours = {f"hypcheck/{number}.py": "old" for number in range(MAX_FILES_NAMED + 1)}
+    monkeypatch.setattr(fingerprint, "_own_files", lambda: dict(ours))
+    snapshot = FileSnapshot({str(tested): "of the old", str(tmp_path / "gone.py"): "of what is gone"})
+    ours.update(dict.fromkeys(list(ours)[2:], "new"))
+    del ours["hypcheck/0.py"]
+    ours["hypcheck/added.py"] = "new"
+
+    class Recorder(list):
+        add = list.append
+
+    recorder = Recorder()
+    told = snapshot.record_changes(recorder)
+    assert told == [line.sentence for line in recorder]
+    assert len(told) == MAX_FILES_NAMED + 1
+    every = list(snapshot._changes())
+    assert told[-1] == f"{len(every) - MAX_FILES_NAMED} more files were changed"
+    assert any("hypcheck/0.py was removed while" in each for each in every)
+    assert any("hypcheck/added.py was added while" in each for each in every)
+    assert f"{tested}, which is under test, was changed while it was asked" in every
+    assert f"{tmp_path / 'gone.py'}, which is under test, was removed while it was asked" in every
+
+
+def test_ratios_and_errors_beyond_float64_are_infinite_or_the_smallest_number():
+    assert _ratio(-(10**400), 1) == math.inf
+    assert _ratio(-3, 2) == 1.5
+    assert relative_error(Fraction(10) ** 400, Fraction(1)) == math.inf
+    assert relative_error(1 + Fraction(1, 10**400), Fraction(1)) == math.ulp(0.0)
+
+
+def test_changes_and_answers_are_told_in_words():
+    assert _change(math.inf) == "by no relative change up to 1"
+    assert _change((0.25, math.inf)) == "by no relative change up to 1, and not if by 0.25 or less"
+    assert answer_said(2, "position") == "2, cannot say"
+    assert answer_said(127, "position") == "127, refused"
+    assert answer_said(0, "exterior") == "0, not exterior"
