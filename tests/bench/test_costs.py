@@ -60,7 +60,7 @@ def test_comparisons_in_c_and_in_numpy_have_the_same_answers(answers):
     assert ((answers["roots", "C"][TRIGONOMETRIC] == 1) == (by_cosines == 1)).all()
 
 
-def test_the_share_of_positions_that_need_the_rotors_is_that_of_touching_spheroids(plan):
+def test_the_rotors_are_needed_at_the_share_of_positions_where_spheroids_touch(plan):
     flight = claims.flight_of(1, 4000)
     share = claims.share_touching(flight)
     asked = np.count_nonzero(PROCEDURES["procedure-2b"](flight) != PROCEDURES["procedure-2a"](flight))

@@ -162,7 +162,7 @@ def test_a_multiple_of_an_expression_is_asked_up_to_what_the_ceiling_allows():
     assert target.line(found, "").measured == pytest.approx(20 / (0.75 * 20 / 0.9))
 
 
-def test_what_stands_for_large_pages_is_said(tmp_path, monkeypatch):
+def test_large_pages_names_the_setting_of_the_system(tmp_path, monkeypatch):
     for said, words in (
         ("always [madvise] never\n", "where asked for"),
         ("[always] never", "always"),

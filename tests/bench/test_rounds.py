@@ -61,7 +61,7 @@ def test_a_clock_that_stands_still_does_not_hang():
     assert measured([TimingEntry("a", 1, Clock("a", [], ns=0))])["a"].loops == MOST_LOOPS
 
 
-def test_given_loops_are_kept():
+def test_a_measurement_keeps_the_number_of_loops_that_it_is_given():
     assert measured([TimingEntry("a", 1, Clock("a", []), loops=17)])["a"].loops == 17
 
 

@@ -50,12 +50,12 @@ def test_an_impossible_sample_is_dropped_and_counted():
 
 
 @pytest.mark.parametrize("samples", [[-3.0, 2.0, -1.0, 4.0], [0.01, 0.0, -0.02, 0.0], [12.0, 12.0, 11.9, 12.1]])
-def test_a_time_that_cannot_be_told_from_an_empty_call_is_not_measured_and_says_why(samples):
+def test_a_time_as_short_as_an_empty_call_is_not_measured_with_a_reason(samples):
     found = lines(parts("theirs", samples, [200.0, 210.0, 190.0, 205.0]))
     assert of(found, SpeedLine, "theirs") == []
     (line,) = of(found, UnmeasuredLine, "theirs")
     assert (line.workload, line.mode) == WHERE
-    assert "cannot be told from that of a call that does nothing, 202 ns (190 to 210)" in line.reason
+    assert "cannot be distinguished from that of a call that does nothing, 202 ns (190 to 210)" in line.reason
 
 
 def test_time_without_an_empty_call_is_always_measured():

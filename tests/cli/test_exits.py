@@ -210,7 +210,7 @@ def test_an_interrupt_is_not_lost_while_an_object_is_freed(name, error, capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_a_command_may_end_with_a_code_of_its_own(monkeypatch, capsys):
+def test_a_command_can_end_with_an_exit_code_that_it_chooses(monkeypatch, capsys):
     @click.command()
     @click.pass_context
     def command(context: click.Context) -> None:

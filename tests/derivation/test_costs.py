@@ -9,7 +9,7 @@ from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.derivation.program import Operations
 
 
-def test_table_2():
+def test_the_cost_of_table_2_is_the_count_of_its_operations():
     cost = cost_of(FORMULAS["table-2"])
     # Before the loop: α/b, A, γ/d, B, AB, c0 + A, C; and of what is printed inside it b², A − B, K, c0², 27 c0².
     assert cost.scene == Operations(additions=4, multiplications=6, divisions=2)

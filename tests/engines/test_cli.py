@@ -1,16 +1,21 @@
 """hypcheck engines: what is listed, what installs, and one sentence where something is missing."""
 
 import json
+import subprocess
 
+import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.engines import install as installing
-from hypcheck.engines.placing import FAMILIES
+from hypcheck.engines import measure as measuring
+from hypcheck.engines import run as running
+from hypcheck.engines.placing import FAMILIES, placed
 from hypcheck.engines.report import write_page
 from hypcheck.engines.run import read_records, record_of, write_record
 from hypcheck.engines.table import ENGINES
-from hypcheck.errors import UnavailableError
+from hypcheck.errors import InputError, UnavailableError
+from hypcheck.implementations.session import StartError, TimingError
 from tests.engines.test_adapters import CACHE
 
 
@@ -76,3 +81,88 @@ def test_a_small_record_of_an_engine_makes_the_page_and_a_badge(tmp_path):
     assert "| [python-fcl](#python-fcl-07011) 0.7.0.11 |" in page
     assert all(f"*{name}*: {FAMILIES[name].text}" in page for name in FAMILIES)
     assert json.loads((tmp_path / "python-fcl.badge.json").read_text())["label"] == "python-fcl"
+
+
+def program(folder, name, script):
+    folder.mkdir(exist_ok=True)
+    (folder / name).write_text(f"#!/bin/sh\n{script}\n")
+    (folder / name).chmod(0o755)
+
+
+def test_an_installed_engine_has_its_adapter_and_says_so_until_the_adapter_changes(monkeypatch, tmp_path, capsys):
+    bin_, cache = tmp_path / "bin", tmp_path / "cache"
+    for name in ("node", "npm"):
+        program(bin_, name, f'echo "$@" >> {tmp_path}/{name}.said')
+    monkeypatch.setenv("PATH", f"{bin_}:/bin:/usr/bin")
+    assert main(["engines", "install", "cannon-es", "--cache", str(cache)]) == 0
+    assert capsys.readouterr().out == "installed cannon-es 0.20.0\n"
+    assert (tmp_path / "npm.said").read_text().split()[-1] == "cannon-es@0.20.0"
+    engine = ENGINES["cannon-es"]
+    assert installing.is_installed(engine, cache)
+    assert installing.command(engine, cache, tmp_path)[-1] == str(tmp_path)
+    (cache / engine.name / "ready").write_text("of another adapter")
+    with pytest.raises(InputError, match="cannon-es is not installed"):
+        installing.command(engine, cache, tmp_path)
+
+
+def test_each_manager_installs_the_pinned_version_into_the_engines_own_folder(monkeypatch, tmp_path):
+    (built,) = installing._steps(ENGINES["parry3d"], tmp_path)
+    assert built[:2] == ["cargo", "build"]
+    assert built[-1] == str(tmp_path / "Cargo.toml")
+    monkeypatch.setattr(installing.metadata, "version", lambda package: "3.0.2")
+    made, installed = installing._steps(ENGINES["coal"], tmp_path)
+    assert made[1:] == ["-m", "venv", str(tmp_path / "venv")]
+    assert installed[0] == str(tmp_path / "venv" / "bin" / "python")
+    assert installed[-2:] == ["coal==3.0.3", "numpy"]
+    monkeypatch.setattr(installing.metadata, "version", lambda package: "3.0.3")
+    assert installing._steps(ENGINES["coal"], tmp_path) == []
+
+    def absent(package):
+        raise installing.metadata.PackageNotFoundError(package)
+
+    monkeypatch.setattr(installing.metadata, "version", absent)
+    assert len(installing._steps(ENGINES["coal"], tmp_path)) == 2
+
+
+def test_families_that_an_engine_cannot_be_asked_are_skipped_with_the_reason(monkeypatch, tmp_path):
+    def refused(engine, cache, name, each, triangles):
+        asked.append(name)
+        raise StartError("the program ended; stderr: no memory")
+
+    asked = []
+    monkeypatch.setattr(running, "_asked", refused)
+    found = record_of(ENGINES["cannon-es"], tmp_path, families=("leaning", "ball"), meshes=(500, 5000))
+    assert found.skipped == {"leaning": "no spheroid leans", "ball": "no memory"}
+    assert asked == ["ball"]
+
+
+def test_a_file_that_is_no_record_of_an_engine_is_bad_input(tmp_path):
+    (tmp_path / "coal.json").write_text("{}")
+    with pytest.raises(InputError, match=r"coal\.json is no record of an engine: .*schema"):
+        read_records(tmp_path)
+
+
+def test_a_spec_of_a_command_is_quoted_for_a_shell():
+    assert running.shown_spec(["node", "my adapter.mjs"]) == "'command:node '\"'\"'my adapter.mjs'\"'\"''"
+
+
+def test_an_adapter_that_hangs_or_cannot_be_timed_has_neither_distances_nor_a_time(monkeypatch):
+    rows = placed(FAMILIES["ball"], 1).rows
+
+    def hangs(words, timeout, **others):
+        raise subprocess.TimeoutExpired(words, timeout)
+
+    class Untimed:
+        def time(self, rows, repeat):
+            raise TimingError("it has no clock")
+
+    monkeypatch.setattr(measuring.subprocess, "run", hangs)
+    assert np.isnan(measuring.reported_distances(["adapter"], rows)).all()
+    assert measuring._microseconds(Untimed(), rows) is None
+
+
+def test_the_error_of_distances_that_were_not_reported_is_not_known():
+    found = placed(FAMILIES["ball"], 1)
+    none = np.full(len(found.rows), np.nan)
+    reported = measuring._reported(none, found, none, found.contact)
+    assert (reported.rows, reported.missing, reported.worst_mm) == (0, found.contact.sum(), None)

@@ -102,3 +102,10 @@ def test_both_ends_of_a_way_must_lie_in_a_range_of_magnitudes_and_in_a_span_but_
     assert within(np.array([near, far]), layout=WAYS).tolist() == [True, False]
     setting = FixedSizes((1.0, 2.0, 1.0, 1.0), z=(0.0, 3.0))
     assert setting.holds(np.array([WAY, [*WAY[:9], 2.0]]), WAYS).tolist() == [False, True]
+
+
+def test_fixed_sizes_hold_the_rows_of_their_axis_and_with_a_free_one_those_of_any():
+    upright, leaning = [*GOOD, 0.0, 0.0, 1.0], [*GOOD, *AXIS]
+    rows = np.array([upright, leaning])
+    for axis, expected in ((None, [True, False]), (tuple(AXIS), [False, True]), ("free", [True, True])):
+        assert FixedSizes(tuple(GOOD[:4]), axis=axis).holds(rows).tolist() == expected

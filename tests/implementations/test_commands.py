@@ -206,7 +206,7 @@ def test_memory_faults_are_not_repaired_by_restarts():
         assert it.restarts == 0
 
 
-def test_answers_that_depend_on_the_size_of_a_question_reach_the_caller_as_they_are():
+def test_answers_that_depend_on_the_size_of_a_question_reach_the_caller_unchanged():
     some = rows()
     with open_implementation(command("minds_batch_size"), LIMITS) as it:
         assert it.classify(some, batch=1).answers.tolist() == truth(some).tolist()

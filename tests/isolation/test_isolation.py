@@ -198,7 +198,7 @@ def test_isolated_program_ends_when_hypcheck_is_killed(ways, tmp_path):
     assert seconds not in sleeping()
 
 
-def test_implementation_that_does_not_start_isolated_is_told_how_it_would(tmp_path, monkeypatch):
+def test_an_isolated_implementation_that_does_not_start_gets_a_hint_about_isolate_off(tmp_path, monkeypatch):
     monkeypatch.setattr("hypcheck.isolation.launch.means_of", lambda mode: HERE)
     code = "open('/forged', 'w')"
     if not HERE.names:

@@ -133,7 +133,7 @@ def test_scene_position_refuses_what_is_no_centre_in_one_sentence(centre, senten
             scene.position(*centre)
 
 
-def test_a_step_takes_every_kind_of_number_and_no_array_of_several():
+def test_position_of_a_scene_takes_every_kind_of_number_and_refuses_longer_arrays():
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     for one in (0, 0.0, np.float32(0), np.int64(0), np.array(0.0), np.array([0.0])):
         assert scene.position(one, 0, 0) == -1  # the mover is narrower than the waist

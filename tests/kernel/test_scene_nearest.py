@@ -41,7 +41,7 @@ def test_the_nearest_is_the_least_of_all_pairs():
     assert apart.sum() > 40
 
 
-def test_a_tie_is_said_as_such():
+def test_the_nearest_hyperboloids_are_marked_as_tied_at_equal_distance():
     two = scene(Hyperboloid("a", 0.5, 4.0, (-3, 0, 0)), Hyperboloid("b", 0.5, 4.0, (3, 0, 0)))
     found = two.nearest([0, 0.5], 0, 0)
     assert found.tied.tolist() == [True, False]

@@ -70,7 +70,7 @@ def latex(monkeypatch, tmp_path, script):
     return target
 
 
-def test_what_latex_made_of_the_source_is_written_beside_it(monkeypatch, tmp_path):
+def test_compile_note_writes_the_pdf_beside_its_source(monkeypatch, tmp_path):
     target = latex(monkeypatch, tmp_path, "for last; do :; done; cp $last note.pdf; touch note.aux")
     assert erratum.compile_note(target) == f"wrote {target.with_suffix('.pdf')}"
     assert target.with_suffix(".pdf").read_text() == "the source"

@@ -115,7 +115,7 @@ def test_every_formula_can_be_typeset():
         ("cosine − sine", r"\cos g_{i} - \sin g_{i}"),
     ],
 )
-def test_formulas_in_latex(plain, tex):
+def test_formulas_become_latex(plain, tex):
     assert formula(plain) == tex
 
 
@@ -129,7 +129,7 @@ def test_formulas_in_latex(plain, tex):
         ("Procedure 2.a, i.e. one", "Procedure 2.a, i.e. one"),
     ],
 )
-def test_sentences_in_latex(plain, tex):
+def test_sentences_become_latex(plain, tex):
     assert sentence(plain) == tex
 
 

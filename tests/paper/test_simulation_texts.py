@@ -6,9 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from hypcheck.errors import InputError, UnavailableError
 from hypcheck.paper.forest import SHOWN, ForestPlan, forest_lines, simulate_forest
 from hypcheck.paper.pitch import pitch_lines
 from hypcheck.paper.tower import TowerPlan, simulate_tower, tower_lines
+from hypcheck.report import simulation
+from hypcheck.report.simulation import make_ready, write_simulation
 from hypcheck.scene.reading import read_scene
 
 LEANS = {
@@ -117,3 +120,15 @@ def test_the_text_of_the_forest_counts_steps_that_were_wrongly_allowed(walked, c
     text = list(forest_lines({**walked, "steps": {**walked["steps"], "wrongly_allowed": count}}))
     assert f"  {count} of the made ones {verb} into contact" in text
     assert "of the made ones" not in "".join(forest_lines(walked))
+
+
+def test_a_file_of_a_simulation_that_could_not_be_written_or_removed_is_named(monkeypatch, tmp_path):
+    def unavailable():
+        raise UnavailableError("matplotlib is not here")
+
+    monkeypatch.setattr(simulation, "pictures", unavailable)
+    (tmp_path / "tower-pitch.svg").mkdir()
+    with pytest.raises(InputError, match=r"tower-pitch\.svg cannot be written: it is a folder"):
+        make_ready("tower", tmp_path)
+    with pytest.raises(InputError, match=r"cannot remove .*tower-pitch\.svg: is a directory"):
+        write_simulation({"simulation": "tower"}, tmp_path)

@@ -107,3 +107,14 @@ def test_a_checksum_covers_all_bytes_before_it_except_checksums_and_line_ends(da
         body, _, end = line.rpartition(b', "crc32": ')
         check = zlib.crc32(body, check)
         assert end == b'"%08x"}' % check
+
+
+@pytest.mark.parametrize("line", [b"[1]", b'"header"', b"3", b'{"type": 3}', b'{"types": "header"}'])
+def test_a_first_line_that_is_no_object_with_a_type_is_refused(line):
+    with pytest.raises(InputError, match="it is no object with a type"):
+        list(RecordScan(Reader(io.BytesIO(line + b"\n"), "it")))
+
+
+def test_a_later_line_without_a_type_is_refused():
+    with pytest.raises(InputError, match="it is no object with a type"):
+        list(RecordScan(Reader(io.BytesIO(resealed([LINES[0], {"types": "drift"}, *LINES[2:]])), "it")))

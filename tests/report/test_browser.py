@@ -226,7 +226,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("fault", BROKEN)
-def test_every_check_can_fail(chromium, files, tmp_path, fault):
+def test_every_check_of_the_page_finds_a_broken_page(chromium, files, tmp_path, fault):
     check, break_it = BROKEN[fault]
     page = files["small"].read_text(encoding="utf-8")
     page = page if check is page_checks.quiet else loosened(page)

@@ -21,6 +21,7 @@ from hypcheck.report.changes import (
     status_changes,
 )
 from hypcheck.report.drawings import ReportContext
+from hypcheck.report.messages import figure
 from tests.report import bench_lines, record_samples
 
 
@@ -147,3 +148,36 @@ def test_reports_show_changes_after_failures():
     assert "| `table-2-float32` | `tower-body` | 19 right and 1 tolerated | 17 right and 3 wrong | 2.5 | 40 |" in text
     lines = terminal.render(WORSE, ReportContext(against=BEFORE)).decode()
     assert "1 family of a method changed, worse: table-2-float32 on tower-body" in lines
+
+
+def test_a_table_of_changed_errors_shows_shares_and_reliability_before_and_after():
+    after = changed(bench_lines.lines(), "accuracy", {"wrong": 7, "reliable_above": 0.25}, method="dual-numpy-float32")
+    other = record_samples.record(after)
+    (change,) = accuracy_changes(BENCH, other)
+    text = markdown.render(other, ReportContext(against=BENCH)).decode().partition("## What changed")[2]
+    row = next(line for line in text.splitlines() if line.startswith("| `dual-numpy-float32` | uniform |"))
+    wrong, asked = change.before
+    cells = [cell.strip() for cell in row.strip("|").split("|")]
+    assert cells[2:] == [f"{wrong} of {asked:,}", f"7 of {change.after[1]:,}", figure(change.reliable_before), "0.25"]
+    assert "No case ended otherwise." not in text
+    said = "\n".join(terminal.summary_lines(other, [], against=BENCH))
+    assert "  errors: dual-numpy-float32 on uniform changed" in said
+
+
+def test_versions_of_libraries_that_differ_are_reported():
+    header = as_json(BEFORE.header)
+    name, old = next(iter(header["versions"].items()))
+    header["versions"][name] = "0.0.1"
+    other = dataclasses.replace(BEFORE, header=decoded(header, HeaderLine))
+    assert list(conditions(BEFORE, other)) == [f"{name} {old}, now 0.0.1"]
+
+
+def test_the_terminal_counts_differences_of_two_runs_beyond_a_few():
+    header = as_json(BEFORE.header)
+    header["versions"] = dict.fromkeys(header["versions"], "0.0.1")
+    header["machine"] |= {"processor": "another", "architecture": "another", "system": "another", "cores": 77}
+    other = dataclasses.replace(BEFORE, header=decoded(header, HeaderLine))
+    count = len([*conditions(BEFORE, other), *only_in_one(BEFORE, other)])
+    said = "\n".join(terminal.summary_lines(other, [], against=BEFORE))
+    assert count > terminal.MOST_CONDITIONS + 1
+    assert f"  and {count - terminal.MOST_CONDITIONS} more differences between the runs themselves" in said

@@ -12,8 +12,7 @@ from pydantic_sarif.model import StaticAnalysisResultsFormatSarifVersion210JsonS
 
 from hypcheck.cli.main import main
 from hypcheck.record import Record
-from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
-from hypcheck.report.places import UNKNOWN, Place, placed_failures
+from hypcheck.report.code_hosts import UNKNOWN, Place, placed_failures, render_badge, render_gitlab, render_sarif
 from hypcheck.report.verdict import failures
 from tests.report import record_samples
 from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED

@@ -54,7 +54,7 @@ def test_annotations_are_escaped_as_the_github_runner_reads_them():
     assert line == "::error title=hypcheck%3A a%2Cb%3Ac%250A%2C start::1:2,3%2525"
 
 
-def test_the_replay_command_has_a_line_of_its_own_in_an_annotation():
+def test_the_replay_command_has_a_separate_line_in_an_annotation():
     case = record_samples.worst("ring/1/1/7", "wrong", 3.1e6)
     group = record_samples.group(
         "m", "float64", "ring", {"wrong": 1}, [case], spec="command:a b", failing=["wrong"], faults=[]
@@ -143,5 +143,5 @@ def test_the_environment_says_whether_it_is_github():
     assert not github.on_github({})
 
 
-def test_the_sample_fails_nothing():
+def test_a_record_without_failures_has_no_error_lines():
     assert github.error_lines(record_samples.record()) == []

@@ -200,7 +200,7 @@ def test_foreign_code_in_a_cell_stays_text(foreign):
 @example("# x")
 @example("===")
 def test_foreign_text_at_the_start_of_a_line_starts_no_block(foreign):
-    tokens = PARSER.parse("\n".join(markdown.bullet_lines([markdown.escape_text(foreign)])))
+    tokens = PARSER.parse(f"- {markdown.escape_text(foreign)}")
     kinds = [token.type for token in tokens if token.type.endswith("_open")]
     assert kinds in (["bullet_list_open", "list_item_open", "paragraph_open"], ["bullet_list_open", "list_item_open"])
     assert (kinds[-1] == "paragraph_open") == bool(escaped(foreign))

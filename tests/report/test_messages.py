@@ -9,8 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hypcheck.errors import InputError
 from hypcheck.messages import counted
-from hypcheck.report.messages import classify_command, figure, from_hex, listed, short_row
+from hypcheck.record.lines import DomainPart, FixedSizesPart, WrongAnswer
+from hypcheck.report.document import Code, Emphasis, Strong, plain
+from hypcheck.report.messages import classify_command, domain_text, error_text, figure, from_hex, listed, short_row
 from tests.report import record_samples
 
 
@@ -60,3 +63,27 @@ def test_a_short_row_has_six_digits():
         short_row((2.0, 17.8, 0.25, 1 / 3, -3.0, 0.0, 1e-9))
         == "alpha 2, gamma 17.8, b 0.25, d 0.333333, centre (-3, 0, 1e-09)"
     )
+
+
+def test_a_number_beyond_float64_in_a_record_is_bad_input():
+    with pytest.raises(InputError, match="too large for float64 in the row 0x1p\\+0, 0x1p\\+5000"):
+        from_hex(["0x1p+0", "0x1p+5000"])
+
+
+def test_a_domain_of_many_sizes_names_four_and_counts_the_rest():
+    sizes = [FixedSizesPart(sizes=(float(n), 2.0, 0.5, 0.25), x=None, y=None, z=None, axis=None) for n in range(1, 7)]
+    domain = DomainPart(regimes=[], ratio=None, magnitude=None, settings=sizes)
+    assert "(4, 2, 0.5, 0.25) or 2 more" in domain_text(domain)
+    assert "5, 2, 0.5" not in domain_text(domain)
+
+
+def test_a_wrong_time_is_told_with_the_first_contact_and_the_way_between_them():
+    case = WrongAnswer(
+        case="way/1", row=("0x1p+0",) * 7, truth=1, answer=1, mistake="late", status="wrong",
+        backward_error=3.25, backward_error_u=3.25, time=0.5, first=(0.125, 0.126),
+    )  # fmt: skip
+    assert error_text(case) == "at 0.5, but the first contact is at 0.125, 3.25 radii of the way from there"
+
+
+def test_marks_of_text_are_left_out_where_it_is_plain():
+    assert plain(("of ", Strong("all"), " that ", Emphasis(("is ", Code("here"))))) == "of all that is here"

@@ -36,7 +36,7 @@ def test_colours_stand_out_from_their_ground(ground):
         assert contrast(both[ground], surface) >= least, role
 
 
-def test_each_role_has_a_colour_of_its_own():
+def test_no_two_roles_have_the_same_colour():
     assert len({light for light, _ in ROLES.values()}) == len(ROLES)
 
 

@@ -139,7 +139,7 @@ def test_an_oracles_counts_add_up():
     assert exact.stages == {"certificate refused": 1, "proved": 11}
 
 
-def test_an_implementations_totals():
+def test_the_totals_of_an_implementation_add_up_its_families():
     fast, low, high = implementations(record_samples.record())
     assert (fast.name, fast.exact, fast.asked, fast.worst) == ("fast", True, 40, None)
     assert (low.spec, low.asked) == ("builtin:table-2-float32", 39)
@@ -157,3 +157,39 @@ def test_a_ratio_is_taken_round_by_round():
     assert (fast.least_ns, fast.median_ns, fast.greatest_ns) == (50, 80, 90)
     alone = [line for line in record_samples.lines() if line.get("name") != "plain numpy formula"]
     assert timing_totals(record_samples.record(alone))[0].ratio is None
+
+
+def test_an_implementation_that_broke_the_protocol_throughout_is_a_failure_of_its_start():
+    line = implementation(broke_protocol_throughout=True)
+    found = failures(of(line, body=[]))
+    assert [(each.kind, each.name, each.message) for each in found] == [
+        ("protocol", "theirs", "theirs broke the protocol throughout")
+    ]
+    assert failures(of(implementation(), body=[])) == []
+
+
+def implementation(**changes):
+    domain = {"regimes": [], "ratio": None, "magnitude": None}
+    described = {"question": "position", "precision": "float64", "domain": domain, "refuses": False}
+    described |= {"name": "theirs", "version": "1", "language": "c", "binary": True, "time": False}
+    return {
+        "type": "implementation",
+        "spec": "library:theirs.so",
+        "name": "theirs",
+        "started": True,
+        "declared": described,
+        "used": described,
+        "restarts": 0,
+        "broke_protocol_throughout": False,
+        "again": {"asked": 0, "within": 0, "beyond": 0},
+        "troubles": [],
+        **changes,
+    }
+
+
+def test_answers_that_stay_undecided_make_a_run_inconclusive():
+    line = record_samples.group("theirs", "float32", "tangent", {"undecided": 2, "right": 3})
+    assert verdict(of(line, exit_code=4)).sentence == (
+        "INCONCLUSIVE, exit code 4: 2 answers undecided: the tolerance lies between the two ends that are proved of "
+        "the backward error."
+    )

@@ -75,7 +75,7 @@ def test_a_straight_way_is_curved_and_its_first_contact_stands_in_both_panels():
     assert near.get_xlim()[1] - near.get_xlim()[0] < 6 < whole.get_xlim()[1]
 
 
-def test_a_wrong_time_is_drawn_as_a_body_of_its_own():
+def test_a_wrong_time_is_drawn_as_a_separate_body():
     late = case("way-long/1/1/3", *THROUGH, 7.0, answer=1, mistake="late", time=0.5, first=[0.275, 0.276])
     (plot,) = draw_plots("ways", ways(late))
     assert plot.description.endswith("answered: in contact on the way, first at 0.5.")

@@ -108,3 +108,10 @@ def test_an_error_while_a_report_is_made_leaves_the_old_report(tmp_path, monkeyp
         write_reports(record_samples.record(), tmp_path)
     assert (tmp_path / "summary.json").read_text(encoding="utf-8") == "old"
     assert os.listdir(tmp_path) == ["summary.json"]
+
+
+def test_an_old_report_that_cannot_be_removed_is_named(tmp_path):
+    (tmp_path / "map.svg").mkdir()
+    without = [line for line in record_samples.lines() if line["type"] != "map"]
+    with pytest.raises(InputError, match=r"cannot remove .*map\.svg: is a directory"):
+        write_reports(record_samples.record(without), tmp_path, ["map"])

@@ -290,7 +290,7 @@ def test_the_adapter_reads_nan_and_infinities(built, spec):
 
 
 @commands
-def test_no_rows_have_no_answers(built, spec):
+def test_the_adapter_answers_a_question_without_rows_without_answers(built, spec):
     said = b"classify 1 0 text\nclassify 2 0 binary\n" + GOOD
     assert built.talk(spec, said).partition(b"\n")[2] == b"1 0\n2 0\n" + ANSWER
 

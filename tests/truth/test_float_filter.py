@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -49,3 +51,46 @@ def test_an_invalid_row_is_named():
     rows[3, 2] = -1
     with pytest.raises(InputError, match=r"row 3: b is -1\.0"):
         float_filter.positions(rows)
+
+
+def squares(rows):
+    """A, B, P and Q of each row, and its exact position."""
+    expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+    return float_filter._squares(np.ascontiguousarray(rows.T)), expected
+
+
+@pytest.mark.parametrize(
+    ("witness", "shares"),
+    [
+        (float_filter._level, (0.95, 0.75, 0.74)),
+        (float_filter._maximum, (0.999, 0, 0.999)),
+        (float_filter._upright, (0, 0.93, 0)),
+        (float_filter._slanted, (0, 0.98, 0)),
+        (float_filter._along_the_normal, (0, 0.53, 0)),
+    ],
+)
+def test_each_witness_alone_decides_the_rows_that_it_is_for_and_none_wrongly(witness, shares):
+    rows = 2.0 ** np.random.default_rng(6).uniform(-2, 2, (4000, 7))
+    rows[:, 4:] *= np.random.default_rng(7).choice((-1, 1), (4000, 3))
+    found, expected = squares(rows)
+    with np.errstate(all="ignore"):
+        proved = witness(*found)
+    decided = proved != float_filter.UNDECIDED
+    assert (proved[decided] == expected[decided]).all()
+    for position, share in zip((-1, 0, 1), shares, strict=True):
+        assert decided[expected == position].mean() >= share
+
+
+def test_the_local_maximum_of_the_cubic_is_near():
+    rows = 2.0 ** np.random.default_rng(8).uniform(-2, 2, (400, 7))
+    found, expected = squares(rows)
+    with np.errstate(all="ignore"):
+        at = float_filter._local_maximum(*found)
+    for k in np.flatnonzero(expected):
+        g = exact.cubic(Pair.from_row(rows[k].tolist()).lengths)
+        slopes = [
+            (3 * g.n3 * x + 2 * g.n2) * x + g.n1
+            for x in (Fraction(at[k]) * (1 + s * Fraction(1, 2**30)) for s in (-1, 1))
+        ]
+        assert min(slopes) < 0 < max(slopes)
+        assert 6 * g.n3 * Fraction(at[k]) + 2 * g.n2 < 0

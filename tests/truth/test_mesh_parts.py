@@ -11,6 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
+from hypcheck.truth import mesh_meridian
 from hypcheck.truth.mesh import distance_to_mesh, ribbon
 from hypcheck.truth.mesh_meridian import REACH, UNIT, bounds_of, cell_of, halves, meridian_of, window_of
 from tests.support.fractions_truth import everyday, rows_of
@@ -103,3 +104,26 @@ def test_bounds_of_a_cell_around_the_centre_claim_nothing():
     found = bounds_of(cell_of(meridian, *window_of(meridian)), outside=True)
     assert found.lower < 0.02
     assert found.upper > 0
+
+
+@settings(max_examples=100)
+@given(rows_of(*everyday(-3, 3)))
+def test_the_side_of_the_centre_is_exact(row):
+    alpha, gamma, _, _, x, y, z = map(Fraction, row)
+    level = (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
+    assert meridian_of(Pair(*row)).side == (level > 0) - (level < 0)
+
+
+@pytest.mark.parametrize(
+    ("ends", "nearest"),
+    [
+        (((1.0, -1.0), (1.0, 3.0)), (1.0, 0.0)),
+        (((3.0, 1.0), (-1.0, 1.0)), (0.0, 1.0)),
+        (((2.0, 0.0), (0.0, 2.0)), (1.0, 1.0)),
+        (((1.0, 2.0), (3.0, 4.0)), (1.0, 2.0)),
+        (((3.0, 4.0), (1.0, 2.0)), (1.0, 2.0)),
+        (((1.0, 2.0), (1.0, 2.0)), (1.0, 2.0)),
+    ],
+)
+def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
+    assert mesh_meridian._nearest_on(*ends) == nearest

@@ -7,9 +7,10 @@ import random
 from fractions import Fraction
 
 import mpmath
+import numpy as np
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import nearest_dual
+from hypcheck.truth import nearest, nearest_dual
 from hypcheck.truth.nearest_dual import SquaredLengths, dual
 
 APART = (4.0, 4.0, 1e-310, 1.0, 4.0, 0.1, 1e10)
@@ -70,3 +71,22 @@ def test_the_first_tau_is_never_below_the_root():
             assert sigma > 0
             assert tau * mpmath.sqrt(1 + (q / sigma) ** 2) >= p * (1 - mpmath.mpf(2) ** -100), (p, q)
             assert math.isfinite(tau)
+
+
+def test_the_first_tau_of_arrays_is_at_or_above_the_root_and_within_a_modest_factor():
+    draw, count = np.random.default_rng(8), 150
+    W = np.exp(draw.uniform(-3, 3, count))
+    p = W * np.where(draw.random(count) < 0.5, np.exp(draw.uniform(-4, 4, count)), 1 + draw.normal(0, 1e-3, count))
+    q = W * np.exp(draw.uniform(-12, 4, count))
+    with np.errstate(all="ignore"):
+        tau, sigma = nearest._start(p, q, W)
+    for k in range(count):
+        low, high = mpmath.mpf(0), mpmath.mpf(W[k])
+        with mpmath.workprec(110):
+            for _ in range(100):
+                middle = (low + high) / 2
+                too_low = middle * mpmath.sqrt(1 + (q[k] / (W[k] - middle)) ** 2) < p[k]
+                low, high = (middle, high) if too_low else (low, middle)
+        assert low * (1 - 1e-12) <= tau[k] <= 2 * high * (1 + 1e-12)
+        assert sigma[k] > 0
+        assert 1 / 8 < sigma[k] / (W[k] - high) < 1 + 1e-6 or tau[k] < W[k] / 2

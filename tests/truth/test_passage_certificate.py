@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import random
 from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
-from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, clear_until, contact_at
-from hypcheck.truth.passage_prove import prove
+from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, check_passage, clear_until, contact_at
+from hypcheck.truth.passage_prove import _within, prove
 from hypcheck.vectors.tilted.coincidences import TWO_POINTS
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
@@ -47,6 +48,32 @@ def test_the_answers_of_these_ways_are_those_expected():
     assert firsts[4] == (0.0, 0.0)
 
 
+@pytest.mark.parametrize("row", [THROUGH, TUNNEL, *random_ways(24)])
+def test_the_bounds_of_a_first_contact_are_neighbouring_floats(row):
+    _, first, certificate = prove(row)
+    if first and first[0]:
+        assert math.nextafter(first[0], 1.0) == first[1]
+        assert certificate.pieces[-1][1] == first[0]
+
+
+@pytest.mark.parametrize(
+    ("axis", "offset", "held"),
+    [
+        ((0, 0, 1), (0, 0, Fraction(1, 2)), True),
+        ((0, 0, 1), (0, 0, Fraction(51, 100)), False),
+        ((0, 0, 1), (Fraction(3, 5), Fraction(4, 5), 0), True),
+        ((0, 0, 1), (Fraction(3, 5), Fraction(81, 100), 0), False),
+        ((3, 0, 4), (Fraction(3, 10), 0, Fraction(4, 10)), True),
+        ((3, 0, 4), (Fraction(31, 100), 0, Fraction(41, 100)), False),
+        ((3, 0, 4), (Fraction(-4, 5), 0, Fraction(3, 5)), True),
+        ((3, 0, 4), (Fraction(-4, 5), Fraction(1, 100), Fraction(3, 5)), False),
+    ],
+)
+def test_a_spheroid_holds_an_offset_up_to_its_surface(axis, offset, held):
+    numbers = [Fraction(each) for each in (5, 7, 3, Fraction(3, 2), 1, 2, 3)]  # b = 3, d = b/2
+    assert _within(PairAtTime(tuple(numbers), tuple(map(Fraction, axis))), offset) is held
+
+
 def test_a_grazing_way_is_proved_by_the_double_root_of_one_time():
     certificate = prove(GRAZING)[2]
     assert certificate.double_root == 2  # √A at the waist
@@ -58,6 +85,13 @@ def test_a_tangency_in_two_points_is_proved_where_nothing_moves(row):
     row = tuple(map(float, row))
     found, first, certificate = prove(row)
     assert found.grazes
+    assert check_passage(row, certificate, first)
+
+
+def test_a_way_that_ends_in_tangency_is_proved_by_its_end():
+    row = (*GRAZING[:7], 0.0, *GRAZING[8:])
+    found, first, certificate = prove(row)
+    assert found.first[1] == certificate.time == first[1] == 1
     assert check_passage(row, certificate, first)
 
 
@@ -73,6 +107,7 @@ def test_no_damaged_proof_of_a_clear_way_holds():
         certificate.pieces[:-1],
         (*certificate.pieces[:-1], (certificate.pieces[-1][0], Fraction(99, 100))),
         (*certificate.pieces, (multiplier, Fraction(2))),
+        (*certificate.pieces, certificate.pieces[-1]),
     ):
         assert not check_passage(OUTSIDE, replace(certificate, pieces=pieces), None), pieces
     assert not check_passage(THROUGH, certificate, None)

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from hypcheck.truth import passage_error
 from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, time_window, tolerance
 from hypcheck.truth.swept import passage
 
@@ -39,6 +40,15 @@ def test_the_size_error_of_clear_is_zero_where_a_way_only_touches(end):
 def test_no_size_is_enough_where_the_centre_meets_the_surface_or_is_far_away():
     assert size_error(ACROSS, False).lower == math.inf
     assert size_error((2.0, 3.0, 1.0, 1.0, 9.0, 0.0, 0.0, 8.0, 0.0, 0.0), True).lower == math.inf
+
+
+@pytest.mark.parametrize(
+    "least", [0.3, 0.25, 2.0**-9, 2.0**-10, 1.01 * 2.0**-11, 1e-7, 1e-12, 2.0**-60, 1.5 * 2.0**-300]
+)
+def test_the_least_change_that_is_enough_lies_between_neighbouring_powers_of_two(least):
+    low, high = passage_error._octave(lambda change: change >= least)
+    assert low < least <= high
+    assert high == 2 * low
 
 
 _sizes = st.tuples(*[st.integers(64, 4096).map(lambda n: n / 1024)] * 4)

@@ -74,6 +74,19 @@ def test_the_enclosures_hold_every_distance_and_are_narrow(center, arm, directio
     assert largest[0] - max(seen) < Fraction(1, 50)
 
 
+@pytest.mark.parametrize("center", [(1.0, 2.0), (0.1, -0.7), (3.0, 4.0), (0.0, 0.0)])
+@pytest.mark.parametrize("angle", [7.0, -6.5])
+def test_the_extremes_of_a_whole_turn_enclose_the_two_distances_from_the_circle(center, angle):
+    """They are (ρ ± l)², ρ the root of a number: base ± 2 l ρ."""
+    x, y = map(Fraction, center)
+    arm = Fraction(3, 4)
+    base, square = x * x + y * y + arm * arm, x * x + y * y
+    least, largest = squared_distances(x, y, arm, (Fraction(1), Fraction(0)), angle, 128)
+    for low, high in ((base - least[1], base - least[0]), (largest[0] - base, largest[1] - base)):
+        assert low <= high
+        assert (low / (2 * arm)) ** 2 <= square <= (high / (2 * arm)) ** 2
+
+
 QUARTER = math.pi / 2
 
 

@@ -153,7 +153,7 @@ print(json.dumps({{name: digest(family) for name, family in FAMILIES.items()}}))
     assert json.loads(ran.stdout) == DIGESTS
 
 
-def test_names_globs_and_their_order() -> None:
+def test_select_takes_names_and_globs_and_keeps_the_order_of_the_table() -> None:
     assert [family.name for family in select(["stiff-*", "ring"])] == [
         "ring",
         "stiff-radial",

@@ -154,7 +154,7 @@ def _without_zeros(text):
 @pytest.mark.parametrize(
     ("value", "count"), [(1.0, 1), (-2.5, 4), (0.1, 3), (1e-7, 4), (6000.0, 3), (100.0, 3), (1 / 3, 18), (5e-324, 6)]
 )
-def test_characters_of_some_numbers(value, count):
+def test_characters_counts_those_of_the_shortest_decimal(value, count):
     assert characters(value) == count
 
 

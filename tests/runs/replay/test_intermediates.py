@@ -76,7 +76,7 @@ def test_values_that_are_undefined_in_exact_arithmetic_are_shown_as_undefined():
 
 @pytest.mark.parametrize("name", [name for name in SHOWN_FORMULAS if name != "dual"])
 @pytest.mark.parametrize("format_name", ["float16", "float32", "float64", "longdouble"])
-def test_answers_are_the_formulas_own(name, format_name):
+def test_compared_answers_are_those_of_the_formula(name, format_name):
     for row in (RING, (2.0, 17.8, 0.25, 0.15, 1.2, -1.7, 0.3), (1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0)):
         found = compare_formula(FORMULAS[name], format_name, row)
         columns = dict(zip(COLUMNS, row, strict=True))

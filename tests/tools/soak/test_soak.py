@@ -18,7 +18,7 @@ from tests.tools.soak.running import SHORT, run
 MIB = 1 << 20
 
 
-def test_some_rounds_leave_nothing(monkeypatch):
+def test_some_rounds_of_the_soak_find_no_fault(monkeypatch):
     """Without pictures, which take longer than all else; the long form has them."""
     for name in ("matplotlib", "jinja2"):
         monkeypatch.setitem(sys.modules, name, None)

@@ -30,8 +30,10 @@ def grown(row, factor):
     return [*numbers[:2], numbers[2] * factor, numbers[3] * factor, *numbers[4:]]
 
 
-def tangent_row(cosine, sine, k, v, azimuth, lean, turn, side, swap=False):
+def tangent_row(cosine, sine, k, v, azimuth, lean, turn, side, swap=False, unit=Fraction(1, 10), beyond=False):
     """A row of rationals whose spheroid touches the hyperboloid, and the position of which it is the limit; or None.
+
+    With `beyond`, rows whose spheroid touches there as well, and crosses elsewhere: larger ones.
 
     Each pair (cosine, sine), azimuth, lean and turn is a rational point of the unit circle. The point of touch has the
     unit normal n = (cosine·e_r, −sine·e_z) and the gradient k n (the recipe of docs/mathematics.md for upright pairs).
@@ -50,14 +52,13 @@ def tangent_row(cosine, sine, k, v, azimuth, lean, turn, side, swap=False):
     beside = [ct * p + st * q for p, q in zip(along, across, strict=True)]
     axis = [lean[0] * n + lean[1] * m for n, m in zip(normal, beside, strict=True)]
     wide, tall = (4, 3) if swap else (3, 4)
-    unit = Fraction(1, 10)
     b, d = unit * wide / abs(lean[1]), unit * tall / abs(lean[0])
     touch = (alpha * alpha * k * cosine * ce, alpha * alpha * k * cosine * se, gamma * gamma * k * sine)
     # M⁻¹ n = b² n + (d² − b²)(axis·n) axis, axis·n = lean[0], and nᵀ M⁻¹ n = (5 unit)²
     reach = [(b * b * n + (d * d - b * b) * lean[0] * a) / (5 * unit) for n, a in zip(normal, axis, strict=True)]
     center = [t + side * r for t, r in zip(touch, reach, strict=True)]
     multiplier = side / (k * 5 * unit)
-    if b == d or not _positive_definite(alpha, gamma, b, d, axis, multiplier):
+    if b == d or _positive_definite(alpha, gamma, b, d, axis, multiplier) is beyond:
         return None
     return [alpha, gamma, b, d, *center, *axis], EXTERIOR if side > 0 else INTERIOR
 
@@ -100,6 +101,15 @@ TANGENT = [
     found
     for (cosine, sine), k, v, azimuth, lean, turn, side in itertools.islice(_SPREAD, 0, None, 7)
     if (found := tangent_row(cosine, sine, k, v, azimuth, lean, turn, side)) is not None
+]
+
+_FEW = itertools.product(
+    _CIRCLE, (Fraction(1, 2), Fraction(2)), _CIRCLE[:2], _CIRCLE[1:], (1, -1), (Fraction(1), Fraction(8))
+)
+TOUCHING_AND_CROSSING = [
+    found[0]
+    for (cosine, sine), k, lean, turn, side, unit in _FEW
+    if (found := tangent_row(cosine, sine, k, Fraction(3), _CIRCLE[0], lean, turn, side, unit=unit, beyond=True))
 ]
 
 TINY = math.ulp(0.0)

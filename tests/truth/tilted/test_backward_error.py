@@ -12,7 +12,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import backward_error
 from hypcheck.truth import exact as upright_exact
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.backward_error import bracket, tolerated
+from hypcheck.truth.tilted.backward_error import _short, bracket, tolerated
 from hypcheck.truth.tilted.pair import TiltedLengths
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC
@@ -106,3 +106,10 @@ def test_tolerance_is_met_by_one_of_several_right_answers():
     assert tolerated(row, decided(row), [INTERIOR], Fraction(STEP)) is False
     assert tolerated(row, decided(row), [INTERIOR, EXTERIOR], Fraction(STEP)) is True
     assert tolerated(row, decided(row), [EXTERIOR], Fraction(0)) is False
+
+
+@pytest.mark.parametrize("value", [Fraction(1, 3), Fraction(2, 3) * 2**70, Fraction(5, 7) / 2**300, Fraction(1)])
+def test_a_shortened_change_is_within_a_part_in_4096(value):
+    short = _short(value)
+    assert abs(short / value - 1) <= Fraction(1, 2**12)
+    assert short.numerator.bit_length() <= 14 or short.denominator == 1

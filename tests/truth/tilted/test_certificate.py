@@ -13,7 +13,7 @@ from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import TiltedCertificate, check_certificate, pivots
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
 from hypcheck.truth.tilted.prove import prove
-from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, near_contact, random_rows
+from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, grown, near_contact, random_rows
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 
@@ -105,3 +105,19 @@ def test_two_points_prove_contact_only_within_the_spheroid_and_on_two_sides():
 )
 def test_pivots_tell_definite_from_semidefinite(matrix, expected):
     assert pivots([[Fraction(each) for each in row] for row in matrix]) == expected
+
+
+@pytest.mark.parametrize("unit", [1, Fraction(1, 8), 12])
+def test_a_crossing_on_a_plane_of_symmetry_is_proved_by_points_beyond_a_pole_in_any_unit(unit):
+    """The double root of the tangency is the pole there, and so X(λ) stays on the centre's side."""
+    proved = 0
+    for row, _, limit_of in SYMMETRIC:
+        for part in (Fraction(33, 32), Fraction(1025, 1024)) if limit_of is not None else ():
+            grown_row = [float(each * unit) for each in grown(row, part)[:7]] + row[7:]
+            pair = TiltedPair.from_row(grown_row)
+            certificate = prove(pair)
+            assert certificate.position is CONTACT
+            assert len(certificate.points) == 2
+            assert check_certificate(pair, certificate)
+            proved += 1
+    assert proved > 10

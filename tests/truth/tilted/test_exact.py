@@ -15,7 +15,7 @@ from hypcheck.truth import exact as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.batch import positions
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
-from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, grown, random_rows
+from tests.truth.tilted.cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 
 
 def test_quartic_is_the_determinant_of_the_pencil():
@@ -82,6 +82,23 @@ def test_tangency_from_a_rational_rotation_is_tangent_and_turns_clear_when_shrun
         assert decision.limit_of is side
         assert exact.position(TiltedLengths.of(grown(row, 1 - step))) is side
         assert exact.position(TiltedLengths.of(grown(row, 1 + step))) is Position.CONTACT
+
+
+def test_a_spheroid_that_touches_at_one_point_and_crosses_elsewhere_is_not_tangent():
+    """The multiplier of that point is a double root beyond ℓ."""
+    draw = np.random.default_rng(3)
+    crossing = 0
+    for row in TOUCHING_AND_CROSSING:
+        alpha, gamma, b, d, *rest = map(float, row)
+        ball = draw.normal(size=(20000, 3))
+        ball /= np.linalg.norm(ball, axis=1, keepdims=True)
+        axis = np.array(rest[3:]) / np.linalg.norm(rest[3:])
+        points = np.array(rest[:3]) + b * ball + (d - b) * np.outer(ball @ axis, axis)
+        heights = (points**2 * (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)).sum(axis=1) - 1
+        if heights.min() < -1e-3 and heights.max() > 1e-3:
+            crossing += 1
+            assert exact.decide(TiltedLengths.of(row)) == exact.TiltedDecision(Position.CONTACT)
+    assert crossing == len(TOUCHING_AND_CROSSING) > 20
 
 
 @pytest.mark.parametrize(("row", "position", "why"), WITNESSES)

@@ -38,6 +38,20 @@ def test_the_diagonal_round_the_axis_is_inside_and_the_other_outside():
                 assert side * (x * x + y * y - z * z - 1) >= -1e-12
 
 
+def test_the_first_cells_cover_the_surface():
+    """X(a, b) stays where it is when a or b grows by a whole turn."""
+    draw, turn = np.random.default_rng(4), 2 * math.pi
+    cells = mesh._whole()
+    for _ in range(300):
+        theta, tau = draw.uniform(0, turn), draw.uniform(-1, 1) * math.pi / 2
+        held = [
+            (cells[:, 0] <= a) & (a <= cells[:, 1]) & (cells[:, 2] <= b) & (b <= cells[:, 3])
+            for a in (theta + tau + turn * k for k in (-1, 0, 1))
+            for b in (theta - tau + turn * k for k in (-2, -1, 0, 1, 2))
+        ]
+        assert np.any(held), (theta, tau)
+
+
 def test_a_decided_row_is_right_and_most_rows_are_decided():
     decided = 0
     some = list(rows(["uniform", "near", "symmetric", "grid"], 40, seed=21))

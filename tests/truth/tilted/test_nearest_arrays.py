@@ -37,6 +37,18 @@ def test_tangencies_and_extreme_lengths_are_never_certain(name):
     assert not distances(TILTED_FAMILIES[name].rows(7, 400)).certain.any()
 
 
+@pytest.mark.parametrize(("column", "value"), [(0, 2.0**-101), (4, 2.0**101), (5, 2.0**-101), (8, 2.0**-101)])
+def test_a_length_or_an_axis_out_of_range_is_never_certain(column, value):
+    row = [1.0, 2.0, 0.5, 0.75, 3.0, 1.0, 2.0, 1.0, 0.5, 0.25]
+    rows = np.array([row, row, row])
+    rows[1, column] = value
+    rows[2, column] = value * 4 if value < 1 else value / 4
+    certain = distances(rows).certain
+    assert certain[0]
+    assert not certain[1]
+    assert nearest_arrays._inside(rows).tolist() == [True, False, True]
+
+
 def test_a_clearance_is_enclosed_whatever_multiplier_and_point_are_given(monkeypatch):
     rows = TILTED_FAMILIES["tilted-tower"].rows(7, 200)
     right, exact = nearest_arrays._polished, np.array([each.clearance for each in by_intervals(rows[:60])])

@@ -200,7 +200,7 @@ def test_generated_files_do_not_depend_on_the_instruction_set():
     assert json.loads(plain)["count"] == 60
 
 
-def test_freezing_says_what_it_wrote(capsys, tmp_path):
+def test_freeze_prints_the_names_of_the_files_that_it_wrote(capsys, tmp_path):
     lines = printed(capsys, "freeze", "invalid", "tower-body", "--into", str(tmp_path)).splitlines()
     assert lines == [str(tmp_path / "invalid.json"), str(tmp_path / "tower-body.json")]
     for name in ("invalid", "tower-body"):

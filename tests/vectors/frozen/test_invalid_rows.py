@@ -43,7 +43,7 @@ def test_a_row_to_be_refused_that_is_wrongly_written_is_refused(tmp_path, change
     assert message in found
 
 
-def test_the_two_contents_are_told_apart(tmp_path):
+def test_readers_of_answers_and_of_invalid_rows_refuse_each_others_files(tmp_path):
     assert "here it must be 'positions'" in refused(tmp_path, BAD_ROWS)
     assert "here it must be 'refusals'" in refused(tmp_path, SOUND, read_invalid_rows)
     with pytest.raises(InputError, match="have no answers"):

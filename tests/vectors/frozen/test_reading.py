@@ -164,7 +164,7 @@ def test_a_case_has_all_its_fields_and_no_other(tmp_path, field):
 
 
 @pytest.mark.parametrize("case", [3, None, [], "x"])
-def test_a_case_is_an_object(tmp_path, case):
+def test_a_case_that_is_no_object_is_refused(tmp_path, case):
     assert f", line {FIFTH + 1}: the case is" in refused(tmp_path, with_case(lambda _: case if case is not None else 0))
 
 

@@ -172,7 +172,7 @@ def test_a_tilted_case_that_is_wrongly_written_is_refused(tmp_path, change, mess
         read_tilted_vectors(str(path))
 
 
-def test_contents_of_upright_and_tilted_files_are_told_apart(tmp_path):
+def test_readers_refuse_files_with_another_content_than_theirs(tmp_path):
     with pytest.raises(InputError, match="here it must be 'positions'"):
         read_vectors(str(frozen.path_of("tilted-ring")))
     with pytest.raises(InputError, match="here it must be 'tilted-positions'"):
@@ -217,6 +217,6 @@ def test_tilted_rows_are_generated_in_every_format(capsys, tmp_path):
     assert printed(capsys, "check", str(path)) == "2 cases checked, none with a wrong label\n"
 
 
-def test_upright_families_stay_as_they_are_beside_the_tilted_ones():
+def test_tilted_families_leave_the_upright_ones_unchanged():
     assert not set(FAMILIES) & set(TILTED_FAMILIES)
     assert set(frozen.NAMES).isdisjoint(frozen.TILTED_NAMES)

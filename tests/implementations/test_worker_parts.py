@@ -1,0 +1,139 @@
+"""What a worker says of a function and of what a library leaves behind, and a reply that breaks the protocol."""
+
+from __future__ import annotations
+
+import re
+import signal
+import sys
+
+import numpy as np
+import pytest
+
+from hypcheck.implementations import leftovers
+from hypcheck.implementations.foreign import LoadError, PythonFunction, error_text
+from hypcheck.implementations.frames import CALLS
+from hypcheck.implementations.leftovers import ContractError
+from hypcheck.implementations.protocol import TextReply, TimeReply
+from hypcheck.implementations.session import FaultError
+
+ROWS = np.zeros((3, 10))
+POSITION, _, TIMED = CALLS
+
+
+@pytest.fixture
+def loaded(tmp_path, monkeypatch):
+    """A function of a file with this text; what loading it changes is undone."""
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    before = {*sys.modules}
+
+    def load(text, name="under_test.py"):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        return PythonFunction(str(tmp_path / name), "f")
+
+    yield load
+    for each in {*sys.modules} - before:
+        del sys.modules[each]
+
+
+def test_a_description_that_json_cannot_hold_is_refused(loaded):
+    with pytest.raises(LoadError, match="its description holds a value that JSON cannot express"):
+        loaded("def f(rows): ...\nhypcheck = {'name': {1, 2}}")
+    assert loaded("def f(rows): ...\nhypcheck = {'name': 'mine'}", "other.py").description == '{"name": "mine"}'
+
+
+def test_a_file_named_as_a_loaded_module_does_not_take_its_place(loaded):
+    import json
+
+    function = loaded("def f(rows):\n    return [1] * len(rows)", "json.py")
+    assert function.classify(ROWS, POSITION).integers.tolist() == [1, 1, 1]
+    assert sys.modules["json"] is json
+
+
+def test_a_file_that_python_does_not_load_is_refused(loaded):
+    with pytest.raises(LoadError, match="it is not a Python file"):
+        loaded("def f(rows): ...", "under_test.txt")
+
+
+def test_a_syntax_error_is_told_with_its_file_and_line(loaded):
+    with pytest.raises(LoadError, match=r"raised SyntaxError: .* \(under_test\.py, line 2\)"):
+        loaded("x = 1\ndef f(rows) return")
+    assert re.search(
+        r"raised ValueError: no \(test_worker_parts\.py, line \d+\)", error_text(_raised(ValueError("no")))
+    )
+
+
+def _raised(error):
+    try:
+        raise error
+    except ValueError as found:
+        return found
+
+
+@pytest.mark.parametrize(
+    ("returned", "reason"),
+    [
+        ("[1, 0, 1]", "with times it must return two arrays, hits and times"),
+        ("([1, 0, 1], [0.5, 0.5])", r"as times .* of shape \(2,\) and of float64 for 3 rows; it must be \(3,\)"),
+        ("([1, 0, 1], [[0.5], [0.5, 0.25], 1])", r"as times .*; it must be \(3,\) of float64"),
+        ("([1, 0, 1], ['a', 'b', 'c'])", r"as times .* of <U1 for 3 rows"),
+    ],
+)
+def test_a_function_that_does_not_return_hits_and_times_breaks_its_contract(loaded, returned, reason):
+    with pytest.raises(ContractError, match=reason):
+        loaded(f"def f(rows):\n    return {returned}").classify(ROWS, TIMED)
+
+
+def test_times_of_any_number_type_are_float64_and_great_integers_stay_wrong(loaded):
+    function = loaded("import numpy as np\ndef f(rows):\n    return np.array([1, 0, 2**64 - 1], np.uint64), [0, 1, 0]")
+    given = function.classify(ROWS, TIMED)
+    assert given.times.tolist() == [0.0, 1.0, 0.0]
+    assert given.integers.tolist() == [1, 0, 2**63 - 1]
+
+
+def test_a_function_has_no_entry_for_scenes(loaded):
+    function = loaded("def f(rows): ...")
+    with pytest.raises(ContractError, match="has no entry for scenes, and was asked for one with 3 rows"):
+        function.seconds(ROWS, 1, POSITION, by_scene=True)
+
+
+HANDLERS = bytes(8 * 65)
+
+
+def test_everything_that_a_library_changed_is_named():
+    before = leftovers._State("/before", "C", HANDLERS, 3, ((1, 1), (1, 2)))
+    changed = bytearray(HANDLERS)
+    changed[8 * signal.SIGSEGV] = changed[8 * 64] = 1
+    now = leftovers._State("/now", "de", bytes(changed), 4, ((1, 1), (1, 3)))
+    assert list(leftovers._changes(before, now)) == [
+        "the working directory, which is '/now' now",
+        "the locale, which is 'de' now",
+        "the handler of SIGSEGV, SIGRTMAX",
+        "the open descriptors",
+        "the files behind the standard descriptors",
+    ]
+    assert list(leftovers._changes(before, before)) == []
+
+
+def test_a_signal_without_a_name_is_told_by_its_number():
+    assert (leftovers._name(int(signal.SIGINT)), leftovers._name(63)) == ("SIGINT", "signal 63")
+
+
+@pytest.mark.parametrize(
+    ("before", "now", "said"),
+    [
+        ((0x1F80, 0x37F), (0x9FC0, 0x37F), "flushing results to zero (FTZ), denormals are zero (DAZ)"),
+        ((0x1F80, 0x37F), (0x1F00, 0x27F), "the mask of floating point exceptions, the precision of the x87 unit"),
+        ((0x1F80, 0x37F), (0x1F81, 0x37F), "the control word of floating point"),
+    ],
+)
+def test_a_control_word_that_a_call_left_changed_is_told_by_its_bits(before, now, said):
+    assert leftovers._control_change(before, now) == said
+
+
+def test_a_hit_without_a_time_and_a_time_without_a_checksum_break_the_protocol():
+    with pytest.raises(FaultError) as raised:
+        TextReply(1, 2, times=True).answers(b"1 2\n0\n1\n")
+    assert raised.value.reason == "answer 2 of 2 is '1'; it must be 1 and the time, one blank between"
+    with pytest.raises(FaultError) as raised:
+        TimeReply(7).length(bytearray(b"7 100\n"))
+    assert raised.value.reason == "it wrote '7 100' where '7 NANOSECONDS CHECKSUM' had to come"

@@ -1,0 +1,246 @@
+"""Touches and gaps of the numpy kernel: against the exact nearest point, and by what makes a gap the shortest."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Pair
+from hypcheck.kernel import clearance_points, numpy_tilted
+from hypcheck.truth.nearest_exact import nearest as nearest_of
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
+from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
+
+
+def drawn(count, width, seed=3):
+    """Rows with sizes of one order and centres at any side of the surface."""
+    draw = np.random.default_rng(seed)
+    parts = [np.exp(draw.normal(0, 0.7, (count, 4))), draw.normal(0, 3, (count, 3)), draw.normal(0, 1, (count, 3))]
+    return np.concatenate(parts, axis=1)[:, :width]
+
+
+UPRIGHT, LEANING = drawn(160, 7), drawn(60, 10)
+AXIAL = [[2, 3, 0.5, 0.7, 0, 0, 1.5], [2, 3, 2.5, 0.7, 0, 0, -1.5], [1, 3, 0.2, 4, 1e-300, 0, 9]]
+WAIST = [[2, 3, 0.5, 0.7, 4, 0, 0], [2, 0.5, 0.5, 0.7, -9, 4, 0], [2, 3, 0.5, 0.7, 0, 0.5, 0]]
+
+
+@pytest.fixture(autouse=True)
+def quiet():
+    with np.errstate(all="ignore"):
+        yield
+
+
+def off_the_surface(rows, points):
+    """The hyperboloid's equation at points, beside the size of its terms."""
+    squares = (points / rows[:, [0, 0, 1]]) ** 2
+    return np.abs(squares[:, 0] + squares[:, 1] - squares[:, 2] - 1) / (squares.sum(axis=1) + 1)
+
+
+def metric(rows):
+    """M of each spheroid, (n, 3, 3): its points have (X − C)ᵀM(X − C) ≤ 1."""
+    axis = rows[:, 7:] if rows.shape[1] > 7 else np.tile((0.0, 0.0, 1.0), (len(rows), 1))
+    unit = axis / np.linalg.norm(axis, axis=1, keepdims=True)
+    b, d = (rows[:, k, None, None] for k in (2, 3))
+    return np.eye(3) / b**2 + (1 / d**2 - 1 / b**2) * unit[:, :, None] * unit[:, None, :]
+
+
+def test_an_upright_touch_is_the_exact_nearest_point_within_a_small_error():
+    rows = np.array([*UPRIGHT.tolist(), *AXIAL, *WAIST])
+    found = clearance_points.upright_touches(rows)
+    for k, row in enumerate(rows.tolist()):
+        true = nearest_of(Pair.from_row(row))
+        assert found.factor[k] == pytest.approx(1 + true.clearance, rel=1e-13), row
+        points = np.array(true.points)
+        if true.circle:
+            points, here = np.array([[np.hypot(*points[0, :2]), 0, points[0, 2]]]), found.point[k]
+            beside = np.array([np.hypot(*here[:2]), 0, here[2]])
+        else:
+            beside = found.point[k]
+        off = np.linalg.norm(points - beside, axis=1).min()
+        assert off <= found.error[k]
+    assert (off_the_surface(rows, found.point) < 1e-14).all()
+
+
+def test_the_error_of_an_upright_touch_is_small_but_where_two_points_are_about_to_fall_together():
+    found = clearance_points.upright_touches(UPRIGHT)
+    size = np.abs(found.point).sum(axis=1)
+    assert np.median(found.error / size) < 2e-13
+    assert (found.error / size < 1e-10).mean() > 0.98
+    waist = clearance_points.upright_touches(np.array(WAIST[::2]))
+    assert (waist.error / np.abs(waist.point).sum(axis=1) < 1e-12).all()
+
+
+def test_a_leaning_touch_is_the_exact_nearest_point_within_a_small_error():
+    found = clearance_points.leaning_touches(LEANING)
+    for k, row in enumerate(LEANING.tolist()):
+        true = tilted_nearest(TiltedPair.from_row(row))
+        assert found.factor[k] == pytest.approx(1 + true.clearance, rel=1e-12), row
+    assert (off_the_surface(LEANING, found.point) < 1e-14).all()
+    size = np.abs(found.point).sum(axis=1)
+    assert (found.error > 0).all()
+    assert np.median(found.error / size) < 1e-11
+    # M (X − C) = −λ D X at the nearest point alone.
+    normals = normal_to_spheroid(LEANING, found.point), normal_to_hyperboloid(LEANING, found.point)
+    assert (np.abs(np.cross(*normals)) < 1e-12).all()
+
+
+def normal_to_spheroid(rows, points):
+    """The unit normal of the spheroid, grown to a point, there."""
+    normal = np.einsum("nij,nj->ni", metric(rows), points - rows[:, 4:7])
+    return normal / np.linalg.norm(normal, axis=1, keepdims=True)
+
+
+def normal_to_hyperboloid(rows, points):
+    normal = points / rows[:, [0, 0, 1]] ** 2 * (1, 1, -1)
+    return normal / np.linalg.norm(normal, axis=1, keepdims=True)
+
+
+def gaps_of(rows, gaps, touches):
+    position = np.array([exact.position(TiltedLengths.of(row if len(row) == 10 else [*row, 0, 0, 1])) for row in rows])
+    clear = np.flatnonzero(position)
+    rows, position = rows[clear], position[clear].astype(np.int8)
+    return rows, position, gaps(rows, position, touches(rows).point)
+
+
+@pytest.mark.parametrize(
+    ("rows", "gaps", "touches"),
+    [
+        (UPRIGHT, clearance_points.upright_gaps, clearance_points.upright_touches),
+        (LEANING, clearance_points.leaning_gaps, clearance_points.leaning_touches),
+    ],
+)
+def test_the_ends_of_a_gap_are_on_both_bodies_and_it_is_normal_to_both(rows, gaps, touches):
+    rows, position, found = gaps_of(rows, gaps, touches)
+    assert len(rows) > 15
+    assert set(position.tolist()) == {-1, 1}
+    way, out = found.there - found.here, found.here - rows[:, 4:7]
+    assert (off_the_surface(rows, found.there) < 1e-14).all()
+    assert np.einsum("ni,nij,nj->n", out, metric(rows), out) == pytest.approx(np.ones(len(rows)), rel=1e-12)
+    assert np.linalg.norm(way, axis=1) == pytest.approx(found.length, rel=1e-12)
+    along = way / found.length[:, None]
+    assert (normal_to_spheroid(rows, found.here) * along).sum(axis=1) == pytest.approx(np.ones(len(rows)), abs=1e-12)
+    normal = normal_to_hyperboloid(rows, found.there)
+    assert (normal * along).sum(axis=1) == pytest.approx(-position, abs=1e-12)
+    half_width = np.sqrt(np.einsum("ni,nij,nj->n", normal, np.linalg.inv(metric(rows)), normal))
+    assert found.support == pytest.approx(half_width, rel=1e-12)
+
+
+def test_lengths_out_of_range_or_proportion_have_no_known_error():
+    row = [2.0, 3.0, 0.5, 0.7, 4.0, 1.0, 2.0]
+    rows = np.array([row] * 9)
+    rows[1, 2] = 0.7 * 2.0**-21
+    rows[2, 3] = 0.5 * 2.0**-21
+    rows[3, 0] = 2.0**-101
+    rows[4, 4] = 2.0**101
+    rows[5, 2:4] = 2.0**-99
+    rows[6, 4:6] = 1e-200
+    rows[7, 4] = 2.0**100
+    rows[8, 0] = 2.0**-100
+    assert np.isfinite(clearance_points.upright_touches(rows).error).tolist() == [True, *[False] * 4, *[True] * 4]
+
+
+def stretched(rows, seed=5):
+    """The rows with sizes of several orders, centres with them."""
+    found = rows.copy()
+    found[:, :4] = np.exp(np.random.default_rng(seed).normal(0, 2, (len(rows), 4)))
+    found[:, 4:7] *= found[:, :1]
+    return found
+
+
+@pytest.mark.parametrize("wrong", [0.4, -0.4, 1e-3, -1e-3, 1e-6, -1e-9])
+def test_the_error_of_an_upright_touch_holds_for_a_multiplier_that_is_wrong(monkeypatch, wrong):
+    rows, poles = np.concatenate([UPRIGHT, stretched(UPRIGHT)]), clearance_points._poles
+
+    def moved(A, B, p, q):
+        tau, sigma = poles(A, B, p, q)
+        return tau * (1 + wrong), sigma * (1 + wrong)  # of the smaller one, λ is taken
+
+    monkeypatch.setattr(clearance_points, "_poles", moved)
+    found = clearance_points.upright_touches(rows)
+    off = np.array([nearest_off(row, point) for row, point in zip(rows.tolist(), found.point, strict=True)])
+    assert (off <= found.error).all()
+    if abs(wrong) < 1e-2:
+        assert np.median(found.error / off) < 8
+        assert np.median(off / np.abs(found.point).sum(axis=1)) > abs(wrong) / 1000
+
+
+def nearest_off(row, point):
+    return min(np.linalg.norm(np.array(each) - point) for each in nearest_of(Pair.from_row(row)).points)
+
+
+@pytest.mark.parametrize("wrong", [1e-9, 1e-6, -1e-3, 0.2, 40.0, -2.0])
+def test_the_error_of_a_leaning_touch_holds_for_a_multiplier_that_is_wrong(monkeypatch, wrong):
+    rows = np.concatenate([LEANING, stretched(LEANING)])
+    near = clearance_points.leaning_touches(rows)
+    true = numpy_tilted.multipliers
+    monkeypatch.setattr(clearance_points, "POLISHED", 0)
+    monkeypatch.setattr(numpy_tilted, "multipliers", lambda rows: true(rows) * (1 + wrong))
+    found = clearance_points.leaning_touches(rows)
+    off = np.linalg.norm(found.point - near.point, axis=1)
+    assert (off <= found.error + near.error).all()
+    if abs(wrong) < 1e-2:
+        known = np.isfinite(found.error)
+        assert known.mean() > 0.9
+        assert np.median(found.error[known] / off[known]) < 1000
+
+
+def test_the_length_of_an_axis_does_not_matter():
+    found = clearance_points.leaning_touches(LEANING)
+    for factor in (2.0**900, 2.0**-900):
+        rows = LEANING.copy()
+        rows[:, 7:] *= factor
+        other = clearance_points.leaning_touches(rows)
+        assert other.point == pytest.approx(found.point, rel=1e-12)
+        assert other.error == pytest.approx(found.error, rel=0.1)
+
+
+def test_pivots_are_positive_where_all_eigenvalues_are():
+    draw = np.random.default_rng(9)
+    some = draw.normal(0, 1, (400, 3, 3)) + np.eye(3) * draw.uniform(-1, 4, (400, 1, 1))
+    some = some + np.swapaxes(some, 1, 2)
+    expected = np.linalg.eigvalsh(some).min(axis=1) > 0
+    assert clearance_points._has_positive_pivots(some).tolist() == expected.tolist()
+    assert 80 < expected.sum() < 320
+    singular = np.array([np.diag(each) for each in ((1.0, 1, 0), (1, 0, 1), (0, 1, 1))])
+    assert not clearance_points._has_positive_pivots(singular).any()
+
+
+def known_error(row, at, place, share=0.5):
+    """The bound of one leaning touch at a multiplier and a place in units of b, and half the eigenvalue it is given."""
+    rows = np.array([row], dtype=float)
+    form = (rows[:, 2:3] / rows[:, [0, 0, 1]]) ** 2 * (1, 1, -1)
+    matrix = metric(rows) * rows[0, 2] ** 2 + at * form[0] * np.eye(3)
+    least = np.array([share * np.linalg.eigvalsh(matrix[0]).min()])
+    axis = rows[:, 7:] / np.linalg.norm(rows[:, 7:])
+    return clearance_points._error(rows, axis, np.array([at]), form, np.array([place]), matrix, least)[0], least[0] / 2
+
+
+@pytest.mark.parametrize(
+    ("row", "at"),
+    [
+        ((1, 1, 1, 2, 3, 1, 2, 1, 0, 1), 0.2),
+        ((0.01, 1, 1, 2, 3, 1, 2, 1, 0, 1), 0.2),
+        ((2, 3, 1, 0.1, 0.5, 1, 2, 1, 2, 1), -1.5),
+    ],
+)
+def test_the_bound_of_a_leaning_touch_is_the_sum_of_its_two_ways(row, at):
+    """|r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ), the terms that round with 2⁻⁴⁶ of them."""
+    rows = np.array([row], dtype=float)
+    place = np.array([1.1, 0.4, 0.3]) * row[0] if row[0] > 0.1 else np.array([0.02, 0.01, 0.3])
+    found, mu = known_error(row, at, place)
+    M, D = metric(rows)[0], (1 / rows[0, [0, 0, 1]] ** 2) * (1, 1, -1)
+    r = (M + at * np.diag(D)) @ place - M @ rows[0, 4:7]
+    n, h = D * place, (D * place * place).sum() - 1
+    off, beside = np.linalg.norm(r), abs(h) / np.linalg.norm(n)
+    trace = np.trace(M) + abs(at) * np.abs(D).sum()
+    assert found >= off / mu + np.sqrt(np.trace(M + at * np.diag(D)) / mu) * (beside + off / mu)
+    assert found <= 1.001 * (off / mu + np.sqrt((3 * trace + 6) / mu) * (beside + off / mu))
+
+
+def test_a_place_far_from_the_surface_or_a_matrix_near_a_singular_one_shows_no_bound():
+    row = (1, 1, 1, 2, 3, 1, 2, 1, 0, 1)
+    assert np.isfinite(known_error(row, 0.2, [0.9, 0.0, 0.0])[0])
+    assert np.isnan(known_error(row, 0.2, [0.5, 0.0, 0.0])[0])
+    assert np.isnan(known_error(row, 0.2, [0.9, 0.0, 0.0], share=4.0)[0])
+    assert np.isnan(known_error(row, 0.2, [0.9, 0.0, 0.0], share=2.0**-44)[0])

@@ -1,0 +1,56 @@
+"""Parts of the nearest-point oracle: the float64 of an enclosure, and roots in units of a power of two."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.truth import nearest_exact
+from hypcheck.truth.nearest_exact import Enclosure, ratio
+
+LEAST = math.ulp(0.0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "bits", "rounded"),
+    [
+        (0, 0, 10, None),
+        (0, 1, 2000, None),
+        (-1, 0, 2000, None),
+        (-1, 1, 2000, None),
+        (1, 2, 3000, LEAST),
+        (-2, -1, 3000, -LEAST),
+        (3 << 98, (3 << 98) + 1, 100, 0.75),
+        (-(3 << 98), -(3 << 98) + 1, 100, -0.75),
+        (1 << 100, (1 << 100) + (1 << 60), 100, None),
+        (1 << 1100, (1 << 1100) + 1, 10, math.inf),
+        (-(1 << 1100), 1 - (1 << 1100), 10, -math.inf),
+    ],
+)
+def test_an_enclosure_has_a_float_where_both_ends_round_to_it_and_0_is_not_inside(low, high, bits, rounded):
+    assert Enclosure(low, high, bits).rounded == rounded
+
+
+@pytest.mark.parametrize(("odd", "even"), [(2**53 + 1, 2**53), (2**53 + 3, 2**53 + 4)])
+def test_a_very_narrow_enclosure_of_a_tie_is_taken_for_it(odd, even):
+    unit, bits = 1 << 400, 400
+    assert Enclosure(odd * unit - 1, odd * unit + 1, bits).rounded == even
+    assert Enclosure((odd << 190) - 1, (odd << 190) + 1, 190).rounded is None
+
+
+def test_a_quotient_beyond_float64_is_infinite():
+    assert ratio(3, 4) == 0.75
+    assert ratio(10**400, 3) == math.inf
+    assert ratio(-(10**400), 3) == -math.inf
+
+
+@pytest.mark.parametrize(("numerator", "denominator"), [(2, 1), (9, 4), (1, 10**40), (10**40, 3), (7, 7 * 10**9)])
+def test_the_clearance_of_a_known_square_is_its_root_less_1_rounded(numerator, denominator):
+    found = nearest_exact._clearance_of_square(numerator, denominator)
+    exact = Fraction(numerator, denominator)
+    for share, larger in ((Fraction(1, 2**53), True), (-Fraction(1, 2**53), False)):
+        beside = Fraction(found) * (1 + share * (1 if found > 0 else -1)) + 1
+        assert (beside**2 >= exact) if larger else (beside < 0 or beside**2 <= exact)
+    assert nearest_exact._clearance_of_square(5, 5) == 0

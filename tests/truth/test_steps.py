@@ -1,0 +1,171 @@
+"""Journeys and their steps: polynomials in time against exact pairs at a time, and reaches against known roots."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import mpmath
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.truth import exact
+from hypcheck.truth.journey import piece, shortened
+from hypcheck.truth.polynomial_roots import discriminant, value
+from hypcheck.truth.steps import WIDTH_BITS, reach, steps
+from hypcheck.truth.swept import journey_of
+from hypcheck.truth.tilted import exact as tilted
+from tests.truth.test_passage_certificate import INSIDE, OUTSIDE, THROUGH, TUNNEL, random_ways
+
+WAYS = [THROUGH, OUTSIDE, TUNNEL, INSIDE, *random_ways(12)]
+
+
+def journey(row):
+    return journey_of(row[:4], row[4:7], row[7:10], row[10:] or None)
+
+
+def times(seed=1):
+    draw = random.Random(seed)  # noqa: S311
+    return [Fraction(0), Fraction(1), *(Fraction(draw.randrange(1, 97), 97) for _ in range(6))]
+
+
+def coefficients(way, time):
+    """Of det(S + λH) at a time, up to a positive factor; of a leaning spheroid too, for λ itself."""
+    there = way.at(time)
+    if hasattr(way, "axis"):
+        F = tilted.quartic(there)
+        return (F.f4, F.f3 * (F.side or 1), F.f2, F.f1 * (F.side or 1), F.f0)
+    g = exact.cubic(there)
+    return (g.n3, g.n2, g.n1, g.n0)
+
+
+def are_proportional(first, second):
+    """Whether two sequences are the same up to a positive factor."""
+    return first[0] * second[0] > 0 and all(a * second[0] == b * first[0] for a, b in zip(first, second, strict=True))
+
+
+@pytest.mark.parametrize("row", WAYS)
+def test_the_pencil_of_a_way_is_that_of_the_pair_at_each_time(row):
+    way = journey(row)
+    for time in times():
+        there = [at_time(each, time) for each in way.pencil]
+        if not hasattr(way, "axis") or tilted.quartic(way.at(time)).side:
+            assert are_proportional(there, coefficients(way, time)), time
+
+
+@pytest.mark.parametrize("row", WAYS)
+def test_a_piece_is_the_determinant_at_its_multiplier(row):
+    way = journey(row)
+    for multiplier in (Fraction(3, 7), Fraction(-2, 5), Fraction(11)):
+        proof = piece(way.pencil, multiplier)
+        assert len(proof) == 3
+        for time in times():
+            powers = [at_time(each, time) * multiplier**power for power, each in enumerate(reversed(way.pencil))]
+            factor = multiplier.denominator ** (len(powers) - 1)
+            assert at_time(proof, time) == sum(powers) * factor
+
+
+def at_time(polynomial, time):
+    return sum(each * time**power for power, each in enumerate(reversed(polynomial)))
+
+
+@pytest.mark.parametrize("row", [row for row in WAYS if len(row) == 10])
+def test_the_critical_polynomial_of_an_upright_way_has_the_sign_of_the_discriminant(row):
+    way = journey(row)
+    for time in times():
+        expected, found = discriminant(coefficients(way, time)), value(way.critical(), time)
+        assert (found > 0, found < 0) == (expected > 0, expected < 0)
+
+
+@pytest.mark.parametrize("row", [row for row in WAYS if len(row) > 10])
+def test_the_critical_polynomial_of_a_leaning_way_has_the_sign_of_the_discriminant(row):
+    way = journey(row)
+    for time in times():
+        expected, found = tilted.discriminant(tilted.quartic(way.at(time))), value(way.critical(), time)
+        assert (found > 0, found < 0) == (expected > 0, expected < 0)
+
+
+@pytest.mark.parametrize("row", [OUTSIDE, INSIDE])
+def test_each_multiplier_of_an_upright_way_is_the_local_maximum_to_twice_as_many_bits(row):
+    way = journey(row)
+    with mpmath.workprec(600):
+        for time in times():
+            n3, n2, n1, _ = coefficients(way, time)
+            best = (-n2 - mpmath.sqrt(n2 * n2 - 3 * n3 * n1)) / (3 * n3)
+            found = way.multipliers(time)
+            for bits in (12, 24, 48, 96):
+                at = next(found)
+                assert abs(mpmath.mpf(at.numerator) / at.denominator / best - 1) < mpmath.mpf(2) ** (2 - bits)
+
+
+@pytest.mark.parametrize("bits", [5, 12, 40])
+def test_a_shortened_quotient_has_so_many_bits_and_is_cut_off_downwards(bits):
+    draw = random.Random(bits)  # noqa: S311
+    for _ in range(200):
+        top = draw.choice((1, -1)) * draw.getrandbits(draw.randrange(1, 200)) or 1
+        bottom = draw.getrandbits(draw.randrange(1, 200)) or 1
+        found = shortened(top, bottom, bits)
+        lost = Fraction(top, bottom) - found
+        assert 0 <= lost < abs(Fraction(top, bottom)) * Fraction(4, 2**bits)
+        assert abs(found.numerator) // (abs(found.numerator) & -abs(found.numerator) or 1) <= 1 << (bits + 1)
+
+
+def quadratic(factor, *roots):
+    """factor (t − r)(t − r′) in integers, of degree 2 in form; one root less makes it linear."""
+    one, other = roots
+    poly = (1, -one - other, one * other) if other is not None else (0, 1, -one)
+    scale = one.denominator * (other.denominator if other is not None else 1)
+    return tuple(int(each * scale) * factor for each in map(Fraction, poly))
+
+
+def drawn_roots(draw):
+    ends = sorted(Fraction(draw.randrange(1, 10**6), draw.randrange(1, 10**6)) for _ in range(3))
+    return ends if len(set(ends)) == 3 else drawn_roots(draw)
+
+
+def test_the_reach_is_below_the_distance_to_the_next_root_and_near_it():
+    draw = random.Random(8)  # noqa: S311
+    for _ in range(300):
+        first, second, third = drawn_roots(draw)
+        for proof, time, root in (
+            (quadratic(-3, first, third), second, third),  # it rises and falls
+            (quadratic(5, second, third), first, second),  # it falls and rises
+            (quadratic(-7, second, None), first, second),  # a falling line
+        ):
+            distance = root - time
+            found = reach(proof, time)
+            assert found is not None
+            assert distance * (1 - Fraction(1, 2**37)) < found < distance
+
+
+def test_there_is_no_reach_where_no_root_lies_ahead():
+    one, two, three = Fraction(1, 3), Fraction(2, 3), Fraction(1)
+    assert reach(quadratic(5, one, two), three) is None
+    assert reach(quadratic(5, two, None), three) is None
+    assert reach((0, 0, 4), one) is None
+    assert reach((1, 0, 1), one) is None
+    assert reach((3, -3, 1), one) is None  # it falls there, and turns above 0
+
+
+@pytest.mark.parametrize("width_bits", [WIDTH_BITS, 20])
+def test_the_first_contact_lies_in_an_enclosure_of_the_width_that_is_asked(width_bits):
+    for row in (THROUGH, TUNNEL):
+        way = journey(row)
+        found = steps(way, width_bits)
+        assert way.position(found.contact) is Position.CONTACT
+        assert way.position(found.until) is not Position.CONTACT
+        assert 0 < (found.contact - found.until) * 2**width_bits <= found.until
+    assert steps(way, None).contact - steps(way, None).until > Fraction(1, 2**40)
+
+
+@pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, INSIDE])
+def test_each_piece_proves_its_whole_stretch(row):
+    way, last = journey(row), Fraction(0)
+    found = steps(way)
+    for multiplier, end in found.pieces:
+        assert last < end <= 1
+        for share in range(9):
+            assert value(piece(way.pencil, multiplier), last + (end - last) * Fraction(share, 8)) > 0
+        last = end
+    assert found.contact is None or found.contact > last
+    assert found.contact is not None or last == 1

@@ -1,0 +1,190 @@
+"""Parts of the float64 boxes: intervals, boxes and hints, each against the same numbers from fractions."""
+
+from __future__ import annotations
+
+import math
+import operator
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.truth.tilted import exact, float_boxes
+from hypcheck.truth.tilted.backward_error import goal_of
+from hypcheck.truth.tilted.box_certificate import Goal
+from hypcheck.truth.tilted.float_boxes import Enclosures
+from hypcheck.truth.tilted.pair import TiltedLengths
+from tests.truth.tilted.cases import random_rows
+
+ROWS = [
+    *random_rows(40, seed=3),
+    [1, 2, 1.5, 0.5, 3, 1, 2, 0, 0, 1],  # upright
+    [1, 2, 0.5, 1.5, 0.1, 0.2, 0.3, 0, 0, -2],
+    [1, 2, 0.5, 1.5, 3, 1, 0, 1, 2, 0],  # level
+    [1, 1, 0.9, 0.8, 0.2, 0.1, 0, 1, 0, 1],  # it leans as the asymptote does
+    [3, 1, 0.5, 0.5, 4, 0, 1, 1, 1, 1],  # a ball
+]
+
+
+def phi(row, at):
+    """min over X of s(X) + λ h(X), by Cramer's rule; None where M + λD is not positive definite."""
+    alpha, gamma, b, d, *rest = map(Fraction, row)
+    centre, v = rest[:3], rest[3:]
+    D = (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)
+    square = sum(each * each for each in v)
+    M = [[(i == j) / b**2 + (1 / d**2 - 1 / b**2) * v[i] * v[j] / square for j in range(3)] for i in range(3)]
+    G = [[M[i][j] + (i == j) * at * D[i] for j in range(3)] for i in range(3)]
+    pulled = [sum(M[i][j] * centre[j] for j in range(3)) for i in range(3)]
+    whole = determinant(G)
+    if not (G[0][0] > 0 and G[0][0] * G[1][1] > G[0][1] ** 2 and whole > 0):
+        return None
+    nearest = []
+    for column in range(3):
+        replaced = [[pulled[i] if j == column else G[i][j] for j in range(3)] for i in range(3)]
+        nearest.append(determinant(replaced) / whole)
+    along = sum(pulled[i] * (centre[i] - nearest[i]) for i in range(3))
+    return along - 1 - at
+
+
+def determinant(m):
+    return (
+        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+        - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+        + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+    )
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_the_multiplier_hinted_at_is_where_phi_is_largest(row):
+    columns = np.array([row]).T
+    with np.errstate(all="ignore"):
+        (found,) = float_boxes._multiplier(columns[:4], columns[4:])
+    at = Fraction(found)
+    here, beside = phi(row, at), [phi(row, at * share) for share in (Fraction(999, 1000), Fraction(1001, 1000))]
+    assert here is not None
+    assert all(each is None or each < here for each in beside)
+
+
+@pytest.mark.parametrize("operation", [operator.add, operator.sub, operator.mul, operator.truediv])
+def test_enclosures_hold_the_exact_result_of_each_pair_of_their_numbers(operation):
+    draw = random.Random(1)  # noqa: S311
+    for _ in range(200):
+        ends = [sorted(draw.choice((draw.uniform(-2, 2), draw.gauss(0, 1e-160), 0.0)) for _ in "ab") for _ in "ab"]
+        with np.errstate(all="ignore"):
+            found = operation(*(Enclosures(np.array([low]), np.array([high])) for low, high in ends))
+        for one in map(Fraction, ends[0]):
+            for other in map(Fraction, ends[1]):
+                if operation is operator.truediv and ends[1][0] <= 0 <= ends[1][1]:
+                    assert (found.low[0], found.high[0]) == (-np.inf, np.inf) or np.isnan(found.low[0])
+                else:
+                    assert Fraction(found.low[0]) <= operation(one, other) <= Fraction(found.high[0])
+
+
+def test_enclosures_hold_squares_and_roots():
+    with np.errstate(all="ignore"):
+        around = Enclosures(np.array([-0.1]), np.array([0.3]))
+        square = around**2
+        root = (around + 1).root()
+    assert square.low[0] == 0
+    assert Fraction(square.high[0]) >= Fraction(0.3) ** 2
+    assert Fraction(root.low[0]) ** 2 <= 1 + Fraction(-0.1)
+    assert Fraction(root.high[0]) ** 2 >= 1 + Fraction(0.3)
+
+
+@pytest.mark.parametrize("operation", [operator.add, operator.sub, operator.mul, operator.truediv])
+def test_an_enclosure_is_no_wider_than_its_exact_ends_and_a_few_roundings(operation):
+    draw = random.Random(2)  # noqa: S311
+    for _ in range(200):
+        ends = [sorted(draw.uniform(0.5, 2) for _ in "ab") for _ in "ab"]
+        ends = [[-high, -low] if draw.random() < 0.5 else [low, high] for low, high in ends]
+        found = operation(*(Enclosures(np.array([low]), np.array([high])) for low, high in ends))
+        exact_ends = [operation(Fraction(one), Fraction(other)) for one in ends[0] for other in ends[1]]
+        room = 2.0**-50 * 4
+        assert Fraction(found.low[0]) >= min(exact_ends) - Fraction(room)
+        assert Fraction(found.high[0]) <= max(exact_ends) + Fraction(room)
+
+
+def test_squares_and_roots_are_no_wider_than_their_exact_ends_and_a_few_roundings():
+    for low, high in ((0.5, 2.0), (-2.0, -0.5), (-0.5, 2.0), (-2.0, 0.5)):
+        square = Enclosures(np.array([low]), np.array([high])) ** 2
+        least = 0.25 if low * high > 0 else 0.0
+        assert (square.low[0], square.high[0]) == (pytest.approx(least, abs=1e-15), pytest.approx(4.0))
+    root = Enclosures(np.array([0.25]), np.array([4.0])).root()
+    assert (root.low[0], root.high[0]) == (pytest.approx(0.5), pytest.approx(2.0))
+
+
+def test_an_enclosure_has_no_power_but_the_square():
+    with pytest.raises(ValueError, match="only squares are needed"):
+        Enclosures(np.array([1.0]), np.array([1.0])) ** 3
+
+
+@pytest.mark.parametrize("side", Position)
+@pytest.mark.parametrize("leave", [False, True])
+def test_a_box_holds_every_change_and_little_more_and_its_sizes_are_the_best_ones_for_the_goal(side, leave):
+    draw = random.Random(4)  # noqa: S311
+    row = np.array([[*(draw.uniform(0.3, 2) for _ in range(4)), -1.1, 0.0, 1.7, 0.3, -0.6, 0.0]])
+    change, goal = np.array([0.125]), Goal(side, leave)
+    boxes = float_boxes._boxes(row, [goal], change)
+    for value, low, high in zip(row[0, 4:], boxes.low[:, 0], boxes.high[:, 0], strict=True):
+        exact_low, exact_high = sorted((Fraction(value) * Fraction(7, 8), Fraction(value) * Fraction(9, 8)))
+        assert Fraction(low) <= exact_low <= exact_high <= Fraction(high)
+        assert high - low <= 0.25 * abs(value) * (1 + 1e-12)
+    for value, size, way in zip(row[0, :4], boxes.sizes[:, 0], goal.sizes, strict=True):
+        best = Fraction(value) * (1 + way * Fraction(1, 8))
+        assert (size - best) * way >= 0
+        assert float(size) == pytest.approx(float(best), rel=1e-12)
+    assert boxes.side.tolist() == [int(side)]
+    assert boxes.leave.tolist() == [leave]
+
+
+def test_a_cut_box_is_two_halves_that_together_are_the_box():
+    row = np.array([[1.0, 1.0, 0.5, 0.25, -1.1, 0.0, 1.7, 0.3, -0.6, 0.0]])
+    whole = float_boxes._boxes(row, [Goal(Position.EXTERIOR, True)], np.array([0.125]))
+    pull = np.array([[1.0], [100.0], [-3.0], [0.0], [0.0], [0.0]])  # z costs most: y has no width
+    one, other = (float_boxes._halves(whole, pull)[np.array([k])] for k in (0, 1))
+    assert one.high[2] == other.low[2] == whole.middle[2]
+    assert (one.low.tolist(), other.high.tolist()) == (whole.low.tolist(), whole.high.tolist())
+    rest = [0, 1, 3, 4, 5]
+    assert (one.high[rest].tolist(), other.low[rest].tolist()) == (whole.high[rest].tolist(), whole.low[rest].tolist())
+
+
+def test_pairs_are_scaled_by_powers_of_two_to_lengths_and_axes_about_one():
+    row = [3.0, 2.0, 0.5, 0.25, 0.0, -100.0, 1.0, 3e-5, 0.0, -1e-5]
+    (found,) = float_boxes._normalised(np.array([row]))
+    assert [math.frexp(np.abs(found[part]).max())[1] for part in (slice(0, 7), slice(7, 10))] == [0, 0]
+    for part in (slice(0, 7), slice(7, 10)):
+        ratios = {Fraction(a) / Fraction(b) for a, b in zip(row[part], found[part], strict=True) if a}
+        assert len(ratios) == 1
+        assert math.log2(ratios.pop()).is_integer()
+
+
+def enough_by_sizes(row, goal, truth):
+    """A change of the sizes alone, at their best corner, that reaches the goal: by bisection of exact decisions."""
+    low, high = Fraction(0), Fraction(1)
+    for _ in range(30):
+        middle = (low + high) / 2
+        moved = [Fraction(a) * (1 + way * middle) for a, way in zip(row[:4], goal.sizes, strict=True)]
+        there = exact.position(TiltedLengths.of([*moved, *map(Fraction, row[4:])]))
+        reached = (there is not truth) if goal.leave else (there is goal.side)
+        low, high = (low, middle) if reached else (middle, high)
+    return high
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_lower_ends_are_below_a_change_of_the_sizes_that_is_enough_and_not_far_below(row):
+    truth = exact.position(TiltedLengths.of(row))
+    answers = [Position.CONTACT] if truth is not Position.CONTACT else [Position.EXTERIOR, Position.INTERIOR]
+    for answer in answers:
+        goal = goal_of(truth, answer)
+        (low,) = float_boxes.lower_ends(np.array([row]), [goal])
+        enough = enough_by_sizes(row, goal, truth)
+        assert low <= enough
+        if enough < Fraction(1, 5):  # farther away one certificate is not sharp, and more than sizes can change
+            assert low > 0.2 * enough
+
+
+def test_rows_that_float64_cannot_scale_exactly_have_no_lower_end():
+    row = np.array([[1e300, 1e300, 1e-320, 2e-320, 2e300, 0.0, 0.0, 1.0, 0.0, 1.0]])
+    assert float_boxes.lower_ends(row, [goal_of(Position.EXTERIOR, Position.CONTACT)]).tolist() == [0.0]
