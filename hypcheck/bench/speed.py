@@ -99,7 +99,7 @@ def _hidden(parts: list[Measurement]) -> str | None:
     if call.low > (1 + UNLIKE) * empty.high and any(map(_possible, parts)):
         return None
     return (
-        f"its time, {_time_text(call)}, cannot be told from that of a call that does nothing, "
+        f"its time, {_time_text(call)}, cannot be distinguished from that of a call that does nothing, "
         f"{_time_text(empty)}, which must be taken off"
     )
 

@@ -135,7 +135,7 @@ def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> Non
     from hypcheck.report.write import write_reports
 
     if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not recorder.goes_on):
-        with suppress(OSError):  # the error that ended the run is the one to be told
+        with suppress(OSError):  # the error that ended the run is the one to report
             growing.unlink(missing_ok=True)
         return
     out, path = growing.parent, growing.with_name(FILE)

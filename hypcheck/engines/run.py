@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import platform
-import shlex
 from collections.abc import Callable, Sequence
 from functools import cache
 from json import dumps
@@ -61,11 +60,6 @@ def _mesh(family: str, each: int, triangles: int) -> tuple[SurfaceMesh, Floats, 
 def spec_of(words: Sequence[str]) -> str:
     """The SPEC of a command."""
     return f"command:{dumps(list(words))}"
-
-
-def shown_spec(words: Sequence[str]) -> str:
-    """The SPEC of a command as a shell takes it."""
-    return shlex.quote(f"command:{shlex.join(words)}")
 
 
 def record_of(

@@ -121,7 +121,7 @@ def _state() -> _State:
 
 
 def _lowest_free_descriptor() -> int:
-    """The number that the next opened file gets: greater after one was left open, less after one of ours was closed."""
+    """The number of the next opened file: greater if a file was left open, less if one of hypcheck was closed."""
     with suppress(OSError):
         number = os.dup(2)
         os.close(number)

@@ -78,8 +78,8 @@ class Library:
     def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
-        A compiled loop makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of a
-        function of ours, or with ctypes of this library without rows.
+        A compiled loop makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of
+        an empty function of hypcheck, or with ctypes of this library without rows.
         """
         room, n = _AnswerRoom(self._memory, rows, call), len(rows)
         if _calls is None or call.layout is not PAIRS:  # it calls functions of three arguments

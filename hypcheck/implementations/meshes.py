@@ -31,7 +31,7 @@ from hypcheck.implementations.method import Answers
 from hypcheck.truth.mesh import Triangles, Vertices, availability, fcl_module, mesh_object, require_fcl
 
 
-class Touches(Protocol):
+class ContactQuery(Protocol):
     """Whether the body with this centre touches the mesh; `turn` (3, 3) turns its axis of revolution away from z."""
 
     def __call__(self, x: float, y: float, z: float, turn: Floats | None = None, /) -> bool:
@@ -62,11 +62,11 @@ class MeshLibrary:
     name: str
     title: str
     trouble: Callable[[], str | None]
-    question: Callable[[str, Vertices, Triangles, float, float], Touches | None]
+    question: Callable[[str, Vertices, Triangles, float, float], ContactQuery | None]
     distance: Callable[[Vertices, Triangles], Distance | None]
 
 
-def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
+def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> ContactQuery | None:
     if pairing == "point":
         return _within_1(_fcl_distance(vertices, triangles))
     fcl, mesh = fcl_module(), mesh_object(vertices, triangles)
@@ -97,7 +97,7 @@ def _fcl_distance(vertices: Vertices, triangles: Triangles) -> Distance | None:
     return distance
 
 
-def _within_1(distance: Distance | None) -> Touches | None:
+def _within_1(distance: Distance | None) -> ContactQuery | None:
     if distance is None:
         return None
 
@@ -107,7 +107,7 @@ def _within_1(distance: Distance | None) -> Touches | None:
     return within
 
 
-def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> Touches | None:
+def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> ContactQuery | None:
     if pairing == "point":
         return _within_1(_coal_distance(vertices, triangles))
     coal, mesh = _coal_module(), _coal_mesh(vertices, triangles)
@@ -244,7 +244,7 @@ class SceneMesh:
     unit: tuple[float, float, float]
     deviation: float
     triangles: int
-    touches: Touches | None
+    touches: ContactQuery | None
 
     def answers(self, rows: Rows) -> Answers:
         """Positions (n,) of rows that have these sizes, (n, 7), or of an ellipsoid also (n, 10)."""

@@ -17,7 +17,7 @@ coal has no continuous collision. What its users can write is conservative advan
 centre and the mesh in spheroid radii, and that is done here with FCL's as well.
 
 Answers are 1 for contact and 0 for none, CANNOT_SAY where the engine refuses the mesh, where a length is too large for
-it, or where the steps come to nothing.
+it, or where the steps make no progress.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Mask
 from hypcheck.messages import counted
-from hypcheck.paper.forest_walk import Steps, Trees, Verdicts, judged, phantom_wall, steps_in_contact, walk
+from hypcheck.paper.forest_walk import Trees, Verdicts, WalkSteps, judged, phantom_wall, steps_in_contact, walk
 from hypcheck.paper.quadcopter import require_ordinary
 from hypcheck.scene.model import SceneModel, Walk
 from hypcheck.version import VERSION
@@ -98,7 +98,7 @@ def _trees(trees: Trees, rules: Walk, blocking: set[str]) -> list[dict[str, Any]
     ]
 
 
-def _steps(steps: Steps, phantom: Mask, free: Mask) -> dict[str, int]:
+def _steps(steps: WalkSteps, phantom: Mask, free: Mask) -> dict[str, int]:
     return {
         "tried": len(steps.edge),
         "made": _count(steps.made),
@@ -144,7 +144,7 @@ def _repaired(verdicts: Verdicts) -> dict[str, int]:
     }
 
 
-def _stops(trees: Trees, steps: Steps, phantom: Mask) -> list[dict[str, Any]]:
+def _stops(trees: Trees, steps: WalkSteps, phantom: Mask) -> list[dict[str, Any]]:
     """Every refusal but those at the edge: what refused it, and the free way to the nearest tree that did."""
     refused = np.flatnonzero(steps.refused)
     verdicts, gaps = judged(trees, steps.end[refused]), trees.gaps(steps.end[refused])

@@ -146,7 +146,7 @@ CHUNK = 256
 
 
 @dataclass(frozen=True, slots=True)
-class Steps:
+class WalkSteps:
     """The steps that were tried, in order: from `start` to `end`, (n, 3); `edge` and `refused` say which were not made.
 
     `refused` are those that Procedure 1 in float32 did not allow.
@@ -183,7 +183,7 @@ class Verdicts:
 
 def walk(
     trees: Trees, rules: Walk, region: Region, steps: int, seed: int, advance: Callable[[int], object] = lambda _: None
-) -> Steps:
+) -> WalkSteps:
     """Try so many steps, telling `advance` of each. Raises InputError where the walk would begin outside the region."""
     if not bool(_inside(region, np.array([rules.start]))[0]):
         raise InputError(f"the walk starts at {list(rules.start)}, outside the scene's region")
@@ -206,7 +206,7 @@ def walk(
         if not stopped:
             here = end[step]
         advance(1)
-    return Steps(start, end, edge, refused)
+    return WalkSteps(start, end, edge, refused)
 
 
 def judged(trees: Trees, at: Places) -> Verdicts:
@@ -261,7 +261,7 @@ def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
     }
 
 
-def steps_in_contact(trees: Trees, steps: Steps) -> dict[str, Any]:
+def steps_in_contact(trees: Trees, steps: WalkSteps) -> dict[str, Any]:
     """How many of the made steps touch a tree that stands there, decided exactly, and first contacts of some."""
     start, end = steps.start[steps.made], steps.end[steps.made]
     here, there = _columns(start), _columns(end)

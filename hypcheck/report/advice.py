@@ -275,8 +275,8 @@ _HOW = prose(
     " Methods that are as fast within the intervals or the noise of the run are named beside it. *Reliable above* a"
     " distance: at most 1 in 1000 answers beyond it is wrong, on every workload that the need covers. A need"
     " without a line of its own is met by the advice for a stricter one. Methods that were not measured are not"
-    " advised: gate a method on your own scene before you rely on it. Whoever needs the right answer at every row and"
-    " does not want to choose takes the code of `hypcheck emit --method exact`."
+    " advised: gate a method on your own scene before you rely on it. If you need the right answer at every row and"
+    " do not want to choose, take the code of `hypcheck emit --method exact`."
 )
 
 

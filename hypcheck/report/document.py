@@ -59,11 +59,11 @@ def bounded(foreign: str) -> str:
     return foreign if len(foreign) <= LONGEST else f"{foreign[:LONGEST]}… ({len(foreign):,} characters)"
 
 
-def joined(texts: Sequence[Text], separator: str = ", ") -> Text:
-    """The texts with a separator between them."""
+def joined(texts: Sequence[Text]) -> Text:
+    """The texts with commas between them."""
     parts: list[Text] = []
     for text in texts:
-        parts += [separator, text] if parts else [text]
+        parts += [", ", text] if parts else [text]
     return tuple(parts)
 
 

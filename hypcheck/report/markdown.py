@@ -66,12 +66,6 @@ def paragraph_lines(*sentences: str) -> list[str]:
     return [" ".join(sentences), ""]
 
 
-def bullet_lines(items: Iterable[str]) -> list[str]:
-    """A list and an empty line; nothing at all for no items."""
-    lines = [f"- {item}" for item in items]
-    return [*lines, ""] if lines else []
-
-
 def render(record: Record, context: ReportContext | None = None) -> bytes:
     """The report in UTF-8; it refers to the pictures among the files beside it."""
     beside = context.beside if context else ()

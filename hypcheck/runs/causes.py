@@ -32,7 +32,7 @@ SILENT = 100
 """What a rule gives for a row about which it says nothing."""
 
 RECOMMENDED = "take the code of `hypcheck emit --method exact`"
-"""The one recommendation for whoever needs the right answer at every row."""
+"""The one recommendation where the answer must be right at every row."""
 
 
 class Standing(IntEnum):

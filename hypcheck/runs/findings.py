@@ -94,10 +94,11 @@ class FamilyBatch:
 
 def batches(plan: SelfCheckPlan) -> tuple[FamilyBatch, ...]:
     """The cases of every family, decided exactly. Raises InputError naming a family that does not exist."""
-    return tuple(_batch(family, plan) for family in select(plan.families))
+    return tuple(batch_of(family, plan) for family in select(plan.families))
 
 
-def _batch(family: Family, plan: SelfCheckPlan) -> FamilyBatch:
+def batch_of(family: Family, plan: SelfCheckPlan) -> FamilyBatch:
+    """The cases of one family, decided exactly."""
     rows = family.rows(plan.seed, plan.count)
     decisions = tuple(exact.decide(Pair.from_row(row).lengths) for row in rows.tolist())
     positions = np.array([decision.position for decision in decisions], dtype=np.int8)

@@ -25,7 +25,7 @@ from hypcheck.vectors.family import Family
 FAIL_ON = ("wrong", "false-clear")
 
 LARGE_RUN = 1 << 20
-"""Cases from which on several processes are worth their start."""
+"""From this number of cases on, several processes save more time than it takes to start them."""
 
 LOCAL_CLUSTER = re.compile(r"local:([1-9]\d{0,3})")
 """`local:N`: a dask scheduler on this machine, with N workers."""

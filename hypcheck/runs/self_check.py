@@ -1,11 +1,13 @@
 """The self-check: derive, prove, cross-check, judge, draw, time; each result goes into the record at once.
 
-It times the fast path beside the plain formula, general-purpose roots and FCL, on the cooling tower.
+Derivation, oracles, formulas and methods are tasks of one list, which several processes work on. Then, with nothing
+else running, it times the fast path beside the plain formula, general-purpose roots and FCL, on the cooling tower.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -13,21 +15,21 @@ import msgspec
 import numpy as np
 
 from hypcheck.bench.timing import Samples, TimingEntry, clocked, measure
-from hypcheck.derivation.printed_equations import check_equations
-from hypcheck.derivation.proofs import prove_formulas
+from hypcheck.derivation.printed_equations import EquationCheck, check_equations
+from hypcheck.derivation.proofs import Proof, prove_formulas
 from hypcheck.errors import Exit, RunOutcome
 from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations.alternatives import numpy_roots
 from hypcheck.implementations.builtin import builtin, builtin_methods, fast_scene, methods_without_meshes
 from hypcheck.implementations.meshes import point_mesh
 from hypcheck.implementations.method import Answers, Method
-from hypcheck.processes import Advance, Stage, perform, processes
+from hypcheck.processes import Advance, Stage, in_order
 from hypcheck.record import Recorder, lines
-from hypcheck.record.lines import TimingLine
+from hypcheck.record.lines import FindingLine, GroupLine, TimingLine
 from hypcheck.runs import findings, judge, oracles
-from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batches
+from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batch_of, batches
 from hypcheck.runs.judge import Status
-from hypcheck.runs.oracles import ORACLES, OracleTally
+from hypcheck.runs.oracles import ORACLES, OracleTally, OracleTask
 from hypcheck.vectors.families import FAMILIES
 
 WORKLOAD = "tower-body"
@@ -120,6 +122,59 @@ DISAGREEMENTS_KEPT = 20
 """The record keeps so many disagreements of one oracle on one family."""
 
 
+@dataclass(frozen=True, slots=True)
+class DerivationTask:
+    """The paper's equations and the proofs of the formulas."""
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyTask:
+    """One family, by its name: its cases for the formulas in exact rationals and for the methods in floats."""
+
+    family: str
+    plan: SelfCheckPlan
+
+
+Task = DerivationTask | FamilyTask | OracleTask
+"""What a worker does at a time, and knows all about."""
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyLines:
+    """The errors of the formulas on one family, and the tallies of the methods."""
+
+    findings: list[FindingLine]
+    groups: list[GroupLine]
+
+
+def performed(task: Task) -> Any:  # noqa: ANN401 - of each task another type
+    """The equations and proofs, a family's lines, or an oracle's opinions with their seconds."""
+    match task:
+        case DerivationTask():
+            return check_equations(), prove_formulas()
+        case FamilyTask():
+            return _family_lines(batch_of(FAMILIES[task.family], task.plan), task.plan)
+        case OracleTask():
+            return oracles.ask_oracle(task)
+
+
+def _family_lines(batch: FamilyBatch, plan: SelfCheckPlan) -> FamilyLines:
+    found = [
+        finding
+        for formula in findings.exact_formulas()
+        for finding in findings.mathematical_findings(formula, batch, plan)
+    ]
+    head = batch.head(plan.judged)
+    exponents = judge.flip_exponents(head.rows)
+    return FamilyLines(found, [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)])
+
+
+def methods_of(plan: SelfCheckPlan) -> tuple[Method, ...]:
+    """The built-in methods that are judged; those that measure meshes only if the plan asks the mesh oracle."""
+    available = builtin_methods() if MESH in plan.oracles else methods_without_meshes()
+    return tuple(method for method in available.values() if not method.measured)
+
+
 def stages(plan: SelfCheckPlan, recorder: Recorder, outcome: RunOutcome) -> tuple[Stage, ...]:
     """The stages of the run in order. Raises InputError naming a family that does not exist."""
     return _SelfCheck(plan, recorder, outcome).stages()
@@ -139,20 +194,14 @@ class _SelfCheck:
 
     def stages(self) -> tuple[Stage, ...]:
         """The stages of the run in order; the record says which oracles are not available."""
-        available = builtin_methods() if MESH in self.plan.oracles else methods_without_meshes()
-        methods = tuple(method for method in available.values() if not method.measured)
         asked: tuple[oracles.Batch, ...] = (*self.batches, *oracles.tilted_batches(self.plan))
-        tasks = oracles.oracle_tasks(self._with_available_oracles(), asked)
-        formulas = findings.exact_formulas()
+        tasks: list[Task] = [
+            DerivationTask(),
+            *(FamilyTask(batch.family.name, self.plan) for batch in self.batches),
+            *oracles.oracle_tasks(self._with_available_oracles(), asked),
+        ]
         return (
-            Stage("derivation", 2, self._derive),
-            Stage("oracles", len(tasks), lambda advance: self._cross_check(tasks, asked, advance)),
-            Stage("mathematics of the formulas", len(self.batches) * len(formulas), self._find_exact_errors),
-            Stage(
-                "methods in floats",
-                len(self.batches) * (len(methods) + 1),
-                lambda advance: self._judge(methods, advance),
-            ),
+            Stage("deriving, asking, judging", len(tasks), lambda advance: self._perform(tasks, asked, advance)),
             Stage("map", 2, self._draw),
             Stage("timing", TIMING_ROUNDS, self._time),
         )
@@ -164,24 +213,50 @@ class _SelfCheck:
                 self.recorder.add(lines.UnavailableLine(oracle=name, reason=reason))
         return replace(self.plan, oracles=tuple(name for name, reason in reasons.items() if reason is None))
 
-    def _derive(self, advance: Advance) -> None:
-        for equation in check_equations():
+    def _perform(self, tasks: Sequence[Task], asked: Sequence[oracles.Batch], advance: Advance) -> None:
+        """Do all tasks, in processes where the plan has several workers, and record what they find, in their order."""
+        found: list[FindingLine] = []
+        tallies: list[OracleTally] = []
+        with closing(in_order(performed, tasks, self.plan.workers, 0)) as results:
+            for task, result in zip(tasks, results, strict=True):
+                match task:
+                    case DerivationTask():
+                        self._record_derivation(*result)
+                    case FamilyTask():
+                        found += self._record_family(task.family, result)
+                    case OracleTask():
+                        tallies.append(oracles.compare_with_exact(task, result[0], asked[task.batch], result[1]))
+                advance(1)
+        self._record_drift(found)
+        self._record_oracles(tallies)
+
+    def _record_derivation(self, equations: Sequence[EquationCheck], proofs: Sequence[Proof]) -> None:
+        for equation in equations:
             self.recorder.add(lines.EquationLine(**asdict(equation)))
-        advance(1)
-        for proof in prove_formulas():
+        for proof in proofs:
             self.recorder.add(lines.ProofLine(**asdict(proof)))
             if not proof.holds:
                 self.outcome.because[Exit.ORACLES_DISAGREE].append(f"{proof.formula}: {proof.statement}")
-        advance(1)
 
-    def _cross_check(
-        self, tasks: Sequence[oracles.OracleTask], asked: Sequence[oracles.Batch], advance: Advance
-    ) -> None:
-        tallies: list[OracleTally] = []
-        with processes(self.plan.workers) as executor:
-            for task, (opinions, seconds) in perform(oracles.ask_oracle, tasks, executor):
-                tallies.append(oracles.compare_with_exact(task, opinions, asked[task.batch], seconds))
-                advance(1)
+    def _record_family(self, family: str, made: FamilyLines) -> list[FindingLine]:
+        """Record a family's lines; its findings with the reasons of those that are known."""
+        known = findings.known_findings()
+        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, known)) for each in made.findings]
+        for line in (*found, *made.groups):
+            self.recorder.add(line)
+        self.outcome.because[Exit.WRONG] += [
+            f"{line.method} on {family}"
+            for line in made.groups
+            if line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value}
+        ]
+        return found
+
+    def _record_drift(self, found: Sequence[FindingLine]) -> None:
+        for sentence in findings.finding_drift(found, findings.known_findings(), complete=self.plan.complete):
+            self.recorder.add(lines.DriftLine(sentence=sentence))
+            self.outcome.because[Exit.WRONG].append(sentence)
+
+    def _record_oracles(self, tallies: Sequence[OracleTally]) -> None:
         for tally in oracles.merged_tallies(tallies):
             disagreeing = self.outcome.because[Exit.ORACLES_DISAGREE]
             disagreeing += [f"{case.oracle} on {case.case}" for case in tally.disagreements]
@@ -197,30 +272,6 @@ class _SelfCheck:
                     disagreements=list(tally.disagreements[:DISAGREEMENTS_KEPT]),
                 )
             )
-
-    def _find_exact_errors(self, advance: Advance) -> None:
-        found, known = [], findings.known_findings()
-        for batch in self.batches:
-            for formula in findings.exact_formulas():
-                for finding in findings.mathematical_findings(formula, batch, self.plan):
-                    found.append(finding)
-                    reason = findings.reason_for(finding, known)
-                    self.recorder.add(msgspec.structs.replace(finding, reason=reason))
-                advance(1)
-        for sentence in findings.finding_drift(found, known, complete=self.plan.complete):
-            self.recorder.add(lines.DriftLine(sentence=sentence))
-            self.outcome.because[Exit.WRONG].append(sentence)
-
-    def _judge(self, methods: Sequence[Method], advance: Advance) -> None:
-        for batch in (each.head(self.plan.judged) for each in self.batches):
-            exponents = judge.flip_exponents(batch.rows)
-            advance(1)
-            for method in methods:
-                line = findings.method_group(method, batch, exponents, self.plan)
-                self.recorder.add(line)
-                if method.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value}:
-                    self.outcome.because[Exit.WRONG].append(f"{method.name} on {batch.family.name}")
-                advance(1)
 
     def _draw(self, advance: Advance) -> None:
         for panel in findings.tower_panels():

@@ -155,10 +155,7 @@ def is_shortest(number: float | int) -> bool:
     Notation is free: 2, 2.0 and 20e-1 are all right. A digit too many or too few is not.
     """
     text = number.text if isinstance(number, Literal) else str(number)
-    try:
-        value = float(text)
-    except OverflowError:
-        return False
+    value = float(text)
     try:
         return math.isfinite(value) and (text == repr(value) or Decimal(text) == Decimal(repr(value)))
     except InvalidOperation:  # a zero, or what rounds to it, with an exponent too large even for Decimal

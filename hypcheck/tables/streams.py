@@ -234,10 +234,7 @@ def _mode(path: str) -> int | None:
 
 def _mode_to_replace(path: str) -> int | None:
     """The mode of a regular file at `path`, None if a new file may take the place. Raises OSError."""
-    try:
-        linked = os.path.islink(path) or not (os.path.isfile(path) or os.path.isdir(path))
-    except ValueError:  # opening the file reports what is wrong with its name
-        return None
+    linked = os.path.islink(path) or not (os.path.isfile(path) or os.path.isdir(path))
     return None if linked else _mode(path)
 
 

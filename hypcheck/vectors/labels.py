@@ -21,7 +21,7 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest_exact import nearest
 from hypcheck.truth.prove import prove
 from hypcheck.truth.roots import classify_by_roots
-from hypcheck.vectors.family import Offset, Row, StoredCertificate, Vector, VectorFile
+from hypcheck.vectors.family import LabelledCase, Offset, Row, StoredCertificate, Vector, VectorFile
 from hypcheck.vectors.flags import flags_of
 from hypcheck.vectors.frozen import InvalidRowFile, columns_at_fault
 
@@ -139,15 +139,14 @@ class LabelFault:
     sentence: str
 
 
-def faults_of_vectors(file: VectorFile, advance: Callable[[int], object] = lambda _: None) -> list[LabelFault]:
-    """Every wrong label of a file of cases, in order; `advance` is called for each case that is done."""
+def faults_of_vectors(file: VectorFile) -> list[LabelFault]:
+    """Every wrong label of a file of cases, in order."""
     lines = file.lines or (0,) * len(file.cases)
     decisions = [exact.decide(case.pair.lengths) for case in file.cases]
     flags = flags_of([case.row for case in file.cases], decisions) if file.cases else []
     faults = []
     for line, case, truth, computed in zip(lines, file.cases, decisions, flags, strict=True):
         faults += [LabelFault(line, case.id, sentence) for sentence in _sentences(case, truth, computed)]
-        advance(1)
     return faults
 
 
@@ -164,7 +163,9 @@ def faults_of_invalid_rows(file: InvalidRowFile) -> list[LabelFault]:
 
 def _sentences(case: Vector, truth: Decision, flags: Sequence[str]) -> Iterator[str]:
     pair = case.pair
-    yield from _unproved(case, pair)
+    proved = check_certificate(pair, case.witness.certificate(pair, case.position))
+    double = case.witness.double_root is not None
+    yield from unproved(case.position, case.tangent, double, proved, lambda: shows_crossing(pair, case.witness.offsets))
     kind = classify_by_roots(pair).kind
     if kind is not case.kind:
         yield f"kind is {case.kind.value}; the roots say {kind.value}"
@@ -176,20 +177,27 @@ def _sentences(case: Vector, truth: Decision, flags: Sequence[str]) -> Iterator[
     for position, distance in flips(pair.lengths, truth).items():
         if distance != case.flips[position]:
             yield f"the flip to {position.label} is {decimal_of(case.flips[position])}; it is {decimal_of(distance)}"
-    if set(flags) != set(case.flags):
-        yield f"flags are {_flag_names(case.flags)}; they are {_flag_names(flags)}"
+    yield from wrong_flags(case, flags)
 
 
-def _unproved(case: Vector, pair: Pair) -> Iterator[str]:
-    """What the certificate does not prove of position and tangency."""
-    claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
-    if not check_certificate(pair, case.witness.certificate(pair, case.position)):
+def unproved(
+    position: Position, tangent: bool, double: bool, proved: bool, crosses: Callable[[], bool]
+) -> Iterator[str]:
+    """What a certificate does not prove of position and tangency.
+
+    `double`: it has a double root. `proved`: it proves the position. `crosses` says whether its points prove a contact
+    that is no tangency.
+    """
+    claim = f"{position.label}, tangent" if tangent else position.label
+    if not proved:
         yield f"the certificate does not prove {claim}"
-    elif case.tangent != (case.position is Position.CONTACT and case.witness.double_root is not None):
+    elif tangent != (position is Position.CONTACT and double):
         yield f"the certificate is not one of a pair that is {claim}"
-    elif case.position is Position.CONTACT and not case.tangent and not shows_crossing(pair, case.witness.offsets):
+    elif position is Position.CONTACT and not tangent and not crosses():
         yield "the certificate proves contact, but does not rule tangency out"
 
 
-def _flag_names(flags: Sequence[str]) -> str:
-    return ", ".join(flags) or "none"
+def wrong_flags(case: LabelledCase, flags: Sequence[str]) -> Iterator[str]:
+    """A sentence if the flags of a case are others than these."""
+    if set(flags) != set(case.flags):
+        yield f"flags are {', '.join(case.flags) or 'none'}; they are {', '.join(flags) or 'none'}"

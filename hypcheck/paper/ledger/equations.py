@@ -288,7 +288,7 @@ def _discriminant() -> LedgerEntry:
         "4",
         "Δ(g_i) costs much in comparison to other operations",
         PROVED,
-        f"a count against a threshold of ours, one half: {share} of the {whole} rounded operations of "
+        f"a count against our own threshold, one half: {share} of the {whole} rounded operations of "
         "Procedure 2.a for a "
         f"position are those of its four Δ(g_i). Whether Procedure 2.b is cheaper for it: {BENCH['hull first']}",
         "a fixed λ decides most first, for a product and a comparison (docs/mathematics.md, “A line is a proof”)",

@@ -120,7 +120,7 @@ def _shares() -> tuple[LedgerEntry, ...]:
             "4",
             "less than 14 % of executions in all cases",
             PROVED,
-            f"true of the printed figures, the greatest of which is {most}; the greatest of ours is 14.06 ± 0.05 "
+            f"true of the printed figures, the greatest of which is {most}; the greatest of our own is 14.06 ± 0.05 "
             "(v = 6) with l = 0.135, where rotors overlap, and with rotors apart, 0.1414 ≤ l ≤ 0.15, 13.66 to 13.09",
             "“extremely low” has no measure; for Procedure 2.b it means about one question in seven that "
             "asks the rotors",

@@ -27,7 +27,7 @@ from hypcheck.report.messages import listed
 from hypcheck.report.model import ImplementationTotal, implementations
 from hypcheck.report.plots import heat
 from hypcheck.report.plots.colours import MISTAKES
-from hypcheck.report.plots.style import SMALL, WIDTH, colour, new_figure
+from hypcheck.report.plots.style import SMALL, WIDTH, colour, new_figure, share_layout
 from hypcheck.report.plots.svg import Plot
 
 Interval = tuple[float, float]
@@ -81,10 +81,13 @@ CELLS, PER_UNIT = 64, 8
 
 def field_plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method that erred."""
+    first = None
     for number, each in enumerate(implementations(record)):
         found = heat.cells(row for group in each.groups for row in group.place_bins)
         if any(wrong for _, wrong in found.values()):
-            yield _field_plot(f"fields-{number}", each, found)
+            plot = _field_plot(f"fields-{number}", each, found)
+            first = share_layout(plot.figure, first)
+            yield plot
 
 
 def _field_plot(name: str, each: ImplementationTotal, found: heat.Cells) -> Plot:

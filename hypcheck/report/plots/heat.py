@@ -18,7 +18,7 @@ from hypcheck.report.measured import is_unstable, stability_title
 from hypcheck.report.messages import figure
 from hypcheck.report.model import implementations
 from hypcheck.report.plots.colours import STEPS
-from hypcheck.report.plots.style import SMALL, colour, decades, new_figure, power_of_ten
+from hypcheck.report.plots.style import SMALL, colour, decades, new_figure, power_of_ten, share_layout
 from hypcheck.report.plots.svg import Plot
 
 GAP = 0.08
@@ -59,8 +59,11 @@ def heat_plots(prefix: str, plane: Plane, maps: Mapping[str, Cells]) -> Iterator
     if not places:
         return
     limits = [(min(place[k] for place in places), max(place[k] for place in places) + 1) for k in (0, 1)]
+    first = None
     for number, (title, found) in enumerate(maps.items()):
-        yield _heat_plot(f"{prefix}-{number}", title, plane, found, limits)
+        plot = _heat_plot(f"{prefix}-{number}", title, plane, found, limits)
+        first = share_layout(plot.figure, first)
+        yield plot
 
 
 def _heat_plot(name: str, title: str, plane: Plane, found: Cells, limits: Sequence[tuple[int, int]]) -> Plot:

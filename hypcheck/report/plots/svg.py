@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from xml.etree import ElementTree as Xml
 
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from hypcheck.messages import escaped
@@ -105,7 +106,8 @@ def _element(plot: Plot) -> Xml.Element:
     with styled(), warnings.catch_warnings():  # the style says how text and ids are written, too
         warnings.filterwarnings("ignore", message="Glyph")  # a name in letters that the font has not
         metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-        plot.figure.savefig(stream, format="svg", metadata=metadata, transparent=True, dpi=144)
+        plot.figure.set_dpi(144)  # of what is drawn as an image
+        FigureCanvasSVG(plot.figure).print_svg(stream, metadata=metadata)  # savefig draws everything twice
     root = Xml.fromstring(stream.getvalue())  # noqa: S314 - just written
     for parent in list(root.iter()):
         for child in list(parent):

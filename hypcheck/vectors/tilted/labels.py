@@ -24,7 +24,7 @@ from hypcheck.truth.tilted.nearest import nearest
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.truth.tilted.prove import prove
 from hypcheck.vectors.family import Offset, Row, StoredCertificate
-from hypcheck.vectors.labels import LabelFault
+from hypcheck.vectors.labels import LabelFault, unproved, wrong_flags
 from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile
 
 _MOST_BITS = 1 << 14
@@ -163,7 +163,11 @@ def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:
 
 def _sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str]:
     pair = case.pair
-    yield from _unproved(case, pair)
+    proves = check_certificate(pair, case.certificate)
+    double = case.witness.double_root is not None
+    yield from unproved(
+        case.position, case.tangent, double, proves, lambda: shows_tilted_crossing(pair, case.witness.offsets)
+    )
     measured = nearest(pair)
     if measured.clearance != case.clearance:
         yield f"clearance is {decimal_of(case.clearance)}; the nearest point says {decimal_of(measured.clearance)}"
@@ -174,17 +178,4 @@ def _sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str]:
         if not is_bracket(case.row, truth, other, ends, cuts=0, lower_holds=other in proved):
             said = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
             yield f"the flip to {other.label} is {said}; no proof of both ends is found"
-    flags = tilted_flags(pair, truth)
-    if set(flags) != set(case.flags):
-        yield f"flags are {', '.join(case.flags) or 'none'}; they are {', '.join(flags) or 'none'}"
-
-
-def _unproved(case: TiltedVector, pair: TiltedPair) -> Iterator[str]:
-    """What the certificate does not prove of position and tangency."""
-    claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
-    if not check_certificate(pair, case.certificate):
-        yield f"the certificate does not prove {claim}"
-    elif case.tangent != (case.position is Position.CONTACT and case.witness.double_root is not None):
-        yield f"the certificate is not one of a pair that is {claim}"
-    elif claim == Position.CONTACT.label and not shows_tilted_crossing(pair, case.witness.offsets):
-        yield "the certificate proves contact, but does not rule tangency out"
+    yield from wrong_flags(case, tilted_flags(pair, truth))

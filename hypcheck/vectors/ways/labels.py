@@ -15,7 +15,7 @@ from hypcheck.truth.passage_certificate import check_passage, contact_at, place
 from hypcheck.truth.passage_prove import prove
 from hypcheck.truth.swept import journey_of
 from hypcheck.vectors.family import Row
-from hypcheck.vectors.labels import LabelFault
+from hypcheck.vectors.labels import LabelFault, wrong_flags
 from hypcheck.vectors.ways.format import Bounds, StoredPassage, WayFile, WayVector
 
 
@@ -73,6 +73,4 @@ def _sentences(case: WayVector) -> Iterator[str]:
         else:
             said = f"{decimal_of(case.first[0])} … {decimal_of(case.first[1])}"
             yield f"the certificate does not prove that the first contact is at {said}"
-    flags = way_flags(case.row, case.first, case.witness)
-    if set(flags) != set(case.flags):
-        yield f"flags are {', '.join(case.flags) or 'none'}; they are {', '.join(flags) or 'none'}"
+    yield from wrong_flags(case, way_flags(case.row, case.first, case.witness))
