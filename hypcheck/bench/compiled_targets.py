@@ -49,7 +49,7 @@ from hypcheck.vectors.scenes import BODY, TOWER
 TOWER_SIZES: Sizes = (*TOWER, *BODY)
 SEED = 1
 DISTINCT = 1_000_000
-"""So many rows are different. A longer array repeats them, because to draw ten million takes longer than to measure
+"""The number of different rows. A longer array repeats them, because to draw ten million takes longer than to measure
 them."""
 
 

@@ -171,7 +171,7 @@ class RunningForeign:
         return None
 
     def close(self) -> None:
-        """Let it end."""
+        """End the program."""
         self.implementation.close()
 
     @property

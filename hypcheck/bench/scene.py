@@ -193,7 +193,7 @@ def rows_of(stages: Stages, times: int = REPEATED_CENTRES) -> Rows:
 
 ROUNDS, QUICK_ROUNDS = 11, 5
 ROWS = 2**17
-"""A scene is asked about so many rows; each setting has at least the 4096 of its sample."""
+"""The number of rows that a scene is asked about; each setting has at least the 4096 of its sample."""
 
 CERTIFIED = "fast"
 """The name of the certified kernel among the methods in C."""

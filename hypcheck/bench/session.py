@@ -33,7 +33,7 @@ MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {
 """The workloads of a mode, if not all: single rows have no neighbours, and a mesh belongs to the scene."""
 
 BUILDS = 2
-"""Rounds of building meshes: large ones take most of a second."""
+"""Rounds of building meshes: a large mesh takes almost a second."""
 
 NOT_ANSWERED = "not answered"
 """Replaces the hash of answers if the method failed when it was judged, which is recorded already."""

@@ -121,7 +121,7 @@ _SECONDS = NumberOption(0, excluded=True)
 ISOLATE = click.option(
     "--isolate",
     type=click.Choice(["auto", "on", "off"]),
-    help="Keep it from this machine as far as the system allows; on: or do not run it.  [default: auto]",
+    help="Isolate it from this machine as far as the system allows; on: run it only if that works.  [default: auto]",
 )
 PASS_ENV = click.option("--pass-env", metavar="NAMES", help="Environment variables that it sees though it is isolated.")
 

@@ -26,7 +26,7 @@ from hypcheck.engines.table import ENGINES, Engine
 from hypcheck.geometry.rows import Floats
 
 MOST_TRIED = 3
-"""So many rows are tried for each kind of error."""
+"""The number of rows tried for each kind of error."""
 
 _NEAREST = 16
 _BITS = 44

@@ -16,7 +16,7 @@ from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Layout, Rows
 from hypcheck.messages import escaped
 
 KEPT = 16_384
-"""So many last bytes of standard error are kept: the output before a program's end says the most."""
+"""The number of last bytes of standard error that are kept: the output before a program's end says the most."""
 
 LINES, WIDTH = 3, 400
 """Lines of standard error in a sentence, and characters of a text."""

@@ -30,7 +30,7 @@ from hypcheck.implementations.worker_session import WorkerSession
 from hypcheck.messages import counted
 
 MAX_FAULTS = 1 << 14
-"""So many rows may fail without ending the process. An implementation that always fails is not asked every row."""
+"""The number of rows that may fail without ending the process, so that not every row of a broken one is asked."""
 
 _FIRST, _GROWTH = 64, 16
 _SHARE = 10

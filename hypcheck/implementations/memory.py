@@ -52,7 +52,7 @@ LOOK = 5
 """Seconds between two checks of a guard."""
 
 _ROUNDS = 5
-"""So many searches for processes that were started while others were killed."""
+"""The number of searches for processes that were started while others were killed."""
 
 
 def new_environment_mark() -> str:

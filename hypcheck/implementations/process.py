@@ -71,7 +71,7 @@ _CHUNK = 1 << 16
 _ROOM = 1 << 18
 """Bytes of a pipe's buffer if the system allows it: both sides wait for each other less often than with 64 KiB."""
 _TOGETHER = 1 << 12
-"""So many bytes of a question are written at once, even if they come in several parts."""
+"""The number of bytes of a question that are written at once, even if they come in several parts."""
 
 _SOON = 1e-4
 """For so many seconds a busy loop waits for the answer to so small a question: sleeping and waking takes as long."""

@@ -389,7 +389,7 @@ class CommandSession:
         return self._process.stderr
 
     def close(self) -> None:
-        """Let it end: the end of its input is goodbye."""
+        """End the program by ending its input."""
         self._process.goodbye()
 
     def kill(self) -> None:

@@ -14,7 +14,7 @@ from hypcheck.implementations.frames import UNWRITTEN, GivenAnswers
 from hypcheck.implementations.session import FaultError, GivenUpError, Outcome, Supervisor
 
 ALONE = 4096
-"""So many rows are asked one by one to find the row that ends the process; more rows are first asked in such parts.
+"""Rows that are asked one by one to find the one that ends the process; more rows are first asked in such parts.
 
 Thus the search costs at most two more processes, and one for each further such row. Rows that end no process are found
 by halving.

@@ -121,7 +121,7 @@ class Session(Protocol):
         ...
 
     def close(self) -> None:
-        """Let it end."""
+        """End the program."""
         ...
 
     def kill(self) -> None:

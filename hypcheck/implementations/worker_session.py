@@ -172,7 +172,7 @@ class WorkerSession:
         return self._process.stderr
 
     def close(self) -> None:
-        """Let it end."""
+        """End the program."""
         self._process.goodbye()
 
     def kill(self) -> None:

@@ -320,7 +320,7 @@ PLACES: tuple[Cause, ...] = (
     Cause(
         "groove",
         "where (γ/d)² < α/b, outside the regime of Proposition 3, it calls a spheroid that crosses the groove exterior",
-        "exterior asks besides for: not (c2 < −3B and (3B + 2 c2) B + c1 > 0)",
+        "exterior must also require: not (c2 < −3B and (3B + 2 c2) B + c1 > 0)",
         _groove,
         Standing.PLACE,
         claim="Proposition 3.1",

@@ -49,7 +49,7 @@ MAX_CHECKS_WITHOUT_WORKER = 60
 """Seconds without a result between two checks of the cluster, and how many checks in a row may find no worker."""
 
 SILENCES = 6
-"""So many checks in a row may get no answer from the scheduler within CONNECT seconds."""
+"""The number of checks in a row that may get no answer from the scheduler within CONNECT seconds."""
 
 IDLE = 60.0
 """Seconds after which an idle implementation is closed; the next task opens it again."""

@@ -40,7 +40,7 @@ UNEXPLAINED = "unexplained"
 _BITS = {cause.name: bit for bit, cause in enumerate(CAUSES)}
 
 WITNESSES = 256
-"""So many right answers of a chunk are compared with the rules, evenly chosen."""
+"""The number of right answers of a chunk, evenly chosen, that are compared with the rules."""
 
 MOST = 0.8
 """A whole rule has to give this share of the wrong answers that it should explain."""
@@ -189,7 +189,7 @@ class _Left:
 
 
 CLEAN = 16
-"""So many frozen vectors of each family without a wrong answer say which causes an implementation has not."""
+"""The number of frozen vectors of each family without a wrong answer that rule causes out."""
 
 
 def causes_of(

@@ -318,7 +318,7 @@ FIRST_LOOK = 128
 """Rows of each stratum in the first round; whole blocks follow."""
 
 CLIMBERS_TOGETHER = 4
-"""So many climbers are asked at the same time, each of another cluster."""
+"""The number of climbers, each of another cluster, that are asked at the same time."""
 
 Progress = Callable[[Hunt], object]
 

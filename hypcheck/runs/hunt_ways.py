@@ -16,7 +16,7 @@ SIZE = (2, 3)
 """The columns of b and d, which are the size together."""
 
 BROUGHT = 3
-"""So many neighbours are brought to the border of contact at a time: each takes about 60 exact decisions."""
+"""Neighbours that are brought to the border of contact at a time: each takes about 60 exact decisions."""
 
 _MOVES = [
     *((column,) for column in range(4)),

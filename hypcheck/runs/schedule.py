@@ -85,7 +85,7 @@ TASKS_PER_WORKER = 2
 """Submitted tasks for each worker: the one that it performs, and the next. All others wait here in order."""
 
 MAX_WORKERS_LOST = 3
-"""So many workers may die of one task, and so many in a row before they are ready."""
+"""The number of workers that one task may kill, and of workers in a row that may die before they are ready."""
 
 _TICK = 1.0
 

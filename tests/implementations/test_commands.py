@@ -313,6 +313,6 @@ def test_reply_before_all_rows_were_read_breaks_the_protocol():
     assert set(answered.status[asked:].tolist()) == {Outcome.NOT_RUN}
 
 
-def test_the_unlucky_row_is_valid_and_decided():
+def test_the_row_that_the_miniatures_fail_on_is_valid_and_decided():
     assert truth(rows())[UNLUCKY] in {-1, 0, 1}
     assert set(truth(rows()).tolist()) == {-1, 0, 1}

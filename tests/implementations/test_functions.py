@@ -299,5 +299,5 @@ def test_the_worker_loads_neither_sympy_nor_mpmath_nor_fcl(tmp_path):
     assert {"sympy", "mpmath", "fcl"} & set(sys.modules) == before
 
 
-def test_the_unlucky_row_is_among_those_asked():
+def test_the_row_that_the_miniatures_fail_on_is_among_those_asked():
     assert (rows()[:, 1] == 13.0).nonzero()[0].tolist() == [UNLUCKY]

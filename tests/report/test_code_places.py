@@ -152,7 +152,7 @@ def test_the_badge_says_how_the_run_ended(lines, exit_code, message, color):
 
 
 @pytest.mark.slow
-def test_verify_writes_all_three_for_a_wrong_function_at_its_line(tmp_path, monkeypatch):
+def test_verify_writes_sarif_gitlab_and_badge_for_a_wrong_function_at_its_line(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
     monkeypatch.setattr(sys, "path", [*sys.path])

@@ -115,7 +115,7 @@ Coordinates = tuple[float, float]
 
 
 ENOUGH = 3000
-"""So many right answers show, at 95 %, that at most 1 in 1000 is wrong."""
+"""The number of right answers that shows, at 95 %, that at most 1 in 1000 is wrong."""
 
 
 @dataclass(frozen=True, slots=True)

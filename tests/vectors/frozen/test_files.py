@@ -183,7 +183,7 @@ def test_one_case_stands_on_one_line():
         assert f'"count": {len(lines) - begin - 1},' in lines
 
 
-def test_arrays_of_a_file_are_its_cases():
+def test_the_arrays_of_a_file_hold_its_cases_in_order():
     frozen = vectors.frozen_rows("small-integers")
     file = vectors.load("small-integers")
     assert frozen.rows.shape == (len(file.cases), 7)
