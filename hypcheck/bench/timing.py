@@ -85,14 +85,14 @@ class Samples:
         return statistics.median(self.samples_ns)
 
 
-def clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
-    """Work in this process, by its clock; the sum is that of the last answers."""
+def clocked(work: Callable[[], NDArray[np.signedinteger]], clock: Callable[[], int] = time.perf_counter_ns) -> Clocked:
+    """Work in this process, by a clock of nanoseconds; the sum is that of the last answers."""
 
     def run(repeat: int) -> tuple[int, int]:
-        started = time.perf_counter_ns()
+        started = clock()
         for _ in range(repeat):
             answers = work()
-        return time.perf_counter_ns() - started, int(answers.sum(dtype=np.int64))
+        return clock() - started, int(answers.sum(dtype=np.int64))
 
     return run
 
@@ -299,14 +299,7 @@ class KernelTarget:
 
 def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
     """Work of this thread by its processor time: time of other programs does not count."""
-
-    def run(repeat: int) -> tuple[int, int]:
-        started = thread_time_ns()
-        for _ in range(repeat):
-            answers = work()
-        return thread_time_ns() - started, int(answers.sum(dtype=np.int64))
-
-    return run
+    return clocked(work, thread_time_ns)
 
 
 def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, Samples]:
