@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.implementations.description import Domain, in_regime, representable
+from hypcheck.implementations.description import Description, Domain, domain_of, in_regime, representable
 from tests.support.pairs import pairs
 
 
@@ -80,3 +80,32 @@ def test_only_normal_numbers_of_the_precision_are_asked(value, precision, expect
 def test_invalid_domain_is_refused(bad):
     with pytest.raises(InputError, match="the domain"):
         Domain(**bad)
+
+
+SIZES = [2.0, 3.0, 0.25, 0.15]
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ([], r"settings is \[\]; it must be a list of mappings with sizes"),
+        ("all", "it must be a list of mappings with sizes"),
+        ([{"sizes": [1.0, 2.0]}], "it must be four numbers, alpha, gamma, b, d"),
+        ([{"sizes": [2.0, 3.0, -0.25, 0.15]}], "sizes: b is -0.25"),
+        ([{"sizes": SIZES, "z": [1.0, -1.0]}], r"z is \[1.0, -1.0\]; it must be two numbers, the least first"),
+        ([{"sizes": SIZES, "axis": [1.0, 0.0]}], 'it must be three numbers, or "free"'),
+        ([{"sizes": SIZES, "axis": [0.0, 0.0, 0.0]}], "it must be three finite numbers, not all of them 0"),
+        ([{"sizes": SIZES, "axis": [1.0, 0.0, 1e999]}], "it must be"),
+    ],
+)
+def test_settings_of_a_domain_that_are_no_settings_are_refused(settings, message):
+    with pytest.raises(InputError, match=message):
+        domain_of({"settings": settings}, "the domain")
+
+
+def test_settings_with_an_axis_need_a_description_that_takes_axes():
+    domain = domain_of({"settings": [{"sizes": SIZES, "axis": "free"}]}, "the domain")
+    assert domain_of(domain, "the domain") is domain
+    assert Description(name="mine", domain=domain, tilt=True).domain is domain
+    with pytest.raises(InputError, match='the description must say "tilt": true then'):
+        Description(name="mine", domain=domain)
