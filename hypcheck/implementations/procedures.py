@@ -86,9 +86,9 @@ def procedure_2a(flight: CraftPath, repaired: bool = PRINTED) -> Answers:
 
 
 def procedure_2b(
-    flight: CraftPath, told: Callable[[CraftPath], object] = lambda _: None, repaired: bool = PRINTED
+    flight: CraftPath, on_rotors: Callable[[CraftPath], object] = lambda _: None, repaired: bool = PRINTED
 ) -> Answers:
-    """The answers of Procedure 2.b, which asks the rotors only for some positions; `told` is called with these."""
+    """The answers of Procedure 2.b, which asks the rotors only for some positions; calls `on_rotors` with these."""
     hull = _loop_body(hull_programs(repaired), hull_steps(repaired), flight)
     rotors = _rotors(flight, repaired)
 
@@ -98,7 +98,7 @@ def procedure_2b(
         found = np.asarray(inside).astype(np.int8)
         places = np.flatnonzero(touching)
         if len(places):
-            told(left := here.part(places))
+            on_rotors(left := here.part(places))
             found[places] = rotors(left.columns)[0]
         return found
 

@@ -105,8 +105,8 @@ _FAMILIES = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}
 Progress = Callable[[str], object]
 
 
-def freeze(names: Iterable[str], folder: Path, tell: Progress = lambda _: None) -> None:
-    """Write the files of these names to a folder, keeping the cases that are there; `tell` hears of each that is done.
+def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) -> None:
+    """Write the files of these names to a folder, keeping the cases that are there; `done` is called with each name.
 
     Raises InputError where a name is unknown, the folder is none or a file there is not as it must be, and
     DisagreementError, writing nothing, where a label does not stand its own check.
@@ -122,7 +122,7 @@ def freeze(names: Iterable[str], folder: Path, tell: Progress = lambda _: None) 
         text = _text(name, path)
         with writing(str(path)) as writer:
             writer.write(text.encode())
-        tell(name)
+        done(name)
 
 
 def _text(name: str, path: Path) -> str:
