@@ -124,7 +124,7 @@ class _Body(Statements):
             yield from self._discriminant()
         if stages.search is not None:
             yield ""
-            yield self._say("return", value=self._searched())
+            yield from self._searched()
 
     def _too_far(self) -> Iterator[str]:
         last = self._stages.search
@@ -167,16 +167,21 @@ class _Body(Statements):
             return self._say("select", condition="outside", left="1", right="-1")
         return "0" if self._question == "contact" else "1"
 
-    def _searched(self) -> str:
+    def _searched(self) -> Iterator[str]:
         search = self._stages.search
         if isinstance(search, LeaningSearch):
-            call = self._say("free search" if search.free else "fixed search", place=self._place)
+            found = self._say("free search" if search.free else "fixed search", place=self._place)
         else:
-            call = self._say("search", place=self._place)
-        compared = {"exterior": f"{call} > 0", "interior": f"{call} < 0", "contact": f"{call} == 0"}
+            found = self._say("search", place=self._place)
         if self._question == "position":
-            return call
-        return self._say("truth", condition=compared[self._question])
+            yield self._say("return", value=found)
+            return
+        if isinstance(search, LeaningSearch):  # it may not settle a centre, which is no answer to any question
+            yield self._say("found", value=found)
+            found = "found"
+            yield self._say("return if", condition=f"{found} == {CANNOT_SAY}", value=CANNOT_SAY)
+        compared = {"exterior": f"{found} > 0", "interior": f"{found} < 0", "contact": f"{found} == 0"}
+        yield self._say("return", value=self._say("truth", condition=compared[self._question]))
 
     def _return_if(self, condition: str, position: Position) -> str:
         return self._say("return if", condition=condition, value=answer(position, self._question))

@@ -21,6 +21,7 @@ from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.vectors import families, fixed_sizes
+from tests.kernel.emission import building
 from tests.kernel.emission.building import (
     COMMAND,
     answers,
@@ -110,6 +111,34 @@ def test_a_kernel_for_any_axis_answers_cannot_say_where_the_axis_is_no_direction
         kernel(np.array(rows)) if language not in {"c", "cpp", "rust"} else answers(_library(kernel), np.array(rows))
     )
     assert found.tolist() == [CANNOT_SAY, CANNOT_SAY, CANNOT_SAY, 0, 1]
+
+
+@pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
+@pytest.mark.parametrize("language", DIALECTS)
+def test_a_kernel_of_each_question_answers_cannot_say_where_the_axis_is_no_direction(language, question, tmp_path):
+    skip_without(language)
+    kernel = asking(built(tmp_path, tower(FREE, question), language), language)
+    ask = (lambda rows: answers(_library(kernel), rows)) if language in {"c", "cpp", "rust"} else kernel
+    beside = [2.0, 17.8, 0.25, 0.15, 1.8 if question == "interior" else 2.2, 0.0, 0.0]  # contact or clear, by the axis
+    rows = np.array([[*beside, *axis] for axis in ((0, 0, 0), (np.nan, 0, 1), (0, -np.inf, 1))])
+    assert ask(rows).tolist() == [CANNOT_SAY] * 3
+
+
+@pytest.mark.parametrize("axis", [PITCHED, FREE], ids=["one axis", "any axis"])
+@pytest.mark.parametrize("question", ["position", "exterior", "interior", "contact"])
+@needs("c")
+def test_a_kernel_of_each_question_answers_cannot_say_where_double_double_settles_nothing(
+    question, axis, tmp_path, monkeypatch
+):
+    """2 from the last stage is an answer to no question: compared with 0, it would be exterior."""
+    settled, chosen = "return clear ? 1 : contact ? 0 : CANNOT_SAY;", tower(axis, question)
+    text = emitted(plan_of(chosen), "c", COMMAND)
+    assert text.count(settled) == 1
+    monkeypatch.setattr(
+        building, "emitted", lambda *_: text.replace(settled, "(void)clear, (void)contact; return CANNOT_SAY;")
+    )
+    rows = np.array([[2.0, 17.8, 0.25, 0.15, 1.8 if question == "interior" else 2.2, 0.0, 0.0, *PITCHED]])
+    assert asking(built(tmp_path, chosen, "c"), "c")(rows).tolist() == [CANNOT_SAY]
 
 
 def _library(kernel):
