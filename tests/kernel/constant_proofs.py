@@ -89,6 +89,11 @@ def _height(value: Fraction) -> bool:
     return 2 * LEAST_NORMAL < U * value**2 and value**2 < CAP and GREATEST_SLOPE * value**2 < GREATEST
 
 
+def _seen(value: Fraction) -> bool:
+    """What contract.h says of a time: 2⁻⁴³ (1 + S) larger there is contact, the slack of the centre included."""
+    return (value + 1) * Fraction(certified.CONSTANTS["u_4"]) * (1 + 20 * U) <= Fraction(1, 2**43)
+
+
 def widths() -> list[int]:
     """Doubles in a vector of each level."""
     return [int(each) for each in re.findall(r"#define HC_WIDTH (\d+)", LEVEL.read_text(encoding="utf-8"))]
@@ -114,6 +119,7 @@ PROOFS: dict[str, Proof] = {
     "less_than": lambda value: 1 - Fraction(1, 1000) < value <= (1 - U) ** 4,
     "WIDEST": lambda value: value == math.lcm(*widths()),
     "FARTHEST_WAY": _way,
+    "SEEN": _seen,
     "MOST_GROWN": lambda value: 0 < value <= 127 - max(fixed.ERRORS.values()).bit_length(),
     "GREATEST_SLACK": lambda value: 0 < value < 1,
     **{f"fixed_{name}": lambda value, worst=worst: value == worst for name, worst in fixed.ERRORS.items()},

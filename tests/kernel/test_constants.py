@@ -48,6 +48,7 @@ def test_every_level_has_a_width():
         ("FARTHEST_WAY", 2.0**200),
         ("GREATEST_SLACK", 1.0),
         ("MOST_GROWN", 122),
+        ("SEEN", 128),
     ],
 )
 def test_the_derivation_of_a_limit_fails_beyond_what_it_covers(name, beyond):

@@ -36,6 +36,15 @@ _OTHERS = "BLOCK STRIP LIMB_BITS WIDTH LEVEL PRECISE FLOATS_DECIDE X86 NEON AHEA
 _SIZES = rf"HC_(?:{_OTHERS.replace(' ', '|')}|\w*TURNS|\w*LIMBS|TOO_MANY_\w+|\w*settled)"
 """Constants that sizes of arrays are made of, or that choose a shortcut alone."""
 
+NAMED = {
+    ("hc_known_point", "point.R < HC_cap && hc_position_of(row) != side"): ("hc_position_of(row) != side",),
+    ("hc_make_scene", "under[2].T * HC_less"): ("(under[2].T * HC_more)",),
+    ("hc_short", "((uint64_t)1 << 27) - 1"): ("(((uint64_t)1 << 20) - 1)",),
+    ("hc_parts_of", "2048"): ("1000",),
+}
+"""Changes that no rule makes, by function and expression: a cap left out, a reach with its margin reversed, a number
+with 33 bits for one with 26, and 0 with an exponent that is not above all others."""
+
 _OPERATOR = re.compile(r"(?<= )(<=|>=|==|!=|<|>|&&|\|\|)(?= )")
 _NUMBER = re.compile(r"(?<![\w.\[])(\d+\.\d+(?:e[+-]?\d+)?|\d+e[+-]?\d+|\d+)(?![\w.\]])")
 _OF_SIDES = re.compile(r"\bside [<>] 0$")
@@ -116,7 +125,8 @@ def _places(source: str, code: str) -> Iterator[_Place]:
         if start < end:
             continue
         end = stop
-        others = tuple(dict.fromkeys(_others(code[start:stop])))
+        named = NAMED.get((function, code[start:stop]), ())
+        others = tuple(dict.fromkeys([*_others(code[start:stop]), *named]))
         if others:
             yield _Place(start, stop, function, others)
 
@@ -134,6 +144,10 @@ def _stretches(code: str) -> Iterator[tuple[int, int, str]]:
         function = next((name for start, name in reversed(starts) if start <= line.start()), "")
         if function in GUESSES | OF_THE_MACHINE or _LEFT_OUT.search(text) or not text.startswith(" "):
             continue
+        for expression in (expression for name, expression in NAMED if name == function):
+            if expression in text:
+                at = line.start() + text.index(expression)
+                yield at, at + len(expression), function
         for match in [*_OPERATOR.finditer(text), *_MACRO.finditer(text), *_numbers(text)]:
             at = line.start() + match.start()
             yield (*_expression(code, at, at), function)

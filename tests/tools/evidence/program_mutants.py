@@ -16,8 +16,10 @@ from tests.tools.evidence.parts import ROOT, Figures
 
 TITLE = "Mutants of the kernel's constants"
 
-CERTIFIED, LINES, INTEGERS = (f"hypcheck/kernel/programs/{name}.py" for name in ("certified", "lines", "integers"))
-PROGRAMS, GUARDS = (f"tests/kernel/test_{name}.py" for name in ("programs", "guards"))
+CERTIFIED, LINES, INTEGERS, LEANING = (
+    f"hypcheck/kernel/programs/{name}.py" for name in ("certified", "lines", "integers", "tilted")
+)
+PROGRAMS, GUARDS, CONSTANTS = (f"tests/kernel/test_{name}.py" for name in ("programs", "guards", "constants"))
 RULE = "decides_by_the_rule"
 
 
@@ -76,6 +78,24 @@ CHANGES = (
     Change(LINES, "FLOAT32_TINY = 2.0**-80", "FLOAT32_TINY = 0.0", GUARDS, "tiny"),
     Change(LINES, "FLOAT32_MARGIN = 16 *", "FLOAT32_MARGIN = 8 *", PROGRAMS, "single_precision"),
     Change(LINES, "FLOAT32_GREATEST_SLOPE = 2.0**40", "FLOAT32_GREATEST_SLOPE = 2.0**60", GUARDS, "tiny"),
+    Change(
+        CERTIFIED, "    sizes_2 = A_plus_B + 1\n    M2 =", "    sizes_2 = A_plus_B + 0\n    M2 =", PROGRAMS, "terms"
+    ),
+    Change(
+        CERTIFIED,
+        "    BP_plus_AQ = BP + AQ\n    sizes_1 =",
+        "    BP_plus_AQ = BP + A\n    sizes_1 =",
+        PROGRAMS,
+        "terms",
+    ),
+    Change(LEANING, '"u_p_l": 8 *', '"u_p_l": 4 *', CONSTANTS, "derivation"),
+    Change(LEANING, '"u_k": 28 *', '"u_k": 23 *', CONSTANTS, "derivation"),
+    Change(LEANING, '"u_d_l": 36 *', '"u_d_l": 30 *', CONSTANTS, "derivation"),
+    Change(LEANING, '"u_F": 40 *', '"u_F": 35 *', CONSTANTS, "derivation"),
+    Change(LEANING, '"u_psi": 72 *', '"u_psi": 67 *', CONSTANTS, "derivation"),
+    Change(LEANING, "phi_positive and inside", "phi_positive and between_poles", GUARDS, "rule or limits"),
+    Change(LEANING, "before_B_and_A2 and before_A1", "before_B_and_A2 or before_A1", GUARDS, "by_its_rule"),
+    Change(LEANING, "below_tangent and phi_negative", "below_tangent or phi_negative", GUARDS, "by_its_rule"),
     Change(INTEGERS, "FLOAT64_BITS = 2098", "FLOAT64_BITS = 2046", GUARDS, "longest"),
 )
 """The constants and rules of the programs, those that no row shows among them."""

@@ -12,6 +12,7 @@
 #include "hypcheck.h"
 #include "guards.h"
 #include "exact_guards.h"
+#include "limits.h"
 
 enum { ROWS, LEANING, SCENE, LEANING_SCENE, WAYS, LEANING_WAYS, CLEARANCES };
 enum { MODES = 4 };
@@ -242,6 +243,7 @@ int main(int argc, char **argv) {
     if (argc > 3 && !hypcheck_use_level(argv[3])) return 3;
     check_guards();
     check_exact_guards();
+    check_limits();
     while (fread(&b, 4, 4, file) == 4) {
         const size_t n = (size_t)b.n, width = (size_t)b.width;
         b.rows = malloc(8 * n * width);
