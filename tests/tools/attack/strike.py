@@ -39,7 +39,7 @@ def batches(seed: int, rows: int) -> Iterator[Batch]:
     Far centres, where intermediate values overflow, are asked under every rounding mode; of the others each fourth
     batch under one directed mode beside the usual one.
     """
-    for number, (stratum, asked) in enumerate(_places(seed, rows)):
+    for number, (stratum, asked) in enumerate(drawn(seed, rows)):
         truth = truth_of(asked.rows if isinstance(asked, Scene) else asked)
         turn = DIRECTED[number // 4 % 3 : number // 4 % 3 + 1] if number % 4 == 0 else ()
         yield Batch(stratum, asked, truth, (TO_NEAREST, *(DIRECTED if stratum.startswith("far") else turn)))
@@ -50,7 +50,8 @@ def truth_of(rows: np.ndarray) -> np.ndarray:
     return tilted_positions(rows) if rows.shape[1] == len(TILTED_COLUMNS) else float_filter.positions(rows)
 
 
-def _places(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
+def drawn(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
+    """What `batches` asks, by stratum, without its truth."""
     random = np.random.default_rng(seed)
     share = rows // 8
     yield from places.families(seed, share // len(places.FAMILIES))
@@ -58,11 +59,12 @@ def _places(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
         for _ in range(0, share, 1 << 16):
             yield name, make(random, min(share, 1 << 16))
     size = min(1 << 15, max(2048, share // 64))  # scenes large enough that every kernel makes lines for them
-    for scene in places.scenes(random, 2 * share // size, size):
+    many = max(5, 2 * share // size)  # of each style of scenes one at least
+    for scene in places.scenes(random, many, size):
         yield "scenes", scene
     for scene in places.wild_scenes(random, share // 10_000 + 1, 1100):
         yield "wild scenes", scene
-    for scene in places.on_the_lines(random, 2 * share // size, size):
+    for scene in places.on_the_lines(random, many, size):
         yield "lines", scene
     for _ in range(0, share, 1 << 16):
         yield "far", places.far(random, min(share // 2, 1 << 15))

@@ -22,7 +22,7 @@ from tests.kernel.compiling import (
 )
 from tests.tools.attack.places import Scene, near_contact, scenes
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
-from tests.tools.attack.strike import Batch, batches, strike, tally
+from tests.tools.attack.strike import Batch, batches, drawn, strike, tally
 from tests.tools.attack.subjects import Subject, of_library, one_by_one, subjects
 
 ROWS = 8_000
@@ -31,6 +31,11 @@ ROWS = 8_000
 @pytest.fixture(scope="module")
 def struck():
     return list(batches(3, ROWS))
+
+
+def test_a_short_attack_asks_all_that_a_long_one_does():
+    """Scenes are large, so few rows must not mean none of them."""
+    assert {stratum for stratum, _ in drawn(3, ROWS)} == {stratum for stratum, _ in drawn(3, 40 * ROWS)}
 
 
 def test_no_kernel_is_wrong_anywhere(struck):
