@@ -14,9 +14,10 @@ from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
-from hypcheck.derivation.program import cut
+from hypcheck.derivation.program import cut, program_of
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.kernel import core
+from hypcheck.kernel.core import tilted as tilted_pool
 from hypcheck.kernel.programs import certified, fixed, lines, tilted
 
 U = Fraction(certified.U)
@@ -104,6 +105,67 @@ def _way(value: Fraction) -> bool:
     return 3 * (2 * value) ** 2 < CAP
 
 
+_TOUCH = program_of(
+    "touch",
+    ("alpha", "b", "d", "x", "y", "scale", "T", "S"),
+    """
+    bd = b * d
+    sizes = 1 / bd
+    per_b = sizes * d
+    a = alpha * per_b
+    A = a * a
+    TS = T * S
+    poles = 1 / TS
+    per_T = poles * S
+    to_radius = A * per_T
+    shrunk = 1 / scale
+    x_share = x * shrunk
+    y_share = y * shrunk
+    xx = x_share * x_share
+    yy = y_share * y_share
+    square = xx + yy
+    length = sqrt square
+    off = scale * length
+    r = off * per_b
+    radius = to_radius * r
+    metres = radius * b
+    inverse = 1 / length
+    cosine = x_share * inverse
+    place = metres * cosine
+""",
+)
+"""The longest way to a coordinate of a place of touch in core/parts/near_level.h."""
+
+
+def _rounded() -> Fraction:
+    """Its roundings; a root in plain C is within three units and not one, and is met twice."""
+    count = relative_error_counts(_TOUCH, ("place",), positive=set(_TOUCH.inputs)).counts["place"]
+    return gamma(count + 4, U) + U
+
+
+def _cut_bits(value: Fraction) -> bool:
+    """4 I³ − J² of coefficients up to 2ⁿ, each off by less than 1, is off by less than 2^(5n+20); the pool has room."""
+    n = int(value)
+    most = 2**n
+    off_I, off_J = 16 * (2 * most + 1), 137 * (3 * most**2 + 3 * most + 1)
+    I, J = 16 * most**2, 137 * most**3  # noqa: E741 - the names of the invariants
+    off = 4 * (3 * I**2 * off_I + 3 * I * off_I**2 + off_I**3) + 2 * J * off_J + off_J**2
+    return off < 2 ** (5 * n + 20) and n <= tilted_pool.CUT_BITS + 63
+
+
+def _tangency_bits(value: Fraction) -> bool:
+    """Lengths below 2ⁿ: x² + y² less squares has 127 bits, and what is compared in 256 has 255, M and e being 2¹²⁵."""
+    n, guess = int(value), 2**125
+    square = 2 ** (2 * n)
+    n2 = 2 * square * square + 2 * square * square
+    return 2 * square <= 2**127 and n2 + 2 * square * guess + guess**2 < 2**255 and n - 53 < 64
+
+
+def _hair(value: Fraction) -> bool:
+    """A z below γ times it widens α by less than 2b, which is 2⁻⁶¹ α at least; so do x and y below b times it."""
+    return 0 < value and value**2 / 2 < Fraction(1, 2**61) and 2 * value < 2
+
+
 PROOFS: dict[str, Proof] = {
     "u_4": covers(_parts(("h1", "h2", "h3"), ("c0", "c1", "c2"))),
     "u_8": covers(_count("certified", "c2")),
@@ -120,6 +182,11 @@ PROOFS: dict[str, Proof] = {
     "WIDEST": lambda value: value == math.lcm(*widths()),
     "FARTHEST_WAY": _way,
     "SEEN": _seen,
+    "rounded": covers(_rounded()),
+    "least_offset": lambda value: LEAST_NORMAL <= value <= Fraction(lines.LEAST_SIZE),
+    "CUT_BITS": _cut_bits,
+    "TANGENCY_BITS": _tangency_bits,
+    "HAIR": _hair,
     "MOST_GROWN": lambda value: 0 < value <= 127 - max(fixed.ERRORS.values()).bit_length(),
     "GREATEST_SLACK": lambda value: 0 < value < 1,
     **{f"fixed_{name}": lambda value, worst=worst: value == worst for name, worst in fixed.ERRORS.items()},

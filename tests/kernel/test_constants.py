@@ -18,7 +18,7 @@ def test_the_derivation_of_a_constant_holds_with_its_value_in_the_header(name):
     assert PROOFS[name](Fraction(float(DEFINED[name])))
 
 
-@pytest.mark.parametrize("name", [name for name in PROOFS if name.startswith("u_")])
+@pytest.mark.parametrize("name", [name for name in PROOFS if name.startswith("u_") or name == "rounded"])
 def test_the_derivation_of_a_bound_fails_with_half_of_it_and_with_twice(name):
     value = Fraction(float(DEFINED[name]))
     assert not PROOFS[name](value / 2)
@@ -49,6 +49,10 @@ def test_every_level_has_a_width():
         ("GREATEST_SLACK", 1.0),
         ("MOST_GROWN", 122),
         ("SEEN", 128),
+        ("least_offset", 2.0**-1023),
+        ("CUT_BITS", 192),
+        ("TANGENCY_BITS", 64),
+        ("HAIR", 2.0**-30),
     ],
 )
 def test_the_derivation_of_a_limit_fails_beyond_what_it_covers(name, beyond):
