@@ -14,6 +14,7 @@ import itertools
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import zip_longest
 
 Polynomial = tuple[int, ...]
@@ -25,10 +26,11 @@ RELATIVE_WIDTH_BITS = 30
 
 def value(f: Polynomial, x: Fraction) -> int:
     """f(x) times a positive number (the denominator of x to the power of f's degree)."""
+    numerator, denominator = x.as_integer_ratio()
     result, scale = 0, 1
     for coefficient in f:
-        result = result * x.numerator + coefficient * scale
-        scale *= x.denominator
+        result = result * numerator + coefficient * scale
+        scale *= denominator
     return result
 
 
@@ -58,7 +60,8 @@ def divided_by_root(f: Polynomial, root: Fraction) -> Polynomial:
     return _quotient(f, linear_factor(root))
 
 
-def sturm_chain(f: Polynomial) -> list[Polynomial]:
+@lru_cache(maxsize=4)  # who asks whether f is squarefree goes on to its roots
+def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
     """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
     degree = len(f) - 1
     derivative = tuple(coefficient * (degree - i) for i, coefficient in enumerate(f[:-1]))
@@ -68,7 +71,7 @@ def sturm_chain(f: Polynomial) -> list[Polynomial]:
         if not rest:
             break
         chain.append(rest)
-    return chain
+    return tuple(chain)
 
 
 def _remainder(f: Polynomial, g: Polynomial) -> Sequence[int]:

@@ -62,8 +62,9 @@ def check_certificate(pair: Query, certificate: TiltedCertificate) -> bool:
     if claim is not Position.CONTACT:
         return at is not None and at * claim > 0 and all(pivot > 0 for pivot in pivots(_sum(S, H, at)))
     if m is not None:
-        inner = pivots([row[:3] for row in _sum(S, H, m)[:3]])
-        zeros, derivatives = inner.count(Fraction(0)), _derivatives(S, H, m)
+        pencil = _sum(S, H, m)
+        inner = pivots([row[:3] for row in pencil[:3]])
+        zeros, derivatives = inner.count(Fraction(0)), _derivatives(pencil, H)
         vanish = not any(derivatives[: max(2, zeros + 1)])
         return m != 0 and min(inner) >= 0 and vanish and (zeros != 1 or derivatives[2] <= 0)
     sides = set()
@@ -106,14 +107,14 @@ def pivots(matrix: Matrix) -> list[Fraction]:
     return found
 
 
-def _derivatives(S: Matrix, H: Matrix, at: Fraction) -> list[Fraction]:
-    """det(S + λH) and its first two derivatives over 0!, 1!, 2!, by Leibniz's formula."""
+def _derivatives(pencil: Matrix, H: Matrix) -> list[Fraction]:
+    """det(S + λH) and its first two derivatives over 0!, 1!, 2!, by Leibniz's formula; `pencil` is S + λH."""
     total = [Fraction(0)] * 3
     for order in permutations(range(4)):
         sign = (-1) ** sum(order[j] < order[i] for i in range(4) for j in range(i + 1, 4))
         term = [Fraction(sign), Fraction(0), Fraction(0)]
         for i, j in enumerate(order):
-            value, slope = S[i][j] + at * H[i][j], H[i][j]
+            value, slope = pencil[i][j], H[i][j]
             term = [term[0] * value, term[1] * value + term[0] * slope, term[2] * value + term[1] * slope]
         total = [a + b for a, b in zip(total, term, strict=True)]
     return total

@@ -67,7 +67,8 @@ class _Scene:
         theta, tau = (a + b) / 2, (a - b) / 2
         radius = self.alpha / np.cos(tau)
         points = np.stack([radius * np.cos(theta), radius * np.sin(theta), self.gamma * np.tan(tau)], axis=2)
-        size = np.abs(points).max(axis=(1, 2)) / np.cos(tau).min(axis=1) + np.abs(self.centre).max()
+        farthest = -_least(-np.abs(points).reshape(len(cells), 12))
+        size = farthest / _least(np.cos(tau)) + np.abs(self.centre).max()
         slack = 80 * _U * (1 + size * np.abs(self.root).max())
         return (points - self.centre) @ self.root, slack
 
@@ -104,7 +105,7 @@ def _refined(scene: _Scene) -> Position | None:
         tau_low, tau_high = (cells[:, 0] - cells[:, 3]) / 2, (cells[:, 1] - cells[:, 2]) / 2
         bounded = (tau_low > -math.pi / 2 + 1e-9) & (tau_high < math.pi / 2 - 1e-9) & (cells[:, 1] - cells[:, 0] < 1)
         corners, slack = scene.corners(cells)
-        within = bounded & ((np.sqrt((corners * corners).sum(axis=2)).min(axis=1) + slack) < 1)
+        within = bounded & (np.sqrt(_least(np.einsum("nij,nij->ni", corners, corners))) + slack < 1)
         if within.any():
             return _contact(scene, corners[within][:1], slack[within][:1])
         lower = _least_along(corners) - slack
@@ -136,10 +137,15 @@ def _quarters(cells: Floats) -> Floats:
 
 def _least_along(corners: Floats) -> Floats:
     """The least component of a cell's corners along the direction to their middle."""
-    middle = corners.mean(axis=1)
-    length = np.sqrt((middle * middle).sum(axis=1))
-    along = (corners * middle[:, None, :]).sum(axis=2).min(axis=1)
+    middle = np.einsum("nij->nj", corners) / 4
+    length = np.sqrt(np.einsum("nj,nj->n", middle, middle))
+    along = _least(np.einsum("nij,nj->ni", corners, middle))
     return np.where(length > 0, along / np.where(length > 0, length, 1), 0.0)
+
+
+def _least(numbers: Floats) -> Floats:
+    """The least number of each row; numpy takes long for `min` along a short axis."""
+    return np.asarray(np.minimum.reduce([*numbers.T]))
 
 
 def _clear(scene: _Scene, beyond: list[tuple[Floats, Floats]]) -> Position | None:

@@ -12,6 +12,9 @@ from types import CodeType, FunctionType
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
+LONGEST = 100
+"""Characters of the expression that stands for a constant in it."""
+
 COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Lt: ast.LtE,
     ast.LtE: ast.Lt,
@@ -44,7 +47,10 @@ OPERATORS: dict[type[ast.operator], type[ast.operator]] = {
 
 @dataclass(frozen=True)
 class Mutation:
-    """One change of a module: of the node with this number in the order of ast.walk; `what` says it in a few words."""
+    """One change of a module: of the node with this number in the order of ast.walk; `what` says it in a few words.
+
+    `key` names the change by what it says, so that it stays the same when other code of the file is edited.
+    """
 
     module: str
     line: int
@@ -52,16 +58,59 @@ class Mutation:
     number: int
     choice: int
     what: str
+    key: str
 
 
 def mutations(module: str, source: str) -> Iterator[Mutation]:
     """Every change of the functions of a module."""
     tree = ast.parse(source)
     inside = _places_in_functions(tree)
+    parents = {id(child): node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
+    seen: Counter[str] = Counter()
     for number, node in enumerate(ast.walk(tree)):
         if number in inside:
-            for choice, (what, _) in enumerate(_changes(node)):
-                yield Mutation(module, node.lineno, node.col_offset, number, choice, what)
+            for choice, (what, new) in enumerate(_changes(node)):
+                key = f"{module} {_function_of(node, parents)}: {_texts(node, new, parents)}"
+                seen[key] += 1
+                key += f" ({seen[key]})" if seen[key] > 1 else ""
+                yield Mutation(module, node.lineno, node.col_offset, number, choice, what, key)
+
+
+def _function_of(node: ast.AST, parents: dict[int, ast.AST]) -> str:
+    """The function that a node stands in, with the classes and functions around it."""
+    names: list[str] = []
+    while id(node) in parents:
+        node = parents[id(node)]
+        if isinstance(node, Function | ast.ClassDef):
+            names.append(node.name)
+    return ".".join(reversed(names))
+
+
+def _texts(node: ast.AST, new: ast.AST, parents: dict[int, ast.AST]) -> str:
+    """The changed code, before and after: of a constant, the expression that holds it."""
+    match node:
+        case ast.If() | ast.While() | ast.IfExp():
+            return f"if {ast.unparse(node.test)} → if {ast.unparse(new.test)}"
+        case ast.AugAssign() | ast.stmt():
+            return f"{ast.unparse(node)} → {ast.unparse(new)}"
+    before, after = node, new
+    while isinstance(before, ast.Constant | ast.UnaryOp | ast.Tuple | ast.Slice):
+        holder = parents[id(before)]
+        if not isinstance(holder, ast.expr | ast.keyword | ast.Return) or len(ast.unparse(holder)) > LONGEST:
+            break
+        before, after = holder, _with_child(holder, before, after)
+    return f"{ast.unparse(before)} → {ast.unparse(after)}"
+
+
+def _with_child(node: ast.AST, old: ast.AST, new: ast.AST) -> ast.AST:
+    """A copy of a node with another child."""
+    changed = copy.copy(node)
+    for name, value in ast.iter_fields(node):
+        if value is old:
+            setattr(changed, name, new)
+        elif isinstance(value, list):
+            setattr(changed, name, [new if each is old else each for each in value])
+    return changed
 
 
 def mutated(source: str, mutation: Mutation) -> ast.Module:
@@ -88,6 +137,8 @@ def _run_nodes(node: ast.AST) -> Iterator[ast.AST]:
     yield node
     skipped = [node.annotation] if isinstance(node, ast.AnnAssign) else []
     skipped += [node.exc, node.cause] if isinstance(node, ast.Raise) else []
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "zip":
+        skipped += node.keywords  # strict= checks lengths, and changes no result
     for child in ast.iter_child_nodes(node):
         if not any(child is each for each in skipped):
             yield from _run_nodes(child)

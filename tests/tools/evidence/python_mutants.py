@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
-import random
 import subprocess
 import sys
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from tests.tools.evidence.mutant_runs import USUAL_S
 from tests.tools.evidence.mutations import Mutation, mutations
@@ -18,11 +20,18 @@ from tests.tools.evidence.python_coverage import DATA
 
 TITLE = "Mutants of the Python code"
 
-SEED = 25
+SEED = "25"
 
 SAMPLES = {
     "truth": (1000, ["hypcheck/truth/**/*.py"]),
-    "kernel": (600, ["hypcheck/kernel/*.py", "hypcheck/kernel/specialise/*.py"]),
+    "kernel": (
+        600,
+        [
+            "hypcheck/kernel/*.py",
+            "hypcheck/kernel/specialise/*.py",
+            *(f"hypcheck/kernel/programs/{name}.py" for name in ("tilted", "ways", "dual")),
+        ],
+    ),
     "record and score": (
         450,
         [
@@ -32,27 +41,33 @@ SAMPLES = {
         ],
     ),
 }
-"""How many mutants are drawn of which files. The kernel's programs and what they print have a part of their own."""
+"""How many mutants are drawn of which files. The kernel's constants and what is printed have parts of their own."""
 
-MOST, SECONDS = 10, 1.6
-"""Tests that a mutant meets at first; one that survives meets more."""
+MOST, SECONDS = 6, 0.8
+"""Tests that a mutant meets at first, and what they take under coverage; one that survives meets more."""
 
-MOST_AGAIN, SECONDS_AGAIN = 60, 12.0
+MOST_AGAIN, SECONDS_AGAIN = 25, 5.0
+"""These are the longest that fit, which try the most."""
 
 EXPLAINED = Path(__file__).with_name("explained_mutants.json")
-"""Survivors that are no gap of the tests, by place and change, with the reason."""
+"""Survivors that are no gap of the tests, by module, function and changed code, with the reason."""
+
+RESULTS = DATA.parent / "mutants.json"
+"""What became of each mutant the last time. It counts again while the module and the tests that judged it are the same;
+else the test that killed it is tried first. A run without this file only takes longer."""
 
 
 def measure() -> Figures:
-    """Draw the mutants, run their tests, run more tests against the survivors."""
+    """Draw the mutants, run their tests, run more tests against the survivors that are not explained."""
     ran = _contexts(sorted(DATA.glob("*/c")))
+    reasons = json.loads(EXPLAINED.read_text(encoding="utf-8"))
     figures: Figures = {}
     for name, (count, patterns) in SAMPLES.items():
-        drawn = draw(ran, count, patterns)
-        first = tried(f"{name}-first", drawn, ran, MOST, SECONDS)
-        left = [Mutation(**each["mutation"]) for each in first if each["outcome"] == "survived"]
-        second = tried(f"{name}-again", left, ran, MOST_AGAIN, SECONDS_AGAIN)
-        figures[name] = summary([each for each in first if each["outcome"] != "survived"] + second)
+        first = tried(f"{name}-first", draw(ran, count, patterns), ran, MOST, SECONDS)
+        left = [each for each in first if each["outcome"] == "survived" and each["mutation"]["key"] not in reasons]
+        again = [Mutation(**each["mutation"]) for each in left]
+        second = tried(f"{name}-again", again, ran, MOST_AGAIN, SECONDS_AGAIN, longest=True)
+        figures[name] = summary([each for each in first if each not in left] + second, reasons)
     return with_totals(figures)
 
 
@@ -87,51 +102,106 @@ def draw(ran: Contexts, count: int, patterns: Iterable[str]) -> list[Mutation]:
         for each in mutations(file, (ROOT / file).read_text(encoding="utf-8"))
         if ran[file].get(each.line)
     ]
-    dice = random.Random(SEED)  # noqa: S311
-    dice.shuffle(every)
-    return every[:count]
+    return sorted(every, key=_lot)[:count]
 
 
-def tried(name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float) -> list[dict[str, object]]:
+def _lot(mutation: Mutation) -> bytes:
+    """A mutant's place in the draw, which depends on its own text alone: an edit of other code draws no others."""
+    return hashlib.sha256(f"{SEED} {mutation.key}".encode()).digest()
+
+
+def tried(
+    name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float, *, longest: bool = False
+) -> list[dict[str, Any]]:
     """What became of the mutants, each against so many of its tests that take so many seconds of a processor."""
-    tasks = [
-        {"mutation": asdict(each), "tests": chosen(each.module, ran[each.module][each.line], most, seconds)}
-        for each in mutants
-    ]
+    took, before = _seconds(), json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    tasks, known = [], []
+    for each in mutants:
+        tests = chosen(each.module, ran[each.module][each.line], most, seconds, took, longest=longest)
+        last = before.get(each.key, {"outcome": "", "by": ""})
+        judges = [last["by"]] if last["by"] else tests
+        if last["outcome"] and last["mark"] == _mark(each.module, judges):
+            known.append({**last, "mutation": asdict(each)})
+        else:
+            tasks.append({"mutation": asdict(each), "tests": tests, "first": last["by"]})
+    for task, found in zip(tasks, _run(name, tasks, took), strict=True):
+        mark = _mark(found["mutation"]["module"], [found["by"]] if found["by"] else task["tests"])
+        before[found["mutation"]["key"]] = {"outcome": found["outcome"], "by": found["by"], "mark": mark}
+        known.append(found)
+    RESULTS.write_text(json.dumps(before, indent=1), encoding="utf-8")
+    return known
+
+
+def _run(name: str, tasks: list[dict[str, Any]], took: Mapping[str, float]) -> list[dict[str, Any]]:
     if not tasks:
         return []
-    files = sorted({test.partition("::")[0] for task in tasks for test in task["tests"]})
+    names = {test for task in tasks for test in (*task["tests"], task["first"]) if test}
+    files = sorted(file for file in {each.partition("::")[0] for each in names} if (ROOT / file).exists())
     place, results = DATA.parent / f"{name}.json", DATA.parent / f"{name}.jsonl"
-    place.write_text(json.dumps({"files": files, "mutants": tasks, "seconds": {}}), encoding="utf-8")
+    found = {"files": files, "mutants": tasks, "seconds": {each: took.get(each, USUAL_S) for each in names}}
+    place.write_text(json.dumps(found), encoding="utf-8")
     results.unlink(missing_ok=True)
     subprocess.run([sys.executable, "-m", "tests.tools.evidence.mutant_runs", place, results], cwd=ROOT, check=False)
     return [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()]
 
 
-def chosen(module: str, tests: Iterable[str], most: int, seconds: float) -> list[str]:
-    """The tests to try, those of the module's own file first, at most two of one function."""
-    folder, own = "/".join(module.split("/")[1:-1]), f"test_{Path(module).name}"
+@cache
+def _text(file: str) -> str:
+    path = ROOT / file
+    return path.read_text(encoding="utf-8") if path.exists() else ""
 
-    def far(test: str) -> tuple[int, str]:
+
+def _mark(module: str, tests: Iterable[str]) -> str:
+    """A checksum of a module, of tests, and of their files."""
+    names = sorted(tests)
+    texts = [_text(file) for file in (module, *sorted({each.partition("::")[0] for each in names}))]
+    return hashlib.sha256("\0".join([*texts, *names]).encode()).hexdigest()[:16]
+
+
+def _seconds() -> dict[str, float]:
+    """What each test took under coverage."""
+    found: dict[str, float] = {}
+    for path in sorted(DATA.glob("*/seconds.json")):
+        found |= json.loads(path.read_text(encoding="utf-8"))
+    return found
+
+
+def chosen(
+    module: str,
+    tests: Iterable[str],
+    most: int,
+    seconds: float,
+    took: Mapping[str, float],
+    *,
+    longest: bool = False,
+) -> list[str]:
+    """The tests to try, those of the module's own file first, then quick ones or long ones, two of a function at most.
+
+    None of the long ones may take more than two fifths of the time.
+    """
+    folder, own = "/".join(module.split("/")[1:-1]), f"test_{Path(module).stem}"
+    sign, most_of_one = (-1, 0.4 * seconds) if longest else (1, seconds)
+
+    def far(test: str) -> tuple[int, float, str]:
         file = test.partition("::")[0]
         near = file.startswith(f"tests/{folder}/")
-        return (0 if near and file.endswith(f"/{own}") else 1 if near else 2, test)
+        return (0 if near and f"/{own}" in file else 1 if near else 2, sign * took.get(test, USUAL_S), test)
 
     alike: Counter[str] = Counter()
     found: list[str] = []
     for test in sorted(tests, key=far):
         function = test.partition("[")[0]
-        if alike[function] < 2 and len(found) < min(most, seconds / USUAL_S):
+        if alike[function] < 2 and len(found) < most and took.get(test, USUAL_S) <= min(seconds, most_of_one):
             alike[function] += 1
             found.append(test)
+            seconds -= took.get(test, USUAL_S)
     return found
 
 
-def summary(results: list[dict[str, object]]) -> Figures:
+def summary(results: list[dict[str, Any]], reasons: Mapping[str, str]) -> Figures:
     """Counts, and the survivors that are not explained."""
     made = [each for each in results if each["outcome"] != "not-made"]
-    reasons = json.loads(EXPLAINED.read_text(encoding="utf-8"))
-    survived = [place_of(each["mutation"]) for each in made if each["outcome"] == "survived"]
+    survived = [each["mutation"]["key"] for each in made if each["outcome"] == "survived"]
     killed = len(made) - len(survived)
     explained = sorted(each for each in survived if each in reasons)
     return {
@@ -141,11 +211,6 @@ def summary(results: list[dict[str, object]]) -> Figures:
         "explained": {each: reasons[each] for each in explained},
         "left": sorted(set(survived) - set(explained)),
     }
-
-
-def place_of(mutation: dict[str, object]) -> str:
-    """A mutant's file, line and change."""
-    return f"{mutation['module']}:{mutation['line']}:{mutation['column']} {mutation['what']}"
 
 
 def with_totals(figures: Figures) -> Figures:

@@ -8,7 +8,7 @@ import pytest
 
 from tests.tools.evidence.mutations import apply, functions_of, mutations
 from tests.tools.evidence.parts import ROOT, kept
-from tests.tools.evidence.python_mutants import chosen
+from tests.tools.evidence.python_mutants import _lot, chosen
 
 SOURCE = '''\
 from functools import cache
@@ -26,7 +26,7 @@ def within(value: int, least: int = 1) -> bool:
 class Doubling:
     @property
     def two(self):
-        return [each * 2 for each in (1,)]
+        return [each * 2 for each, _ in zip((1,), "a", strict=True)]
 '''
 
 
@@ -40,7 +40,7 @@ def module(tmp_path):
     return found
 
 
-def test_every_operator_and_constant_of_a_function_is_changed_and_no_message_default_or_annotation():
+def test_every_operator_and_constant_of_a_function_is_changed_and_no_message_default_annotation_or_check_of_lengths():
     found = [(each.line, each.what) for each in mutations("mutated_here.py", SOURCE)]
     assert sorted(found) == [
         (8, "Gt becomes GtE"),
@@ -68,11 +68,37 @@ def test_a_mutant_changes_what_living_functions_answer(module):
     assert module.Doubling().two == [3]
 
 
-def test_tests_of_the_own_file_come_first_and_at_most_two_of_a_function():
+def test_a_mutant_keeps_its_name_when_code_around_it_is_edited():
+    edited = SOURCE.replace('    """Whether it is."""\n', "    value = max(value, 0)\n\n").replace(
+        "two(self)", "two(self, of=9)"
+    )
+    before, after = ([each.key for each in mutations("here.py", text)] for text in (SOURCE, edited))
+    assert set(before) < set(after)
+    assert len(set(after)) == len(after)
+    assert "here.py within: least + 1 <= value → least + 1 < value" in before
+    assert "here.py within: least + 1 → least + 2" in before
+    assert "here.py Doubling.two: each * 2 → each + 2" in before
+
+
+def test_equal_changes_of_a_function_are_numbered():
+    found = [each.key for each in mutations("here.py", "def f(x):\n    x = g(x, 0)\n    return g(x, 0)\n")]
+    assert "here.py f: g(x, 0) → g(x, 1)" in found
+    assert "here.py f: g(x, 0) → g(x, 1) (2)" in found
+
+
+def test_an_edit_of_other_code_draws_the_same_mutants():
+    edited = SOURCE.replace('"""Whether it is."""', "value = abs(value)")
+    before, after = ([each.key for each in sorted(mutations("here.py", text), key=_lot)] for text in (SOURCE, edited))
+    assert [each for each in after if each in before] == before
+
+
+def test_tests_of_the_own_file_come_first_then_quick_ones_and_at_most_two_of_a_function():
     own = [f"tests/runs/test_score.py::test_a[{n}]" for n in range(4)]
     near, far = "tests/runs/test_tally.py::test_b", "tests/cli/test_score.py::test_c"
-    assert chosen("hypcheck/runs/score.py", [far, near, *own], 10, 9.0) == [*own[:2], near, far]
-    assert chosen("hypcheck/runs/score.py", [far, near, *own], 3, 9.0) == [*own[:2], near]
+    score = "hypcheck/runs/score.py"
+    assert chosen(score, [far, near, *own], 10, 9.0, {}) == [*own[:2], near, far]
+    assert chosen(score, [far, near, *own], 3, 9.0, {}) == [*own[:2], near]
+    assert chosen(score, [far, near, *own], 10, 9.0, {own[0]: 0.5, near: 10.0}) == [own[1], own[2], far]
 
 
 def test_the_figures_know_nearly_all_code():
