@@ -14,7 +14,7 @@ from hypcheck.implementations.description import Description
 from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
-from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement
+from hypcheck.runs.replay import ProvedTruth, Replay, ReplayCase, ReplayJudgement
 from hypcheck.tables.numbers import hex_of
 
 DIGITS = 17
@@ -109,12 +109,10 @@ _FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
 
 def replay_lines(done: Replay) -> Iterator[str]:
     """The whole replay, line by line."""
-    yield from _titled("case", done.case.name)
-    for name, value in zip(columns_of(done.case.row), done.case.row, strict=True):
-        yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
+    yield from case_head(done.case, columns_of(done.case.row))
     if done.truth is None:
         columns = " and ".join(done.case.at_fault)
-        yield from _titled("truth", f"invalid row ({columns}), which must be refused with {REFUSED}")
+        yield from titled("truth", f"invalid row ({columns}), which must be refused with {REFUSED}")
     else:
         yield from _truth_lines(done.truth)
     yield ""
@@ -126,16 +124,23 @@ def replay_lines(done: Replay) -> Iterator[str]:
         yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
 
 
+def case_head(case: ReplayCase, names: Sequence[str]) -> Iterator[str]:
+    """The name of a case and its numbers, which have these names."""
+    yield from titled("case", case.name)
+    for name, value in zip(names, case.row, strict=True):
+        yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
+
+
 def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
     decision = truth.decision
-    yield from _titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
+    yield from titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
     if truth.kind is not None:
-        yield from _titled("kind", kind_as_text(truth.kind))
+        yield from titled("kind", kind_as_text(truth.kind))
     if isinstance(truth.pair, Pair):
-        yield from _titled("regime", _regime(truth.pair))
+        yield from titled("regime", _regime(truth.pair))
     for position, distance in truth.flips.items():
-        yield from _titled("flips", f"to {position.label} {_change(distance)}")
-    yield from _titled("proof", *proof_lines(truth.pair, truth.certificate))
+        yield from titled("flips", f"to {position.label} {_change(distance)}")
+    yield from titled("proof", *proof_lines(truth.pair, truth.certificate))
 
 
 def _regime(pair: Pair) -> str:
@@ -150,25 +155,25 @@ def _regime(pair: Pair) -> str:
 
 def _cause_lines(cause: Cause) -> Iterator[str]:
     """Why the answer is wrong, the paper's claim that is the reason with the ledger's verdict, and the right line."""
-    yield from _titled("cause", cause.sentence)
+    yield from titled("cause", cause.sentence)
     if cause.claim:
         from hypcheck.paper.ledger.book import statement  # noqa: PLC0415 - loads sympy
 
         entry = statement(cause.claim)
-        yield from _titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
-    yield from _titled("fix", cause.remedy)
+        yield from titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
+    yield from titled("fix", cause.remedy)
 
 
 def _judgement_lines(done: Replay) -> Iterator[str]:
     used, declared = done.used, done.declared
-    yield from _titled("asked", f"{used.name} ({done.spec}): {_claim_lines(used)}")
+    yield from titled("asked", f"{used.name} ({done.spec}): {_claim_lines(used)}")
     if _claim_lines(declared) != _claim_lines(used):
-        yield from _titled("declared", _claim_lines(declared))
+        yield from titled("declared", _claim_lines(declared))
     if done.judgement.answer is not None:
-        yield from _titled("answer", answer_said(done.judgement.answer, done.criterion.question))
-    yield from _titled("judged", _judged(done.judgement, float(done.criterion.tolerance)))
+        yield from titled("answer", answer_said(done.judgement.answer, done.criterion.question))
+    yield from titled("judged", _judged(done.judgement, float(done.criterion.tolerance)))
     if done.skipped is not None:
-        yield from _titled("note", f"verify skips this case: {done.skipped}")
+        yield from titled("note", f"verify skips this case: {done.skipped}")
 
 
 def _claim_lines(description: Description) -> str:
@@ -201,16 +206,16 @@ def answer_said(answer: int, question: str) -> str:
 def _choice_lines(choice: FormulaChoice, truth: Position, asked: str) -> Iterator[str]:
     compared = choice.comparison
     if compared is None:
-        yield from _titled("values", f"none: {choice.why}")
+        yield from titled("values", f"none: {choice.why}")
         return
     formula = compared.formula
     other = () if choice.own else (f"these are not the values of {asked} itself, whose steps cannot be shown",)
-    yield from _titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}", *other)
+    yield from titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}", *other)
     yield ""
     yield from _table(compared)
     yield ""
     about = () if choice.own else (f"about {formula.name}, not about {asked}:",)
-    yield from _titled("finding", *about, *finding(compared, truth))
+    yield from titled("finding", *about, *finding(compared, truth))
 
 
 def _table(compared: FormulaComparison) -> Iterator[str]:
@@ -271,6 +276,7 @@ def _change(distance: float | tuple[float, float]) -> str:
     return f"if each number may change by a relative {distance:.4g}"
 
 
-def _titled(title: str, *lines: str) -> Iterator[str]:
+def titled(title: str, *lines: str) -> Iterator[str]:
+    """The lines, the title before the first."""
     for index, line in enumerate(lines):
         yield f"{'' if index else title:{_LABEL}}{line}"

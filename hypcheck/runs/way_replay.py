@@ -20,14 +20,13 @@ from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.passages import LABELS, passage_of, radii_off, way_in_radii
 from hypcheck.runs.replay import REPEATED_ROWS, ReplayCase, ReplayJudgement, refused
+from hypcheck.runs.replay_results import case_head, titled
 from hypcheck.runs.score import score
 from hypcheck.runs.tally import STATUSES
 from hypcheck.tables.numbers import hex_of
 from hypcheck.truth import passage_error
 from hypcheck.truth.swept import Passage
 from hypcheck.vectors.families import is_extreme
-
-_LABEL = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,31 +132,29 @@ def _told(truth: Passage) -> dict[str, Any]:
 
 def way_replay_lines(done: WayReplay) -> Iterator[str]:
     """The whole replay, line by line."""
-    row, judgement = done.case.row, done.judgement
-    yield _titled("case", done.case.name)
-    for name, value in zip(WAYS.columns(len(row)), row, strict=True):
-        yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
+    judgement = done.judgement
+    yield from case_head(done.case, WAYS.columns(len(done.case.row)))
     yield from _truth(done)
     yield ""
-    yield _titled("asked", f"{done.used.name} ({done.spec}): {done.used.question}, {done.used.precision}")
+    yield from titled("asked", f"{done.used.name} ({done.spec}): {done.used.question}, {done.used.precision}")
     if judgement.answer is not None:
-        yield _titled("answer", _answer(judgement.answer, done.time))
-    yield _titled("judged", _judgement(done))
+        yield from titled("answer", _answer(judgement.answer, done.time))
+    yield from titled("judged", _judgement(done))
     if done.skipped is not None:
-        yield _titled("note", f"verify skips this case: {done.skipped}")
+        yield from titled("note", f"verify skips this case: {done.skipped}")
 
 
 def _truth(done: WayReplay) -> Iterator[str]:
     truth = done.truth
     if truth is None:
         columns = ", ".join(done.case.at_fault)
-        yield _titled("truth", f"invalid row ({columns}), which must be refused with {REFUSED}")
+        yield from titled("truth", f"invalid row ({columns}), which must be refused with {REFUSED}")
         return
-    yield _titled("length", f"{way_in_radii(done.case.row):.6g} spheroid radii")
-    yield _titled("truth", LABELS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else ""))
-    yield _titled("ends", f"{Position(truth.start).label} at the start, {Position(truth.end).label} at the end")
+    yield from titled("length", f"{way_in_radii(done.case.row):.6g} spheroid radii")
+    yield from titled("truth", LABELS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else ""))
+    yield from titled("ends", f"{Position(truth.start).label} at the start, {Position(truth.end).label} at the end")
     if truth.hit:
-        yield _titled("first", f"contact between the times {truth.first_lower!r} and {truth.first_upper!r}")
+        yield from titled("first", f"contact between the times {truth.first_lower!r} and {truth.first_upper!r}")
 
 
 def _answer(answer: int, time: float | None) -> str:
@@ -177,7 +174,3 @@ def _judgement(done: WayReplay) -> str:
             f"(tolerated: {float(error):.4g})"
         )
     return "; ".join([*parts, *([judgement.reason] if judgement.reason else [])])
-
-
-def _titled(title: str, text: str) -> str:
-    return f"{title:{_LABEL}}{text}"
