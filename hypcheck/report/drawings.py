@@ -7,6 +7,7 @@ drawn ahead by all processors.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from concurrent.futures import BrokenExecutor
 from dataclasses import dataclass, field
 from types import ModuleType
 
@@ -52,7 +53,7 @@ def drawn_plots(name: str, record: Record, drawings: Drawings) -> tuple[DrawnPlo
 
 
 def draw_ahead(record: Record) -> Drawings:
-    """All plots of a large record; none of a small one, or if they cannot be drawn here."""
+    """All plots of a large record; none of a small one, or if they cannot be drawn here, or a process was killed."""
     if sum(isinstance(line, (AccuracyLine, PlacesLine, StabilityLine)) for line in record.lines) < MANY:
         return {}
     try:
@@ -60,7 +61,7 @@ def draw_ahead(record: Record) -> Drawings:
         with processes(usable_processors()) as executor:
             drawn = perform(_draw, [(name, record) for name in slowest_first], executor)
             return {name: plots for (name, _), plots in drawn}
-    except UnavailableError:
+    except (UnavailableError, BrokenExecutor):
         return {}
 
 

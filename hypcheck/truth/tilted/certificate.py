@@ -16,6 +16,7 @@ This module shares no code with what makes certificates: it starts from the ten 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -107,14 +108,19 @@ def pivots(matrix: Matrix) -> list[Fraction]:
     return found
 
 
-def _derivatives(pencil: Matrix, H: Matrix) -> list[Fraction]:
-    """det(S + λH) and its first two derivatives over 0!, 1!, 2!, by Leibniz's formula; `pencil` is S + λH."""
-    total = [Fraction(0)] * 3
+def _derivatives(pencil: Matrix, H: Matrix) -> list[int]:
+    """det(S + λH) and its first two derivatives over 0!, 1!, 2!, by Leibniz's formula, times one positive integer.
+
+    `pencil` is S + λH. Both are made whole first, because products of fractions take most of the time of a check.
+    """
+    unit = math.lcm(*(entry.denominator for form in (pencil, H) for row in form for entry in row))
+    values, slopes = ([[int(entry * unit) for entry in row] for row in form] for form in (pencil, H))
+    total = [0, 0, 0]
     for order in permutations(range(4)):
         sign = (-1) ** sum(order[j] < order[i] for i in range(4) for j in range(i + 1, 4))
-        term = [Fraction(sign), Fraction(0), Fraction(0)]
+        term = [sign, 0, 0]
         for i, j in enumerate(order):
-            value, slope = pencil[i][j], H[i][j]
+            value, slope = values[i][j], slopes[i][j]
             term = [term[0] * value, term[1] * value + term[0] * slope, term[2] * value + term[1] * slope]
         total = [a + b for a, b in zip(total, term, strict=True)]
     return total
@@ -125,4 +131,5 @@ def _sum(S: Matrix, H: Matrix, at: Fraction) -> Matrix:
 
 
 def _at(form: Matrix, point: list[Fraction]) -> Fraction:
-    return sum((form[i][j] * point[i] * point[j] for i in range(4) for j in range(4)), Fraction(0))
+    rows = (sum((a * b for a, b in zip(row, point, strict=True) if a), Fraction(0)) for row in form)
+    return sum((a * b for a, b in zip(rows, point, strict=True)), Fraction(0))

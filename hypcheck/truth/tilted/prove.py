@@ -197,7 +197,7 @@ def _over_one_denominator(values: Sequence[float | Fraction]) -> tuple[Vector, i
 
 
 def _dot(a: Vector, b: Vector) -> int:
-    return sum(p * q for p, q in zip(a, b, strict=True))
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def _times(matrix: Matrix, vector: Vector) -> Vector:
