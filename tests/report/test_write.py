@@ -15,7 +15,7 @@ from hypcheck.report.drawings import ReportContext
 from hypcheck.report.formats import REPORTS
 from hypcheck.report.plots import pictures
 from hypcheck.report.write import render, write_reports
-from tests.report import record_samples
+from tests.report import bench_lines, record_samples
 
 CODE = {"sarif": "results.sarif", "gitlab": "gl-code-quality-report.json", "badge": "badge.json"}
 FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html", "measurements.csv", *CODE.values()}
@@ -125,3 +125,22 @@ def test_an_old_report_that_cannot_be_removed_is_named(tmp_path):
     without = [line for line in record_samples.lines() if line["type"] != "map"]
     with pytest.raises(InputError, match=r"cannot remove .*map\.svg: is a directory"):
         write_reports(record_samples.record(without), tmp_path, ["map"])
+
+
+def test_plots_of_a_large_record_are_drawn_ahead_as_they_would_be_later(monkeypatch):
+    record = bench_lines.bench_record()
+    assert drawings.draw_ahead(record) == {}
+    monkeypatch.setattr(drawings, "MANY", 1)
+    monkeypatch.setattr(drawings, "usable_processors", lambda: 1)
+    monkeypatch.setattr(pictures, "PLOTS", {name: pictures.PLOTS[name] for name in ("errors", "stability")})
+    ahead = drawings.draw_ahead(record)
+    assert set(ahead) == {"errors", "stability"}
+    assert ahead["errors"]
+    for name, plots in ahead.items():
+        assert plots == drawings.drawn_plots(name, record, {})
+
+    def unavailable():
+        raise UnavailableError("matplotlib is not here")
+
+    monkeypatch.setattr(drawings, "pictures", unavailable)
+    assert drawings.draw_ahead(record) == {}
