@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 _MACHINE = (
     "the processor: this machine has leaf 7, and its system saves registers. An old one is answered 1 there, the level "
     "that every x86-64 has; what follows from the bits of newer ones is asked of hc_level_of, for each of them"
@@ -53,3 +55,36 @@ def reason(gap: str) -> str | None:
     """Why a gap is there, which is written as coverage.py does: function, what is missing, text; None if unknown."""
     function, _, rest = gap.partition(": ")
     return next((why for (name, text), why in REASONS.items() if name == function and text in rest), None)
+
+
+_ALL_AT_ONCE = (
+    "unreachable in the functions of settings whose first pass writes no code 3, an open one: its lines, or the "
+    "height, answer every centre. So `left` is 0 and pass_over stays 0, and what is for open centres is not entered; "
+    "the template has it for all settings"
+)
+
+EMITTED: dict[tuple[str, str], str] = {
+    **{
+        (r"forest float64: many_\d+", text): _ALL_AT_ONCE
+        for text in ("never true: left", "pass_over > 0", "code[i] == 3.0", "i < count")
+    },
+    (r"whole, .*: position_of", "default"): (
+        "unreachable: `shape` is a table of the numbers of the cases, written with them; compilers ask for the line"
+    ),
+    (r"method exact, without its floats: .*", "decided"): "a constant of this build: the floats are left out of it",
+    (r"method exact, without its floats: hypcheck_position", "exterior"): "behind that constant",
+    (r"method exact, without its floats: hypcheck_position", "interior"): "behind that constant",
+    (r"method exact, without its floats: hypcheck_position", "never false: 0"): "that constant itself",
+    (r"method exact, without its floats: hypcheck_position", "never true: 0"): "that constant itself",
+}
+"""The same of emitted code: regular expressions of the text's name and function, and what is missing there."""
+
+
+def reason_of_emitted(gap: str) -> str | None:
+    """Why a gap is there, written as emitted.py does: name, function, what is missing, text; None if unknown."""
+    place, _, rest = gap.partition(": ")
+    function, _, text = rest.partition(": ")
+    return next(
+        (why for (where, what), why in EMITTED.items() if re.fullmatch(where, f"{place}: {function}") and what in text),
+        None,
+    )

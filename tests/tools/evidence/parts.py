@@ -24,6 +24,7 @@ PARTS: dict[str, str] = {
     "python-coverage": "python_coverage",
     "python-mutants": "python_mutants",
     "coverage": "coverage",
+    "emitted": "emitted",
     "kernel-mutants": "kernel_mutants",
     "constants": "program_mutants",
 }

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 from tests.tools.evidence.c_sites import HEADER
 from tests.tools.evidence.coverage import gaps_of
-from tests.tools.evidence.gaps import REASONS, reason
+from tests.tools.evidence.gaps import EMITTED, REASONS, reason
 from tests.tools.evidence.parts import kept
 
 
@@ -13,6 +15,12 @@ def test_every_kept_gap_has_a_proof_and_every_proof_a_kept_gap():
     assert [gap for gap in gaps if reason(gap) is None] == []
     for function, text in REASONS:
         assert any(gap.startswith(f"{function}: ") and text in gap for gap in gaps), (function, text)
+
+
+def test_every_proof_about_emitted_code_is_of_a_kept_gap():
+    gaps = [gap.split(": ", 2) for gap in kept()["emitted"]["gaps"]]
+    for where, what in EMITTED:
+        assert any(re.fullmatch(where, f"{name}: {function}") and what in rest for name, function, rest in gaps), where
 
 
 def test_what_was_reached_one_way_only_is_told_with_its_function():
