@@ -42,7 +42,7 @@ def test_right_answers_have_no_error_in_bench(contender, truth):
     assert sum(number for _, number, _ in found.octaves) == 120
 
 
-def test_missing_answers_are_not_wrong(contender, truth):
+def test_accuracy_line_counts_missing_answers_as_abstained_and_not_as_wrong(contender, truth):
     answers = truth.positions.copy()
     answers[:7] = CANNOT_SAY
     found = accuracy_line(contender, answered(truth, answers), truth)
@@ -50,12 +50,12 @@ def test_missing_answers_are_not_wrong(contender, truth):
     assert found.reliable_above > 0
 
 
-def test_method_that_never_answers_is_reliable_nowhere(contender, truth):
+def test_accuracy_line_of_a_method_that_never_answers_is_reliable_above_no_distance(contender, truth):
     found = accuracy_line(contender, answered(truth, np.full_like(truth.positions, CANNOT_SAY)), truth)
     assert (found.wrong, found.reliable_above) == (0, INF)
 
 
-def test_wrong_answer_is_counted_by_its_exponent_with_its_distance(contender, truth):
+def test_accuracy_line_counts_a_wrong_answer_by_the_exponent_of_its_distance(contender, truth):
     place = int(np.flatnonzero(truth.positions == 1)[0])
     answers = truth.positions.copy()
     answers[place] = 0
@@ -68,7 +68,7 @@ def test_wrong_answer_is_counted_by_its_exponent_with_its_distance(contender, tr
     assert 2.0 ** truth.exponents[place] <= worst.flip_distance <= 2.0 ** (truth.exponents[place] + 1)
 
 
-def test_yes_no_question_is_judged_as_such(contender, truth):
+def test_accuracy_line_judges_yes_or_no_answers_by_the_question_of_the_method(contender, truth):
     one_sided = replace(contender, question="exterior")
     answers = (truth.positions == 1).astype(np.int8)
     assert accuracy_line(one_sided, answered(truth, answers), truth).wrong == 0
@@ -93,7 +93,7 @@ def test_yes_no_question_is_judged_as_such(contender, truth):
         ([-1] * 1000 + [-5] * 1000, [0, 1, 1000], INF),
     ],
 )
-def test_above_the_edge_at_most_one_in_a_thousand_is_wrong(octaves, wrong, edge):
+def test_reliable_above_is_the_least_distance_beyond_which_one_in_1000_is_wrong(octaves, wrong, edge):
     mask = np.zeros(len(octaves), dtype=bool)
     mask[wrong] = True
     assert reliable_above(np.array(octaves, dtype=float), mask) == edge

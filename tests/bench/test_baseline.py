@@ -48,11 +48,11 @@ def verdict(before, after, allowed=1.1):
 @pytest.mark.parametrize(
     ("slowness", "expected"), [(1.0, "same"), (1.05, "same"), (1.5, "slower"), (6.0, "slower"), (0.5, "faster")]
 )
-def test_quiet_runs_with_different_speeds_are_distinguished(slowness, expected):
+def test_verdict_distinguishes_two_quiet_runs_with_different_speeds(slowness, expected):
     assert verdict(run(seed=1), run(slowness, seed=2)) == expected
 
 
-def test_a_run_against_itself_is_not_slower():
+def test_verdict_on_two_runs_of_the_same_method_is_never_slower():
     """Twice the same method, at every noise that there is: equal, or too noisy to tell, but never slower."""
     for spread in (0.001, 0.01, 0.05, 0.2, 0.8):
         for seed in range(20):
@@ -63,20 +63,20 @@ def test_a_run_against_itself_is_not_slower():
             assert verdict(before, after) in ("same", "inconclusive")
 
 
-def test_a_slower_machine_is_no_slower_method():
+def test_verdict_on_the_same_method_on_a_slower_machine_is_not_slower():
     assert verdict(run(seed=1), run(machine=7.0, seed=2)) == "same"
 
 
-def test_a_difference_near_what_is_allowed_is_not_decided():
+def test_verdict_on_a_slowdown_near_the_allowed_factor_is_inconclusive():
     assert verdict(run(seed=1), run(1.1, seed=2)) == "inconclusive"
 
 
-def test_noise_of_either_run_makes_a_verdict_inconclusive():
+def test_verdict_is_inconclusive_if_either_run_is_noisy():
     for before, after in ((run(floor=0.6, seed=1), run(1.5, seed=2)), (run(seed=1), run(1.5, floor=0.6, seed=2))):
         assert verdict(before, after) == "inconclusive"
 
 
-def test_slowdown_within_the_allowed_factor_passes():
+def test_verdict_passes_a_slowdown_within_the_allowed_factor():
     assert verdict(run(seed=1), run(1.5, seed=2), allowed=2.0) == "same"
 
 
@@ -91,11 +91,11 @@ def test_slowdown_within_the_allowed_factor_passes():
         (0.5, 0.95, 1.1, "same"),
     ],
 )
-def test_the_interval_is_widened_by_the_noise_before_it_is_read(low, high, noise, expected):
+def test_speed_change_widens_its_interval_by_the_noise_before_its_verdict(low, high, noise, expected):
     assert SpeedChange(1.0, low, high, noise).verdict(1.1) == expected
 
 
-def test_lines_are_of_what_both_runs_timed_and_not_of_the_reference():
+def test_comparisons_are_of_methods_that_both_runs_timed_without_the_reference():
     before, after = run(seed=1), run(2.0, seed=2)
     after.speeds["new", "uniform", "batch"] = structs.replace(after.speeds[KEY], method="new")
     (line,) = comparisons(BenchPlan(), before, after, {"mine"})
@@ -104,7 +104,7 @@ def test_lines_are_of_what_both_runs_timed_and_not_of_the_reference():
     assert line.ci95[0] <= line.change <= line.ci95[1]
 
 
-def test_gated_methods_are_the_named_ones_else_the_certified_ones():
+def test_bench_gates_the_chosen_methods_or_else_the_certified_ones():
     everything = contenders(BenchPlan())
     assert gated(BenchPlan(), everything) == {name for name, each in everything.items() if each.kind == "certified"}
     some = BenchPlan(methods=("hessian-float64",))
@@ -136,13 +136,13 @@ def recorded(path, lines=(), **options):
         ({}, "holds no speed relative to"),
     ],
 )
-def test_record_that_is_no_baseline_for_this_run_is_refused(tmp_path, options, message):
+def test_baseline_of_another_kind_of_run_is_refused(tmp_path, options, message):
     plan = recorded(tmp_path / "record.jsonl", **options)
     with pytest.raises(InputError, match=message):
         read_baseline(plan)
 
 
-def test_the_folder_of_a_run_stands_for_its_record(tmp_path):
+def test_baseline_may_be_given_as_the_folder_of_a_run(tmp_path):
     recorded(tmp_path / "record.jsonl", [speed_of("mine", 2.0)])
     found = read_baseline(BenchPlan(quick=True, baseline=tmp_path))
     assert list(found.speeds) == [("mine", "uniform", "batch")]

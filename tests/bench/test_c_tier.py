@@ -43,20 +43,20 @@ def rows():
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("trigonometric")])
-def test_a_method_in_c_is_the_method_in_numpy(name, methods, rows):
+def test_a_method_in_c_answers_as_the_same_method_in_numpy(name, methods, rows):
     assert (
         methods[name].load().answer(rows) == methods[NUMPY.get(name, name.removesuffix("-c"))].load().answer(rows)
     ).all()
 
 
 @pytest.mark.parametrize("name", ["trigonometric-float32-c", "trigonometric-float64-c"])
-def test_the_cosines_of_libm_and_of_numpy_differ_by_units_that_matter_nowhere_in_the_tower(name, methods):
+def test_cosine_methods_in_c_and_in_numpy_answer_alike_on_the_tower(name, methods):
     tower = FAMILIES["tower-body"].rows(2, 2000)
     assert (methods[name].load().answer(tower) == methods[name.removesuffix("-c")].load().answer(tower)).all()
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_by_scene_by_rows_and_one_by_one_are_the_same(name, methods):
+def test_a_method_in_c_answers_alike_by_scene_by_rows_and_one_by_one(name, methods):
     way = methods[name].load()
     tower = FAMILIES["tower-body"].rows(2, 700)
     right = way.answer(tower)
@@ -69,14 +69,14 @@ def test_by_scene_by_rows_and_one_by_one_are_the_same(name, methods):
     assert (way.batch(mixed).answers() == way.answer(mixed)).all()
 
 
-def test_the_empty_call_answers_nothing(methods, rows):
+def test_the_empty_call_of_a_method_in_c_runs_and_answers_nothing(methods, rows):
     for mode in ("batch", "single"):
         empty = methods[NAMES[0]].load().empty(rows, mode)
         assert empty.name == "C"
         assert empty.ready.run(5)[1] == 0
 
 
-def test_compiler_flags_do_not_change_results():
+def test_compiler_flags_do_not_change_the_answers_of_methods_in_c():
     assert "-ffp-contract=off" in FLAGS
     assert not {flag for flag in FLAGS if "fast" in flag or "unsafe" in flag or flag == "-Ofast"}
 
@@ -88,7 +88,7 @@ def test_missing_compiler_is_reported_in_one_sentence(tmp_path, monkeypatch):
         compiled(tmp_path)
 
 
-def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
+def test_an_error_of_the_compiler_is_quoted_in_the_message(tmp_path, monkeypatch):
     broken = tmp_path / "broken-cc"
     broken.write_text("#!/bin/sh\necho 'no space left for code' >&2\nexit 1\n", encoding="ascii")
     broken.chmod(broken.stat().st_mode | stat.S_IXUSR)
@@ -98,7 +98,7 @@ def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
         compiled(tmp_path)
 
 
-def test_run_without_a_compiler_measures_the_rest_and_names_what_is_missing(tmp_path, monkeypatch):
+def test_bench_without_a_c_compiler_keeps_the_other_methods_and_records_what_is_missing(tmp_path, monkeypatch):
     monkeypatch.setattr(
         c_library, "compiler_here", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
     )

@@ -44,7 +44,7 @@ def contender(**changes):
     return Contender(**{**given, "question": "position", "domain": Domain(), "load": partial(InPython, len), **changes})
 
 
-def test_a_function_of_numbers_gives_the_same_answers_at_once_and_by_calls():
+def test_a_scalar_function_gives_the_same_answers_for_a_batch_and_one_by_one():
     way = contenders(BenchPlan(amounts=QUICK))["position-python"].load()
     assert isinstance(way, InScalars)
     for answers in (way.answer(ROWS), way.batch(ROWS).answers(), way.single(ROWS).answers()):
@@ -83,7 +83,7 @@ def test_an_engine_builds_the_mesh_of_a_scene_once_and_answers_rows_of_several_s
     assert way.meshes == {}
 
 
-def test_the_nearest_point_of_a_leaning_spheroid_answers_as_fractions_do():
+def test_nearest_point_method_for_leaning_spheroids_answers_as_exact_fractions_do():
     rows = np.array([(*row, 1.0, 0.0, 1.0) for row in ROWS.tolist()])
     way = contenders(BenchPlan(amounts=QUICK, tilted=True))["nearest-point"].load()
     answers = way.answer(rows).tolist()
@@ -91,12 +91,12 @@ def test_the_nearest_point_of_a_leaning_spheroid_answers_as_fractions_do():
     assert answers == [exact_tilted(tuple(row)) for row in rows.tolist()]
 
 
-def test_rows_of_more_scenes_than_a_method_takes_are_not_asked():
+def test_bench_does_not_ask_a_method_about_rows_of_more_scenes_than_it_takes():
     assert contender(scenes=2).asked(TWO_SCENES).tolist() == list(range(len(TWO_SCENES)))
     assert contender(scenes=1).asked(TWO_SCENES).tolist() == []
 
 
-def test_memory_is_what_a_method_needs_beyond_its_rows(monkeypatch):
+def test_memory_line_reports_what_a_method_needs_beyond_its_rows(monkeypatch):
     def greedy(rows):
         held = np.ones(8_000_000 if len(rows) > 1 else 1)
         return np.full(len(rows), int(held[-1]), dtype=np.int8)
@@ -108,7 +108,7 @@ def test_memory_is_what_a_method_needs_beyond_its_rows(monkeypatch):
     assert 60e6 < line.peak_bytes < 90e6
 
 
-def test_a_kernel_that_misses_a_target_ends_the_run_as_slower(monkeypatch):
+def test_bench_kernel_ends_with_slower_if_a_kernel_misses_a_target(monkeypatch):
     lines = [KernelLine(name=name, target="", wanted=2.0, measured=1.0, ci95=None, met=met, says=f"{name} says")
              for name, met in (("fast", True), ("slow", False))]  # fmt: skip
     monkeypatch.setattr(run.targets, "run", lambda recorder, advance, quick: recorder.lines.extend(lines))
@@ -118,7 +118,7 @@ def test_a_kernel_that_misses_a_target_ends_the_run_as_slower(monkeypatch):
     assert dict(outcome.because) == {Exit.SLOWER: ["slow: slow says"]}
 
 
-def test_a_library_that_was_compiled_is_in_the_plan_and_one_that_was_not_is_recorded_once(monkeypatch, tmp_path):
+def test_bench_plan_has_the_compiled_library_or_records_once_that_it_is_missing(monkeypatch, tmp_path):
     def fails(folder):
         raise UnavailableError("no compiler is here")
 
@@ -135,7 +135,7 @@ def test_a_library_that_was_compiled_is_in_the_plan_and_one_that_was_not_is_reco
     assert found.missing
 
 
-def test_a_system_that_does_not_tell_its_load_has_none(monkeypatch):
+def test_load_of_a_system_that_does_not_report_it_is_recorded_as_missing(monkeypatch):
     def refused():
         raise OSError
 

@@ -48,12 +48,12 @@ def answers(plan):
     }
 
 
-def test_the_procedures_in_c_answer_what_they_do_in_numpy(answers):
+def test_the_papers_procedures_in_c_answer_as_those_in_numpy(answers):
     for name in BODIES:
         assert (answers["procedures", "C"][name] == answers["procedures", "numpy"][name]).all()
 
 
-def test_comparisons_in_c_and_in_numpy_have_the_same_answers(answers):
+def test_methods_compared_in_cost_claims_answer_alike_in_c_and_in_numpy(answers):
     for name in (PRINTED, RECIPROCALS, REPAIRED_1):
         assert (answers["divisions", "C"][name] == answers["divisions", "numpy"][name]).all()
     assert (answers["roots", "C"][PRINTED] == answers["roots", "numpy"][PRINTED]).all()
@@ -61,14 +61,14 @@ def test_comparisons_in_c_and_in_numpy_have_the_same_answers(answers):
     assert ((answers["roots", "C"][TRIGONOMETRIC] == 1) == (by_cosines == 1)).all()
 
 
-def test_the_rotors_are_needed_at_the_share_of_positions_where_spheroids_touch():
+def test_cost_claims_weigh_the_rotors_by_the_share_of_flight_rows_in_contact():
     rows = FAMILIES["flight"].rows(1, 4000)
     touching = float_filter.positions(rows) == Position.CONTACT
     assert 100 < np.count_nonzero(touching) < 2000
     assert claims.share_touching(claims.flight_of(1, 4000)) == np.mean(touching)
 
 
-def test_reciprocals_take_the_divisions_out_of_the_loop_and_change_answers_only_near_contact():
+def test_table_2_with_reciprocals_divides_outside_the_loop_and_differs_only_near_contact():
     assert count(RECIPROCAL.program.steps).divisions == count(FORMULAS["table-2"].program.steps).divisions
     claim = next(each for each in claims.cost_claims(BenchPlan()) if each.name == "divisions")
     printed, changed = claim.operations[PRINTED], claim.operations[RECIPROCALS]
@@ -79,7 +79,7 @@ def test_reciprocals_take_the_divisions_out_of_the_loop_and_change_answers_only_
     assert (flip_exponents(rows[one != other]) < -40).all()
 
 
-def test_without_a_compiler_the_claims_are_measured_in_numpy_and_a_chosen_few_methods_measure_none():
+def test_cost_claims_use_numpy_without_a_compiler_and_are_left_out_if_methods_are_chosen():
     assert {claim.tier for claim in claims.cost_claims(BenchPlan())} == {"numpy"}
     assert claims.cost_claims(BenchPlan(methods=("fast-numpy",))) == []
 
@@ -94,7 +94,7 @@ def test_without_a_compiler_the_claims_are_measured_in_numpy_and_a_chosen_few_me
         (1.05, 1.08, 1.1, "inconclusive", "inconclusive"),
     ],
 )
-def test_a_verdict_needs_more_than_noise(low, high, noise, is_cheaper, is_dearer):
+def test_a_cost_ratio_is_cheaper_or_dearer_only_beyond_the_noise(low, high, noise, is_cheaper, is_dearer):
     ratio = Estimate((low + high) / 2, low, high)
     assert speed.cheaper(ratio, noise) == is_cheaper
     assert speed.dearer(ratio, noise) == is_dearer
@@ -114,7 +114,7 @@ def measured(times):
     }
 
 
-def test_cost_lines_hold_the_findings():
+def test_cost_lines_hold_ratios_verdicts_and_operation_counts_of_each_claim():
     times = {
         "procedures-numpy": {
             PRINTED_A: 90.0,

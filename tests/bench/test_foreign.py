@@ -55,7 +55,7 @@ def library(tmp_path_factory):
     return f"library:{compiled('right', tmp_path_factory.mktemp('library') / 'right.so', '-shared', '-fPIC')}"
 
 
-def test_a_function_is_timed_in_its_worker(tmp_path):
+def test_a_python_spec_is_timed_in_its_worker(tmp_path):
     way = opened(subject(tmp_path))
     for ready in (way.batch(ROWS), way.single(ROWS[:4])):
         took, checksum = ready.run(3)
@@ -66,7 +66,7 @@ def test_a_function_is_timed_in_its_worker(tmp_path):
     way.close()
 
 
-def test_a_library_is_timed_in_its_worker_and_a_call_about_no_rows_is_taken_off(library):
+def test_time_of_a_library_is_taken_in_its_worker_less_a_call_without_rows(library):
     way = opened(library)
     assert way.batch(ROWS).timed_by == "worker"
     assert way.single(ROWS[:4]).run(50)[0] > 0
@@ -78,14 +78,14 @@ def test_a_library_is_timed_in_its_worker_and_a_call_about_no_rows_is_taken_off(
     way.close()
 
 
-def test_a_command_with_a_clock_is_timed_by_it():
+def test_a_command_that_implements_the_time_protocol_is_timed_by_its_own_clock():
     way = opened(command("right", "binary"))
     assert way.batch(ROWS).timed_by == "time protocol"
     assert way.batch(ROWS).run(2)[0] > 0
     way.close()
 
 
-def test_a_clock_with_a_wrong_checksum_is_refused():
+def test_times_from_a_command_with_a_wrong_checksum_are_refused():
     way = opened(command("miscounts_time", "binary"))
     ready = way.batch(ROWS)
     with pytest.raises(TimingRefusedError, match="timed with the checksum"):
@@ -96,7 +96,7 @@ def test_a_clock_with_a_wrong_checksum_is_refused():
     way.close()
 
 
-def test_clock_that_reports_far_too_little_time_is_refused(monkeypatch):
+def test_times_from_a_command_that_reports_far_too_little_time_are_refused(monkeypatch):
     monkeypatch.setattr(implementation, "_SLACK_NS", 10**9)
     way = opened(command("boasts", "binary"))
     with pytest.raises(TimingRefusedError, match=r"says that it took 3,000 ns for what took [\d,]+ ns by our clock"):
@@ -104,7 +104,7 @@ def test_clock_that_reports_far_too_little_time_is_refused(monkeypatch):
     way.close()
 
 
-def test_of_a_command_without_a_clock_a_question_about_one_row_is_taken_off():
+def test_time_of_a_command_without_a_clock_is_reduced_by_that_of_a_one_row_question():
     way = opened(command("right"))
     assert way._clock is None
     ready, empty = way.batch(ROWS), way.empty(ROWS, "batch")
@@ -125,28 +125,28 @@ def test_two_specs_with_the_same_name_are_distinguished(tmp_path):
     assert found[one.name].tier == "foreign"
 
 
-def test_slow_spec_is_asked_fewer_rows(tmp_path):
+def test_a_slow_spec_is_judged_and_timed_on_fewer_rows(tmp_path):
     quick = foreign.foreign_method(subject(tmp_path), Limits(), [])
     slow = foreign.foreign_method(subject(tmp_path, times=300), Limits(), [])
     assert slow.timed < quick.timed
     assert slow.judged < quick.judged
 
 
-def test_interruption_of_the_trial_does_not_make_a_spec_look_slow(tmp_path, monkeypatch):
+def test_an_interruption_of_the_speed_trial_does_not_make_a_spec_look_slow(tmp_path, monkeypatch):
     """Each second batch is interrupted for 50 ms; it takes 1 µs a row."""
     times = itertools.cycle([0.05, 0.0])
     monkeypatch.setattr(foreign, "_seconds", lambda _, rows: next(times) + 1e-6 * len(rows))
     assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 10_000
 
 
-def test_slow_spec_is_tried_once_a_batch(tmp_path, monkeypatch):
+def test_the_speed_trial_asks_a_slow_spec_only_once(tmp_path, monkeypatch):
     tried = []
     monkeypatch.setattr(foreign, "_seconds", lambda _, rows: tried.append(len(rows)) or 0.01 * len(rows))
     assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 1
     assert len(tried) == 1
 
 
-def test_spec_with_a_baseline_is_timed_on_as_many_rows_as_there(tmp_path):
+def test_spec_with_a_baseline_is_timed_on_as_many_rows_as_in_the_baseline(tmp_path):
     other = foreign.foreign_method(subject(tmp_path), Limits(), [])
     line = decoded(bench_lines.speed("one", "uniform", "batch", 20.0, 10.0), SpeedLine)
     asked = {("uniform", "batch"): 53, ("flight", "batch"): 50, ("uniform", "single"): 256}
@@ -156,7 +156,7 @@ def test_spec_with_a_baseline_is_timed_on_as_many_rows_as_there(tmp_path):
     assert [each.timed for each in alike(before, [replace(other, name="one"), other])] == [53, other.timed]
 
 
-def test_spec_that_never_answers_times_out_once(tmp_path):
+def test_a_spec_that_never_answers_is_refused_after_one_timeout(tmp_path):
     path = tmp_path / "never.py"
     path.write_text("def classify(rows):\n    while True:\n        pass\n", encoding="utf-8")
     with pytest.raises(StartError, match=r"does not answer its first question, about one row: no answer within 0\.7 s"):
@@ -175,7 +175,7 @@ def before(tmp_path_factory):
     return code, record, folder / "out" / "record.jsonl"
 
 
-def test_spec_is_judged_and_timed_like_other_methods(before):
+def test_a_spec_is_judged_and_timed_like_the_built_in_methods(before):
     code, record, _ = before
     assert code == 0
     (judged,) = [line for line in record.of(AccuracyLine) if line.method == "subject"]
@@ -186,7 +186,7 @@ def test_spec_is_judged_and_timed_like_other_methods(before):
     assert [line.kind for line in record.of(MethodLine)][-1] == "foreign"
 
 
-def test_more_work_is_found_slower_than_the_baseline_and_ends_with_3(before, tmp_path):
+def test_bench_ends_with_3_if_a_spec_is_slower_than_its_baseline(before, tmp_path):
     *_, baseline = before
     slower = subject(tmp_path, times=60)
     code, record = ended(tmp_path / "out", *SMALL, "--baseline", str(baseline), "--max-slowdown", "1.5", slower)
@@ -206,14 +206,14 @@ def test_unchanged_spec_is_not_slower_than_its_baseline(before, tmp_path):
     assert code in (0, 4) or max(line.change for line in record.of(ComparisonLine) if line.gates) > 1.5
 
 
-def test_spec_that_cannot_be_started_ends_with_5_and_the_rest_is_measured(tmp_path):
+def test_bench_ends_with_5_and_measures_the_rest_if_a_spec_cannot_be_started(tmp_path):
     code, record = ended(tmp_path / "out", *ONE_PROCESS, f"python:{tmp_path / 'nowhere.py'}:classify")
     assert code == 5
     assert record.of(NotStartedLine)
     assert record.of(SpeedLine)
 
 
-def test_spec_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
+def test_bench_records_a_spec_that_fails_on_rows_and_ends_with_1(tmp_path):
     code, record = ended(
         tmp_path / "out", *ONE_PROCESS, subject(tmp_path, answers="answers if len(rows) < 9 else 1 / 0")
     )
@@ -225,7 +225,7 @@ def test_spec_that_fails_on_rows_is_recorded_and_ends_with_1(tmp_path):
     assert "subject" not in {line.method for line in record.of(SpeedLine)}
 
 
-def test_answers_that_change_between_judging_and_timing_are_refused(tmp_path):
+def test_bench_refuses_a_spec_whose_answers_change_between_judging_and_timing(tmp_path):
     folder = tmp_path / "marks"
     folder.mkdir()
     spec = subject(tmp_path, answers=f"np.roll(answers, len(os.listdir({str(folder)!r})))")

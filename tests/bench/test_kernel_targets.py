@@ -73,7 +73,7 @@ def test_every_target_has_a_line_of_the_record_s_schema(small):
         assert line.ci95[0] <= line.measured <= line.ci95[1]
 
 
-def test_without_a_compiler_or_a_compiled_kernel_the_rest_is_measured(small, monkeypatch):
+def test_kernel_targets_that_need_no_compiler_are_measured_without_one(small, monkeypatch):
     def missing(*_arguments):
         raise UnavailableError("no C compiler is found")
 
@@ -97,14 +97,14 @@ def test_without_a_compiler_or_a_compiled_kernel_the_rest_is_measured(small, mon
     assert "compiled kernel" in {line.what for line in recorder.lines if isinstance(line, AbsentLine)}
 
 
-def test_the_numpy_version_with_eigh_answers_as_the_kernel_away_from_contact():
+def test_the_numpy_baseline_with_eigh_answers_as_the_kernel_away_from_contact():
     rows = tilted_rows(TOWER_SIZES, uniform_columns(3000), (*tilted_targets.axes(3000).T,))
     found = hypcheck.classify(rows)
     assert (by_eigenvectors(rows, 30) == found).all()
     assert {-1, 0, 1} == set(found.tolist())
 
 
-def test_touching_rows_lie_within_a_few_units_of_contact():
+def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
     rows = tilted_targets.touching_rows(40)
     clearance = [nearest(TiltedPair.from_row(row)).clearance for row in rows.tolist()]
     assert 0 < max(map(abs, clearance)) < 4e-14
@@ -121,7 +121,7 @@ def test_a_target_is_missed_if_the_whole_interval_misses_it():
     assert least.line([2.0], "says").measured == 2.0
 
 
-def test_what_misses_its_target_is_measured_again_and_a_chance_is_forgiven(tmp_path):
+def test_a_missed_target_is_measured_again_and_passes_if_the_miss_was_by_chance(tmp_path):
     target, other = KernelTarget("speed", "", 2.0), KernelTarget("more speed", "", 2.0)
     found = iter([1.0, 3.0, 1.5, 1.0, 2.5, 1.0])
 
@@ -140,7 +140,7 @@ def test_what_misses_its_target_is_measured_again_and_a_chance_is_forgiven(tmp_p
     assert len(calls) == 1 + targets.AGAIN
 
 
-def test_targets_that_are_all_met_are_measured_once(tmp_path):
+def test_kernel_targets_that_are_all_met_are_measured_once(tmp_path):
     target, calls = KernelTarget("speed", "", 2.0), []
 
     def fast(_folder, _quick):
@@ -151,7 +151,7 @@ def test_targets_that_are_all_met_are_measured_once(tmp_path):
     assert len(calls) == 1
 
 
-def test_a_multiple_of_an_expression_is_asked_up_to_what_the_ceiling_allows():
+def test_a_target_relative_to_numpy_is_capped_by_the_time_that_reading_takes():
     target = next(each for each in targets.TARGETS if each.target.name == "numpy, products")
     found = {
         name: Samples(name, 1, 1, 0, samples_ns=[time])
@@ -162,7 +162,7 @@ def test_a_multiple_of_an_expression_is_asked_up_to_what_the_ceiling_allows():
     assert target.line(found, "").measured == pytest.approx(20 / (0.75 * 20 / 0.9))
 
 
-def test_large_pages_names_the_setting_of_the_system(tmp_path, monkeypatch):
+def test_large_pages_reports_the_setting_of_the_operating_system(tmp_path, monkeypatch):
     for said, words in (
         ("always [madvise] never\n", "where asked for"),
         ("[always] never", "always"),
@@ -175,7 +175,7 @@ def test_large_pages_names_the_setting_of_the_system(tmp_path, monkeypatch):
     assert "not told" in targets.large_pages()
 
 
-def test_table_2_in_plain_python_does_its_work():
+def test_the_plain_python_baseline_answers_as_table_2_in_numpy():
     columns = uniform_columns(2000)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     expected = targets.with_products(TOWER_SIZES, *columns)
@@ -184,7 +184,7 @@ def test_table_2_in_plain_python_does_its_work():
 
 @COMPILER
 @pytest.mark.parametrize("level", LEVELS)
-def test_the_plain_formula_in_c_does_its_work(level, tmp_path):
+def test_the_plain_c_baseline_answers_as_the_kernel_on_uniform_rows(level, tmp_path):
     """On these rows it is never wrong, so a faster wrong answer cannot stand for it."""
     if level in ("avx512", "avx2") and choice().level not in (level, "avx512"):
         pytest.skip(f"this machine has no {level}")
@@ -204,7 +204,7 @@ def test_the_plain_formula_in_c_does_its_work(level, tmp_path):
 
 
 @COMPILER
-def test_the_kernel_over_and_over_answers_its_rows(tmp_path):
+def test_the_timed_loop_of_the_kernel_writes_right_answers(tmp_path):
     pytest.importorskip("hypcheck.kernel._compiled")
     columns, out = uniform_columns(5000), np.full(5000, 9, np.int8)
     library = c_baselines(tmp_path, "plain")[0]
@@ -219,21 +219,21 @@ def test_the_kernel_over_and_over_answers_its_rows(tmp_path):
     assert library.product()(1000)[0] > 20 * compiled_targets.WORDS  # no compiler leaves the work out
 
 
-def test_the_numpy_expressions_do_their_work():
+def test_the_numpy_baselines_answer_as_the_kernel_on_uniform_rows():
     columns = uniform_columns(5000)
     exterior = hypcheck.classify_scene(TOWER_SIZES, *columns, question="exterior")
     for expression in (targets.with_powers, targets.with_products):
         assert (expression(TOWER_SIZES, *columns) == exterior).all()
 
 
-def test_rows_said_to_touch_are_within_1e_15_of_contact():
+def test_touching_rows_of_the_upright_targets_are_within_1e_14_of_contact():
     rows = np.column_stack([*(np.full(400, size) for size in TOWER_SIZES), *touching_columns(400)])
     found = np.abs(clearances(rows).clearance)
     assert np.median(found) < 1e-15
     assert found.max() < 1e-14
 
 
-def test_a_long_array_repeats_the_rows_of_the_workload():
+def test_uniform_columns_repeat_their_rows_in_a_long_array():
     from hypcheck.bench import compiled_targets
 
     x, y, z = compiled_targets.uniform_columns(compiled_targets.DISTINCT + 3)

@@ -20,7 +20,7 @@ from hypcheck.truth import float_filter
 PLAN = BenchPlan(quick=True, amounts=replace(QUICK, cell=4, map_lines=15, judged=400, most_triangles=300))
 
 
-def test_stability_shows_where_float32_overflows_and_that_the_fast_path_is_never_wrong():
+def test_the_stability_map_shows_overflow_of_float32_and_no_error_of_the_fast_method():
     found = {line.method: line for line in error_maps.stability_lines(PLAN, ["fast-numpy", "table-2-float32"], None)}
     exact = found["fast-numpy"].bins
     assert len(exact) == 400
@@ -30,7 +30,7 @@ def test_stability_shows_where_float32_overflows_and_that_the_fast_path_is_never
     assert max(coarse[i, j] for i, j in coarse if i >= 10 and j >= 10) > 0.5  # both beyond 1e5
 
 
-def test_cells_hold_the_rows_of_their_sizes():
+def test_each_cell_of_the_stability_map_holds_rows_of_its_size_ratios():
     rows, cells = error_maps._stability_rows(PLAN)
     side = error_maps.LAST - error_maps.FIRST + 1
     a, c = rows[:, 0] / rows[:, 2], rows[:, 1] / rows[:, 3]
@@ -39,7 +39,7 @@ def test_cells_hold_the_rows_of_their_sizes():
     assert set(Counter(float_filter.positions(rows).tolist())) == {-1, 0, 1}
 
 
-def test_maps_show_the_ring():
+def test_the_place_maps_show_the_errors_of_float32_on_the_ring():
     whole, ring = next(error_maps.place_lines(PLAN, ["table-2-float32"], None))
     assert (whole.region, ring.region) == ("whole", "ring")
     for line, columns in ((whole, 29), (ring, 15)):
@@ -50,7 +50,7 @@ def test_maps_show_the_ring():
     assert set("".join(whole.wrong[:5])) == {"."}
 
 
-def test_a_map_has_a_letter_for_each_mistake():
+def test_a_place_map_marks_each_kind_of_wrong_answer_with_its_own_letter():
     r, z = error_maps.mapped_regions(PLAN)["whole"]
     rows = error_maps.grid(r, z)
     truth = float_filter.positions(rows)
@@ -62,7 +62,7 @@ def test_a_map_has_a_letter_for_each_mistake():
     assert set("".join(error_maps.letters_of(truth, rows, "position", r[2]))) == {"."}
 
 
-def test_shapes_refuse_more_the_less_they_fit_and_never_call_clear_what_is_not():
+def test_bounding_shapes_give_false_contacts_where_they_fit_badly_and_no_false_clear():
     lines = list(error_maps.bounding_lines(PLAN))
     assert {(line.shape, line.workload) for line in lines} == {
         (shape, workload) for shape in ("sphere", "cylinder") for workload in ("uniform", "flight")
@@ -78,7 +78,7 @@ def test_shapes_refuse_more_the_less_they_fit_and_never_call_clear_what_is_not()
     assert sphere[16.0][3] > 0
 
 
-def test_an_open_shape_is_found_to_be_dangerous():
+def test_bounding_line_counts_false_clear_answers_of_a_shape_that_does_not_enclose():
     rows = WORKLOADS["uniform"].rows(1, 300)
     assert (
         error_maps.bounding_line(rows, lambda some: np.ones(len(some), dtype=np.int8), "sphere", "uniform").false_clear
@@ -88,7 +88,7 @@ def test_an_open_shape_is_found_to_be_dangerous():
 
 
 @pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
-def test_convergence_counts_triangles_against_errors():
+def test_convergence_lines_show_fewer_errors_with_more_triangles():
     lines = list(error_maps.convergence_lines(PLAN))
     assert [line.method for line in lines] == ["fcl-point"] * 2 + ["fcl-sphere"] * 2 + ["fcl-ellipsoid"] * 2
     assert len(lines) == error_maps.convergence_steps(PLAN)
@@ -99,7 +99,7 @@ def test_convergence_counts_triangles_against_errors():
 
 
 @pytest.mark.slow
-def test_memory_is_what_a_batch_takes():
+def test_memory_lines_report_the_peak_memory_of_one_batch():
     names = ["table-2-float64", "bounding-cylinder"]
     found = {line.method: line for line in accuracy.memory_lines(replace(PLAN, workers=2), names)}
     answers = found["bounding-cylinder"].rows
@@ -109,7 +109,7 @@ def test_memory_is_what_a_batch_takes():
     assert found["table-2-float64"].peak_bytes < 100_000_000
 
 
-def test_methods_that_are_mapped_can_answer_many_rows():
+def test_the_error_maps_leave_out_methods_too_slow_for_many_rows():
     found = contenders(PLAN)
     assert "table-2-float32" in error_maps.stability_methods(found)
     assert "fast-numpy" in error_maps.stability_methods(found)

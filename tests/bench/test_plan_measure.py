@@ -20,7 +20,7 @@ def few(monkeypatch):
 
 
 @COMPILER
-def test_each_pair_of_sizes_is_timed_many_by_a_call_and_one_by_one(few, capsys):
+def test_plan_measure_times_each_pair_of_sizes_in_batches_and_one_by_one(few, capsys):
     assert main(["plan", "tower", "--measure", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert [each["sizes"] for each in told["measured"]] == [each["sizes"] for each in told["settings"]]
@@ -33,7 +33,7 @@ def test_each_pair_of_sizes_is_timed_many_by_a_call_and_one_by_one(few, capsys):
 
 
 @COMPILER
-def test_the_sentences_stand_below_the_plan(few, capsys):
+def test_plan_measure_prints_one_sentence_for_each_setting_below_the_plan(few, capsys):
     assert main(["plan", "tower", "--precision", "float32", "--measure"]) == 0
     *plan, body, rotors = capsys.readouterr().out.splitlines()
     assert plan[0] == "cooling tower: interior or not, in float32"
@@ -41,7 +41,7 @@ def test_the_sentences_stand_below_the_plan(few, capsys):
     assert rotors.startswith("2. In C")
 
 
-def test_scene_without_a_compiler_is_reported_in_one_sentence(monkeypatch, capsys):
+def test_plan_measure_without_a_compiler_ends_2_with_one_sentence(monkeypatch, capsys):
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
     assert main(["plan", "tower", "--measure"]) == 2

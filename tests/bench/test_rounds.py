@@ -29,7 +29,7 @@ def measured(entries, rounds=3, **options):
     return {each.name: each for each in samples}
 
 
-def test_each_round_begins_with_another_and_leaves_none_out():
+def test_each_round_begins_with_another_method_and_times_all_of_them():
     order = []
     names = ["a", "b", "c"]
     entries = [TimingEntry(name, 10, Clock(name, order), loops=1) for name in names]
@@ -37,14 +37,14 @@ def test_each_round_begins_with_another_and_leaves_none_out():
     assert "".join(order[3:]) == "bca" + "cab" + "abc" + "bca"
 
 
-def test_loops_make_a_sample_of_the_length_that_is_asked_for():
+def test_the_number_of_loops_makes_a_sample_as_long_as_asked_for():
     found = measured([TimingEntry("a", 4, Clock("a", [], ns=1000))], shortest_s=1e-3)["a"]
     assert found.loops * found.takes == 1000
     assert found.samples_ns == [250.0] * 3
     assert found.median_ns == 250.0
 
 
-def test_slow_work_is_done_once_a_sample():
+def test_a_sample_of_slow_work_has_one_loop():
     clock = Clock("a", [], ns=10**8)
     found = measured([TimingEntry("a", 1, clock)], shortest_s=1e-3)["a"]
     assert (found.loops, found.takes) == (1, 1)
@@ -57,7 +57,7 @@ def test_a_sample_is_the_fastest_of_its_takes_so_that_an_interruption_does_not_c
     assert measured([entry])["a"].samples_ns == [1000.0] * 3
 
 
-def test_a_clock_that_stands_still_does_not_hang():
+def test_timing_work_of_no_measurable_time_ends_at_the_largest_number_of_loops():
     assert measured([TimingEntry("a", 1, Clock("a", [], ns=0))])["a"].loops == MOST_LOOPS
 
 
@@ -76,13 +76,13 @@ def test_method_with_other_answers_during_timing_is_refused_and_asked_no_more():
     assert order.count("b") == 3
 
 
-def test_a_first_answer_that_is_not_the_expected_one_is_refused():
+def test_a_method_whose_first_answers_are_not_the_expected_ones_is_refused():
     found = measured([TimingEntry("a", 1, Clock("a", [], checksums=[6]), 7, 1)])["a"]
     assert found.refused is not None
     assert found.samples_ns == []
 
 
-def test_work_in_this_process_is_repeated_and_summed_once():
+def test_clocked_repeats_the_work_and_sums_its_answers_once():
     done = []
 
     def work():
@@ -94,12 +94,12 @@ def test_work_in_this_process_is_repeated_and_summed_once():
     assert (len(done), checksum) == (5, 2)
 
 
-def test_a_sum_beyond_int8_is_right():
+def test_clocked_sums_int8_answers_beyond_the_range_of_int8():
     assert clocked(lambda: np.ones(1000, dtype=np.int8))(1)[1] == 1000
 
 
 @pytest.mark.parametrize("enabled", [True, False])
-def test_garbage_collection_is_off_in_a_round_and_as_before_after_it(enabled):
+def test_a_round_of_timing_switches_garbage_collection_off_and_restores_it(enabled):
     seen = []
 
     def work(repeat):

@@ -44,7 +44,7 @@ def small(tmp_path_factory):
     return ended(tmp_path_factory.mktemp("bench"), *METHODS, "--workloads", "uniform,ring")
 
 
-def test_quick_run_ends_with_0_and_every_line_fits_the_schema(small):
+def test_a_quick_bench_ends_with_0_and_every_line_fits_the_schema(small):
     code, record = small
     assert code == 0
     for line in record.lines:
@@ -54,7 +54,7 @@ def test_quick_run_ends_with_0_and_every_line_fits_the_schema(small):
     assert record.header.options["reference"] == REFERENCE
 
 
-def test_chosen_methods_are_compared_with_the_reference(small):
+def test_bench_adds_the_reference_to_the_chosen_methods(small):
     _, record = small
     assert [line.method for line in record.of(MethodLine)] == [
         REFERENCE,
@@ -65,7 +65,7 @@ def test_chosen_methods_are_compared_with_the_reference(small):
     assert [line.workload for line in record.of(WorkloadLine)] == ["uniform", "ring"]
 
 
-def test_every_method_is_judged_on_every_workload(small):
+def test_bench_judges_every_chosen_method_on_every_chosen_workload(small):
     _, record = small
     judged = {(line.method, line.workload): line for line in record.of(AccuracyLine)}
     assert len(judged) == 8
@@ -74,7 +74,7 @@ def test_every_method_is_judged_on_every_workload(small):
     assert judged["table-2-float16", "uniform"].reliable_above > judged[REFERENCE, "uniform"].reliable_above
 
 
-def test_methods_are_timed_in_every_process_and_round(small):
+def test_bench_times_each_method_in_every_process_and_round(small):
     _, record = small
     timed = {(line.method, line.workload, line.mode): line for line in record.of(SpeedLine)}
     assert {key[1] for key in timed} == {"uniform"}
@@ -93,7 +93,7 @@ def test_a_call_of_numpy_for_one_row_costs_more_than_a_row_in_a_batch(small):
     assert timed[REFERENCE, "single"] > 5 * timed[REFERENCE, "batch"]
 
 
-def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
+def test_bench_records_the_noise_of_each_workload_before_its_speeds(small):
     _, record = small
     kinds = [line.type for line in record.lines if line.type in ("noise", "speed")]
     assert kinds[:2] == ["noise", "noise"]
@@ -114,13 +114,13 @@ def test_the_noise_of_each_workload_and_mode_is_known_before_its_speeds(small):
         (["--kernel", "--methods", "fast-c"], "--kernel measures the fast path and nothing else"),
     ],
 )
-def test_unknown_choice_is_refused_and_nothing_is_written(tmp_path, options, message):
+def test_bench_refuses_an_unknown_method_or_workload_and_writes_nothing(tmp_path, options, message):
     with pytest.raises(InputError, match=message):
         ended(tmp_path, *options)
     assert not list(tmp_path.glob("record*"))
 
 
-def test_first_reason_in_the_order_of_exit_codes_ends_the_run():
+def test_bench_ends_with_the_exit_code_of_highest_precedence():
     outcome = RunOutcome()
     for code in (4, 3, 1, 5, 6):
         outcome.because[Exit(code)].append("a reason")

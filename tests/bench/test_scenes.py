@@ -52,7 +52,7 @@ def small(monkeypatch):
     monkeypatch.setattr(scene_kernel, "ROWS", 4096)
 
 
-def test_step_of_a_walker_is_recorded_for_each_forest(small, tmp_path):
+def test_bench_forest_records_the_time_of_a_step_in_each_forest(small, tmp_path):
     code, record, report = ended(tmp_path, "--forest")
     assert code == 0
     lines = record.of(ForestLine)
@@ -67,7 +67,7 @@ def test_step_of_a_walker_is_recorded_for_each_forest(small, tmp_path):
         assert {line.method for line in lines} == set(contenders.WALKERS)
 
 
-def test_only_a_whole_run_measures_scenes_and_forests_unasked():
+def test_bench_without_choices_measures_scenes_and_forests_too():
     whole = BenchPlan()
     assert whole.whole
     assert contenders.sizes(whole)[-1] == contenders.MOST < contenders.sizes(BenchPlan(forest=True))[-1]
@@ -75,7 +75,7 @@ def test_only_a_whole_run_measures_scenes_and_forests_unasked():
     assert not any(BenchPlan(**each).whole for each in chosen)
 
 
-def test_a_way_through_the_forest_touches_trees_and_is_judged_without_the_grid():
+def test_the_walk_of_bench_forest_touches_trees_and_its_truth_needs_no_grid():
     forest = contenders.forest_of(300, 5)
     scene = Scene(forest.model)
     way = contenders.walk(scene, forest, 400, 5)
@@ -87,7 +87,7 @@ def test_a_way_through_the_forest_touches_trees_and_is_judged_without_the_grid()
 
 @pytest.mark.skipif(FCL.trouble() is not None, reason="there is no FCL")
 @pytest.mark.parametrize("name", [name for name in contenders.WALKERS if name != contenders.OURS])
-def test_fcl_is_asked_the_same_question(name):
+def test_fcl_in_bench_forest_answers_as_the_truth_away_from_contact(name):
     """Away from contact a mesh and a cylinder answer as the truth does."""
     forest = contenders.forest_of(50, 2)
     clear = contenders.WALKERS[name].make(forest)
@@ -100,7 +100,7 @@ def test_fcl_is_asked_the_same_question(name):
     assert len(wrong) <= 5
 
 
-def test_an_exact_walker_that_errs_fails_the_run(small, tmp_path, monkeypatch):
+def test_bench_forest_ends_with_1_if_an_exact_method_is_wrong(small, tmp_path, monkeypatch):
     walkers = {contenders.OURS: contenders.Walker("says clear everywhere", None, lambda _forest: lambda _x, _y, _z: 1)}
     monkeypatch.setattr(contenders, "WALKERS", walkers)
     code, record, report = ended(tmp_path, "--forest")
@@ -110,7 +110,7 @@ def test_an_exact_walker_that_errs_fails_the_run(small, tmp_path, monkeypatch):
 
 
 @COMPILER
-def test_a_scene_s_kernel_is_timed_beside_what_leaves_nothing_out(small, tmp_path):
+def test_bench_scene_times_the_emitted_kernel_beside_the_full_formulas(small, tmp_path):
     code, record, report = ended(tmp_path, "--scene", "tower")
     (line,) = record.of(SceneLine)
     assert code == 0
@@ -124,14 +124,14 @@ def test_a_scene_s_kernel_is_timed_beside_what_leaves_nothing_out(small, tmp_pat
     assert "What scenes leave out" in report
 
 
-def test_shares_of_a_scene_are_the_mean_of_its_pairs():
+def test_stage_shares_of_a_scene_are_the_mean_over_its_pairs():
     found = scene_kernel.stage_shares(plan_of(PLAIN).settings)
     assert found == {"always": 0.0, "thresholds": 1.0, "lines": 0.0, "discriminant": 0.0, "search": 0.0}
     assert sum(scene_kernel.stage_shares(plan_of(HILLS).settings).values()) == pytest.approx(1)
 
 
 @COMPILER
-def test_a_kernel_that_answers_wrongly_fails_the_run(small, tmp_path, monkeypatch):
+def test_bench_scene_ends_with_1_if_the_emitted_kernel_is_wrong(small, tmp_path, monkeypatch):
     right = scene_kernel.emitted
 
     def spoilt(plan, language, command):
@@ -159,17 +159,17 @@ def test_kernel_forest_and_scene_options_exclude_other_choices(options, sentence
         BenchPlan(**options)
 
 
-def test_an_upright_scene_goes_with_no_other_choice(tmp_path):
+def test_bench_scene_with_an_upright_scene_refuses_a_choice_of_methods(tmp_path):
     with pytest.raises(InputError, match="--scene measures scenes and nothing else"):
         ended(tmp_path, "--scene", "tower", "--methods", "fast")
 
 
-def test_a_scene_that_is_none_is_refused_before_anything_is_measured():
+def test_bench_scene_refuses_a_missing_scene_file_before_measuring():
     with pytest.raises(InputError, match="there is no such file"):
         scene_kernel.plans_of(("nowhere.toml",))
 
 
-def test_a_scene_that_cannot_be_measured_without_a_compiler_is_no_pass(tmp_path, monkeypatch):
+def test_bench_scene_with_a_broken_compiler_raises_nothing_judged(tmp_path, monkeypatch):
     monkeypatch.setenv("CC", "false")
     with pytest.raises(NothingJudgedError, match=r"no scene was measured: .*false does not compile"):
         ended(tmp_path, "--scene", "tower")

@@ -22,11 +22,11 @@ def coverage(processes, rounds, between, within, median=1.0):
 
 
 @pytest.mark.parametrize("median", [1e-3, 1.0, 250.0])
-def test_interval_contains_the_median_if_only_rounds_differ(median):
+def test_interval_contains_the_median_in_94_of_100_runs_if_only_rounds_differ(median):
     assert coverage(5, 5, 0.0, 0.02, median) >= 0.94
 
 
-def test_interval_contains_the_median_if_processes_differ_as_much_as_rounds():
+def test_interval_contains_the_median_in_90_of_100_runs_if_processes_differ_too():
     assert coverage(5, 5, 0.02, 0.02) >= 0.90
 
 
@@ -34,7 +34,7 @@ def test_interval_of_five_processes_is_too_short_if_only_processes_differ():
     assert 0.75 <= coverage(5, 5, 0.05, 0.001) <= 0.96
 
 
-def test_rounds_of_one_process_do_not_pass_for_as_many_processes():
+def test_interval_does_not_count_the_rounds_of_one_process_as_separate_processes():
     """Levels differ by 5 %, rounds by nothing: an interval from the 25 numbers as such would be far too narrow."""
     levels = [1.0, 1.05, 0.95, 1.02, 0.97]
     found = estimate([[level] * 5 for level in levels])
@@ -67,11 +67,11 @@ def test_a_single_sample_is_its_own_interval():
         estimate([[], []])
 
 
-def test_ratios_pair_the_rounds():
+def test_ratios_divide_the_samples_of_the_same_round():
     assert ratios([[2.0, 6.0], [8.0]], [[1.0, 2.0], [4.0]]) == [[2.0, 3.0], [2.0]]
 
 
-def test_a_slow_moment_of_the_machine_does_not_show_in_ratios():
+def test_a_round_in_which_the_whole_machine_is_slow_does_not_change_ratios():
     """The whole machine is three times slower in one round: both are, so their ratio is not."""
     slow = np.array([[1.0, 3.0, 1.0], [1.0, 1.0, 3.0]])
     found = estimate(ratios((2 * slow).tolist(), slow.tolist()))
@@ -81,5 +81,5 @@ def test_a_slow_moment_of_the_machine_does_not_show_in_ratios():
 @pytest.mark.parametrize(
     ("low", "high", "width"), [(0.98, 1.01, 1 / 0.98 - 1), (0.99, 1.05, 0.05), (1, 1, 0), (0, 1, np.inf)]
 )
-def test_the_half_width_is_the_farther_side_as_a_factor(low, high, width):
+def test_half_width_is_the_distance_to_the_farther_end_of_the_interval(low, high, width):
     assert Estimate(1.0, low, high).half_width == pytest.approx(width)

@@ -50,7 +50,7 @@ def scene(folder, axis, leaning=""):
 
 
 @pytest.mark.parametrize("name", TILTED_WORKLOADS)
-def test_rows_are_valid_and_a_shorter_call_is_the_beginning_of_a_longer_one(name):
+def test_tilted_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(name):
     rows = TILTED_WORKLOADS[name].rows(3, 1500)
     assert rows.shape == (1500, 10)
     assert first_trouble(rows) is None
@@ -60,11 +60,11 @@ def test_rows_are_valid_and_a_shorter_call_is_the_beginning_of_a_longer_one(name
     assert TILTED_WORKLOADS[name].rows(3, 0).shape == (0, 10)
 
 
-def test_only_the_workload_of_one_axis_is_a_scene():
+def test_of_the_tilted_workloads_only_one_axis_is_a_single_scene():
     assert [name for name, each in TILTED_WORKLOADS.items() if scene_of(each.rows(1, 100)) is not None] == ["one-axis"]
 
 
-def test_near_contact_has_all_positions_at_distances_from_1e_17_to_half():
+def test_tilted_near_contact_workload_has_all_positions_at_distances_from_1e_16_to_1e_2():
     rows = TILTED_WORKLOADS["near-contact"].rows(1, 150)
     assert set(batch.positions(rows).tolist()) == {-1, 0, 1}
     exponents = judge.flip_exponents(rows)
@@ -72,7 +72,7 @@ def test_near_contact_has_all_positions_at_distances_from_1e_17_to_half():
     assert exponents.max() > -7
 
 
-def test_an_estimated_distance_lies_between_the_proved_ends_of_it_or_near_them():
+def test_estimated_distance_of_a_tilted_row_is_within_twice_its_proved_interval():
     rows = TILTED_WORKLOADS["near-contact"].rows(2, 12)
     clear = hypcheck.classify(rows) != 0
     assert clear.sum() > 3
@@ -81,7 +81,7 @@ def test_an_estimated_distance_lies_between_the_proved_ends_of_it_or_near_them()
         assert low / 2 <= judge.about_error_of(row, 0, "position") <= 2 * high
 
 
-def test_a_scene_of_one_axis_is_asked_by_scene_and_others_by_rows():
+def test_rows_with_one_axis_are_asked_by_scene_and_rows_with_several_by_rows():
     asked = []
 
     def function(rows):
@@ -104,7 +104,7 @@ def small(tmp_path_factory):
     return ended(tmp_path_factory.mktemp("tilted"), "--tilted", "--methods", methods)
 
 
-def test_a_run_compares_error_and_time_with_the_reference_for_leaning_spheroids(small):
+def test_bench_tilted_compares_errors_and_times_with_the_reference(small):
     code, record = small
     assert code == 0
     assert record.header.options["reference"] == TILTED_REFERENCE
@@ -122,14 +122,14 @@ def test_a_run_compares_error_and_time_with_the_reference_for_leaning_spheroids(
     assert not record.of(BoundingLine)
 
 
-def test_the_report_shows_the_methods_for_leaning_spheroids(small):
+def test_the_report_of_bench_tilted_names_its_workload_and_reference(small):
     text = markdown.render(small[1]).decode()
     assert "leaning one way around the tower" in text
     assert "The reference, of ratio 1, is `eigh`." in text
 
 
 @pytest.mark.parametrize("axis", ["[0.3, 0.1, 1.0]", '"free"'])
-def test_a_scene_whose_mover_leans_is_asked_with_its_axis_in_its_region_and_near_contact(tmp_path, axis):
+def test_bench_scene_with_a_leaning_mover_asks_rows_in_its_region_and_near_contact(tmp_path, axis):
     name = scene(tmp_path, axis)
     for each in scene_workloads(name).values():
         rows = each.rows(1, 200)
@@ -142,7 +142,7 @@ def test_a_scene_whose_mover_leans_is_asked_with_its_axis_in_its_region_and_near
     assert all(not line.wrong for line in record.of(AccuracyLine) if line.method in ("fast-numpy", "exact-oracle"))
 
 
-def test_a_scene_with_a_leaning_hyperboloid_is_refused(tmp_path):
+def test_bench_refuses_a_scene_with_a_leaning_hyperboloid(tmp_path):
     name = scene(tmp_path, '"free"', "axis = [0.1, 0.0, 1.0]")
     with pytest.raises(InputError, match="the hyperboloid 'tower' leans"):
         ended(tmp_path, "--scene", name)
@@ -157,17 +157,17 @@ def test_a_scene_with_a_leaning_hyperboloid_is_refused(tmp_path):
         (("--tilted", "--methods", "fast-c"), "there is no method 'fast-c'"),
     ],
 )
-def test_a_choice_that_tilted_does_not_have_is_refused(tmp_path, options, message):
+def test_bench_tilted_refuses_methods_and_workloads_that_it_does_not_have(tmp_path, options, message):
     with pytest.raises(InputError, match=message):
         ended(tmp_path, *options)
 
 
-def test_a_leaning_scene_is_measured_alone(tmp_path):
+def test_bench_refuses_a_leaning_scene_together_with_another_scene(tmp_path):
     with pytest.raises(InputError, match="leans; measure that scene alone"):
         ended(tmp_path, "--scene", scene(tmp_path, '"free"'), "--scene", "tower")
 
 
-def test_a_spec_takes_part_if_its_description_says_tilt():
+def test_bench_tilted_takes_a_spec_only_if_its_description_says_tilt():
     limits = replace(Limits(), **QUICK) if isinstance(QUICK, dict) else Limits()
     found = foreign.foreign_method(command("tilted", "binary"), limits, [], tilted=True)
     plan = BenchPlan(tilted=True, foreign=(found,))
@@ -176,7 +176,7 @@ def test_a_spec_takes_part_if_its_description_says_tilt():
         foreign.foreign_method(command("right", "binary"), limits, [], tilted=True)
 
 
-def test_coal_is_named_with_the_reason_where_it_is_not_installed(tmp_path):
+def test_bench_tilted_records_that_coal_is_missing_where_it_is_not_installed(tmp_path):
     if COAL.trouble() is None:
         pytest.skip("coal is installed")
     _, record = ended(tmp_path, "--tilted", "--methods", "coal-*", "--workloads", "one-axis")

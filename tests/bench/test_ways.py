@@ -33,7 +33,7 @@ from tests.tools.miniatures import command
 
 
 @pytest.mark.parametrize("name", WAY_WORKLOADS)
-def test_rows_are_valid_ways_and_a_shorter_call_is_the_beginning_of_a_longer_one(name):
+def test_way_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(name):
     rows = WAY_WORKLOADS[name].rows(3, 300)
     assert rows.shape == (300, 10)
     assert first_trouble(rows, layout=WAYS) is None
@@ -49,7 +49,7 @@ def test_the_frozen_ways_come_from_all_families_of_upright_spheroids_in_turn():
     assert len(np.unique(rows[: 4 * len(upright)], axis=0)) == 4 * len(upright)
 
 
-def test_every_built_in_method_for_ways_is_compared_and_a_quick_run_leaves_out_the_two_slowest():
+def test_bench_compares_all_built_in_methods_for_ways_but_two_in_a_quick_run():
     every = {*passage_methods(), *WAY_SOLVERS}
     found = contenders(BenchPlan(question=PASSAGE))
     assert set(found) == every
@@ -58,7 +58,7 @@ def test_every_built_in_method_for_ways_is_compared_and_a_quick_run_leaves_out_t
     assert every - set(quick) == {"passage-advancement", "passage-capsule"}
 
 
-def test_the_truth_of_a_way_is_exact_and_its_distance_near_its_size_error():
+def test_the_distance_of_a_judged_way_is_near_its_size_error():
     plan = BenchPlan(question=PASSAGE, workloads=("grazing",), amounts=replace(QUICK, judged=144))
     (truth,) = workload_truths(plan, None)
     assert isinstance(truth, WorkloadTruth)
@@ -79,7 +79,7 @@ def small(tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_a_run_counts_missed_and_false_contacts_and_times_ways(small):
+def test_bench_of_ways_counts_missed_and_false_contacts_and_records_times(small):
     code, record = small
     assert code == 0
     for line in record.lines:
@@ -102,7 +102,7 @@ def test_a_run_counts_missed_and_false_contacts_and_times_ways(small):
     assert not record.of(PlacesLine)
 
 
-def test_the_totals_of_a_run_are_those_of_its_lines(small):
+def test_way_totals_are_the_sums_over_the_lines_of_the_record(small):
     _, record = small
     jumping = next(each for each in way_totals(record) if each.name == "passage-sampled-4")
     lines = [line for line in record.of(AccuracyLine) if line.method == jumping.name]
@@ -112,7 +112,7 @@ def test_the_totals_of_a_run_are_those_of_its_lines(small):
     assert 0 < jumping.ratio < 1
 
 
-def test_the_reports_of_a_run_show_missed_and_false_contacts_and_no_advice_about_positions(small):
+def test_reports_of_ways_show_missed_and_false_contacts_and_no_advice_about_positions(small):
     _, record = small
     text = markdown.render(record).decode()
     assert "## Missed and false contacts against time" in text
@@ -132,12 +132,12 @@ def test_the_reports_of_a_run_show_missed_and_false_contacts_and_no_advice_about
         (("--methods", "fast-c"), "there is no method 'fast-c'"),
     ],
 )
-def test_a_choice_that_ways_do_not_have_is_refused(tmp_path, options, message):
+def test_bench_of_ways_refuses_methods_and_workloads_that_ways_do_not_have(tmp_path, options, message):
     with pytest.raises(InputError, match=message):
         ended(tmp_path, "--question", "passage", *options)
 
 
-def test_a_spec_takes_part_where_its_question_is_that_of_the_run():
+def test_bench_takes_a_spec_only_if_it_answers_the_question_of_the_run():
     found = foreign.foreign_method(command("passage", "binary"), Limits(), [], layout=WAYS)
     assert found.name in contenders(BenchPlan(question=PASSAGE, foreign=(found,)))
     with pytest.raises(InputError, match="answers the question passage; it is measured with --question passage"):

@@ -13,7 +13,7 @@ from hypcheck.truth.nearest import clearances
 
 
 @pytest.mark.parametrize("name", WORKLOADS)
-def test_rows_are_valid_and_a_shorter_call_is_the_beginning_of_a_longer_one(name):
+def test_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(name):
     rows = WORKLOADS[name].rows(3, 1500)
     assert rows.shape == (1500, 7)
     assert first_trouble(rows) is None
@@ -23,12 +23,12 @@ def test_rows_are_valid_and_a_shorter_call_is_the_beginning_of_a_longer_one(name
 
 
 @pytest.mark.parametrize("name", ["uniform", "flight"])
-def test_two_workloads_are_about_one_scene(name):
+def test_uniform_and_flight_workloads_have_one_scene_and_near_contact_several(name):
     assert scene_of(WORKLOADS[name].rows(1, 200)) == (2.0, 17.8, 0.25, 0.15)
     assert scene_of(WORKLOADS["near-contact"].rows(1, 200)) is None
 
 
-def test_near_contact_takes_its_scenes_in_turn_and_is_on_both_sides_of_contact():
+def test_near_contact_workload_alternates_its_scenes_and_has_every_position():
     rows = WORKLOADS["near-contact"].rows(1, 1200)
     positions = float_filter.positions(rows)
     for place, scene in enumerate(NEAR_SCENES):
@@ -37,7 +37,7 @@ def test_near_contact_takes_its_scenes_in_turn_and_is_on_both_sides_of_contact()
     assert np.count_nonzero(positions == -1) > 150
 
 
-def test_near_contact_reaches_from_half_a_radius_to_less_than_a_unit_of_float64():
+def test_near_contact_workload_has_distances_of_every_decade_down_to_1e_15():
     rows = WORKLOADS["near-contact"].rows(1, 1200)
     gaps = np.abs(clearances(rows).clearance)
     decades = np.floor(np.log10(gaps[gaps > 0])).astype(int)
@@ -46,6 +46,6 @@ def test_near_contact_reaches_from_half_a_radius_to_less_than_a_unit_of_float64(
     assert np.count_nonzero(octaves < -53) > 50
 
 
-def test_half_of_the_ring_is_clear_with_a_vanishing_discriminant():
+def test_every_second_row_of_the_ring_workload_is_clear_with_a_zero_discriminant():
     rows = WORKLOADS["ring"].rows(1, 400)
     assert (float_filter.positions(rows[::2]) == 1).all()
