@@ -31,7 +31,15 @@ GUESSES = {
     "hc_touches",
     "hc_way_multiplier",
 }
-OF_THE_MACHINE = {"hc_best_level", "hc_level", "hypcheck_level", "hypcheck_use_level", "hc_lowest_bit", "hc_spread"}
+OF_THE_MACHINE = {
+    "hc_best_level",
+    "hc_level",
+    "hc_level_of",
+    "hypcheck_level",
+    "hypcheck_use_level",
+    "hc_lowest_bit",
+    "hc_spread",
+}
 _OTHERS = "BLOCK STRIP LIMB_BITS WIDTH LEVEL PRECISE FLOATS_DECIDE X86 NEON AHEAD FAR_FROM LINES_FROM PLANES_FROM guess"
 _SIZES = rf"HC_(?:{_OTHERS.replace(' ', '|')}|\w*TURNS|\w*LIMBS|TOO_MANY_\w+|\w*settled)"
 """Constants that sizes of arrays are made of, or that choose a shortcut alone."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from tests.tools.evidence.parts import Figures
 
 AT_LEAST: dict[str, dict[str, float]] = {
+    "kernel-mutants": {"mutants": 1290},
+    "constants": {"mutants": 40},
     "fuzz": {"short.executions": 100},
     "python-coverage": {"percent": 89},
     "python-mutants": {"mutants": 600, "percent killed": 72},
@@ -18,6 +20,7 @@ AT_MOST: dict[str, dict[str, float]] = {
     "faults": {"wrong": 0},
     "coverage": {"count": 0},
     "emitted": {"count": 231},
+    "kernel-mutants": {"count": 142},
     "constants": {"lives": 0},
 }
 """By part and figure: survivors, findings."""
