@@ -44,7 +44,9 @@ def test_the_erratum_compiles_to_three_pages_at_most(note, tmp_path):
     assert pages <= 3
 
 
-def test_without_latex_derive_writes_the_source_and_says_that_it_is_not_compiled(capsys, monkeypatch, tmp_path):
+def test_derive_without_pdflatex_writes_the_latex_source_and_says_that_it_is_not_compiled(
+    capsys, monkeypatch, tmp_path
+):
     monkeypatch.setattr(erratum.shutil, "which", lambda _: None)
     target = tmp_path / "note.tex"
     assert main(["derive", "--format", "erratum", "--output", str(target)]) == Exit.HELD
@@ -53,7 +55,7 @@ def test_without_latex_derive_writes_the_source_and_says_that_it_is_not_compiled
 
 
 @pytest.mark.parametrize("more", [("--claim", "12"), ("--only", "costs")])
-def test_an_erratum_takes_no_part_and_no_claim(capsys, more):
+def test_derive_erratum_refuses_claim_and_only(capsys, more):
     assert main(["derive", "--format", "erratum", *more]) == Exit.USAGE
     assert "takes neither --claim nor --only" in capsys.readouterr().err
 

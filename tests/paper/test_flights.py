@@ -43,7 +43,7 @@ def scalar(scene, step, moves, draw, lane):
 
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("step", [0.5, 3.0])
-def test_a_flight_of_a_block_is_the_one_flown_alone_from_its_words(name, step):
+def test_flights_simulated_in_a_block_equal_flights_simulated_one_by_one(name, step):
     scene, lanes, moves = SCENES[name], 6, 40
     ends = np.zeros((3, lanes))
 
@@ -63,7 +63,7 @@ def test_a_flight_of_a_block_is_the_one_flown_alone_from_its_words(name, step):
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", SCENES)
-def test_the_mean_agrees_with_that_of_scalar_flights_with_other_random_numbers(name):
+def test_mean_share_of_touching_positions_agrees_with_scalar_flights_with_other_random_numbers(name):
     """Executions with Δ ≤ 0 in percent, within 4 standard errors of the difference."""
     scene, step, moves, dice = SCENES[name], 1.0, 20, random.Random(5)  # noqa: S311 - dice, not secrets
     craft = Quadcopter(scene)
@@ -83,7 +83,7 @@ def test_the_mean_agrees_with_that_of_scalar_flights_with_other_random_numbers(n
     assert error < 2  # or the test could not fail
 
 
-def test_a_flight_does_not_depend_on_how_many_there_are():
+def test_result_of_a_flight_does_not_depend_on_the_number_of_flights():
     scene = SCENES["tower"]
     few, many = (fly(craft_of(scene), scene.flight, 1.5, 15, Draw("few"), lanes) for lanes in (7, LANES))
     for name, values in asdict(few).items():
@@ -97,7 +97,7 @@ def test_a_flight_that_cannot_move_is_reported_as_stuck():
         fly(craft_of(scene), replace(still, start=replace(still.start, z=Span(0.0, 0.0))), 9.0, 1, Draw("s"), 1)
 
 
-def test_a_vertical_draw_beyond_the_height_is_drawn_again():
+def test_vertical_move_beyond_the_tower_height_is_drawn_again():
     scene = SCENES["tower"]
     seen = []
     fly(craft_of(scene), scene.flight, 3.0, 30, Draw("h"), 50, seen.append)

@@ -18,7 +18,7 @@ from hypcheck.vectors.draw import Draw
 SCENES = {name: read_scene(name) for name in ("tower", "tower-simplest")}
 
 
-def test_rotors_are_where_equation_15_has_them():
+def test_rotor_centres_match_equation_15_of_the_paper():
     for scene in SCENES.values():
         craft, heading = craft_of(scene), 0.3
         x, y, z = craft.rotors(
@@ -33,7 +33,7 @@ def test_rotors_are_where_equation_15_has_them():
             assert z[rotor] == 3.0
 
 
-def test_procedure_2b_answers_as_exact_positions_do():
+def test_procedure_2b_agrees_with_exact_positions():
     for scene in SCENES.values():
         craft, draw = craft_of(scene), Draw("craft")
         at = (draw.between(4000, -2.2, 2.2), draw.between(4000, -2.2, 2.2), draw.between(4000, -17, 17))
@@ -55,7 +55,7 @@ def test_procedure_2b_answers_as_exact_positions_do():
         ({"b": 1e-7}, "a simulation takes lengths from 1e-06 to 1e\\+06"),
     ],
 )
-def test_scenes_that_the_procedures_are_not_about_are_refused(change, message):
+def test_flight_simulation_refuses_scenes_outside_the_scope_of_the_procedures(change, message):
     scene = SCENES["tower"]
     mover = scene.mover
     if change.get("parts") == ():
@@ -70,13 +70,13 @@ def test_scenes_that_the_procedures_are_not_about_are_refused(change, message):
         craft_of(replace(scene, mover=mover))
 
 
-def test_two_towers_are_refused():
+def test_flight_simulation_refuses_a_scene_with_two_towers():
     scene = SCENES["tower"]
     with pytest.raises(InputError, match="has 2 hyperboloids; it must have one, the tower"):
         craft_of(replace(scene, hyperboloids=scene.hyperboloids * 2))
 
 
-def test_any_angle_gives_cosine_and_sine():
+def test_any_angle_returns_the_cosine_and_sine_of_degrees():
     degrees = np.linspace(-360, 360, 20001)
     cosine, sine = any_angle(degrees)
     assert abs(cosine - np.cos(np.radians(degrees))).max() < 1e-15
@@ -85,14 +85,14 @@ def test_any_angle_gives_cosine_and_sine():
     assert any_angle(np.array([0.0, 90, 180, -90]))[1].tolist() == [0, 1, 0, -1]
 
 
-def test_a_small_angle_is_within_an_ulp():
+def test_small_angle_returns_cosine_and_sine_within_1_5_ulp():
     angles = np.linspace(-EIGHTH, EIGHTH, 2001)
     for mine, exact in zip(small_angle(angles), (math.cos, math.sin), strict=True):
         expected = np.array([exact(angle) for angle in angles])
         assert (abs(mine - expected) <= 1.5 * np.spacing(abs(expected))).all()
 
 
-def test_turns_add_up_and_keep_their_length():
+def test_repeated_rotations_add_up_and_keep_the_direction_a_unit_vector():
     start, quarter = small_angle(np.array([0.1, -0.7])), quarter_turns(np.ones(2), np.zeros(2), np.array([1, 3]))
     direction = start
     for _ in range(4):
@@ -119,7 +119,7 @@ def test_turns_add_up_and_keep_their_length():
         (lambda tower: {"flight": replace(tower.flight, start=Start(Span(0.0, 1.0), 1e20))}, "start is at 1e\\+20"),
     ],
 )
-def test_places_whose_squares_would_overflow_are_refused(changed, message):
+def test_flight_simulation_refuses_places_whose_squares_overflow(changed, message):
     tower = SCENES["tower"]
     with pytest.raises(InputError, match=message):
         craft_of(replace(tower, **changed(tower)))

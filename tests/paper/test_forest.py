@@ -38,7 +38,7 @@ def near(tree, z=0.0):
     return np.stack([x + draw.between(40, -reach, reach), y + draw.between(40, -reach, reach), np.full(40, z)], axis=1)
 
 
-def test_positions_are_exact_wherever_the_centres_are():
+def test_exterior_tests_of_trees_are_exact_for_any_tree_centre():
     for tree in (0, 8, 17):
         at = near(tree, 0.1)
         found = TREES.exterior(at)
@@ -70,7 +70,7 @@ def test_table_2_with_its_constants_taken_out_answers_as_table_2_does(precision)
         assert found[:, tree].tolist() == (expected == 1).tolist()
 
 
-def test_a_step_is_refused_by_the_edge_or_by_table_2_in_float32():
+def test_walk_refuses_a_step_only_at_the_region_edge_or_where_table_2_in_float32_says_contact():
     steps = walk(TREES, FOREST.walk, FOREST.region, 400, 3)
     assert steps.refused.any()
     assert steps.edge.any()
@@ -84,7 +84,7 @@ def test_a_step_is_refused_by_the_edge_or_by_table_2_in_float32():
     assert np.allclose(np.linalg.norm(steps.end - steps.start, axis=1), 0.25)
 
 
-def test_the_walker_turns_as_the_scene_says():
+def test_walker_turns_by_the_angles_that_the_scene_sets():
     steps = walk(TREES, FOREST.walk, FOREST.region, 400, 3)
     way = steps.end - steps.start
     heading = np.degrees(np.unwrap(np.arctan2(way[:, 1], way[:, 0])))
@@ -95,14 +95,14 @@ def test_the_walker_turns_as_the_scene_says():
     assert (turns[stopped] < 0).any()
 
 
-def test_the_walker_leaves_every_pocket():
+def test_walker_is_never_stuck_for_100_steps():
     """Turned by nothing but 60 degrees she would try the same six ways again and again; seed 1 met such a place."""
     made = np.flatnonzero(walk(TREES, FOREST.walk, FOREST.region, 5000, 1).made)
     assert np.diff(made).max() < 100
     assert made[-1] > 4900
 
 
-def test_made_and_refused_steps_add_up_to_tried_ones():
+def test_counts_of_made_and_refused_steps_add_up_to_the_tried_steps():
     result = simulated(steps=1000)
     steps, questions = result["steps"], result["questions"]
     assert steps["tried"] == 1000 == steps["made"] + steps["edge"] + steps["contact"] + steps["phantom"]
@@ -115,7 +115,7 @@ def test_made_and_refused_steps_add_up_to_tried_ones():
     assert result["outside_stated_regime"] == []
 
 
-def test_a_phantom_is_contact_with_nothing_on_a_ring():
+def test_phantom_contact_is_reported_only_on_the_ring_of_a_tree_that_is_exterior():
     """Seed 3 meets some; each is on the ring of the tree that stopped her, and a line would have let her pass."""
     result = simulated(steps=4000)
     phantoms = [stop for stop in result["stops"] if stop["kind"] == "phantom"]
@@ -133,7 +133,7 @@ def test_a_phantom_is_contact_with_nothing_on_a_ring():
     assert result["steps"]["wrongly_allowed"] == 0
 
 
-def test_the_wall_is_about_the_place_of_a_phantom():
+def test_wall_map_is_centred_on_a_phantom_contact_and_counts_its_wrong_points():
     wall = simulated(steps=4000)["wall"]
     letters = "".join(wall["lines"])
     assert set(letters) == {"e", "E"}
@@ -142,13 +142,13 @@ def test_the_wall_is_about_the_place_of_a_phantom():
     assert wall["lines"][60][60] == "E"  # the middle is the place itself
 
 
-def test_without_a_phantom_there_is_no_wall():
+def test_result_has_no_wall_map_if_no_phantom_contact_occurred():
     result = simulated(steps=10)
     assert result["steps"]["phantom"] == 0
     assert result["wall"] is None
 
 
-def test_only_a_level_tree_in_the_regime_has_a_ring():
+def test_ring_exists_only_for_a_tree_at_the_walker_height_and_in_the_stated_regime():
     for place, tree in enumerate(FOREST.hyperboloids):
         ring = TREES.ring(place, 0.0)
         assert (ring is None) == (tree.center[2] != 0)
@@ -160,7 +160,7 @@ def test_only_a_level_tree_in_the_regime_has_a_ring():
     assert Trees(wide).outside_regime == ["wide"]
 
 
-def test_beyond_its_height_a_tree_is_not_asked():
+def test_tree_is_not_tested_outside_its_height_span():
     stump = replace(FOREST.hyperboloids[8], height=Span(-0.9, -0.5))
     scene = replace(FOREST, hyperboloids=(*FOREST.hyperboloids[:8], stump, *FOREST.hyperboloids[9:]))
     assert Trees(scene).modelled(np.array([[0.0, 0.0, 0.0]]))[0].tolist() == [place != 8 for place in range(64)]
@@ -172,7 +172,7 @@ def test_beyond_its_height_a_tree_is_not_asked():
     assert len(path) == 9  # straight over it
 
 
-def test_steps_in_contact_are_those_of_each_tree_alone():
+def test_steps_with_contact_equal_those_found_tree_by_tree():
     """In a thicket with long steps, so that some pass through a trunk and end in the open."""
     trunks = tuple(replace(tree, alpha=0.1) for tree in FOREST.hyperboloids[:16])
     scene = replace(
@@ -204,13 +204,13 @@ def test_steps_in_contact_are_those_of_each_tree_alone():
     assert 0 < touching < len(path) - 1
 
 
-def test_the_same_seed_gives_the_same_result():
+def test_forest_simulation_with_the_same_seed_gives_the_same_result():
     assert json.dumps(simulated()) == json.dumps(simulated())
     assert simulated(seed=4)["path"] != simulated()["path"]
     assert simulated(steps=300)["path"][:50] == simulated(steps=60)["path"][:50]
 
 
-def test_without_steps_the_scene_says_how_many():
+def test_number_of_steps_comes_from_the_scene_if_the_plan_has_none():
     scene = replace(FOREST, walk=replace(FOREST.walk, steps=12))
     assert simulate_forest(ForestPlan(scene, 1, None, continuous=False))["steps"]["tried"] == 12
     assert simulated(steps=0)["path"] == [[0.0, 0.0, 0.0]]
@@ -226,7 +226,7 @@ def test_without_steps_the_scene_says_how_many():
         (replace(FOREST, walk=replace(FOREST.walk, start=(0.0, 1e308, 0.0))), 5, "the walk's start is at 1e\\+308"),
     ],
 )
-def test_what_cannot_be_simulated_is_refused(scene, steps, message):
+def test_simulate_forest_refuses_invalid_scenes_and_step_counts(scene, steps, message):
     with pytest.raises(InputError, match=message):
         simulated(scene=scene, steps=steps)
 

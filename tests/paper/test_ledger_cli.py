@@ -24,7 +24,7 @@ def told(capsys, *arguments):
 
 
 @pytest.mark.thorough
-def test_without_options_everything_is_shown_and_holds(capsys):
+def test_derive_without_options_shows_all_parts_and_all_hold(capsys):
     code, output, errors = told(capsys)
     assert code == Exit.HELD
     assert errors == ""
@@ -60,7 +60,7 @@ def test_a_claim_is_found_by_each_of_its_usual_names(claim, numbers):
     assert [entry.number for entry in entries_of(claim)] == numbers
 
 
-def test_every_number_finds_its_own_entry():
+def test_ledger_entry_is_found_by_its_number():
     for entry in entries():
         assert entry in entries_of(entry.number)
 
@@ -82,7 +82,7 @@ def test_derive_refuses_an_unknown_claim_in_one_sentence(capsys, claim, advice):
     assert advice in errors
 
 
-def test_a_claim_and_parts_exclude_each_other(capsys):
+def test_derive_refuses_claim_and_only_together(capsys):
     code, _, errors = told(capsys, "--claim", "12", "--only", "costs")
     assert code == Exit.USAGE
     assert "use one of them" in errors
@@ -108,7 +108,7 @@ def test_derive_leaves_no_file_if_the_claim_does_not_exist(capsys, tmp_path):
 
 
 @pytest.mark.parametrize("form", ["text", "json", "latex", "markdown"])
-def test_a_failing_link_is_shown_and_ends_derive_with_6(capsys, monkeypatch, form):
+def test_failing_step_of_a_proof_is_shown_and_derive_ends_with_6(capsys, monkeypatch, form):
     chain = chains()["Proposition 3, repaired"]
     link = chain.links[0]
     wrong = replace(link.parts[0], relation="<")
@@ -146,7 +146,7 @@ def loaded(code):
     return set(done.stderr.split())
 
 
-def test_help_loads_nothing_heavy():
+def test_derive_help_loads_no_heavy_library():
     assert loaded("from hypcheck.cli.main import main; main(['derive', '--help'])") == set()
 
 

@@ -35,7 +35,7 @@ def written(module, chosen):
 
 
 @pytest.mark.parametrize("chosen", [ALL, CLAIM], ids=["all", "claim"])
-def test_text_fits_into_100_columns_and_says_what_was_checked(chosen):
+def test_derive_text_fits_into_100_columns_and_says_what_was_checked(chosen):
     lines = written(text, chosen)
     assert max(map(columns, lines)) <= WIDTH
     assert not any(line != line.rstrip() for line in lines)
@@ -44,7 +44,7 @@ def test_text_fits_into_100_columns_and_says_what_was_checked(chosen):
     assert sum(line.endswith(" checked") for line in lines) >= parts
 
 
-def test_text_has_every_part_and_every_entry():
+def test_derive_text_has_every_part_and_every_ledger_entry():
     lines = written(text, ALL)
     for part in PARTS:
         assert any(line.startswith(f"{part.upper()}: ") for line in lines)
@@ -61,14 +61,14 @@ def test_a_claim_is_shown_with_its_witness_a_command_and_a_certificate():
     assert "PROPOSITION 5, REPAIRED" not in shown
 
 
-def test_an_equation_is_shown_as_printed():
+def test_derive_text_shows_an_equation_as_the_paper_prints_it():
     shown = " ".join(" ".join(written(text, Selection((), "12"))).split())
     assert "printed g(λ) = λ³ + (a² − c² + 1 − x_c² − y_c²)·λ²" in shown
     assert "lacks − z_c²" in shown
 
 
 @pytest.mark.parametrize("chosen", [ALL, CLAIM], ids=["all", "claim"])
-def test_latex_is_ascii_with_balanced_braces_and_environments(chosen):
+def test_derive_latex_is_ascii_with_balanced_braces_and_environments(chosen):
     document = "\n".join(written(latex, chosen))
     assert document.isascii()
     bare = re.sub(r"\\[{}]", "", document)
@@ -98,7 +98,7 @@ def formulas():
 
 
 @pytest.mark.thorough
-def test_every_formula_can_be_typeset():
+def test_matplotlib_can_typeset_every_ledger_formula():
     parser = MathTextParser("path")
     for each in sorted(formulas()):
         parser.parse(f"${each}$")
@@ -115,7 +115,7 @@ def test_every_formula_can_be_typeset():
         ("cosine − sine", r"\cos g_{i} - \sin g_{i}"),
     ],
 )
-def test_formulas_become_latex(plain, tex):
+def test_plain_formula_is_converted_to_latex(plain, tex):
     assert formula(plain) == tex
 
 
@@ -129,7 +129,7 @@ def test_formulas_become_latex(plain, tex):
         ("Procedure 2.a, i.e. one", "Procedure 2.a, i.e. one"),
     ],
 )
-def test_sentences_become_latex(plain, tex):
+def test_plain_sentence_is_converted_to_latex(plain, tex):
     assert sentence(plain) == tex
 
 
@@ -143,7 +143,7 @@ def test_a_character_without_latex_raises_an_error():
     [ALL, CLAIM, Selection(("costs",)), Selection(("ledger", "derivation"))],
     ids=["all", "claim", "costs", "two"],
 )
-def test_json_fits_its_schema(chosen):
+def test_derive_json_fits_its_schema(chosen):
     document = json.loads("\n".join(written(as_json, chosen)))
     assert violations(document, SCHEMA, closed=True) == []
     assert document["agrees"] is True
@@ -152,17 +152,17 @@ def test_json_fits_its_schema(chosen):
     assert {part for part in PARTS if part in document} == set(parts)
 
 
-def test_json_has_every_count_of_operations():
+def test_schema_of_derive_json_requires_every_count_of_operations():
     assert set(SCHEMA["$defs"]["operations"]["required"]) == {*Operations.__dataclass_fields__, "rounded"}
 
 
-def test_docs_paper_is_what_derive_writes():
+def test_paper_page_in_docs_equals_the_output_of_derive():
     """`make paper` writes it anew."""
     fresh = "\n".join(markdown.lines(Selection(("ledger", "costs")))) + "\n"
     assert PAGE.read_text(encoding="utf-8") == fresh
 
 
-def test_markdown_has_every_part():
+def test_derive_markdown_has_every_part():
     page = "\n".join(written(markdown, ALL))
     for part in PARTS:
         assert f"## {part.capitalize()}: " in page
@@ -179,12 +179,12 @@ def test_derive_writes_each_format_by_its_module(form, module):
     assert done.output.splitlines() == "\n".join(module.lines(chosen)).splitlines()
 
 
-def test_paragraphs_part_no_comparison_from_its_sides():
+def test_line_breaks_never_separate_a_comparison_from_its_sides():
     lines = list(paragraph("word " * 18 + "c1 = 18 and (1, 0, 0) " * 5))
     assert not any(line.endswith((" =", "(1,", "0,")) or line.startswith(("=", "0")) for line in lines)
 
 
-def test_long_formulas_are_broken_before_outer_signs_first():
+def test_long_formulas_are_broken_at_outer_plus_and_minus_signs_first():
     lines = broken("f = (a + b + c)·x + (d − e)·y − z", 20)
     assert lines == ["f = (a + b + c)·x", "+ (d − e)·y − z"]
     assert broken("f = (aaaa + bbbb + cccc)·x", 12) == ["f", "= (aaaa", "+ bbbb", "+ cccc)·x"]

@@ -21,7 +21,7 @@ def evidence():
     return found
 
 
-def test_pitch_row_has_a_dangerous_and_a_needless_witness(evidence):
+def test_ledger_row_about_pitch_has_one_witness_of_a_false_interior_and_one_of_a_false_contact(evidence):
     assert evidence.holds
     dangerous, needless = evidence.leaning
     assert (dangerous.vertical.position, dangerous.certificate.position) == (Position.INTERIOR, Position.CONTACT)
@@ -32,28 +32,28 @@ def test_pitch_row_has_a_dangerous_and_a_needless_witness(evidence):
         assert abs(witness.pair.axis_x) <= witness.pair.axis_z
 
 
-def test_both_positions_are_those_of_independent_arithmetic(evidence):
+def test_upright_and_pitched_positions_of_witnesses_agree_with_independent_arithmetic(evidence):
     for witness in evidence.leaning:
         upright = TiltedPair(*witness.pair.row[:7], 0.0, 0.0, 1.0)
         assert exact_position(witness.pair.row) == witness.certificate.position
         assert exact_position(upright.row) == witness.vertical.position
 
 
-def test_witness_with_a_proof_of_another_position_does_not_hold(evidence):
+def test_pitch_witness_with_a_proof_of_another_position_does_not_hold(evidence):
     dangerous, needless = evidence.leaning
     assert not replace(dangerous, certificate=needless.certificate).holds
     assert not replace(dangerous, vertical=needless.vertical).holds
     assert not replace(dangerous, pair=needless.pair).holds
 
 
-def test_search_that_finds_nothing_says_how_many_it_tried(monkeypatch):
+def test_pitch_witness_search_without_a_result_returns_the_number_of_tried_pairs(monkeypatch):
     monkeypatch.setattr(leaning, "LARGEST", 2)
     search = first_change(Position.CONTACT, Position.EXTERIOR, "never")
     assert search.found is None
     assert search.tried > 0
 
 
-def test_each_witness_is_shown_with_a_command_that_asks_about_it(evidence, capsys):
+def test_each_pitch_witness_is_shown_with_a_classify_command_that_gives_its_position(evidence, capsys):
     assert main(["derive", "--claim", "Section 3.2, pitch"]) == 0
     commands = [line.split() for line in capsys.readouterr().out.splitlines() if "hypcheck classify" in line]
     assert len(commands) == len(evidence.leaning)

@@ -42,7 +42,7 @@ def test_the_rotors_of_the_witness_are_inside_and_the_movement_is_refused(number
         assert hypcheck.classify([row]).tolist() == [Position.INTERIOR]
 
 
-def test_the_caption_fails_for_a_low_hyperboloid_and_the_procedure_itself_for_a_tall_one():
+def test_caption_of_table_4_is_wrong_for_a_low_hyperboloid_and_its_procedure_for_a_tall_one():
     low, tall = hull_of("Table 4, caption"), hull_of("Table 4")
     assert say.wide(low)
     assert not say.tall(low)
@@ -64,7 +64,7 @@ def test_rotors_lie_in_the_hull_and_apart_from_each_other():
     assert not Quadcopter(hull, Fraction(1, 4), Fraction(1, 4)).fits
 
 
-def test_the_procedure_is_right_about_ordinary_positions():
+def test_procedure_2b_is_right_about_ordinary_interior_and_contact_positions():
     inside, across = facts(Point(*map(Fraction, (5, 7, 1, 1)))), facts(Point(*map(Fraction, (5, 7, 5, 1))))
     assert inside.position is Position.INTERIOR
     assert across.position is Position.CONTACT
@@ -74,7 +74,7 @@ def test_the_procedure_is_right_about_ordinary_positions():
     assert refused_though_inside(across) is None
 
 
-def test_no_rotor_is_farther_from_the_axis_than_the_farthest():
+def test_every_rotor_is_at_most_as_far_from_the_axis_as_the_farthest_point_of_the_witness():
     hull = hull_of("Table 4, caption")
     for each in quadcopters(hull):
         reach = max(
@@ -84,7 +84,7 @@ def test_no_rotor_is_farther_from_the_axis_than_the_farthest():
         assert reach <= float(each.farthest.r * each.size) + 1e-15
 
 
-def test_the_programs_err_at_the_witnesses_and_not_beside_them():
+def test_built_in_procedure_1_and_table_2_are_wrong_at_the_ring_witness_and_right_beside_it():
     ring = ledger()["Table 1"].evidence[0].witnesses[0].facts
     for name in ("procedure-1", "table-2"):
         assert program_says(name, ring) == 0

@@ -52,7 +52,7 @@ def cubic(each):
     return sympy.Poly((A + at) * (B - at) * (P + Q - 1 - at) - A * P * (B - at) - B * Q * (A + at), LAMBDA), A, B
 
 
-def test_facts_are_those_of_the_cubic():
+def test_facts_of_a_point_equal_coefficients_slopes_and_roots_of_the_cubic_by_sympy():
     for each in sample()[::3]:
         g, A, B = cubic(each)
         _, c2, c1, c0 = g.all_coeffs()
@@ -62,7 +62,7 @@ def test_facts_are_those_of_the_cubic():
         assert each.negative_roots == sum(bool(zero < 0) for zero in sympy.real_roots(g))
 
 
-def test_the_patterns_of_roots_tell_the_position():
+def test_pattern_of_roots_determines_the_position():
     """The table that the case splits of the propositions go through, against roots counted by Sturm's theorem."""
     assert {pattern_of(each) for each in sample()} == set(PATTERNS)
     for each in sample():
@@ -84,19 +84,19 @@ def pattern_of(each):
     return found
 
 
-def test_positions_are_those_of_the_other_oracles():
+def test_positions_of_search_points_agree_with_the_roots_oracle_and_exact_arithmetic():
     for each in sample():
         assert classify_by_roots(each.point.pair).position is each.position
         assert exact_position(each.point.pair.row) == each.position
 
 
-def test_every_point_of_the_space_is_exact_in_float64():
+def test_every_point_of_the_search_space_is_exact_in_float64():
     for each in sample():
         alpha, gamma, b, d, x, y, z = map(Fraction, each.point.pair.row)
         assert (alpha / b, gamma / d, x / b, z / d, y) == (each.point.a, each.point.c, each.point.r, each.point.z, 0)
 
 
-def test_the_space_is_ordered_and_has_no_point_twice():
+def test_search_space_is_ordered_by_cost_without_duplicate_points():
     costs = [point.cost for point in space()]
     assert costs == sorted(set(costs))
     assert len(costs) > 10_000
@@ -104,7 +104,7 @@ def test_the_space_is_ordered_and_has_no_point_twice():
         assert set(stratum.points()) <= set(space())
 
 
-def test_the_points_of_each_stratum_have_the_property_that_it_names():
+def test_search_points_of_each_stratum_have_the_property_that_its_name_says():
     conditions = {
         "the waist, z = 0": lambda each: each.point.z == 0,
         "the axis, r = 0": lambda each: each.point.r == 0,
@@ -177,14 +177,14 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize("name", MISTAKES)
-def test_the_space_contradicts_every_other_rule_for_all_sizes(name):
+def test_search_space_has_a_counterexample_to_every_known_wrong_rule_for_all_sizes(name):
     """Each condition of the repaired rule is needed, and the space shows it: its silence about the rule counts."""
     search = counterexample(Statement(name, lambda _: True, MISTAKES[name]))
     assert search.found is not None
     assert witness(search.found, name).holds
 
 
-def test_without_its_regime_a_repaired_proposition_is_contradicted():
+def test_repaired_propositions_have_counterexamples_outside_their_regime():
     for statement in (entry.REPAIRED_3, entry.REPAIRED_5):
         found = counterexample(Statement(statement.text, lambda _: True, statement.says)).found
         assert found is not None
@@ -208,7 +208,7 @@ def test_a_witness_with_a_wrong_position_or_certificate_does_not_hold():
     assert not PointWitness(found, Certificate(Position.EXTERIOR, multiplier=Fraction(9)), "").holds
 
 
-def test_numbers_and_roots_are_exact():
+def test_search_numbers_are_all_small_fractions_and_their_square_roots_are_exact_or_none():
     assert numbers(3) == tuple(map(Fraction, ("1", "1/2", "1/3", "2", "2/3", "3", "3/2")))
     assert root(Fraction(9, 4)) == Fraction(3, 2)
     assert root(Fraction(2)) is None

@@ -183,7 +183,7 @@ def test_a_verdict_needs_evidence_unless_nothing_can_be_checked():
 
 
 @pytest.mark.parametrize("number", NUMBERS)
-def test_an_altered_equation_does_not_keep_its_verdict(number):
+def test_altered_equation_of_the_paper_loses_its_verdict(number):
     claims = tuple(claim for claim in printed_claims() if claim.number == number)
     (first, derived), *others = claims[0].pairs
     altered = replace(claims[0], pairs=((first + symbol("x0") ** 2 / 7, derived), *others))
@@ -211,7 +211,7 @@ def test_corrections_of_false_statements_are_the_repaired_ones():
     assert corrections["Section 4, regime"] == "a ≥ 1, where a = α/b"
 
 
-def test_false_statements_alone_say_where_they_are_harmless():
+def test_only_entries_with_the_verdict_false_say_where_the_error_is_harmless():
     for entry in entries():
         assert bool(entry.harmless) == (entry.verdict == FALSE), entry.number
 
@@ -228,14 +228,14 @@ def test_the_printed_proposition_5_is_true_where_b_exceeds_a_plus_1_and_false_wh
 @pytest.mark.parametrize(
     ("case", "clear"), [(propositions.REMARK_4, Position.INTERIOR), (propositions.REMARK_6, Position.EXTERIOR)]
 )
-def test_pairs_with_one_cubic_have_the_positions_that_lengths_near_theirs_have(case, clear):
+def test_irrational_pairs_with_the_same_cubic_have_the_positions_of_their_float64_roundings(case, clear):
     """Their lengths are irrational; the exact position of lengths rounded to float64 is that of the pair itself."""
     for pair, position in zip(case[0], (clear, Position.CONTACT), strict=True):
         a, c, r, z = (math.sqrt(getattr(pair, name)) for name in "ABPQ")
         assert hypcheck.classify([[a, c, 1, 1, r, 0, z]]).tolist() == [position]
 
 
-def test_every_sentence_names_rows_that_exist_or_a_reason_and_every_row_judges_a_sentence():
+def test_every_sentence_of_the_paper_names_ledger_rows_or_a_reason_and_every_row_has_a_sentence():
     numbers = {entry.number for entry in entries()}
     named = {row for sentence in sentences() for row in sentence.rows}
     assert named == numbers

@@ -61,7 +61,7 @@ def alone(side, sizes, start, end, center, lane):
         (EXTERIOR, (1.0, 0.25, 1.0, 1.0), (9, 9, 1), (0.0, 0.0, 0.0)),  # c² < a
     ],
 )
-def test_many_ways_at_once_are_decided_as_each_alone(side, sizes, reach, center):
+def test_ways_decided_in_a_batch_equal_ways_decided_one_by_one(side, sizes, reach, center):
     seen = set()
     for number, (start, end) in enumerate(ways_of_each_kind(Draw("ways", sizes[0]), reach)):
         clear = stays_on_side(side, sizes, start, end, center)
@@ -84,7 +84,7 @@ def test_a_way_within_rounding_of_a_tangency_is_decided_exactly():
         assert ahead.tolist() == [False, True, False, True]
 
 
-def test_most_ways_need_no_exact_passage(monkeypatch):
+def test_most_ways_are_decided_without_exact_arithmetic(monkeypatch):
     asked = []
     monkeypatch.setattr(motion, "passage", lambda *way: asked.append(way) or passage(*way))
     for start, end in ways_of_each_kind(Draw("few"), (2, 2, 9)):
@@ -94,7 +94,7 @@ def test_most_ways_need_no_exact_passage(monkeypatch):
 
 
 @pytest.mark.parametrize("largest", [1.0, 45.0, 180.0])
-def test_many_turns_at_once_are_decided_as_each_alone(largest):
+def test_turns_decided_in_a_batch_equal_turns_decided_one_by_one(largest):
     draw, rotor, arm = Draw("arms", largest), (2.0, 17.8, 0.1, 0.05), 0.135
     at = (draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, 1.1, 1.4), draw.between(COUNT, -5, 5))
     direction, degrees = any_angle(draw.between(COUNT, -180, 180)), draw.between(COUNT, -largest, largest)
@@ -107,7 +107,7 @@ def test_many_turns_at_once_are_decided_as_each_alone(largest):
         assert clear[lane] == (alone is INTERIOR)
 
 
-def test_an_arm_within_rounding_of_a_tangency_is_decided_exactly(monkeypatch):
+def test_turn_of_an_arm_within_rounding_of_a_tangency_is_decided_exactly(monkeypatch):
     """ρ + l is the largest distance inside at z = 0, α − b_s: touched where the arm comes by, not where it does not."""
     asked = []
     monkeypatch.setattr(motion, "turning", lambda *turn: asked.append(turn) or turning(*turn))
@@ -154,7 +154,7 @@ def watched_alone(craft, moves, place, expected):
         expected.turns_touching += any(turning(craft.rotor, center, craft.arm, a, angle) is not INTERIOR for a in arms)
 
 
-def test_verdicts_on_flights_are_those_of_their_single_moves():
+def test_verdict_counts_on_flights_equal_the_sum_over_single_moves():
     scene = read_scene("tower")
     craft, counted, expected = craft_of(scene), MoveVerdicts(), MoveVerdicts()
 
@@ -197,7 +197,7 @@ def test_a_move_through_the_waist_touches_first_where_its_first_rotor_does():
     assert counted == expected
 
 
-def test_a_position_is_valid_where_the_rotors_are_though_the_body_is_not():
+def test_position_is_valid_if_all_rotors_are_interior_though_the_body_is_not():
     craft = craft_of(read_scene("tower"))
     at = tuple(np.array(column) for column in ([1.77, 1.77, 1.5, 1.9], [0.0] * 4, [0.0] * 4))
     heading = small_angle(np.radians(np.array([45.0, 0.0, 0.0, 45.0])))

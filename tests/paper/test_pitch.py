@@ -30,7 +30,7 @@ def near_the_wall(count, seed=5):
 
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, 45.0, 90.0])
-def test_interior_answers_are_those_of_fractions(degrees):
+def test_interior_test_of_a_leaning_spheroid_agrees_with_exact_fractions(degrees):
     at, toward = near_the_wall(16)
     axis = Lean.by(degrees, toward).axis
     found = leaning_interior(CRAFT.sizes, at, axis)
@@ -39,7 +39,7 @@ def test_interior_answers_are_those_of_fractions(degrees):
     assert 0 < sum(expected) < 16
 
 
-def test_axis_makes_the_angle_with_the_vertical_and_points_ahead():
+def test_axis_of_a_leaning_craft_has_the_pitch_angle_to_the_vertical_and_points_ahead():
     toward = any_angle(np.array([0.0, 30.0, 200.0]))
     x, y, z = Lean.by(35.0, toward).axis
     assert np.allclose(x**2 + y**2 + z**2, 1)
@@ -60,7 +60,7 @@ def test_leaning_vectors_keep_their_length_and_stay_across_the_axis():
     assert np.allclose(beside, (-toward[1], toward[0], np.zeros(9)))
 
 
-def test_craft_that_leans_is_valid_where_its_body_or_all_its_rotors_are():
+def test_leaning_craft_is_valid_where_its_body_or_all_its_rotors_are_interior():
     at, heading = near_the_wall(12)
     lean = Lean.by(30.0, heading)
     valid, body = valid_leaning(CRAFT, at, heading, lean)
@@ -85,7 +85,7 @@ def moves_at(at, heading, *, back, accepted):
     return Moves(np.arange(count), start, at, heading, np.zeros(count), accepted, ~accepted, none, none, ~none, none)
 
 
-def test_counts_are_those_of_single_decisions():
+def test_pitch_counts_equal_the_sum_of_single_exact_decisions():
     at, heading = near_the_wall(30)
     random = np.random.default_rng(1)
     back, accepted = random.random(30) < 0.5, random.random(30) < 0.5
@@ -104,7 +104,7 @@ def test_counts_are_those_of_single_decisions():
     assert counts.body_dangerous == (upright & ~leaning).sum()
 
 
-def test_a_move_back_leans_backwards(monkeypatch):
+def test_craft_leans_backwards_in_a_backward_move(monkeypatch):
     at, heading = near_the_wall(10)
     back = np.arange(10) % 2 == 0
     leans = []
@@ -139,7 +139,7 @@ def test_a_body_that_does_not_lean_is_judged_as_the_upright_one():
     assert counts.body_wrong == 0
 
 
-def test_near_the_wall_shares_grow_along_the_radius(monkeypatch):
+def test_pitch_changes_more_answers_near_the_wall_if_the_craft_leans_outward(monkeypatch):
     monkeypatch.setattr(pitch, "CENTRES", 150)
     found = near_wall(CRAFT, 45.0, 3)
     assert found["centres"] == 150
@@ -147,7 +147,7 @@ def test_near_the_wall_shares_grow_along_the_radius(monkeypatch):
     assert found["outward"]["dangerous"] == found["anywhere"]["dangerous"] == 0
 
 
-def test_all_cells_add_up_to_the_total(monkeypatch):
+def test_pitch_totals_are_the_sums_over_all_cells_of_the_table(monkeypatch):
     monkeypatch.setattr(pitch, "CENTRES", 50)
     plan = TowerPlan(SHORT, 7, 5.0, 0.2, 2, continuous=False, pitch=35.0)
     told = simulate_tower(plan, None, lambda _: None)["pitch"]

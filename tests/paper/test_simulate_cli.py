@@ -85,7 +85,7 @@ def test_the_text_of_simulate_tower_has_the_statement_and_every_assumption(capsy
     assert max(map(len, out.splitlines())) <= 120
 
 
-def test_the_statement_is_shown_without_the_table_too(capsys, tower):
+def test_simulate_tower_shows_its_statement_even_without_the_table(capsys, tower):
     assert "not identified by the table" in run(capsys, *tower)[1]
 
 
@@ -188,7 +188,7 @@ def test_the_help_and_the_scenes_of_a_simulation_name_the_same_sections_of_the_p
         assert f"the paper's {sections}" in shipped_text(scene).partition("name =")[0]
 
 
-def test_a_shipped_scene_can_be_printed_and_used(capsys, tmp_path):
+def test_simulate_accepts_the_scene_that_show_scene_prints(capsys, tmp_path):
     _, out, _ = run(capsys, "simulate", "tower", "--show-scene")
     assert out == shipped_text("tower")
     (tmp_path / "mine.toml").write_text(out)

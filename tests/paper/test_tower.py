@@ -29,7 +29,7 @@ def simulated(runs=4, workers=1, advance=lambda _: None, **changes):
         return simulate_tower(plan, executor, advance)
 
 
-def test_the_table_has_three_rows_of_six_with_standard_errors():
+def test_table_5_has_three_rows_of_six_values_with_standard_errors():
     table = simulated()["table_5"]
     for name in ("percent", "standard_error", "printed", "difference_in_standard_errors", "executions"):
         assert [len(row) for row in table[name]] == [6, 6, 6]
@@ -40,7 +40,7 @@ def test_the_table_has_three_rows_of_six_with_standard_errors():
     assert {len(other[name]) for name in ("percent", "standard_error", "difference_in_standard_errors")} == {6}
 
 
-def test_a_cell_is_the_mean_of_its_runs():
+def test_each_cell_of_table_5_is_the_mean_of_its_runs():
     result = simulated(runs=5)
     cells = blocks(craft_of(SHORT), SHORT.flight, 7, 5, watched=False)
     (block,) = cells[0.3, 7]
@@ -56,7 +56,7 @@ def test_a_cell_is_the_mean_of_its_runs():
     assert table["difference_in_standard_errors"][2][2] == pytest.approx(expected)
 
 
-def test_the_root_mean_square_is_over_the_eighteen():
+def test_root_mean_square_difference_of_table_5_is_over_its_18_cells():
     table = simulated()["table_5"]
     differences = np.array(table["percent"]) - np.array(PRINTED)
     assert table["root_mean_square_difference"] == pytest.approx(math.sqrt((differences**2).mean()))
@@ -65,13 +65,13 @@ def test_the_root_mean_square_is_over_the_eighteen():
     assert other == pytest.approx(math.sqrt((differences**2).mean()))
 
 
-def test_the_same_seed_gives_the_same_table_in_one_process_and_in_several(monkeypatch):
+def test_table_5_with_the_same_seed_is_the_same_in_one_process_and_in_several(monkeypatch):
     alone = simulated(continuous=True, pitch=20.0)
     assert json.dumps(simulated(workers=2, continuous=True, pitch=20.0)) == json.dumps(alone)
     assert simulated(seed=8)["table_5"]["percent"] != alone["table_5"]["percent"]
 
 
-def test_the_first_runs_of_a_cell_are_the_same_with_more_runs():
+def test_first_runs_of_a_table_cell_do_not_change_if_runs_are_added():
     craft = craft_of(SHORT)
     few, more = (blocks(craft, SHORT.flight, 1, runs, watched=False)[0.1, 5] for runs in (3, LANES + 2))
     assert [block.lanes for block in more] == [LANES, 2]
@@ -87,13 +87,13 @@ def test_cells_with_equal_steps_have_different_flights():
     assert table["percent"][2][0] != table["second_row_read_as_0.25"]["percent"][1]
 
 
-def test_a_table_of_one_run_has_no_standard_error():
+def test_table_5_of_a_single_run_has_no_standard_error():
     table = simulated(runs=1)["table_5"]
     assert table["standard_error"] == [[None] * 6] * 3
     assert table["difference_in_standard_errors"] == [[None] * 6] * 3
 
 
-def test_progress_of_the_table_counts_moves():
+def test_progress_of_the_tower_simulation_counts_moves():
     told = []
     simulated(advance=told.append)
     assert sum(told) == sum(moves_of(SHORT.flight, v * t) for t in (*TIMES, 0.25) for v in SPEEDS)
@@ -112,7 +112,7 @@ def test_the_statement_says_that_the_table_does_not_identify_the_rules():
     assert "not identified by the table" in STATEMENT
 
 
-def test_without_runs_the_result_has_no_table():
+def test_simulate_tower_with_0_runs_has_no_table():
     assert simulated(runs=0)["table_5"] is None
 
 
@@ -132,7 +132,7 @@ def test_the_result_has_three_paths_of_25_positions_with_their_discriminants():
         assert path["executions"] >= 24 + path["refused"]
 
 
-def test_continuous_adds_verdicts_on_the_ways():
+def test_continuous_tower_simulation_adds_verdicts_on_the_ways_between_positions():
     result = simulated(runs=3, continuous=True)
     assert result["flights"]["ways"]["vertical"] + result["flights"]["ways"]["horizontal"] == 72
     ways = result["table_5"]["ways"]
@@ -168,7 +168,7 @@ def test_the_result_names_every_assumption():
         ({"scene": replace(TOWER, region=Region(x=Span(-5.0, 5.0)))}, "it must have no x and no y"),
     ],
 )
-def test_what_cannot_be_simulated_is_refused(changes, message):
+def test_simulate_tower_refuses_invalid_plans(changes, message):
     with pytest.raises(InputError, match=message):
         simulated(**changes)
 
