@@ -56,7 +56,7 @@ def test_missing_libraries_of_ocaml_and_coq_are_named_where_the_programs_are_the
     build.demand_tools()
 
 
-def test_the_build_is_up_to_date_only_with_these_sources_and_the_checker(tools, monkeypatch):
+def test_coq_build_is_up_to_date_only_if_it_holds_the_current_sources_and_the_checker(tools, monkeypatch):
     assert not build.up_to_date()
     build.BUILT.mkdir()
     for name in build.FILES:
@@ -69,7 +69,7 @@ def test_the_build_is_up_to_date_only_with_these_sources_and_the_checker(tools, 
     monkeypatch.undo()
 
 
-def test_a_source_that_changed_after_the_build_is_not_up_to_date(tools):
+def test_coq_build_is_not_up_to_date_after_a_source_has_changed(tools):
     build.BUILT.mkdir()
     for name in build.FILES:
         (build.BUILT / f"{name}.v").write_text(build.source(name), encoding="utf-8")
@@ -148,7 +148,7 @@ def test_an_emitted_proof_is_checked_beside_the_compiled_proofs(tools, tmp_path)
         build.check_kernel(proof)
 
 
-def test_the_checker_is_built_from_the_extracted_code_or_ocaml_is_quoted(tools):
+def test_checker_is_built_from_the_extracted_code_and_a_failure_quotes_ocaml(tools):
     build.BUILT.mkdir()
     build.build_checker()
     assert (build.BUILT / "check_cases.ml").read_bytes() == (build.SOURCES / "check_cases.ml").read_bytes()
@@ -191,7 +191,7 @@ def test_a_weakened_file_is_compiled_without_what_was_compiled_of_it_before(tool
     assert not build.accepted(CONTROL)
 
 
-def test_a_change_that_fits_no_place_or_is_no_coq_is_no_refusal(tools):
+def test_weakened_statement_that_matches_no_place_or_is_not_valid_coq_raises_an_error(tools):
     with pytest.raises(ValueError, match=r"Checker\.v has 0 places with 'not there'; one is needed"):
         build.accepted(Weakened("Checker", "not there", "", "anything"))
     tools.says = {"Checker.v": (1, "", "Syntax error: '.' expected")}
@@ -246,7 +246,7 @@ def test_prove_ends_with_1_where_coq_accepts_a_weakened_statement_or_refuses_the
     assert "error: Coq refuses Checker.v in the folder in which it must refuse" in done.output
 
 
-def test_prove_of_kernels_checks_these_files_alone(proved, monkeypatch):
+def test_prove_with_kernel_files_checks_only_these_files(proved, monkeypatch):
     monkeypatch.setattr(build, "check_kernel", lambda path: 1.25)
     done = CliRunner().invoke(main, ["one.v", "two.v"])
     assert (done.exit_code, proved.asked) == (0, [])

@@ -66,7 +66,7 @@ def test_each_weakened_statement_changes_one_place_of_a_file_in_the_build():
 
 
 @compiled
-def test_coq_accepts_the_checker_and_refuses_it_without_the_ring():
+def test_coq_accepts_the_checker_and_refuses_it_if_the_ring_counts_as_a_tangency():
     (ring,) = (change for change in WEAKENED if change.allows == "the ring as a tangency" and change.file == "Checker")
     assert accepted(CONTROL)
     assert not accepted(ring)
@@ -87,7 +87,7 @@ def test_derive_fails_when_a_row_of_the_root_patterns_is_missing(monkeypatch):
         assert PATTERNS[kind][0] in patterns.text
 
 
-def test_derive_fails_when_a_pattern_stands_at_another_kind(monkeypatch):
+def test_derive_fails_when_two_kinds_exchange_their_root_patterns(monkeypatch):
     moved = {**PATTERNS, Kind.EXTERIOR_RING: PATTERNS[Kind.EXTERIOR_TANGENT_TWO_POINTS]}
     moved[Kind.EXTERIOR_TANGENT_TWO_POINTS] = PATTERNS[Kind.EXTERIOR_RING]
     monkeypatch.setattr(propositions, "PATTERNS", moved)
@@ -107,7 +107,7 @@ def test_prove_without_coq_names_the_packages_and_ends_2():
     )
 
 
-def test_check_by_coq_says_what_to_do_where_the_checker_is_not_built(monkeypatch, tmp_path, capsys):
+def test_check_by_coq_says_how_to_build_a_missing_checker(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(build, "CHECKER", tmp_path / "check_cases")
     assert main(["cases", "check", "--checker", "coq"]) == 2
     said = f"the proved checker is not built: there is no {tmp_path}/check_cases; `make prove` builds it"
