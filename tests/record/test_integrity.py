@@ -36,7 +36,7 @@ def outcome(data):
     return ("whole" if scan.footer else "truncated"), lines
 
 
-def test_a_record_as_written_is_complete(data):
+def test_unchanged_record_is_read_as_complete(data):
     assert outcome(data) == ("whole", LINES)
 
 
@@ -94,14 +94,14 @@ def test_a_record_cannot_lose_its_checksums_by_calling_itself_older(data):
     assert outcome(data.replace(b"1.2.0", b"1.0.0"))[0] == "refused"
 
 
-def test_damage_is_reported_with_its_byte(data):
+def test_damaged_record_is_refused_naming_the_line_and_byte(data):
     start = data.index(b"\n") + 1
     with pytest.raises(DamagedError, match=f"^it is damaged in line 2, at byte {start}: its checksum is") as caught:
         list(RecordScan(Reader(io.BytesIO(data.replace(b"\\\\", b"/\\")), "it")))
     assert caught.value.at == start
 
 
-def test_a_checksum_covers_all_bytes_before_it_except_checksums_and_line_ends(data):
+def test_checksum_of_a_record_line_covers_all_earlier_bytes_except_checksums_and_line_ends(data):
     check = 0
     for line in data.splitlines():
         body, _, end = line.rpartition(b', "crc32": ')

@@ -58,7 +58,7 @@ def test_report_of_an_older_run_says_so_and_how_to_resume_the_newer(killed, caps
 
 
 @pytest.mark.parametrize("words", [["report"], ["record", "check"]])
-def test_a_folder_with_only_an_unfinished_run_is_refused_with_that_reason(killed, capsys, words):
+def test_report_and_record_check_refuse_a_folder_that_has_only_an_unfinished_run(killed, capsys, words):
     (killed / FILE).unlink()
     assert main([*words, str(killed)]) == 2
     assert f"{FILE} is not there; {killed / GROWING} is of a newer run" in capsys.readouterr().err
@@ -76,7 +76,7 @@ def test_a_folder_with_only_an_unfinished_run_is_refused_with_that_reason(killed
         ["simulate", "tower"],
     ],
 )
-def test_out_that_is_empty_or_a_stream_is_refused(tmp_path, monkeypatch, capsys, words, out):
+def test_every_command_refuses_an_out_that_is_empty_or_a_stream(tmp_path, monkeypatch, capsys, words, out):
     monkeypatch.chdir(tmp_path)
     assert main([*words, "--out", out]) == 2
     assert f"'--out': {out!r} names neither a file nor a folder" in capsys.readouterr().err

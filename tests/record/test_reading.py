@@ -75,7 +75,7 @@ def test_a_line_whose_field_has_half_of_a_character_in_its_name_is_refused():
     ("field", "value"),
     [("octaves", {"half": {}}), ("size_bins", [[0, 0, 1, 2]]), ("place_bins", [[0, FARTHEST + 1, 1, 1]])],
 )
-def test_a_line_with_impossible_bins_is_refused_and_the_farthest_bin_is_not(field, value):
+def test_record_line_with_impossible_bins_is_refused_and_one_with_the_farthest_bin_is_read(field, value):
     """Of a group as of the progress of a family."""
     counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": [[-FARTHEST, FARTHEST, 1, 1]]}
     names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
@@ -88,7 +88,7 @@ def test_a_line_with_impossible_bins_is_refused_and_the_farthest_bin_is_not(fiel
             decoded({**line, field: value}, kind)
 
 
-def test_the_cases_of_a_record_are_numbered_from_1_the_worst_of_a_group_before_its_faults():
+def test_recorded_cases_are_numbered_from_1_with_the_worst_of_a_group_before_its_faults():
     counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": []}
     names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
     fault = {"case": "f-1", "row": [(1.0).hex()] * 7, "status": "crash", "reason": "it left"}
@@ -122,7 +122,7 @@ def test_windows_line_ends_do_not_change_a_record(path):
     assert read(path) == record
 
 
-def test_a_lone_surrogate_in_a_record_is_read_back(path):
+def test_lone_surrogates_and_control_characters_in_a_record_are_read_back(path):
     stream = io.StringIO()
     recorder = Recorder(stream, {})
     recorder.add(DriftLine(sentence="a lone surrogate \udc80, a line \u2028 and \x00"))
@@ -134,7 +134,7 @@ OLDER = '{"type": "header", "schema": "%s"}\n{"type": "group", "n": 1}\n{"type":
 
 
 @pytest.mark.parametrize("version", ["1.0.0", "1.1.0"])
-def test_an_older_version_is_read_without_checksums(path, version):
+def test_record_of_an_older_schema_is_read_without_checksums(path, version):
     lines = [{**HEADER, "schema": version}, {"type": "drift", "sentence": "odd"}, FOOTER]
     path.write_text("".join(f"{json.dumps(line)}\n" for line in lines), encoding="utf-8")
     record = read(path)
@@ -143,7 +143,7 @@ def test_an_older_version_is_read_without_checksums(path, version):
     assert record.footer == FooterLine(lines=3, exit_code=0, seconds=0.5)
 
 
-def test_progress_is_read_as_the_first_versions_of_schema_1_3_wrote_it(path):
+def test_progress_line_written_by_the_first_versions_of_schema_1_3_is_read(path):
     """They had another name for faults, no count of hangs and no sha256 of the program."""
     nothing = {"tallies": {}, "open": [], "again": SAMPLE["again"], "outcomes": [], "excusing": [], "named": []}
     state = {"done": 3, "left": {"restarts": 2, "lone": 9, "over": ""}, "total": nothing}

@@ -68,7 +68,7 @@ def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(
     assert out.read_text() == "a file"
 
 
-def test_a_growing_file_shows_what_was_added_and_is_replaced_once_the_new_content_is_on_the_disk(tmp_path, monkeypatch):
+def test_growing_file_shows_added_bytes_and_is_replaced_only_after_the_new_content_is_synced(tmp_path, monkeypatch):
     path, synced = tmp_path / "file", []
     monkeypatch.setattr(os, "fsync", lambda number: synced.append((os.fstat(number).st_size, path.read_bytes())))
     path.write_bytes(b"before")
@@ -98,7 +98,7 @@ def test_a_run_on_a_full_disk_ends_with_a_sentence_about_its_record_and_keeps_wh
     assert as_json(read(tmp_path / FILE).lines[0]) == as_json(PROGRESS)
 
 
-def test_links_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):
+def test_symbolic_links_in_the_folder_of_a_run_are_replaced_and_not_followed(tmp_path):
     """A pipe without a reader is replaced as well, and not waited for."""
     out, precious = tmp_path / "out", tmp_path / "precious"
     out.mkdir()

@@ -14,7 +14,7 @@ from hypcheck.record.fields import Unsigned, decoded
 from hypcheck.record.writer import GrowingFile, folder_locked
 
 
-def test_a_folder_is_used_without_a_lock_where_the_system_has_none(monkeypatch, tmp_path):
+def test_folder_is_used_without_a_lock_on_systems_without_file_locks(monkeypatch, tmp_path):
     def without(place, how):
         raise OSError(errno.ENOLCK, "no locks available")
 
@@ -23,7 +23,7 @@ def test_a_folder_is_used_without_a_lock_where_the_system_has_none(monkeypatch, 
         (tmp_path / "file").touch()
 
 
-def test_a_disk_that_fails_when_a_file_is_closed_is_named_unless_another_error_is(monkeypatch, tmp_path):
+def test_error_while_closing_a_growing_file_is_reported_unless_another_error_is_raised(monkeypatch, tmp_path):
     class Failing:
         def close(self):
             raise OSError(errno.ENOSPC, "no space left on device")
@@ -35,12 +35,12 @@ def test_a_disk_that_fails_when_a_file_is_closed_is_named_unless_another_error_i
     growing.__exit__(KeyError, KeyError("other"), None)
 
 
-def test_nothing_is_added_to_a_growing_file_before_it_has_a_beginning(tmp_path):
+def test_growing_file_refuses_additions_before_its_first_content(tmp_path):
     with pytest.raises(ValueError, match="must be renewed before anything is added"):
         GrowingFile(tmp_path / "record.jsonl").write("a line\n")
 
 
-def test_the_processor_has_the_name_that_python_knows_where_the_system_tells_none(monkeypatch):
+def test_processor_name_comes_from_python_if_the_system_gives_none(monkeypatch):
     def unreadable(*_, **__):
         raise OSError
 
