@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from hypcheck.truth.nearest_exact import nearest as nearest_of
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
+from tests.truth.tilted.test_float_boxes_parts import phi
 
 
 def drawn(count, width, seed=3):
@@ -94,6 +97,21 @@ def normal_to_spheroid(rows, points):
 def normal_to_hyperboloid(rows, points):
     normal = points / rows[:, [0, 0, 1]] ** 2 * (1, 1, -1)
     return normal / np.linalg.norm(normal, axis=1, keepdims=True)
+
+
+def test_the_multiplier_of_the_numpy_kernel_is_where_phi_is_largest_or_next_to_a_pole():
+    """It turns Newton's method; towards a pole it stops a thousandth before."""
+    rows = np.concatenate([LEANING, stretched(LEANING)])
+    inner = 0
+    for row, at in zip(rows.tolist(), map(Fraction, numpy_tilted.multipliers(rows)), strict=True):
+        before, here, beyond = (phi(row, at * (1 + way * Fraction(1, 10**4))) for way in (-1, 0, 1))
+        assert here is not None
+        if beyond is not None and beyond < here:
+            assert before < here
+            inner += 1
+        else:
+            assert phi(row, at * Fraction(1002, 1000)) is None
+    assert inner > 0.9 * len(rows)
 
 
 def gaps_of(rows, gaps, touches):
