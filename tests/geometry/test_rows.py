@@ -104,6 +104,24 @@ def test_both_ends_of_a_way_must_lie_in_a_range_of_magnitudes_and_in_a_span_but_
     assert setting.holds(np.array([WAY, [*WAY[:9], 2.0]]), WAYS).tolist() == [False, True]
 
 
+def test_the_ends_of_a_range_of_ratios_and_of_magnitudes_belong_to_it():
+    row = [2.0, 8.0, 4.0, 1.0, -32.0, 0.0, 1e-9]  # α/b = 1/2, γ/d = 8
+    inside = {"ratio": (0.5, 8.0), "magnitude": (1.0, 32.0)}
+    assert within(np.array([row]), **inside).tolist() == [True]
+    for name, ends in (("ratio", (0.51, 8.0)), ("ratio", (0.5, 7.9)), ("magnitude", (1.1, 32)), ("magnitude", (1, 31))):
+        assert within(np.array([row]), **(inside | {name: ends})).tolist() == [False], (name, ends)
+
+
+def test_the_ends_of_a_span_belong_to_it_and_every_other_size_is_refused():
+    setting = FixedSizes(tuple(GOOD[:4]), x=(2.5, 3.0), y=(-1.0, 0.0))
+    rows = np.array([GOOD, [*GOOD[:4], 3.0, -1.0, 7.0], [*GOOD[:4], 3.1, 0.0, 0.0], [*GOOD[:4], 2.5, 0.1, 0.0]])
+    assert setting.holds(rows).tolist() == [True, True, False, False]
+    for place in range(4):
+        other = [*GOOD]
+        other[place] += 1
+        assert setting.holds(np.array([GOOD, other])).tolist() == [True, False]
+
+
 def test_fixed_sizes_hold_the_rows_of_their_axis_and_with_a_free_one_those_of_any():
     upright, leaning = [*GOOD, 0.0, 0.0, 1.0], [*GOOD, *AXIS]
     rows = np.array([upright, leaning])

@@ -9,7 +9,7 @@ from itertools import combinations
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.record.integrity import DamagedError, RecordScan
+from hypcheck.record.integrity import DamagedError, RecordScan, sealed
 from hypcheck.tables.streams import Reader
 from tests.support.records import resealed
 
@@ -118,3 +118,22 @@ def test_a_first_line_that_is_no_object_with_a_type_is_refused(line):
 def test_a_later_line_without_a_type_is_refused():
     with pytest.raises(InputError, match="it is no object with a type"):
         list(RecordScan(Reader(io.BytesIO(resealed([LINES[0], {"types": "drift"}, *LINES[2:]])), "it")))
+
+
+def test_a_line_is_written_in_utf_8_and_a_number_that_json_has_not_is_refused():
+    assert "α".encode() in sealed(LINES[1], 0)[0]
+    for number in (float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="not JSON compliant"):
+            sealed({"type": "drift", "sentence": number}, 0)
+
+
+@pytest.mark.parametrize("number", ["1e999", "-1e999", "1" + "0" * 400])
+def test_a_number_that_is_too_large_for_float64_is_refused(number):
+    line = b'{"type": "header", "schema": "1.0.0", "seed": %s}\n' % number.encode()
+    with pytest.raises(InputError, match="is too large for float64"):
+        list(RecordScan(Reader(io.BytesIO(line), "it")))
+
+
+def test_a_large_integer_that_float64_holds_is_read_as_it_is():
+    line = b'{"type": "header", "schema": "1.0.0", "seed": %d}\n' % 10**300
+    assert next(iter(RecordScan(Reader(io.BytesIO(line), "it"))))["seed"] == 10**300

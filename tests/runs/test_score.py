@@ -11,7 +11,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from hypcheck.runs.score import score
+from hypcheck.runs.score import as_slice, score
 from hypcheck.runs.tally import STATUSES, UnansweredCase
 
 OUTSIDE, RING, TOUCH, CROSS, INSIDE = (
@@ -96,3 +96,20 @@ def test_a_tally_names_worst_cases_and_faults_by_their_indices_in_the_family(sco
     assert tally.exponents == {"-inf": {"tolerated": 1}, "-1": {"right": 1, "wrong": 1}}
     assert {case.case for case in tally.worst} == {"mine/11", "mine/13", "mine/14"}
     assert tally.unanswered == (UnansweredCase((1, 99), "mine/99", CROSS, "crash", "it left"),)
+
+
+@pytest.mark.parametrize(
+    ("indices", "expected"),
+    [
+        ([3, 4, 5], slice(3, 6)),
+        ([7], slice(7, 8)),
+        ([3, 4, 6], None),
+        ([2, 3, 5, 6], None),
+        ([], None),
+        ([0], slice(0, 1)),
+    ],
+)
+def test_consecutive_indices_become_a_slice_and_others_stay(indices, expected):
+    numbers = np.array(indices, dtype=np.int64)
+    found = as_slice(numbers)
+    assert (found is numbers) if expected is None else (found == expected)

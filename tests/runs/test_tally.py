@@ -156,3 +156,31 @@ def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
     ]
     shown = [fault.status for fault in line_of(tally.Tally(unanswered=tuple(faults))).faults]
     assert shown == ["error", "crash", "timeout", "not-run", "protocol"]
+
+
+@pytest.mark.parametrize("spread", [1, 5, 400, 10**6])
+def test_pairs_of_numbers_are_counted_however_far_they_are_apart(spread):
+    draw = np.random.default_rng(spread)
+    first, second = draw.integers(-spread, spread + 1, (2, 3000))
+    amiss = draw.random(3000) < 0.3
+    found = tally._counted(first, second, amiss).as_lists()
+    cases = Counter(zip(first.tolist(), second.tolist(), strict=True))
+    wrong = Counter(zip(first[amiss].tolist(), second[amiss].tolist(), strict=True))
+    assert found == [[*pair, count, wrong[pair]] for pair, count in sorted(cases.items())]
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-200, 1e200])
+def test_places_are_eighths_of_the_hyperboloids_sizes(unit):
+    rows = np.array(
+        [[10, 5, 1, 1, 3, 4, -2], [10, 5, 1, 1, -4, 3, 2], [10, 5, 1, 1, 0, 0, 0], [1, 1, 1, 1, 0, 5e3, 9e3]]
+    )
+    found = tally.by_place(rows * unit, np.array([True, False, False, False])).as_lists()
+    assert found == [[0, 0, 1, 0], [4, 3, 2, 1], [tally.FAR, tally.FAR, 1, 0]]
+
+
+def test_sizes_are_binned_by_their_octaves_one_or_several():
+    rows = np.array([[8.0, 1, 1, 3, 0, 0, 0], [8.0, 1, 1, 3, 9, 9, 9]])
+    amiss = np.array([True, False])
+    assert tally.by_size(rows, amiss).as_lists() == [[3, -2, 2, 1]]
+    rows[1, 3] = 0.9
+    assert tally.by_size(rows, amiss).as_lists() == [[3, -2, 1, 1], [3, 0, 1, 0]]
