@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import integers, numpy_kernel
+from hypcheck.kernel import integers, numpy_kernel, scene_lines
+from hypcheck.kernel.numpy_kernel import Buffers, chunks
 from hypcheck.truth import float_filter
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.prove import prove
@@ -78,3 +81,70 @@ def test_heights_that_no_line_covers_and_sizes_that_allow_none_are_answered_too(
         rows[:, 4:] *= sizes[2]
         columns = np.ascontiguousarray(rows[:, 4:].T)
         assert (numpy_kernel.positions_of_scene(sizes, *columns) == float_filter.positions(rows)).all()
+
+
+SCENES = [
+    # Sizes, and the least shares of interior, contact and exterior that the first and the second kind of lines decide.
+    ((2.0, 17.8, 0.25, 0.15), (0.98, 0.97, 0.985), (0.996, 0.991, 0.996)),
+    ((1.0, 4.0, 1.0, 1.0), (0, 0, 0.99), (0, 0, 0.997)),
+    ((3.0, 1.0, 1.0, 2.0), (0.99, 0.997, 0), (0.998, 0.998, 0)),
+    ((5.0, 2.0, 0.3, 1.5), (0.14, 0.98, 0), (0.97, 0.996, 0)),
+    ((0.5, 3.0, 1.0, 0.2), (0, 0, 0.99), (0, 0, 0.997)),
+    ((40.0, 30.0, 2.0, 3.0), (0.92, 0.88, 0.92), (0.98, 0.965, 0.975)),
+]
+
+
+@pytest.mark.parametrize(("sizes", "parallel", "two"), SCENES)
+def test_lines_decide_most_centres_beside_the_surface_and_none_wrongly(sizes, parallel, two):
+    alpha, gamma, b, _ = sizes
+    draw, count = np.random.default_rng(1), 8192
+    z = draw.uniform(-1.5 * gamma, 1.5 * gamma, count)
+    away, angle = draw.uniform(-3, 3, count) * b, draw.uniform(0, 6.28, count)
+    r = alpha * np.sqrt(1 + (z / gamma) ** 2) + away
+    columns = r * np.cos(angle), r * np.sin(angle), z
+    truth = float_filter.positions(np.column_stack([np.tile(sizes, (count, 1)), *columns]))
+    lines = scene_lines.lines_of(sizes, z)
+    numbers = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
+    for ask, constants, buffers, shares in (
+        (numpy_kernel._by_parallel_lines, lines.parallel, Buffers(numbers, count, np.float32), parallel),
+        (numpy_kernel._by_two_lines, lines.two, Buffers(chunks.TWO_LINES_BUFFERS, count, np.float64), two),
+    ):
+        found, decided = np.empty(count, np.int8), np.ones(count, np.bool_)
+        decided[ask(constants, columns, buffers, found)] = False
+        assert (found[decided] == truth[decided]).all()
+        for position, share in zip((-1, 0, 1), shares, strict=True):
+            assert not share or decided[truth == position].mean() >= share
+
+
+def test_sizes_beyond_the_margins_of_the_lines_have_none_and_heights_of_zero_have_some():
+    assert scene_lines.lines_of((1.0, 1e300, 1.0, 1.0), np.array([1.0])) is None
+    for z in (np.zeros(3), np.array([5e-324]), np.array([np.nan, np.inf, 1e200])):
+        lines = scene_lines.lines_of((2.0, 17.8, 0.25, 0.15), z)
+        assert lines.two["reach"] > 0
+        assert lines.parallel is None
+
+
+@pytest.mark.parametrize("up", [False, True])
+def test_a_shortened_height_has_a_square_that_is_a_float(up):
+    for value in (1.0, 0.1, 17.8 * 1.0625, 2.0**-60 / 3, 2.0**90 / 7):
+        short = scene_lines._short(value, up=up)
+        assert Fraction(short) ** 2 == Fraction(short * short)
+        assert (value <= short <= value * (1 + 2.0**-24)) if up else (value * (1 - 2.0**-24) <= short <= value)
+
+
+def test_thresholds_are_on_the_safe_side_of_their_lines_at_both_ends():
+    lines = {"beyond": (3.0, 0.5), "under": (2.5, 0.375), "within": (1.5, 0.25), "above": None}
+    reach = 7.0
+    found = scene_lines.thresholds(lines, reach)
+    assert found["K_above"] == np.inf
+    assert found["reach"] <= reach
+    for T in (0.0, reach):
+        assert 3.0 + 0.5 * T < found["K_beyond"] + found["M_outer"] * T < (3.0 + 0.5 * T) * 1.0001 + 0.125 * reach
+        assert 2.5 + 0.375 * T - 0.125 * reach < found["K_under"] + found["M_outer"] * T < 2.5 + 0.375 * T
+        assert (1.5 + 0.25 * T) * 0.9999 < found["K_within"] + found["M_inner"] * T < 1.5 + 0.25 * T
+    nothing = dict.fromkeys(lines)
+    found = scene_lines.thresholds(nothing, reach)
+    assert [found[f"K_{name}"] for name in nothing] == [np.inf, -np.inf, -np.inf, np.inf]
+    assert scene_lines.thresholds(lines, 1e-30) is None
+    assert scene_lines.thresholds(lines, 1e30) is None
+    assert scene_lines.thresholds(lines | {"under": (2.5, 1e20)}, reach) is None
