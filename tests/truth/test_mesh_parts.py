@@ -112,6 +112,7 @@ def test_the_side_of_the_centre_is_exact(row):
     alpha, gamma, _, _, x, y, z = map(Fraction, row)
     level = (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
     assert meridian_of(Pair(*row)).side == (level > 0) - (level < 0)
+    assert meridian_of(Pair(*row[:4], row[0], 0.0, 0.0)).side == 0
 
 
 @pytest.mark.parametrize(

@@ -111,3 +111,17 @@ def test_the_window_of_time_has_no_upper_end_where_the_smaller_spheroid_is_clear
     assert 0 < earliest < Fraction(1, 2)
     assert latest is None
     assert time_window(BESIDE, Fraction(1, 2**20)) == (None, None)
+
+
+@pytest.mark.parametrize(
+    ("axis", "roundoff", "expected"),
+    [
+        ((), Fraction(1, 4), Fraction(49, 12)),  # ρ = 5/2, ζ = 2: (1 + 9/2 + 5/3 · 13/2)/4
+        ((0.0, 0.0, -3.0), Fraction(1, 4), Fraction(49, 12)),
+        ((), Fraction(2), 50),  # δ counts as 1/2 in K
+        ((1.0, 0.0, 0.0), Fraction(1, 4), Fraction(445, 64)),  # 13/2 and 2: (1 + 13/2 + 5/4 · 9/4 + 5/3 · 21/2)/4
+    ],
+)
+def test_the_tolerance_is_the_one_worked_out_by_hand(axis, roundoff, expected):
+    row = (7.0, 3.0, 2.0, 4.0, 1.0, 2.0, 4.0, 0.0, 5.0, -8.0, *axis)
+    assert tolerance(row, 1, roundoff) == expected

@@ -87,6 +87,16 @@ def test_the_extremes_of_a_whole_turn_enclose_the_two_distances_from_the_circle(
         assert (low / (2 * arm)) ** 2 <= square <= (high / (2 * arm)) ** 2
 
 
+@pytest.mark.parametrize("beyond", [-1, 1])
+def test_a_turn_that_misses_tangency_by_a_hair_is_decided_with_more_bits(beyond):
+    """The mover's centre is √2 from the axis, the arm brings the part's to √2 + l, and to l − √2 on the other side."""
+    hair, root = Fraction(beyond, 2**140), Fraction(math.isqrt(2 << 800), 1 << 400)
+    inner, outer = 3 - root + hair, 5 + root + hair
+    sizes, center, ahead = (4.0, 3.0, 1.0, 1.0), (1.0, 1.0, 0.0), (1.0, 0.0)
+    assert turning(sizes, center, inner, ahead, 7.0) is (Position.INTERIOR if beyond < 0 else Position.CONTACT)
+    assert turning(sizes, center, outer, ahead, 7.0) is (Position.EXTERIOR if beyond > 0 else Position.CONTACT)
+
+
 QUARTER = math.pi / 2
 
 
