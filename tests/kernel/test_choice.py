@@ -88,8 +88,16 @@ def test_the_best_level_is_the_one_that_the_processor_has(fresh):
 
 def test_most_threads_is_the_number_of_processors_unless_set(fresh):
     assert most_threads() >= 1
-    fresh.setenv("HYPCHECK_THREADS", "7")
-    assert most_threads() == 7
+    for number in (7, 1):
+        fresh.setenv("HYPCHECK_THREADS", str(number))
+        assert most_threads() == number
+
+
+@pytest.mark.parametrize("wanted", ["0", "-1", "two", "1.5", "٣"])
+def test_a_number_of_threads_that_is_none_is_refused(fresh, wanted):
+    fresh.setenv("HYPCHECK_THREADS", wanted)
+    with pytest.raises(InputError, match="it must be a whole number greater than 0, or unset"):
+        most_threads()
 
 
 ASK = """

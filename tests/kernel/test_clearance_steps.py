@@ -36,6 +36,7 @@ def test_the_numpy_kernel_alone_encloses_clearances_touches_and_distances(rows, 
     assert (found.position == true.position).all()
     assert ((found.lower <= true.clearance) & (true.clearance <= found.upper)).all()
     assert (found.upper - found.lower <= 2.0**-29 * np.maximum(1, 1 + found.lower)).all()
+    assert (found.lower >= -1).all()
     assert (found.lower[found.position != 0] >= 0).all()
     assert (found.upper[found.position == 0] <= 0).all()
     assert (found.distance_lower <= found.distance_upper).all()

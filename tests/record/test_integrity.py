@@ -9,6 +9,7 @@ from itertools import combinations
 import pytest
 
 from hypcheck.errors import InputError
+from hypcheck.record import integrity
 from hypcheck.record.integrity import DamagedError, RecordScan, sealed
 from hypcheck.tables.streams import Reader
 from tests.support.records import resealed
@@ -137,3 +138,16 @@ def test_a_number_that_is_too_large_for_float64_is_refused(number):
 def test_a_large_integer_that_float64_holds_is_read_as_it_is():
     line = b'{"type": "header", "schema": "1.0.0", "seed": %d}\n' % 10**300
     assert next(iter(RecordScan(Reader(io.BytesIO(line), "it"))))["seed"] == 10**300
+
+
+def test_a_line_may_be_as_long_as_the_longest_and_no_longer(monkeypatch, data):
+    longest = max(map(len, data.splitlines(keepends=True)))
+    monkeypatch.setattr(integrity, "LONGEST", longest - 1)  # and its end
+    assert outcome(data) == ("whole", LINES)
+    monkeypatch.setattr(integrity, "LONGEST", longest - 2)
+    with pytest.raises(InputError, match=f"it is longer than {longest - 2} bytes"):
+        list(RecordScan(Reader(io.BytesIO(data), "it")))
+
+
+def test_a_record_with_other_line_ends_is_read_as_it_was_written(data):
+    assert outcome(data.replace(b"\n", b"\r\n")) == ("whole", LINES)

@@ -155,3 +155,23 @@ def test_the_distance_of_an_upright_spheroid_is_the_same_with_and_without_its_ax
     assert judge.about_error_of((*upright, 0.0, 0.0, 1.0), 0, "position") == judge.error_of(upright, 0, "position")
     with_axis = judge.flip_exponents(np.array([(*upright, 0.0, 0.0, 1.0)]))
     assert with_axis.tolist() == judge.flip_exponents(np.array([upright])).tolist()
+
+
+def test_every_wrong_answer_about_leaning_rows_is_judged_where_some_are_proved_at_once():
+    row = [1.0, 4.0, 0.125, 0.25, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0]  # a needle across the x axis, at the waist
+    near = [*row[:4], 1.125 + 1e-12, *row[5:]]
+    rows = np.array([row, near, row, [*row[:7], 0.0, 0.0, 1.0]])
+    truth = np.array([1, 1, 1, 1], dtype=np.int8)
+    found = judge.wrong_cases(rows, truth, np.zeros(4, dtype=np.int8), Criterion(tolerance=Fraction(10**4)))
+    assert [case.index for case in found] == [0, 1, 2, 3]
+    assert [case.status for case in found] == [Status.WRONG, Status.TOLERATED, Status.WRONG, Status.WRONG]
+    assert [case.mistake for case in found] == [Mistake.FALSE_CONTACT] * 4
+    assert found[0].least == found[2].least > 1e-3
+    assert not found[1].least
+
+
+@pytest.mark.parametrize("units", [256, 300])
+def test_a_tolerance_of_1_tolerates_an_error_that_rounds_up_to_1(units):
+    """α = 1e-9 and x = 1: the spheroid has to shrink and the hyperboloid to move by nearly all of themselves."""
+    criterion = Criterion(precision="bfloat16", tolerance=Fraction(units))
+    assert judged((1e-9, 1.0, 1e-12, 1e-12, 1.0, 0.0, 0.0), -1, criterion)[0].status is Status.TOLERATED
