@@ -47,7 +47,7 @@ def test_an_answer_flips_at_its_backward_error(pair, answer):
     found = backward_error(lengths, truth, answer)
     assume(0 < found < 1 and found > 1e-300)
     assert makes_right(lengths, truth.position, answer, Fraction(found))
-    assert not makes_right(lengths, truth.position, answer, Fraction(found) * Fraction(999, 1000))
+    assert not makes_right(lengths, truth.position, answer, Fraction(found) * Fraction(9999, 10000))
 
 
 @given(grid_pairs, POSITIONS, st.integers(-300, 5))

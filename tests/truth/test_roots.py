@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from fractions import Fraction
 from itertools import pairwise
 
@@ -11,7 +12,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import polynomial_roots
+from hypcheck.truth import exact, polynomial_roots
 from hypcheck.truth import roots as oracle
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.roots import Invariants, RootPlace, classify_by_roots, classify_invariants, coefficients
@@ -269,3 +270,21 @@ def test_an_unlisted_or_impossible_pattern_is_an_error(monkeypatch):
         monkeypatch.setattr(oracle, "KIND_OF", table)
         with pytest.raises(AssertionError, match=r"not possible: >B >B >B, for Pair\(alpha=1.0"):
             classify_by_roots(Pair.from_row(ROW))
+
+
+def test_double_roots_of_small_pairs_have_the_kinds_of_the_exact_decision():
+    """Every pair of these integers whose discriminant is 0."""
+    kinds = set()
+    for row in itertools.product(range(1, 4), range(1, 4), range(1, 4), range(1, 4), range(7), (0,), range(4)):
+        pair = Pair(*map(float, row))
+        if exact._discriminant(exact.cubic(pair.lengths)) == 0:
+            kind = exact.decide(pair.lengths).kind
+            assert classify_by_roots(pair).kind is kind, row
+            kinds.add(kind)
+    assert len(kinds) >= 8
+
+
+def test_conditions_hold_at_their_borders_as_they_are_written():
+    for A, B, expected in ((1, 1, "a ≤ 1, c² = a"), (Fraction(1, 4), 1, "a < 1, a ≤ 1, c² > a"), (4, 1, "c² < a")):
+        held = oracle._occurs(Invariants(Fraction(A), Fraction(B), Fraction(1), Fraction(1)))
+        assert {name for name, holds in held.items() if holds} == {"always", *expected.split(", ")}

@@ -43,7 +43,7 @@ SAMPLES = {
 }
 """How many mutants are drawn of which files. The kernel's constants and what is printed have parts of their own."""
 
-MOST, SECONDS = 6, 0.8
+MOST, SECONDS = 8, 1.0
 """Tests that a mutant meets at first, and what they take under coverage; one that survives meets more."""
 
 MOST_AGAIN, SECONDS_AGAIN = 12, 2.0
@@ -114,10 +114,11 @@ def tried(
     name: str, mutants: list[Mutation], ran: Contexts, most: int, seconds: float, *, longest: bool = False
 ) -> list[dict[str, Any]]:
     """What became of the mutants, each against so many of its tests that take so many seconds of a processor."""
-    took, before = _seconds(), json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    took, breadth = _seconds(), _breadth(ran)
+    before = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
     tasks, known = [], []
     for each in mutants:
-        tests = chosen(each.module, ran[each.module][each.line], most, seconds, took, longest=longest)
+        tests = chosen(each.module, ran[each.module][each.line], most, seconds, took, breadth, longest=longest)
         last = before.get(each.key, {"outcome": "", "by": ""})
         judges = [last["by"]] if last["by"] else tests
         if last["outcome"] and last["mark"] == _mark(each.module, judges):
@@ -158,6 +159,11 @@ def _mark(module: str, tests: Iterable[str]) -> str:
     return hashlib.sha256("\0".join([*texts, *names]).encode()).hexdigest()[:16]
 
 
+def _breadth(ran: Contexts) -> Counter[str]:
+    """How many lines each test runs."""
+    return Counter(test for lines in ran.values() for tests in lines.values() for test in tests)
+
+
 def _seconds() -> dict[str, float]:
     """What each test took under coverage."""
     found: dict[str, float] = {}
@@ -172,24 +178,24 @@ def chosen(
     most: int,
     seconds: float,
     took: Mapping[str, float],
+    breadth: Mapping[str, int],
     *,
     longest: bool = False,
 ) -> list[str]:
-    """The tests to try, those of the module's own file first, then quick ones or long ones, two of a function at most.
+    """The tests to try, at most two of a function: those that run the fewest lines first, which ask for little else.
 
-    None of the long ones may take more than two fifths of the time.
+    Or, of the same room first, the longest, which try the most: none may take more than two fifths of the time.
     """
-    folder, own = "/".join(module.split("/")[1:-1]), f"test_{Path(module).stem}"
-    sign, most_of_one = (-1, 0.4 * seconds) if longest else (1, seconds)
+    room = f"tests/{'/'.join(module.split('/')[1:-1])}/"
+    most_of_one = 0.4 * seconds if longest else seconds
 
-    def far(test: str) -> tuple[int, float, str]:
-        file = test.partition("::")[0]
-        near = file.startswith(f"tests/{folder}/")
-        return (0 if near and f"/{own}" in file else 1 if near else 2, sign * took.get(test, USUAL_S), test)
+    def order(test: str) -> tuple[float, float, str]:
+        time = took.get(test, USUAL_S)
+        return (not test.startswith(room), -time, test) if longest else (breadth[test], time, test)
 
     alike: Counter[str] = Counter()
     found: list[str] = []
-    for test in sorted(tests, key=far):
+    for test in sorted(tests, key=order):
         function = test.partition("[")[0]
         if alike[function] < 2 and len(found) < most and took.get(test, USUAL_S) <= min(seconds, most_of_one):
             alike[function] += 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+from collections import Counter
 
 import pytest
 
@@ -92,13 +93,20 @@ def test_an_edit_of_other_code_draws_the_same_mutants():
     assert [each for each in after if each in before] == before
 
 
-def test_tests_of_the_own_file_come_first_then_quick_ones_and_at_most_two_of_a_function():
+def test_tests_that_run_few_lines_come_first_and_at_most_two_of_a_function():
     own = [f"tests/runs/test_score.py::test_a[{n}]" for n in range(4)]
-    near, far = "tests/runs/test_tally.py::test_b", "tests/cli/test_score.py::test_c"
+    broad, narrow = "tests/runs/test_tally.py::test_b", "tests/cli/test_score.py::test_c"
+    lines = Counter({broad: 900, narrow: 3} | dict.fromkeys(own, 50))
     score = "hypcheck/runs/score.py"
-    assert chosen(score, [far, near, *own], 10, 9.0, {}) == [*own[:2], near, far]
-    assert chosen(score, [far, near, *own], 3, 9.0, {}) == [*own[:2], near]
-    assert chosen(score, [far, near, *own], 10, 9.0, {own[0]: 0.5, near: 10.0}) == [own[1], own[2], far]
+    assert chosen(score, [broad, *own, narrow], 10, 9.0, {}, lines) == [narrow, *own[:2], broad]
+    assert chosen(score, [broad, *own, narrow], 3, 9.0, {}, lines) == [narrow, *own[:2]]
+    assert chosen(score, [broad, *own, narrow], 9, 9.0, {own[0]: 0.5, broad: 10.0}, lines) == [narrow, own[1], own[2]]
+
+
+def test_of_long_tests_those_of_the_room_come_first_and_none_takes_most_of_the_time():
+    took = {"tests/runs/a.py::a": 0.3, "tests/runs/a.py::b": 0.7, "tests/runs/a.py::c": 0.9, "tests/cli/a.py::d": 0.8}
+    found = chosen("hypcheck/runs/score.py", took, 10, 2.0, took, Counter(), longest=True)
+    assert found == ["tests/runs/a.py::b", "tests/runs/a.py::a", "tests/cli/a.py::d"]
 
 
 def test_the_figures_know_nearly_all_code():

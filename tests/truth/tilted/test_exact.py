@@ -154,3 +154,11 @@ def test_positions_refuse_or_flag_invalid_rows():
 def test_pair_refuses_an_axis_without_direction():
     with pytest.raises(InputError, match="must have a direction"):
         TiltedPair(1, 1, 1, 1, 0, 0, 0, 0.0, -0.0, 0.0)
+
+
+def test_lengths_and_axis_each_come_in_the_largest_unit_of_which_they_are_multiples():
+    row = [1.0, 2.0, 3.0, 5.0, 7.0, -8.0, 9.0, 3.0, 5.0, -7.0]
+    found = TiltedLengths.of(row)
+    assert (found.alpha, found.y, found.axis) == (1, -8, (3, 5, -7))
+    for lengths, axis in ((8.0, 1.0), (0.125, 4.0), (2.0**-1000, 2.0**900)):
+        assert TiltedLengths.of([*(each * lengths for each in row[:7]), *(each * axis for each in row[7:])]) == found
