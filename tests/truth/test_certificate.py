@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
 from tests.support.pairs import pairs
@@ -121,3 +122,31 @@ def test_a_double_root_outside_the_poles_is_no_tangency():
     assert (P, Q) == (Fraction(1, 4), 0)
     node = Pair(0.5, 1, 1, 1, 0.5, 0, 0)
     assert not check_certificate(node, Certificate(Position.CONTACT, double_root=m))
+
+
+HAIR = 2.0**-40
+NEARLY_TANGENT = [
+    (2.0, 5.0, 1.0, 1.0, 3.0 + HAIR, 0.0, 0.0),
+    (2.0, 5.0, 1.0, 1.0, 3.0 - HAIR, 0.0, 0.0),
+    (3.0, 3.0, 1.0, 1.0, 2.0 - HAIR, 0.0, 0.0),
+    (3.0, 3.0, 1.0, 1.0, 2.0 + HAIR, 0.0, 0.0),
+    (1.0 + HAIR, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+    (1.0 - HAIR, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+    (1.0, 0.5, 1.0, 1.0, 2.5 + HAIR, 0.0, 0.0),
+    (1.0, 0.5, 1.0, 1.0, 2.5 - HAIR, 0.0, 0.0),
+    (1.0, 2.0, 1.0, 1.0, 2.0 + HAIR, 0.0, 0.0),
+    (51.0, 6.0, 27.0, 9.0, 74.0, 0.0, 4.0),
+]
+
+
+@pytest.mark.parametrize(
+    "row", [*NEARLY_TANGENT, (1.0, 8.0, 1.0, 1.0, 4.0, 0.0, 0.0), (3.0, 3.0, 1.0, 1.0, 1.0, 0.0, 0.0)]
+)
+def test_pairs_a_hair_from_tangency_and_far_from_it_have_short_proofs_that_hold(row):
+    pair = Pair(*row)
+    certificate = prove(pair)
+    assert certificate.position is exact.position(pair.lengths)
+    assert check_certificate(pair, certificate)
+    if certificate.multiplier is not None:
+        digits = abs(certificate.multiplier.numerator)
+        assert (digits // (digits & -digits)).bit_length() <= (2 if row[4] in (4.0, 1.0) else 64)

@@ -43,7 +43,7 @@ SAMPLES = {
 }
 """How many mutants are drawn of which files. The kernel's constants and what is printed have parts of their own."""
 
-MOST, SECONDS = 8, 1.0
+MOST, SECONDS = 16, 1.0
 """Tests that a mutant meets at first, and what they take under coverage; one that survives meets more."""
 
 MOST_AGAIN, SECONDS_AGAIN = 12, 2.0
@@ -53,8 +53,9 @@ EXPLAINED = Path(__file__).with_name("explained_mutants.json")
 """Survivors that are no gap of the tests, by module, function and changed code, with the reason."""
 
 RESULTS = DATA.parent / "mutants.json"
-"""What became of each mutant the last time. It counts again while the module and the tests that judged it are the same;
-else the test that killed it is tried first. A run without this file only takes longer."""
+"""What became of each mutant the last time. It counts again while the module and the tests that judged it are the same,
+and that of an explained survivor while the module is. Else the test that killed it is tried first. A run without this
+file only takes longer."""
 
 
 def measure() -> Figures:
@@ -116,18 +117,22 @@ def tried(
     """What became of the mutants, each against so many of its tests that take so many seconds of a processor."""
     took, breadth = _seconds(), _breadth(ran)
     before = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    reasons = json.loads(EXPLAINED.read_text(encoding="utf-8"))
     tasks, known = [], []
     for each in mutants:
         tests = chosen(each.module, ran[each.module][each.line], most, seconds, took, breadth, longest=longest)
-        last = before.get(each.key, {"outcome": "", "by": ""})
-        judges = [last["by"]] if last["by"] else tests
-        if last["outcome"] and last["mark"] == _mark(each.module, judges):
+        last = before.get(each.key, {"outcome": "", "by": "", "mark": "", "module": ""})
+        same = last["mark"] == _mark(each.module, [last["by"]] if last["by"] else tests)
+        if same or (last["outcome"] == "survived" and each.key in reasons and last["module"] == _mark(each.module, ())):
             known.append({**last, "mutation": asdict(each)})
         else:
             tasks.append({"mutation": asdict(each), "tests": tests, "first": last["by"]})
     for task, found in zip(tasks, _run(name, tasks, took), strict=True):
         mark = _mark(found["mutation"]["module"], [found["by"]] if found["by"] else task["tests"])
-        before[found["mutation"]["key"]] = {"outcome": found["outcome"], "by": found["by"], "mark": mark}
+        module = _mark(found["mutation"]["module"], ())
+        before[found["mutation"]["key"]] = {
+            "outcome": found["outcome"], "by": found["by"], "mark": mark, "module": module,
+        }  # fmt: skip
         known.append(found)
     RESULTS.write_text(json.dumps(before, indent=1), encoding="utf-8")
     return known
@@ -182,12 +187,13 @@ def chosen(
     *,
     longest: bool = False,
 ) -> list[str]:
-    """The tests to try, at most two of a function: those that run the fewest lines first, which ask for little else.
+    """The tests to try: those that run the fewest lines first, which ask for little else; at most six of a function.
 
-    Or, of the same room first, the longest, which try the most: none may take more than two fifths of the time.
+    Or, of the same room first, the longest, which try the most: none may take more than two fifths of the time, and at
+    most two are of a function.
     """
     room = f"tests/{'/'.join(module.split('/')[1:-1])}/"
-    most_of_one = 0.4 * seconds if longest else seconds
+    most_of_one, most_alike = (0.4 * seconds, 2) if longest else (seconds, 6)
 
     def order(test: str) -> tuple[float, float, str]:
         time = took.get(test, USUAL_S)
@@ -197,7 +203,7 @@ def chosen(
     found: list[str] = []
     for test in sorted(tests, key=order):
         function = test.partition("[")[0]
-        if alike[function] < 2 and len(found) < most and took.get(test, USUAL_S) <= min(seconds, most_of_one):
+        if alike[function] < most_alike and len(found) < most and took.get(test, USUAL_S) <= min(seconds, most_of_one):
             alike[function] += 1
             found.append(test)
             seconds -= took.get(test, USUAL_S)

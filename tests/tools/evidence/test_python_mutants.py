@@ -93,14 +93,14 @@ def test_an_edit_of_other_code_draws_the_same_mutants():
     assert [each for each in after if each in before] == before
 
 
-def test_tests_that_run_few_lines_come_first_and_at_most_two_of_a_function():
-    own = [f"tests/runs/test_score.py::test_a[{n}]" for n in range(4)]
+def test_tests_that_run_few_lines_come_first_and_at_most_six_of_a_function():
+    own = [f"tests/runs/test_score.py::test_a[{n}]" for n in range(8)]
     broad, narrow = "tests/runs/test_tally.py::test_b", "tests/cli/test_score.py::test_c"
     lines = Counter({broad: 900, narrow: 3} | dict.fromkeys(own, 50))
     score = "hypcheck/runs/score.py"
-    assert chosen(score, [broad, *own, narrow], 10, 9.0, {}, lines) == [narrow, *own[:2], broad]
+    assert chosen(score, [broad, *own, narrow], 10, 9.0, {}, lines) == [narrow, *own[:6], broad]
     assert chosen(score, [broad, *own, narrow], 3, 9.0, {}, lines) == [narrow, *own[:2]]
-    assert chosen(score, [broad, *own, narrow], 9, 9.0, {own[0]: 0.5, broad: 10.0}, lines) == [narrow, own[1], own[2]]
+    assert chosen(score, [broad, *own, narrow], 9, 9.0, {own[0]: 0.5, broad: 10.0}, lines) == [narrow, *own[1:7]]
 
 
 def test_of_long_tests_those_of_the_room_come_first_and_none_takes_most_of_the_time():
