@@ -37,7 +37,7 @@ KNOWN = {
 
 
 @pytest.mark.parametrize(("row", "known"), KNOWN.items())
-def test_the_answer_equals_one_computed_by_hand(row, known, capsys):
+def test_classify_of_one_pair_gives_the_answer_computed_by_hand(row, known, capsys):
     label, position, tangent, clearance = known
     assert main([*options(*row), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -52,13 +52,13 @@ def test_the_answer_equals_one_computed_by_hand(row, known, capsys):
         assert lines[1].startswith(f"clearance  {shown} spheroid radi")
 
 
-def test_a_center_may_be_negative_in_every_notation(capsys):
+def test_classify_reads_negative_centers_in_every_notation(capsys):
     for center in (("-2.5", "-0", "-0.0"), ("-.25e1", "0", "-1e-400"), ("0", "-25e-1", "+0")):
         assert main([*options(1, 2, 1, 1, *center), "--json"]) == 0
         assert json.loads(capsys.readouterr().out)["clearance"] == 0.5
 
 
-def test_the_printed_proof_of_the_readme_example(capsys):
+def test_classify_prints_a_valid_proof_for_the_example_of_the_readme(capsys):
     assert main(options(1, 2, 1, 1, 2.5, 0, 0)) == 0
     text = " ".join(capsys.readouterr().out.split())
     at, value = re.search(r"λ = (\S+) lies in \(0, B\) and g\(λ\) = (\S+) is above 0", text).groups()
@@ -114,7 +114,7 @@ def integer(digits: str) -> int:
 
 @settings(max_examples=150)
 @given(pairs)
-def test_every_proof_can_be_checked_from_what_is_printed(pair):
+def test_every_proof_that_classify_prints_can_be_checked_from_its_text(pair):
     found = answer(pair)
     printed = json.loads(answer_as_json(found))
     check_printed_proof(pair, printed)
@@ -125,7 +125,7 @@ def test_every_proof_can_be_checked_from_what_is_printed(pair):
 
 
 @pytest.mark.parametrize("row", [(4, 10, 1, 1, 3, 4, 1e-160), (1, 1, 3, 1, 4, 1e-160, 0), (1, 2, 1, 1, 2, 0, 0)])
-def test_a_printed_proof_with_one_changed_number_fails_the_check(row):
+def test_a_proof_printed_by_classify_fails_its_check_if_one_number_is_changed(row):
     """The check above sees every number: change one, and it fails."""
     pair = Pair.from_row(map(float, row))
     proof = json.loads(answer_as_json(answer(pair)))
@@ -138,20 +138,20 @@ def test_a_printed_proof_with_one_changed_number_fails_the_check(row):
 
 
 @pytest.mark.parametrize("power", [10, 2999, 3000, 3001, 4301, 12_345])
-def test_integers_of_any_length_are_written_exactly(power):
+def test_exact_text_writes_integers_and_fractions_of_any_length(power):
     for value in (10**power, 10**power - 1, -(7**power)):
         assert number(exact_text(Fraction(value))) == value
         assert number(exact_text(Fraction(value, 3**power))) == Fraction(value, 3**power)
         assert len(readable_text(Fraction(value, 3))) < 40
 
 
-def test_a_rounded_number_is_marked():
+def test_readable_text_marks_a_rounded_number():
     assert readable_text(Fraction(25, 4)) == "25/4"
     assert readable_text(Fraction(1, 3) ** 80).startswith("≈ 6.765")
 
 
 @pytest.mark.parametrize("left_out", ["--alpha", "--gamma", "--b", "--d", "--center"])
-def test_a_missing_option_is_refused_by_name(left_out, capsys):
+def test_classify_names_the_missing_option_of_one_pair(left_out, capsys):
     words = options(1, 2, 1, 1, 2.5, 0, 0)
     place = words.index(left_out)
     del words[place : place + (4 if left_out == "--center" else 2)]
@@ -174,7 +174,7 @@ def test_a_missing_option_is_refused_by_name(left_out, capsys):
         (("", 2, 1, 1, 0, 0, 0), "--alpha is empty; it must be a number"),
     ],
 )
-def test_a_bad_number_is_refused_naming_the_option_and_what_would_be_right(row, sentence, capsys):
+def test_classify_refuses_an_invalid_number_and_says_what_its_option_takes(row, sentence, capsys):
     assert main(options(*row)) == 2
     assert capsys.readouterr().err == f"hypcheck: error: {sentence}\n"
 
@@ -192,12 +192,12 @@ def test_a_bad_number_is_refused_naming_the_option_and_what_would_be_right(row, 
         (["classify", "--input", "a.csv", "--output", "b.csv", "--center", "1", "2", "3"], "--center is for one pair"),
     ],
 )
-def test_options_that_do_not_go_together_are_refused(words, sentence, capsys):
+def test_classify_refuses_options_that_exclude_each_other(words, sentence, capsys):
     assert main(words) == 2
     assert sentence in capsys.readouterr().err
 
 
-def test_oracles_that_disagree_end_the_run_with_6(monkeypatch, capsys):
+def test_classify_ends_with_6_if_the_oracles_disagree(monkeypatch, capsys):
     from hypcheck.truth import exact as oracle
 
     right = oracle.decide
@@ -213,7 +213,7 @@ def test_oracles_that_disagree_end_the_run_with_6(monkeypatch, capsys):
     assert "two oracles disagree about alpha 1.0" in errors
 
 
-def test_a_proof_that_does_not_hold_is_not_printed(monkeypatch, capsys):
+def test_classify_ends_with_6_and_prints_no_proof_if_the_proof_does_not_hold(monkeypatch, capsys):
     from hypcheck import answer as module
     from hypcheck.truth.certificate import Certificate
 

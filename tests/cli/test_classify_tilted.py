@@ -47,7 +47,7 @@ KNOWN = {
 
 
 @pytest.mark.parametrize(("row", "known"), KNOWN.items())
-def test_answer_with_an_axis_is_what_a_hand_computes(row, known, capsys):
+def test_classify_with_an_axis_gives_the_answer_computed_by_hand(row, known, capsys):
     label, position, tangent, clearance = known
     assert main([*options(row), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -104,7 +104,7 @@ TOUCHING = [[4.0, 1.0, 2.0, 1.0, 3.0, 0.0, 0.0, 1.0, 0.0, 0.0], [1.0, 2.0, 1.0, 
 
 
 @pytest.mark.parametrize("row", [*(list(row) for row, _ in RINGS), *TOUCHING, *small_rows(31, 60), *wide_rows(32, 4)])
-def test_every_proof_can_be_checked_from_what_is_printed(row):
+def test_every_proof_that_classify_prints_for_a_leaning_pair_can_be_checked_from_its_text(row):
     found = answer(TiltedPair.from_row(row))
     printed = json.loads(answer_as_json(found))
     if max(map(abs, row)) < 1e9:
@@ -118,7 +118,7 @@ def test_every_proof_can_be_checked_from_what_is_printed(row):
 
 
 @pytest.mark.parametrize("row", [TOUCHING[0], [1.0, 2.0, 1.0, 0.5, 2.5, 0.0, 0.0, 1.0, 1.0, 0.0]])
-def test_a_changed_number_in_a_proof_is_noticed(row):
+def test_a_proof_for_a_leaning_pair_fails_its_check_if_one_number_is_changed(row):
     proof = json.loads(answer_as_json(answer(TiltedPair.from_row(row))))
     check_printed_proof(row, proof)
     for name in ("pivots", "f"):
@@ -130,7 +130,7 @@ def test_a_changed_number_in_a_proof_is_noticed(row):
 
 
 @pytest.mark.parametrize("axis", [("0", "0", "1"), ("-0", "0", "-5e-324")])
-def test_an_axis_along_z_is_answered_as_without_it(axis, capsys):
+def test_classify_with_an_axis_along_z_answers_as_without_an_axis(axis, capsys):
     without = [
         "classify",
         "--alpha",
@@ -162,12 +162,12 @@ def test_an_axis_along_z_is_answered_as_without_it(axis, capsys):
         (("1e999", "0", "0"), "--axis: axis_x is 1e999, which is too large for float64"),
     ],
 )
-def test_what_is_no_axis_is_refused_in_one_sentence(axis, sentence, capsys):
+def test_classify_refuses_an_invalid_axis_in_one_sentence(axis, sentence, capsys):
     assert main(options([1, 2, 1, 1, 2.5, 0, 0, *axis])) == 2
     assert sentence in capsys.readouterr().err
 
 
-def test_an_axis_is_for_one_pair(capsys):
+def test_classify_refuses_an_axis_without_a_pair_or_with_a_table(capsys):
     assert main(["classify", "--axis", "1", "0", "0"]) == 2
     assert "--alpha, --gamma, --b, --d, --center are missing" in capsys.readouterr().err
     assert main(["classify", "--axis", "1", "0", "0", "--input", "a.csv", "--output", "-"]) == 2

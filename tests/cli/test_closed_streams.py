@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 
-def test_errors_on_a_closed_standard_error_do_not_go_to_standard_output():
+def test_an_error_with_standard_error_closed_is_not_written_to_standard_output():
     words = [sys.executable, "-m", "hypcheck", "classify", "--input", "no-such-file.csv", "--output", "-"]
     done = subprocess.run(words, stdout=subprocess.PIPE, preexec_fn=lambda: os.close(2), check=False)
     assert (done.returncode, done.stdout) == (2, b"")
@@ -21,7 +21,7 @@ main.process()
 """
 
 
-def test_no_file_takes_the_place_of_a_closed_standard_stream():
+def test_an_opened_file_never_gets_the_number_of_a_closed_standard_stream():
     read, write = os.pipe()
 
     def begin():

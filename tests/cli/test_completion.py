@@ -69,25 +69,25 @@ def completed(shell: str, line: str, environment: dict[str, str]) -> list[str]:
 
 
 @pytest.mark.parametrize("shell", SHELLS)
-def test_a_shell_with_the_script_offers_commands_options_and_values(shell, environment):
+def test_completion_in_a_shell_offers_commands_options_and_values(shell, environment):
     for line, expected in LINES.items():
         assert set(completed(shell, line, environment)) == expected, line
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh"])
-def test_a_shell_offers_files_where_a_value_is_free_text(shell, environment):
+def test_completion_in_a_shell_offers_files_where_a_value_is_free_text(shell, environment):
     for line in ("hypcheck classify --input tab", "hypcheck classify --input ''"):
         assert completed(shell, line, environment) == ["files"]
 
 
-def test_fish_offers_files_where_a_value_is_free_text(environment, tmp_path, monkeypatch):
+def test_completion_in_fish_offers_files_where_a_value_is_free_text(environment, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "table.csv").touch()
     assert completed("fish", "hypcheck classify --input tab", environment) == ["table.csv"]
 
 
 @pytest.mark.parametrize("shell", SHELLS)
-def test_the_variable_of_click_prints_the_same_script_as_the_command(shell, monkeypatch, capsys):
+def test_the_completion_variable_of_click_prints_the_same_script_as_the_command(shell, monkeypatch, capsys):
     assert main(["completion", shell]) == 0
     script = capsys.readouterr().out
     assert f"{COMPLETE}={shell}_complete" in script
@@ -104,7 +104,7 @@ def asked(shell: str, line: str, environment: dict[str, str]) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("shell", SHELLS)
-def test_the_protocol_of_each_shell_is_answered_without_the_shell(shell, environment):
+def test_completion_answers_the_protocol_of_each_shell_without_that_shell(shell, environment):
     done = answered(asked(shell, "hypcheck mini", environment))
     assert (done.returncode, done.stderr) == (0, "")
     assert "minimise" in done.stdout
@@ -116,12 +116,12 @@ def answered(environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
     return subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
 
 
-def test_an_unknown_command_before_the_word_is_no_error_while_completing(environment):
+def test_completion_after_an_unknown_command_raises_no_error(environment):
     done = answered(asked("bash", "hypcheck bogus wo", environment))
     assert (done.returncode, done.stdout, done.stderr) == (0, "file,wo\n", "")
 
 
-def test_completing_loads_neither_numpy_nor_anything_heavy(environment):
+def test_completion_loads_neither_numpy_nor_other_large_modules(environment):
     heavy = ("numpy", "sympy", "mpmath", "fcl", "matplotlib", "jinja2", "importlib.metadata")
     code = f"""
 import json, sys
@@ -136,7 +136,7 @@ print(json.dumps([name for name in {heavy!r} if name in sys.modules]), file=sys.
 
 
 @pytest.mark.parametrize("instruction", ["tcsh_source", "bash", "bash_", "1", "bash_complete"])
-def test_an_instruction_that_is_none_ends_2_with_a_sentence(instruction, monkeypatch, capsys):
+def test_an_invalid_completion_variable_ends_2_with_one_sentence(instruction, monkeypatch, capsys):
     monkeypatch.delenv("COMP_WORDS", raising=False)
     monkeypatch.setenv(COMPLETE, instruction)
     assert main([]) == 2

@@ -44,7 +44,7 @@ def _login(terminal):
 
 
 @pytest.mark.parametrize(("nohup", "code"), [(True, 0), (False, 143)])
-def test_a_run_whose_terminal_closes_continues_under_nohup_and_else_ends_143(tmp_path, nohup, code):
+def test_verify_continues_under_nohup_if_its_terminal_closes_and_otherwise_ends_143(tmp_path, nohup, code):
     spec = "python:tests.runs.faulty:too_slow_for_a_glance"
     words = ["verify", spec, "--families", "uniform", "--count", "4000", "--out", str(tmp_path)]
     process = in_terminal(words, nohup=nohup)

@@ -63,7 +63,7 @@ def test_of_several_exit_codes_the_first_in_precedence_applies():
 
 
 @pytest.mark.parametrize("kind", [InputError, NothingJudgedError, UnavailableError, HypcheckError])
-def test_an_expected_error_is_its_own_sentence_and_code(kind):
+def test_an_expected_error_ends_with_its_exit_code_and_its_message_in_one_line(kind):
     ending = ending_of(kind("a.csv: what\nis wrong"))
     assert ending.code == kind.exit_code
     assert ending.lines == ("hypcheck: error: a.csv: what is wrong",)
@@ -73,7 +73,7 @@ def test_messages_escape_control_characters():
     assert ending_of(InputError("a\x1b[31m\udc80 α")).lines == ("hypcheck: error: a\\x1b[31m\\udc80 α",)
 
 
-def test_a_full_disk_ends_2_and_is_no_internal_error():
+def test_a_full_disk_ends_2_and_is_not_reported_as_an_internal_error():
     assert ending_of(OSError(28, "No space left on device")).code == Exit.USAGE
     assert ending_of(OSError("something else")).code == Exit.INTERNAL
 
@@ -97,7 +97,7 @@ def test_a_full_disk_ends_2_and_is_no_internal_error():
         (["classify", "extra"], "extra"),
     ],
 )
-def test_wrong_usage_prints_one_sentence_and_where_to_find_help(arguments, sentence, capsys):
+def test_wrong_usage_prints_one_sentence_and_the_help_command(arguments, sentence, capsys):
     assert main(arguments) == Exit.USAGE
     output, errors = capsys.readouterr()
     message, hint = errors.splitlines()
@@ -132,7 +132,7 @@ class Terminal(StringIO):
     ("environment", "coloured"),
     [({}, True), ({"NO_COLOR": "1"}, False), ({"NO_COLOR": ""}, True), ({"TERM": "dumb"}, False)],
 )
-def test_a_terminal_is_coloured_unless_the_environment_forbids_it(environment, coloured, monkeypatch):
+def test_output_on_a_terminal_is_coloured_unless_the_environment_forbids_it(environment, coloured, monkeypatch):
     monkeypatch.delenv("NO_COLOR", raising=False)
     for name, value in ({"TERM": "xterm"} | environment).items():
         monkeypatch.setenv(name, value)
@@ -161,7 +161,7 @@ def broken(error: BaseException) -> click.Command:
         (BrokenPipeError(), 141, ""),
     ],
 )
-def test_any_other_error_ends_without_a_traceback(error, code, told, monkeypatch, capsys):
+def test_an_unexpected_error_or_interrupt_ends_without_a_traceback(error, code, told, monkeypatch, capsys):
     monkeypatch.setattr(commands.LazyGroup, "get_command", lambda *_: broken(error))
     assert main(["classify"]) == code
     errors = capsys.readouterr().err
@@ -171,7 +171,7 @@ def test_any_other_error_ends_without_a_traceback(error, code, told, monkeypatch
     assert ("please report it" in errors) is (code == 70)
 
 
-def test_debug_shows_the_traceback(monkeypatch, capsys):
+def test_debug_option_shows_the_traceback_of_an_error(monkeypatch, capsys):
     monkeypatch.setattr(commands.LazyGroup, "get_command", lambda *_: broken(ZeroDivisionError("by zero")))
     assert main(["--debug", "classify"]) == Exit.INTERNAL
     assert "Traceback" in capsys.readouterr().err
@@ -197,7 +197,7 @@ def test_a_closed_terminal_does_not_end_a_run_that_ignores_sighup():
 
 
 @pytest.mark.parametrize(("name", "error"), [("SIGINT", KeyboardInterrupt), ("SIGTERM", Terminated)])
-def test_an_interrupt_is_not_lost_while_an_object_is_freed(name, error, capsys):
+def test_an_interrupt_inside_the_del_method_of_an_object_is_not_lost(name, error, capsys):
     class Freed:
         def __del__(self) -> None:
             signal.raise_signal(getattr(signal, name))
@@ -225,7 +225,7 @@ def test_a_command_can_end_with_an_exit_code_that_it_chooses(monkeypatch, capsys
 @pytest.mark.parametrize(
     "environment", [BUFFERED, BUFFERED | {"PYTHONUNBUFFERED": "1"}], ids=["buffered", "unbuffered"]
 )
-def test_a_closed_pipe_ends_quietly(arguments, environment):
+def test_a_closed_output_pipe_ends_141_without_a_message(arguments, environment):
     read, write = os.pipe()
     os.close(read)
     rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
@@ -235,7 +235,7 @@ def test_a_closed_pipe_ends_quietly(arguments, environment):
     assert (done.returncode, done.stderr) == (Exit.CLOSED_PIPE, b"")
 
 
-def test_a_closed_pipe_adds_nothing_to_another_error():
+def test_a_closed_output_pipe_adds_nothing_to_the_message_of_another_error():
     """What was printed before the error and could not be written is not tried again when the interpreter ends."""
     code = """
 import click, sys
@@ -260,7 +260,7 @@ sys.exit(main(["classify"]))
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
 @pytest.mark.parametrize("arguments", [PAIR, [*TABLE, "--output", "-"]])
-def test_a_full_output_ends_with_one_line(arguments):
+def test_writing_to_a_full_device_ends_2_with_a_one_line_message(arguments):
     rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
     with open("/dev/full", "wb") as full:
         words = [*HYPCHECK, *arguments]
@@ -270,14 +270,14 @@ def test_a_full_output_ends_with_one_line(arguments):
     assert b"no space left" in done.stderr
 
 
-def test_a_limit_of_the_system_ends_2_and_is_no_internal_error():
+def test_a_reached_system_limit_ends_2_and_is_not_reported_as_an_internal_error():
     ending = ending_of(OSError(errno.EMFILE, os.strerror(errno.EMFILE)))
     assert ending.code == Exit.USAGE
     assert ending.lines == ("hypcheck: error: a limit of the system is reached: too many open files; see `ulimit -a`",)
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 143)])
-def test_an_interrupted_run_leaves_nothing_half_written(number, code, tmp_path):
+def test_an_interrupted_classify_leaves_the_old_output_file_and_no_partial_one(number, code, tmp_path):
     target = tmp_path / "answers.csv"
     target.write_text("what was there")
     process = subprocess.Popen([*HYPCHECK, *TABLE, "--output", target], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -297,7 +297,7 @@ def test_an_interrupted_run_leaves_nothing_half_written(number, code, tmp_path):
     assert target.read_text() == "what was there"
 
 
-def test_an_encoding_without_greek_gets_escapes():
+def test_classify_writes_escapes_if_the_output_encoding_has_no_greek():
     environment = os.environ | {"PYTHONIOENCODING": "latin-1"}
     done = subprocess.run([*HYPCHECK, *PAIR], env=environment, capture_output=True, check=True)
     assert b"\\u03bb" in done.stdout

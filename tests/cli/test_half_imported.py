@@ -20,7 +20,7 @@ CODES = {"SIGINT": 130, "SIGTERM": 143, "SIGHUP": 143}
 
 
 @pytest.mark.parametrize(("name", "code"), [each for each in CODES.items() if hasattr(signal, each[0])])
-def test_a_signal_while_click_is_imported(tmp_path, name, code):
+def test_a_signal_during_the_import_of_click_ends_with_its_exit_code_and_one_line(tmp_path, name, code):
     (tmp_path / "click.py").write_text(INTERRUPTED_CLICK.format(name=name), encoding="utf-8")
     command = [sys.executable, "-m", "hypcheck", "--help"]
     done = subprocess.run(

@@ -27,19 +27,19 @@ from hypcheck.vectors.families import select
         ("1e99", 10**99),
     ],
 )
-def test_a_whole_number_is_read_exactly(text, number):
+def test_integer_option_reads_whole_numbers_with_exponents_exactly(text, number):
     assert integer_of(text) == number
 
 
 @pytest.mark.parametrize(
     "text", ["", " ", "1.5", "1e-1", "-1", "+1", "1__0", "_1", "1_", "e9", "1e", "1e999", "0x10", "٣", "inf", "1" * 30]
 )
-def test_other_texts_are_no_whole_numbers(text):
+def test_integer_option_refuses_texts_that_are_not_whole_numbers(text):
     assert integer_of(text) is None
 
 
 @given(st.integers(0, 10**19 - 1))
-def test_digits_are_read_as_python_reads_them(number):
+def test_integer_option_reads_digits_with_and_without_underscores_as_python_does(number):
     assert integer_of(str(number)) == number
     assert integer_of(f"{number:_}") == number
 
@@ -53,25 +53,25 @@ def test_digits_are_read_as_python_reads_them(number):
         ("--seed", "9223372036854775808", "at least 0 and at most 9223372036854775807"),
     ],
 )
-def test_a_whole_number_out_of_range_is_refused_in_one_sentence(option, text, wanted, capsys):
+def test_verify_refuses_a_whole_number_out_of_range_in_one_sentence(option, text, wanted, capsys):
     assert main(["verify", "builtin:fast", option, text]) == 2
     said = capsys.readouterr().err.splitlines()[0]
     assert said == f"hypcheck: error: invalid value for '{option}': '{text}' must be a whole number, {wanted}"
 
 
-def test_a_count_may_be_written_with_an_exponent(tmp_path, capsys, text_reports):
+def test_verify_takes_a_count_written_with_an_exponent(tmp_path, capsys, text_reports):
     assert main(["verify", "builtin:fast", "--families", "ring", "--count", "1.2e2", "--out", str(tmp_path)]) == 0
     assert "360 right" in capsys.readouterr().out
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("families", [(), ("ring", "tower-body"), ("extreme-*",)])
-def test_the_planned_size_of_a_run_is_the_sum_of_its_chunks(families):
+def test_planned_size_is_the_number_of_rows_in_all_chunks_of_the_run(families):
     plan = ConformancePlan(("builtin:fast",), families=families, count=70_000)
     chosen = select(families, tilted=True, layout=None) if families else select()
     some = [chunk for family in chosen for chunk in family_chunks(family, plan.seed, plan.count)]
     assert planned_size(plan) == sum(map(len, [*some, *(() if families else searched_chunks())]))
 
 
-def test_the_size_of_a_huge_run_is_computed_without_its_chunks():
+def test_planned_size_of_a_huge_run_is_computed_without_its_chunks():
     assert planned_size(ConformancePlan(("builtin:fast",), families=("ring",), count=10**15)) > 10**15

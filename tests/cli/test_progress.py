@@ -41,7 +41,7 @@ def clock(monkeypatch):
     return now
 
 
-def test_the_bar_shows_the_rate_and_the_time_left(screen, clock):
+def test_the_progress_bar_shows_the_rate_and_the_time_left(screen, clock):
     with watched(1000, "work", "cases") as pace:
         for _ in range(4):
             clock[0] += 1
@@ -49,7 +49,7 @@ def test_the_bar_shows_the_rate_and_the_time_left(screen, clock):
         assert screen.shown[-1].endswith("4%  10 cases a second, 0:01:36 left")
 
 
-def test_a_bar_that_is_made_longer_shows_the_share_of_the_new_length(screen, clock):
+def test_a_progress_bar_whose_total_grows_shows_the_share_of_the_new_total(screen, clock):
     with watched(100, "work", "cases") as pace:
         pace.expect(300)
         for _ in range(4):
@@ -58,7 +58,7 @@ def test_a_bar_that_is_made_longer_shows_the_share_of_the_new_length(screen, clo
         assert screen.shown[-1].endswith("50%  50 cases a second, 0:00:04 left")
 
 
-def test_the_rate_does_not_count_steps_of_the_resumed_run(screen, clock):
+def test_the_rate_of_the_progress_bar_leaves_out_steps_done_before_a_resume(screen, clock):
     with watched(100_000_000, "work", "cases", done=90_000_000) as pace:
         assert "90%" in screen.shown[-1]
         clock[0] += 2
@@ -66,21 +66,21 @@ def test_the_rate_does_not_count_steps_of_the_resumed_run(screen, clock):
         assert screen.shown[-1].endswith("90%  500 cases a second, 5:33:18 left")
 
 
-def test_the_rate_counts_units_other_than_steps(screen, clock):
+def test_the_rate_of_the_progress_bar_may_count_another_unit_than_its_steps(screen, clock):
     with watched(5_000, "read", "rows") as pace:
         clock[0] += 10
         pace.advance(500, 30_000_000)
         assert screen.shown[-1].endswith("10%  3.0 million rows a second, 0:01:30 left")
 
 
-def test_a_bar_of_unknown_length_shows_no_time_left(screen, clock):
+def test_a_progress_bar_of_unknown_length_shows_no_time_left(screen, clock):
     with watched(None, "read", "rows") as pace:
         clock[0] += 10
         pace.advance(500, 70)
         assert screen.shown[-1].endswith("7 rows a second")
 
 
-def test_classify_shows_a_bar_on_a_terminal_and_nothing_in_a_pipe(screen, tmp_path, monkeypatch):
+def test_classify_shows_a_progress_bar_on_a_terminal_and_nothing_in_a_pipe(screen, tmp_path, monkeypatch):
     np.save(tmp_path / "rows.npy", np.tile([2.0, 1.0, 0.5, 0.5, 4.0, 0.0, 0.0], (20_000, 1)))
     for kind in ("npy", "csv"):
         words = ["classify", "--input", str(tmp_path / "rows.npy"), "--output", str(tmp_path / f"out.{kind}")]

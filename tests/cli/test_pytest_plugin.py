@@ -52,7 +52,7 @@ def test_without_marker(): ...
 """
 
 
-def test_a_users_pytest_fails_where_the_gate_fails_and_says_how_to_see_it(pytester):
+def test_a_marked_test_fails_where_verify_fails_and_shows_the_replay_command(pytester):
     pytester.makepyfile(mine=MINE, test_mine=SUITE)
     result = pytester.runpytest_subprocess("-rP", "--strict-markers")
     result.assert_outcomes(passed=2, failed=3)
@@ -66,7 +66,7 @@ def test_a_users_pytest_fails_where_the_gate_fails_and_says_how_to_see_it(pytest
     assert "there is no option '--tolerence'; did you mean --tolerance?" in text
 
 
-def test_the_case_that_is_shown_has_the_greatest_error_of_the_run(tmp_path, monkeypatch):
+def test_a_failed_marked_test_shows_the_case_with_the_greatest_error(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(MINE, encoding="utf-8")
     words = ["python:mine.py:clears_contacts", "--families", "tangent*,near*", "--count", "0", "--out", "out"]
@@ -77,6 +77,6 @@ def test_the_case_that_is_shown_has_the_greatest_error_of_the_run(tmp_path, monk
     assert error_text(max(cases, key=lambda case: float(case.backward_error_u))) in worst.message
 
 
-def test_options_of_the_marker_are_words_of_the_command_line():
+def test_arguments_of_the_pytest_marker_become_options_of_verify():
     options = {"max_abstained": 3, "deterministic": True, "fail_on": None, "families": ("a", "b*")}
     assert list(pytest_plugin._words(options)) == ["--max-abstained", "3", "--deterministic", "--families", "a,b*"]

@@ -64,7 +64,7 @@ def options(folder="reports/latest"):
     return read(Path(folder) / "record.jsonl").header.options
 
 
-def test_every_setting_reaches_the_run(project):
+def test_every_key_of_the_settings_file_reaches_the_options_of_the_run(project):
     project(ALL)
     Path("known.toml").write_text("", encoding="utf-8")
     assert main(["verify"]) == 0
@@ -95,7 +95,7 @@ def test_every_setting_reaches_the_run(project):
     }
 
 
-def test_every_key_is_an_option_of_the_commands_that_read_it(project):
+def test_every_key_of_the_settings_file_is_an_option_of_the_commands_that_read_it(project):
     for name in COMMANDS:
         module, _, attribute = ALL_COMMANDS[name].partition(":")
         parameters = {each.name for each in getattr(import_module(module), attribute).params}
@@ -111,7 +111,7 @@ def test_the_command_line_takes_precedence_over_the_settings_file(project):
     assert (said["specs"], said["families"], said["count"], said["seed"]) == (["builtin:fast"], ["tower-body"], 3, 5)
 
 
-def test_no_settings_ignores_the_settings_file(project):
+def test_no_settings_option_ignores_an_invalid_settings_file(project):
     project("count = 'many'")
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
     assert main(["--no-settings", "verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 0
@@ -120,12 +120,12 @@ def test_no_settings_ignores_the_settings_file(project):
 @pytest.mark.parametrize(
     "words", [["--help"], ["verify", "--help"], ["replay", "-h"], ["cases", "list"], ["--version"]]
 )
-def test_commands_without_settings_do_not_read_the_file(project, words):
+def test_commands_without_settings_do_not_read_an_invalid_settings_file(project, words):
     project("nonsense")
     assert main(words) == 0
 
 
-def test_specs_are_for_verify_alone(project, capsys):
+def test_specs_of_the_settings_file_are_read_by_verify_alone(project, capsys):
     project('specs = ["builtin:table-2-float64"]')
     assert main(["replay", "ring-0001"]) == 2
     assert "SPEC" in capsys.readouterr().err
@@ -172,7 +172,7 @@ count = 2
 """
 
 
-def test_settings_that_weaken_the_gate_are_shown_at_the_start_and_in_every_report(project, capsys):
+def test_settings_weaker_than_the_defaults_are_shown_at_the_start_and_in_every_report(project, capsys):
     project(WEAK)
     assert main(["verify", "--count", "3", "--seed", "5", "--timeout", "60"]) == 0
     said = capsys.readouterr()
@@ -207,14 +207,14 @@ def test_a_run_as_strict_as_the_defaults_shows_no_settings(project, capsys):
 
 
 @pytest.mark.parametrize(("families", "weaker"), [("*", False), ("*,ring", False), ("extreme", True), ("ring", True)])
-def test_a_choice_of_families_weakens_the_gate_only_if_it_leaves_out_one(project, families, weaker):
+def test_families_setting_counts_as_weaker_only_if_it_leaves_out_a_default_family(project, families, weaker):
     context = verify.make_context("verify", ["builtin:fast", "--families", families])
     with context:
         found = in_effect(context)
     assert [each.option for each in (found.weakened if found else [])] == ["--families"] * weaker
 
 
-def test_replay_shows_the_settings_that_weaken_its_judgement(project, capsys):
+def test_replay_shows_the_settings_that_are_weaker_than_the_defaults(project, capsys):
     project("tolerance = 1e9\n")
     main(["replay", "ring-0001", "builtin:fast", "--question", "exterior"])
     (line,) = capsys.readouterr().err.splitlines()
@@ -222,13 +222,13 @@ def test_replay_shows_the_settings_that_weaken_its_judgement(project, capsys):
     assert line.endswith(": --tolerance 1000000000, not 8 (hypcheck.toml)")
 
 
-def test_every_default_of_a_weakening_option_is_that_of_the_command(project):
+def test_the_assumed_default_of_max_slowdown_is_that_of_bench(project):
     from hypcheck.bench.plan import MAX_SLOWDOWN
 
     assert _UNSET["max_slowdown"] == MAX_SLOWDOWN
 
 
-def test_replay_judges_as_verify_does(project, capsys):
+def test_replay_takes_precision_and_tolerance_from_the_settings_file_as_verify_does(project, capsys):
     project(
         'precision = "float32"\nquestion = "exterior"\ntolerance = 3\nspecs = ["builtin:nothing"]\nout = "x"\nseed = 3'
     )
@@ -294,7 +294,7 @@ def test_verify_without_a_settings_file_uses_the_defaults(tmp_path, monkeypatch)
         ("a = " + "[" * 100_000, "cannot be read as TOML: it is nested too deeply"),
     ],
 )
-def test_an_invalid_setting_is_refused_naming_line_and_key(project, capsys, text, message):
+def test_an_invalid_settings_file_is_refused_with_the_line_and_key(project, capsys, text, message):
     project(text)
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
     said = capsys.readouterr().err
@@ -326,7 +326,7 @@ def test_a_settings_file_that_cannot_be_read_is_refused(tmp_path, monkeypatch, c
         max_size=4,
     )
 )
-def test_any_value_of_a_setting_is_accepted_or_refused_in_one_sentence(values):
+def test_any_toml_value_of_a_setting_is_accepted_or_refused_in_one_sentence(values):
     """Nothing that TOML can hold ends otherwise than in settings or in a sentence."""
     with (
         mock.patch.object(toml, "text_of", return_value=""),
@@ -341,7 +341,7 @@ def test_any_value_of_a_setting_is_accepted_or_refused_in_one_sentence(values):
 
 
 @pytest.mark.parametrize("language", ["python", "c"])
-def test_settings_that_init_writes_are_read(tmp_path, monkeypatch, language):
+def test_the_settings_file_that_init_writes_is_valid(tmp_path, monkeypatch, language):
     monkeypatch.chdir(tmp_path)
     assert main(["init", "--language", language]) == 0
     written = Path(FILE).read_text(encoding="utf-8")
@@ -361,7 +361,7 @@ def test_settings_that_init_writes_are_read(tmp_path, monkeypatch, language):
     }
 
 
-def test_verify_gates_the_python_project_of_init_by_its_settings(tmp_path, monkeypatch):
+def test_verify_judges_the_python_project_of_init_by_its_settings_file(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", "")
     assert main(["init", "--language", "python"]) == 0

@@ -34,11 +34,11 @@ def after(arguments: list[str], before: str = "") -> set[str]:
 @pytest.mark.parametrize(
     "arguments", [["--help"], ["--version"], ["classify", "--help"], ["verify", "--help"], ["bench", "--help"]]
 )
-def test_help_and_version_load_nothing_heavy(arguments):
+def test_help_and_version_load_no_large_modules(arguments):
     assert after(arguments) == set()
 
 
-def test_no_command_s_help_loads_anything_heavy():
+def test_help_of_any_command_loads_no_large_modules():
     each = "from hypcheck.cli.commands import COMMANDS; from hypcheck.cli.main import main"
     assert loaded(f"{each}; assert not any([main([name, '--help']) for name in COMMANDS])") == set()
 
@@ -69,21 +69,21 @@ def test_a_command_loads_only_libraries_that_it_uses(arguments, allowed, tmp_pat
     assert after([*arguments, *out], before) <= allowed | {"importlib.metadata"}
 
 
-def test_a_report_in_text_loads_no_pictures(tmp_path, text_reports):
+def test_a_text_report_does_not_load_the_plotting_modules(tmp_path, text_reports):
     assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "9", "--out", str(tmp_path)]) == 0
     for form in ([], ["--format", "markdown"], ["--format", "junit"]):
         assert after(["report", str(tmp_path), *form]) <= {"msgspec", "numpy", "importlib.metadata"}
 
 
-def test_importing_the_package_loads_nothing_heavy():
+def test_importing_the_package_loads_no_large_modules():
     assert loaded("import hypcheck; hypcheck.__version__") == set()
 
 
-def test_using_the_package_loads_numpy_alone():
+def test_calling_classify_from_python_loads_numpy_alone():
     assert loaded("import hypcheck; hypcheck.classify([[1, 2, 1, 1, 2.5, 0, 0]])") <= {"numpy", "importlib.metadata"}
 
 
-def test_only_public_names_of_the_package_are_found():
+def test_dir_of_the_package_lists_its_public_names_and_each_can_be_used():
     import hypcheck
 
     assert {"classify", "classify_scene", "__version__"} <= set(dir(hypcheck))
@@ -96,7 +96,7 @@ def test_only_public_names_of_the_package_are_found():
         hypcheck.clasify  # noqa: B018 - the look-up is the test
 
 
-def test_the_module_and_the_script_are_the_same_program():
+def test_python_m_hypcheck_is_the_same_program_as_the_script():
     done = subprocess.run([sys.executable, "-m", "hypcheck", "--version"], capture_output=True, check=True, text=True)
     import hypcheck
 

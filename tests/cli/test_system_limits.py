@@ -27,7 +27,7 @@ process()
 @pytest.mark.thorough
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no such limits")
 @pytest.mark.parametrize("workers", ["1", "2"])
-def test_too_few_open_files_are_not_blamed_on_the_implementation(workers, tmp_path):
+def test_verify_reports_too_few_open_files_as_a_system_limit(workers, tmp_path):
     words = ["verify", function("right"), "--families=ring", "--count=10", f"--workers={workers}", f"--out={tmp_path}"]
     done = subprocess.run([sys.executable, "-c", LIMITED, *words], capture_output=True, text=True, check=False)
     assert done.stderr.splitlines()[-1] == (
@@ -37,7 +37,7 @@ def test_too_few_open_files_are_not_blamed_on_the_implementation(workers, tmp_pa
 
 
 @pytest.mark.parametrize("reason", [errno.EROFS, errno.ENOENT, errno.EACCES])
-def test_missing_semaphores_are_reported_with_shared_memory_as_the_reason(reason, monkeypatch, capsys):
+def test_simulate_reports_missing_semaphores_with_shared_memory_as_the_reason(reason, monkeypatch, capsys):
     class Context:
         def Lock(self):
             raise OSError(reason, os.strerror(reason))
@@ -50,7 +50,7 @@ def test_missing_semaphores_are_reported_with_shared_memory_as_the_reason(reason
     )
 
 
-def test_an_implementation_runs_without_a_null_device(monkeypatch):
+def test_an_implementation_can_be_called_without_a_null_device(monkeypatch):
     monkeypatch.setattr(os, "devnull", "/missing/null")
     some = rows(lucky=True)
     with open_implementation(command("right"), LIMITS) as it:
@@ -66,7 +66,7 @@ process()
 """
 
 
-def test_a_missing_null_device_is_an_error_only_if_a_standard_stream_is_closed():
+def test_a_missing_null_device_ends_2_only_if_a_standard_stream_is_closed():
     words = [sys.executable, "-c", WITHOUT_NULL, "--version"]
     assert subprocess.run(words, capture_output=True, check=False).returncode == 0
     done = subprocess.run(["sh", "-c", 'exec "$@" <&-', "sh", *words], capture_output=True, text=True, check=False)  # noqa: S607
@@ -82,7 +82,7 @@ def test_only_errors_about_limits_become_system_limit_errors():
     assert limit_reached(InputError("")) is None
 
 
-def test_seconds_of_a_record_do_not_follow_a_clock_that_is_set(monkeypatch, tmp_path):
+def test_durations_in_a_record_do_not_change_if_the_system_clock_is_set_back(monkeypatch, tmp_path):
     class Set:
         """A clock that somebody sets back by a day whenever it is looked at."""
 
