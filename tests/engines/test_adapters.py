@@ -42,7 +42,7 @@ def asked(engine, folder, name, moved=0.0):
     return found, answered.answers == 1, distances(found.rows, mesh), words
 
 
-def test_an_engine_agrees_with_the_truth_far_from_contact_and_a_planted_error_is_found(engine, tmp_path):
+def test_an_engine_is_right_far_from_contact_and_a_planted_error_in_it_is_found(engine, tmp_path):
     found, said, _, _ = asked(engine, tmp_path / "right", "body")
     far = np.abs(found.gap) > (0.01 if engine.body == "hull" else 0.003)
     assert 6 <= far.sum() < len(far)
@@ -54,7 +54,7 @@ def test_an_engine_agrees_with_the_truth_far_from_contact_and_a_planted_error_is
     assert (own.wrong & ~found.contact).any()
 
 
-def test_an_engine_that_reports_distances_of_a_clear_ball_reports_right_ones(engine, tmp_path):
+def test_distances_that_an_engine_reports_for_a_clear_ball_are_right(engine, tmp_path):
     found, _, apart, words = asked(engine, tmp_path, "ball")
     reported = reported_distances(words, found.rows)
     assert np.isfinite(reported).sum() >= len(reported) / 4

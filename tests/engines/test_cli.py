@@ -19,7 +19,7 @@ from hypcheck.implementations.session import StartError, TimingError
 from tests.engines.test_adapters import CACHE
 
 
-def test_the_list_names_every_engine_and_says_which_are_installed(capsys, tmp_path):
+def test_engines_list_names_every_engine_and_says_which_are_installed(capsys, tmp_path):
     assert main(["engines", "list", "--cache", str(tmp_path)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in lines] == list(ENGINES)
@@ -27,18 +27,18 @@ def test_the_list_names_every_engine_and_says_which_are_installed(capsys, tmp_pa
 
 
 @pytest.mark.parametrize("words", [["verify", "coal"], ["verify"], ["bench"]])
-def test_an_engine_that_is_not_installed_is_a_sentence(capsys, tmp_path, words):
+def test_engines_run_of_a_missing_engine_ends_2_with_the_install_command(capsys, tmp_path, words):
     assert main(["engines", *words, "--cache", str(tmp_path), "--out", str(tmp_path / "out")]) == 2
     assert "installed; type: hypcheck engines install" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
-def test_an_unknown_engine_is_a_sentence_with_a_suggestion(capsys):
+def test_engines_install_of_an_unknown_name_ends_2_with_a_suggestion(capsys):
     assert main(["engines", "install", "cole"]) == 2
     assert "there is no engine 'cole'; did you mean" in capsys.readouterr().err
 
 
-def test_a_missing_program_is_named_and_nothing_is_written(monkeypatch, tmp_path):
+def test_engines_install_names_a_missing_program_and_writes_nothing(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     for name, program in (("cannon-es", "node"), ("parry3d", "cargo")):
         with pytest.raises(UnavailableError, match=f"{name} needs the program {program}, which is not installed"):
@@ -46,7 +46,7 @@ def test_a_missing_program_is_named_and_nothing_is_written(monkeypatch, tmp_path
     assert not (tmp_path / "cache").exists()
 
 
-def test_a_package_manager_that_fails_is_quoted_and_nothing_is_left(monkeypatch, tmp_path):
+def test_engines_install_quotes_a_package_manager_that_fails_and_leaves_nothing(monkeypatch, tmp_path):
     for program in ("node", "npm"):
         (tmp_path / program).write_text("#!/bin/sh\necho 'no network' >&2\nexit 1\n")
         (tmp_path / program).chmod(0o755)
@@ -56,7 +56,7 @@ def test_a_package_manager_that_fails_is_quoted_and_nothing_is_left(monkeypatch,
     assert not (tmp_path / "cache" / "cannon-es").exists()
 
 
-def test_the_cache_is_where_a_variable_says_or_in_the_users_cache(monkeypatch, tmp_path):
+def test_the_engines_cache_is_the_folder_of_its_variable_or_in_the_users_cache(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.delenv(installing.VARIABLE, raising=False)
     assert installing.cache_folder() == tmp_path / "hypcheck" / "engines"
@@ -65,7 +65,7 @@ def test_the_cache_is_where_a_variable_says_or_in_the_users_cache(monkeypatch, t
 
 
 @pytest.mark.skipif(not installing.is_installed(ENGINES["python-fcl"], CACHE), reason="python-fcl is not installed")
-def test_a_small_record_of_an_engine_makes_the_page_and_a_badge(tmp_path):
+def test_a_record_of_an_engine_is_written_read_and_shown_as_page_and_badge(tmp_path):
     families = ("ball", "kilometres")
     record = record_of(ENGINES["python-fcl"], CACHE, each=2, meshes=(500,), families=families)
     write_record(tmp_path, record)
@@ -89,7 +89,7 @@ def program(folder, name, script):
     (folder / name).chmod(0o755)
 
 
-def test_an_installed_engine_has_its_adapter_and_says_so_until_the_adapter_changes(monkeypatch, tmp_path, capsys):
+def test_an_engine_counts_as_installed_until_its_adapter_changes(monkeypatch, tmp_path, capsys):
     bin_, cache = tmp_path / "bin", tmp_path / "cache"
     for name in ("node", "npm"):
         program(bin_, name, f'echo "$@" >> {tmp_path}/{name}.said')
@@ -124,7 +124,7 @@ def test_each_manager_installs_the_pinned_version_into_the_engines_own_folder(mo
     assert len(installing._steps(ENGINES["coal"], tmp_path)) == 2
 
 
-def test_families_that_an_engine_cannot_be_asked_are_skipped_with_the_reason(monkeypatch, tmp_path):
+def test_record_of_an_engine_skips_families_that_it_cannot_answer_with_the_reason(monkeypatch, tmp_path):
     def refused(engine, cache, name, each, triangles):
         asked.append(name)
         raise StartError("the program ended; stderr: no memory")
@@ -136,17 +136,17 @@ def test_families_that_an_engine_cannot_be_asked_are_skipped_with_the_reason(mon
     assert asked == ["ball"]
 
 
-def test_a_file_that_is_no_record_of_an_engine_is_bad_input(tmp_path):
+def test_a_json_file_that_is_no_record_of_an_engine_raises_an_input_error(tmp_path):
     (tmp_path / "coal.json").write_text("{}")
     with pytest.raises(InputError, match=r"coal\.json is no record of an engine: .*schema"):
         read_records(tmp_path)
 
 
-def test_a_spec_of_a_command_is_quoted_for_a_shell():
+def test_the_spec_shown_for_an_engine_is_quoted_for_a_shell():
     assert running.shown_spec(["node", "my adapter.mjs"]) == "'command:node '\"'\"'my adapter.mjs'\"'\"''"
 
 
-def test_an_adapter_that_hangs_or_cannot_be_timed_has_neither_distances_nor_a_time(monkeypatch):
+def test_an_adapter_that_hangs_or_has_no_clock_gets_neither_distances_nor_a_time(monkeypatch):
     rows = placed(FAMILIES["ball"], 1).rows
 
     def hangs(words, timeout, **others):
@@ -161,7 +161,7 @@ def test_an_adapter_that_hangs_or_cannot_be_timed_has_neither_distances_nor_a_ti
     assert measuring._microseconds(Untimed(), rows) is None
 
 
-def test_the_error_of_distances_that_were_not_reported_is_not_known():
+def test_the_distance_error_of_an_engine_that_reports_no_distances_is_none():
     found = placed(FAMILIES["ball"], 1)
     none = np.full(len(found.rows), np.nan)
     reported = measuring._reported(none, found, none, found.contact)

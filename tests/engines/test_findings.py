@@ -41,12 +41,12 @@ def finding(kind, reported=None, error=0.25, **changes):
         (finding("missed contact", d=1.0), finding("missed contact", d=1.0, shares=[-0.5, 1.0, 0.5])),
     ],
 )
-def test_a_certificate_proves_its_error_and_one_that_does_not_hold_proves_nothing(right, wrong):
+def test_a_finding_is_proved_by_its_certificate_and_not_by_a_changed_one(right, wrong):
     assert proved(right)
     assert not proved(wrong)
 
 
-def test_the_best_direction_gives_the_signed_distance_of_a_triangle_from_a_ball():
+def test_best_direction_proves_the_signed_distance_of_a_triangle_from_a_ball():
     rng = np.random.default_rng(5)
     for corners in rng.normal((0.0, 0.0, 2.0), size=(20, 3, 3)):
         way = best_direction(corners, 0.5, 0.5)
@@ -56,7 +56,7 @@ def test_the_best_direction_gives_the_signed_distance_of_a_triangle_from_a_ball(
 
 
 @pytest.mark.parametrize("name", ENGINES)
-def test_every_engine_has_a_reproduction_with_its_certificate_and_numbers(name, tmp_path):
+def test_the_reproduction_program_of_each_engine_has_its_certificate_and_numbers(name, tmp_path):
     one = finding("false contact", engine=name)
     text = reproduction(one)
     assert "$" not in text.replace("${", "")
@@ -70,20 +70,20 @@ def test_every_engine_has_a_reproduction_with_its_certificate_and_numbers(name, 
 
 
 @pytest.mark.skipif(not is_installed(ENGINES["python-fcl"], CACHE), reason="python-fcl is not installed")
-def test_a_reproduction_of_what_the_engine_does_right_says_so(tmp_path):
+def test_a_reproduction_ends_with_0_if_the_engine_answers_rightly(tmp_path):
     right = write_findings(tmp_path, [finding("false contact"), finding("too near", reported=0.0)])
     assert [run_reproduction(each, tmp_path, CACHE) for each in right] == [0, 0]
 
 
 @pytest.mark.parametrize("one", COMMITTED, ids=lambda one: one.file)
-def test_a_committed_finding_is_proved_and_its_files_are_what_would_be_written(one):
+def test_each_committed_finding_is_proved_and_its_files_are_fresh(one):
     assert proved(one)
     assert (REPORTS / one.file).read_text() == reproduction(one)
     assert (REPORTS / one.picture).read_text() == drawing(one)
 
 
 @pytest.mark.parametrize("one", COMMITTED, ids=lambda one: one.file)
-def test_a_committed_reproduction_ends_with_1_where_its_engine_is_installed(one):
+def test_each_committed_reproduction_ends_with_1_if_its_engine_is_installed(one):
     if not is_installed(ENGINES[one.engine], CACHE):
         pytest.skip(f"{one.engine} is not installed; hypcheck engines install {one.engine}")
     assert run_reproduction(one, REPORTS, CACHE) == 1

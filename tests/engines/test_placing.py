@@ -8,7 +8,7 @@ from hypcheck.kernel.classify import classify
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-def test_every_family_has_clear_rows_and_contacts_of_most_decades(name):
+def test_every_engine_family_has_as_many_clear_rows_as_contacts_near_contact(name):
     found = placed(FAMILIES[name], 3)
     gaps = np.abs(found.gap) * FAMILIES[name].unit
     for low in (1e-8, 1e-5):
@@ -17,13 +17,13 @@ def test_every_family_has_clear_rows_and_contacts_of_most_decades(name):
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-def test_the_positions_of_placed_rows_are_what_their_gaps_say(name):
+def test_placed_rows_have_the_positions_that_the_signs_of_their_gaps_say(name):
     found = placed(FAMILIES[name], 3)
     clear = -1 if FAMILIES[name].inside else 1
     assert (classify(found.rows) == np.where(found.contact, 0, clear)).all()
 
 
-def test_moving_a_clear_row_in_any_direction_by_less_than_its_gap_makes_no_contact_and_by_more_does_along_the_normal():
+def test_a_placed_clear_row_reaches_contact_only_if_it_moves_farther_than_its_gap():
     family = FAMILIES["leaning"]
     spot, gap = drawn(family, 3)
     keep = spot.certifies(gap) & (gap > 1e-6)
@@ -38,7 +38,7 @@ def test_moving_a_clear_row_in_any_direction_by_less_than_its_gap_makes_no_conta
     assert (classify(rows) == 0).all()
 
 
-def test_moving_a_contact_in_any_direction_by_less_than_its_depth_keeps_contact_and_by_more_along_the_normal_does_not():
+def test_a_placed_contact_becomes_clear_only_if_it_moves_farther_than_its_depth():
     family = FAMILIES["inside"]
     spot, gap = drawn(family, 3)
     keep = spot.certifies(gap) & (gap < -1e-6)
@@ -53,7 +53,7 @@ def test_moving_a_contact_in_any_direction_by_less_than_its_depth_keeps_contact_
     assert (classify(rows) == -1).all()
 
 
-def test_a_gap_that_is_not_the_distance_from_contact_is_not_certified():
+def test_a_placed_row_is_not_certified_with_a_wrong_gap():
     spot, gap = drawn(FAMILIES["small"], 3)
     assert spot.certifies(gap).mean() > 0.7
     assert not spot.certifies(np.full(len(gap), -0.1)).any()  # deeper than the body is thick

@@ -72,7 +72,7 @@ def engine_with(monkeypatch, contact=0.0, reported=0.0):
         ("too far", "clear", {"reported": PLANTED}, 5.0, 10.001),
     ],
 )
-def test_a_planted_error_is_found_in_one_triangle_of_round_numbers_and_proved(
+def test_a_planted_engine_error_is_reduced_to_one_triangle_of_round_numbers_and_proved(
     monkeypatch, tmp_path, mesh, rows, kind, row, planted, least_mm, most_mm
 ):
     engine_with(monkeypatch, **planted)
@@ -84,18 +84,18 @@ def test_a_planted_error_is_found_in_one_triangle_of_round_numbers_and_proved(
     assert all((np.array(one.corners) * 2.0**20 % 1 == 0).flat)
 
 
-def test_an_engine_without_an_error_has_no_finding(monkeypatch, tmp_path, mesh, rows):
+def test_an_engine_without_an_error_gives_no_finding(monkeypatch, tmp_path, mesh, rows):
     engine_with(monkeypatch)
     both = [measured(mesh, rows[each]) for each in ("clear", "contact")]
     assert list(findings_of(record("python-fcl", *both), tmp_path)) == []
 
 
-def test_an_engine_that_never_answers_has_no_finding(monkeypatch, tmp_path, mesh, rows):
+def test_an_engine_that_never_answers_gives_no_finding(monkeypatch, tmp_path, mesh, rows):
     monkeypatch.setattr(Asker, "__call__", lambda asker, corners: None)
     assert list(findings_of(record("python-fcl", measured(mesh, rows["clear"])), tmp_path)) == []
 
 
-def test_an_error_of_many_triangles_together_that_none_shows_alone_has_no_finding(monkeypatch, tmp_path, mesh, rows):
+def test_an_engine_error_that_no_single_triangle_shows_gives_no_finding(monkeypatch, tmp_path, mesh, rows):
     def said(asker, corners):
         return Said(len(corners) > 1, nan)
 
@@ -103,7 +103,7 @@ def test_an_error_of_many_triangles_together_that_none_shows_alone_has_no_findin
     assert list(findings_of(record("python-fcl", measured(mesh, rows["clear"])), tmp_path)) == []
 
 
-def test_an_error_of_another_than_the_nearest_triangle_is_found_by_halving(monkeypatch, tmp_path, mesh, rows):
+def test_an_engine_error_on_a_triangle_that_is_not_the_nearest_is_found_by_halving(monkeypatch, tmp_path, mesh, rows):
     engine_with(monkeypatch)
     right = Asker.__call__
     nearest = reduce._near(measured(mesh, rows["clear"]), np.array(rows["clear"]))
@@ -119,9 +119,7 @@ def test_an_error_of_another_than_the_nearest_triangle_is_found_by_halving(monke
     assert reduce._alone(asker, "too near", nearest).tolist() == wrong.tolist()
 
 
-def test_rows_that_lean_or_stand_inside_or_whose_error_the_mesh_explains_are_not_tried(
-    monkeypatch, tmp_path, mesh, rows
-):
+def test_rows_that_cannot_show_an_error_of_the_engine_itself_are_not_reduced(monkeypatch, tmp_path, mesh, rows):
     engine_with(monkeypatch, contact=PLANTED, reported=-PLANTED)
     row = rows["clear"]
     small = Reported(1, 0, 1.4, 1.4, row, None)
@@ -130,7 +128,7 @@ def test_rows_that_lean_or_stand_inside_or_whose_error_the_mesh_explains_are_not
     assert list(findings_of(record("python-fcl", *others, explained), tmp_path)) == []
 
 
-def test_a_body_that_an_engine_has_as_a_hull_shows_no_missed_contact_and_nothing_too_far(tmp_path):
+def test_an_engine_whose_body_is_a_hull_has_no_missed_contact_or_too_far_error(tmp_path):
     hull = Asker(ENGINES["pybullet"], tmp_path, 1.0, 0.25)
     exact = Asker(ENGINES["python-fcl"], tmp_path, 1.0, 0.25)
     assert hull.error("too far", Said(False, 1.0), ABOVE) == 0
@@ -152,12 +150,12 @@ def test_a_body_that_an_engine_has_as_a_hull_shows_no_missed_contact_and_nothing
         ("too far", None, 0.0),
     ],
 )
-def test_the_error_about_a_triangle_a_quarter_away_is_how_far_the_answer_is_from_that(tmp_path, kind, said, error):
+def test_error_of_an_engine_is_the_difference_of_its_answer_from_the_true_distance(tmp_path, kind, said, error):
     asker = Asker(ENGINES["python-fcl"], tmp_path, 1.0, 0.25)
     assert asker.error(kind, said, ABOVE) == pytest.approx(error, abs=1e-9)
 
 
-def test_what_an_adapter_prints_is_read_and_one_that_ends_without_an_answer_says_nothing(monkeypatch, tmp_path):
+def test_asker_reads_the_answer_of_an_adapter_or_gives_none_if_it_ends_early(monkeypatch, tmp_path):
     script = tmp_path / "adapter.py"
     monkeypatch.setattr(reduce, "command", lambda engine, cache, scene: (sys.executable, str(script), str(scene)))
     asker = Asker(ENGINES["python-fcl"], tmp_path, 1.0, 0.25)
@@ -177,7 +175,7 @@ def test_what_an_adapter_prints_is_read_and_one_that_ends_without_an_answer_says
     assert asker(ABOVE[np.newaxis]) is None
 
 
-def test_a_length_is_worded_as_apart_or_deep():
+def test_distances_in_a_finding_are_worded_as_apart_or_deep():
     assert reduce._words("too near", Said(False, 0.002), 0.001, 1000.0) == ("2 mm apart", "3 mm apart at least")
     assert reduce._words("too far", Said(False, 0.002), 0.001, 1000.0) == ("2 mm apart", "1 mm apart at most")
     assert reduce._words("too near", Said(True, -0.002), 0.001, 1000.0) == ("2 mm deep", "1 mm deep at most")

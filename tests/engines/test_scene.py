@@ -7,7 +7,7 @@ from hypcheck.engines.placing import FAMILIES, drawn, placed
 from hypcheck.engines.scene import HULL, ball_points, distances, rows_near, seen_from, surface_mesh, to_triangles
 
 
-def test_the_distance_to_a_triangle_is_the_least_to_its_points():
+def test_the_distance_to_a_triangle_is_the_least_distance_to_its_points():
     rng = np.random.default_rng(3)
     corners = rng.normal(size=(200, 3, 3))
     steps = np.linspace(0, 1, 60)
@@ -19,7 +19,7 @@ def test_the_distance_to_a_triangle_is_the_least_to_its_points():
     assert (sampled - found <= size / 59).all()
 
 
-def test_a_triangle_before_beside_and_on_the_origin_has_distances_worked_out_by_hand():
+def test_distances_of_the_origin_to_four_triangles_are_those_worked_out_by_hand():
     corners = np.array(
         [
             [[-1, -1, 2], [3, -1, 2], [-1, 3, 2]],  # the origin is below its inside
@@ -33,14 +33,14 @@ def test_a_triangle_before_beside_and_on_the_origin_has_distances_worked_out_by_
 
 
 @pytest.mark.parametrize("name", ["disc", "leaning"])
-def test_the_nearest_triangle_of_the_whole_mesh_is_found(name):
+def test_distances_to_a_mesh_are_those_to_the_nearest_of_all_its_triangles(name):
     found = placed(FAMILIES[name], 2)
     mesh = surface_mesh(FAMILIES[name].sizes, 500)
     whole = [np.sqrt(to_triangles(seen_from(row, mesh.vertices)[mesh.triangles]).min()) for row in found.rows]
     assert distances(found.rows, mesh) == pytest.approx(whole, rel=1e-13)
 
 
-def test_rows_near_a_mesh_touch_it_or_not_as_their_gaps_say():
+def test_rows_placed_near_a_mesh_touch_it_if_their_gap_is_negative():
     family = FAMILIES["body"]
     mesh = surface_mesh(family.sizes, 500)
     spot, gap = drawn(family, 2)
@@ -49,7 +49,7 @@ def test_rows_near_a_mesh_touch_it_or_not_as_their_gaps_say():
     assert np.median(np.abs(apart - 1 - gap / spot.half_width()) / np.abs(gap)) < 0.1
 
 
-def test_the_hull_of_the_balls_points_holds_the_ball_that_is_claimed_and_not_one_a_thousandth_larger():
+def test_the_largest_ball_in_the_hull_of_the_ball_mesh_has_the_claimed_radius_within_1_percent():
     points = ball_points()
     rng = np.random.default_rng(4)
     ways = rng.normal(size=(20000, 3))

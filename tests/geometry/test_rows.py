@@ -18,14 +18,14 @@ AXIS = [3.0, 4.0, 12.0]
 @pytest.mark.parametrize(
     "values", [[GOOD], np.array([GOOD]), np.array([[1, 2, 1, 1, 2, 0, 0]]), np.array([GOOD], "f4")]
 )
-def test_numbers_in_seven_columns_are_rows(values):
+def test_as_rows_takes_seven_numbers_of_any_array_type(values):
     rows = as_rows(values)
     assert rows.dtype == np.float64
     assert rows.shape == (1, 7)
     assert rows.flags.c_contiguous
 
 
-def test_contiguous_float64_rows_are_not_copied():
+def test_as_rows_does_not_copy_contiguous_float64_rows():
     rows = np.array([GOOD, GOOD])
     assert as_rows(rows) is rows
 
@@ -43,13 +43,13 @@ def test_contiguous_float64_rows_are_not_copied():
         ([[10**400] * 7], "the rows are"),
     ],
 )
-def test_values_that_are_no_rows_of_seven_numbers_raise_an_error(values, why):
+def test_as_rows_refuses_values_that_are_no_rows_of_seven_numbers(values, why):
     with pytest.raises(InputError, match=why):
         as_rows(values)
 
 
 @pytest.mark.parametrize(("column", "value"), [(0, 0.0), (3, -1.0), (2, math.nan), (4, math.inf), (6, -math.inf)])
-def test_the_first_bad_row_is_named(column, value):
+def test_the_error_about_invalid_rows_names_the_first_of_them(column, value):
     rows = np.array([GOOD, GOOD, GOOD])
     rows[1, column] = value
     rows[2, 0] = -1.0
@@ -59,11 +59,11 @@ def test_the_first_bad_row_is_named(column, value):
         require_valid(rows)
 
 
-def test_valid_rows_raise_no_error():
+def test_valid_rows_give_no_error_message():
     assert first_trouble(np.array([GOOD])) is None
 
 
-def test_a_way_has_ten_numbers_or_thirteen_with_an_axis():
+def test_as_rows_of_ways_takes_ten_numbers_or_thirteen_with_an_axis():
     assert as_rows([WAY], layout=WAYS).shape == (1, 10)
     assert as_rows([WAY + AXIS], layout=WAYS, tilted=True).shape == (1, 13)
     with pytest.raises(
@@ -81,7 +81,7 @@ def test_a_way_has_ten_numbers_or_thirteen_with_an_axis():
         (11, -math.inf, "axis_y is -inf; it must be finite"),
     ],
 )
-def test_the_first_bad_number_of_a_way_is_named(place, value, trouble):
+def test_the_error_about_an_invalid_way_names_its_row_and_number(place, value, trouble):
     rows = np.array([WAY + AXIS, WAY + AXIS])
     rows[1, place] = value
     assert first_trouble(rows, layout=WAYS) == f"row 1: {trouble}"
@@ -92,11 +92,11 @@ def test_a_way_may_end_at_the_origin_but_its_axis_must_have_a_direction():
     assert invalid(np.array([WAY + [0.0] * 3]), WAYS).all()
 
 
-def test_an_upright_way_gets_the_axis_0_0_1():
+def test_with_axis_gives_an_upright_way_the_axis_0_0_1():
     assert with_axis(np.array([WAY]), WAYS).tolist() == [[*WAY, 0.0, 0.0, 1.0]]
 
 
-def test_both_ends_of_a_way_must_lie_in_a_range_of_magnitudes_and_in_a_span_but_not_its_axis():
+def test_a_domain_limits_both_ends_of_a_way_and_not_its_axis():
     far = [*WAY[:8], 1e9, 4.0, 0.0, 1e20, 0.0]
     near = [*WAY, 0.0, 1e20, 0.0]
     assert within(np.array([near, far]), layout=WAYS).tolist() == [True, False]
@@ -104,7 +104,7 @@ def test_both_ends_of_a_way_must_lie_in_a_range_of_magnitudes_and_in_a_span_but_
     assert setting.holds(np.array([WAY, [*WAY[:9], 2.0]]), WAYS).tolist() == [False, True]
 
 
-def test_the_ends_of_a_range_of_ratios_and_of_magnitudes_belong_to_it():
+def test_within_includes_the_ends_of_the_ranges_of_ratios_and_magnitudes():
     row = [2.0, 8.0, 4.0, 1.0, -32.0, 0.0, 1e-9]  # α/b = 1/2, γ/d = 8
     inside = {"ratio": (0.5, 8.0), "magnitude": (1.0, 32.0)}
     assert within(np.array([row]), **inside).tolist() == [True]
@@ -112,7 +112,7 @@ def test_the_ends_of_a_range_of_ratios_and_of_magnitudes_belong_to_it():
         assert within(np.array([row]), **(inside | {name: ends})).tolist() == [False], (name, ends)
 
 
-def test_the_ends_of_a_span_belong_to_it_and_every_other_size_is_refused():
+def test_fixed_sizes_include_the_ends_of_their_spans_and_refuse_other_sizes():
     setting = FixedSizes(tuple(GOOD[:4]), x=(2.5, 3.0), y=(-1.0, 0.0))
     rows = np.array([GOOD, [*GOOD[:4], 3.0, -1.0, 7.0], [*GOOD[:4], 3.1, 0.0, 0.0], [*GOOD[:4], 2.5, 0.1, 0.0]])
     assert setting.holds(rows).tolist() == [True, True, False, False]
@@ -122,7 +122,7 @@ def test_the_ends_of_a_span_belong_to_it_and_every_other_size_is_refused():
         assert setting.holds(np.array([GOOD, other])).tolist() == [True, False]
 
 
-def test_fixed_sizes_hold_the_rows_of_their_axis_and_with_a_free_one_those_of_any():
+def test_fixed_sizes_hold_rows_with_their_axis_or_with_any_if_it_is_free():
     upright, leaning = [*GOOD, 0.0, 0.0, 1.0], [*GOOD, *AXIS]
     rows = np.array([upright, leaning])
     for axis, expected in ((None, [True, False]), (tuple(AXIS), [False, True]), ("free", [True, True])):
