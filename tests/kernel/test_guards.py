@@ -89,6 +89,18 @@ def test_the_longest_float64_has_room_among_the_integers():
     assert integers.position(Lengths(longest, 1, 0, 0, 1, 1, 0)) is Position.INTERIOR
 
 
+def test_a_tangency_whose_slope_at_the_pole_is_0_is_contact_and_no_ring():
+    """The ring asks for the slope 0 at B, and for the height 0: here it is 26, and a double root lies below B."""
+    alpha, gamma, b, d, x, y, z = 48, 72, 35, 35, 6, 87, 26
+    A, B, P, Q = Fraction(alpha, b) ** 2, Fraction(gamma, d) ** 2, Fraction(x * x + y * y, b * b), Fraction(z, d) ** 2
+    c2, c1 = A - B + 1 - P - Q, -A * B + A - B + B * P - A * Q
+    double = Fraction(1440, 1225)
+    assert double**3 + c2 * double**2 + c1 * double - A * B == 3 * double**2 + 2 * c2 * double + c1 == 0
+    assert 3 * B**2 + 2 * c2 * B + c1 == 0
+    assert 0 < double < B
+    assert integers.position(Lengths(alpha, b, x, y, gamma, d, z)) is Position.CONTACT
+
+
 SCENE = """
 #define HYPCHECK_IMPLEMENTATION
 #include "hypcheck.h"

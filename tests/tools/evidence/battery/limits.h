@@ -90,11 +90,14 @@ static void check_lines_at_equality(void) {
 static void check_rows_at_limits(void) {
     const double least_a = 1 + two(-21) - two(-43); /* its square is 1 + 2^-20 as it is computed */
     const double end_of_ring[7] = {4, 2, 1, 1, 5, 0, 0}; /* B² = A and a triple root: it touches at the waist */
+    /* It touches from without, and the slope at B is 0 as on the ring, where the height is 0. */
+    const double like_ring[7] = {48, 72, 35, 35, 6, 87, 26};
     double rows[200 * 7], leaning[200 * 10];
     int8_t answers[200];
     int i;
     CHECK(least_a * least_a == HC_slack && ratio_of(1, 1, least_a, 4, 100) == 2 && ratio_of(1, 1, least_a + two(-40), 4, 100) == 1);
     CHECK(hc_position_by_integers(end_of_ring) == 0 && hc_exact_position(end_of_ring) == 0);
+    CHECK(hc_position_by_integers(like_ring) == 0 && hc_exact_position(like_ring) == 0);
     CHECK(scaled(two(-972), 0, 0, 1) && scaled(two(-972), 0, two(-972), 1) && scaled(0, 0, 0, 0));
     for (i = 0; i < 200; i++) {
         const double x = i % 3 == 0 ? 10 : i % 3 == 1 ? 2.5 : 0.25;
