@@ -154,7 +154,7 @@ def expected(rows):
     return answers
 
 
-def test_the_adapter_describes_the_stub(built, spec):
+def test_generated_adapter_describes_its_stub_implementation(built, spec):
     with asked(spec) as it:
         declared = it.declared
     assert (declared.name, declared.precision, declared.question) == ("stub", "float64", "exterior")
@@ -166,7 +166,7 @@ def test_the_adapter_describes_the_stub(built, spec):
         assert declared.language.replace("c++", "cpp") == built.language.name
 
 
-def test_the_adapter_answers_exactly_as_table_2(built, spec, rows, expected):
+def test_generated_adapter_answers_exactly_as_table_2(built, spec, rows, expected):
     with asked(spec) as it:
         for batch in (None, 65536, 4097, 1):
             some = slice(0, 200 if batch == 1 else None)
@@ -176,14 +176,14 @@ def test_the_adapter_answers_exactly_as_table_2(built, spec, rows, expected):
         assert it.restarts == 0
 
 
-def test_the_adapter_answers_the_largest_question(built, spec):
+def test_generated_adapter_answers_a_batch_of_the_largest_size(built, spec):
     many = FAMILIES["uniform"].rows(3, 65536)
     with asked(spec) as it:
         answered = it.classify(many, batch=65536)
     assert answered.answers.tolist() == builtin("table-2-float64").answer(many).tolist()
 
 
-def test_the_adapter_can_be_timed(built, spec, rows):
+def test_generated_adapter_reports_times_that_grow_with_repetitions(built, spec, rows):
     with asked(spec) as it:
         once, often = (it.time(rows, repeat) for repeat in (1, 50))
     assert once is not None
@@ -193,7 +193,7 @@ def test_the_adapter_can_be_timed(built, spec, rows):
 
 
 @commands
-def test_the_adapter_reads_numbers_in_text_exactly(built, spec, rows, expected):
+def test_generated_adapter_reads_decimal_numbers_exactly(built, spec, rows, expected):
     """Through the runner: a filter keeps the adapter from offering the binary form."""
     text_only = """exec "$0" "$@" | sed -u '1s/"binary":true/"binary":false/'"""
     words = ["sh", "-c", text_only, *shlex.split(spec.removeprefix("command:"))]
@@ -204,7 +204,9 @@ def test_the_adapter_reads_numbers_in_text_exactly(built, spec, rows, expected):
     assert np.flatnonzero(answered.answers != expected).tolist() == []
 
 
-def test_another_predicate_can_replace_the_stub(built, rows, expected, tmp_path, monkeypatch):
+def test_generated_adapter_works_with_another_predicate_in_place_of_the_stub(
+    built, rows, expected, tmp_path, monkeypatch
+):
     """One that answers -1 too, which bytes and signs must carry."""
     other = replace(built, folder=tmp_path / "other")
     shutil.copytree(built.folder, other.folder)
@@ -226,7 +228,9 @@ def test_another_predicate_can_replace_the_stub(built, rows, expected, tmp_path,
         assert other.talk(built.language.spec, said).partition(b"\n")[2] == b"1 2\n1\n-1\n"
 
 
-def test_with_tilt_in_its_description_it_is_asked_rows_of_ten_numbers(built, rows, expected, tmp_path, monkeypatch):
+def test_generated_adapter_that_declares_tilt_passes_ten_numbers_a_row_to_its_predicate(
+    built, rows, expected, tmp_path, monkeypatch
+):
     """The stub answers as if each spheroid stood upright; a predicate in its place gets all ten numbers in order."""
     axes = np.random.default_rng(5).standard_normal((len(rows), 3)) * 10
     axes[::7] *= 1e300
@@ -269,41 +273,41 @@ GOOD, ANSWER = b"classify 7 1 text\n1 2 1 1 4 0 0\n", b"7 1\n1\n"
 
 
 @commands
-def test_an_invalid_question_is_an_error_and_the_next_is_answered(built, spec):
+def test_generated_adapter_replies_error_to_an_invalid_question_and_answers_the_next(built, spec):
     said = b"".join(line + b"\n" + GOOD for line in NONSENSE)
     replies = built.talk(spec, said).partition(b"\n")[2]
     assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NONSENSE)
 
 
 @commands
-def test_an_invalid_row_is_an_error_of_its_whole_question_only(built, spec):
+def test_generated_adapter_replies_error_to_a_question_with_an_invalid_row_and_answers_the_next(built, spec):
     said = b"".join(b"classify 1 3 text\n1 2 1 1 4 0 0\n" + row + b"\n1 2 1 1 4 0 0\n" + GOOD for row in NO_ROWS)
     replies = built.talk(spec, said).partition(b"\n")[2]
     assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NO_ROWS)
 
 
 @commands
-def test_the_adapter_reads_nan_and_infinities(built, spec):
+def test_generated_adapter_reads_nan_and_infinities(built, spec):
     """As rows to be refused are written; the stub answers all of them 0."""
     said = b"classify 1 3 text\nnan 2 1 1 4 0 0\n1 2 1 1 inf 0 0\n1 2 1 1 -inf 0 -0.0\n"
     assert built.talk(spec, said + GOOD).partition(b"\n")[2] == b"1 3\n0\n0\n0\n" + ANSWER
 
 
 @commands
-def test_the_adapter_answers_a_question_without_rows_without_answers(built, spec):
+def test_generated_adapter_replies_to_a_question_without_rows_with_no_answers(built, spec):
     said = b"classify 1 0 text\nclassify 2 0 binary\n" + GOOD
     assert built.talk(spec, said).partition(b"\n")[2] == b"1 0\n2 0\n" + ANSWER
 
 
 @commands
 @pytest.mark.parametrize("left", [b"classify 1", b"classify 1 2 text\n1 2 1 1 4 0 0\n", b"classify 1 2 binary\n1234"])
-def test_the_adapter_ends_quietly_at_any_end_of_input(built, spec, left):
+def test_generated_adapter_exits_quietly_wherever_its_input_ends(built, spec, left):
     replies = built.talk(spec, GOOD + left).partition(b"\n")[2]
     assert re.fullmatch(re.escape(ANSWER) + rb"(error [ -~]+\n)?", replies)
 
 
 @commands
-def test_the_example_in_docs_protocol_is_what_the_adapter_says(built, spec):
+def test_example_session_in_docs_protocol_equals_what_the_generated_adapter_replies(built, spec):
     said, shown = [], []
     for line in PROTOCOL.read_text(encoding="utf-8").partition("## Lines")[0].splitlines():
         if line.startswith(("    → ", "    ← ")):
@@ -323,7 +327,7 @@ def raw(shown: str) -> bytes:
 
 
 @pytest.mark.parametrize("built", ["c", "cpp"], indirect=True)
-def test_the_predicate_alone_is_a_library(built, spec, rows, expected):
+def test_generated_predicate_can_be_built_and_verified_alone_as_a_library(built, spec, rows, expected):
     predicate = (built.folder / built.language.folder / built.language.predicate).read_text()
     build, verify = re.findall(r"^(?: \*|//) {5}(.+)$", predicate, flags=re.MULTILINE)
     done = built.run(build)
@@ -336,7 +340,7 @@ def test_the_predicate_alone_is_a_library(built, spec, rows, expected):
     assert answered.answers.tolist() == expected.tolist()
 
 
-def test_the_stub_passes_on_the_papers_scenes_and_fails_on_the_ring(built, spec, text_reports):
+def test_generated_stub_passes_on_the_scenes_of_the_paper_and_fails_on_the_ring(built, spec, text_reports):
     _, passes, fails = (shlex.split(typed) for typed in built.typed)
     assert passes[0] == fails[0] == "hypcheck"
     assert main([*passes[1:], "--out", "passed"]) == 0
@@ -347,7 +351,7 @@ def test_the_stub_passes_on_the_papers_scenes_and_fails_on_the_ring(built, spec,
     assert failed["implementations"][0]["name"] == "stub"
 
 
-def test_git_ignores_the_products_of_the_build(built, spec):
+def test_git_ignores_the_build_products_of_a_generated_project(built, spec):
     if shutil.which("git") is None:
         pytest.skip("git is not on the PATH")
     project = Project(built.language, "stub")

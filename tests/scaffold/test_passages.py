@@ -53,7 +53,7 @@ def built(project):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LANGUAGES)
-def test_adapter_answers_about_ways_as_its_stub_does_with_times_and_axes_too(
+def test_generated_adapter_for_ways_passes_on_answers_times_and_axes_of_its_stub(
     name, rows, expected, tmp_path, monkeypatch
 ):
     if missing := [tool for tool in TOOLS[name] if shutil.which(tool) is None]:
@@ -89,7 +89,7 @@ def test_adapter_answers_about_ways_as_its_stub_does_with_times_and_axes_too(
         assert float(lines[1].removeprefix(b"1 ")) == 2 / 3
 
 
-def test_stub_for_ways_is_one_of_two_and_the_other_is_written_without_a_choice():
+def test_stub_about_positions_is_written_by_default_and_the_one_about_ways_on_request():
     assert STUBS == ("position", "passage")
     for language in LANGUAGES.values():
         written = Project(language, "x", "passage").files()

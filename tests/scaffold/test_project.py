@@ -70,7 +70,7 @@ def test_init_writes_to_the_working_directory_and_uses_its_name_by_default(tmp_p
     assert "Type next:" in capsys.readouterr().out
 
 
-def test_templates_are_those_of_the_table_and_all_their_places_are_filled(language, tmp_path):
+def test_template_folder_has_the_files_of_the_language_table_and_init_fills_every_placeholder(language, tmp_path):
     folder = files("hypcheck.scaffold").joinpath("templates")
     there = {str(path.relative_to(folder / language.name)) for path in (folder / language.name).rglob("*")}
     assert {path for path in there if "." in path and "__pycache__" not in path} == set(language.files)
@@ -82,13 +82,13 @@ def test_templates_are_those_of_the_table_and_all_their_places_are_filled(langua
         assert "\r" not in text
 
 
-def test_the_stub_says_in_its_file_that_it_is_a_stub(language, tmp_path):
+def test_only_the_predicate_file_says_that_it_is_a_stub_to_be_replaced(language, tmp_path):
     written = every_file(tmp_path, language, "engine")
     saying = [path for path, text in written.items() if "Replace this with your predicate" in text]
     assert saying == [f"{language.folder}/{language.predicate}"]
 
 
-def test_an_adapter_for_each_question_is_the_one_template_without_the_other_part(language):
+def test_adapter_of_each_question_is_the_shared_template_without_the_part_of_the_other_question(language):
     marks = re.compile(r"@(position|passage|end)@\n")
     for name in language.files:
         text = files("hypcheck.scaffold").joinpath("templates", language.name, *name.split("/")).read_text()
@@ -104,13 +104,13 @@ def test_an_adapter_for_each_question_is_the_one_template_without_the_other_part
         assert len(one) + len(other) > 1.3 * len(text.splitlines())  # most lines are of both
 
 
-def test_every_folder_of_templates_is_a_language():
+def test_every_template_folder_belongs_to_a_language():
     folders = {each.name for each in files("hypcheck.scaffold").joinpath("templates").iterdir()}
     assert folders == {"common", *LANGUAGES, *(f"{name}-passage" for name in LANGUAGES)}
     assert [each.name for each in languages._LISTED] == list(LANGUAGES)
 
 
-def test_the_settings_are_toml_and_name_the_adapter(language, tmp_path):
+def test_generated_settings_are_valid_toml_and_name_the_adapter(language, tmp_path):
     text = every_file(tmp_path, language, "engine")["hypcheck.toml"]
     assert tomllib.loads(text) == {"specs": [language.spec], "tolerance": 8}
     assert parse_spec(language.spec).kind in {"command", "python"}
@@ -146,7 +146,7 @@ def test_init_does_not_replace_a_folder_even_if_forced(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("taken", [".github", "hypcheck-c"])
-def test_a_file_in_place_of_a_folder_leaves_nothing_half_written(taken, tmp_path, capsys):
+def test_init_writes_nothing_if_a_file_stands_in_place_of_a_folder(taken, tmp_path, capsys):
     (tmp_path / taken).write_text("mine")
     assert init("--language", "c", "--directory", tmp_path / "") == 2
     assert f"cannot make the folder {tmp_path / taken}" in capsys.readouterr().err
@@ -155,7 +155,9 @@ def test_a_file_in_place_of_a_folder_leaves_nothing_half_written(taken, tmp_path
 
 @pytest.mark.parametrize("fails_at", [1, 3, 7, 8, 9, 14])
 @pytest.mark.parametrize("error", [OSError(errno.ENOSPC, "No space left on device"), KeyboardInterrupt()])
-def test_a_full_disk_or_an_interrupt_leaves_everything_as_it_was(fails_at, error, tmp_path, monkeypatch, capsys):
+def test_init_leaves_all_files_as_they_were_on_a_full_disk_or_an_interrupt(
+    fails_at, error, tmp_path, monkeypatch, capsys
+):
     target = tmp_path / "new" / "engine"
     calls = []
 
@@ -171,7 +173,7 @@ def test_a_full_disk_or_an_interrupt_leaves_everything_as_it_was(fails_at, error
     assert list(tmp_path.iterdir()) == []
 
 
-def test_names_keep_only_safe_characters():
+def test_project_name_keeps_only_safe_characters():
     assert safe_name("engine_2.0-rc") == "engine_2.0-rc"
     assert safe_name("Größe & Co") == "Groe-Co"
     assert safe_name('a"; rm -rf ~ #\n\\') == "a-rm-rf"
@@ -180,7 +182,7 @@ def test_names_keep_only_safe_characters():
     assert len(safe_name("x" * 1000)) == LONGEST_NAME
 
 
-def test_a_name_without_safe_characters_is_refused_and_a_changed_one_reported(tmp_path, capsys):
+def test_init_refuses_a_name_without_safe_characters_and_reports_a_changed_name(tmp_path, capsys):
     assert init("--language", "python", "--directory", tmp_path, "--name", "δ") == 2
     assert "--name is 'δ'; it must have a letter or a digit" in capsys.readouterr().err
     assert init("--language", "python", "--directory", tmp_path, "--name", 'x"y') == 0
@@ -191,13 +193,13 @@ def test_a_name_without_safe_characters_is_refused_and_a_changed_one_reported(tm
     assert r"\"name\":\"predicate\"" in (tmp_path / "δ/hypcheck-c/predicate.c").read_text()
 
 
-def test_an_unknown_language_is_refused(tmp_path, capsys):
+def test_init_refuses_an_unknown_or_missing_language(tmp_path, capsys):
     assert init("--language", "fortran", "--directory", tmp_path) == 2
     assert "'fortran' is not one of" in capsys.readouterr().err
     assert init("--directory", tmp_path) == 2
 
 
-def test_init_loads_nothing_heavy(tmp_path):
+def test_init_help_loads_no_heavy_library(tmp_path):
     heavy = ("numpy", "sympy", "mpmath", "fcl", "matplotlib")
     code = f"""
 import json, sys

@@ -37,7 +37,7 @@ SOURCES = {
 
 
 @pytest.mark.parametrize("source", SOURCES)
-def test_a_source_becomes_the_requirement_that_pip_reads(source, tmp_path):
+def test_source_of_hypcheck_is_written_as_a_requirement_of_pip(source, tmp_path):
     text = requirement(source, tmp_path).text
     assert text == SOURCES[source]
     assert re.fullmatch(r"[\w @:/.=~+#%\[\]-]+", text)
@@ -57,7 +57,7 @@ BAD_SOURCES = [
 
 
 @pytest.mark.parametrize("source", BAD_SOURCES)
-def test_an_invalid_source_ends_2_before_a_file_is_written(source, tmp_path, capsys):
+def test_init_with_an_invalid_source_ends_with_2_before_it_writes_a_file(source, tmp_path, capsys):
     assert main(["init", "--language", "c", "--directory", str(tmp_path), f"--from={source}"]) == 2
     assert "it must be a git URL such as https://host/owner/hypcheck.git@v1.2.0" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
@@ -96,7 +96,7 @@ def test_a_branch_or_tag_of_a_repository_is_pinned_to_its_commit(end, name, repo
     assert any(said.startswith(f"pinned to the commit that {end[1:] or 'HEAD'} of") for said in wanted.says)
 
 
-def test_a_path_of_a_repository_is_the_same_as_its_url(repository, tmp_path):
+def test_path_and_file_url_of_a_repository_give_the_same_requirement(repository, tmp_path):
     assert requirement(str(repository), tmp_path / "engine") == requirement(f"file://{repository}", tmp_path)
 
 
@@ -120,7 +120,7 @@ def test_a_local_repository_that_cannot_be_read_or_lacks_the_ref_is_refused(end,
         pinned(requirement(f"file://{where}{end}", tmp_path))
 
 
-def test_a_wheel_elsewhere_on_this_machine_is_pinned_by_its_digest(tmp_path):
+def test_wheel_outside_the_repository_is_pinned_by_its_digest(tmp_path):
     wheel = tmp_path / "a wheel" / "hypcheck-1-py3-none-any.whl"
     wheel.parent.mkdir()
     wheel.write_bytes(b"content")
@@ -138,7 +138,7 @@ def test_a_wheel_in_the_repository_is_named_from_its_root(tmp_path, monkeypatch)
     assert requirement("engine/vendor/h.whl", tmp_path / "engine").text == "./vendor/h.whl"
 
 
-def test_a_file_that_is_no_archive_is_refused(tmp_path):
+def test_source_that_is_a_file_but_neither_wheel_nor_sdist_is_refused(tmp_path):
     (tmp_path / "h.txt").touch()
     with pytest.raises(InputError, match="neither a folder nor a wheel or sdist"):
         requirement(str(tmp_path / "h.txt"), tmp_path)

@@ -40,7 +40,7 @@ def specs(folder) -> list[str]:
 
 
 @pytest.mark.parametrize("names", [*permutations(["c", "go"]), list(LANGUAGES)], ids="-".join)
-def test_each_language_after_the_first_is_gated_beside_the_others(names, init, tmp_path, capsys):
+def test_workflow_verifies_every_language_that_init_added(names, init, tmp_path, capsys):
     for name in names:
         assert init(name, "--from", "hypcheck==1.2.0") == 0
     assert specs(tmp_path) == [LANGUAGES[name].spec for name in names]
@@ -65,7 +65,7 @@ def test_a_second_language_changes_no_file_of_the_first(init, tmp_path):
     assert (tmp_path / ".gitignore").read_bytes() == ignored
 
 
-def test_the_same_language_again_is_refused_and_by_force_gates_both_once(init, tmp_path, capsys):
+def test_init_refuses_a_language_that_exists_and_with_force_lists_it_only_once(init, tmp_path, capsys):
     assert init("c") == init("go") == 0
     before = (tmp_path / WORKFLOW).read_text(), (tmp_path / "hypcheck.toml").read_text()
     assert init("go") == 2
@@ -98,14 +98,14 @@ def test_a_spec_is_added_to_settings_that_a_user_wrote_and_the_rest_stays(text, 
 @pytest.mark.parametrize(
     "text", ['specs = [\n  "command:./mine" # ours\n]\n', 'specs = ["a",\n  "b"]\n', "specs = 1\n"]
 )
-def test_settings_that_cannot_be_added_to_stay_and_the_missing_spec_is_reported(text, init, tmp_path, capsys):
+def test_settings_that_init_cannot_extend_stay_unchanged_and_the_missing_spec_is_reported(text, init, tmp_path, capsys):
     (tmp_path / "hypcheck.toml").write_text(text)
     assert init("c") == 0
     assert (tmp_path / "hypcheck.toml").read_text() == text
     assert 'hypcheck.toml was not changed: add "command:hypcheck-c/adapter" to its specs' in capsys.readouterr().out
 
 
-def test_steps_are_added_to_a_workflow_that_a_user_changed(init, tmp_path):
+def test_init_adds_steps_to_a_workflow_that_a_user_changed(init, tmp_path):
     assert init("c", "--from", "1.2.0") == 0
     path = tmp_path / WORKFLOW
     path.write_text(path.read_text().replace("ubuntu-latest", "ubuntu-22.04").replace("-O2", "-O3"))
@@ -115,7 +115,7 @@ def test_steps_are_added_to_a_workflow_that_a_user_changed(init, tmp_path):
     assert list(steps(tmp_path))[-2:] == ["Build hypcheck-python", "Verify hypcheck-python"]
 
 
-def test_a_source_named_with_the_second_language_fills_the_step_that_had_none(init, tmp_path, capsys):
+def test_source_given_with_the_second_language_fills_the_empty_install_step(init, tmp_path, capsys):
     assert init("c") == 0
     assert init("go", "--from", "1.2.0") == 0
     assert steps(tmp_path)["Install hypcheck"] == "python -m pip install hypcheck==1.2.0"
