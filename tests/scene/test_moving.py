@@ -48,7 +48,7 @@ def changed(old, new):
     return MOVING.replace(old, new)
 
 
-def test_flight_and_walk_with_every_key_are_read():
+def test_flight_and_walk_of_a_scene_with_every_key_are_read():
     scene = parse_scene(MOVING)
     assert scene.flight == Flight(
         500.0, 0.25, 0.5, 45.0, 90.0, backward=True, turn="free", start=Start(Span(3.0, 3.0), radius=1.5)
@@ -92,13 +92,13 @@ def test_a_scene_needs_neither_flight_nor_walk():
         ),
     ],
 )
-def test_anything_else_is_refused_with_key_and_line(text, message):
+def test_invalid_flight_or_walk_is_refused_naming_key_and_line(text, message):
     with pytest.raises(InputError) as caught:
         parse_scene(text)
     assert message in str(caught.value)
 
 
-def test_reader_and_schema_agree_on_flight_and_walk():
+def test_scene_reader_and_schema_agree_on_flight_and_walk():
     content = tomllib.loads(MOVING)
     assert violations(content, SCHEMA, closed=True) == []
     for path in list(places(content)):

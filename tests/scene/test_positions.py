@@ -95,14 +95,14 @@ def leaves(value, path=()):
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])
-def test_values_in_every_form_of_toml_have_their_line(newline):
+def test_line_of_a_value_is_found_in_every_form_of_toml(newline):
     text = EVERYTHING.replace("\n", newline)
     found = lines_of(text)
     assert {path: found[path] for path in LINES} == LINES
     assert set(leaves(tomllib.loads(text))) <= set(found)
 
 
-def test_a_missing_path_has_the_line_of_its_table():
+def test_line_of_a_missing_key_is_the_line_of_its_table():
     found = lines_of(EVERYTHING)
     assert nearest_line(found, ("tree", 1, "gamma")) == 31
     assert nearest_line(found, ("tree", 0, "part", 1, "arm", 3)) == 27
@@ -180,7 +180,7 @@ def documents(draw):
 
 
 @given(documents())
-def test_every_value_of_random_toml_has_its_line(written):
+def test_line_of_every_value_is_found_in_random_toml(written):
     found = lines_of(written.text)
     assert {path: found.get(path) for path in written.lines} == written.lines
     assert set(leaves(tomllib.loads(written.text))) <= set(found)
@@ -191,7 +191,7 @@ def test_every_value_of_random_toml_has_its_line(written):
     ["#\n" * 100_000, "\n" * 200_000, 'a = "%s"' % (r"\n" * 100_000), "'%s' = 1" % ("a " * 100_000)],
     ids=["comments", "blank lines", "a text of escapes", "a long key"],
 )
-def test_finding_lines_takes_little_memory_for_long_texts(text):
+def test_finding_lines_of_a_long_toml_text_takes_little_memory(text):
     tracemalloc.start()
     try:
         assert len(lines_of(text)) <= 1

@@ -79,7 +79,7 @@ def test_missing_keys_of_a_scene_have_their_defaults():
     assert scene == SceneModel("a", "position", (Hyperboloid("hyperboloid 1", 1.0, 2.0),), Mover(1.0, 1.0), Region())
 
 
-def test_axes_are_read_as_they_stand():
+def test_axes_of_a_scene_are_read_without_normalisation():
     scene = parse_scene(LEANING)
     assert [body.axis for body in scene.hyperboloids] == [(0.0, -1.0, 3.0), UPRIGHT]
     assert scene.mover.axis == (0.5, 0.0, 2.0)
@@ -94,7 +94,7 @@ def test_a_vertical_axis_is_upright_whatever_its_length_and_sense():
     assert len(parse_scene(parted).mover.parts) == 1
 
 
-def test_a_span_is_fixed_where_it_is_one_number():
+def test_span_of_a_region_is_fixed_if_it_is_a_single_number():
     region = parse_scene(WHOLE).region
     assert region.z is not None
     assert region.z.fixed
@@ -178,17 +178,17 @@ def changed(old, new):
         ("name = " + "[" * 300 + "]" * 300, "line 1: the scene: name is "),
     ],
 )
-def test_anything_else_is_refused_with_key_and_line(text, message):
+def test_invalid_scene_is_refused_naming_key_and_line(text, message):
     assert message in refusal(text)
 
 
-def test_each_of_many_trees_on_lines_of_their_own_is_found():
+def test_fault_in_one_of_many_trees_is_reported_with_the_line_of_that_tree():
     rows = [f"  {{ alpha = {n}, gamma = 9 }},  # tree {n}" for n in (1, 2, 0, 4)]
     text = 'name = "wood"\nhyperboloid = [\n' + "\n".join(rows) + "\n]\nmover = { b = 1, d = 1 }\n"
     assert "s.toml, line 5: hyperboloid 3: alpha is 0; " in refusal(text)
 
 
-def test_a_part_may_touch_the_movers_surface_from_within():
+def test_part_of_a_mover_may_touch_its_surface_from_within():
     text = changed("arm = 0.135", "arm = 0.15")  # 0.15 + 0.1 is 0.25 exactly, in float64 too
     assert parse_scene(text).mover.parts[0].arm == 0.15
 
@@ -234,7 +234,7 @@ def test_read_scene_refuses_a_file_that_is_no_text(tmp_path, content, message):
     assert message in str(caught.value)
 
 
-def test_a_file_of_more_than_a_mebibyte_is_refused_unread(tmp_path):
+def test_scene_file_of_more_than_a_mebibyte_is_refused_unread(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text(LEAST + "#" * (1 << 20))
     with pytest.raises(InputError, match="has more than 1 MiB; it must be smaller"):
@@ -256,12 +256,12 @@ def test_a_file_of_more_than_a_mebibyte_is_refused_unread(tmp_path):
     ],
     ids=["hyperboloids", "parts", "a name"],
 )
-def test_a_scene_with_more_than_a_file_may_have_is_refused(text, message):
+def test_scene_with_more_bodies_or_parts_than_allowed_is_refused(text, message):
     with pytest.raises(InputError, match=message):
         parse_scene(text)
 
 
-def test_a_file_that_cannot_be_opened_raises_an_error(tmp_path):
+def test_read_scene_refuses_a_file_that_cannot_be_opened(tmp_path):
     with pytest.raises(InputError, match="is a directory"):
         read_scene(str(tmp_path))
     with pytest.raises(InputError, match=r"there is no such file; it must be one, or a shipped scene: .*tower"):

@@ -75,7 +75,7 @@ def test_scenes_that_the_reader_accepts_fit_the_schema(text):
 
 
 @pytest.mark.parametrize("text", [WHOLE])
-def test_every_value_of_another_type_is_refused_by_both_or_neither(text):
+def test_scene_reader_and_schema_agree_on_missing_values_and_wrong_types(text):
     """A missing value, a wrong one, an unknown key; what a schema cannot say is left out."""
     content = tomllib.loads(text)
     for path in list(places(content)):
@@ -90,7 +90,7 @@ def beyond_a_schema(path, value):
     return any(key in ("height", "part", "x", "y", "z", "b", "d") for key in path if isinstance(key, str))
 
 
-def test_an_unknown_key_is_refused_by_both_in_every_table():
+def test_scene_reader_and_schema_refuse_an_unknown_key_in_every_table():
     content = tomllib.loads(WHOLE)
     for path in [(), *places(content)]:
         table = content
