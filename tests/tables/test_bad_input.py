@@ -83,11 +83,11 @@ CSV = {
 
 
 @pytest.mark.parametrize(("text", "sentence"), CSV.items(), ids=range(len(CSV)))
-def test_bad_csv_is_named_by_line_row_and_value(text, sentence, tmp_path, capsys):
+def test_bad_csv_is_refused_naming_line_row_and_value(text, sentence, tmp_path, capsys):
     assert message(tmp_path, capsys, "in.csv", text.encode()) == sentence
 
 
-def test_bad_csv_beyond_the_first_chunk_is_named_by_its_row_in_the_file(tmp_path, capsys):
+def test_bad_csv_row_beyond_the_first_chunk_is_refused_naming_its_row_in_the_file(tmp_path, capsys):
     text = f"{HEADER}\n" + f"{GOOD}\n" * 20_000 + "1,2,1,1,x,0,0\n" + f"{GOOD}\n" * 5
     sentence = ", row 20001 (line 20002): x is 'x'; it must be a decimal number such as 2.5 or -1e-3"
     assert message(tmp_path, capsys, "in.csv", text.encode()) == sentence
@@ -136,7 +136,7 @@ JSONL = {
 
 
 @pytest.mark.parametrize(("text", "sentence"), JSONL.items(), ids=range(len(JSONL)))
-def test_bad_jsonl_is_named_by_line_row_and_value(text, sentence, tmp_path, capsys):
+def test_bad_jsonl_is_refused_naming_line_row_and_value(text, sentence, tmp_path, capsys):
     assert message(tmp_path, capsys, "in.jsonl", text.encode()) == sentence
 
 

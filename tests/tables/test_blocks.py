@@ -96,7 +96,7 @@ def test_most_of_a_plain_table_is_read_by_blocks(folder, monkeypatch):
     assert sum(each.count for each in taken if each) > 250
 
 
-def test_of_two_bad_rows_the_first_is_reported(folder):
+def test_first_of_two_bad_csv_rows_is_reported(folder):
     bad, short = ",".join(("-1", *GOOD[1:])), ",".join(GOOD[1:])
     head, good = ",".join(COLUMNS), ",".join(GOOD)
     for quoted in ("", '"a",' * 7):

@@ -30,7 +30,7 @@ def classify(source: object, target: object, *more: str) -> int:
 
 
 @pytest.mark.parametrize("kind", ["csv", "npy"])
-def test_a_bad_row_leaves_the_old_output_as_it_was(kind, tmp_path, source, capsys):
+def test_classify_leaves_an_old_output_unchanged_if_a_row_is_bad(kind, tmp_path, source, capsys):
     source.write_text(f"{HEADER}\n" + f"{GOOD}\n" * 20_000 + "1,2,1,1,x,0,0\n")
     target = tmp_path / f"out.{kind}"
     target.write_text("old output")
@@ -39,7 +39,7 @@ def test_a_bad_row_leaves_the_old_output_as_it_was(kind, tmp_path, source, capsy
     assert target.read_text() == "old output"
 
 
-def test_oracles_that_disagree_leave_no_output(tmp_path, source, monkeypatch, capsys):
+def test_classify_writes_no_output_and_ends_with_6_if_oracles_disagree(tmp_path, source, monkeypatch, capsys):
     from hypcheck.truth import float_filter
 
     right = float_filter.filtered
@@ -49,7 +49,7 @@ def test_oracles_that_disagree_leave_no_output(tmp_path, source, monkeypatch, ca
     assert "two oracles disagree about alpha 1.0, gamma 2.0" in capsys.readouterr().err
 
 
-def test_a_tangency_that_only_one_oracle_sees_is_a_disagreement(tmp_path, source, monkeypatch, capsys):
+def test_tangency_that_only_one_oracle_finds_is_a_disagreement(tmp_path, source, monkeypatch, capsys):
     from hypcheck.truth import nearest
 
     right = nearest.clearances
@@ -64,7 +64,7 @@ def test_a_tangency_that_only_one_oracle_sees_is_a_disagreement(tmp_path, source
     assert os.listdir(tmp_path) == ["in.csv"]
 
 
-def test_a_new_file_has_the_permissions_of_any_new_file(tmp_path, source):
+def test_new_output_file_has_the_default_permissions(tmp_path, source):
     before = os.umask(0o027)
     try:
         assert classify(source, tmp_path / "out.csv") == 0
@@ -74,7 +74,7 @@ def test_a_new_file_has_the_permissions_of_any_new_file(tmp_path, source):
     assert stat.S_IMODE((tmp_path / "out.csv").stat().st_mode) == stat.S_IMODE((tmp_path / "any").stat().st_mode)
 
 
-def test_a_replaced_file_keeps_its_permissions(tmp_path, source):
+def test_replaced_output_file_keeps_its_permissions(tmp_path, source):
     target = tmp_path / "out.csv"
     target.write_text("old")
     target.chmod(0o604)
@@ -132,7 +132,7 @@ def test_an_output_on_a_full_disk_is_named_with_the_reason_and_nothing_is_left(t
     assert sorted(os.listdir(tmp_path)) == ["in.csv"]
 
 
-def test_a_file_that_cannot_be_opened_is_named_with_the_reason(tmp_path, source, capsys, monkeypatch):
+def test_table_that_cannot_be_opened_is_refused_with_the_reason(tmp_path, source, capsys, monkeypatch):
     out = tmp_path / "out.csv"
     assert refused(capsys, tmp_path / "no.csv", out) == f"cannot read {tmp_path / 'no.csv'}: no such file or directory"
     (tmp_path / "d.csv").mkdir()
@@ -149,7 +149,7 @@ def test_a_file_that_cannot_be_opened_is_named_with_the_reason(tmp_path, source,
     assert sorted(os.listdir(tmp_path)) == ["d.csv", "in.csv"]
 
 
-def test_files_that_may_not_be_read_or_written_are_left_alone(tmp_path, source, capsys, monkeypatch):
+def test_classify_leaves_files_alone_that_it_may_not_read_or_write(tmp_path, source, capsys, monkeypatch):
     """The rights are taken away by a stand-in for the system, since a superuser may do everything."""
     target = tmp_path / "out.csv"
     target.write_text("old")
@@ -211,11 +211,11 @@ def test_files_without_permission_are_refused_naming_the_reason(tmp_path, source
         ),
     ],
 )
-def test_formats_that_are_unclear_or_do_not_fit_are_refused(source, target, more, sentence, capsys):
+def test_classify_refuses_table_formats_that_are_unclear_or_do_not_match(source, target, more, sentence, capsys):
     assert refused(capsys, source, target, *more).startswith(sentence)
 
 
-def test_a_name_without_an_ending_has_the_format_of_the_option(tmp_path, source):
+def test_option_format_sets_the_format_of_a_file_name_without_an_ending(tmp_path, source):
     source.rename(tmp_path / "in")
     assert classify(tmp_path / "in", tmp_path / "out", "--format", "csv") == 0
     assert (tmp_path / "out").read_text() == ANSWER

@@ -12,7 +12,7 @@ from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_json, numbe
 
 
 @pytest.mark.parametrize("text", ["1", "-2.5", "+.5", "5.", "1e3", "1E-3", " 1.0 ", "\t7", "007", "-1e-400", "1" * 400])
-def test_decimals_are_numbers(text):
+def test_valid_decimal_texts_are_accepted_as_numbers(text):
     assert is_number(text)
 
 
@@ -39,14 +39,14 @@ def test_decimals_are_numbers(text):
         "\xa01",
     ],
 )
-def test_other_texts_are_no_numbers(text):
+def test_texts_that_are_no_decimals_are_refused_as_numbers(text):
     assert not is_number(text)
     with pytest.raises(ValueError, match=r"^x is .*; it must be a"):
         number_of_text("x", text)
 
 
 @given(st.text(CHARACTERS.decode(), max_size=12))
-def test_float_accepts_the_same_texts_of_number_characters(text):
+def test_python_float_and_is_number_accept_the_same_texts_of_number_characters(text):
     """Fast reading depends on this: it checks the characters only and leaves the grammar to float()."""
     try:
         float(text)
@@ -57,23 +57,23 @@ def test_float_accepts_the_same_texts_of_number_characters(text):
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
-def test_every_float_is_read_back_as_itself(value):
+def test_decimal_text_of_every_float_is_read_back_as_that_float(value):
     assert number_of_text("x", repr(value)) == value
     assert number_of_json("x", json.loads(repr(value))) == value
 
 
-def test_more_digits_than_float64_holds_are_rounded_to_the_nearest():
+def test_number_with_more_digits_than_float64_holds_is_rounded_to_nearest():
     assert number_of_text("x", "9007199254740993") == 2.0**53  # a tie, to even
     assert number_of_text("x", "9007199254740993.0000000000000000000000001") == 2.0**53 + 2
     assert number_of_json("x", 9007199254740995) == 2.0**53 + 4
 
 
 @pytest.mark.parametrize("value", [True, False, None, "1", [1], {"x": 1}])
-def test_json_values_that_are_no_numbers_are_refused_as_json_writes_them(value):
+def test_json_value_that_is_no_number_is_refused_and_quoted_as_json(value):
     with pytest.raises(ValueError, match="it must be a number") as caught:
         number_of_json("x", value)
     assert str(caught.value).startswith(f"x is {json.dumps(value)};")
 
 
-def test_a_long_value_is_cut_in_a_message():
+def test_message_shows_only_the_beginning_of_a_long_value():
     assert len(shown("a" * 10_000)) < 60

@@ -43,7 +43,7 @@ def classify(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(("kind", "target"), [("npy", "npy"), ("npy", "csv"), ("csv", "csv"), ("jsonl", "jsonl")])
-def test_two_workers_write_the_same_answers_as_one(rows, classify, tmp_path, kind, target):
+def test_classify_with_two_workers_writes_the_same_answers_as_with_one(rows, classify, tmp_path, kind, target):
     source = tmp_path / f"rows.{kind}"
     if kind == "npy":
         np.save(source, rows)
@@ -58,7 +58,7 @@ def text_of(rows, kind):
     return "".join(json.dumps(dict(zip(COLUMNS, row, strict=True))) + "\n" for row in rows.tolist())
 
 
-def test_the_first_bad_row_is_reported_whatever_follows_it(rows, classify, tmp_path):
+def test_first_bad_row_is_reported_even_if_later_rows_are_bad_in_other_ways(rows, classify, tmp_path):
     source = tmp_path / "rows.csv"
     bad = 2 * CHUNK + 3
     rows[bad, 2] = -0.25
@@ -94,7 +94,7 @@ def failing(some):
     raise InputError("no more")
 
 
-def test_results_and_errors_come_in_the_order_of_tasks():
+def test_results_and_errors_of_workers_come_in_the_order_of_tasks():
     assert list(in_order(double, range(30), 2, 3)) == [2 * number for number in range(30)]
     assert list(in_order(double, range(2), 2, 3)) == [0, 2]
     for tasks, said in ((chain(range(35), range(40, 90)), "40 is too much"), (failing(range(35)), "no more")):
@@ -104,6 +104,6 @@ def test_results_and_errors_come_in_the_order_of_tasks():
         assert found[:35] == [2 * number for number in range(35)]
 
 
-def test_a_task_whose_worker_is_killed_is_done_by_the_parent():
+def test_task_whose_worker_is_killed_is_done_by_the_parent_process():
     tasks = [(os.getpid(), number) for number in range(20)]
     assert list(in_order(killed_elsewhere, tasks, 2, 3)) == list(range(20))

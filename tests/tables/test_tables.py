@@ -52,7 +52,7 @@ def text_of(row: tuple[float, ...]) -> str:
 @example([Pair(5e-324, 1.0, 5.488980354903168e230, 1.0, 5.488980354903168e230, 0.5, 0.0)])  # 4e-463 radii apart
 @example([Pair(3.0, 3.521074803988142e253, 2.0, 1.0, 1.0, 0.0, 0.5)])
 @given(st.lists(pairs, min_size=1, max_size=12))
-def test_a_row_has_the_answer_of_its_pair_to_the_last_bit(some):
+def test_answers_about_a_table_equal_answers_about_each_pair_to_the_last_bit(some):
     found = answers(np.array([pair.row for pair in some]))
     alone = [answer(pair) for pair in some]
     assert found.positions.tolist() == [int(one.decision.position) for one in alone]
@@ -69,7 +69,7 @@ def test_csv_rows_get_four_cells_with_the_answer(tmp_path):
     assert target.read_text() == "\n".join(expected) + "\n"
 
 
-def test_csv_passes_every_other_byte_through(tmp_path):
+def test_classify_copies_every_byte_of_a_csv_outside_its_own_columns(tmp_path):
     source, target = tmp_path / "in.csv", tmp_path / "out.csv"
     begin = '"note, long",z,y,x, d ,"b",gamma,alpha,\n'
     rows = [
@@ -160,7 +160,7 @@ def test_standard_input_and_output_are_read_and_written(tmp_path):
     assert run(["--input", str(tmp_path / "in.csv"), "--output", "-"], b"").stdout == answered
 
 
-def test_a_stream_of_npy_that_ends_early_or_late_is_an_error(tmp_path):
+def test_npy_stream_shorter_or_longer_than_its_header_says_is_refused(tmp_path):
     np.save(tmp_path / "in.npy", ROWS)
     data = (tmp_path / "in.npy").read_bytes()
     words = ["--input", "-", "--format", "npy", "--output", str(tmp_path / "out.npy")]
@@ -206,7 +206,7 @@ def test_with_on_invalid_flag_rows_that_are_no_pairs_are_marked_127(tmp_path):
 @pytest.mark.thorough
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not report a process's peak memory")
 @pytest.mark.parametrize("kind", ["csv", "jsonl", "npy"])
-def test_memory_does_not_grow_with_the_table(tmp_path, kind):
+def test_memory_of_classify_does_not_grow_with_the_table(tmp_path, kind):
     """200,000 rows more: as bare numbers alone they would take 11 MB, as text 18 MB, if they were kept."""
     peaks = []
     for count in (100_000, 300_000):

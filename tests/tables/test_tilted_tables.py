@@ -28,7 +28,7 @@ def wanted():
     return [answer(TiltedPair.from_row(row)) for row in ROWS]
 
 
-def test_answers_about_rows_are_those_about_pairs(wanted):
+def test_answers_about_tilted_rows_equal_answers_about_each_tilted_pair(wanted):
     found = answers(np.array(ROWS))
     assert found.positions.tolist() == [each.decision.position for each in wanted] == [1, 0, 0, -1, 0, 0]
     assert (
@@ -37,7 +37,7 @@ def test_answers_about_rows_are_those_about_pairs(wanted):
     assert found.clearance.tolist() == [each.clearance for each in wanted]
 
 
-def test_csv_finds_the_axis_in_any_order_and_passes_the_rest_through(tmp_path, wanted):
+def test_csv_columns_of_the_axis_are_found_in_any_order_and_other_columns_are_kept(tmp_path, wanted):
     names = ("note", *reversed(TILTED_COLUMNS))
     lines = [",".join(names), *(",".join(["a b", *map(repr, reversed(row))]) for row in ROWS)]
     (tmp_path / "in.csv").write_text("\n".join(lines))
@@ -50,7 +50,7 @@ def test_csv_finds_the_axis_in_any_order_and_passes_the_rest_through(tmp_path, w
         assert line == f"{text},{int(each.decision.position)},{label},{tangent},{each.clearance!r}"
 
 
-def test_npy_may_have_ten_columns_and_become_text(tmp_path, wanted):
+def test_npy_of_tilted_rows_is_classified_into_npy_csv_and_jsonl(tmp_path, wanted):
     np.save(tmp_path / "in.npy", np.asfortranarray(np.array(ROWS)))
     for name in ("out.npy", "out.csv", "out.jsonl"):
         assert main(["classify", "--input", str(tmp_path / "in.npy"), "--output", str(tmp_path / name)]) == 0
@@ -63,7 +63,7 @@ def test_npy_may_have_ten_columns_and_become_text(tmp_path, wanted):
 
 
 @pytest.mark.parametrize("extra", ["", ' "note": "axis_",'])
-def test_json_lines_may_have_an_axis_or_none(extra, tmp_path, wanted):
+def test_json_lines_with_and_without_an_axis_are_classified_in_one_file(extra, tmp_path, wanted):
     objects = [dict(zip(TILTED_COLUMNS, row, strict=True)) for row in ROWS]
     upright = dict(zip(COLUMNS, ROWS[0], strict=False))
     lines = [f"{{{extra}{json.dumps(each)[1:]}" for each in [*objects, upright]]
@@ -83,7 +83,7 @@ def test_json_lines_may_have_an_axis_or_none(extra, tmp_path, wanted):
         ("0,0,", "axis_z is empty; it must be a number"),
     ],
 )
-def test_a_row_without_a_direction_is_refused_or_flagged(axis, sentence, tmp_path, capsys):
+def test_tilted_row_whose_axis_has_no_direction_is_refused_or_flagged(axis, sentence, tmp_path, capsys):
     table = tmp_path / "in.csv"
     table.write_text(f"{','.join(TILTED_COLUMNS)}\n1,2,1,1,2.5,0,0,0,0,1\n1,2,1,1,2.5,0,0,{axis}\n")
     command = ["classify", "--input", str(table), "--output", str(tmp_path / "out.csv")]
@@ -104,14 +104,14 @@ def test_a_row_without_a_direction_is_refused_or_flagged(axis, sentence, tmp_pat
         (("axis_x", "axis_y", "axis_z", "axis_x"), "column 'axis_x' stands twice; it must stand once"),
     ],
 )
-def test_half_an_axis_is_refused(names, sentence, tmp_path, capsys):
+def test_csv_with_only_some_columns_of_the_axis_is_refused(names, sentence, tmp_path, capsys):
     table = tmp_path / "in.csv"
     table.write_text(f"{','.join((*COLUMNS, *names))}\n1,2,1,1,2.5,0,0{',1' * len(names)}\n")
     assert main(["classify", "--input", str(table), "--output", str(tmp_path / "out.csv")]) == 2
     assert sentence in capsys.readouterr().err
 
 
-def test_half_an_axis_in_a_json_line_is_refused(tmp_path, capsys):
+def test_json_line_with_only_some_keys_of_the_axis_is_refused(tmp_path, capsys):
     row = dict(zip(COLUMNS, ROWS[0], strict=False))
     for more, missing in (
         ({"axis_z": 1}, "keys axis_x, axis_y are"),
@@ -125,7 +125,7 @@ def test_half_an_axis_in_a_json_line_is_refused(tmp_path, capsys):
     assert "'AXIS_X' must be written axis_x" in capsys.readouterr().err
 
 
-def test_a_long_npy_of_ten_columns_is_cut_off_at_a_row(tmp_path, capsys):
+def test_npy_of_tilted_rows_that_is_cut_off_is_refused_naming_the_number_of_rows(tmp_path, capsys):
     np.save(tmp_path / "in.npy", np.array(ROWS))
     data = (tmp_path / "in.npy").read_bytes()
     (tmp_path / "in.npy").write_bytes(data[:-81])
