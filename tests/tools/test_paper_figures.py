@@ -17,7 +17,7 @@ PAGE = (DOCS / "figures.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.thorough
-def test_each_picture_of_the_page_exists_and_each_drawn_one_is_shown():
+def test_each_picture_of_the_paper_page_exists_and_each_drawn_one_is_on_the_page():
     shown = set(re.findall(r"\]\((\w+/[\w-]+\.svg)\)", PAGE))
     assert all((DOCS / name).is_file() for name in shown)
     assert shown == {*pictures(), "simulate/tower-table-5.svg"}
@@ -29,7 +29,7 @@ def test_each_picture_of_the_page_exists_and_each_drawn_one_is_shown():
     reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",
 )
 @pytest.mark.parametrize("name", ["figure-1", "figure-2", "figure-3"])
-def test_a_figure_is_fresh(name):
+def test_figure_of_the_paper_page_equals_a_newly_drawn_one(name):
     """`make figures` draws it anew."""
     assert (DOCS / "figures" / f"{name}.svg").read_bytes() == pictures()[f"figures/{name}.svg"]
 
@@ -40,7 +40,7 @@ def test_a_figure_is_fresh(name):
 )
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", ["forest-space", "forest-walk", "tower-flights"])
-def test_a_picture_of_a_simulation_is_fresh(name):
+def test_picture_of_a_simulation_equals_a_newly_drawn_one(name):
     """`make figures` draws it anew."""
     assert (DOCS / "simulate" / f"{name}.svg").read_bytes() == pictures()[f"simulate/{name}.svg"]
 
@@ -49,7 +49,7 @@ def test_a_picture_of_a_simulation_is_fresh(name):
     DRAWN_WITH.read_text(encoding="utf-8") != versions(),
     reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",
 )
-def test_the_picture_of_the_two_bodies_is_fresh():
+def test_picture_of_the_two_bodies_equals_a_newly_drawn_one():
     """`make figures` draws it anew."""
     assert BODIES.read_bytes() == bodies_picture()
 
@@ -63,7 +63,7 @@ def test_the_picture_of_the_two_bodies_is_the_first_of_the_readme_and_names_size
     assert {"α", "γ", "b", "d", "waist, z = 0", *(each.label for each in Position)} <= texts
 
 
-def test_each_picture_has_a_title_and_a_description():
+def test_each_picture_of_the_paper_page_has_a_title_and_a_description():
     for name in set(re.findall(r"\]\((\w+/[\w-]+\.svg)\)", PAGE)):
         root = ElementTree.fromstring((DOCS / name).read_bytes())  # noqa: S314 - our own
         texts = {element.tag.rpartition("}")[2]: element.text for element in root}
@@ -71,7 +71,7 @@ def test_each_picture_has_a_title_and_a_description():
         assert len(texts["desc"]) > 40
 
 
-def test_two_discs_overlap_in_a_lens_between_their_centres_or_not_at_all():
+def test_drawn_overlap_of_two_discs_is_a_lens_or_empty():
     apart = 0.1415 * math.sqrt(2)
     assert paper_figures._lens((0, 0), (apart, 0), 0.1) == []
     lens = paper_figures._lens((0, 0), (0.19, 0), 0.1)

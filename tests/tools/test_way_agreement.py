@@ -40,7 +40,7 @@ def test_roots_in_time_and_samples_confirm_generated_ways(capsys):
     assert "together                        2 ways, " in capsys.readouterr().out
 
 
-def test_answers_that_are_wrong_are_seen(capsys):
+def test_agreement_check_finds_wrong_answers_about_ways(capsys):
     graze = said("way-grazing")
     assert faults(replace(graze, first=None), 8)[-1].endswith("and is said to be at no time")
     late = tuple(each + Fraction(1, 64) for each in graze.first)
@@ -54,7 +54,7 @@ def test_answers_that_are_wrong_are_seen(capsys):
     assert faults(ring, 2) == ["contact is first at no time, and is said to be at t = 0.5 … 0.5"]
 
 
-def test_what_the_discriminant_cannot_decide_is_counted_and_no_agreement(monkeypatch, capsys):
+def test_way_that_the_discriminant_cannot_decide_is_counted_as_undecided(monkeypatch, capsys):
     graze = said("way-grazing")
     nothing = way_agreement.polynomial(Fraction(0))
     monkeypatch.setattr(way_agreement, "discriminant", lambda row: nothing)

@@ -33,12 +33,12 @@ def struck():
     return list(batches(3, ROWS))
 
 
-def test_a_short_attack_asks_all_that_a_long_one_does():
+def test_short_attack_draws_rows_of_every_stratum_that_a_long_one_draws():
     """Scenes are large, so few rows must not mean none of them."""
     assert {stratum for stratum, _ in drawn(3, ROWS)} == {stratum for stratum, _ in drawn(3, 40 * ROWS)}
 
 
-def test_no_kernel_is_wrong_anywhere(struck):
+def test_no_kernel_answers_any_attack_row_wrongly(struck):
     _, wrong, rows = tally(strike(subjects(), struck))
     assert sum(wrong.values()) == 0, rows[0][0].tolist()
 
@@ -63,7 +63,7 @@ CONTRACTED = ("-std=gnu99", "-O3", "-march=native", "-ffp-contract=fast")
         pytest.param(CLANG, CONTRACTED, id="by-clang", marks=needs_clang),
     ],
 )
-def test_no_build_is_wrong_anywhere(compiler, options, struck, tmp_path):
+def test_no_compiler_and_option_makes_a_kernel_answer_any_attack_row_wrongly(compiler, options, struck, tmp_path):
     _, wrong, rows = tally(strike([built(tmp_path, *options, compiler=compiler)], struck[::3]))
     assert sum(wrong.values()) == 0, rows[0][0].tolist()
 
@@ -81,7 +81,7 @@ SABOTAGE = {
 
 @needs_compiler
 @pytest.mark.parametrize("weaker", SABOTAGE.values(), ids=SABOTAGE)
-def test_the_attack_finds_a_bound_that_does_not_hold(weaker, struck, tmp_path, monkeypatch):
+def test_attack_finds_wrong_answers_of_a_kernel_with_a_bound_that_is_too_small(weaker, struck, tmp_path, monkeypatch):
     for name, value in weaker.items():
         monkeypatch.setitem(generate.CONSTANTS, name, value)
     subject = built(tmp_path, *CONTRACTED, header=generate.header())
@@ -89,7 +89,7 @@ def test_the_attack_finds_a_bound_that_does_not_hold(weaker, struck, tmp_path, m
     assert sum(wrong.values()) > 0
 
 
-def test_heights_whose_squares_underflow_are_heights_all_the_same():
+def test_kernels_answer_rightly_for_heights_whose_squares_underflow():
     """a = 1 on the axis: contact at the waist, interior anywhere above it, were it by 1e-300."""
     random = np.random.default_rng(9)
     for sizes in ((4.0, 1.0, 4.0, 4.0), (1.0, 4.0, 1.0, 2.0), (0.5, 4.0, 1.0, 2.0)):
@@ -116,7 +116,7 @@ FAR_ROWS = (  # |x|/b above 2e33; 3Δ and what it is compared with are products 
 
 
 @needs_compiler
-def test_far_centres_are_no_contact_under_any_rounding_mode(tmp_path):
+def test_kernels_call_far_centres_clear_under_every_rounding_mode(tmp_path):
     """Rounded down or towards zero an overflow looks like the largest finite number, whose differences mean nothing."""
     rows = np.array([row for row, _ in FAR_ROWS])
     right = [position for _, position in FAR_ROWS]
@@ -146,7 +146,7 @@ int set_mode(int mode, int flush) {
 @pytest.mark.parametrize(
     ("mode", "flush"), [(0, 1), (1, 0), (2, 1), (3, 0)], ids=["flushed", "upward", "downward-flushed", "towards-zero"]
 )
-def test_answers_do_not_depend_on_the_rounding_mode(mode, flush, tmp_path):
+def test_kernel_answers_do_not_depend_on_the_rounding_mode(mode, flush, tmp_path):
     """An engine may have set either; the rows are decided beforehand, under the usual rounding."""
     random = np.random.default_rng(mode)
     rows = near_contact(random, 6_000)

@@ -10,7 +10,7 @@ from tests.tools.evidence.gaps import EMITTED, REASONS, reason
 from tests.tools.evidence.parts import kept
 
 
-def test_every_kept_gap_has_a_proof_and_every_proof_a_kept_gap():
+def test_every_kept_gap_in_coverage_has_a_reason_and_every_reason_a_kept_gap():
     gaps = kept()["coverage"]["gaps"]
     assert [gap for gap in gaps if reason(gap) is None] == []
     for function, text in REASONS:
@@ -23,7 +23,7 @@ def test_every_proof_about_emitted_code_is_of_a_kept_gap():
         assert any(re.fullmatch(where, f"{name}: {function}") and what in rest for name, function, rest in gaps), where
 
 
-def test_what_was_reached_one_way_only_is_told_with_its_function():
+def test_branch_taken_only_one_way_is_reported_with_its_function():
     lines = HEADER.read_text(encoding="utf-8").split("\n")
     line = next(number for number, text in enumerate(lines, 1) if "if (delta < 0) return 0;" in text)
     start = lines[line - 1].index("delta") + 1

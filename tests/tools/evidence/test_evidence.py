@@ -7,18 +7,18 @@ from tests.tools.evidence.page import page
 from tests.tools.evidence.parts import KEPT, PAGE, PARTS, kept, text_of
 
 
-def test_the_page_is_printed_from_the_kept_figures():
+def test_evidence_page_equals_the_one_printed_from_the_kept_figures():
     """`make evidence` writes both; `python -m tests.tools.evidence PART --write` one part of them."""
     assert list(kept()) == list(PARTS)
     assert KEPT.read_text(encoding="utf-8") == text_of(kept())
     assert PAGE.read_text(encoding="utf-8") == page(kept())
 
 
-def test_no_kept_figure_has_fallen():
+def test_every_kept_figure_of_evidence_is_within_its_floor_and_ceiling():
     assert [sentence for name, figures in kept().items() for sentence in floors.broken(name, figures)] == []
 
 
-def test_every_floor_is_of_a_part():
+def test_every_floor_and_ceiling_belongs_to_a_part_of_the_evidence():
     assert {*floors.AT_LEAST, *floors.AT_MOST} <= set(PARTS)
 
 

@@ -9,7 +9,7 @@ from tests.tools.evidence.faulty_runs import Case, Performed
 from tests.tools.evidence.parts import Unavailable
 
 
-def test_a_run_whose_record_cannot_be_renewed_ends_as_it_must_and_can_be_made_again():
+def test_run_whose_record_cannot_be_renewed_ends_with_the_expected_error_and_can_be_repeated():
     try:
         found = faults.measure(23)
     except Unavailable as missing:
@@ -29,7 +29,7 @@ def test_a_run_whose_record_cannot_be_renewed_ends_as_it_must_and_can_be_made_ag
         (2, "hypcheck: error: cannot write {out}: no space left on device", ""),
     ],
 )
-def test_an_ending_that_is_not_as_it_must_be_is_named(tmp_path, code, said, why):
+def test_unexpected_ending_of_a_faulty_run_is_reported_with_the_reason(tmp_path, code, said, why):
     out = tmp_path / "out"
     done = Performed(code, said.format(out=out), "")
     found = faulty_runs.wrong_ending(Case("full", 1, after=False), done, out, [])

@@ -13,7 +13,7 @@ from tests.tools.evidence.kernel_explained import TABLE, Rule, at_equality, chan
 MUTANTS = schemata(HEADER.read_text(encoding="utf-8"))[1]
 
 
-def test_every_explanation_is_of_a_mutant_of_the_header():
+def test_every_explanation_matches_a_mutant_of_the_header():
     for rule in rules():
         mine = [mutant for mutant in MUTANTS if re.fullmatch(rule.functions, mutant.function)]
         for change in rule.changes:
@@ -27,7 +27,7 @@ def test_every_function_named_in_an_explanation_has_mutants():
         assert rule.reason.endswith("."), rule
 
 
-def test_constants_that_are_said_to_have_room_have_a_derivation():
+def test_every_constant_whose_mutants_are_excused_by_room_has_a_derivation():
     for rule in rules():
         if rule.reason.startswith("Room:"):
             for mutant in MUTANTS:
@@ -35,7 +35,7 @@ def test_constants_that_are_said_to_have_room_have_a_derivation():
                     assert mutant.function.removeprefix("HC_") in PROOFS
 
 
-def test_the_table_is_a_file_beside_the_module():
+def test_table_of_kernel_mutants_is_a_file_beside_its_module():
     assert TABLE.is_file()
 
 
@@ -55,21 +55,21 @@ def test_the_comparison_that_a_mutant_changes_is_found(before, after, comparison
     assert changed(Mutant(1, "f", before, after)) == comparison
 
 
-def test_a_comparison_that_becomes_strict_differs_at_equality_alone():
+def test_mutant_that_makes_a_comparison_strict_is_recognised_as_differing_only_at_equality():
     assert at_equality(Mutant(1, "f", "a >= 0 && b", "(a > 0 && b)"))
     assert not at_equality(Mutant(1, "f", "a == 0", "(a != 0)"))
     assert not at_equality(Mutant(1, "f", "a > 0 && b < 1", "0"))
     assert not at_equality(Mutant(1, "f", "a > 2", "(a > 3)"))
 
 
-def test_a_mutant_of_a_program_is_told_by_the_rule_for_all_signs():
+def test_mutant_of_the_decision_program_is_killed_by_the_proved_rule_for_all_signs():
     several = "HC_{}(inflection_beyond_B, rises_B)"
     assert told_by_proof(Mutant(1, "hc_certified", several.format("AND"), f"({several.format('OR')})")) == "rule"
     assert told_by_proof(Mutant(1, "hc_certified", "HC_GT(b, least)", "(HC_GE(b, least))")) == "rule"
     assert told_by_proof(Mutant(1, "hc_tilted", "HC_GT(l, HC_SET(0.0))", "(HC_GE(l, HC_SET(0.0)))")) is None
 
 
-def test_a_mutant_of_a_constant_is_told_by_its_derivation():
+def test_mutant_of_a_constant_is_killed_by_the_derivation_of_that_constant():
     (half, twice) = (mutant for mutant in MUTANTS if mutant.function == "HC_u_12")
     assert (told_by_proof(half), told_by_proof(twice)) == ("derivation", "derivation")
     assert {told_by_proof(mutant) for mutant in MUTANTS if mutant.function == "HC_greatest_l"} == {None}

@@ -59,7 +59,7 @@ def test_every_operator_and_constant_of_a_function_is_changed_and_no_message_def
     ]
 
 
-def test_a_mutant_changes_what_living_functions_answer(module):
+def test_applied_mutant_changes_the_answers_of_functions_that_are_already_loaded(module):
     changes = {(each.line, each.what): each for each in mutations("mutated_here.py", SOURCE)}
     living = functions_of(module.__file__)
     assert (module.within(2), module.within(3), module.Doubling().two) == (True, False, [2])
@@ -81,19 +81,19 @@ def test_a_mutant_keeps_its_name_when_code_around_it_is_edited():
     assert "here.py Doubling.two: each * 2 → each + 2" in before
 
 
-def test_equal_changes_of_a_function_are_numbered():
+def test_equal_mutants_within_one_function_are_numbered():
     found = [each.key for each in mutations("here.py", "def f(x):\n    x = g(x, 0)\n    return g(x, 0)\n")]
     assert "here.py f: g(x, 0) → g(x, 1)" in found
     assert "here.py f: g(x, 0) → g(x, 1) (2)" in found
 
 
-def test_an_edit_of_other_code_draws_the_same_mutants():
+def test_edit_of_other_code_keeps_the_order_in_which_mutants_are_drawn():
     edited = SOURCE.replace('"""Whether it is."""', "value = abs(value)")
     before, after = ([each.key for each in sorted(mutations("here.py", text), key=_lot)] for text in (SOURCE, edited))
     assert [each for each in after if each in before] == before
 
 
-def test_tests_that_run_few_lines_come_first_and_at_most_six_of_a_function():
+def test_mutant_is_tried_on_tests_that_run_few_lines_first_and_at_most_six_of_a_function():
     own = [f"tests/runs/test_score.py::test_a[{n}]" for n in range(8)]
     broad, narrow = "tests/runs/test_tally.py::test_b", "tests/cli/test_score.py::test_c"
     lines = Counter({broad: 900, narrow: 3} | dict.fromkeys(own, 50))
@@ -103,13 +103,13 @@ def test_tests_that_run_few_lines_come_first_and_at_most_six_of_a_function():
     assert chosen(score, [broad, *own, narrow], 9, 9.0, {own[0]: 0.5, broad: 10.0}, lines) == [narrow, *own[1:7]]
 
 
-def test_of_long_tests_those_of_the_room_come_first_and_none_takes_most_of_the_time():
+def test_mutant_is_tried_on_long_tests_of_its_room_first_and_on_none_that_takes_most_of_the_time():
     took = {"tests/runs/a.py::a": 0.3, "tests/runs/a.py::b": 0.7, "tests/runs/a.py::c": 0.9, "tests/cli/a.py::d": 0.8}
     found = chosen("hypcheck/runs/score.py", took, 10, 2.0, took, Counter(), longest=True)
     assert found == ["tests/runs/a.py::b", "tests/runs/a.py::a", "tests/cli/a.py::d"]
 
 
-def test_the_figures_know_nearly_all_code():
+def test_kept_coverage_figures_include_at_least_95_percent_of_the_code():
     """A new file is not measured at once; when they are many, `make evidence` has to be run."""
     known = set(kept()["python-coverage"]["files"])
     omitted = ("adapter.py", "speak.py", "predicate.py")

@@ -29,20 +29,20 @@ def test_inputs_that_once_failed_no_longer_fail(path):
 
 
 @pytest.mark.parametrize("name", BOMBS)
-def test_no_damaged_input_takes_long(name):
+def test_reading_a_damaged_input_never_takes_long(name):
     reader, data = BOMBS[name]
     verdict = judged(READERS[reader].read, data)
     assert verdict.kind != "finding", verdict.says
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_undamaged_input_is_read(name):
+def test_every_reader_reads_its_undamaged_inputs(name):
     kinds = {judged(READERS[name].read, data, 60.0).kind for data in READERS[name].seeds()}
     assert "value" in kinds
     assert "finding" not in kinds
 
 
-def test_eight_hundred_inputs_for_all_readers():
+def test_fuzz_finds_no_fault_in_any_reader_with_800_inputs():
     tally = run(800, seed=2, names=tuple(READERS), processes=2)
     assert tally.count >= 760
     assert not tally.findings, tally.findings[0]

@@ -31,7 +31,7 @@ def cases():
 
 
 @pytest.mark.parametrize(("attack", "means", "told"), list(cases()))
-def test_attack_is_contained_and_named(attack, means, told, tmp_path):
+def test_attack_by_a_hostile_implementation_is_contained_and_reported(attack, means, told, tmp_path):
     fate = command_fate(attack.name, means, tmp_path)
     assert re.search(told, fate.told), fate
     assert fate.outcome is attack.outcome, fate

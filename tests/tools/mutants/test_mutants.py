@@ -65,32 +65,32 @@ FEW = {
 @pytest.mark.parametrize(
     "name", [name if name in FEW else pytest.param(name, marks=pytest.mark.thorough) for name in SAMPLE]
 )
-def test_the_gate_judges_a_sample_as_it_must(name):
+def test_verify_kills_or_passes_a_sample_of_each_mutant_as_expected(name):
     result = gate(BY_NAME[name], ("--count", "60", "--seed", "2", "--families", SAMPLE[name]))
     assert result.as_expected, result.ruling.said
     assert bool(result.ruling.killed_by) is not BY_NAME[name].expectation.right or name == "batches.rounds_at_random"
     assert result.ruling.judged > 50
 
 
-def test_correct_base_of_the_mutants_is_right():
+def test_unchanged_base_of_the_mutants_answers_every_family_rightly():
     for family in select(["*", "extreme"]):
         rows = family.rows(3, 60)
         assert exactly.position(rows).tolist() == numpy_kernel.positions(rows).tolist(), family.name
 
 
-def test_what_the_mutants_of_matrices_are_made_of_is_right_away_from_contact():
+def test_unchanged_base_of_the_matrix_mutants_is_right_on_95_percent_of_tilted_rows():
     for name in ("tilted-uniform", "tilted-tower"):
         rows = TILTED_FAMILIES[name].rows(3, 60)
         assert (dual.dual_positions(rows, lambda M: M) == exact_positions(rows)).mean() > 0.95, name
 
 
-def test_every_module_of_the_folder_is_in_the_collection():
+def test_every_module_in_the_mutants_folder_is_in_the_collection():
     assert {path.stem for path in HERE.glob("*.py")} - MACHINERY == set(MODULES)
     assert len(set(MODULES)) == len(MODULES)
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_every_function_has_an_expectation_and_a_sentence(name):
+def test_every_mutant_function_has_an_expectation_and_a_sentence(name):
     module = imported(name)
     assert sentence(module).endswith(".")
     for function, value in public_functions(module).items():
@@ -98,14 +98,14 @@ def test_every_function_has_an_expectation_and_a_sentence(name):
         assert sentence(value).endswith("."), f"{name}.{function} has no sentence"
 
 
-def test_mutants_are_enough_and_have_different_names():
+def test_there_are_at_least_40_wrong_and_10_right_mutants_with_different_names():
     assert len(BY_NAME) == len(mutants())
     assert sum(not mutant.expectation.right for mutant in BY_NAME.values()) >= 40
     assert sum(mutant.expectation.right for mutant in BY_NAME.values()) >= 10
 
 
 @pytest.mark.thorough
-def test_every_answer_has_the_length_of_the_question():
+def test_every_mutant_gives_one_answer_for_each_row():
     row = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0]])
     way = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0, 4.0, 0.5, 3.0]])
     for name, mutant in BY_NAME.items():
@@ -146,7 +146,7 @@ PASSED, REJECTED, NOT_JUDGED = Ruling(0, {}, 9), Ruling(1, {"ring": 4}, 9), Ruli
         (Result(MORE, PASSED, without=PASSED), False),
     ],
 )
-def test_escaped_mutant_is_reported_everywhere(monkeypatch, result, expected):
+def test_escaped_mutant_is_reported_by_exit_code_output_and_table(monkeypatch, result, expected):
     assert result.as_expected is expected
     monkeypatch.setattr(__main__, "gated", lambda some, jobs: iter([result]))
     said = CliRunner().invoke(__main__.main, ["signs.c0"])
@@ -166,5 +166,5 @@ def test_wrong_implementation_declared_right_is_reported():
 
 
 @pytest.mark.parametrize("arguments", [["nothing"], ["signs", "--out", "page.md"]])
-def test_wrong_usage_ends_with_2(arguments):
+def test_mutants_command_with_wrong_usage_ends_with_2(arguments):
     assert CliRunner().invoke(__main__.main, arguments).exit_code == 2

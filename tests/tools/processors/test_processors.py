@@ -38,7 +38,7 @@ def here(tmp_path_factory):
 
 
 @needs_compiler
-def test_a_program_answers_frozen_vectors_ways_and_clearances_right(here):
+def test_kernel_program_answers_frozen_vectors_ways_and_clearances_rightly(here):
     build, program, folder = here
     some = jobs.frozen(
         ("tangent", "extreme-subnormal", "tilted-tangent", "way-end", "tilted-way-uniform", "tilted-invalid")
@@ -50,7 +50,7 @@ def test_a_program_answers_frozen_vectors_ways_and_clearances_right(here):
 
 
 @needs_compiler
-def test_an_answer_beside_the_truth_is_counted_as_wrong_in_each_mode(here):
+def test_answer_that_differs_from_the_truth_is_counted_as_wrong_in_each_rounding_mode(here):
     build, program, folder = here
     assert jobs.ask(build, program, [asked_rows(RIGHT)], "plain", folder).wrong["some"] == 0
     tally = jobs.ask(build, program, [asked_rows(-RIGHT)], "plain", folder)
@@ -59,7 +59,7 @@ def test_an_answer_beside_the_truth_is_counted_as_wrong_in_each_mode(here):
 
 
 @needs_compiler
-def test_a_level_that_the_program_lacks_ends_in_an_error_that_names_the_build(here):
+def test_missing_instruction_level_of_a_program_raises_an_error_that_names_the_build(here):
     build, program, folder = here
     with pytest.raises(builds.BuildError, match="here: the program ended with 3"):
         jobs.ask(build, program, [asked_rows(RIGHT)], "neon", folder)
@@ -83,14 +83,14 @@ edge: { sourcename: "a.c:hc_exact" targetname: "memset" }
 """
 
 
-def test_the_stack_of_a_call_is_the_sum_along_the_deepest_chain():
+def test_stack_of_a_call_is_the_sum_of_frames_along_the_deepest_chain_of_calls():
     frames = measure.call_graph(GRAPH)
     assert measure.deepest(frames, ("hypcheck_ask",)) == 1100
     longer = measure.call_graph(GRAPH.replace("50 bytes", "5000 bytes"))
     assert measure.deepest(longer, ("hypcheck_ask",)) == 5100  # by a pointer
 
 
-def test_a_frame_of_unknown_size_and_a_function_that_calls_itself_have_no_bound():
+def test_stack_has_no_bound_with_a_frame_of_unknown_size_or_a_recursive_function():
     with pytest.raises(ValueError, match=r"the frame of a\.c:hc_exact is dynamic"):
         measure.call_graph(GRAPH.replace("(dynamic,bounded)", "(dynamic)"))
     itself = GRAPH + 'edge: { sourcename: "a.c:hc_exact" targetname: "hypcheck_ask" }\n'
@@ -98,7 +98,7 @@ def test_a_frame_of_unknown_size_and_a_function_that_calls_itself_have_no_bound(
         measure.deepest(measure.call_graph(itself), ("hypcheck_ask",))
 
 
-def test_a_heap_libm_and_more_stack_than_stated_are_faults():
+def test_kernel_object_with_heap_libm_or_too_much_stack_is_a_fault():
     assert COST.foreign == COST.too_deep == []
     upright, leaning = measure.stated()
     worse = Cost({}, ("malloc", "memcpy", "sqrt"), (upright + 1, 0), (0, leaning + 1))
@@ -111,7 +111,7 @@ def test_a_heap_libm_and_more_stack_than_stated_are_faults():
     ]
 
 
-def test_missing_packages_are_named_in_one_sentence(monkeypatch):
+def test_missing_packages_for_other_processors_are_named_in_one_sentence(monkeypatch):
     monkeypatch.setattr(builds.shutil, "which", lambda _: None)
     with pytest.raises(click.UsageError) as error:
         tool.require([BUILDS["s390x"], BUILDS["i686"]], install=False)
@@ -119,7 +119,7 @@ def test_missing_packages_are_named_in_one_sentence(monkeypatch):
     assert "gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user gcc-i686-linux-gnu" in error.value.message
 
 
-def test_a_page_gets_the_new_line_of_a_processor_in_the_place_of_the_old_one():
+def test_new_line_of_a_processor_replaces_the_old_one_on_the_page():
     result = table.Result(BUILDS["here"], {"plain": Tally(Counter({"some": 4}), Counter(), [])}, COST)
     page = table.changed("text\n<!-- processors -->\n<!-- end of processors -->\nmore\n", result)
     assert page.splitlines()[4].startswith("| here: this machine | `cc ")
@@ -128,7 +128,7 @@ def test_a_page_gets_the_new_line_of_a_processor_in_the_place_of_the_old_one():
     assert table.changed(page, other) == page.replace("this machine", "that machine")
 
 
-def test_the_page_has_every_processor_and_none_that_answers_wrong():
+def test_page_of_processors_has_every_processor_and_no_wrong_answer():
     lines = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if re.match(r"\| \w\S+: ", line)]
     cells = [line.split(" | ") for line in lines]
     assert {line[0][2:].partition(":")[0] for line in cells} == set(BUILDS)
@@ -138,7 +138,7 @@ def test_the_page_has_every_processor_and_none_that_answers_wrong():
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", [name for name in BUILDS if name != "here"])
-def test_another_processor_answers_the_frozen_vectors_right(name, tmp_path):
+def test_kernel_built_for_another_processor_answers_the_frozen_vectors_rightly(name, tmp_path):
     build = BUILDS[name]
     if build.missing:
         pytest.skip(f"there is no {' and no '.join(build.missing)}")

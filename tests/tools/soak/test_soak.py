@@ -29,7 +29,7 @@ def test_some_rounds_of_the_soak_find_no_fault(monkeypatch):
     assert len([status for status, count in course.statuses.items() if count]) > 4, course.statuses
 
 
-def test_soak_finds_any_growth(monkeypatch):
+def test_soak_finds_growth_of_memory_handles_threads_children_and_files(monkeypatch):
     monkeypatch.setattr(running, "_round", lambda *_: None)
     kept = []
     with contextlib.ExitStack() as stack:
@@ -61,26 +61,26 @@ def _samples(**each):
     return [Sample(**{**base, **{name: values[i] for name, values in each.items()}}) for i in range(12)]
 
 
-def test_one_time_loads_and_returned_memory_are_no_growth():
+def test_soak_does_not_report_one_time_loads_and_returned_memory_as_growth():
     warming = [number * MIB for number in (20, 60, 90, 91, 90, 91, 91, 140, 91, 90, 91, 91)]
     assert not faults(_samples(resident=warming, handles=[4, 8, 8, 8, 8, 12, 8, 8, 8, 8, 8, 8]))
 
 
 @pytest.mark.parametrize("name", ["handles", "threads", "children"])
-def test_one_process_more_that_stays_is_growth(name):
+def test_soak_reports_one_more_thread_or_child_that_stays_as_growth(name):
     assert [fault for fault in faults(_samples(**{name: [3] * 9 + [4] * 3})) if f"{name} grow from 3 to 4" in fault]
 
 
-def test_leftover_of_a_single_run_is_reported():
+def test_soak_reports_what_a_single_run_leaves_behind():
     strays = [()] * 5 + [("sleep 60",)] + [()] * 6
     assert faults(_samples(strays=strays)) == ["left after a round: sleep 60"]
 
 
-def test_too_few_samples_give_no_verdict():
+def test_soak_with_too_few_samples_says_that_it_cannot_tell():
     assert faults(_samples()[:2]) == ["2 samples after warming up; at least 3 are needed to tell"]
 
 
-def test_the_command_ends_with_1_where_something_grows(monkeypatch):
+def test_soak_command_ends_with_1_if_something_grows(monkeypatch):
     from click.testing import CliRunner
 
     from tests.tools.soak import __main__

@@ -25,12 +25,12 @@ def program(tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_frozen_questions_are_answered_right_and_each_stage_decides_as_many_as_it_did(program, tmp_path):
+def test_battery_answers_frozen_questions_rightly_and_each_stage_decides_the_kept_number(program, tmp_path):
     """More is better: put the new numbers here. Fewer means that a bound or a guard has become weaker."""
     found = asked(program, write(tmp_path / "questions", 6, ()))
     assert (found.what, found.says) == ("right", DECIDED)
 
 
 @pytest.mark.thorough
-def test_drawn_questions_are_answered_right(program, tmp_path):
+def test_battery_answers_generated_questions_rightly(program, tmp_path):
     assert asked(program, write(tmp_path / "questions")).what == "right"

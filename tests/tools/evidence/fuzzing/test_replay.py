@@ -46,13 +46,13 @@ def few_inputs():
 
 
 @pytest.mark.slow
-def test_kept_inputs_and_frozen_rows_are_answered_as_the_oracle_says(compiled, tmp_path):
+def test_kernel_answers_kept_fuzz_inputs_and_frozen_rows_as_the_oracle_does(compiled, tmp_path):
     done = replayed(compiled(CORE), tmp_path, few_inputs())
     assert (done.returncode, done.stdout) == (0, "")
 
 
 @pytest.mark.thorough
-def test_a_wrong_header_is_found(compiled, tmp_path):
+def test_fuzz_replay_fails_for_a_header_with_a_wrong_answer(compiled, tmp_path):
     """The second stage calls what is exterior interior too."""
     text, right = HEADER.read_text(encoding="utf-8"), "found.minus |= HC_BITS(interior) << at;"
     assert right in text
@@ -62,7 +62,7 @@ def test_a_wrong_header_is_found(compiled, tmp_path):
     assert done.stdout.startswith("WRONG: kind ")
 
 
-def test_the_figures_of_a_run_name_what_it_found():
+def test_figures_of_a_fuzz_run_count_and_name_its_findings():
     log = "stat::number_of_executed_units: 12\nDone 12 runs in 3 second(s)\n"
     assert figures_of("", log) == {"executions": 12, "seconds": 3, "findings": 0, "first": []}
     assert figures_of("WRONG: kind 0\n", log)["first"] == ["WRONG: kind 0"]
