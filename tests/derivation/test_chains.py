@@ -45,12 +45,12 @@ def everything():
 
 
 @pytest.mark.slow
-def test_every_chain_and_section_is_tested_here():
+def test_the_list_of_tested_chains_has_every_chain_and_section_of_the_derivation():
     assert tuple(everything()) == CHAINS
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_every_part_of_every_link_holds(name):
+def test_every_part_of_every_link_of_a_chain_holds(name):
     chain = everything()[name]
     for link in chain.links:
         assert link.reason in REASONS
@@ -111,7 +111,7 @@ def test_a_chain_is_proved_only_if_those_that_it_needs_are(monkeypatch):
     }
 
 
-def test_chains_come_after_those_that_they_need():
+def test_chains_are_listed_after_the_chains_that_they_need():
     seen = set()
     for name, chain in chains().items():
         assert set(chain.needs) <= seen
@@ -139,7 +139,7 @@ def test_chains_fail_if_the_cubic_has_a_misprint(monkeypatch, coefficient):
         (proposition_5, lambda roots: (roots.delta > 0 and not roots.all_positive) == (roots.position < 0)),
     ],
 )
-def test_a_regime_that_is_left_out_breaks_the_proposition(make, rule):
+def test_the_regime_of_a_proposition_excludes_all_root_patterns_on_which_its_rule_is_wrong(make, rule):
     """The patterns that c² ≥ a, or a ≥ 1, rules out are those on which the rule is wrong."""
     splits = [part.cases for link in make().links for part in link.parts if isinstance(part, FiniteCases)]
     possible = {case[0].name for case in next(cases for cases in splits if isinstance(cases[0][0], Pattern))}
@@ -157,7 +157,7 @@ def test_each_condition_of_the_roots_case_split_is_needed(one, two, excluded_by)
     assert all(in_one_interval(*pair) for pair in ((-3, -2), (-2, -1), (1, 2), (2, 3)))
 
 
-def test_a_text_that_states_no_sign_raises_an_error():
+def test_sign_raises_an_error_for_a_text_that_states_no_sign():
     with pytest.raises(ValueError, match="states no sign"):
         sign("A = B")
 

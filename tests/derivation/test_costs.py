@@ -20,7 +20,7 @@ def test_the_cost_of_table_2_is_the_count_of_its_operations():
     assert loop_as_printed() == Operations(additions=11, multiplications=20, divisions=2, comparisons=3, logical=2)
 
 
-def test_operations_of_the_roots_way_are_those_counted_by_hand():
+def test_operation_counts_of_the_root_formulas_are_those_counted_by_hand():
     trigonometric, sweep = costs()[-2:]
     assert trigonometric.query.functions == 4  # one arccos, three cosines; the third of a turn is a constant
     assert trigonometric.query.square_roots == 1
@@ -34,7 +34,7 @@ def test_operations_of_the_roots_way_are_those_counted_by_hand():
     assert sweep.scene == Operations()
 
 
-def test_the_share_of_four_discriminants_is_that_counted_by_hand():
+def test_discriminant_share_of_the_four_rotors_is_that_counted_by_hand():
     # Per rotor 11 products and 4 sums: c0² and 27 c0² are the same for all, and depend on the sizes alone.
     assert discriminant_share() == (4 * 15, 100)
 
@@ -47,5 +47,5 @@ def test_every_formula_has_a_cost(cost):
     assert 0 <= cost.by_fixed <= cost.query.divisions
 
 
-def test_the_names_are_those_of_the_formulas_and_of_the_roots_way():
+def test_costs_are_named_after_the_formulas_and_the_two_root_formulas():
     assert [cost.name for cost in costs()] == [*FORMULAS, *REPAIRED, "roots-trigonometric", "roots-sweep"]

@@ -51,14 +51,14 @@ def test_surds_obey_the_laws_of_a_field(numbers):
 
 @pytest.mark.slow
 @given(triples(), rationals, comparisons)
-def test_comparisons_of_surds_agree_with_two_hundred_digits(numbers, rational, compare):
+def test_comparisons_of_surds_agree_with_a_computation_to_200_digits(numbers, rational, compare):
     x, y, _ = numbers
     assert compare(x, y) == compare(decimal_of(x), decimal_of(y))
     assert compare(x, rational) == compare(decimal_of(x), decimal_of(rational))
     assert compare(rational, x) == compare(decimal_of(rational), decimal_of(x))
 
 
-def test_surds_have_right_signs_where_floats_would_not():
+def test_tiny_surds_with_huge_coefficients_have_the_right_sign():
     # (√2 − 1)ⁿ = p − q√2 with p² − 2q² = ±1 is tiny, while p and q are huge.
     power = Fraction(1)
     for _ in range(400):
@@ -69,7 +69,7 @@ def test_surds_have_right_signs_where_floats_would_not():
     assert float(power.p + power.q * Fraction(2**0.5)) != pytest.approx(0)
 
 
-def test_roots_of_squares_are_rational():
+def test_square_root_gives_a_fraction_for_squares_and_a_surd_otherwise():
     assert square_root(Fraction(49, 4)) == Fraction(7, 2)
     assert isinstance(square_root(Fraction(49, 4)), Fraction)
     assert isinstance(square_root(Fraction(50, 4)), Surd)
@@ -85,7 +85,7 @@ def test_surds_of_two_different_roots_cannot_be_added():
 
 
 @pytest.mark.parametrize("other", [Fraction(3), surd(Fraction(1), Fraction(1), Fraction(2)), UNDEFINED])
-def test_undefined_passes_through_every_operation_and_every_comparison_is_false(other):
+def test_operations_with_an_undefined_value_are_undefined_and_comparisons_false(other):
     for name in ("add", "sub", "mul", "div"):
         assert EXACT.operations[name](UNDEFINED, other) is UNDEFINED
         assert EXACT.operations[name](other, UNDEFINED) is UNDEFINED

@@ -45,7 +45,7 @@ numbers = st.floats(0.0625, 16, width=16).flatmap(lambda value: st.sampled_from(
 
 @pytest.mark.parametrize("format_name", DIGITS)
 @given(left=st.tuples(numbers, numbers), right=st.tuples(numbers, numbers))
-def test_each_step_is_rounded_once_to_nearest(format_name, left, right):
+def test_each_operation_of_float_arithmetic_is_rounded_once_to_nearest(format_name, left, right):
     digits = DIGITS[format_name]
     operations = float_arithmetic(format_name).operations
     # Sums of two short numbers fill the format's digits, so that operations on them have something to round.
@@ -59,7 +59,7 @@ def test_each_step_is_rounded_once_to_nearest(format_name, left, right):
 
 
 @given(st.floats(-60000, 60000, allow_subnormal=False).filter(lambda value: abs(value) > 0.001))
-def test_converting_an_input_is_its_first_rounding(value):
+def test_float_arithmetic_rounds_an_input_to_nearest_when_it_converts_it(value):
     for format_name in ("float16", "float32"):
         converted = float_arithmetic(format_name).convert(value)
         assert Fraction(float(converted)) == nearest(Fraction(value), DIGITS[format_name])
@@ -68,7 +68,7 @@ def test_converting_an_input_is_its_first_rounding(value):
 @pytest.mark.parametrize("as_array", [False, True], ids=["scalars", "arrays"])
 @pytest.mark.parametrize("format_name", FORMATS)
 @pytest.mark.parametrize("formula", FORMULAS.values(), ids=lambda formula: formula.name)
-def test_no_intermediate_value_leaves_the_format(formula, format_name, as_array):
+def test_every_intermediate_value_of_a_formula_has_the_chosen_float_format(formula, format_name, as_array):
     inputs = {name: np.array([value, -value, 1e300]) for name, value in ALL_INPUTS.items()} if as_array else ALL_INPUTS
     for name, value in evaluate(formula.program, float_arithmetic(format_name), inputs).items():
         assert np.asarray(value).dtype in (np.dtype(format_name), np.dtype(bool)), name
@@ -78,7 +78,7 @@ def test_no_intermediate_value_leaves_the_format(formula, format_name, as_array)
 
 
 @pytest.mark.parametrize("formula", [f for f in FORMULAS.values() if f.classifies_pairs], ids=lambda f: f.name)
-def test_scalar_sizes_beside_arrays_of_centres_change_nothing(formula):
+def test_formulas_answer_alike_with_scalar_sizes_and_with_sizes_repeated_in_arrays(formula):
     random = np.random.default_rng(7)
     centres = {name: random.uniform(-9, 9, 500) for name in ("x", "y", "z")}
     sizes = {name: ROW[name] for name in ("alpha", "gamma", "b", "d")}
@@ -91,7 +91,7 @@ def test_scalar_sizes_beside_arrays_of_centres_change_nothing(formula):
     assert len(set(together.tolist())) > 1
 
 
-def test_overflow_and_nan_are_silent_and_answer_no():
+def test_table_2_answers_0_without_a_warning_if_the_discriminant_is_nan():
     huge = dict(zip(COLUMNS, (30.0, 65.0, 0.001, 0.001, 20.0, 0.0, 1.0), strict=True))
     values = evaluate(FORMULAS["table-2"].program, float_arithmetic("float32"), huge)
     assert np.isnan(values["delta"])
@@ -108,12 +108,12 @@ def test_procedures_2_as_printed_call_a_movement_valid_if_the_discriminant_is_na
     assert answers(FORMULAS[name], float_arithmetic("float64"), row) == 0
 
 
-def test_arrays_of_the_format_are_not_copied():
+def test_float_arithmetic_does_not_copy_arrays_of_its_format():
     array = np.arange(3, dtype=np.float32)
     assert float_arithmetic("float32").convert(array) is array
 
 
-def test_integer_constants_are_of_the_format():
+def test_integer_constants_in_a_program_get_the_float_format():
     program = program_of("p", ("x",), "y = x * 18\nz = 27 / y\np = z > 1\nw = p ? 1 : z")
     values = evaluate(program, float_arithmetic("float16"), {"x": np.ones(2)})
     assert [values[name].dtype.name for name in "xyzw"] == ["float16"] * 4
@@ -124,6 +124,6 @@ def test_unit_roundoff_is_half_the_gap_after_one():
         assert unit_roundoff(format_name) == 2.0**-digits
 
 
-def test_an_unknown_format_is_refused():
+def test_float_arithmetic_refuses_an_unknown_format():
     with pytest.raises(ValueError, match="none of the formats float16, float32, float64, longdouble"):
         float_arithmetic("bfloat16")

@@ -53,7 +53,7 @@ WITNESSES = [
 
 @pytest.mark.parametrize("name", RIGHT_EVERYWHERE)
 @pytest.mark.parametrize(("a", "c", "center", "position"), WITNESSES)
-def test_formulas_for_every_size_are_right_on_the_witnesses(name, a, c, center, position):
+def test_formulas_for_all_sizes_are_right_on_pairs_with_a_known_position(name, a, c, center, position):
     assert answer(name, a, c, center) == position
 
 
@@ -75,7 +75,7 @@ def test_the_dual_form_answers_by_the_given_multiplier(a, c, center, multiplier,
     assert answer("dual", a, c, center, lambda_=multiplier) == position
 
 
-def test_the_dual_form_beside_a_tangency_proves_only_with_the_right_multiplier():
+def test_the_dual_form_near_a_tangency_proves_exterior_only_with_the_exact_multiplier():
     row = {"alpha": 1, "gamma": 1, "b": 3, "d": 1, "x": 4, "y": 1e-160, "z": 0}
     for name in RIGHT_EVERYWHERE:
         assert answers(FORMULAS[name], EXACT, row) == EXTERIOR
@@ -85,7 +85,7 @@ def test_the_dual_form_beside_a_tangency_proves_only_with_the_right_multiplier()
 
 @pytest.mark.parametrize(("a", "c", "center"), [(1, 2, (Fraction(5, 2), 0, 0)), (7, 7, (10, 0, 0))])
 @pytest.mark.parametrize("name", PROCEDURE_1)
-def test_procedure_1_as_printed_sees_contact_on_the_ring(name, a, c, center):
+def test_procedure_1_as_printed_answers_contact_on_the_ring_where_the_pair_is_exterior(name, a, c, center):
     assert c**2 > a  # the regime it is printed for
     assert answer(name, a, c, center) == 0
     values = evaluate(FORMULAS[name].program, EXACT, dict(zip(COLUMNS, (a, c, 1, 1, *center), strict=True)))
@@ -94,7 +94,7 @@ def test_procedure_1_as_printed_sees_contact_on_the_ring(name, a, c, center):
 
 @pytest.mark.parametrize("name", OF_ONE_SPHEROID)
 @pytest.mark.parametrize(("a", "c", "coefficient"), [(3, 3, "c2"), (4, 1, "c1")])
-def test_procedures_2_as_printed_drop_interior_positions(name, a, c, coefficient):
+def test_procedures_2_as_printed_refuse_interior_positions_with_a_zero_coefficient(name, a, c, coefficient):
     assert answer(name, a, c, (1, 0, 0)) == 0
     values = evaluate(FORMULAS[name].program, EXACT, dict(zip(COLUMNS, (a, c, 1, 1, 1, 0, 0), strict=True)))
     assert values[coefficient] == 0
@@ -102,11 +102,11 @@ def test_procedures_2_as_printed_drop_interior_positions(name, a, c, coefficient
 
 
 @pytest.mark.parametrize("name", PROCEDURE_1)
-def test_procedure_1_outside_its_regime_lets_a_crossing_pair_pass(name):
+def test_procedure_1_outside_its_regime_answers_exterior_for_a_pair_in_contact(name):
     assert answer(name, 2, HALF, (4, 0, 0)) == 1
 
 
-def test_contact_can_have_a_positive_discriminant_if_c_is_small():
+def test_table_2_has_a_positive_discriminant_for_a_pair_in_contact_if_c_is_small():
     row = dict(zip(COLUMNS, (1, QUARTER, 1, 1, 2, 0, HALF), strict=True))
     assert evaluate(FORMULAS["table-2"].program, EXACT, row)["delta"] == Fraction(2023, 4096)
     # All four rotors, b/40 wide on arms of b/20·√2, are interior: at height 1/2 ± d/40 the radius exceeds 2.1.
@@ -202,7 +202,7 @@ def known_positions(draw):
 
 
 @given(known_positions())
-def test_formulas_for_every_size_are_right_next_to_a_known_point(case):
+def test_formulas_for_all_sizes_agree_next_to_pairs_with_a_known_position(case):
     row, position = case
     found = {answers(FORMULAS[name], EXACT, row) for name in RIGHT_EVERYWHERE}
     assert len(found) == 1
@@ -214,7 +214,7 @@ SMALL_SIZE = st.fractions(QUARTER, 4, max_denominator=4)
 
 
 @given(SMALL_SIZE, SMALL_SIZE, SMALL, SMALL, st.fractions(-1, 1, max_denominator=64))
-def test_a_position_by_the_dual_form_is_the_position(a, c, r, z, share):
+def test_a_position_that_the_dual_form_proves_is_that_of_all_other_formulas(a, c, r, z, share):
     """Wherever φ proves something, every formula agrees; in contact it proves nothing."""
     multiplier = share * (c**2 if share > 0 else a**2)
     proved = answer("dual", a, c, (r, 0, z), lambda_=multiplier)
@@ -224,7 +224,7 @@ def test_a_position_by_the_dual_form_is_the_position(a, c, r, z, share):
 
 
 @given(SMALL_SIZE, SMALL_SIZE, SMALL, SMALL)
-def test_printed_procedures_are_right_in_their_regime_but_for_the_witnessed_exceptions(a, c, r, z):
+def test_printed_procedures_are_right_in_their_regime_except_for_the_known_exceptions(a, c, r, z):
     position = answer("local-maximum", a, c, (r, 0, z))
     ring = z == 0 and r**2 == (c**2 + 1) * (a**2 + c**2) / c**2 and c**2 > a
     values = evaluate(FORMULAS["table-2"].program, EXACT, dict(zip(COLUMNS, (a, c, 1, 1, r, 0, z), strict=True)))
@@ -237,7 +237,7 @@ def test_printed_procedures_are_right_in_their_regime_but_for_the_witnessed_exce
             assert answer(name, a, c, (r, 0, z)) == (position == INTERIOR and not dropped)
 
 
-def test_the_table_of_formulas_has_the_expected_questions_and_regimes():
+def test_each_formula_has_a_known_question_and_regimes_if_it_is_as_printed():
     for name, formula in FORMULAS.items():
         assert formula.name == formula.program.name == name
         assert formula.question in {"position", "exterior", "interior"}
@@ -250,13 +250,13 @@ def test_the_table_of_formulas_has_the_expected_questions_and_regimes():
     assert FORMULAS["dual"].program.inputs == (*COLUMNS, "lambda_")
 
 
-def test_formulas_need_neither_sympy_nor_numpy():
+def test_importing_the_formulas_loads_neither_sympy_nor_numpy():
     modules = ("formulas", "evaluation", "rounding", "program")
     imports = "; ".join(f"import hypcheck.derivation.{module}" for module in modules)
     code = f"{imports}; import sys; sys.exit(bool({{'sympy', 'numpy', 'mpmath', 'fcl'}} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", code], check=False, timeout=60).returncode == 0
 
 
-def test_machine_formats_do_not_need_sympy():
+def test_importing_float_arithmetic_does_not_load_sympy():
     code = "import hypcheck.derivation.float_arithmetic, sys; sys.exit('sympy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False, timeout=60).returncode == 0

@@ -29,7 +29,7 @@ def parts(values):
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("precision", ["float16", "float32", "float64"])
-def test_every_value_is_the_same_in_floats(name, precision):
+def test_hoisting_changes_no_value_of_a_formula_in_floats(name, precision):
     formula, arithmetic = FORMULAS[name], float_arithmetic(precision)
     wanted = (formula.answer, "c1", "c2")
     values = inputs(ROWS)
@@ -40,7 +40,7 @@ def test_every_value_is_the_same_in_floats(name, precision):
         assert np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
 
 
-def test_a_loop_body_can_be_called_again_with_other_centres():
+def test_a_hoisted_loop_body_can_be_called_again_with_other_centres():
     program, arithmetic = FORMULAS["table-2"].program, float_arithmetic("float32")
     constants, centre = parts(inputs(ROWS))
     body = loop_body(program, arithmetic, constants, ("delta",))
@@ -50,7 +50,7 @@ def test_a_loop_body_can_be_called_again_with_other_centres():
     assert np.array_equal(body(centre)[0], first, equal_nan=True)
 
 
-def test_exact_numbers_are_the_same():
+def test_hoisting_changes_no_value_of_a_formula_in_exact_arithmetic():
     program = FORMULAS["procedure-2b-spheroid"].program
     values = {name: Fraction(value) for name, value in zip(COLUMNS, (2, 17.8, 0.25, 0.15, 1.5, 0.5, 3), strict=True)}
     constants, centre = parts(values)
@@ -58,7 +58,7 @@ def test_exact_numbers_are_the_same():
     assert body(centre) == outputs(program, EXACT, values, ("delta", "valid"))
 
 
-def test_a_loop_body_does_not_compute_constants_again():
+def test_a_hoisted_loop_body_does_not_compute_constants_again():
     program, counted = FORMULAS["table-2"].program, []
     arithmetic = float_arithmetic("float64")
     counting = type(arithmetic)(
@@ -77,7 +77,7 @@ def test_a_loop_body_does_not_compute_constants_again():
     assert len(counted) == 28  # 12 for P, Q, c1 and c2, 16 for Δ without 27 c0²
 
 
-def test_a_missing_name_raises_an_error():
+def test_loop_body_raises_an_error_for_an_unknown_output_or_a_missing_input():
     program, arithmetic = FORMULAS["table-2"].program, float_arithmetic("float64")
     with pytest.raises(KeyError):
         loop_body(program, arithmetic, {}, ("nothing",))

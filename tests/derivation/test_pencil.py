@@ -34,7 +34,7 @@ def determinant(matrix):
 
 @settings(max_examples=20)
 @given(positive, positive, positive, positive, coordinate, coordinate, coordinate, coordinate)
-def test_f_is_the_determinant_of_the_pencil(alpha, gamma, b, d, x, y, z, at):
+def test_the_polynomial_f_is_the_determinant_of_the_pencil(alpha, gamma, b, d, x, y, z, at):
     a, c, xc, yc, zc = alpha / b, gamma / d, x / b, y / b, z / d
     matrix = [
         [at / a**2 + 1, 0, 0, -xc],
@@ -47,7 +47,7 @@ def test_f_is_the_determinant_of_the_pencil(alpha, gamma, b, d, x, y, z, at):
     assert sympy.Rational(determinant(matrix)) == value
 
 
-def test_the_cubic_is_the_one_derived_by_hand():
+def test_the_coefficients_of_the_cubic_are_those_derived_by_hand():
     # (A+λ)(B−λ)(P+Q−1−λ) − AP(B−λ) − BQ(A+λ), multiplied out on paper.
     cubic = pencil.cubic()
     assert plain(cubic.c0) == "−A·B"
@@ -58,7 +58,7 @@ def test_the_cubic_is_the_one_derived_by_hand():
 
 
 @pytest.mark.parametrize("roots", [(1, 2, 4), (-3, -1, 2), (5, 5, -1), (2, 2, 2)])
-def test_the_discriminant_is_that_of_the_roots(roots):
+def test_the_discriminant_is_the_product_of_squared_differences_of_the_roots(roots):
     first, second, third = roots
     values = {
         symbol("c2"): -(first + second + third),
@@ -69,7 +69,7 @@ def test_the_discriminant_is_that_of_the_roots(roots):
     assert pencil.discriminant_of_cubic().subs(values) == expected
 
 
-def test_the_three_derivations_agree():
+def test_the_cubics_derived_in_sizes_in_seven_numbers_and_scaled_agree():
     scaled, seven = pencil.scaled_cubic(), pencil.cubic_in_seven()
     for name in ("c0", "c1", "c2", "f", "denominator", "discriminant"):
         in_sizes = getattr(pencil.cubic(), name).subs(pencil.IN_SEVEN)
@@ -77,13 +77,13 @@ def test_the_three_derivations_agree():
         assert vanishes(getattr(scaled, name).subs(pencil.SCALED) - getattr(seven, name)), name
 
 
-def test_each_identity_holds_and_fails_with_an_added_term():
+def test_each_identity_of_the_derivation_holds_and_fails_with_an_added_term():
     for statement, gap in identities().items():
         assert vanishes(gap), statement
         assert not vanishes(gap + read("A·B/1000")), statement
 
 
-def test_a_surface_that_breaks_the_derivation_is_noticed(monkeypatch):
+def test_the_derivation_raises_an_error_for_a_surface_that_is_not_one_of_revolution(monkeypatch):
     hyperboloid, scaled = pencil.scaled_matrices(), pencil.scaled_cubic()
     monkeypatch.setattr(pencil, "scaled_cubic", lambda: replace(scaled, c2=scaled.c2 + pencil.YC))
     with pytest.raises(ArithmeticError, match="more than A, B, P and Q"):
@@ -95,7 +95,7 @@ def test_a_surface_that_breaks_the_derivation_is_noticed(monkeypatch):
         pencil.scaled_cubic.__wrapped__()
 
 
-def test_a_formula_in_plain_text_reads_as_its_expression_and_back():
+def test_a_formula_in_plain_text_is_read_as_its_expression_and_written_back():
     alpha, lambda_, c1 = symbol("alpha"), symbol("lambda"), symbol("c1")
     assert read("−(α/b)²·λ³ + c1(g_i)/2 − √2") == -((alpha / symbol("b")) ** 2) * lambda_**3 + c1 / 2 - sympy.sqrt(2)
     assert read("diag(1/α², −1)") == sympy.diag(1 / alpha**2, -1)

@@ -20,7 +20,7 @@ MISPRINTS = {
 }
 
 
-def test_every_numbered_formula_is_checked_in_the_papers_order():
+def test_check_equations_has_every_numbered_formula_in_the_order_of_the_paper():
     assert [equation.number for equation in check_equations()] == NUMBERS
 
 
@@ -59,7 +59,7 @@ CUBIC = "g(λ) = λ³ + (a² − c² + 1 − x_c² − y_c² − z_c²)·λ² �
         ("λ³", "λ³ + λ²·λ²", "has a stray + λ⁴"),
     ],
 )
-def test_an_introduced_misprint_is_found_and_put_right(printed, misprinted, finding):
+def test_a_misprint_planted_in_the_cubic_is_found_and_corrected(printed, misprinted, finding):
     before, found, after = CUBIC.rpartition(printed)
     assert found
     g = pencil.scaled_cubic().g
@@ -70,17 +70,17 @@ def test_an_introduced_misprint_is_found_and_put_right(printed, misprinted, find
     assert check((equality("12", CUBIC, g=g),)).holds
 
 
-def test_a_formula_that_no_single_term_repairs_is_called_false():
+def test_check_calls_a_formula_false_if_no_change_of_one_term_repairs_it():
     result = check((equality("0", "g(λ) = λ³ + a·λ² + c", g=pencil.scaled_cubic().g),))
     assert (result.holds, result.verdict) == (False, "false")
 
 
-def test_a_nonzero_formula_that_should_vanish_has_a_stray_term():
+def test_check_reports_a_stray_term_in_a_formula_that_should_be_zero():
     result = check((PrintedClaim("0", "H = diag(1, 1, 1)", ((symbol("a"), sympy.Integer(0)),), {}),))
     assert result.finding == "right − left = a: the sum a has a stray + a"
 
 
-def test_a_wrong_factor_that_moves_roots_is_not_called_harmless():
+def test_check_reports_a_wrong_factor_that_adds_a_root():
     right = read("(a² + λ)·g")
     result = check((PrintedClaim("0", "f = λ·(a² + λ)·g", ((symbol("lambda") * right, right),), {}),))
     assert result.finding == "the right side is λ times the left"
@@ -96,7 +96,7 @@ def test_each_printed_claim_fails_if_it_is_changed(number):
                 assert not check((PrintedClaim(number, claim.statement, tuple(broken), claim.meanings),)).holds
 
 
-def test_differences_use_that_cosine_and_sine_lie_on_the_unit_circle():
+def test_difference_of_formulas_uses_that_cosine_and_sine_lie_on_the_unit_circle():
     cosine, sine = symbol("cosine"), symbol("sine")
     assert difference(cosine**2 + sine**2, sympy.Integer(1)) == 0
     assert difference(cosine**2 - sine**2, sympy.Integer(1)) != 0

@@ -41,23 +41,23 @@ ROW = dict(zip(COLUMNS, (3, 5, 2, 1, 4, 1, 2), strict=True))
         (("x",), (Step("2x", "neg", ("x",)),), "'2x' is not a name"),
     ],
 )
-def test_a_malformed_program_is_refused(inputs, steps, complaint):
+def test_program_refuses_malformed_steps(inputs, steps, complaint):
     with pytest.raises(ValueError, match=complaint):
         Program("bad", inputs, steps)
 
 
-def test_a_selection_may_choose_between_truth_values():
+def test_a_selection_in_a_program_may_choose_between_truth_values():
     program = program_of("choice", ("x",), "p = x > 0\nq = x > 1\nr = p ? q : p")
     assert [evaluate(program, EXACT, {"x": x})["r"] for x in (-1, 1, 2)] == [False, False, True]
 
 
 @pytest.mark.parametrize("formula", FORMULAS.values(), ids=lambda formula: formula.name)
-def test_a_listing_reads_back_as_the_same_steps(formula):
+def test_the_listing_of_a_program_is_read_back_as_the_same_steps(formula):
     assert steps_of(listing_of(formula.program)) == formula.program.steps
 
 
 @pytest.mark.parametrize("line", ["y = x", "y = x + 1 + 2", "x + 1", "y = x ** 2", "y = sin x", "y = p ? x , 1"])
-def test_a_line_that_is_no_step_is_refused(line):
+def test_steps_of_refuses_a_line_that_is_no_step(line):
     with pytest.raises(ValueError, match="is no step"):
         steps_of(line)
 
@@ -75,25 +75,25 @@ def test_evaluate_gives_every_intermediate_value():
 
 
 @pytest.mark.parametrize("formula", FORMULAS.values(), ids=lambda formula: formula.name)
-def test_outputs_are_the_values_of_a_whole_evaluation(formula):
+def test_outputs_of_a_program_are_the_values_of_its_whole_evaluation(formula):
     inputs = {**ROW, "b_s": 1, "d_s": 1, "l": 1, "cosine": Fraction(3, 5), "sine": Fraction(4, 5), "lambda_": 1}
     whole = evaluate(formula.program, EXACT, inputs)
     wanted = (formula.answer, *(step.name for step in formula.program.steps[::7]))
     assert outputs(formula.program, EXACT, inputs, wanted) == tuple(whole[name] for name in wanted)
 
 
-def test_a_missing_input_that_is_read_raises_an_error():
+def test_evaluating_a_program_raises_an_error_only_for_a_missing_input_that_it_reads():
     with pytest.raises(ValueError, match="program small needs a value for y"):
         evaluate(SMALL, EXACT, {"x": 1})
     assert outputs(program_of("p", ("x", "y"), "s = x + 1\nt = y + 1"), EXACT, {"x": 1}, ("s",)) == (2,)
 
 
-def test_an_operation_that_the_arithmetic_lacks_raises_an_error():
+def test_evaluating_a_program_raises_an_error_for_an_operation_that_the_arithmetic_lacks():
     with pytest.raises(ValueError, match="bare arithmetic has no add"):
         evaluate(SMALL, Arithmetic("bare", Fraction, {}), {"x": 1, "y": 2})
 
 
-def test_a_wanted_name_that_does_not_exist_raises_an_error():
+def test_outputs_raises_an_error_for_a_name_that_the_program_lacks():
     with pytest.raises(KeyError, match="program small has no z"):
         outputs(SMALL, EXACT, {"x": 1, "y": 2}, ("z",))
 
@@ -105,7 +105,7 @@ class _Boxed:
         self.number = number
 
 
-def test_outputs_free_values_that_no_later_step_reads():
+def test_outputs_frees_values_that_no_later_step_reads():
     formula = FORMULAS["table-2"]
     alive, counts = weakref.WeakSet(), []
 
@@ -132,7 +132,7 @@ def test_outputs_free_values_that_no_later_step_reads():
     assert max(counts) < 20
 
 
-def test_cut_makes_known_steps_inputs_and_drops_unneeded_steps():
+def test_cut_turns_known_steps_into_inputs_and_drops_unneeded_steps():
     part = cut(SMALL, ("t",), ("answer",))
     assert part.inputs == ("t",)
     assert [step.name for step in part.steps] == ["large", "answer"]
@@ -162,7 +162,7 @@ def test_operations_of_table_2_are_those_counted_by_hand():
     assert count(parts.inside).rounded == 28
 
 
-def test_sign_changes_are_free_and_roots_and_choices_are_counted():
+def test_count_leaves_out_sign_changes_and_counts_roots_and_selections():
     program = program_of("p", ("x",), "n = - x\na = abs n\nr = sqrt a\np = r >= 1\nq = not p\ns = q ? r : a")
     assert count(program.steps) == Operations(square_roots=1, comparisons=1, logical=1, selections=1)
 

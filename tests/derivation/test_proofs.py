@@ -68,7 +68,7 @@ def test_every_proof_of_a_formula_holds(name):
     assert [proof.statement for proof in found if not proof.holds] == []
 
 
-def test_every_formula_is_proved_in_its_numbers_and_its_answer():
+def test_every_formula_has_a_proof_of_its_coefficients_and_of_its_answer():
     proved = {(proof.formula, proof.quantity) for proof in prove_formulas()}
     for formula in FORMULAS.values():
         assert (formula.name, formula.answer) in proved
@@ -83,12 +83,12 @@ def test_table_2_with_any_single_step_changed_is_not_proved():
 
 @pytest.mark.thorough
 @pytest.mark.parametrize(("name", "every"), SAMPLED.items())
-def test_a_formula_with_one_step_of_a_sample_changed_is_not_proved(name, every):
+def test_a_formula_with_one_of_its_sampled_steps_changed_is_not_proved(name, every):
     # In [c2 > 0; c1 ≠ 0] or [c2 < 0; c1 < 0] it is the same to write c2 ≠ 0 for c2 < 0.
     assert set(survivors(name, every)) <= {"c2_negative = c2 != 0", "c2_negative_g1 = c2_g1 != 0"}
 
 
-def test_a_decision_that_reads_another_number_is_not_proved():
+def test_a_formula_whose_decision_reads_an_unproved_number_is_not_proved():
     formula = FORMULAS["table-2"]
     (peeking,) = steps_of("distinct = delta > Q")
     steps = tuple(peeking if step.name == "distinct" else step for step in formula.program.steps)

@@ -22,16 +22,16 @@ from tests.derivation.test_proofs import mutants
 
 
 @pytest.mark.parametrize("name", REPAIRED)
-def test_each_program_is_proved(name):
+def test_each_repaired_formula_is_proved(name):
     assert proofs_of(REPAIRED[name])
     assert all(proof.holds for proof in proofs_of(REPAIRED[name]))
 
 
-def test_the_chain_of_procedure_1_holds():
+def test_the_proof_chain_of_repaired_procedure_1_holds():
     assert proved("Procedure 1, repaired")
 
 
-def test_repaired_procedure_1_is_exterior_for_every_tall_pair_of_the_space():
+def test_repaired_procedure_1_answers_rightly_on_every_pair_of_the_space_in_its_regime():
     asked = [each for each in facts_in_order() if entry.tall(each)]
     assert len(asked) > 5000
     wrong = 0
@@ -49,7 +49,7 @@ def quadcopter_says(formula, each):
     return bool(answers(formula, EXACT, {name: inputs[name] for name in formula.program.inputs}))
 
 
-def test_repaired_procedure_2a_on_the_axis_is_that_all_four_rotors_are_interior():
+def test_repaired_procedure_2a_on_the_axis_accepts_if_all_four_rotors_are_interior():
     """All four rotors stand alike to the hyperboloid then: one unit sphere at r says it."""
     for each in facts_in_order():
         if entry.wide(each) and each.point.r**2 >= 2:
@@ -59,7 +59,7 @@ def test_repaired_procedure_2a_on_the_axis_is_that_all_four_rotors_are_interior(
             assert bool(found) == entry.interior(each), point
 
 
-def test_repaired_procedure_2b_is_that_hull_or_rotors_are_interior_where_the_printed_one_refuses():
+def test_repaired_procedure_2b_accepts_interior_hulls_and_rotors_that_the_printed_one_refuses():
     """At hulls whose farthest rotor is interior, and at hulls that are; all with a zero coefficient, some others."""
     differ = 0
     for place, hull in enumerate(facts_in_order()):

@@ -45,7 +45,7 @@ def test_the_trigonometric_formula_is_proved():
         "valid = distinct or all_positive",
     ],
 )
-def test_the_trigonometric_formula_with_a_slip_is_not_proved(line):
+def test_the_trigonometric_formula_with_one_wrong_step_is_not_proved(line):
     (wrong,) = steps_of(line)
     steps = tuple(wrong if step.name == wrong.name else step for step in ROOTS_TRIGONOMETRIC.program.steps)
     program = replace(ROOTS_TRIGONOMETRIC.program, steps=steps)
@@ -64,7 +64,7 @@ def test_roots_of_the_trigonometric_formula_are_those_of_the_cubic():
         assert np.allclose(found, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
 
 
-def test_the_trigonometric_formula_answers_as_the_printed_procedure_does():
+def test_the_trigonometric_formula_answers_as_procedure_1_as_printed():
     columns = dict(zip(COLUMNS, rows().T, strict=True))
     by_roots = answers(ROOTS_TRIGONOMETRIC, FLOAT64, columns)
     assert 0 < np.count_nonzero(by_roots) < len(by_roots)
@@ -90,11 +90,11 @@ def test_repeated_sweeps_of_the_root_finder_converge_to_the_roots(wanted):
         assert min(abs(root - each) for each in found) < 1e-8 * max(1, abs(root))
 
 
-def test_exact_arithmetic_has_no_cosine():
+def test_evaluating_the_trigonometric_formula_in_exact_arithmetic_raises_an_error():
     with pytest.raises(ValueError, match="exact arithmetic has no arccos"):
         answers(ROOTS_TRIGONOMETRIC, EXACT, dict(zip(COLUMNS, (1, 2, 1, 1, 3, 0, 0), strict=True)))
 
 
-def test_functions_are_written_and_read_like_other_steps():
+def test_steps_with_cosines_are_written_in_a_listing_and_read_back():
     assert "cosine_2 = cos theta_2\n" in listing_of(ROOTS_TRIGONOMETRIC.program)
     assert steps_of(listing_of(ROOTS_TRIGONOMETRIC.program)) == ROOTS_TRIGONOMETRIC.program.steps

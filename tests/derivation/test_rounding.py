@@ -80,7 +80,7 @@ def scenes(draw):
 
 @pytest.mark.parametrize("name", NUMBERS)
 @given(scene=scenes())
-def test_every_computed_value_is_within_its_error_bound(name, scene):
+def test_every_value_that_a_formula_computes_in_floats_is_within_its_error_bound(name, scene):
     format_name, inputs = scene
     found = ratios(FORMULAS[name].program, NUMBERS[name], format_name, inputs)
     assume(found is not None)
@@ -88,7 +88,7 @@ def test_every_computed_value_is_within_its_error_bound(name, scene):
 
 
 @given(st.lists(st.floats(0.25, 4), min_size=7, max_size=7))
-def test_an_input_that_is_rounded_on_entry_counts_one_rounding_more(values):
+def test_the_error_bound_of_rounded_inputs_counts_one_rounding_more(values):
     inputs = dict(zip(COLUMNS, values, strict=True))
     found = ratios(FORMULAS["table-2"].program, ("c1", "c2"), "float16", inputs, input_roundings=1)
     assume(found is not None)
@@ -120,7 +120,7 @@ def random_programs(draw):
 
 
 @given(random_programs(), st.tuples(floats("float32", -8, 8), floats("float32", -8, 8), floats("float32", 0.125, 8)))
-def test_every_random_program_that_the_rules_cover_stays_within_its_bound(program, values):
+def test_random_programs_in_floats_stay_within_their_counted_error_bounds(program, values):
     counted_for = tuple(step.name for step in program.steps)
     inputs = dict(zip(program.inputs, values, strict=True))
     counted = relative_error_counts(program, counted_for, positive={"w"})
@@ -148,7 +148,7 @@ def test_every_random_program_that_the_rules_cover_stays_within_its_bound(progra
         ("hessian", "delta_3", "float64", 0.02),
     ],
 )
-def test_some_rounding_errors_come_near_their_bound(name, step, format_name, at_least):
+def test_the_greatest_rounding_error_of_a_formula_comes_near_its_bound(name, step, format_name, at_least):
     random = np.random.default_rng(20)
     worst = Fraction(0)
     for _ in range(400):
@@ -158,7 +158,7 @@ def test_some_rounding_errors_come_near_their_bound(name, step, format_name, at_
     assert at_least < worst <= 1
 
 
-def test_a_count_lower_by_one_is_exceeded_by_some_rounding_error():
+def test_an_error_bound_that_counts_one_rounding_less_is_exceeded():
     program = program_of("sum", ("x", "y", "z"), "s = x + y\nt = s + z")
     unit = UNIT["float32"]
     inputs = {"x": 1.0, "y": float(unit), "z": float(unit)}  # both additions are ties that fall back to 1
@@ -169,7 +169,7 @@ def test_a_count_lower_by_one_is_exceeded_by_some_rounding_error():
     assert gamma(1, unit) * magnitude < error <= gamma(2, unit) * magnitude
 
 
-def test_counts_and_magnitudes_are_those_worked_out_by_hand():
+def test_relative_error_counts_are_those_worked_out_by_hand():
     program = program_of(
         "p", ("b", "x", "y"), "u = x * x\nv = y * y\nw = u + v\nq = w / b\nr = sqrt w\nn = - q\nt = 4 * n\nm = t - x"
     )
@@ -193,13 +193,13 @@ def test_counts_and_magnitudes_are_those_worked_out_by_hand():
         ("p = x > 0\nq = p ? x : b", "step q: no bound is derived for select"),
     ],
 )
-def test_a_step_that_the_claim_does_not_cover_raises_an_error(listing, complaint):
+def test_relative_error_counts_raises_an_error_for_a_step_without_a_rule(listing, complaint):
     program = program_of("p", ("b", "d", "x"), listing)
     with pytest.raises(ValueError, match=complaint):
         relative_error_counts(program, (program.steps[-1].name,))
 
 
-def test_a_divisor_whose_terms_have_one_sign_gets_a_bound():
+def test_relative_error_counts_covers_a_divisor_whose_terms_have_one_sign():
     program = program_of(
         "p", ("b", "d", "x"), "u = x * x\nv = b + u\nn = - d\nw = v - n\ns = b - d\nq = s / w\nr = s / x"
     )
@@ -214,7 +214,7 @@ def test_gamma_raises_an_error_for_too_many_roundings():
 
 
 @pytest.mark.parametrize("step", OPERATIONS)
-def test_every_operation_either_has_a_bound_or_raises_an_error(step):
+def test_every_operation_that_gives_a_number_has_a_rounding_rule_except_selections(step):
     """A new operation must be thought about: it has a rule, or it is a truth value or a selection."""
     from hypcheck.derivation.rounding import _RULES
 

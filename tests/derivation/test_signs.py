@@ -43,11 +43,11 @@ A, B, P, Q = (symbol(name) for name in "ABPQ")
         ("A²·P + B/A", ">", (A, B), (P,), True),
     ],
 )
-def test_has_sign_reads_the_sign_off_the_form(text, relation, positive, nonnegative, shown):
+def test_has_sign_finds_the_sign_of_an_expression_from_its_form(text, relation, positive, nonnegative, shown):
     assert has_sign(read(text), relation, positive, nonnegative) is shown
 
 
-def test_has_sign_is_false_for_a_factor_that_is_no_power_of_a_letter():
+def test_has_sign_is_false_for_a_factor_that_is_not_a_power_of_a_symbol():
     assert not has_sign(sympy.sin(A) + 2, ">", (A,), ())
     assert not has_sign(sympy.sqrt(A), ">", (A,), ())
 
@@ -65,7 +65,7 @@ values = st.fractions(Fraction(1, 9), 9)
 
 @pytest.mark.slow
 @given(terms, terms, values, st.fractions(-9, 9), st.one_of(st.just(Fraction(0)), values))
-def test_signs_that_has_sign_shows_are_true_of_random_numbers(top, bottom, a, b, p):
+def test_signs_that_has_sign_finds_are_those_of_random_values(top, bottom, a, b, p):
     """A is above 0, P not below it, and of B nothing is said."""
     numerator, denominator = (
         sum((n * A**i * B**j * P**k for n, i, j, k in part), sympy.Integer(0)) for part in (top, bottom)
