@@ -37,18 +37,18 @@ def scene(rows):
 
 @pytest.mark.parametrize("format_name", ["float16", "float32", "float64", "longdouble"])
 @pytest.mark.parametrize("name", BY_PAIRS)
-def test_prepared_formula_answers_as_the_formula(name, format_name, rows):
+def test_a_formula_prepared_for_rows_answers_as_its_program(name, format_name, rows):
     right = answers(FORMULAS[name], float_arithmetic(format_name), dict(zip(COLUMNS, rows.T, strict=True)))
     assert (formula.by_rows(FORMULAS[name], format_name)(rows) == right).all()
 
 
 @pytest.mark.parametrize("name", BY_PAIRS)
-def test_a_formula_by_scene_is_the_formula_by_rows(name, tower):
+def test_a_formula_answers_alike_by_scene_and_by_rows(name, tower):
     found = formula.by_scene(FORMULAS[name], "float32")(*scene(tower))
     assert (found == formula.by_rows(FORMULAS[name], "float32")(tower)).all()
 
 
-def test_chunks_meet_without_a_gap(tower):
+def test_a_formula_answers_rows_of_several_chunks_as_those_of_one(tower):
     many = np.tile(tower, (6, 1))
     assert len(many) > 2 * formula.CHUNK
     table_2 = formula.by_rows(FORMULAS["table-2"], "float64")
@@ -66,12 +66,12 @@ def test_chunks_meet_without_a_gap(tower):
         (lambda rows: dual_positions(rows, "float64"), lambda *each: dual_by_scene("float64", *each)),
     ],
 )
-def test_a_method_by_scene_answers_as_by_rows(by_rows, by_scene, tower):
+def test_a_bench_method_answers_alike_by_scene_and_by_rows(by_rows, by_scene, tower):
     assert (by_scene(*scene(tower)) == by_rows(tower)).all()
 
 
 @pytest.mark.parametrize("answer", [alternatives.trigonometric_roots("float64"), alternatives.numpy_roots])
-def test_roots_are_right_where_contact_is_not_near(answer):
+def test_root_methods_are_right_away_from_contact(answer):
     regimes = [FAMILIES[name].rows(3, 250) for name in ("tower-body", "forest-type-1", "forest-type-2")]
     rows = np.concatenate([*regimes, FAMILIES["out-of-regime"].rows(3, 250)])
     truth = float_filter.positions(rows)
@@ -82,7 +82,7 @@ def test_roots_are_right_where_contact_is_not_near(answer):
 
 
 @pytest.mark.slow
-def test_more_digits_settle_what_fewer_cannot():
+def test_mpmath_roots_with_50_digits_are_right_where_15_digits_are_not():
     rows = WORKLOADS["near-contact"].rows(1, 150)
     truth = float_filter.positions(rows)
     fewer, more = (alternatives.mpmath_roots(rows, digits) for digits in (15, 50))
@@ -90,20 +90,20 @@ def test_more_digits_settle_what_fewer_cannot():
     assert (more == truth).all()
 
 
-def test_roots_beyond_float64_give_cannot_say():
+def test_numpy_roots_answers_cannot_say_if_the_coefficients_overflow():
     huge = np.array([[1e200, 1e200, 1.0, 1.0, 0.0, 0.0, 0.0]])
     assert alternatives.numpy_roots(huge).tolist() == [CANNOT_SAY]
 
 
 @pytest.mark.parametrize("answer", [alternatives.bounding_sphere, alternatives.bounding_cylinder])
-def test_circumscribed_shape_has_no_false_clear(answer, rows):
+def test_a_bounding_shape_is_never_clear_where_the_spheroid_is_not(answer, rows):
     found = answer(rows)
     claimed = found != 0
     assert claimed.any()
     assert (found[claimed] == float_filter.positions(rows)[claimed]).all()
 
 
-def test_bounding_sphere_equals_a_spherical_spheroid_and_contains_others(tower):
+def test_bounding_sphere_is_exact_for_spheres_and_contains_other_spheroids(tower):
     spheres = tower.copy()
     spheres[:, 3] = spheres[:, 2]
     assert (alternatives.bounding_sphere(spheres) == numpy_kernel.positions(spheres)).all()
@@ -115,12 +115,12 @@ def test_bounding_sphere_equals_a_spherical_spheroid_and_contains_others(tower):
 
 
 @pytest.mark.parametrize("name", ["exact-integers", "exact-oracle", "nearest-point"])
-def test_exact_methods_are_never_wrong(name, rows):
+def test_the_exact_bench_methods_are_never_wrong(name, rows):
     some = rows[::9]
     assert (builtin(name).answer(some) == float_filter.positions(some)).all()
 
 
-def test_measured_methods_can_be_named_but_verify_leaves_them_out():
+def test_methods_only_for_bench_can_be_opened_by_name():
     measured = [name for name, method in builtin_methods().items() if method.measured]
     assert {"table-2-float16", "trigonometric-float64", "mpmath-roots-100", "bounding-sphere"} <= set(measured)
     assert all(builtin(name).name == name for name in measured)

@@ -21,7 +21,7 @@ def rows():
 
 
 @pytest.mark.parametrize("name", [name for name in builtin_methods() if not name.startswith("fcl")])
-def test_a_method_answers_its_question_with_allowed_answers(name, rows):
+def test_each_built_in_method_gives_answers_that_its_question_allows(name, rows):
     method = builtin(name)
     some = rows if method.max_rows is None else rows[:: 1 + 10 * len(rows) // (method.max_rows * 28)]
     answers = method.answer(some)
@@ -31,7 +31,7 @@ def test_a_method_answers_its_question_with_allowed_answers(name, rows):
 
 
 @pytest.mark.parametrize("name", ["fast", "fast-numpy"])
-def test_the_kernels_are_exact(name, rows):
+def test_the_built_in_methods_that_are_kernels_are_exact(name, rows):
     method = builtin(name)
     assert method.exact
     assert (method.answer(rows) == float_filter.positions(rows)).all()
@@ -42,7 +42,7 @@ def test_the_kernels_are_exact(name, rows):
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_the_dual_form_is_wrong_by_less_than_one_unit(precision, rows):
+def test_the_built_in_dual_form_has_a_backward_error_below_one_unit(precision, rows):
     method = builtin(f"dual-{precision}")
     asked = rows[method.domain.holds(rows) & representable(rows, precision)]
     cases = judge.wrong_cases(
@@ -53,7 +53,7 @@ def test_the_dual_form_is_wrong_by_less_than_one_unit(precision, rows):
     assert max(judge.in_units(judge.measured(case, "position"), unit) for case in cases) < 1
 
 
-def test_an_unknown_name_is_refused_with_the_known_ones():
+def test_an_unknown_built_in_method_is_refused_with_the_known_names():
     with pytest.raises(InputError, match=r"no built-in method 'tabel-2-float32'; did you mean table-2-float32"):
         builtin("tabel-2-float32")
     with pytest.raises(InputError, match=r"no built-in method 'xyzzy'; there are .*table-2-float32"):

@@ -38,7 +38,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_costs_its_own_row_and_says_why(name):
+def test_a_fault_of_a_command_fails_only_its_own_row_with_the_reason(name):
     some, (outcome, sentence) = rows(), FAULTS[name]
     with open_implementation(command(name), QUICK if name in HANGS else LIMITS) as it:
         reason = only_unlucky(it.classify(some), outcome, truth(some))
@@ -47,14 +47,14 @@ def test_a_fault_costs_its_own_row_and_says_why(name):
 
 
 @pytest.mark.parametrize("name", ["short", "long", "silent"])
-def test_binary_form_has_the_same_faults_as_text(name):
+def test_a_fault_of_a_command_in_the_binary_form_fails_only_its_own_row(name):
     some = rows()
     with open_implementation(command(name, "binary"), QUICK if name in HANGS else LIMITS) as it:
         assert it.description.binary
         only_unlucky(it.classify(some), Outcome.PROTOCOL, truth(some))
 
 
-def test_noise_between_replies_is_noticed_before_the_next_question():
+def test_output_of_a_command_between_two_replies_breaks_the_protocol():
     with open_implementation(command("prints_behind"), LIMITS) as it:
         assert it.classify(rows()).answered.all()
         time.sleep(0.3)
@@ -64,7 +64,7 @@ def test_noise_between_replies_is_noticed_before_the_next_question():
 
 
 @pytest.mark.parametrize("form", ["text", "binary"])
-def test_a_right_command_is_right_in_questions_of_every_size(form):
+def test_a_correct_command_answers_batches_of_every_size_rightly(form):
     some = rows(5000)
     expected = truth(some)
     with open_implementation(command("right", form), LIMITS) as it:
@@ -77,7 +77,7 @@ def test_a_right_command_is_right_in_questions_of_every_size(form):
         assert it.restarts == 0
 
 
-def test_text_rows_read_back_to_the_bit():
+def test_row_text_writes_numbers_that_read_back_to_the_bit():
     bits = np.random.default_rng(3).integers(0, 2**64, 7 * 700, dtype=np.uint64)
     some = bits.view(np.float64).reshape(-1, 7)
     some = np.vstack([some[np.isfinite(some).all(axis=1)], [[5e-324, 1.0, 1e22, 1e23, -0.0, 0.1, 2.0**-1022]]])
@@ -85,7 +85,7 @@ def test_text_rows_read_back_to_the_bit():
     assert back.tobytes() == some.tobytes()
 
 
-def test_a_flood_on_standard_error_is_evidence_and_no_fault():
+def test_a_command_that_floods_standard_error_is_answered_and_its_last_lines_are_kept():
     some = rows()
     with open_implementation(command("floods_stderr"), LIMITS) as it:
         answered = it.classify(some)
@@ -95,7 +95,7 @@ def test_a_flood_on_standard_error_is_evidence_and_no_fault():
         assert sum(map(len, it.stderr)) < 50_000
 
 
-def test_slow_row_is_not_mistaken_for_a_skipped_one():
+def test_a_slow_reply_of_a_command_is_not_mistaken_for_a_missing_one():
     """The second question that is sent after a while is answered behind the first, and nothing is lost or shifted."""
     some = rows()
     with open_implementation(command("slow_reply"), QUICK) as it:
@@ -104,7 +104,7 @@ def test_slow_row_is_not_mistaken_for_a_skipped_one():
 
 
 @pytest.mark.parametrize("words", [("0.04",), ("0.04", "0.5")], ids=["steadily", "with a pause"])
-def test_command_that_keeps_answering_does_not_time_out(words):
+def test_a_command_that_keeps_answering_does_not_time_out(words):
     some = rows(lucky=True)
     with open_implementation(command("steady", *words), QUICK) as it:
         began = time.monotonic()
@@ -125,14 +125,14 @@ def test_command_that_answers_too_slowly_times_out():
     assert re.search(r"1 of 40 answers, and hardly one more within 0.7 s", caught.value.reason)
 
 
-def test_cannot_say_is_an_answer():
+def test_a_command_may_answer_cannot_say():
     with open_implementation(command("cannot_say"), LIMITS) as it:
         answered = it.classify(rows())
     assert answered.answered.all()
     assert set(answered.answers.tolist()) == {2}
 
 
-def test_constant_noise_breaks_the_protocol_throughout():
+def test_a_command_that_never_writes_a_number_is_given_up_after_all_restarts():
     with open_implementation(command("without_number"), LIMITS) as it:
         answered = it.classify(rows())
         assert it.restarts == LIMITS.restarts
@@ -142,7 +142,7 @@ def test_constant_noise_breaks_the_protocol_throughout():
     assert sorted(answered.reasons) == list(range(40))
 
 
-def test_an_implementation_that_never_answers_is_asked_no_more_after_three_hangs_in_a_row():
+def test_a_command_that_never_answers_is_given_up_after_three_timeouts():
     """One of all rows, and one each of the first two."""
     with open_implementation(command("hangs"), QUICK) as it:
         answered = it.classify(rows())
@@ -153,7 +153,7 @@ def test_an_implementation_that_never_answers_is_asked_no_more_after_three_hangs
     )
 
 
-def test_an_implementation_that_answered_once_may_hang_as_often_as_restarts_allow():
+def test_a_command_that_answered_once_may_time_out_as_often_as_restarts_allow():
     some = rows()
     some[1:5, 1] = 13.0
     with open_implementation(command("loops"), QUICK) as it:
@@ -161,7 +161,7 @@ def test_an_implementation_that_answered_once_may_hang_as_often_as_restarts_allo
     assert answered.status.tolist() == [Outcome.ANSWERED] + [Outcome.TIMEOUT] * 4 + [Outcome.ANSWERED] * 5
 
 
-def test_without_restarts_the_first_row_at_fault_is_found_and_the_rest_is_not_run():
+def test_a_command_without_restarts_is_not_asked_after_the_first_row_that_fails():
     with open_implementation(command("segfaults"), Limits(restarts=0)) as it:
         answered = it.classify(rows())
     expected = [Outcome.ANSWERED] * UNLUCKY + [Outcome.CRASH] + [Outcome.NOT_RUN] * (39 - UNLUCKY)
@@ -169,7 +169,7 @@ def test_without_restarts_the_first_row_at_fault_is_found_and_the_rest_is_not_ru
     assert answered.reasons[UNLUCKY].startswith("it was ended by SIGSEGV")
 
 
-def test_a_crash_of_several_rows_that_no_row_causes_alone_is_not_lost():
+def test_a_crash_that_only_several_rows_together_cause_is_reported():
     some = rows()
     with open_implementation(command("dies_of_two"), LIMITS) as it:
         answered = it.classify(some)
@@ -178,14 +178,14 @@ def test_a_crash_of_several_rows_that_no_row_causes_alone_is_not_lost():
     assert answered.answers[1:].tolist() == truth(some)[1:].tolist()
 
 
-def test_a_program_for_one_question_is_not_one_for_many():
+def test_a_command_that_ends_after_one_question_fails_at_the_second():
     with open_implementation(command("one_row_each"), LIMITS) as it:
         answered = it.classify(rows(10, lucky=True), batch=1)
     assert answered.status[0] == Outcome.ANSWERED
     assert "ended by itself with exit status 0" in answered.reasons[1]
 
 
-def test_implementation_with_another_description_after_a_restart_is_given_up():
+def test_a_command_whose_description_changes_after_a_restart_is_given_up():
     with open_implementation(command("changes_its_mind"), LIMITS) as it:
         answered = it.classify(rows())
     assert answered.count(Outcome.CRASH) == 1
@@ -193,7 +193,7 @@ def test_implementation_with_another_description_after_a_restart_is_given_up():
     assert answered.reasons[39] == "not asked: started again, it describes itself otherwise than before"
 
 
-def test_memory_faults_are_not_repaired_by_restarts():
+def test_a_command_whose_state_changes_its_answers_is_not_restarted_to_repair_them():
     """A restart is a new process: what was counted in the old one is gone."""
     some = rows()
     with open_implementation(command("stateful"), LIMITS) as it:
@@ -206,7 +206,7 @@ def test_memory_faults_are_not_repaired_by_restarts():
         assert it.restarts == 0
 
 
-def test_answers_that_depend_on_the_size_of_a_question_reach_the_caller_unchanged():
+def test_answers_that_depend_on_the_batch_size_reach_the_caller_unchanged():
     some = rows()
     with open_implementation(command("minds_batch_size"), LIMITS) as it:
         assert it.classify(some, batch=1).answers.tolist() == truth(some).tolist()
@@ -233,7 +233,7 @@ BAD_DESCRIPTIONS = [
 
 
 @pytest.mark.parametrize(("line", "sentence"), BAD_DESCRIPTIONS, ids=range(len(BAD_DESCRIPTIONS)))
-def test_command_with_an_invalid_description_is_not_started(line, sentence):
+def test_a_command_with_an_invalid_description_is_refused_at_its_start(line, sentence):
     with pytest.raises(StartError, match=sentence) as caught:
         open_implementation(command("describes", line), LIMITS)
     assert caught.value.exit_code == 5
@@ -241,7 +241,7 @@ def test_command_with_an_invalid_description_is_not_started(line, sentence):
     assert str(caught.value).isprintable()
 
 
-def test_command_without_a_description_is_not_started_and_its_stderr_is_quoted():
+def test_a_command_without_a_description_is_refused_with_its_standard_error():
     for way in ("nothing", "drip"):
         with pytest.raises(StartError, match=r"no description came within 0\.5 s; stderr: loading tables"):
             open_implementation(command("never_describes", way), Limits(startup_timeout=0.5))
@@ -251,7 +251,7 @@ def test_command_without_a_description_is_not_started_and_its_stderr_is_quoted()
         open_implementation(command("dies_at_start"), LIMITS)
 
 
-def test_command_that_the_system_cannot_run_is_refused_with_the_reason(tmp_path):
+def test_a_command_that_the_system_cannot_run_is_refused_with_the_reason(tmp_path):
     script = tmp_path / "no interpreter"
     script.write_text("#!/no/such/interpreter\n")
     plain = tmp_path / "plain"
@@ -268,7 +268,7 @@ def test_command_that_the_system_cannot_run_is_refused_with_the_reason(tmp_path)
         open_implementation(f"command:'{plain}'")
 
 
-def test_a_command_is_run_where_the_caller_is_and_without_a_shell(tmp_path, monkeypatch):
+def test_a_command_is_run_in_the_working_directory_of_the_caller_without_a_shell(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     line = '{"protocol":1,"name":"$HOME; touch made"}'
     program = command("describes", line).replace(";", ";")
@@ -277,7 +277,7 @@ def test_a_command_is_run_where_the_caller_is_and_without_a_shell(tmp_path, monk
     assert list(tmp_path.iterdir()) == []
 
 
-def test_command_is_timed_by_its_clock_and_checked_by_its_answers():
+def test_a_command_is_timed_by_its_own_clock_and_checked_by_its_checksum():
     some = rows(lucky=True)
     with open_implementation(command("right", "binary"), LIMITS) as it:
         assert it.time(some, 5) == 5000
@@ -291,14 +291,14 @@ def test_command_is_timed_by_its_clock_and_checked_by_its_answers():
 
 
 @pytest.mark.parametrize("form", ["true", "false"])
-def test_a_compiled_command_answers_large_questions(form, tmp_path):
+def test_a_compiled_command_answers_large_batches(form, tmp_path):
     program = compiled("command", tmp_path / "sign", "-O2", f"-DBINARY={form}")
     some = rows(1 << 20 if form == "true" else 1 << 16)
     with open_implementation(f"command:{program}") as it:
         assert it.classify(some).answers.tolist() == signs(some).tolist()
 
 
-def test_reply_before_all_rows_were_read_breaks_the_protocol():
+def test_a_command_that_replies_before_it_has_read_all_rows_breaks_the_protocol():
     """Seen where a question is more than a pipe holds; after an error the rest would be taken for questions."""
     some = rows(4096)
     with open_implementation(command("hasty"), Limits(restarts=0)) as it:
@@ -313,6 +313,6 @@ def test_reply_before_all_rows_were_read_breaks_the_protocol():
     assert set(answered.status[asked:].tolist()) == {Outcome.NOT_RUN}
 
 
-def test_the_row_that_the_miniatures_fail_on_is_valid_and_decided():
+def test_the_row_on_which_the_sample_commands_fail_is_valid():
     assert truth(rows())[UNLUCKY] in {-1, 0, 1}
     assert set(truth(rows()).tolist()) == {-1, 0, 1}

@@ -15,7 +15,7 @@ from tests.support.pairs import pairs
 
 
 @given(st.lists(pairs, min_size=1, max_size=10))
-def test_regimes_are_decided_exactly(some):
+def test_in_regime_is_decided_exactly(some):
     rows = np.array([pair.row for pair in some])
     sizes = [[Fraction(value) for value in pair.row[:4]] for pair in some]
     assert in_regime(rows, "a>=1").tolist() == [alpha >= b for alpha, _, b, _ in sizes]
@@ -23,13 +23,13 @@ def test_regimes_are_decided_exactly(some):
 
 
 @pytest.mark.parametrize("ulps", [-1, 0, 1])
-def test_regime_at_its_border_is_distinguished_from_its_neighbours(ulps):
+def test_in_regime_distinguishes_the_border_of_a_regime_from_the_next_floats(ulps):
     """(γ/d)² = α/b at γ = 3, d = 1, α = 9, b = 1; one ulp of α to either side."""
     row = np.array([[9.0 + ulps * 2.0**-49, 3.0, 1.0, 1.0, 0.0, 0.0, 0.0]])
     assert in_regime(row, "c2>=a").tolist() == [ulps <= 0]
 
 
-def test_ranges_are_inclusive_and_the_least_one_is_of_semi_axes():
+def test_magnitude_range_of_a_domain_includes_its_ends_and_its_lower_end_limits_semi_axes_alone():
     rows = np.array(
         [
             [1.0, 1.0, 0.5, 1.0, 0.0, 4.0, -1e-9],
@@ -44,13 +44,13 @@ LONG_RATIO = [1e6, 1.0, 1e-3, 1.0, 1.0, 0.0, 0.0]
 FAR = [1e7, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0]
 
 
-def test_undeclared_range_is_ordinary_and_unbounded_for_extreme_families():
+def test_a_domain_without_ranges_has_default_ranges_except_for_extreme_families():
     rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
     assert Domain().holds(rows).tolist() == [True, False, False]
     assert Domain().holds(rows, extreme=True).all()
 
 
-def test_declared_range_bounds_extreme_families():
+def test_a_declared_range_of_a_domain_bounds_extreme_families_too():
     rows = np.array([[1.0] * 7, LONG_RATIO, FAR])
     assert Domain(ratio=(0.5, 1e8)).holds(rows, extreme=True).tolist() == [True, False, True]
     assert Domain(magnitude=(0.1, 1e6)).holds(rows, extreme=True).tolist() == [True, False, False]
@@ -71,13 +71,13 @@ def test_declared_range_bounds_extreme_families():
         (5e-324, "binary128", True),
     ],
 )
-def test_only_normal_numbers_of_the_precision_are_asked(value, precision, expected):
+def test_representable_holds_for_zero_and_normal_numbers_of_the_precision(value, precision, expected):
     row = np.array([[1.0, 1.0, 1.0, 1.0, 0.0, 0.0, value]])
     assert representable(row, precision).tolist() == [expected]
 
 
 @pytest.mark.parametrize("bad", [{"regimes": ("a>1",)}, {"ratio": (2.0, 1.0)}, {"magnitude": (-1.0, 1.0)}])
-def test_invalid_domain_is_refused(bad):
+def test_domain_refuses_invalid_ranges_and_regimes(bad):
     with pytest.raises(InputError, match="the domain"):
         Domain(**bad)
 
@@ -98,12 +98,12 @@ SIZES = [2.0, 3.0, 0.25, 0.15]
         ([{"sizes": SIZES, "axis": [1.0, 0.0, 1e999]}], "it must be"),
     ],
 )
-def test_settings_of_a_domain_that_are_no_settings_are_refused(settings, message):
+def test_domain_refuses_invalid_settings(settings, message):
     with pytest.raises(InputError, match=message):
         domain_of({"settings": settings}, "the domain")
 
 
-def test_settings_with_an_axis_need_a_description_that_takes_axes():
+def test_a_domain_with_an_axis_is_refused_in_a_description_without_tilt():
     domain = domain_of({"settings": [{"sizes": SIZES, "axis": "free"}]}, "the domain")
     assert domain_of(domain, "the domain") is domain
     assert Description(name="mine", domain=domain, tilt=True).domain is domain

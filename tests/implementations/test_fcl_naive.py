@@ -53,7 +53,7 @@ def rows_at_gap(gap, flatness):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_plain_mesh_is_wrong_near_contact_where_the_certified_one_is_not(method):
+def test_naive_fcl_is_wrong_near_contact_where_the_certified_mesh_is_right(method):
     known = near_contact_rows(60)
     rows, positions = np.array([row for row, _ in known]), np.array([position for _, position in known])
     answers = method(rows, triangles=500)
@@ -61,13 +61,13 @@ def test_a_plain_mesh_is_wrong_near_contact_where_the_certified_one_is_not(metho
     assert [verdict(Pair(*row)).position for row in rows] == positions.tolist()
 
 
-def test_more_triangles_reduce_errors_but_leave_some():
+def test_naive_fcl_with_more_triangles_has_fewer_errors_but_some():
     rows, positions = rows_at_gap(Fraction(1, 2**16), 1.0)
     wrong = [np.count_nonzero(point_mesh(rows, triangles) != positions) for triangles in (50, 5000)]
     assert wrong[0] > wrong[1] > 0
 
 
-def test_the_ellipsoid_query_loses_the_contacts_of_flat_spheroids():
+def test_naive_fcl_with_ellipsoids_misses_contacts_of_flat_spheroids():
     missed = {}
     for flatness in (1.0, 2.0**-20):
         rows, positions = rows_at_gap(Fraction(1, 2**4), flatness)
@@ -78,13 +78,13 @@ def test_the_ellipsoid_query_loses_the_contacts_of_flat_spheroids():
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_numbers_beyond_fcl_give_cannot_say(method):
+def test_naive_fcl_answers_cannot_say_for_numbers_beyond_its_range(method):
     huge = np.array([(1e200, 1e-150, 1e200, 1e200, 1e200, 0, 0), (1e-200, 1e-200, 1e200, 1e-300, 1e300, 0, 1e300)])
     assert method(huge).tolist() == [CANNOT_SAY, CANNOT_SAY]
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_naive_fcl_answers_no_rows_and_reports_missing_fcl(method, monkeypatch):
+def test_naive_fcl_accepts_an_empty_array_and_reports_a_missing_fcl(method, monkeypatch):
     assert method(np.empty((0, 7))).shape == (0,)
     monkeypatch.setitem(sys.modules, "fcl", None)
     with pytest.raises(UnavailableError, match="not available"):

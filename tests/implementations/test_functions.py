@@ -29,7 +29,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_costs_its_own_row_and_says_why(name):
+def test_a_fault_of_a_function_fails_only_its_own_row_with_the_reason(name):
     some, (outcome, sentence) = rows(), FAULTS[name]
     with open_implementation(function(name), QUICK if name == "loops" else LIMITS) as it:
         reason = only_unlucky(it.classify(some), outcome, truth(some))
@@ -48,7 +48,7 @@ def test_a_fault_costs_its_own_row_and_says_why(name):
         ("ragged", "it returned a list that is no array of one integer a row"),
     ],
 )
-def test_result_without_one_integer_for_each_row_breaks_the_protocol(name, sentence):
+def test_a_function_that_does_not_return_one_integer_per_row_breaks_the_protocol(name, sentence):
     with open_implementation(function(name), LIMITS) as it:
         answered = it.classify(rows())
         assert it.restarts == 0
@@ -56,7 +56,7 @@ def test_result_without_one_integer_for_each_row_breaks_the_protocol(name, sente
     assert all(re.search(sentence, answered.reasons[index]) for index in range(40))
 
 
-def test_implementation_that_always_fails_is_given_up(monkeypatch):
+def test_a_function_that_fails_on_every_row_is_given_up(monkeypatch):
     monkeypatch.setattr("hypcheck.implementations.implementation.MAX_FAULTS", 200)
     with open_implementation(function("floats"), LIMITS) as it:
         answered = it.classify(rows(3000), batch=150)
@@ -66,7 +66,7 @@ def test_implementation_that_always_fails_is_given_up(monkeypatch):
 
 
 @pytest.mark.parametrize(("spec", "restarts"), [(command("leaves"), 3), (function("raises"), 0)])
-def test_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, spec, restarts):
+def test_the_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, spec, restarts):
     """Batches grow with what a machine answers in time: neither restarts nor what is not asked may depend on them."""
     monkeypatch.setattr("hypcheck.implementations.implementation.MAX_FAULTS", 4)
     some = rows(900, lucky=True)
@@ -82,7 +82,7 @@ def test_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, spec, 
 
 
 @pytest.mark.parametrize("name", ["right", "prints", "list_of_integers", "imports_us"])
-def test_right_answers_arrive_whatever_is_printed_and_whatever_integers_they_are(name):
+def test_a_function_may_print_and_return_integers_of_any_type(name):
     some = rows(5000)
     with open_implementation(function(name), LIMITS) as it:
         assert it.classify(some).answers.tolist() == truth(some).tolist()
@@ -93,7 +93,7 @@ def intruder(name):
 
 
 @pytest.mark.parametrize(("name", "seen"), [("garbage", r"'�\\x1b\[31m"), ("error", "'erro")])
-def test_bytes_written_into_the_pipe_of_the_worker_cost_their_row_and_are_no_reply(name, seen):
+def test_a_function_that_writes_into_the_pipe_of_its_worker_fails_its_row(name, seen):
     some = rows()
     with open_implementation(intruder(name), LIMITS) as it:
         for _ in range(2):
@@ -101,7 +101,7 @@ def test_bytes_written_into_the_pipe_of_the_worker_cost_their_row_and_are_no_rep
             assert re.search(f"it wrote into the worker's pipe: {seen}", reason), reason
 
 
-def test_forged_times_are_refused():
+def test_times_that_a_function_writes_into_the_pipe_of_its_worker_are_refused():
     with (
         open_implementation(intruder("times"), LIMITS) as it,
         pytest.raises(TimingError, match="it wrote into the worker's pipe"),
@@ -109,13 +109,13 @@ def test_forged_times_are_refused():
         it.time(rows(), 1)
 
 
-def test_output_of_foreign_code_is_kept_as_evidence():
+def test_output_that_a_function_prints_is_kept_as_its_standard_error():
     with open_implementation(function("prints"), LIMITS) as it:
         it.classify(rows())
         assert it.stderr[-2:] == ("computing", r"�\x00 from C")
 
 
-def test_a_module_on_the_path_is_found_from_the_working_directory(tmp_path, monkeypatch):
+def test_a_module_in_a_python_spec_is_found_from_the_working_directory(tmp_path, monkeypatch):
     """There a struct.py of the user's is no stand-in for Python's while our own modules are loaded."""
     (tmp_path / "package").mkdir()
     (tmp_path / "package" / "module.py").write_text("def near(rows):\n    return [0] * len(rows)\n")
@@ -126,7 +126,7 @@ def test_a_module_on_the_path_is_found_from_the_working_directory(tmp_path, monk
         assert (it.description.name, it.description.language) == ("package.module:near", "python")
 
 
-def test_a_file_finds_its_neighbours(tmp_path):
+def test_a_file_in_a_python_spec_can_import_modules_beside_it(tmp_path):
     (tmp_path / "neighbour.py").write_text("ANSWER = 1\n")
     (tmp_path / "kernel.py").write_text(
         "from neighbour import ANSWER\n\n\ndef f(rows):\n    return [ANSWER] * len(rows)\n"
@@ -135,7 +135,7 @@ def test_a_file_finds_its_neighbours(tmp_path):
         assert it.classify(rows()).answers.tolist() == [1] * 40
 
 
-def test_a_description_is_read_and_overridden():
+def test_the_description_of_a_function_is_read_and_can_be_overridden():
     with open_implementation(function("right"), LIMITS, precision="float32", domain=Domain(ratio=(1.0, 2.0))) as it:
         assert (it.declared.name, it.declared.version, it.declared.precision) == ("right", "2.1", "float64")
         assert it.declared.domain == Domain(regimes=("a>=1",), ratio=(0.1, 10.0))
@@ -147,12 +147,12 @@ def test_a_description_is_read_and_overridden():
         assert not it.description.domain.holds(rows()).any()
 
 
-def test_invalid_override_is_refused_and_leaves_no_process():
+def test_an_invalid_override_of_a_description_is_refused_and_leaves_no_process():
     with pytest.raises(InputError, match="the precision is 'double'; it must be one of float16"):
         open_implementation(function("right"), LIMITS, precision="double")
 
 
-def test_answers_are_those_of_the_question_asked():
+def test_an_answer_that_the_question_does_not_allow_breaks_the_protocol():
     some = rows()
     with open_implementation(function("right"), LIMITS, question="exterior") as it:
         answered = it.classify(some)
@@ -160,7 +160,7 @@ def test_answers_are_those_of_the_question_asked():
     assert "it must be one of 0, 1 or 2" in answered.reasons[int(np.flatnonzero(truth(some) == -1)[0])]
 
 
-def test_refusals_are_allowed_for_invalid_rows_if_declared():
+def test_answer_127_is_allowed_for_invalid_rows_if_the_description_says_refuses():
     some = rows()
     some[3, 0], some[4, 6] = -1.0, np.nan
     with open_implementation(function("refuses"), LIMITS) as it:
@@ -173,7 +173,7 @@ def test_refusals_are_allowed_for_invalid_rows_if_declared():
         assert "answered 127, which refuses the row, but the row is valid" in answered.reasons[0]
 
 
-def test_row_addresses_vary_so_that_code_that_depends_on_them_fails():
+def test_the_worker_varies_row_addresses_so_that_answers_that_depend_on_them_differ():
     some = rows()
     with open_implementation(function("minds_alignment"), LIMITS) as it:
         answers = {bytes(it.classify(some).answers) for _ in range(8)}
@@ -183,7 +183,7 @@ def test_row_addresses_vary_so_that_code_that_depends_on_them_fails():
     assert bytes(afresh) in answers
 
 
-def test_memory_of_a_function_ends_with_its_process():
+def test_the_state_of_a_function_is_lost_with_a_fresh_process():
     some = rows()
     with open_implementation(function("stateful"), LIMITS) as it:
         seen = [it.classify(some).answers.tolist() for _ in range(5)]
@@ -192,7 +192,7 @@ def test_memory_of_a_function_ends_with_its_process():
     assert seen == [truth(some).tolist()] * 3 + [(-truth(some)).tolist()] * 2
 
 
-def test_slow_implementation_gets_smaller_batches_and_no_fault():
+def test_a_slow_function_gets_smaller_batches_and_no_timeout():
     """All 260 rows at once would take 1.3 s."""
     with open_implementation(function("slow"), QUICK) as it:
         assert it.classify(rows(260)).answered.all()
@@ -220,19 +220,19 @@ def test_slow_implementation_gets_smaller_batches_and_no_fault():
         ("python:no.such.module:f", r"raised ModuleNotFoundError: No module named 'no'( \(.*\.py, line \d+\))?$"),
     ],
 )
-def test_code_that_cannot_be_loaded_is_not_started(spec, sentence):
+def test_a_python_spec_that_cannot_be_loaded_is_refused(spec, sentence):
     with pytest.raises(StartError, match=sentence) as caught:
         open_implementation(spec, LIMITS)
     assert str(caught.value).startswith(spec[:30])
 
 
-def test_code_that_loads_too_slowly_is_not_started(tmp_path):
+def test_a_python_spec_that_loads_too_slowly_is_refused(tmp_path):
     (tmp_path / "slow.py").write_text("import time\ntime.sleep(60)\n")
     with pytest.raises(StartError, match=r"it was not loaded within 0\.5 s"):
         open_implementation(f"python:{tmp_path / 'slow.py'}:f", Limits(startup_timeout=0.5))
 
 
-def test_function_is_timed_and_its_fault_is_reported():
+def test_a_function_is_timed_and_a_fault_while_timing_is_reported():
     some = rows(1000, lucky=True)
     with open_implementation(function("right"), LIMITS) as it:
         # the least of five, for whatever else the machine does may fall on any one of them
@@ -248,7 +248,7 @@ def test_function_is_timed_and_its_fault_is_reported():
         assert it.time(some, 1) > 0
 
 
-def test_many_rows_are_answered_in_their_order(tmp_path):
+def test_a_function_answers_half_a_million_rows_in_their_order(tmp_path):
     (tmp_path / "sign.py").write_text(
         "import numpy as np\n\n\ndef f(rows):\n    return (rows[:, 4] > 0).astype(np.int8) - (rows[:, 4] < 0)\n"
     )
@@ -258,7 +258,7 @@ def test_many_rows_are_answered_in_their_order(tmp_path):
         assert it.proven_batch == it.max_batch
 
 
-def test_a_change_of_the_rounding_mode_is_seen_and_undone():
+def test_a_change_of_the_rounding_mode_by_a_call_is_found_and_undone():
     import ctypes
 
     guard, libm = Leftovers(whole=False), ctypes.CDLL(None)
@@ -277,7 +277,7 @@ def test_a_change_of_the_rounding_mode_is_seen_and_undone():
 @pytest.mark.parametrize(
     ("call", "line"), [("np.broadcast_arrays([1, 2], [1, 2, 3])", 6), ("json.loads('{')", 6), ("helper.f()", 4)]
 )
-def test_error_of_a_called_package_is_reported_with_the_calling_line(call, line, tmp_path):
+def test_an_error_inside_a_package_is_reported_with_the_users_calling_line(call, line, tmp_path):
     (tmp_path / "helper.py").write_text("import numpy as np\n\ndef f():\n    np.broadcast_arrays([1, 2], [1, 2, 3])\n")
     text = f"import json\n\nimport helper\nimport numpy as np\ndef f(rows):\n    {call}\n"
     (tmp_path / "calls.py").write_text(text, encoding="utf-8")
@@ -299,5 +299,5 @@ def test_the_worker_loads_neither_sympy_nor_mpmath_nor_fcl(tmp_path):
     assert {"sympy", "mpmath", "fcl"} & set(sys.modules) == before
 
 
-def test_the_row_that_the_miniatures_fail_on_is_among_those_asked():
+def test_the_row_on_which_the_sample_functions_fail_is_among_the_rows():
     assert (rows()[:, 1] == 13.0).nonzero()[0].tolist() == [UNLUCKY]

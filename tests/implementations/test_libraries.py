@@ -34,7 +34,7 @@ def right(tmp_path_factory):
 
 
 @pytest.mark.parametrize("fault", FAULTS)
-def test_a_fault_costs_its_own_row_and_says_why(fault, tmp_path):
+def test_a_fault_of_a_library_fails_only_its_own_row_with_the_reason(fault, tmp_path):
     if "SSE" in fault and platform.machine() != "x86_64":
         pytest.skip("only x86 has a rounding mode of SSE's own")
     library = compiled("faulty", tmp_path / "faulty.so", *SHARED, f"-DFAULT={fault}")
@@ -60,7 +60,7 @@ TRACES = {
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64" or sys.platform != "linux", reason="it sets control words of x86")
-def test_what_a_call_leaves_changed_fails_its_row_and_is_named(tmp_path):
+def test_a_library_call_that_changes_the_state_of_the_process_fails_its_row(tmp_path):
     """Each row is asked alone; those before and after it are answered, and the change is undone or expected."""
     library = compiled("leaves_traces", tmp_path / "traces.so", *SHARED, "-w")
     some = rows(2 * len(TRACES), lucky=True)
@@ -72,7 +72,7 @@ def test_what_a_call_leaves_changed_fails_its_row_and_is_named(tmp_path):
         assert re.search(sentence, answered.reasons.get(2 * place, "it was answered")), (sentence, answered.reasons)
 
 
-def test_output_of_a_library_is_no_answer(tmp_path):
+def test_output_that_a_library_prints_is_kept_as_standard_error_and_not_read_as_answers(tmp_path):
     library = compiled("faulty", tmp_path / "faulty.so", *SHARED, "-DFAULT=PRINTS")
     with open_implementation(f"library:{library}", LIMITS) as it:
         assert it.classify(rows()).answers.tolist() == signs(rows()).tolist()
@@ -80,7 +80,7 @@ def test_output_of_a_library_is_no_answer(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
-def test_library_in_a_folder_whose_name_is_not_utf8_is_loaded(tmp_path):
+def test_a_library_in_a_folder_whose_name_is_not_utf8_is_loaded(tmp_path):
     folder = tmp_path / os.fsdecode(b"\xff \n")
     folder.mkdir()
     library = compiled("faulty", folder / "faulty.so", *SHARED, "-DFAULT=PRINTS")  # it exports no description
@@ -91,7 +91,7 @@ def test_library_in_a_folder_whose_name_is_not_utf8_is_loaded(tmp_path):
         open_implementation(f"library:{folder / 'broken.so'}", LIMITS)
 
 
-def test_a_library_answers_in_questions_of_every_size_and_describes_itself(right):
+def test_a_library_answers_batches_of_every_size_and_its_description_is_read(right):
     some = rows(70_000)
     with open_implementation(f"library:{right}", LIMITS) as it:
         assert (it.description.name, it.description.language, it.description.precision) == ("sign", "c", "exact")
@@ -102,7 +102,7 @@ def test_a_library_answers_in_questions_of_every_size_and_describes_itself(right
 
 
 @pytest.mark.parametrize("loop", ["in C", "by ctypes"])
-def test_each_row_is_timed_by_a_call_of_its_own_and_no_rows_by_a_call_that_does_nothing(loop, tmp_path, monkeypatch):
+def test_seconds_each_calls_a_library_once_per_row_and_an_empty_call_for_no_rows(loop, tmp_path, monkeypatch):
     if loop == "by ctypes":
         monkeypatch.setattr(libraries, "_calls", None)
     counting = libraries.Library(str(compiled("counting", tmp_path / f"{loop[-1]}.so", *SHARED)))
@@ -116,13 +116,13 @@ def test_each_row_is_timed_by_a_call_of_its_own_and_no_rows_by_a_call_that_does_
     assert calls.value == 40 * 25
 
 
-def test_a_relative_path_is_relative_to_the_working_directory(right, monkeypatch):
+def test_a_relative_path_in_a_library_spec_is_relative_to_the_working_directory(right, monkeypatch):
     monkeypatch.chdir(right.parent)
     with open_implementation(f"library:{right.name}", LIMITS) as it:
         assert it.classify(rows()).answered.all()
 
 
-def test_the_entry_for_scenes_is_asked_about_rows_of_one_size(right, tmp_path):
+def test_the_scene_function_of_a_library_is_called_for_rows_of_one_size(right, tmp_path):
     some = rows(2000)
     one = some.copy()
     one[:, :4] = some[0, :4]
@@ -140,7 +140,7 @@ def test_the_entry_for_scenes_is_asked_about_rows_of_one_size(right, tmp_path):
             it.classify(one, by_scene=True)
 
 
-def test_file_that_is_no_library_for_hypcheck_is_not_started(tmp_path):
+def test_a_file_that_is_no_library_with_the_needed_functions_is_refused(tmp_path):
     text = tmp_path / "text.so"
     text.write_text("this is a file of text, and longer than the head of a program that a system runs" * 10)
     without = compiled("without_entry", tmp_path / "without.so", *SHARED)
@@ -155,7 +155,7 @@ def test_file_that_is_no_library_for_hypcheck_is_not_started(tmp_path):
             open_implementation(f"library:{path}", LIMITS)
 
 
-def test_a_library_for_another_machine_is_not_started(right, tmp_path):
+def test_a_library_compiled_for_another_machine_is_refused(right, tmp_path):
     """The same file with another word size in its head, byte 4 of an ELF file."""
     data = bytearray(right.read_bytes())
     if data[:4] != b"\x7fELF":

@@ -40,7 +40,7 @@ def crossing(some):
 
 
 @pytest.mark.parametrize("words", [(), ("binary",), ("times",), ("times", "binary"), ("times", "leaning", "binary")])
-def test_a_command_answers_ways_in_text_and_binary_with_times_and_without(words):
+def test_a_command_answers_ways_in_text_and_binary_with_and_without_times(words):
     some = ways()
     hits, times = truth(some)
     assert 0 < sum(hits) < len(hits)
@@ -52,13 +52,13 @@ def test_a_command_answers_ways_in_text_and_binary_with_times_and_without(words)
                 np.testing.assert_array_equal(answered.times, times)
 
 
-def test_a_command_is_timed_about_ways():
+def test_a_command_is_timed_on_ways():
     some = ways(8)
     with open_implementation(command("passage", "times", "binary"), LIMITS) as it:
         assert it.time(some, 3) == 3000
 
 
-def test_a_python_function_returns_hits_and_times_and_refuses_what_is_no_way():
+def test_a_python_function_returns_hits_and_times_and_refuses_an_invalid_way():
     some = ways()
     hits, times = truth(some)
     bad = some.copy()
@@ -74,7 +74,7 @@ def test_a_python_function_returns_hits_and_times_and_refuses_what_is_no_way():
 
 
 @pytest.mark.parametrize("flags", [(), ("-DTIMES",), ("-DTIMES", "-DTILT")])
-def test_a_library_is_called_by_its_entry_for_ways(flags, tmp_path):
+def test_a_library_for_ways_is_called_by_its_function_for_passage(flags, tmp_path):
     library = compiled("passage", tmp_path / "passage.so", *SHARED, *flags)
     some = ways(700)
     if "-DTILT" in flags:
@@ -94,7 +94,7 @@ def test_a_library_is_called_by_its_entry_for_ways(flags, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_library_that_writes_one_time_too_many_broke_the_protocol(tmp_path):
+def test_a_library_that_writes_one_time_too_many_breaks_the_protocol(tmp_path):
     library = compiled("passage", tmp_path / "beyond.so", *SHARED, "-DTIMES", "-DBEYOND")
     with open_implementation(f"library:{library}", LIMITS) as it:
         answered = it.classify(ways(5))
@@ -103,7 +103,7 @@ def test_a_library_that_writes_one_time_too_many_broke_the_protocol(tmp_path):
     assert all(reason.endswith(seen) for reason in answered.reasons.values()), answered.reasons
 
 
-def test_a_library_without_the_entry_for_ways_is_not_started(tmp_path):
+def test_a_library_for_ways_without_the_function_for_passage_is_refused(tmp_path):
     library = compiled("passage", tmp_path / "lacks.so", *SHARED, "-DLACKS", "-DTILT")
     with pytest.raises(StartError) as caught:
         open_implementation(f"library:{library}", LIMITS)
@@ -115,7 +115,7 @@ def test_a_library_without_the_entry_for_ways_is_not_started(tmp_path):
 
 
 @pytest.mark.parametrize("words", [("nan", "times"), ("nan", "times", "binary")])
-def test_a_hit_without_a_time_from_0_to_1_is_no_answer(words):
+def test_a_hit_without_a_time_from_0_to_1_breaks_the_protocol(words):
     some = ways()
     hits, _ = truth(some)
     with open_implementation(command("passage", *words), LIMITS) as it:
@@ -124,7 +124,7 @@ def test_a_hit_without_a_time_from_0_to_1_is_no_answer(words):
     assert answered.reasons[hits.index(1)] == "it answered 1 with the time nan; it must be a number from 0 to 1"
 
 
-def test_the_conversation_about_ways_in_the_protocol_is_right():
+def test_the_example_conversation_about_ways_on_the_protocol_page_is_right():
     text = (Path(__file__).parents[2] / "docs" / "protocol.md").read_text(encoding="utf-8")
     (said,) = re.findall(r"((?:^    [→←] .*\n)*)", text[text.index("    → classify 1 2 passage-text") :], re.MULTILINE)[
         :1
@@ -138,7 +138,7 @@ def test_the_conversation_about_ways_in_the_protocol_is_right():
     assert bits == [*ways[0], times[0]]
 
 
-def test_rows_of_another_width_are_refused():
+def test_an_implementation_for_ways_refuses_rows_of_another_width():
     with open_implementation(command("passage"), LIMITS) as it:
         with pytest.raises(InputError, match=r"shape \(24, 7\); it must be \(n, 10\): alpha, .*, z1$"):
             it.classify(ways()[:, :7])
@@ -146,7 +146,7 @@ def test_rows_of_another_width_are_refused():
             it.classify(with_axis(ways(), WAYS))
 
 
-def test_the_question_cannot_be_replaced_by_one_about_other_rows():
+def test_the_question_of_a_description_cannot_be_overridden_by_passage():
     with pytest.raises(InputError) as caught:
         open_implementation(command("right"), LIMITS, question="passage")
     assert str(caught.value) == (
@@ -155,7 +155,7 @@ def test_the_question_cannot_be_replaced_by_one_about_other_rows():
     )
 
 
-def test_times_belong_to_the_question_passage():
+def test_a_description_with_times_is_refused_unless_its_question_is_passage():
     assert described({"question": "passage", "times": True}, Description(name="x")).times
     with pytest.raises(
         InputError, match=r"times is true, but its question is 'contact'; times belong to the question passage$"

@@ -18,19 +18,19 @@ def flight():
 
 
 @pytest.mark.parametrize("name", ["procedure-2a", "procedure-2b", "procedure-2a-repaired", "procedure-2b-repaired"])
-def test_a_procedure_is_the_program_that_is_listed(name, flight):
+def test_each_numpy_procedure_answers_as_the_program_of_its_formula(name, flight):
     inputs = {**flight.craft, **flight.columns}
     (right,) = outputs({**FORMULAS, **REPAIRED}[name].program, float_arithmetic("float64"), inputs, ("valid",))
     assert (PROCEDURES[name](flight) == right).all()
     assert 0 < right.sum() < len(right)
 
 
-def test_certified_procedure_accepts_bodies_that_fit_as_a_whole_or_by_their_rotors(flight):
+def test_the_certified_procedure_agrees_with_procedure_2b_along_a_flight(flight):
     ours, second = PROCEDURES["certified"](flight), PROCEDURES["procedure-2b"](flight)
     assert np.count_nonzero(ours != second) <= 2  # along a flight nothing is near enough to matter
 
 
-def test_the_rotors_are_at_the_arms_ends_a_quarter_turn_apart(flight):
+def test_rotors_at_places_four_rotors_at_the_arm_length_a_quarter_turn_apart(flight):
     ends = rotors_at(flight.cosine, flight.sine, 0.135)
     assert len(ends) == 4
     for (x, y), (u, v) in zip(ends, ends[1:] + ends[:1], strict=True):

@@ -68,7 +68,7 @@ def test_a_process_leads_a_new_session_and_its_environment_asks_for_one_thread(r
     assert threads == 1 == int(ONE_THREAD["OPENBLAS_NUM_THREADS"])
 
 
-def test_writing_and_reading_do_not_wait_for_each_other(run):
+def test_writing_to_a_process_and_reading_from_it_do_not_block_each_other(run):
     """It echoes as it reads, 8 MB, far more than both pipes hold, and floods standard error meanwhile."""
     code = (
         "import os, sys\n"
@@ -84,7 +84,7 @@ def test_writing_and_reading_do_not_wait_for_each_other(run):
     process.goodbye()
 
 
-def test_a_small_question_arrives_at_one_go_and_a_large_one_whole(run):
+def test_a_small_question_reaches_a_process_in_one_read_and_a_large_one_complete(run):
     """Whoever reads its first line is awakened once, and finds the rows there too."""
     process = run(
         "import os, zlib; first = rest = os.read(0, 1 << 16); print(len(first), flush=True)\n"
@@ -104,7 +104,7 @@ def test_a_small_question_arrives_at_one_go_and_a_large_one_whole(run):
     assert int(hear(process, 14)[3:]) == zlib.crc32(b"".join((*small, *large)))
 
 
-def test_program_that_ends_at_the_end_of_its_input_is_not_killed(tmp_path, run):
+def test_a_process_that_ends_at_the_end_of_its_input_is_not_killed(tmp_path, run):
     left = tmp_path / "left"
     code = f"import sys, pathlib; sys.stdin.read(); pathlib.Path({str(left)!r}).write_text('by itself')"
     run(code).goodbye()
@@ -113,7 +113,7 @@ def test_program_that_ends_at_the_end_of_its_input_is_not_killed(tmp_path, run):
 
 @needs_proc
 @pytest.mark.parametrize("name", ["ignores_goodbye", "detaches"])
-def test_program_that_does_not_end_is_killed_with_its_children(name, token):
+def test_a_process_that_does_not_end_is_killed_with_its_children(name, token):
     with open_implementation(command(name), LIMITS) as it:
         it.classify(rows())
         eventually(lambda: len(living(token)) == 5)  # the command, its child, the guard with its clock
@@ -122,7 +122,7 @@ def test_program_that_does_not_end_is_killed_with_its_children(name, token):
     assert all_gone(token) == []
 
 
-def test_error_of_hypcheck_during_a_question_leaves_no_process(token):
+def test_an_interrupt_of_hypcheck_during_a_question_leaves_no_process(token):
     """As an interrupt from the keyboard, which reaches us alone, since they are in another group."""
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     it = open_implementation(function("loops"), Limits())
@@ -194,7 +194,7 @@ def test_no_process_outlives_hypcheck_even_if_it_is_killed(name, token):
     assert all_gone(token) == []
 
 
-def test_memory_is_that_of_the_whole_group(run, monkeypatch):
+def test_the_memory_of_a_process_includes_its_children(run, monkeypatch):
     code = (
         "import subprocess, sys, time\n"
         "child = subprocess.Popen([sys.executable, '-c', "
@@ -228,14 +228,14 @@ WITHOUT = f"subprocess.Popen([sys.executable, '-c', {'import os, time; ' + HOLDS
     ],
     ids=["its child", "an orphan", "a child without its environment"],
 )
-def test_memory_of_children_in_sessions_of_their_own_counts(run, code):
+def test_the_memory_of_a_process_includes_children_in_other_sessions(run, code):
     process = run(code)
     hear(process, 1)
     assert process._memory.used() > 150 << 20
 
 
 @needs_proc
-def test_memory_of_an_orphan_without_the_mark_counts_if_it_was_seen_before(run):
+def test_the_memory_of_a_process_includes_orphans_that_were_seen_before(run):
     """A look finds it while its parent lives, which ends when it is told to."""
     code = (
         "import os, subprocess, sys\n"
@@ -253,7 +253,7 @@ def test_memory_of_an_orphan_without_the_mark_counts_if_it_was_seen_before(run):
 
 
 @needs_proc
-def test_memory_that_processes_share_counts_once(run):
+def test_memory_that_a_process_shares_with_its_children_counts_once(run):
     """Four processes with the same 150 MiB, of which each would seem to have all; LIMITS allow 400 MiB."""
     code = (
         "import mmap, os\n"
@@ -269,7 +269,7 @@ def test_memory_that_processes_share_counts_once(run):
     assert 150 << 20 < process._memory.used() < 300 << 20
 
 
-def test_reserved_memory_does_not_count(run):
+def test_memory_that_a_process_reserves_without_using_it_does_not_count(run):
     """As sanitizers, Go and the JVM do: 64 GB of addresses, none of them used."""
     reserved = "mmap.mmap(-1, 64 << 30, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS, prot=0)"
     process = run(f"import mmap, sys; m = {reserved}; print(1, flush=True); sys.stdin.read()")
@@ -280,7 +280,7 @@ def test_reserved_memory_does_not_count(run):
     process.goodbye()
 
 
-def test_a_leak_over_many_questions_is_noticed_though_each_is_short(tmp_path):
+def test_a_memory_leak_over_many_short_questions_is_found(tmp_path):
     (tmp_path / "leaks.py").write_text(
         "held = []\n\n\ndef f(rows):\n    held.append(b'x' * (1 << 20))\n    return [0] * len(rows)\n"
     )
@@ -299,7 +299,7 @@ def test_a_leak_over_many_questions_is_noticed_though_each_is_short(tmp_path):
         ("import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "ended by SIGTERM$"),
     ],
 )
-def test_end_of_a_process_is_reported_with_its_cause(code, sentence, run):
+def test_the_end_of_a_process_is_reported_with_its_cause(code, sentence, run):
     process = run(code)
     with pytest.raises(FaultError, match=sentence) as caught:
         to_the_end(process)
@@ -308,7 +308,7 @@ def test_end_of_a_process_is_reported_with_its_cause(code, sentence, run):
     assert caught.value.outcome is Outcome.CRASH
 
 
-def test_last_output_is_read_even_after_the_end(run):
+def test_the_last_standard_error_of_a_process_is_read_after_its_end(run):
     code = "import os, time; os.write(2, b'first\\n'); os.close(1); time.sleep(0.2); os.write(2, b'last words\\n')"
     process = run(code)
     with pytest.raises(FaultError):
@@ -317,7 +317,7 @@ def test_last_output_is_read_even_after_the_end(run):
     assert process.stderr == ("first", "last words")
 
 
-def test_no_file_stays_open_after_many_runs():
+def test_no_file_descriptor_stays_open_after_many_restarts():
     def descriptors() -> int:
         return len(os.listdir("/dev/fd"))
 
@@ -343,7 +343,7 @@ with open_implementation(sys.argv[1], Limits(timeout=0.7, restarts=0)) as it:
 
 
 @pytest.mark.parametrize("spec", [command("steady", "0.02"), function("naps")], ids=["command", "function"])
-def test_time_in_which_everything_is_stopped_does_not_count_for_the_timeout(spec):
+def test_time_in_which_hypcheck_and_the_process_are_stopped_does_not_count_for_the_timeout(spec):
     """As a container is frozen and a virtual machine is moved."""
     with subprocess.Popen([sys.executable, "-c", ASKS, spec], stdout=subprocess.PIPE, text=True) as asking:
         asked = int(asking.stdout.readline())
@@ -356,6 +356,6 @@ def test_time_in_which_everything_is_stopped_does_not_count_for_the_timeout(spec
 
 
 @pytest.mark.parametrize("bad", [{"timeout": 0}, {"startup_timeout": float("inf")}, {"memory": -1}, {"restarts": -1}])
-def test_limits_that_leave_no_room_are_refused(bad):
+def test_limits_refuses_zero_negative_and_infinite_values(bad):
     with pytest.raises(InputError, match="the limit"):
         Limits(**bad)

@@ -37,7 +37,7 @@ ENGINES = [
 @pytest.mark.parametrize(
     "grid", [MeshGrid(8.0, 118.7, 140.0, 13, 4), MeshGrid(0.5, 2.0, 9.0, 40, 12), grid_of(5, 2, 3, 300)]
 )
-def test_a_mesh_is_inscribed_closed_around_and_deviates_no_more_than_it_says(grid):
+def test_a_scene_mesh_is_inscribed_and_deviates_no_more_than_it_states(grid):
     vertices, triangles = grid.mesh()
     assert len(triangles) == grid.triangles
     assert set(triangles.ravel().tolist()) == set(range(len(vertices)))
@@ -53,7 +53,7 @@ def test_a_mesh_is_inscribed_closed_around_and_deviates_no_more_than_it_says(gri
     assert np.count_nonzero(uses == 1) == 2 * grid.around  # the two rims alone
 
 
-def test_the_grid_has_about_the_triangles_asked_for_and_is_as_far_off_both_ways():
+def test_grid_of_has_about_the_wanted_triangles_and_deviates_less_than_a_coarser_grid():
     for triangles in (100, 1000, 10_000):
         grid = grid_of(8.0, 118.7, 140.0, triangles)
         assert grid.triangles == pytest.approx(triangles, rel=0.1)
@@ -63,7 +63,7 @@ def test_the_grid_has_about_the_triangles_asked_for_and_is_as_far_off_both_ways(
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("pairing", PAIRINGS)
-def test_scene_mesh_is_right_beyond_its_deviation(engine, pairing):
+def test_scene_mesh_answers_rightly_farther_from_contact_than_its_deviation(engine, pairing):
     rows = WORKLOADS["uniform"].rows(1, 400)
     mesh = scene_mesh(engine, pairing, TOWER, height_of(TOWER, rows), 3000)
     doubtful = np.abs(clearances(rows).clearance) <= mesh.deviation
@@ -73,7 +73,7 @@ def test_scene_mesh_is_right_beyond_its_deviation(engine, pairing):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_leaning_ellipsoid_is_posed_by_its_axis(engine):
+def test_scene_mesh_answers_rightly_about_leaning_ellipsoids_away_from_contact(engine):
     rows = TILTED_FAMILIES["tilted-tower"].rows(1, 400)
     mesh = scene_mesh(engine, "ellipsoid", TOWER, height_of(TOWER, rows), 20_000)
     far = np.array([abs(nearest(TiltedPair.from_row(row)).clearance) for row in rows.tolist()]) > 3 * mesh.deviation
@@ -83,7 +83,7 @@ def test_a_leaning_ellipsoid_is_posed_by_its_axis(engine):
     assert (mesh.answers(rows[:, :7])[far] != truth[far]).sum() > 10  # as if it stood upright
 
 
-def test_turns_are_rotations_that_take_the_z_axis_to_each_axis():
+def test_turns_of_gives_rotations_that_take_the_z_axis_to_each_axis():
     axes = np.array([[0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [1.0, -2.0, 3.0]])
     turns = turns_of(axes)
     assert np.allclose(turns @ np.swapaxes(turns, 1, 2), np.eye(3), atol=1e-15)
@@ -92,7 +92,7 @@ def test_turns_are_rotations_that_take_the_z_axis_to_each_axis():
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_more_triangles_are_wrong_less_often_near_contact(engine):
+def test_scene_mesh_with_more_triangles_has_fewer_errors_near_contact(engine):
     rows = WORKLOADS["near-contact"].rows(1, 1800)[::6]
     truth, height = float_filter.positions(rows), height_of(TOWER, rows)
     wrong = [
@@ -101,13 +101,13 @@ def test_more_triangles_are_wrong_less_often_near_contact(engine):
     assert wrong[1] < wrong[0]
 
 
-def test_a_mesh_that_the_engine_refuses_answers_nothing():
+def test_scene_mesh_answers_cannot_say_if_the_engine_refuses_the_mesh():
     refusing = replace(FCL, question=lambda *_: None)
     rows = WORKLOADS["uniform"].rows(1, 3)
     assert scene_mesh(refusing, "point", TOWER, 25.0, 100).answers(rows).tolist() == [CANNOT_SAY] * 3
 
 
-def test_rows_are_grouped_by_their_sizes():
+def test_rows_by_sizes_groups_rows_of_the_same_four_sizes():
     rows = WORKLOADS["near-contact"].rows(1, 60)
     found = dict(rows_by_sizes(rows))
     assert len(found) == 6
@@ -116,7 +116,7 @@ def test_rows_are_grouped_by_their_sizes():
         assert (rows[places, :4] == sizes).all()
 
 
-def test_a_body_above_the_usual_height_is_covered_too():
+def test_height_of_covers_a_body_above_the_usual_height():
     rows = WORKLOADS["uniform"].rows(1, 3)
     rows[1, 6] = 90.0
     assert height_of(TOWER, rows) == pytest.approx(90.0 + 1.1 * 0.15)

@@ -83,7 +83,7 @@ def test_text_that_is_no_spec_is_refused_with_a_correct_example(text, sentence):
 
 
 @given(st.sampled_from(["builtin:", "python:", "library:", "command:", "command:[", ""]), st.text())
-def test_any_text_is_a_spec_or_refused(kind, rest):
+def test_parse_spec_accepts_any_text_or_refuses_it_with_an_input_error(kind, rest):
     try:
         parsed = parse_spec(kind + rest)
     except InputError as error:
@@ -94,15 +94,15 @@ def test_any_text_is_a_spec_or_refused(kind, rest):
     assert shown.isprintable()
 
 
-def test_every_kind_that_can_be_written_can_be_started():
+def test_every_kind_of_spec_can_be_started():
     assert set(implementation.STARTS) == set(spec._KINDS)
 
 
-def test_every_outcome_has_a_status_of_the_judge():
+def test_every_outcome_of_a_row_has_a_status_of_the_judge():
     assert {each.label for each in Outcome} - {"answered"} <= {each.value for each in judge.Status}
 
 
-def test_built_in_method_has_the_interface_of_all_implementations():
+def test_a_built_in_method_has_the_interface_of_an_implementation():
     some = rows(300)
     with open_implementation("builtin:fast") as it:
         answered = it.classify(some)
@@ -118,7 +118,7 @@ def test_built_in_method_has_the_interface_of_all_implementations():
         open_implementation("builtin:slow")
 
 
-def test_questions_grow_while_answers_are_quick_and_shrink_when_they_are_not():
+def test_batches_grow_while_answers_are_quick_and_shrink_while_they_are_slow():
     """A tenth of the timeout, 1 s, is what a question should take."""
     with open_implementation("builtin:fast") as it:
         sizes = [it._batch]
@@ -138,7 +138,7 @@ def test_questions_grow_while_answers_are_quick_and_shrink_when_they_are_not():
     assert sizes == [64, 64, 1024, 2048, 2048, 32768, 16384, 8192, 8192, 9600]
 
 
-def test_a_foreign_spec_loads_none_of_our_methods():
+def test_parsing_a_spec_that_is_not_built_in_loads_no_built_in_method():
     code = (
         "import sys; from hypcheck.implementations.implementation import open_implementation; "
         "bad = {'sympy', 'mpmath', 'fcl', 'hypcheck.implementations.builtin', 'hypcheck.derivation'}; "
@@ -164,13 +164,13 @@ def test_description_with_all_keys_is_read():
     assert said.domain.magnitude == (0.0, np.inf)
 
 
-def test_a_domain_may_have_no_end_as_python_and_toml_write_it_but_no_nan():
+def test_the_range_of_a_domain_may_end_at_infinity_but_not_at_nan():
     assert description.parse_domain('{"magnitude":[1e-6,Infinity]}').magnitude == (1e-6, np.inf)
     with pytest.raises(InputError, match="NaN is not JSON"):
         description.parse_domain('{"magnitude":[1e-6,NaN]}')
 
 
-def test_empty_description_gets_defaults():
+def test_an_empty_description_gets_the_default_values():
     assert description.described({}, DEFAULTS) == DEFAULTS
 
 
@@ -199,24 +199,24 @@ def test_invalid_description_is_refused_with_key_and_value(said, sentence):
         description.described(said, DEFAULTS)
 
 
-def test_a_domain_can_be_given_on_the_command_line():
+def test_parse_domain_reads_json_and_refuses_other_text():
     assert description.parse_domain('{"ratio":[1,2]}').ratio == (1.0, 2.0)
     with pytest.raises(InputError, match="the domain is '1 to 2'; it must be JSON"):
         description.parse_domain("1 to 2")
 
 
-def test_overrides_are_checked_like_declared_values():
+def test_an_override_of_a_description_is_checked_like_a_declared_value():
     with pytest.raises(InputError, match="the question is 'where'"):
         DEFAULTS.overridden(question="where")
 
 
 @given(st.binary())
-def test_any_bytes_are_quoted_safely(data):
+def test_quoted_makes_any_bytes_printable(data):
     assert quoted(data).isprintable()
 
 
 @given(st.lists(st.binary(max_size=9000), max_size=30))
-def test_the_last_bytes_are_kept_and_no_more(chunks):
+def test_output_tail_keeps_the_last_bytes_of_any_stream(chunks):
     tail = OutputTail()
     for chunk in chunks:
         tail.add(chunk)
@@ -225,7 +225,7 @@ def test_the_last_bytes_are_kept_and_no_more(chunks):
     assert len(tail._bytes) <= 2 * KEPT
 
 
-def test_a_long_stream_is_held_in_little_memory():
+def test_output_tail_holds_a_long_stream_in_bounded_memory():
     tail = OutputTail()
     for number in range(300):
         tail.add(b"%04d" % number * 1024)
@@ -233,7 +233,7 @@ def test_a_long_stream_is_held_in_little_memory():
     assert tail.lines() == (escaped("0296" * 1024 + "0297" * 1024 + "0298" * 1024 + "0299" * 1024, WIDTH),)
 
 
-def test_recent_lines_are_those_since_the_mark():
+def test_output_tail_gives_the_lines_since_the_mark():
     tail = OutputTail()
     tail.add(b"old\n")
     tail.mark()

@@ -33,7 +33,7 @@ def library(tmp_path_factory):
 
 
 @pytest.mark.parametrize("spec", [command("tilted"), command("tilted", "binary"), function("tilted")])
-def test_an_implementation_that_takes_tilt_is_asked_rows_of_ten_and_of_seven_numbers_in_ten(spec):
+def test_an_implementation_with_tilt_is_asked_rows_of_ten_numbers_about_upright_pairs_too(spec):
     leaning, upright = tilted_rows(), rows(lucky=True)
     with open_implementation(spec, LIMITS) as it:
         assert it.description.tilt
@@ -42,13 +42,13 @@ def test_an_implementation_that_takes_tilt_is_asked_rows_of_ten_and_of_seven_num
         assert it.classify(upright).answers.tolist() == truth(upright).tolist()
 
 
-def test_a_command_that_takes_tilt_is_timed_about_rows_of_ten_numbers():
+def test_a_command_with_tilt_is_timed_on_rows_of_ten_numbers():
     with open_implementation(command("tilted", "binary"), LIMITS) as it:
         assert it.time(tilted_rows(), 3) == 3000
         assert it.time(rows(lucky=True), 2, each=True) == 80_000
 
 
-def test_an_implementation_without_tilt_is_not_asked_rows_of_ten_numbers():
+def test_an_implementation_without_tilt_refuses_rows_of_ten_numbers():
     with (
         open_implementation(command("right"), LIMITS) as it,
         pytest.raises(InputError, match=r"shape \(40, 10\); it must be \(n, 7\): alpha"),
@@ -56,7 +56,7 @@ def test_an_implementation_without_tilt_is_not_asked_rows_of_ten_numbers():
         it.classify(tilted_rows())
 
 
-def test_a_library_that_takes_tilt_is_called_by_its_own_entry_for_rows_for_scenes_and_for_each_row(library):
+def test_a_library_with_tilt_is_called_by_its_tilted_functions_for_rows_and_scenes(library):
     some, upright = tilted_rows(700), rows(700)
     expected = np.sign(some[:, 4] + some[:, 7]).tolist()
     one = some.copy()
@@ -72,7 +72,7 @@ def test_a_library_that_takes_tilt_is_called_by_its_own_entry_for_rows_for_scene
             it.classify(np.vstack([one[:1], [[*one[0, :7], *some[1, 7:]]]]), by_scene=True)
 
 
-def test_a_library_that_says_tilt_and_does_not_export_the_entry_is_not_started(tmp_path):
+def test_a_library_with_tilt_that_does_not_export_the_tilted_function_is_refused(tmp_path):
     lacking = compiled("tilted", tmp_path / "lacking.so", *SHARED, "-DLACKS")
     with pytest.raises(StartError) as caught:
         open_implementation(f"library:{lacking}", LIMITS)
@@ -84,7 +84,7 @@ def test_a_library_that_says_tilt_and_does_not_export_the_entry_is_not_started(t
     )
 
 
-def test_an_axis_that_is_no_direction_may_be_refused_and_another_may_not():
+def test_answer_127_is_allowed_for_an_axis_without_a_direction_and_for_nan():
     some = tilted_rows(4)
     some[1, 7:], some[2, 8] = 0.0, np.nan
     with open_implementation(function("tilted"), LIMITS) as it:
@@ -93,14 +93,14 @@ def test_an_axis_that_is_no_direction_may_be_refused_and_another_may_not():
     assert (answered.answers == 127).tolist() == [False, True, True, False]
 
 
-def test_ten_decimals_read_back_as_the_same_numbers_to_the_bit():
+def test_row_text_of_ten_numbers_reads_back_to_the_bit():
     some = with_axis(rows(300)) * np.pi
     some[0, 7:] = -0.0, 5e-324, 1e308
     back = np.array([line.split() for line in b"".join(row_text(some)).splitlines()], dtype=np.float64)
     assert back.tobytes() == some.tobytes()
 
 
-def test_the_domain_of_magnitudes_does_not_speak_of_the_axis_and_the_precision_does():
+def test_the_magnitude_range_of_a_domain_ignores_the_axis_and_its_precision_does_not():
     some = tilted_rows(3)
     some[0, 7:] = 1e300, -1e300, 1e300
     some[1, 7:] = 1e-300, 0.0, 0.0

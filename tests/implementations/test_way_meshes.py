@@ -41,7 +41,7 @@ def found():
 
 
 @pytest.mark.parametrize("name", [name for name in HERE if name.endswith("-distance")])
-def test_steps_by_an_engines_distance_find_each_contact_and_about_when(name, found):
+def test_solvers_that_step_by_distance_find_each_contact_and_its_time(name, found):
     hits, times = ways.exact(ROWS)
     assert hits.tolist() == [1, 1, 0, 0, 1, 1]
     assert found[name][0].tolist() == hits.tolist()
@@ -49,7 +49,7 @@ def test_steps_by_an_engines_distance_find_each_contact_and_about_when(name, fou
 
 
 @NEEDS_FCL
-def test_the_naive_solver_jumps_over_what_lies_between_its_times(found):
+def test_the_naive_way_solver_misses_a_contact_between_its_sample_times(found):
     assert found["passage-fcl-naive-10"][0].tolist() == [1, 1, 0, 0, 0, 1]
     assert found["passage-fcl-naive-100"][0].tolist() == [1, 1, 0, 0, 1, 1]
     times = found["passage-fcl-naive-10"][1]
@@ -57,12 +57,12 @@ def test_the_naive_solver_jumps_over_what_lies_between_its_times(found):
 
 
 @NEEDS_FCL
-def test_fcls_conservative_advancement_sees_contact_at_the_start_alone(found):
+def test_conservative_advancement_of_fcl_finds_contact_only_at_the_start_of_a_way(found):
     assert found["passage-fcl-advancement"][0].tolist() == [1, 0, 0, 0, 0, 0]
 
 
 @NEEDS_FCL
-def test_the_polynomial_solver_sees_crossings_and_tells_no_first_time(found):
+def test_the_polynomial_solver_of_fcl_finds_contacts_and_gives_no_time(found):
     assert found["passage-fcl-polynomial"][0].tolist() == [1, 1, 0, 0, 1, 1]
     assert builtin("passage-fcl-polynomial").timed is None
     mesh = way_mesh(WAY_SOLVERS["passage-fcl-polynomial"], SIZES, height_of_ways(SIZES, ROWS))
@@ -70,7 +70,7 @@ def test_the_polynomial_solver_sees_crossings_and_tells_no_first_time(found):
 
 
 @pytest.mark.skipif(COAL.trouble() is not None, reason="coal is not installed")
-def test_coal_has_no_continuous_collision_of_its_own():
+def test_coal_exports_no_continuous_collision():
     import coal
 
     assert coal.Ellipsoid
@@ -78,13 +78,13 @@ def test_coal_has_no_continuous_collision_of_its_own():
 
 
 @pytest.mark.skipif(COAL.trouble() is None, reason="coal is installed")
-def test_a_method_whose_engine_is_missing_says_what_it_needs():
+def test_a_way_method_whose_engine_is_missing_names_the_engine():
     with pytest.raises(InputError, match=r"^the built-in method 'passage-coal-distance' cannot be used: coal cannot"):
         builtin("passage-coal-distance")
 
 
 @pytest.mark.parametrize("name", HERE)
-def test_a_way_that_is_too_long_for_an_engine_has_no_answer(name):
+def test_a_way_too_long_for_an_engine_is_answered_cannot_say(name):
     far = ROWS[:2].copy()
     far[0, 7] = 1e120
     assert way_mesh(WAY_SOLVERS[name], SIZES, height_of_ways(SIZES, far), 100).answers(far)[0] == CANNOT_SAY
@@ -92,12 +92,12 @@ def test_a_way_that_is_too_long_for_an_engine_has_no_answer(name):
     assert hits_and_times(WAY_SOLVERS[name], far[:1])[0].tolist() == [CANNOT_SAY]
 
 
-def test_a_mesh_that_the_engine_refuses_answers_nothing():
+def test_way_mesh_answers_cannot_say_if_the_engine_refuses_the_mesh():
     refusing = replace(WAY_SOLVERS["passage-fcl-naive-10"], meets=lambda *_: None)
     assert way_mesh(refusing, SIZES, 20.0).answers(ROWS).tolist() == [CANNOT_SAY] * len(ROWS)
 
 
-def test_the_mesh_of_a_ball_is_inscribed_and_closed():
+def test_ball_mesh_is_inscribed_and_closed():
     vertices, triangles = ball_mesh(500)
     assert 400 < len(triangles) < 600
     np.testing.assert_allclose(np.linalg.norm(vertices, axis=1), 1)

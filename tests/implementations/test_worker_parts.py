@@ -35,13 +35,13 @@ def loaded(tmp_path, monkeypatch):
         del sys.modules[each]
 
 
-def test_a_description_that_json_cannot_hold_is_refused(loaded):
+def test_the_worker_refuses_a_description_that_json_cannot_express(loaded):
     with pytest.raises(LoadError, match="its description holds a value that JSON cannot express"):
         loaded("def f(rows): ...\nhypcheck = {'name': {1, 2}}")
     assert loaded("def f(rows): ...\nhypcheck = {'name': 'mine'}", "other.py").description == '{"name": "mine"}'
 
 
-def test_a_file_named_as_a_loaded_module_does_not_take_its_place(loaded):
+def test_the_worker_does_not_replace_a_loaded_module_by_a_users_file_of_its_name(loaded):
     import json
 
     function = loaded("def f(rows):\n    return [1] * len(rows)", "json.py")
@@ -49,12 +49,12 @@ def test_a_file_named_as_a_loaded_module_does_not_take_its_place(loaded):
     assert sys.modules["json"] is json
 
 
-def test_a_file_that_python_does_not_load_is_refused(loaded):
+def test_the_worker_refuses_a_file_that_is_not_a_python_file(loaded):
     with pytest.raises(LoadError, match="it is not a Python file"):
         loaded("def f(rows): ...", "under_test.txt")
 
 
-def test_a_syntax_error_is_told_with_its_file_and_line(loaded):
+def test_the_worker_reports_a_syntax_error_with_its_file_and_line(loaded):
     with pytest.raises(LoadError, match=r"raised SyntaxError: .* \(under_test\.py, line 2\)"):
         loaded("x = 1\ndef f(rows) return")
     assert re.search(
@@ -78,19 +78,19 @@ def _raised(error):
         ("([1, 0, 1], ['a', 'b', 'c'])", r"as times .* of <U1 for 3 rows"),
     ],
 )
-def test_a_function_that_does_not_return_hits_and_times_breaks_its_contract(loaded, returned, reason):
+def test_a_function_for_ways_that_does_not_return_hits_and_times_raises_an_error(loaded, returned, reason):
     with pytest.raises(ContractError, match=reason):
         loaded(f"def f(rows):\n    return {returned}").classify(ROWS, TIMED)
 
 
-def test_times_of_any_number_type_are_float64_and_great_integers_stay_wrong(loaded):
+def test_a_function_may_return_times_of_any_type_and_too_large_answers_stay_invalid(loaded):
     function = loaded("import numpy as np\ndef f(rows):\n    return np.array([1, 0, 2**64 - 1], np.uint64), [0, 1, 0]")
     given = function.classify(ROWS, TIMED)
     assert given.times.tolist() == [0.0, 1.0, 0.0]
     assert given.integers.tolist() == [1, 0, 2**63 - 1]
 
 
-def test_a_function_has_no_entry_for_scenes(loaded):
+def test_timing_a_function_by_scene_raises_an_error(loaded):
     function = loaded("def f(rows): ...")
     with pytest.raises(ContractError, match="has no entry for scenes, and was asked for one with 3 rows"):
         function.seconds(ROWS, 1, POSITION, by_scene=True)
@@ -99,7 +99,7 @@ def test_a_function_has_no_entry_for_scenes(loaded):
 HANDLERS = bytes(8 * 65)
 
 
-def test_everything_that_a_library_changed_is_named():
+def test_every_change_that_a_library_leaves_in_the_process_is_named():
     before = leftovers._State("/before", "C", HANDLERS, 3, ((1, 1), (1, 2)))
     changed = bytearray(HANDLERS)
     changed[8 * signal.SIGSEGV] = changed[8 * 64] = 1
@@ -114,7 +114,7 @@ def test_everything_that_a_library_changed_is_named():
     assert list(leftovers._changes(before, before)) == []
 
 
-def test_a_signal_without_a_name_is_told_by_its_number():
+def test_a_changed_handler_of_an_unnamed_signal_is_reported_by_its_number():
     assert (leftovers._name(int(signal.SIGINT)), leftovers._name(63)) == ("SIGINT", "signal 63")
 
 
@@ -126,11 +126,11 @@ def test_a_signal_without_a_name_is_told_by_its_number():
         ((0x1F80, 0x37F), (0x1F81, 0x37F), "the control word of floating point"),
     ],
 )
-def test_a_control_word_that_a_call_left_changed_is_told_by_its_bits(before, now, said):
+def test_a_changed_floating_point_control_word_is_reported_by_its_bits(before, now, said):
     assert leftovers._control_change(before, now) == said
 
 
-def test_a_hit_without_a_time_and_a_time_without_a_checksum_break_the_protocol():
+def test_a_reply_with_a_missing_time_or_checksum_breaks_the_protocol():
     with pytest.raises(FaultError) as raised:
         TextReply(1, 2, times=True).answers(b"1 2\n0\n1\n")
     assert raised.value.reason == "answer 2 of 2 is '1'; it must be 1 and the time, one blank between"
