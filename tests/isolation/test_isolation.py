@@ -101,7 +101,7 @@ def line_of(process: Process) -> bytes:
 
 
 @both
-def test_isolated_program_reaches_its_scratch_folder_and_nothing_else(ways, monkeypatch, tmp_path):
+def test_an_isolated_program_cannot_reach_vectors_records_sockets_or_the_judge(ways, monkeypatch, tmp_path):
     package = Path(hypcheck.__file__).parent
     vectors = next(iter(sorted((package / "cases").rglob("*.json"))), None) or next(
         iter(sorted((package.parent / "cases").rglob("*.json")))
@@ -154,7 +154,7 @@ def test_isolated_program_reaches_its_scratch_folder_and_nothing_else(ways, monk
     ],
     ids=["killed", "exits", "mounts"],
 )
-def test_end_of_an_isolated_program_is_reported_with_its_cause(code, sentence, ways, monkeypatch):
+def test_the_end_of_an_isolated_program_is_reported_with_its_cause(code, sentence, ways, monkeypatch):
     process = Process((sys.executable, "-I", "-S", "-c", code), isolated(ways, monkeypatch))
     with pytest.raises(FaultError, match=sentence):
         line_of(process)
@@ -162,7 +162,7 @@ def test_end_of_an_isolated_program_is_reported_with_its_cause(code, sentence, w
 
 
 @both
-def test_daemon_without_a_mark_ends_with_its_program(ways, monkeypatch, tmp_path):
+def test_a_daemon_that_an_isolated_program_starts_ends_with_it(ways, monkeypatch, tmp_path):
     """It leaves the group, the session and its parent, and has no environment by which it could be known."""
     seconds = f"{600 + os.getpid() / 1e7:.7f}"
     code = f"setsid env -i sleep {seconds} > /dev/null 2>&1 & sleep 0.1; echo; exec sleep 60"
@@ -174,7 +174,7 @@ def test_daemon_without_a_mark_ends_with_its_program(ways, monkeypatch, tmp_path
 
 
 @both
-def test_isolated_program_ends_when_hypcheck_is_killed(ways, tmp_path):
+def test_an_isolated_program_ends_if_hypcheck_is_killed(ways, tmp_path):
     """No guard is needed: the launcher sees that the pipe, which hypcheck holds open, is closed."""
     seconds = f"{600 + os.getpid() / 1e7 + 0.5:.7f}"
     code = (
@@ -224,13 +224,13 @@ def _line(folder: Path) -> str:
     ("word", "sentence"),
     [("no-such-program", "was not found; it must be on the PATH"), ("/etc/passwd", "is not executable")],
 )
-def test_program_that_cannot_be_run_is_reported_as_without_isolation(word, sentence, ways, monkeypatch):
+def test_a_program_that_cannot_be_run_is_reported_as_without_isolation(word, sentence, ways, monkeypatch):
     with pytest.raises(StartError, match=sentence):
         Process((word,), isolated(ways, monkeypatch))
 
 
 @both
-def test_program_in_a_folder_for_temporary_files_is_found_there(ways, monkeypatch, tmp_path):
+def test_an_isolated_program_in_the_temporary_folder_can_be_run(ways, monkeypatch, tmp_path):
     program = tmp_path / "program"
     program.write_text("#!/bin/sh\necho found; read rest\n")
     program.chmod(0o755)
@@ -247,7 +247,7 @@ def classify(rows):
 
 
 @both
-def test_function_that_asks_hypcheck_for_the_answer_finds_none(ways, monkeypatch, tmp_path):
+def test_an_isolated_function_cannot_import_hypcheck_to_get_the_answer(ways, monkeypatch, tmp_path):
     (tmp_path / "echoes.py").write_text(ECHOES)
     with open_implementation(f"python:{tmp_path / 'echoes.py'}:classify", isolated(ways, monkeypatch)) as it:
         answered = it.classify(np.ones((2, 7)))
@@ -256,7 +256,7 @@ def test_function_that_asks_hypcheck_for_the_answer_finds_none(ways, monkeypatch
     assert re.search("ModuleNotFoundError|PermissionError", answered.reasons[0]), answered.reasons
 
 
-def test_worker_imports_of_this_package_only_what_it_is_shown():
+def test_the_worker_imports_only_the_modules_of_hypcheck_that_isolation_shows_it():
     """A module that it is not shown would be missing where it is isolated; one too many might hold an answer."""
     code = "import sys, hypcheck.implementations.worker; print(*(m for m in sys.modules if m.startswith('hypcheck')))"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
@@ -265,7 +265,7 @@ def test_worker_imports_of_this_package_only_what_it_is_shown():
 
 
 @needs_namespaces
-def test_limit_of_processes_is_that_of_the_namespace_alone(monkeypatch):
+def test_the_process_limit_of_isolation_holds_in_the_namespace_alone(monkeypatch):
     """A program that starts processes without end gets no more, and this system's limit stays."""
     before = Path("/proc/sys/kernel/pid_max").read_text()
     monkeypatch.setattr("hypcheck.isolation.launch.THREADS", 310)  # the system allows no less than 301
@@ -289,7 +289,7 @@ def test_limit_of_processes_is_that_of_the_namespace_alone(monkeypatch):
 
 
 @needs_namespaces
-def test_scratch_folder_is_full_before_the_disk_is(monkeypatch):
+def test_the_scratch_folder_of_an_isolated_program_has_a_size_limit(monkeypatch):
     monkeypatch.setattr("hypcheck.isolation.launch.SCRATCH_BYTES", 1 << 20)
     code = (
         "import errno, os\n"
@@ -303,7 +303,7 @@ def test_scratch_folder_is_full_before_the_disk_is(monkeypatch):
     process.kill()
 
 
-def test_nothing_is_isolated_where_it_is_off():
+def test_a_program_is_not_isolated_if_isolation_is_off():
     limits = Limits(isolation=Isolation("off"))
     process = Process((sys.executable, "-I", "-S", "-c", "import os; print(os.getppid()); input()"), limits)
     assert int(line_of(process)) == os.getpid()
@@ -311,7 +311,7 @@ def test_nothing_is_isolated_where_it_is_off():
     assert limits.isolation.means.sentence == "not isolated (--isolate is off)"
 
 
-def test_on_is_refused_with_the_reason_where_the_system_cannot(monkeypatch):
+def test_isolation_on_is_refused_with_the_reason_if_the_system_lacks_namespaces(monkeypatch):
     lacking = Means(missing=("no namespaces: cannot make namespaces: operation not permitted",))
     monkeypatch.setattr(means, "available", lambda: lacking)
     with pytest.raises(NotIsolatedError, match="cannot make namespaces: operation not permitted") as refused:
@@ -322,7 +322,7 @@ def test_on_is_refused_with_the_reason_where_the_system_cannot(monkeypatch):
         Isolation("perhaps")
 
 
-def test_verify_says_and_records_how_an_implementation_is_isolated(tmp_path, monkeypatch, capsys, text_reports):
+def test_verify_prints_and_records_how_an_implementation_is_isolated(tmp_path, monkeypatch, capsys, text_reports):
     """The first line names the means, and the record has them; the program ends at once, so that nothing is asked."""
     monkeypatch.chdir(tmp_path)
     spec = f"command:{sys.executable} -I -S -c pass"
