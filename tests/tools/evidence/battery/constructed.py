@@ -20,8 +20,10 @@ BESIDE_TANGENCIES = (
     *((2, 8, 1, 1, 3, 0, hair) for hair in (0, HAIR)),  # from without
     *((2, 8, 1, 1, x, HAIR, z) for x in (1, 3) for z in (0, HAIR)),
     *((4, 4, 1, 1, x, y, 0) for x, y in ((0, 3), (HAIR, 3), (5, HAIR), (0, 5))),
+    (4, 2, 1, 1, 5, 0, 0),  # osculating: the triple root B
+    (486, 648, 611, 611, 630, 910, 75),  # the double root lies below B, and there the slope is 0, too
 )
-"""Tangencies with coordinates of a hair's breadth."""
+"""Tangencies, some with coordinates of a hair's breadth."""
 
 CANCELLED = """
     0x1.5f07d003f5566p-3 0x1.a31ae49ff5368p-52 0x1.72a18cbf8ceap+51 0x1.d477f6cc465f2p-14 0x1.72a18cbf8ceap+51

@@ -45,9 +45,9 @@ static void check_guesses(int bits) {
     CHECK(by(beyond, 1, bits) == 2);
 }
 
-/* Of D = 1, K = 2 the double root 1 with M = 1, e = 2: n2 and D K agree, and n1 does not. */
+/* D = 1, and M e = K as of a double root M, but one of n2 and n1 is another. */
 static void check_third_equation(void) {
-    uint64_t found = 0;
+    uint64_t found = 0, others = 0; /* of which n2 agrees alone, and n1 alone */
     uint64_t lengths[7] = {1, 2, 1, 1, 0, 0, 0};
     for (lengths[0] = 1; lengths[0] < 9; lengths[0]++)
         for (lengths[1] = 1; lengths[1] < 9; lengths[1]++)
@@ -58,13 +58,33 @@ static void check_third_equation(void) {
                     uint64_t M;
                     for (M = 1; M <= K; M++) {
                         const uint64_t e = K / M;
-                        if (M * e != K || p + 1 + 2 * M + e * e != R + s + S) continue;
-                        if (p + s * R + 0 == p * (s + S) + s + M * M + 2 * K * e) continue; /* n1 agrees, too */
-                        found++;
+                        const int n2 = p + 1 + 2 * M + e * e == R + s + S, n1 = p + s * R == p * (s + S) + s + M * M + 2 * K * e;
+                        if (M * e != K || n2 == n1) continue;
+                        found += (uint64_t)n2, others += (uint64_t)n1;
                         CHECK(hc_touches_by(lengths, (double)M) == 2 && hc_touches_by_short(lengths, (double)M) == 2);
                     }
                 }
-    CHECK(found > 10);
+    CHECK(found > 10 && others > 10);
+}
+
+static int product_is(uint64_t left_low, uint64_t left_high, uint64_t right_low, uint64_t right_high, const uint64_t words[4]) {
+    const hc_fixed left = {left_low, left_high}, right = {right_low, right_high};
+    return memcmp(hc_long_product(left, right).words, words, 4 * sizeof *words) == 0;
+}
+
+/* Carries into each word, and where numbers no longer fit; the products are those of Python. */
+static void check_long_numbers(void) {
+    const uint64_t all = ~(uint64_t)0, square[4] = {1, 0, all - 1, all}, first[4] = {0xe141cd02bd3caa1f, 0xe141cd02bd3caa1e, 0, 1};
+    const uint64_t second[4] = {0x100000000, 0xfffffffe00000002, 0xfffffffb, 2};
+    const double longest[7] = {two(61), 1, 1, 1, 0, 0, 0}, longer[7] = {two(62), 1, 1, 1, 0, 0, 0};
+    const hc_fixed high = {0, (uint64_t)1 << 62};
+    uint64_t lengths[7];
+    CHECK(product_is(all, all, all, all, square) && product_is(1, 1, 0xe141cd02bd3caa1f, all, first));
+    CHECK(product_is(0x100000000, 2, 1, all - 1, second));
+    CHECK(hc_fixed_nearest(two(52) + 1).low == ((uint64_t)1 << 52) + 1 && hc_fixed_nearest(two(51) + 1).low == ((uint64_t)1 << 51) + 1);
+    CHECK(hc_fixed_nearest(-3).low == all - 2 && hc_fixed_nearest(-3).high == all && hc_fixed_nearest(two(100)).high == (uint64_t)1 << 36);
+    CHECK(hc_fixed_down(high, 126).low == 1 && hc_fixed_down(high, 127).low == 0 && hc_fixed_down(high, 1000).low == 0);
+    CHECK(hc_short_lengths(longest, lengths) == 62 && lengths[0] == (uint64_t)1 << 61 && hc_short_lengths(longer, lengths) == 63);
 }
 
 /* Newton's method leaves what fits each way, by a large M or e of either sign; where it begins tells nothing of the row. */
@@ -169,7 +189,17 @@ static void check_prepared(void) {
 static void check_wrappers(void) {
     const double rows[14] = {2, 2, 1, 1, 9, 0, 0, 2, 2, 1, 1, 3, 0, 0}, leaning[20] = {2, 2, 1, 1, 9, 0, 0, 1, 2, 3, 2, 2, 1, 1, 3, 0, 0, 0, 0, 1};
     const double sizes[4] = {2, 2, 1, 1}, axis[3] = {1, 2, 3}, x[2] = {9, 3}, none[2] = {0, 0};
+    const double flat[4] = {2, 2, 1, 0.5}, level[3] = {1, 0, 0}, odd[7] = {2, 2, 1, 1, NAN, 0, 0};
+    const double beside[7] = {1, 1, 1, 1, 0, HC_least_offset, 0}, other_side[7] = {1, 1, 1, 1, 0, -HC_least_offset, 0};
+    const double too_near[7] = {1, 1, 1, 1, 0, HC_least_offset / 2, 0}, far[7] = {1, 1, 1, 1, 1e300, 0, 0};
+    hypcheck_scene scene;
+    hypcheck_near near;
     int8_t answers[2];
+    hypcheck_prepare(&scene, flat, level, 0, NULL, NULL, NULL);
+    CHECK(hypcheck_ask_prepared(0, &scene, 1, x, none, none, answers) == 0 && answers[0] == 1);
+    CHECK(hypcheck_clearance(1, odd, answers, &near) == 1 && answers[0] == 127 && near.lower != near.lower);
+    CHECK(hc_ordinary(beside) && hc_ordinary(other_side) && !hc_ordinary(too_near));
+    CHECK(hypcheck_clearance(1, far, answers, &near) == 0 && answers[0] == 1 && near.lower > two(890)); /* the largest that is asked about */
     hypcheck_classify(2, rows, answers);
     CHECK(answers[0] == 1 && answers[1] == 0);
     hypcheck_classify_tilted(2, leaning, answers);
@@ -210,6 +240,7 @@ static void check_exact_guards(void) {
     check_guesses(23);
     check_guesses(62);
     check_third_equation();
+    check_long_numbers();
     check_steps_beyond();
     check_distances();
     check_lost_gaps();
