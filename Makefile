@@ -76,7 +76,7 @@ figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; doc
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; tests/tools/mutants/README.md
 	$(BIN)/python -m tests.tools.mutants --out tests/tools/mutants/README.md
 
-evidence: $(VENV)/ready-dev ## what mutants, fuzzing, coverage and faults find in our own code, anew; docs/evidence.md (an hour)
+evidence: $(VENV)/ready-dev ## what mutants, fuzzing, coverage and faults find in our own code, anew; docs/evidence.md (some hours)
 	$(BIN)/python -m tests.tools.evidence all --write
 
 kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in five languages (half an hour)
