@@ -142,10 +142,6 @@ def test_a_json_file_that_is_no_record_of_an_engine_raises_an_input_error(tmp_pa
         read_records(tmp_path)
 
 
-def test_the_spec_shown_for_an_engine_is_quoted_for_a_shell():
-    assert running.shown_spec(["node", "my adapter.mjs"]) == "'command:node '\"'\"'my adapter.mjs'\"'\"''"
-
-
 def test_an_adapter_that_hangs_or_has_no_clock_gets_neither_distances_nor_a_time(monkeypatch):
     rows = placed(FAMILIES["ball"], 1).rows
 
