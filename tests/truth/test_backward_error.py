@@ -35,13 +35,13 @@ def error(row: tuple[float, ...], answer: Position) -> float:
         ((2, 1, 1, 1, 0, 0, 3), Position.EXTERIOR, math.inf, "on the axis nothing is outside"),
     ],
 )
-def test_backward_errors_are_those_worked_out_by_hand(row, answer, expected, why):
+def test_backward_errors_equal_values_worked_out_by_hand(row, answer, expected, why):
     assert error(row, answer) == pytest.approx(expected, rel=2e-4), why
 
 
 @pytest.mark.slow
 @given(pairs, POSITIONS)
-def test_an_answer_flips_at_its_backward_error(pair, answer):
+def test_changing_lengths_by_the_backward_error_makes_the_answer_right(pair, answer):
     lengths = pair.lengths
     truth = exact.decide(lengths)
     found = backward_error(lengths, truth, answer)
@@ -51,7 +51,7 @@ def test_an_answer_flips_at_its_backward_error(pair, answer):
 
 
 @given(grid_pairs, POSITIONS, st.integers(-300, 5))
-def test_the_exponent_does_not_depend_on_the_guess(pair, answer, guess):
+def test_exponent_of_the_backward_error_does_not_depend_on_the_starting_guess(pair, answer, guess):
     lengths = pair.lengths
     truth = exact.decide(lengths)
     octave = backward_error_exponent(lengths, truth, answer, guess)
@@ -63,7 +63,7 @@ def test_the_exponent_does_not_depend_on_the_guess(pair, answer, guess):
 
 
 @given(ordinary_pairs, st.fractions(0, Fraction(9, 10)), st.fractions(0, Fraction(9, 10)), st.sampled_from([-1, 1]))
-def test_clear_positions_are_monotone_in_the_change(pair, first, second, side):
+def test_larger_change_towards_a_clear_position_never_loses_it(pair, first, second, side):
     """A larger change towards a clear position never loses it: the corner is the best of the box."""
     toward = Position(side)
     less, more = sorted((first, second))
@@ -73,7 +73,7 @@ def test_clear_positions_are_monotone_in_the_change(pair, first, second, side):
 
 @pytest.mark.slow
 @given(ordinary_pairs, st.lists(st.fractions(-1, 1), min_size=7, max_size=7), st.sampled_from([-1, 1]))
-def test_no_change_inside_the_box_does_better_than_the_corner(pair, shares, side):
+def test_change_within_the_box_reaches_a_position_only_if_its_corner_does(pair, shares, side):
     toward, box = Position(side), Fraction(1, 4)
     changed = [Fraction(value) * (1 + box * share) for value, share in zip(pair.row, shares, strict=True)]
     denominators = math.lcm(*(value.denominator for value in changed))

@@ -35,7 +35,7 @@ def _point(*values: float) -> tuple[Fraction, Fraction, Fraction]:
         (CROSSING, Certificate(Position.CONTACT, points=(_point(1.5, 0, 0), _point(3.5, 0, 0)))),
     ],
 )
-def test_a_proof_by_hand_is_accepted(pair, certificate):
+def test_certificate_written_by_hand_is_accepted(pair, certificate):
     assert check_certificate(pair, certificate)
 
 
@@ -72,11 +72,11 @@ def test_a_proof_by_hand_is_accepted(pair, certificate):
         ),
     ],
 )
-def test_a_flawed_proof_is_refused(pair, certificate, flaw):
+def test_certificate_with_a_flaw_is_refused(pair, certificate, flaw):
     assert not check_certificate(pair, certificate), flaw
 
 
-def test_a_point_counts_up_to_the_border_of_the_spheroid_and_not_beyond():
+def test_certificate_of_contact_accepts_points_on_the_spheroid_and_none_beyond_it():
     pair, center, outside = Pair(5, 5, 3, 0.5, 4, 3, 0.25), _point(4, 3, 0.25), _point(7, 3, 0.25)
     for axis, radius in enumerate((3, 3, Fraction(1, 2))):
         for way in (radius, -radius):
@@ -86,7 +86,7 @@ def test_a_point_counts_up_to_the_border_of_the_spheroid_and_not_beyond():
                 assert check_certificate(pair, certificate) is holds
 
 
-def test_a_value_that_is_positive_only_by_rounding_is_no_proof():
+def test_certificate_with_a_value_that_is_positive_only_by_rounding_is_refused():
     """At the double root −4/7 of a tangency g is 0, and above 0 in floats: a float must not spoil the arithmetic."""
     tangent = Pair(14.0, 0.109375, 7.0, 0.109375, -18.0, -12.0, -0.2578125)
     root = Fraction(-4, 7)
@@ -95,7 +95,7 @@ def test_a_value_that_is_positive_only_by_rounding_is_no_proof():
     assert not check_certificate(tangent, Certificate(Position.CONTACT, double_root=float(root)))
 
 
-def test_a_position_given_as_a_bare_integer_is_that_position():
+def test_certificate_accepts_a_position_given_as_an_integer():
     inside = Pair(4, 4, 1, 1, 0, 0, 0)
     assert check_certificate(inside, Certificate(-1, multiplier=Fraction(-8)))
     assert not check_certificate(inside, Certificate(1, multiplier=Fraction(-8)))
@@ -106,7 +106,7 @@ def test_a_position_given_as_a_bare_integer_is_that_position():
 
 @settings(max_examples=30)
 @given(pairs)
-def test_a_proof_of_one_position_proves_no_other(pair):
+def test_certificate_of_one_position_is_refused_for_every_other(pair):
     certificate = prove(pair)
     for position in Position:
         if position is not certificate.position:

@@ -24,12 +24,12 @@ def one_by_one(rows):
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-def test_distance_exponents_are_those_of_exact_changes(name):
+def test_distance_exponents_equal_those_of_exact_changes(name):
     rows = FAMILIES[name].rows(11, 24)
     assert judge.flip_exponents(rows).tolist() == one_by_one(rows)
 
 
-def test_few_everyday_rows_need_an_exact_change():
+def test_fewer_than_5_percent_of_ordinary_rows_need_an_exact_distance_exponent():
     for name in ("tower-body", "uniform", "forest-type-2"):
         rows = FAMILIES[name].rows(12, 1000)
         assert np.isnan(backward_error.distance_exponents(rows, float_filter.positions(rows))).mean() < 0.05

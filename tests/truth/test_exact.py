@@ -24,7 +24,7 @@ def test_exact_decisions_of_known_witnesses_are_right(row, position, clearance, 
 
 
 @pytest.mark.parametrize(("row", "kind"), KINDS)
-def test_kinds_of_known_witnesses_are_right(row, kind):
+def test_exact_kinds_of_known_witnesses_are_right(row, kind):
     assert exact.decide(Pair.from_row(row).lengths).kind is kind
 
 
@@ -39,7 +39,7 @@ def test_every_exact_answer_gets_a_certificate(pair):
 
 
 @given(pairs)
-def test_the_kind_belongs_to_the_position(pair):
+def test_kind_of_an_exact_decision_agrees_with_its_position_and_tangency(pair):
     decision = exact.decide(pair.lengths)
     assert decision.kind.position is decision.position
     assert decision.kind.tangent == decision.tangent
@@ -51,7 +51,7 @@ def test_position_and_decide_give_the_same_position(pair):
 
 
 @given(pairs, st.integers(-3, 3), st.integers(-3, 3))
-def test_scaling_radial_or_axial_lengths_changes_no_decision(pair, radial, axial):
+def test_exact_decision_does_not_change_if_radial_or_axial_lengths_are_scaled(pair, radial, axial):
     lengths = pair.lengths
     scaled = type(lengths)(
         *(value * 2 ** (3 + radial) for value in (lengths.alpha, lengths.b, lengths.x, lengths.y)),
@@ -61,7 +61,7 @@ def test_scaling_radial_or_axial_lengths_changes_no_decision(pair, radial, axial
 
 
 @given(pairs)
-def test_mirrored_and_turned_pairs_have_the_same_decision(pair):
+def test_exact_decision_is_the_same_for_mirrored_and_rotated_pairs(pair):
     row = pair.row
     mirrored = Pair(*row[:4], -pair.y, pair.x, -pair.z)
     assert exact.decide(mirrored.lengths) == exact.decide(pair.lengths)

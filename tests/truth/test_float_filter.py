@@ -16,7 +16,7 @@ from tests.support.pairs import pairs
 
 
 @given(st.lists(pairs, min_size=1, max_size=40))
-def test_positions_of_many_rows_equal_those_of_single_pairs(some):
+def test_float_filter_positions_of_many_rows_equal_those_of_single_pairs(some):
     rows = np.array([pair.row for pair in some])
     expected = [exact.position(pair.lengths) for pair in some]
     assert float_filter.positions(rows).tolist() == expected
@@ -46,7 +46,7 @@ def test_next_to_a_tangency_the_float_filter_is_undecided_or_right(exponent, sig
     assert set(float_filter.positions(rows).tolist()) <= {expected}
 
 
-def test_an_invalid_row_is_named():
+def test_float_filter_refuses_an_invalid_row_naming_row_and_column():
     rows = np.ones((5, 7))
     rows[3, 2] = -1
     with pytest.raises(InputError, match=r"row 3: b is -1\.0"):
@@ -69,7 +69,7 @@ def squares(rows):
         (float_filter._along_the_normal, (0, 0.53, 0)),
     ],
 )
-def test_each_witness_alone_decides_the_rows_that_it_is_for_and_none_wrongly(witness, shares):
+def test_each_witness_of_the_float_filter_decides_its_share_of_rows_and_none_wrongly(witness, shares):
     rows = 2.0 ** np.random.default_rng(6).uniform(-2, 2, (4000, 7))
     rows[:, 4:] *= np.random.default_rng(7).choice((-1, 1), (4000, 3))
     found, expected = squares(rows)
@@ -81,7 +81,7 @@ def test_each_witness_alone_decides_the_rows_that_it_is_for_and_none_wrongly(wit
         assert decided[expected == position].mean() >= share
 
 
-def test_the_local_maximum_of_the_cubic_is_near():
+def test_float_local_maximum_of_the_cubic_is_within_2_to_the_minus_30():
     rows = 2.0 ** np.random.default_rng(8).uniform(-2, 2, (400, 7))
     found, expected = squares(rows)
     with np.errstate(all="ignore"):

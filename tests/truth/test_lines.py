@@ -44,12 +44,12 @@ def assert_right(rows):
 
 @pytest.mark.slow
 @given(sizes, st.floats(0, 4))
-def test_no_wrong_position_is_proved_beside_a_line(some, share):
+def test_lines_prove_no_wrong_position_for_centres_beside_a_line(some, share):
     assert_right(beside_lines(some, share * some[1]))
 
 
 @given(sizes, st.integers(-60, -1), st.floats(0, 2))
-def test_no_wrong_position_is_proved_near_the_waist(some, exponent, share):
+def test_lines_prove_no_wrong_position_for_centres_near_the_waist(some, exponent, share):
     """r = α ± b, moved by a little: tangencies wherever the throat and the groove are wide enough."""
     alpha, gamma, b, _ = some
     x = np.array([alpha + b, abs(alpha - b)])[:, None] * (1 + np.array([-1, 0, 1]) * 2.0**exponent)
@@ -72,7 +72,7 @@ def test_constants_of_a_line_are_rounded_to_its_safe_side(some, reach):
 
 
 @given(sizes, st.floats(-4, 4), st.sampled_from([-1, 1]))
-def test_no_wrong_position_is_proved_beside_the_rim_of_the_level_disc(some, share, side):
+def test_lines_prove_no_wrong_position_beside_the_rim_of_the_level_disc(some, share, side):
     """Centres b off the surface, level, by some ulps more or less."""
     alpha, gamma, b, _ = some
     z = share * gamma
@@ -80,7 +80,7 @@ def test_no_wrong_position_is_proved_beside_the_rim_of_the_level_disc(some, shar
     assert_right(rows_of(some, x + ULPS * math.ulp(x), z))
 
 
-def test_most_of_a_tower_is_decided_by_lines():
+def test_lines_decide_most_positions_in_a_tower():
     rng = np.random.default_rng(3)
     rows = np.column_stack([np.tile(TOWER, (4000, 1)), rng.uniform(-4, 4, (4000, 2)), rng.uniform(-17.8, 17.8, 4000)])
     proved = float_filter._by_lines(np.ascontiguousarray(rows.T))

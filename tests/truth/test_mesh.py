@@ -28,7 +28,7 @@ from tests.support.fractions_truth import (
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")
 
 
-def test_exact_position_of_this_file_on_witnesses():
+def test_reference_position_of_the_mesh_tests_is_right_on_witnesses():
     ring, slipped, crossing = (
         (1, 2, 1, 1, Fraction(5, 2), 0, 0),
         (3, 3, 1, 1, 1, 0, 0),
@@ -60,7 +60,7 @@ def test_exact_position_of_this_file_on_witnesses():
         ((1, 1, 10, 10, 0, 0, 0), Position.CONTACT),  # the waist is inside the spheroid
     ],
 )
-def test_hand_checked_pairs(row, position):
+def test_mesh_oracle_decides_pairs_checked_by_hand(row, position):
     assert verdict(Pair(*row)).position is position
 
 
@@ -74,7 +74,7 @@ def test_hand_checked_pairs(row, position):
         (4, 10, 1, 1, 3, 4, 1e-160),
     ],
 )
-def test_a_tangency_or_less_than_float64_from_one_is_undecided(row):
+def test_mesh_oracle_leaves_tangencies_and_pairs_within_float64_of_one_undecided(row):
     found = verdict(Pair(*row))
     assert found.outcome is MeshOutcome.UNDECIDED
     assert found.position is None
@@ -84,14 +84,14 @@ def test_a_tangency_or_less_than_float64_from_one_is_undecided(row):
 
 @settings(max_examples=300)
 @given(tangent_rows(steps_at(st.integers(3, 26))))
-def test_known_clearances_down_to_one_in_a_hundred_million_are_decided(known):
+def test_mesh_oracle_decides_known_clearances_down_to_one_in_a_hundred_million(known):
     row, position = known
     assert verdict(Pair(*row)).position == position
 
 
 @settings(max_examples=100)
 @given(tangent_rows(st.sampled_from([Fraction(1), Fraction(-1)])))
-def test_no_tangency_is_called_clear(known):
+def test_mesh_oracle_calls_no_tangency_clear(known):
     found = verdict(Pair(*known[0]))
     assert found.outcome is not MeshOutcome.CLEAR
     assert found.lower <= 1
@@ -151,7 +151,7 @@ def test_the_mesh_oracle_decides_rows_near_contact_rightly():
     ("row", "said"),
     [((1, 1, 1, 1, 2.125, 0, 0), 0.5), ((1, 1, 1, 1, 1.5, 0, 0), 1.5), ((1, 1, 1, 1, 1.5, 0, 0), math.nan)],
 )
-def test_a_contradiction_by_fcl_makes_the_verdict_undecided(monkeypatch, row, said):
+def test_mesh_oracle_is_undecided_if_fcl_contradicts_it(monkeypatch, row, said):
     assert verdict(Pair(*row)).outcome is not MeshOutcome.UNDECIDED
     monkeypatch.setattr(mesh, "distance_to_mesh", lambda *_: said)
     found = verdict(Pair(*row))
@@ -160,14 +160,14 @@ def test_a_contradiction_by_fcl_makes_the_verdict_undecided(monkeypatch, row, sa
     assert found.triangles > 0
 
 
-def test_too_many_open_cells_end_the_search_undecided(monkeypatch):
+def test_mesh_oracle_is_undecided_if_too_many_cells_stay_open(monkeypatch):
     monkeypatch.setattr(mesh_meridian, "MOST_CELLS", 100)
     found = verdict(Pair(4, 2, 1, 1, 5, 0, 0))
     assert found.outcome is MeshOutcome.UNDECIDED
     assert "too many cells" in found.reason
 
 
-def test_a_surface_out_of_reach_is_clear_without_a_mesh():
+def test_mesh_oracle_calls_a_surface_out_of_reach_clear_without_a_mesh():
     found = verdict(Pair(1, 1, 1, 1, 100, 0, 0))
     assert (found.position, found.levels, found.triangles, found.lower, found.upper) == (1, 0, 0, 1.25, math.inf)
 

@@ -20,7 +20,7 @@ from tests.support.fractions_truth import everyday, rows_of
 @pytest.mark.slow
 @settings(max_examples=200)
 @given(rows_of(*everyday(-3, 3)), st.integers(0, 12), st.integers(0, 4095))
-def test_cells_are_one_sided_and_their_triangle_holds_the_arc(row, level, path):
+def test_mesh_cell_lies_on_one_side_and_its_triangle_holds_the_arc(row, level, path):
     meridian = meridian_of(Pair(*row[:5], 0.0, row[6]))
     window = window_of(meridian)
     assume(window is not None)
@@ -51,7 +51,7 @@ def test_cells_are_one_sided_and_their_triangle_holds_the_arc(row, level, path):
 @pytest.mark.slow
 @settings(max_examples=200)
 @given(rows_of(*everyday(-3, 3)), st.fractions(0, 1))
-def test_nothing_within_reach_is_left_out_of_the_window(row, share):
+def test_window_of_the_meridian_holds_every_point_within_reach(row, share):
     meridian = meridian_of(Pair(*row[:5], 0.0, row[6]))
     center = (abs(Fraction(row[4])) / Fraction(row[2]), abs(Fraction(row[6])) / Fraction(row[3]))
     window = window_of(meridian)
@@ -93,13 +93,13 @@ def test_fcl_measures_a_ribbon_as_exact_arithmetic_does(points, scale):
     )
 
 
-def test_segments_without_length_are_left_out_of_the_ribbon():
+def test_mesh_ribbon_omits_segments_without_length():
     vertices, triangles = ribbon([((0.5, 0.5), (0.5, 0.5))])
     assert len(vertices) == len(triangles) == 0
     assert distance_to_mesh(vertices, triangles) == math.inf
 
 
-def test_bounds_of_a_cell_around_the_centre_claim_nothing():
+def test_bounds_of_a_mesh_cell_around_the_centre_decide_nothing():
     meridian = meridian_of(Pair(1, 1, 1, 1, 1.01, 0, 0))
     found = bounds_of(cell_of(meridian, *window_of(meridian)), outside=True)
     assert found.lower < 0.02
@@ -108,7 +108,7 @@ def test_bounds_of_a_cell_around_the_centre_claim_nothing():
 
 @settings(max_examples=100)
 @given(rows_of(*everyday(-3, 3)))
-def test_the_side_of_the_centre_is_exact(row):
+def test_side_of_the_surface_on_which_the_centre_lies_is_exact(row):
     alpha, gamma, _, _, x, y, z = map(Fraction, row)
     level = (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
     assert meridian_of(Pair(*row)).side == (level > 0) - (level < 0)

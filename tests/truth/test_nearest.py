@@ -132,7 +132,7 @@ def test_a_clearance_too_large_for_float64_is_inf():
 
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize(("odd", "even"), [(1, 2.0), (3, 2 - 2.0**-51), (5, 2 - 2.0**-51)])
-def test_halfway_cases_go_to_the_even_neighbour(odd, even, sign):
+def test_clearance_halfway_between_two_floats_is_rounded_to_even(odd, even, sign):
     """With α = odd·2⁻⁵³, r − a − 1 = 2 − α lies halfway between two float64; no enclosure can show that."""
     assert nearest(Pair(odd * 2.0**-53, 1, 1, 1, sign * 3, 0, 0)).clearance == even
 
@@ -153,7 +153,7 @@ def test_clearances_of_known_witnesses_are_right(row, clearance, points):
 
 
 @given(*[st.integers(1, 40)] * 4, st.integers(0, 40))
-def test_a_centre_on_the_axis_has_a_circle_of_nearest_points(alpha, gamma, b, d, z):
+def test_spheroid_centred_on_the_axis_has_a_circle_of_nearest_points(alpha, gamma, b, d, z):
     found = check((float(alpha), float(gamma), float(b), float(d), 0.0, 0.0, float(z)))
     A, B, Q = Fraction(alpha, b) ** 2, Fraction(gamma, d) ** 2, Fraction(z, d) ** 2
     assert found.clearance == pytest.approx(math.sqrt(A + A * Q / (A + B)) - 1, rel=1e-12, abs=1e-15)
@@ -165,7 +165,7 @@ def test_a_centre_on_the_axis_has_a_circle_of_nearest_points(alpha, gamma, b, d,
 @example(2, 1, 1, 1, 3, 1)  # tangent in two points: P = (A + B)(B + 1)/B
 @example(2, 2, 1, 1, 4, 0)  # on the evolute: a r = A + B
 @example(2, 1, 1, 1, 3, 0)
-def test_a_centre_in_the_waist_plane_has_one_or_two_nearest_points(alpha, gamma, b, d, x, y):
+def test_spheroid_centred_in_the_waist_plane_has_one_or_two_nearest_points(alpha, gamma, b, d, x, y):
     row = tuple(map(float, (alpha, gamma, b, d, x, y, 0)))
     a, A, B, P = Fraction(alpha, b), Fraction(alpha, b) ** 2, Fraction(gamma, d) ** 2, Fraction(x * x + y * y, b * b)
     found = check(row) if P else check((*row[:4], 1.0, 0.0, 0.0))
@@ -180,7 +180,7 @@ def test_a_centre_in_the_waist_plane_has_one_or_two_nearest_points(alpha, gamma,
         assert found.tangent is (P == (a + 1) ** 2 or (a >= 1 and P == (a - 1) ** 2))
 
 
-def test_two_points_of_tangency():
+def test_spheroid_tangent_in_two_points_has_clearance_0_and_two_nearest_points():
     found = check((2.0, 1.0, 1.0, 1.0, 3.0, 1.0, 0.0))
     assert (found.clearance, found.position, found.stage, len(found.points)) == (0.0, Position.CONTACT, "exact", 2)
 
@@ -244,7 +244,7 @@ def test_clearances_at_rational_tangents_and_beside_them_are_right(triple, k, v,
     assert (batch.clearance[0], batch.position[0]) == (found.clearance, found.position)
 
 
-def test_a_batch_answers_as_single_pairs_do():
+def test_clearances_of_a_batch_equal_clearances_of_single_pairs():
     rows = mixed_rows(6000, seed=1)
     batch = clearances(rows)
     assert mismatches(batch, rows) == 0
@@ -255,7 +255,7 @@ def test_a_batch_answers_as_single_pairs_do():
     assert batch.stage.dtype == np.uint8
 
 
-def test_positions_alone_agree_and_need_fewer_precise_answers():
+def test_positions_without_clearances_agree_and_need_fewer_precise_answers():
     rows = mixed_rows(6000, seed=2)
     batch, alone = clearances(rows), positions(rows)
     assert (alone.position == batch.position).all()
@@ -266,13 +266,13 @@ def test_positions_alone_agree_and_need_fewer_precise_answers():
 
 @settings(max_examples=100)
 @given(st.lists(EXTREME_ROWS, min_size=1, max_size=4))
-def test_a_batch_answers_as_single_pairs_do_over_all_of_float64(rows):
+def test_clearances_of_a_batch_equal_those_of_single_pairs_over_all_of_float64(rows):
     table = np.array(rows)
     assert mismatches(clearances(table), table) == 0
 
 
 @pytest.mark.parametrize("order", [-1000, -1015, -1030, 1000, 1015])
-def test_a_batch_answers_as_single_pairs_do_where_float64_ends(order):
+def test_clearances_of_a_batch_equal_those_of_single_pairs_at_the_limits_of_float64(order):
     with np.errstate(over="ignore"):
         rows = mixed_rows(600, seed=9) * 2.0**order
     rows = rows[~invalid(rows)]
@@ -280,7 +280,7 @@ def test_a_batch_answers_as_single_pairs_do_where_float64_ends(order):
     assert mismatches(clearances(rows), rows) == 0
 
 
-def test_an_answer_does_not_depend_on_its_neighbours():
+def test_clearance_of_a_row_does_not_depend_on_the_other_rows_of_its_batch():
     rows = mixed_rows(5000, seed=3)
     rows[7] = (1e-300, 1e300, 1e300, 1e-300, 1, 2, 3)
     forward, backward = clearances(rows), clearances(rows[::-1])
@@ -288,7 +288,7 @@ def test_an_answer_does_not_depend_on_its_neighbours():
     assert (forward.stage == backward.stage[::-1]).all()
 
 
-def test_arrays_without_rows_give_nothing_and_invalid_rows_raise_an_error():
+def test_nearest_oracle_returns_nothing_for_no_rows_and_refuses_invalid_rows():
     assert len(clearances(np.empty((0, 7))).clearance) == 0
     rows = mixed_rows(3, seed=4)
     rows[1, 2] = 0.0
@@ -298,7 +298,7 @@ def test_arrays_without_rows_give_nothing_and_invalid_rows_raise_an_error():
         positions(rows)
 
 
-def test_one_pair_loads_no_numpy():
+def test_nearest_of_one_pair_loads_no_numpy():
     script = (
         "import sys; from hypcheck.geometry.pair import Pair; from hypcheck.truth.nearest_exact import nearest;"
         "nearest(Pair(1, 2, 1, 1, 2.5, 0, 0)); sys.exit('numpy' in sys.modules)"

@@ -81,7 +81,7 @@ def test_the_bound_of_the_float_stage_covers_its_error(factor):
     assert max(used) > 1e-4  # nor is the bound so wide that it says nothing
 
 
-def test_nothing_is_claimed_from_beyond_the_poles():
+def test_float_stage_claims_no_position_from_a_multiplier_beyond_the_poles():
     """The dual is no bound there; a solver that strays must not be believed."""
     scaled = nearest_batch._scale(mixed_rows(300, seed=13))
     with np.errstate(all="ignore"):
@@ -91,7 +91,7 @@ def test_nothing_is_claimed_from_beyond_the_poles():
             assert not (decided.position_certain & (tau > 0) & (sigma > 0)).any()
 
 
-def test_the_end_of_the_interval_is_taken_for_the_maximum_only_where_that_is_sure():
+def test_float_stage_takes_the_interval_end_as_the_maximum_only_where_that_is_certain():
     """In the waist plane, at and about a r = A + B, where float64 cannot tell on which side of it a centre is."""
     rng = np.random.default_rng(10)
     a, c = 2.0 ** rng.uniform(-3, 3, (2, 500))
@@ -110,7 +110,7 @@ def test_the_end_of_the_interval_is_taken_for_the_maximum_only_where_that_is_sur
     assert mismatches(clearances(rows), rows) == 0
 
 
-def test_the_exact_enclosures_hold_the_clearance():
+def test_exact_enclosures_of_the_nearest_oracle_hold_the_clearance():
     rows = mixed_rows(150, seed=11)
     rows = rows[(rows[:, 6] != 0) & (rows[:, 4] != 0)]
     for row in rows.tolist():
@@ -128,7 +128,7 @@ def test_the_exact_enclosures_hold_the_clearance():
                     assert found.low <= truth * 2**bits <= found.high
 
 
-def test_answers_are_right_with_a_poor_solver(monkeypatch):
+def test_clearances_stay_right_if_the_solver_stops_early(monkeypatch):
     rows = mixed_rows(1500, seed=5)
     full = clearances(rows)
     monkeypatch.setattr(nearest_batch, "_MOST_STEPS", 2)
@@ -138,7 +138,7 @@ def test_answers_are_right_with_a_poor_solver(monkeypatch):
     assert (poor.stage == NearestStage.PRECISE).sum() > 2 * (full.stage == NearestStage.PRECISE).sum()
 
 
-def test_answers_are_right_with_a_poor_start_and_poor_steps(monkeypatch):
+def test_clearances_stay_right_if_newton_starts_badly_and_takes_short_steps(monkeypatch):
     """Short steps leave an error far above what the last of them suggests: the signs of F have to notice."""
     rows = mixed_rows(30, seed=12)
     full = [nearest(Pair.from_row(row)) for row in rows.tolist()]
@@ -185,7 +185,7 @@ def _without_gap(slope, *_):
         (nearest_batch, "_gap", _without_gap),
     ],
 )
-def test_a_broken_float_stage_is_caught_by_these_tests(monkeypatch, place, name, broken):
+def test_tests_of_the_bounds_notice_a_broken_float_stage(monkeypatch, place, name, broken):
     """The comparison of batch and single answers can fail: without a part of the arithmetic or of its bound it does."""
     rows = mixed_rows(3000, seed=7, span=20)
     if name == "_gap":
@@ -194,7 +194,7 @@ def test_a_broken_float_stage_is_caught_by_these_tests(monkeypatch, place, name,
     assert mismatches(clearances(rows), rows) > 0
 
 
-def test_the_reference_is_good_beyond_float64():
+def test_reference_clearance_of_the_tests_is_accurate_beyond_float64():
     """Against a derivative it does not use: for a = 1, c = 2, r = 5/2 the clearance falls by Q/5 as Q = z² leaves 0."""
     with mp.workprec(400):
         clearance, rho, zeta = reference((1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 2.0**-100))

@@ -34,7 +34,7 @@ def test_an_enclosure_has_a_float_where_both_ends_round_to_it_and_0_is_not_insid
 
 
 @pytest.mark.parametrize(("odd", "even"), [(2**53 + 1, 2**53), (2**53 + 3, 2**53 + 4)])
-def test_a_very_narrow_enclosure_of_a_tie_is_taken_for_it(odd, even):
+def test_very_narrow_enclosure_of_a_rounding_tie_is_rounded_as_the_tie(odd, even):
     unit, bits = 1 << 400, 400
     assert Enclosure(odd * unit - 1, odd * unit + 1, bits).rounded == even
     assert Enclosure((odd << 190) - 1, (odd << 190) + 1, 190).rounded is None
@@ -47,7 +47,7 @@ def test_a_quotient_beyond_float64_is_infinite():
 
 
 @pytest.mark.parametrize(("numerator", "denominator"), [(2, 1), (9, 4), (1, 10**40), (10**40, 3), (7, 7 * 10**9)])
-def test_the_clearance_of_a_known_square_is_its_root_less_1_rounded(numerator, denominator):
+def test_clearance_of_a_known_squared_distance_is_its_rounded_root_minus_1(numerator, denominator):
     found = nearest_exact._clearance_of_square(numerator, denominator)
     exact = Fraction(numerator, denominator)
     for share, larger in ((Fraction(1, 2**53), True), (-Fraction(1, 2**53), False)):

@@ -42,7 +42,7 @@ def test_newton_reaches_the_root_in_few_steps_for_any_ratio_of_lengths(monkeypat
     assert max(steps(SquaredLengths.of(Pair.from_row(row)), monkeypatch) for row in asked) <= 8
 
 
-def test_the_start_is_exactly_evaluated_near_the_maximum():
+def test_newton_start_lies_next_to_the_maximum_by_exact_evaluation():
     """Where the slope of the dual changes its sign, within a relative 2⁻⁴⁸ of the pole's distance on both sides."""
     dice = random.Random(6)  # noqa: S311
     for row in (APART, *rows(60, 1, dice), *rows(30, 100, dice)):
@@ -57,7 +57,7 @@ def test_the_start_is_exactly_evaluated_near_the_maximum():
         assert slopes[0] > 0 > slopes[1] if at_A else slopes[0] < 0 < slopes[1], row
 
 
-def test_the_first_tau_is_never_below_the_root():
+def test_first_tau_of_newton_is_never_below_the_root():
     """τ √(1 + (q/σ)²) ≥ p at it, for p, q and W far apart, equal and nearly equal."""
     dice = random.Random(7)  # noqa: S311
     with mpmath.workprec(1500):

@@ -33,7 +33,7 @@ def random_ways(number):
 
 
 @pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE, *random_ways(24)])
-def test_the_proof_that_is_found_holds(row):
+def test_proof_found_for_a_way_passes_its_check(row):
     found, first, certificate = prove(row)
     assert check_passage(row, certificate, first)
     if first:
@@ -41,7 +41,7 @@ def test_the_proof_that_is_found_holds(row):
         assert found.first[0] <= first[1]
 
 
-def test_the_answers_of_these_ways_are_those_expected():
+def test_proofs_of_hand_worked_ways_have_the_expected_first_contacts():
     firsts = [prove(row)[1] for row in (THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE)]
     assert [first is not None for first in firsts] == [True, False, True, True, True, False]
     assert firsts[3][0] < 0.5 == firsts[3][1]
@@ -49,7 +49,7 @@ def test_the_answers_of_these_ways_are_those_expected():
 
 
 @pytest.mark.parametrize("row", [THROUGH, TUNNEL, *random_ways(24)])
-def test_the_bounds_of_a_first_contact_are_neighbouring_floats(row):
+def test_bounds_of_a_first_contact_are_neighbouring_floats(row):
     _, first, certificate = prove(row)
     if first and first[0]:
         assert math.nextafter(first[0], 1.0) == first[1]
@@ -69,7 +69,7 @@ def test_the_bounds_of_a_first_contact_are_neighbouring_floats(row):
         ((3, 0, 4), (Fraction(-4, 5), Fraction(1, 100), Fraction(3, 5)), False),
     ],
 )
-def test_a_spheroid_holds_an_offset_up_to_its_surface(axis, offset, held):
+def test_offset_is_within_the_spheroid_up_to_its_surface_and_not_beyond(axis, offset, held):
     numbers = [Fraction(each) for each in (5, 7, 3, Fraction(3, 2), 1, 2, 3)]  # b = 3, d = b/2
     assert _within(PairAtTime(tuple(numbers), tuple(map(Fraction, axis))), offset) is held
 
@@ -95,7 +95,7 @@ def test_a_way_that_ends_in_tangency_is_proved_by_its_end():
     assert check_passage(row, certificate, first)
 
 
-def test_no_damaged_proof_of_a_clear_way_holds():
+def test_damaged_proof_of_a_clear_way_is_refused():
     _, first, certificate = prove(OUTSIDE)
     assert first is None
     (multiplier, end), *_ = certificate.pieces
@@ -114,14 +114,14 @@ def test_no_damaged_proof_of_a_clear_way_holds():
     assert not check_passage(OUTSIDE, certificate, (0.5, 0.5))
 
 
-def test_no_piece_reaches_over_a_contact():
+def test_piece_of_a_proof_that_reaches_over_a_contact_is_refused():
     """The middle coefficient decides: φ is positive at both ends of [0, 1]."""
     row = (2.0, 3.0, 1.0, 1.0, -4.0, 2.0, 0.0, 4.0, 2.0, 0.0)
     for multiplier in (Fraction(1), Fraction(2), Fraction(3)):
         assert clear_until(row, PassageCertificate(((multiplier, Fraction(1)),))) is None
 
 
-def test_no_damaged_proof_of_contact_holds():
+def test_damaged_proof_of_contact_on_a_way_is_refused():
     _, first, certificate = prove(TUNNEL)
     assert check_passage(TUNNEL, certificate, first)
     for damaged in (

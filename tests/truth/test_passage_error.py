@@ -37,7 +37,7 @@ def test_the_size_error_of_clear_is_zero_where_a_way_only_touches(end):
     assert size_error(row, True).upper == size_error(row, False).upper == 0
 
 
-def test_no_size_is_enough_where_the_centre_meets_the_surface_or_is_far_away():
+def test_size_error_is_infinite_if_the_centre_meets_the_surface_or_stays_far_away():
     assert size_error(ACROSS, False).lower == math.inf
     assert size_error((2.0, 3.0, 1.0, 1.0, 9.0, 0.0, 0.0, 8.0, 0.0, 0.0), True).lower == math.inf
 
@@ -45,7 +45,7 @@ def test_no_size_is_enough_where_the_centre_meets_the_surface_or_is_far_away():
 @pytest.mark.parametrize(
     "least", [0.3, 0.25, 2.0**-9, 2.0**-10, 1.01 * 2.0**-11, 1e-7, 1e-12, 2.0**-60, 1.5 * 2.0**-300]
 )
-def test_the_least_change_that_is_enough_lies_between_neighbouring_powers_of_two(least):
+def test_search_encloses_the_least_sufficient_change_between_neighbouring_powers_of_two(least):
     low, high = passage_error._octave(lambda change: change >= least)
     assert low < least <= high
     assert high == 2 * low
@@ -57,7 +57,7 @@ _centers = st.tuples(*[st.integers(-6144, 6144).map(lambda n: n / 1024)] * 3)
 
 @settings(max_examples=40)
 @given(_sizes, _centers, _centers, st.sampled_from([0.25, 0.5, 0.9, 1.1, 1.5, 4.0]))
-def test_contact_on_the_way_is_monotone_in_the_size(sizes, start, end, scale):
+def test_larger_spheroid_never_loses_contact_on_the_way(sizes, start, end, scale):
     row = (*sizes, *start, *end)
     hit = hits_at_size(row)
     other = hits_at_size(row, Fraction(scale))
@@ -84,20 +84,20 @@ def test_both_ends_of_a_size_error_are_proved_by_exact_decisions(sizes, start, e
     st.sampled_from([Fraction(1, 2**n) for n in (3, 6, 12)]),
     st.lists(st.sampled_from([-1, 0, 1]), min_size=10, max_size=10),
 )
-def test_an_answer_that_is_right_for_changed_inputs_is_tolerated(sizes, start, end, change, signs):
+def test_answer_about_a_way_that_is_right_for_slightly_changed_inputs_is_tolerated(sizes, start, end, change, signs):
     """The claim by which the tolerance is derived, at corners of the box of changes."""
     row = tuple(map(Fraction, (*sizes, *start, *end)))
     moved = tuple(each * (1 + sign * change) for each, sign in zip(row, signs, strict=True))
     assert is_tolerated(row, hits_at_size(moved), tolerance(row, 1, change))
 
 
-def test_the_tolerance_is_the_sum_of_what_each_input_may_do():
+def test_tolerance_of_a_way_is_the_sum_of_the_effects_of_each_input():
     row = (2.0, 3.0, 0.5, 0.25, -4.0, 3.0, 1.0, 1.0, 0.0, -2.0)  # ρ = 14, ζ = 8
     unit = Fraction(1, 2**24)
     assert tolerance(row, 8, unit) / (8 * unit) == pytest.approx(1 + 22 + 24, rel=1e-5)
 
 
-def test_the_window_of_time_holds_first_contact_of_the_changed_spheroid():
+def test_time_window_holds_the_first_contacts_of_smaller_and_larger_spheroids():
     earliest, latest = time_window(ACROSS, Fraction(1, 100))
     assert float(earliest) == pytest.approx((5 - 3.01) / 5)
     assert float(latest) == pytest.approx((5 - 2.99) / 5)
@@ -105,7 +105,7 @@ def test_the_window_of_time_holds_first_contact_of_the_changed_spheroid():
     assert earliest < first[0] <= first[1] < latest
 
 
-def test_the_window_of_time_has_no_upper_end_where_the_smaller_spheroid_is_clear():
+def test_time_window_has_no_upper_end_if_the_smaller_spheroid_is_clear():
     touching = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, 4.0, 3.0, 0.0)
     earliest, latest = time_window(touching, Fraction(1, 2**20))
     assert 0 < earliest < Fraction(1, 2)

@@ -53,12 +53,12 @@ def test_the_roots_oracle_is_right_on_each_known_witness(row, kind):
     assert report.tangent is kind.tangent
 
 
-def test_every_kind_has_a_witness():
+def test_every_kind_has_a_witness_in_the_tests_of_roots():
     assert {kind for _, kind in WITNESSES} == set(Kind)
 
 
 @pytest.mark.parametrize(("row", "kind"), WITNESSES)
-def test_the_roots_report_does_not_depend_on_units(row, kind):
+def test_kind_by_the_roots_oracle_does_not_depend_on_units(row, kind):
     """Each group of lengths has its own unit (Theorem 1): also one that makes squares underflow or overflow."""
     alpha, gamma, b, d, x, y, z = row
     for radial, axial in ((2.0**-1060, 2.0**1000), (2.0**1000, 2.0**-1060)):
@@ -66,7 +66,7 @@ def test_the_roots_report_does_not_depend_on_units(row, kind):
         assert classify_by_roots(Pair.from_row(scaled)).kind is kind
 
 
-def test_the_cubic_is_that_of_the_pencil():
+def test_cubic_of_the_roots_oracle_is_the_determinant_of_the_pencil():
     """det(λH + S) = (A + λ) g(λ)/(A² B), the matrices written out with the centre at azimuth 0."""
     lam = sympy.Symbol("lambda")
     for numbers in (("4", "9", "5", "2"), ("1/4", "3", "0", "7/5"), ("2", "1/3", "9/2", "0")):
@@ -110,7 +110,7 @@ def prescribed(draw):
 
 @pytest.mark.slow
 @given(prescribed())
-def test_prescribed_roots_are_found(case):
+def test_roots_oracle_finds_prescribed_roots_with_their_multiplicities(case):
     """Each root lies in its own enclosure, with its multiplicity, in its place."""
     pair, roots = case
     report = classify_invariants(pair)
@@ -163,12 +163,12 @@ def test_prove_raises_an_error_for_a_wrong_enclosure(f, intervals):
         polynomial_roots.prove(f, [(Fraction(lower), Fraction(upper)) for lower, upper in intervals])
 
 
-def test_a_triple_root_is_exact():
+def test_roots_oracle_encloses_a_triple_root_exactly():
     (root,) = classify_by_roots(Pair(4.0, 2.0, 1.0, 1.0, 3.0, 4.0, 0.0)).roots
     assert (root.lower, root.upper, root.multiplicity) == (4, 4, 3)
 
 
-def test_roots_beside_a_tangency_are_told_apart():
+def test_roots_oracle_separates_two_roots_beside_a_tangency():
     """(1,1,3,1) at x = 4 touches; y = 1e-160 lifts it off, and the two roots are about 1e-160 apart."""
     assert classify_by_roots(Pair(1, 1, 3, 1, 4, 0, 0)).kind is Kind.EXTERIOR_TANGENT_POINT
     for y in (1e-160, 5e-324):
@@ -193,7 +193,7 @@ def test_roots_beside_a_tangency_are_told_apart():
         ((3, 3, 1, 1, 2, 0, 0), Position.CONTACT, {Kind.INTERIOR_TANGENT_POINT}),
     ],
 )
-def test_the_literal_reading_gives_the_expected_kinds(row, literal, kinds):
+def test_signs_and_multiplicities_of_roots_alone_give_the_expected_kinds(row, literal, kinds):
     """Signs and multiplicities alone: ambiguous for a < 1, for c² < a, and for a double positive root when c² > a."""
     report = classify_by_roots(Pair.from_row(row))
     assert report.literal is literal
@@ -229,20 +229,20 @@ def _beyond_its_place(f, cuts):
 
 @pytest.mark.parametrize("row", [ROW, EXTREME])
 @pytest.mark.parametrize("sabotage", [_shifted, _one_missing, _merged, _one_twice])
-def test_wrong_enclosures_raise_an_error(monkeypatch, row, sabotage):
+def test_roots_oracle_raises_an_error_for_wrong_enclosures(monkeypatch, row, sabotage):
     monkeypatch.setattr(oracle, "isolate", sabotage)
     with pytest.raises(AssertionError, match=r"enclosure.* for Pair\(alpha="):
         classify_by_roots(Pair.from_row(row))
 
 
-def test_an_enclosure_must_have_one_place(monkeypatch):
+def test_roots_oracle_raises_an_error_for_an_enclosure_that_holds_0_or_b(monkeypatch):
     monkeypatch.setattr(oracle, "isolate", _beyond_its_place)
     with pytest.raises(AssertionError, match="0 or B lies inside"):
         classify_by_roots(Pair.from_row(ROW))
 
 
 @pytest.mark.parametrize("row", [row for row, kind in WITNESSES if kind.tangent or "node" in kind.value])
-def test_an_overlooked_repeated_root_raises_an_error(monkeypatch, row):
+def test_roots_oracle_raises_an_error_for_an_overlooked_repeated_root(monkeypatch, row):
     """Unless −A or B, tried anyway, is that root: then the answer is right without the gcd."""
     expected = classify_by_roots(Pair.from_row(row))
     monkeypatch.setattr(oracle, "_repeated_root", lambda g: [])
@@ -253,7 +253,7 @@ def test_an_overlooked_repeated_root_raises_an_error(monkeypatch, row):
             classify_by_roots(Pair.from_row(row))
 
 
-def test_a_wrong_multiplicity_raises_an_error(monkeypatch):
+def test_roots_oracle_raises_an_error_for_a_wrong_multiplicity(monkeypatch):
     right = oracle._divided_by_known_roots
 
     def wrong(g, candidates):
@@ -265,7 +265,7 @@ def test_a_wrong_multiplicity_raises_an_error(monkeypatch):
         classify_by_roots(Pair(1, 2, 1, 1, 2.5, 0, 0))
 
 
-def test_an_unlisted_or_impossible_pattern_is_an_error(monkeypatch):
+def test_roots_oracle_raises_an_error_for_an_unlisted_or_impossible_pattern(monkeypatch):
     for table in ({}, {">B >B >B": Kind.EXTERIOR_RING}):
         monkeypatch.setattr(oracle, "KIND_OF", table)
         with pytest.raises(AssertionError, match=r"not possible: >B >B >B, for Pair\(alpha=1.0"):

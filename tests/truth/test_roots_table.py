@@ -137,7 +137,7 @@ def _sign(number):
     return (number > 0) - (number < 0)
 
 
-def test_the_table_agrees_with_geometry():
+def test_table_of_root_patterns_agrees_with_geometry():
     """Every kind, all four regimes and their borders; a pair outside the table would raise."""
     counts, regimes = Counter(), set()
     for pair in _pairs(random.Random(20), 3000):  # noqa: S311
@@ -147,7 +147,7 @@ def test_the_table_agrees_with_geometry():
     assert len(regimes) == 9
 
 
-def test_positions_by_the_table_are_exact_for_extreme_sizes():
+def test_positions_by_the_root_table_are_exact_for_extreme_sizes():
     """Ratios up to 2^±2000, and a hair from the axis, the waist and contact."""
     rng = random.Random(21)  # noqa: S311
     seen = set()
@@ -166,7 +166,7 @@ def _any_float(rng):
     return math.ldexp(rng.uniform(1, 2), rng.choice([0, rng.randint(-1074, 1022)]))
 
 
-def test_positions_by_the_table_are_exact_over_the_whole_range():
+def test_positions_by_the_root_table_are_exact_over_all_of_float64():
     """Float64 from subnormal to 1e308, in each column."""
     rng = random.Random(22)  # noqa: S311
     seen = set()
@@ -183,7 +183,7 @@ def test_positions_by_the_table_are_exact_over_the_whole_range():
     assert seen == set(Position)
 
 
-def test_the_table_lists_each_admissible_pattern_once():
+def test_table_of_root_patterns_lists_each_admissible_pattern_once():
     listed = [pattern for patterns in PATTERNS.values() for pattern in patterns]
     assert sorted(listed) == sorted(admissible())
     assert len(KIND_OF) == len(listed)

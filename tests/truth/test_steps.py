@@ -54,7 +54,7 @@ def test_the_pencil_of_a_way_is_that_of_the_pair_at_each_time(row):
 
 
 @pytest.mark.parametrize("row", WAYS)
-def test_a_piece_is_the_determinant_at_its_multiplier(row):
+def test_piece_of_a_proof_is_the_determinant_of_the_pencil_at_its_multiplier(row):
     way = journey(row)
     for multiplier in (Fraction(3, 7), Fraction(-2, 5), Fraction(11)):
         proof = piece(way.pencil, multiplier)
@@ -99,7 +99,7 @@ def test_each_multiplier_of_an_upright_way_is_the_local_maximum_to_twice_as_many
 
 
 @pytest.mark.parametrize("bits", [5, 12, 40])
-def test_a_shortened_quotient_has_so_many_bits_and_is_cut_off_downwards(bits):
+def test_shortened_quotient_has_the_given_number_of_bits_and_is_rounded_down(bits):
     draw = random.Random(bits)  # noqa: S311
     for _ in range(200):
         top = draw.choice((1, -1)) * draw.getrandbits(draw.randrange(1, 200)) or 1
@@ -123,7 +123,7 @@ def drawn_roots(draw):
     return ends if len(set(ends)) == 3 else drawn_roots(draw)
 
 
-def test_the_reach_is_below_the_distance_to_the_next_root_and_near_it():
+def test_reach_of_a_quadratic_is_slightly_below_the_distance_to_its_next_root():
     draw = random.Random(8)  # noqa: S311
     for _ in range(300):
         first, second, third = drawn_roots(draw)
@@ -138,7 +138,7 @@ def test_the_reach_is_below_the_distance_to_the_next_root_and_near_it():
             assert distance * (1 - Fraction(1, 2**37)) < found < distance
 
 
-def test_there_is_no_reach_where_no_root_lies_ahead():
+def test_reach_of_a_quadratic_is_none_if_no_root_lies_ahead():
     one, two, three = Fraction(1, 3), Fraction(2, 3), Fraction(1)
     assert reach(quadratic(5, one, two), three) is None
     assert reach(quadratic(5, two, None), three) is None
@@ -148,7 +148,7 @@ def test_there_is_no_reach_where_no_root_lies_ahead():
 
 
 @pytest.mark.parametrize("width_bits", [WIDTH_BITS, 20])
-def test_the_first_contact_lies_in_an_enclosure_of_the_width_that_is_asked(width_bits):
+def test_steps_enclose_the_first_contact_within_the_requested_width(width_bits):
     for row in (THROUGH, TUNNEL):
         way = journey(row)
         found = steps(way, width_bits)
@@ -159,7 +159,7 @@ def test_the_first_contact_lies_in_an_enclosure_of_the_width_that_is_asked(width
 
 
 @pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, INSIDE])
-def test_each_piece_proves_its_whole_stretch(row):
+def test_each_piece_of_a_proof_is_positive_over_its_whole_stretch(row):
     way, last = journey(row), Fraction(0)
     found = steps(way)
     for multiplier, end in found.pieces:

@@ -42,7 +42,7 @@ def holds_first(found, time):
 
 @settings(max_examples=200)
 @given(_sizes, _centers, _centers)
-def test_exact_decisions_on_the_way_agree(sizes, start, end):
+def test_answer_about_a_way_agrees_with_exact_positions_on_it(sizes, start, end):
     found = passage(sizes, start, end)
     assert found.start == truth(sizes, start)
     assert found.end == truth(sizes, end)
@@ -73,7 +73,7 @@ def test_the_first_contact_is_where_the_position_changes(sizes, start, end):
 
 
 @given(_sizes, _centers, _centers, st.fractions(0, 1, max_denominator=9))
-def test_a_way_is_clear_where_both_its_parts_are(sizes, start, end, time):
+def test_way_is_clear_exactly_if_both_its_parts_are(sizes, start, end, time):
     middle = at(start, end, time)
     whole, there, back = passage(sizes, start, end), passage(sizes, start, middle), passage(sizes, end, middle)
     assert whole.clear == (there.clear and back.clear)
@@ -142,7 +142,7 @@ def slanting_ways():
                 yield (a, c, 1, 1), *(tuple(at + n * by for at, by in zip(center, way, strict=True)) for n in (-1, 1))
 
 
-def test_a_tangency_is_not_taken_for_the_ring_where_z_is_zero_nearby():
+def test_tangency_on_a_slanting_way_is_not_mistaken_for_the_ring():
     grazing = 0
     for sizes, start, end in slanting_ways():
         found = passage(tuple(map(Fraction, sizes)), tuple(map(Fraction, start)), tuple(map(Fraction, end)))
@@ -174,7 +174,7 @@ RINGS = [((1, 2, 1, 1), Fraction(5, 2)), ((7, 7, 1, 1), Fraction(10)), ((14, 21,
 
 @pytest.mark.parametrize(("sizes", "radius"), RINGS)
 @pytest.mark.parametrize("way", [(1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 1), (3, 4, 2), (1, 0, 0.1)])
-def test_passing_the_ring_is_no_contact(sizes, radius, way):
+def test_way_that_passes_the_ring_is_clear(sizes, radius, way):
     """The discriminant is 0 there and the spheroid far away, whichever way it comes through."""
     center = (radius, Fraction(0), Fraction(0))
     start, end = (tuple(c + n * Fraction(w) / 8 for c, w in zip(center, way, strict=True)) for n in (-1, 2))
@@ -203,7 +203,7 @@ def test_passing_the_ring_is_no_contact(sizes, radius, way):
         ),  # a = 1 on the axis: the waist is touched all round
     ],
 )
-def test_times_of_first_contact_are_those_worked_out_by_hand(sizes, start, end, first):
+def test_times_of_first_contact_equal_values_worked_out_by_hand(sizes, start, end, first):
     found = passage(tuple(map(Fraction, sizes)), tuple(map(Fraction, start)), tuple(map(Fraction, end)))
     assert not found.clear
     if isinstance(first, Fraction):
@@ -226,7 +226,7 @@ def test_times_of_first_contact_are_those_worked_out_by_hand(sizes, start, end, 
         ((1, 1, 1, 1), (0, 0, 3), (0, 0, -3), True),
     ],
 )
-def test_grazing_is_contact_for_an_instant(sizes, start, end, grazes):
+def test_way_grazes_if_its_contact_lasts_only_an_instant(sizes, start, end, grazes):
     assert passage(sizes, start, end).grazes is grazes
 
 
@@ -247,14 +247,14 @@ def test_a_clear_way_has_no_time_of_contact():
 
 @settings(max_examples=25)
 @given(*[st.tuples(*[st.floats(0.01, 100)] * 4), *[st.tuples(*[st.floats(-100, 100)] * 3)] * 2])
-def test_every_way_between_floats_is_decided(sizes, start, end):
+def test_passage_decides_every_way_between_float_centres(sizes, start, end):
     found = passage(sizes, start, end)
     assert all(truth(sizes, at(start, end, Fraction(n, 8))) == found.start or not found.clear for n in range(9))
     assert passage(sizes, end, start).clear == found.clear
 
 
 @given(st.sampled_from([2.0**-1000, 2.0**-99, 2.0**1000]), st.sampled_from([2.0**-600, 1.0, 2.0**600]))
-def test_ways_of_any_magnitude_are_decided(wide, tall):
+def test_passage_decides_ways_of_any_magnitude(wide, tall):
     start, end = (-4 * wide, 3 * wide, 0.0), (4 * wide, 3 * wide, tall * 2.0**-200)
     found = passage((2 * wide, 3 * tall, wide, tall), start, end)
     assert found.start is found.end is EXTERIOR
@@ -286,12 +286,12 @@ def test_ways_of_any_magnitude_are_decided(wide, tall):
         ((2.0, 3.0, 1.0, 1.0), "123", (1.0,) * 3, "a centre: '123' is no sequence of numbers; there must be 3"),
     ],
 )
-def test_passage_raises_an_error_for_an_invalid_length(sizes, start, end, message):
+def test_passage_raises_an_error_for_invalid_sizes_or_centres(sizes, start, end, message):
     with pytest.raises(InputError, match=message):
         passage(sizes, start, end)
 
 
-def test_the_session_in_the_docs_shows_what_happens():
+def test_python_session_in_docs_motion_gives_the_results_that_it_shows():
     page = Path(__file__).resolve().parents[2] / "docs" / "motion.md"
     results = doctest.testfile(str(page), module_relative=False, encoding="utf-8")
     assert (results.failed, results.attempted) == (0, 4)

@@ -44,7 +44,7 @@ def positions_near(row):
     _direction,
     st.floats(-7, 7),
 )
-def test_exact_decisions_on_the_way_agree(sizes, center, arm, direction, angle):
+def test_answer_about_a_turn_agrees_with_exact_positions_on_it(sizes, center, arm, direction, angle):
     found = turning(sizes, center, arm, direction, angle)
     seen = [positions_near((*sizes, *after(center, arm, direction, angle * n / 16))) for n in range(17)]
     if found is not CONTACT:
@@ -60,7 +60,9 @@ def near_contact(sizes, center, arm, direction, angle):
 
 @settings(max_examples=60)
 @given(st.tuples(_coordinate, _coordinate), _size, _direction, st.floats(-7, 7))
-def test_the_enclosures_hold_every_distance_and_are_narrow(center, arm, direction, angle):
+def test_enclosures_of_least_and_largest_distance_on_a_turn_hold_every_distance_and_are_narrow(
+    center, arm, direction, angle
+):
     x, y = map(Fraction, center)
     ahead = tuple(map(Fraction, direction))
     least, largest = squared_distances(x, y, Fraction(arm), ahead, angle, 128)
@@ -76,7 +78,7 @@ def test_the_enclosures_hold_every_distance_and_are_narrow(center, arm, directio
 
 @pytest.mark.parametrize("center", [(1.0, 2.0), (0.1, -0.7), (3.0, 4.0), (0.0, 0.0)])
 @pytest.mark.parametrize("angle", [7.0, -6.5])
-def test_the_extremes_of_a_whole_turn_enclose_the_two_distances_from_the_circle(center, angle):
+def test_distances_of_a_whole_turn_enclose_the_nearest_and_farthest_point_of_the_circle(center, angle):
     """They are (ρ ± l)², ρ the root of a number: base ± 2 l ρ."""
     x, y = map(Fraction, center)
     arm = Fraction(3, 4)

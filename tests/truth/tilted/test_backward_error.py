@@ -40,7 +40,7 @@ def decided(row):
         ([1, 4, 0.0625, 0.125, 0.875 - STEP, 0, 0, -7, 0, 0], CONTACT, STEP / (2 - STEP)),
     ],
 )
-def test_bracket_holds_the_error_worked_by_hand(row, answer, error):
+def test_bracket_of_a_tilted_backward_error_holds_the_value_worked_out_by_hand(row, answer, error):
     found = bracket(row, decided(row), answer)
     assert found.lower <= error <= found.upper <= 1.25 * found.lower
     for share, expected in ((0.7, False), (1.3, True)):
@@ -60,7 +60,7 @@ def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair(
             assert error <= found.upper * (1 + 1e-4)
 
 
-def test_bracket_of_a_near_contact_is_narrow():
+def test_bracket_of_a_small_tilted_backward_error_is_narrow():
     narrow = 0
     for family, row in rows(["near", "slight", "stiff"], 60, seed=4):
         truth = decided(row)
@@ -85,7 +85,7 @@ def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
                 assert not goal(exact.position(TiltedLengths.of(changed)))
 
 
-def test_right_answers_and_limits_of_right_ones_have_no_error():
+def test_right_answers_and_limits_of_right_answers_have_no_backward_error():
     for row, position, limit_of in SYMMETRIC:
         truth = decided(row)
         for answer in (position, limit_of or position):
@@ -109,7 +109,7 @@ def test_tolerance_is_met_by_one_of_several_right_answers():
 
 
 @pytest.mark.parametrize("value", [Fraction(1, 3), Fraction(2, 3) * 2**70, Fraction(5, 7) / 2**300, Fraction(1)])
-def test_a_shortened_change_is_within_a_part_in_4096(value):
+def test_shortened_change_is_within_one_part_in_4096(value):
     short = _short(value)
     assert abs(short / value - 1) <= Fraction(1, 2**12)
     assert short.numerator.bit_length() <= 14 or short.denominator == 1

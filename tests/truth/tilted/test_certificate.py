@@ -43,7 +43,7 @@ def test_every_exact_answer_gets_a_certificate(proofs):
     assert len(proved) == 4
 
 
-def test_no_proof_serves_another_position(proofs):
+def test_tilted_certificate_of_one_position_is_refused_for_every_other(proofs):
     for pair, certificate in proofs:
         for other in set(Position) - {certificate.position}:
             assert not check_certificate(pair, replace(certificate, position=other))
@@ -103,7 +103,7 @@ def test_two_points_prove_contact_only_within_the_spheroid_and_on_two_sides():
         ([[1, 2], [2, 3]], [1, -1]),
     ],
 )
-def test_pivots_tell_definite_from_semidefinite(matrix, expected):
+def test_pivots_distinguish_definite_from_semidefinite_matrices(matrix, expected):
     assert pivots([[Fraction(each) for each in row] for row in matrix]) == expected
 
 

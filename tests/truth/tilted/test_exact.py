@@ -105,7 +105,7 @@ def test_a_spheroid_that_touches_at_one_point_and_crosses_elsewhere_is_not_tange
 
 
 @pytest.mark.parametrize(("row", "position", "why"), WITNESSES)
-def test_position_of_hand_worked_pairs(row, position, why):
+def test_exact_positions_of_tilted_pairs_equal_those_worked_out_by_hand(row, position, why):
     assert exact.position(TiltedPair.from_row(row).lengths) is position, why
 
 

@@ -54,7 +54,7 @@ def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
                 assert position == truth.position if answer is Position.CONTACT else position != answer
 
 
-def test_many_rows_have_the_same_lower_ends_as_each_alone():
+def test_lower_ends_of_many_rows_equal_those_of_each_row_alone():
     cases = tilted_cases("tilted-symmetric")[:40]
     goals = [goal_of(case.position, Position(1 if case.position is not Position.EXTERIOR else 0)) for case in cases]
     array = np.array([case.row for case in cases])
@@ -63,7 +63,7 @@ def test_many_rows_have_the_same_lower_ends_as_each_alone():
     assert np.count_nonzero(together) > 30
 
 
-def test_more_cuts_never_lose_a_proof():
+def test_box_exclusion_with_more_cuts_keeps_every_proof():
     cases = [case for case in tilted_cases("tilted-uniform") if case.position is Position.EXTERIOR][:20]
     goals = [goal_of(Position.EXTERIOR, Position.CONTACT)] * len(cases)
     changes = np.array([case.flips[Position.CONTACT].upper * 0.7 for case in cases])

@@ -57,7 +57,7 @@ def determinant(m):
 
 
 @pytest.mark.parametrize("row", ROWS)
-def test_the_multiplier_hinted_at_is_where_phi_is_largest(row):
+def test_suggested_multiplier_is_where_phi_is_largest(row):
     columns = np.array([row]).T
     with np.errstate(all="ignore"):
         (found,) = float_boxes._multiplier(columns[:4], columns[4:])
@@ -115,7 +115,7 @@ def test_squares_and_roots_are_no_wider_than_their_exact_ends_and_a_few_rounding
     assert (root.low[0], root.high[0]) == (pytest.approx(0.5), pytest.approx(2.0))
 
 
-def test_an_enclosure_has_no_power_but_the_square():
+def test_enclosure_refuses_every_power_but_the_square():
     with pytest.raises(ValueError, match="only squares are needed"):
         Enclosures(np.array([1.0]), np.array([1.0])) ** 3
 
@@ -173,7 +173,7 @@ def enough_by_sizes(row, goal, truth):
 
 
 @pytest.mark.parametrize("row", ROWS)
-def test_lower_ends_are_below_a_change_of_the_sizes_that_is_enough_and_not_far_below(row):
+def test_lower_ends_are_at_most_a_sufficient_change_of_the_sizes_and_above_a_fifth_of_it(row):
     truth = exact.position(TiltedLengths.of(row))
     answers = [Position.CONTACT] if truth is not Position.CONTACT else [Position.EXTERIOR, Position.INTERIOR]
     for answer in answers:

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(availability() is not None, reason="python-fcl i
 CLEAR = (1.0, 4.0, 0.125, 0.25, 1.5, 0.0, 0.0, 0.0, 1.0, 1.0)
 
 
-def test_the_diagonal_round_the_axis_is_inside_and_the_other_outside():
+def test_diagonal_of_a_cell_around_the_axis_lies_inside_the_hyperboloid_and_the_other_outside():
     draw = np.random.default_rng(3)
     for _ in range(50):
         a, b = draw.uniform(0, 6), draw.uniform(0, 0.5, 2)
@@ -38,7 +38,7 @@ def test_the_diagonal_round_the_axis_is_inside_and_the_other_outside():
                 assert side * (x * x + y * y - z * z - 1) >= -1e-12
 
 
-def test_the_first_cells_cover_the_surface():
+def test_first_cells_of_the_tilted_mesh_cover_the_surface():
     """X(a, b) stays where it is when a or b grows by a whole turn."""
     draw, turn = np.random.default_rng(4), 2 * math.pi
     cells = mesh._whole()
@@ -52,7 +52,7 @@ def test_the_first_cells_cover_the_surface():
         assert np.any(held), (theta, tau)
 
 
-def test_a_decided_row_is_right_and_most_rows_are_decided():
+def test_tilted_mesh_oracle_is_never_wrong_and_decides_most_rows():
     decided = 0
     some = list(rows(["uniform", "near", "symmetric", "grid"], 40, seed=21))
     for family, row in some:
@@ -62,13 +62,13 @@ def test_a_decided_row_is_right_and_most_rows_are_decided():
     assert decided > 0.7 * len(some)
 
 
-def test_tangencies_stay_undecided_and_rings_are_clear():
+def test_tilted_mesh_oracle_leaves_tangencies_undecided_and_calls_rings_clear():
     for row, position, limit_of in SYMMETRIC:
         found = mesh.position(TiltedPair.from_row(row))
         assert found == (None if limit_of is not None else position)
 
 
-def test_what_fcl_does_not_confirm_is_undecided(monkeypatch):
+def test_tilted_mesh_oracle_is_undecided_where_fcl_does_not_confirm_it(monkeypatch):
     assert mesh.position(TiltedPair.from_row(CLEAR)) is Position.EXTERIOR
     monkeypatch.setattr(mesh, "distance_to_mesh", lambda *_: 1.0)
     assert mesh.position(TiltedPair.from_row(CLEAR)) is None
@@ -77,5 +77,5 @@ def test_what_fcl_does_not_confirm_is_undecided(monkeypatch):
     assert mesh.position(TiltedPair.from_row(touching)) is None
 
 
-def test_lengths_out_of_all_proportion_stay_undecided():
+def test_tilted_mesh_oracle_leaves_extreme_ratios_of_lengths_undecided():
     assert mesh.position(TiltedPair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3))) is None

@@ -52,7 +52,7 @@ def test_clearance_with_a_vertical_axis_is_that_of_the_upright_oracle():
         assert abs(found.clearance - expected) <= math.ulp(expected)
 
 
-def test_near_tangency_is_decided_beyond_the_first_precision():
+def test_tilted_nearest_oracle_raises_its_precision_to_decide_a_near_tangency():
     row, side = FLOAT_TANGENT[0]
     step = 2.0**-52
     for factor, position in ((1 - step, side), (1 + step, Position.CONTACT)):
@@ -61,7 +61,7 @@ def test_near_tangency_is_decided_beyond_the_first_precision():
         assert 0 < abs(found.clearance) < 2 * step
 
 
-def test_tangency_is_not_taken_from_a_rational_that_is_only_near():
+def test_tilted_nearest_oracle_does_not_claim_tangency_from_a_nearby_rational():
     row, _ = FLOAT_TANGENT[0]
     off = [*row[:6], math.nextafter(row[6], math.inf), *row[7:]]
     found = nearest.nearest(TiltedPair.from_row(off))

@@ -19,7 +19,7 @@ def by_intervals(rows):
 
 
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
-def test_certain_clearances_and_positions_are_those_of_the_intervals(name):
+def test_certain_float_clearances_and_positions_equal_those_by_intervals(name):
     rows = TILTED_FAMILIES[name].rows(7, 40)
     found = distances(rows)
     for number, each in enumerate(by_intervals(rows)):
@@ -28,17 +28,17 @@ def test_certain_clearances_and_positions_are_those_of_the_intervals(name):
 
 
 @pytest.mark.parametrize(("name", "share"), [("tilted-tower", 0.99), ("tilted-uniform", 0.6), ("tilted-ring", 0.9)])
-def test_most_rows_of_ordinary_sizes_are_certain(name, share):
+def test_float_stage_is_certain_about_most_tilted_rows_of_ordinary_sizes(name, share):
     assert distances(TILTED_FAMILIES[name].rows(7, 400)).certain.mean() > share
 
 
 @pytest.mark.parametrize("name", ["tilted-tangent", "extreme-tilted"])
-def test_tangencies_and_extreme_lengths_are_never_certain(name):
+def test_float_stage_is_never_certain_about_tangencies_and_extreme_lengths(name):
     assert not distances(TILTED_FAMILIES[name].rows(7, 400)).certain.any()
 
 
 @pytest.mark.parametrize(("column", "value"), [(0, 2.0**-101), (4, 2.0**101), (5, 2.0**-101), (8, 2.0**-101)])
-def test_a_length_or_an_axis_out_of_range_is_never_certain(column, value):
+def test_float_stage_is_never_certain_about_a_length_or_axis_out_of_range(column, value):
     row = [1.0, 2.0, 0.5, 0.75, 3.0, 1.0, 2.0, 1.0, 0.5, 0.25]
     rows = np.array([row, row, row])
     rows[1, column] = value
@@ -49,7 +49,7 @@ def test_a_length_or_an_axis_out_of_range_is_never_certain(column, value):
     assert nearest_arrays._inside(rows).tolist() == [True, False, True]
 
 
-def test_a_clearance_is_enclosed_whatever_multiplier_and_point_are_given(monkeypatch):
+def test_clearance_is_enclosed_even_with_a_poor_multiplier_and_point(monkeypatch):
     rows = TILTED_FAMILIES["tilted-tower"].rows(7, 200)
     right, exact = nearest_arrays._polished, np.array([each.clearance for each in by_intervals(rows[:60])])
 
@@ -66,7 +66,7 @@ def test_a_clearance_is_enclosed_whatever_multiplier_and_point_are_given(monkeyp
     assert ((1 + exact) ** 2 - 1 <= L[0] + above).all()
 
 
-def test_the_least_eigenvalue_is_bounded_from_below():
+def test_float_stage_bounds_the_least_eigenvalue_from_below():
     rows = TILTED_FAMILIES["tilted-uniform"].rows(7, 500)
     pairs = nearest_arrays._Pairs.of(rows)
     with np.errstate(all="ignore"):
@@ -80,7 +80,7 @@ def test_the_least_eigenvalue_is_bounded_from_below():
         assert np.median(bound / least) > 0.15
 
 
-def test_a_matrix_that_is_not_definite_has_no_bound():
+def test_least_eigenvalue_of_a_matrix_that_is_not_definite_has_no_bound():
     rows = TILTED_FAMILIES["tilted-uniform"].rows(7, 200)
     pairs = nearest_arrays._Pairs.of(rows)
     beyond = np.where(np.arange(200) % 2, 1.01 * (rows[:, 1] / rows[:, 2:4].min(axis=1)) ** 2, -1e9)

@@ -34,7 +34,7 @@ def position(sizes, start, end, axis, time):
 
 @settings(max_examples=30)
 @given(_sizes, _centers, _centers, _axes)
-def test_exact_decisions_on_a_tilted_way_agree(sizes, start, end, axis):
+def test_answer_about_a_tilted_way_agrees_with_exact_positions_on_it(sizes, start, end, axis):
     found = passage(sizes, start, end, axis)
     assert found.start == position(sizes, start, end, axis, Fraction(0))
     assert found.end == position(sizes, start, end, axis, Fraction(1))
@@ -51,7 +51,7 @@ def test_exact_decisions_on_a_tilted_way_agree(sizes, start, end, axis):
 
 @settings(max_examples=8, deadline=None)
 @given(_sizes, _centers, _centers, st.one_of(st.none(), _axes))
-def test_steps_and_roots_agree_about_a_way(sizes, start, end, axis):
+def test_passage_by_steps_and_by_roots_agree_about_a_tilted_way(sizes, start, end, axis):
     journey = journey_of(sizes, start, end, axis)
     steps, roots = by_steps(journey), by_roots(journey)
     assume(steps is not None)
@@ -90,7 +90,7 @@ def way_through(row, direction, reach):
 
 
 @pytest.mark.parametrize("row", RINGS)
-def test_passing_the_ring_of_a_tilted_spheroid_is_no_contact(row):
+def test_tilted_way_that_passes_the_ring_is_clear(row):
     """Every way through the centre is short enough to stay clear, and the discriminant is 0 there."""
     ways = [beside(row)[0], (0, 1, 0)]
     for way in ways:
@@ -160,14 +160,14 @@ def test_a_tilted_size_error_is_bracketed_by_exact_decisions():
     assert hits_at_size(row, 1 + Fraction(found.upper))
 
 
-def test_an_upright_axis_and_a_sphere_are_decided_as_upright_ways():
+def test_tilted_passage_with_a_vertical_axis_or_a_sphere_equals_the_upright_passage():
     way = ((2, 3, 1, 0.5), (-4, 2, 1), (4, 2, 0))
     assert passage(*way, (0, 0, -3)) == passage(*way)
     sphere = ((2, 3, 1, 1), (-4, 2, 1), (4, 2, 0))
     assert passage(*sphere, (1, 2, 3)) == passage(*sphere)
 
 
-def test_an_axis_without_direction_is_refused():
+def test_tilted_passage_refuses_an_axis_without_direction():
     with pytest.raises(InputError, match="an axis must have a direction"):
         hypcheck.passage((2, 3, 1, 0.5), (0, 0, 0), (1, 0, 0), (0, 0, 0))
     with pytest.raises(InputError, match=r"the axis: 2 numbers in .*; there must be 3: axis_x, axis_y, axis_z"):
@@ -175,7 +175,7 @@ def test_an_axis_without_direction_is_refused():
 
 
 @given(*[st.fractions(-4, 4, max_denominator=12)] * 4, st.sampled_from([2, 3, Fraction(5, 7)]))
-def test_numbers_with_a_root_are_computed_exactly(u, v, s, t, w):
+def test_sums_products_and_signs_of_surds_are_exact(u, v, s, t, w):
     first, second = Surd(u, v, Fraction(w)), Surd(s, t, Fraction(w))
     root = math.sqrt(w)
     for found, value in (

@@ -48,7 +48,7 @@ def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_po
 
 
 @pytest.mark.slow
-def test_positions_are_those_of_the_matrices():
+def test_tilted_roots_oracle_agrees_with_exact_positions_by_matrices():
     for family, row in rows(["uniform", "near", "stiff", "slight", "symmetric", "grid"], 60, seed=8):
         assert roots.position(TiltedPair.from_row(row)) == exact_position(row), (family, row)
 
@@ -60,7 +60,7 @@ def test_frozen_coincidences_have_their_proved_labels(name):
         assert (found.position, found.tangent) == (case.position, case.tangent), case.id
 
 
-def test_a_pattern_that_is_not_in_the_table_is_an_error(monkeypatch):
+def test_tilted_roots_oracle_raises_an_error_for_a_pattern_not_in_its_table(monkeypatch):
     monkeypatch.setattr(roots, "MEANING", {})
     with pytest.raises(AssertionError, match="a pattern that is not possible"):
         classify_tilted_by_roots(TiltedPair.from_row([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]))
