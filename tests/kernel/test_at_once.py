@@ -45,7 +45,7 @@ def columns():
 
 
 @pytest.mark.parametrize("count", COUNTS)
-def test_an_ordinary_call_answers_as_step_by_step(columns, count, alone):
+def test_an_ordinary_call_of_the_c_entry_answers_as_the_python_code(columns, count, alone):
     x, y, z = (column[:count] for column in columns)
     expected = step_by_step.classify_scene(SIZES, x, y, z)
     rows = tilted_rows(SIZES, (x, y, z), (0.3, 0.1, 0.9))
@@ -65,7 +65,7 @@ def test_an_ordinary_call_answers_as_step_by_step(columns, count, alone):
     assert alone.classify_scene(SIZES, x, y, z, axis=(0.0, 0.0, 0.0)) == LEFT
 
 
-def test_a_number_stands_for_a_column(columns, alone):
+def test_classify_scene_in_c_takes_a_number_in_place_of_a_column(columns, alone):
     x = columns[0][:1000]
     expected = step_by_step.classify_scene(SIZES, x, 0.5, 3.0)
     assert alone.classify_scene(SIZES, x, 0.5, np.float64(3), None, threads=None).tolist() == expected.tolist()
@@ -75,7 +75,7 @@ def test_a_number_stands_for_a_column(columns, alone):
 
 @pytest.mark.parametrize("count", [3, 1025, 5000])
 @pytest.mark.parametrize("options", [{}, {"threads": 1}, {"threads": 2}, {"axis": (0.3, 0.1, 0.9)}])
-def test_out_is_filled_in_place_and_left_alone_where_a_row_is_invalid(columns, count, options):
+def test_classify_scene_in_c_fills_out_or_leaves_it_unchanged_if_a_row_is_invalid(columns, count, options):
     x, y, z = (column[:count].copy() for column in columns)
     expected = hypcheck.classify_scene(SIZES, x, y, z, threads=2, axis=options.get("axis"))
     out = np.full(count, 99, np.int8)
@@ -92,7 +92,7 @@ def test_out_is_filled_in_place_and_left_alone_where_a_row_is_invalid(columns, c
         assert (out == 98).all()
 
 
-def test_rows_with_an_invalid_one_leave_out_alone():
+def test_classify_in_c_leaves_out_unchanged_if_a_row_is_invalid():
     rows = np.tile([2.0, 17.8, 0.25, 0.15, 1.0, 2.0, 3.0], (3000, 1))
     rows[2999, 0], out = -1, np.full(3000, 98, np.int8)
     with pytest.raises(InputError, match=r"row 2999: alpha is -1\.0"):
@@ -120,7 +120,7 @@ UNUSUAL = {
 
 
 @pytest.mark.parametrize("change", UNUSUAL.values(), ids=UNUSUAL)
-def test_any_other_call_is_left_to_python_and_changes_nothing(columns, change, alone):
+def test_the_c_entry_leaves_arrays_of_other_layouts_to_python_and_changes_nothing(columns, change, alone):
     x, y, z = (column[:20].copy() for column in columns)
     x, out = change(x, np.full(20, 97, np.int8))
     before, kept = np.array(x), np.array(out)
@@ -132,11 +132,11 @@ def test_any_other_call_is_left_to_python_and_changes_nothing(columns, change, a
 @pytest.mark.parametrize(
     "sizes", [SIZES[:3], (2, 17.8, 0.25, 0.15), (2.0, 17.8, 0.0, 0.15), None, b"", np.array(SIZES)]
 )
-def test_other_sizes_are_left_to_python(sizes, alone):
+def test_the_c_entry_leaves_unusual_sizes_to_python(sizes, alone):
     assert alone.classify_scene(sizes, 1.0, 2.0, 3.0, None, threads=None) == LEFT
 
 
-def test_a_read_only_out_is_left_to_python_which_refuses_it():
+def test_classify_scene_refuses_a_read_only_out():
     out = np.zeros(1, np.int8)
     out.flags.writeable = False
     with pytest.raises(InputError, match="out is read-only"):
@@ -144,7 +144,7 @@ def test_a_read_only_out_is_left_to_python_which_refuses_it():
 
 
 @pytest.mark.parametrize("level", LEVELS)
-def test_answers_kept_as_bits_are_those_that_are_written(level, columns):
+def test_answers_that_c_collects_as_bits_are_those_that_it_writes(level, columns):
     used = core.level()
     if not core.use_level(level):
         pytest.skip(f"this machine has no {level}")
@@ -164,12 +164,12 @@ def test_answers_kept_as_bits_are_those_that_are_written(level, columns):
     "options",
     [{"question": "exterior"}, {"on_invalid": "flag"}, {"threads": 2}, {"threads": True}, {"axis": [0, 0, 1]}],
 )
-def test_a_call_with_another_option_is_left_to_python(options, alone):
+def test_the_c_entry_leaves_calls_with_other_options_to_python(options, alone):
     assert alone.classify_scene(SIZES, 1.0, 2.0, 3.0, **options) == LEFT
     assert alone.classify(np.ones((1, 7)), **options) == LEFT
 
 
-def test_the_public_functions_have_the_signatures_and_the_descriptions_of_those_in_python():
+def test_the_public_functions_in_c_have_the_signatures_and_docstrings_of_the_python_ones():
     for name in ("classify", "classify_scene"):
         public, written = getattr(hypcheck, name), getattr(step_by_step, name)
         said, told = (inspect.signature(each).parameters.values() for each in (public, written))
@@ -182,7 +182,7 @@ def test_the_public_functions_have_the_signatures_and_the_descriptions_of_those_
 
 @pytest.mark.parametrize("axis", [None, (0.3, 0.1, 0.9), (0.0, 0.0, -2.0)])
 @pytest.mark.parametrize("known", [False, True], ids=["no-centre-known", "centres-known"])
-def test_a_prepared_scene_answers_as_its_sizes(axis, known, columns, alone):
+def test_classify_scene_with_prepared_sizes_answers_as_with_the_sizes(axis, known, columns, alone):
     prepared = hypcheck.Prepared(SIZES, axis, columns if known else ((), (), ()))
     for count in COUNTS:
         x, y, z = (column[:count] for column in columns)
@@ -192,7 +192,7 @@ def test_a_prepared_scene_answers_as_its_sizes(axis, known, columns, alone):
         assert step_by_step.classify_scene(prepared, x, y, z).tolist() == expected
 
 
-def test_a_prepared_scene_that_is_sent_to_another_process_is_prepared_anew_there():
+def test_prepared_sizes_sent_to_another_process_are_prepared_there_again():
     """What is kept means something to the build that made it alone: another, given it, would answer wrongly."""
     prepared = hypcheck.Prepared(SIZES, (0.3, 0.1, 0.9))
     sent = pickle.dumps(prepared)
@@ -201,7 +201,7 @@ def test_a_prepared_scene_that_is_sent_to_another_process_is_prepared_anew_there
     assert (arrived, arrived.kept) == (prepared, prepared.kept)
 
 
-def test_a_prepared_scene_is_a_value_and_refuses_what_classify_scene_refuses():
+def test_prepared_sizes_compare_by_value_and_refuse_invalid_sizes_and_axes():
     prepared = hypcheck.Prepared([2, 17.8, 0.25, 0.15], [[0.3, 0.1, 0.9]])
     assert prepared == hypcheck.Prepared(SIZES, (0.3, 0.1, 0.9), ([1.0], [2.0], [3.0]))
     assert repr(prepared) == "Prepared(sizes=(2.0, 17.8, 0.25, 0.15), axis=(0.3, 0.1, 0.9))"

@@ -31,7 +31,7 @@ def fresh(monkeypatch):
 WITHOUT = "it was not built at install, which takes a C compiler and Python's headers"
 
 
-def test_without_a_compiled_kernel_numpy_is_chosen_with_a_reason(fresh):
+def test_kernel_choice_without_a_compiled_kernel_is_numpy_with_the_reason(fresh):
     fresh.setattr(module, "EXTENSION", "hypcheck.kernel._not_there")
     assert choice() == KernelChoice("numpy", None, f"there is no compiled kernel: {WITHOUT}")
 
@@ -54,14 +54,14 @@ def test_forcing_a_missing_kernel_raises_an_input_error(fresh):
         ),
     ],
 )
-def test_invalid_environment_variables_raise_an_error_with_valid_values(fresh, name, value, sentence):
+def test_invalid_kernel_environment_variables_raise_an_error_with_valid_values(fresh, name, value, sentence):
     pytest.importorskip("hypcheck.kernel._compiled")
     fresh.setenv(name, value)
     with pytest.raises(InputError, match=sentence):
         choice()
 
 
-def test_a_level_that_this_machine_lacks_is_refused(fresh):
+def test_forcing_an_instruction_set_that_this_machine_lacks_is_refused(fresh):
     class Old:
         use_level = staticmethod(lambda name: name == "sse2")
         level = staticmethod(lambda: "sse2")
@@ -77,7 +77,7 @@ NEEDS = {"avx512": OF_AVX2 | {"avx512f", "avx512bw", "avx512dq", "avx512vl"}, "a
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64" or not CPUINFO.exists(), reason="it is read where Linux tells it")
-def test_the_best_level_is_the_one_that_the_processor_has(fresh):
+def test_the_chosen_instruction_set_is_the_best_that_the_processor_has(fresh):
     compiled = pytest.importorskip("hypcheck.kernel._compiled")
     flags = set(next(line for line in CPUINFO.read_text().splitlines() if line.startswith("flags")).split())
     assert choice().level == next((level for level, needed in NEEDS.items() if needed <= flags), "sse2")
@@ -94,7 +94,7 @@ def test_most_threads_is_the_number_of_processors_unless_set(fresh):
 
 
 @pytest.mark.parametrize("wanted", ["0", "-1", "two", "1.5", "٣"])
-def test_a_number_of_threads_that_is_none_is_refused(fresh, wanted):
+def test_an_invalid_number_of_threads_in_the_environment_is_refused(fresh, wanted):
     fresh.setenv("HYPCHECK_THREADS", wanted)
     with pytest.raises(InputError, match="it must be a whole number greater than 0, or unset"):
         most_threads()
@@ -112,7 +112,7 @@ print(json.dumps([choice().kernel, choice().level, by_row, by_scene, one_by_one]
 
 
 @pytest.mark.slow
-def test_every_kernel_and_level_can_be_forced_and_answers_the_same():
+def test_every_kernel_and_instruction_set_can_be_forced_and_answers_the_same():
     pytest.importorskip("hypcheck.kernel._compiled")
     found = {}
     for kernel, level in [("numpy", ""), *(("compiled", level) for level in LEVELS)]:

@@ -20,7 +20,7 @@ ROWS = [[1, 2, 1, 1, 2.5, 0, 0], [1, 2, 1, 1, 2, 0, 0], [4, 4, 1, 1, 0, 0, 0]]
 
 @settings(max_examples=60)
 @given(st.lists(pairs, max_size=10))
-def test_positions_are_exact(some):
+def test_classify_and_classify_scene_give_exact_positions(some):
     rows = np.array([pair.row for pair in some]).reshape(len(some), 7)
     found = hypcheck.classify(rows)
     assert (found.dtype, found.shape) == (np.int8, (len(some),))
@@ -39,7 +39,7 @@ def test_classify_takes_lists_and_other_types_of_numbers():
     assert hypcheck.classify_scene(np.float32([1, 2, 1, 1]), 2.5, 0, 0).tolist() == [1]
 
 
-def test_out_is_filled_and_returned():
+def test_classify_fills_the_given_out_array_and_returns_it():
     out = np.full(3, 99, dtype=np.int8)
     assert hypcheck.classify(ROWS, out=out) is out
     assert out.tolist() == [1, 0, -1]
@@ -48,7 +48,7 @@ def test_out_is_filled_and_returned():
     assert strided.tolist() == [1, 99, 0, 99, 0, 99]
 
 
-def test_out_may_overlap_the_rows():
+def test_classify_accepts_an_out_array_that_overlaps_the_rows():
     rows = np.array(ROWS)
     assert hypcheck.classify(rows, out=rows.view(np.int8)[0, :3]).tolist() == [1, 0, -1]
 
@@ -62,7 +62,7 @@ BAD = {
 
 
 @pytest.mark.parametrize(("said", "change"), BAD.items())
-def test_the_first_bad_row_is_named_and_nothing_is_written(said, change):
+def test_classify_names_the_first_invalid_row_and_leaves_out_unchanged(said, change):
     rows, out = np.array(ROWS), np.full(3, 99, dtype=np.int8)
     rows[1:, change[0]] = change[1]
     with pytest.raises(InputError, match=f"^row 1: {said};"):
@@ -72,7 +72,7 @@ def test_the_first_bad_row_is_named_and_nothing_is_written(said, change):
 
 
 @pytest.mark.parametrize("value", [np.nan, -np.inf])
-def test_the_first_bad_center_is_named_and_nothing_is_written(value):
+def test_classify_scene_names_the_first_invalid_centre_and_leaves_out_unchanged(value):
     out = np.full(3, 99, dtype=np.int8)
     with pytest.raises(InputError, match=f"^row 1: y is {value}; it must be finite"):
         hypcheck.classify_scene((1, 2, 1, 1), [1, 2, value], [1, value, 0], 0, out=out)
@@ -94,7 +94,7 @@ def test_the_first_bad_center_is_named_and_nothing_is_written(value):
         (np.broadcast_to(np.int8(0), 3), "read-only"),
     ],
 )
-def test_an_out_that_does_not_fit_is_refused(out, found):
+def test_classify_refuses_an_out_array_of_another_shape_or_type(out, found):
     for call in (
         lambda: hypcheck.classify(ROWS, out=out),
         lambda: hypcheck.classify(ROWS, out=out, on_invalid="flag"),
@@ -156,7 +156,7 @@ def test_classify_of_no_rows_is_an_empty_array():
 
 
 @pytest.mark.parametrize("unit", [5e-324, 1e-300, 1e-160, 1e300])
-def test_positions_at_the_ends_of_float64_are_exact(unit):
+def test_classify_is_exact_at_the_ends_of_the_float64_range(unit):
     """Spheres beside a hyperboloid of waist α: clear at 3 α, tangent at 2 α."""
     rows = np.array([[1, 1, 1, 1, 3, 0, 0], [1, 1, 1, 1, 2, 0, 0]]) * unit
     assert hypcheck.classify(rows).tolist() == [1, 0]

@@ -31,7 +31,7 @@ def found(rows):
     return hypcheck.clearance(rows)
 
 
-def test_the_clearances_of_each_family_lie_in_their_intervals(rows, found):
+def test_clearance_intervals_contain_the_exact_clearance_on_each_family(rows, found):
     true = nearest.clearances(rows)
     assert (found.position == true.position).all()
     assert ((found.lower <= true.clearance) & (true.clearance <= found.upper)).all()
@@ -40,7 +40,7 @@ def test_the_clearances_of_each_family_lie_in_their_intervals(rows, found):
     assert (found.upper[found.position == 0] <= 0).all()
 
 
-def test_a_wrong_guess_makes_no_wrong_interval(rows, found, monkeypatch):
+def test_clearance_intervals_stay_right_if_the_guess_of_the_touch_is_wrong(rows, found, monkeypatch):
     honest = clearance_points.upright_touches
 
     def touches(some):
@@ -57,7 +57,7 @@ def test_a_wrong_guess_makes_no_wrong_interval(rows, found, monkeypatch):
     assert (other.upper - other.lower <= 2.0**-29 * np.maximum(1, 1 + other.lower)).all()
 
 
-def test_a_gap_measured_elsewhere_makes_no_wrong_interval(rows, monkeypatch):
+def test_clearance_intervals_stay_right_if_the_gap_is_measured_at_another_point(rows, monkeypatch):
     monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
     choice.choice.cache_clear()
     some = FAMILIES["uniform"].rows(2, 60)
@@ -80,7 +80,7 @@ def test_a_gap_measured_elsewhere_makes_no_wrong_interval(rows, monkeypatch):
     assert (found.distance_upper > 1.01 * true.distance_upper).any()
 
 
-def test_the_numpy_kernel_and_each_instruction_set_say_the_same(rows, found):
+def test_clearance_of_the_numpy_kernel_agrees_with_each_instruction_set(rows, found):
     module = pytest.importorskip("hypcheck.kernel._compiled")
     best = module.level()
     for level in ("plain", "sse2", "avx2"):
@@ -95,7 +95,7 @@ def test_the_numpy_kernel_and_each_instruction_set_say_the_same(rows, found):
     assert module.use_level(best)
 
 
-def test_the_exact_touch_is_within_its_error(rows, found):
+def test_the_exact_nearest_point_is_within_the_touch_error(rows, found):
     known = np.flatnonzero(np.isfinite(found.touch_error))
     assert len(known) > len(rows) / 2
     for k in known[::4].tolist():
@@ -107,7 +107,7 @@ def test_the_exact_touch_is_within_its_error(rows, found):
     assert np.median(found.touch_error[known] / np.abs(found.touch[known]).sum(axis=1)) < 1e-12
 
 
-def test_the_clearances_of_tilted_families_lie_in_their_intervals():
+def test_clearance_intervals_contain_the_exact_clearance_on_tilted_families():
     rows = np.concatenate([TILTED_FAMILIES[name].rows(1, 8) for name in LEANING])
     found = hypcheck.clearance(rows)
     for k, row in enumerate(rows.tolist()):
@@ -125,13 +125,13 @@ def test_the_clearances_of_tilted_families_lie_in_their_intervals():
         ((1, 1, 1, 1, 1.5, 0, 0), 0.0),
     ],
 )
-def test_distances_worked_out_by_hand_lie_in_their_intervals(row, distance):
+def test_distance_intervals_contain_distances_worked_out_by_hand(row, distance):
     found = hypcheck.clearance([row])
     assert found.distance_lower[0] <= distance <= found.distance_upper[0]
     assert found.distance_upper[0] - found.distance_lower[0] <= 1e-8
 
 
-def test_no_two_points_of_the_bodies_are_nearer_than_the_lower_distance():
+def test_sampled_points_of_both_bodies_are_no_nearer_than_distance_lower():
     rng = np.random.default_rng(7)
     rows = np.concatenate([np.exp(rng.normal(0, 1, (60, 4))), rng.normal(0, 5, (60, 3))], axis=1)
     rows = rows[hypcheck.classify(rows) != 0]
@@ -146,7 +146,7 @@ def test_no_two_points_of_the_bodies_are_nearer_than_the_lower_distance():
         assert np.isclose(np.hypot(*found.nearest[k, :2]), rho[-1], rtol=1e-14)
 
 
-def test_a_layer_lies_in_the_spheroid_that_is_to_hold_it():
+def test_an_enlarged_spheroid_contains_the_layer_around_the_smaller_one():
     rng = np.random.default_rng(8)
     b, d, v, delta = np.exp(rng.normal(0, 2, (4, 1000)))
     angle = rng.uniform(0, np.pi, 1000)
@@ -158,7 +158,7 @@ def _enlarged(b, d, v, delta):
     return [np.sqrt((v + delta) * (size**2 / v + delta)) for size in (b, d)]
 
 
-def test_invalid_rows_are_refused_or_marked():
+def test_clearance_refuses_invalid_rows_or_marks_them_with_127():
     rows = [[2, 17.8, 0.25, 0.15, 0, 0, 0], [2, 17.8, -1, 0.15, 0, 0, 0]]
     with pytest.raises(InputError, match=r"row 1: b is -1\.0; a semi-axis must be"):
         hypcheck.clearance(rows)

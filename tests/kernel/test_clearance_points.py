@@ -65,7 +65,7 @@ def test_an_upright_touch_is_the_exact_nearest_point_within_a_small_error():
     assert (off_the_surface(rows, found.point) < 1e-14).all()
 
 
-def test_the_error_of_an_upright_touch_is_small_but_where_two_points_are_about_to_fall_together():
+def test_the_error_of_an_upright_touch_is_small_except_near_a_double_nearest_point():
     found = clearance_points.upright_touches(UPRIGHT)
     size = np.abs(found.point).sum(axis=1)
     assert np.median(found.error / size) < 2e-13
@@ -99,7 +99,7 @@ def normal_to_hyperboloid(rows, points):
     return normal / np.linalg.norm(normal, axis=1, keepdims=True)
 
 
-def test_the_multiplier_of_the_numpy_kernel_is_where_phi_is_largest_or_next_to_a_pole():
+def test_the_multiplier_of_the_numpy_kernel_maximises_phi_or_is_next_to_a_pole():
     """It turns Newton's method; towards a pole it stops a thousandth before."""
     rows = np.concatenate([LEANING, stretched(LEANING)])
     inner = 0
@@ -128,7 +128,7 @@ def gaps_of(rows, gaps, touches):
         (LEANING, clearance_points.leaning_gaps, clearance_points.leaning_touches),
     ],
 )
-def test_the_ends_of_a_gap_are_on_both_bodies_and_it_is_normal_to_both(rows, gaps, touches):
+def test_a_gap_ends_on_both_bodies_and_is_normal_to_both(rows, gaps, touches):
     rows, position, found = gaps_of(rows, gaps, touches)
     assert len(rows) > 15
     assert set(position.tolist()) == {-1, 1}
@@ -144,7 +144,7 @@ def test_the_ends_of_a_gap_are_on_both_bodies_and_it_is_normal_to_both(rows, gap
     assert found.support == pytest.approx(half_width, rel=1e-12)
 
 
-def test_lengths_out_of_range_or_proportion_have_no_known_error():
+def test_a_touch_of_lengths_beyond_the_proved_range_has_no_known_error():
     row = [2.0, 3.0, 0.5, 0.7, 4.0, 1.0, 2.0]
     rows = np.array([row] * 9)
     rows[1, 2] = 0.7 * 2.0**-21
@@ -203,7 +203,7 @@ def test_the_error_of_a_leaning_touch_holds_for_a_multiplier_that_is_wrong(monke
         assert np.median(found.error[known] / off[known]) < 1000
 
 
-def test_the_length_of_an_axis_does_not_matter():
+def test_a_leaning_touch_does_not_depend_on_the_length_of_the_axis():
     found = clearance_points.leaning_touches(LEANING)
     for factor in (2.0**900, 2.0**-900):
         rows = LEANING.copy()
@@ -213,7 +213,7 @@ def test_the_length_of_an_axis_does_not_matter():
         assert other.error == pytest.approx(found.error, rel=0.1)
 
 
-def test_pivots_are_positive_where_all_eigenvalues_are():
+def test_has_positive_pivots_holds_for_matrices_with_positive_eigenvalues():
     draw = np.random.default_rng(9)
     some = draw.normal(0, 1, (400, 3, 3)) + np.eye(3) * draw.uniform(-1, 4, (400, 1, 1))
     some = some + np.swapaxes(some, 1, 2)
@@ -242,7 +242,7 @@ def known_error(row, at, place, share=0.5):
         ((2, 3, 1, 0.1, 0.5, 1, 2, 1, 2, 1), -1.5),
     ],
 )
-def test_the_bound_of_a_leaning_touch_is_the_sum_of_its_two_ways(row, at):
+def test_the_error_bound_of_a_leaning_touch_is_just_above_its_written_formula(row, at):
     """|r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ), the terms that round with 2⁻⁴⁶ of them."""
     rows = np.array([row], dtype=float)
     place = np.array([1.1, 0.4, 0.3]) * row[0] if row[0] > 0.1 else np.array([0.02, 0.01, 0.3])
@@ -256,7 +256,7 @@ def test_the_bound_of_a_leaning_touch_is_the_sum_of_its_two_ways(row, at):
     assert found <= 1.001 * (off / mu + np.sqrt((3 * trace + 6) / mu) * (beside + off / mu))
 
 
-def test_a_place_far_from_the_surface_or_a_matrix_near_a_singular_one_shows_no_bound():
+def test_a_touch_far_from_the_surface_or_with_a_nearly_singular_matrix_has_no_error_bound():
     row = (1, 1, 1, 2, 3, 1, 2, 1, 0, 1)
     assert np.isfinite(known_error(row, 0.2, [0.9, 0.0, 0.0])[0])
     assert np.isnan(known_error(row, 0.2, [0.5, 0.0, 0.0])[0])

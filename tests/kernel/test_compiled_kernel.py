@@ -33,7 +33,7 @@ def scene():
 
 @pytest.mark.parametrize("kernel", [compiled_kernel, numpy_kernel], ids=["compiled", "numpy"])
 @pytest.mark.parametrize("question", QUESTIONS)
-def test_a_question_is_answered_yes_where_the_position_is_the_one(kernel, question, rows, scene):
+def test_the_compiled_kernel_answers_each_question_as_the_exact_position_does(kernel, question, rows, scene):
     yes = {"exterior": 1, "interior": -1, "contact": 0}
     for truth, (answers, refused) in (
         (float_filter.positions(rows), kernel.answer_rows(rows, question)),
@@ -45,7 +45,7 @@ def test_a_question_is_answered_yes_where_the_position_is_the_one(kernel, questi
 
 @pytest.mark.parametrize("question", QUESTIONS)
 @pytest.mark.parametrize("kernel", [compiled_kernel, numpy_kernel], ids=["compiled", "numpy"])
-def test_an_invalid_row_is_127_to_every_question_and_harms_no_other(kernel, question):
+def test_the_compiled_kernel_answers_127_for_an_invalid_row_and_no_other_changes(kernel, question):
     random = np.random.default_rng(1)
     x, y, z = random.uniform(-4, 4, (3, 40_000))
     before, _ = kernel.answer_scene(SIZES, (x, y, z), question)
@@ -61,7 +61,7 @@ def test_an_invalid_row_is_127_to_every_question_and_harms_no_other(kernel, ques
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 7, np.int64(2), 10**9])
-def test_answers_do_not_depend_on_the_number_of_threads(threads, rows, scene):
+def test_classify_answers_do_not_depend_on_the_number_of_threads(threads, rows, scene):
     truth = float_filter.positions(rows)
     assert (hypcheck.classify(rows, threads=threads) == truth).all()
     found = hypcheck.classify_scene(scene.sizes, scene.x, scene.y, scene.z, threads=threads)
@@ -94,7 +94,7 @@ def test_the_c_function_answers_the_position_to_an_unknown_question(scene):
         assert (answers == float_filter.positions(scene.rows)).all()
 
 
-def test_a_million_rows_are_shared_among_threads(monkeypatch):
+def test_the_compiled_kernel_shares_many_rows_among_threads(monkeypatch):
     monkeypatch.setattr(compiled_kernel, "ROWS_A_THREAD", 1000)
     monkeypatch.setenv("HYPCHECK_THREADS", "3")
     seen = set()
@@ -114,7 +114,7 @@ def test_a_million_rows_are_shared_among_threads(monkeypatch):
     assert (answers == numpy_kernel.positions_of_scene(SIZES, x, y, z)).all()
 
 
-def test_python_runs_on_while_c_computes():
+def test_python_threads_run_while_the_compiled_kernel_computes():
     """A second thread counts while the first is in C; with the interpreter held it would stand still until the end."""
     rows = np.tile([1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0], (400_000, 1))  # tangencies: some 0.2 s for the integers
     answers, counted, done = np.empty(len(rows), np.int8), [], threading.Event()
@@ -139,7 +139,7 @@ def test_python_runs_on_while_c_computes():
 
 
 @pytest.mark.parametrize("bad", ["hypcheck-1", threading.current_thread().name])
-def test_an_error_in_a_thread_is_raised_in_the_caller(bad, monkeypatch):
+def test_an_error_in_a_thread_of_the_compiled_kernel_is_raised_in_the_caller(bad, monkeypatch):
     class Failing:
         @staticmethod
         def ask_scene(*arguments):
@@ -152,7 +152,7 @@ def test_an_error_in_a_thread_is_raised_in_the_caller(bad, monkeypatch):
         hypcheck.classify_scene(SIZES, np.zeros(1000), 0, 0, threads=3)
 
 
-def test_columns_of_any_stride_type_and_alignment_are_answered(scene, monkeypatch):
+def test_classify_scene_is_exact_for_columns_of_any_stride_type_and_alignment(scene, monkeypatch):
     monkeypatch.setattr(compiled_kernel, "CHUNK", 999)
     truth = float_filter.positions(scene.rows)
     table = np.column_stack([scene.x, scene.y, scene.z])
@@ -165,12 +165,12 @@ def test_columns_of_any_stride_type_and_alignment_are_answered(scene, monkeypatc
     assert (hypcheck.classify_scene(scene.sizes, shifted, scene.y, scene.z) == truth).all()
 
 
-def test_rows_of_any_alignment_are_answered(rows):
+def test_classify_is_exact_for_rows_of_any_alignment(rows):
     shifted = np.frombuffer(b"\0" + rows.tobytes(), np.float64, rows.size, 1).reshape(rows.shape)
     assert (hypcheck.classify(shifted) == float_filter.positions(rows)).all()
 
 
-def test_the_extension_checks_its_buffers():
+def test_the_compiled_extension_refuses_wrong_buffers_in_one_sentence():
     out, rows = np.zeros(2, np.int8), np.ones((2, 7))
     for sentence, *arguments in (
         ("a question is a number from 0 to 3", 4, rows, out),

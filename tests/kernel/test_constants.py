@@ -14,25 +14,25 @@ DEFINED = dict(re.findall(r"#define HC_(\w+) (-?[\d.]+(?:e[+-]?\d+)?)\b", HEADER
 
 
 @pytest.mark.parametrize("name", PROOFS)
-def test_the_derivation_of_a_constant_holds_with_its_value_in_the_header(name):
+def test_the_derivation_of_each_constant_holds_with_its_value_in_the_header(name):
     assert PROOFS[name](Fraction(float(DEFINED[name])))
 
 
 @pytest.mark.parametrize("name", [name for name in PROOFS if name.startswith("u_") or name == "rounded"])
-def test_the_derivation_of_a_bound_fails_with_half_of_it_and_with_twice(name):
+def test_the_derivation_of_each_bound_fails_with_half_and_with_twice_its_value(name):
     value = Fraction(float(DEFINED[name]))
     assert not PROOFS[name](value / 2)
     assert not PROOFS[name](value * 2)
 
 
 @pytest.mark.parametrize("name", ["fixed_coefficient", "fixed_pole", "fixed_delta", "fixed_middle", "WIDEST"])
-def test_the_derivation_of_a_whole_number_fails_with_one_less_and_with_one_more(name):
+def test_the_derivation_of_each_integer_constant_fails_with_one_less_and_one_more(name):
     value = int(DEFINED[name])
     assert not PROOFS[name](Fraction(value - 1))
     assert not PROOFS[name](Fraction(value + 1))
 
 
-def test_every_level_has_a_width():
+def test_the_header_defines_the_vector_width_of_every_instruction_set():
     assert sorted(widths()) == [1, 2, 2, 4, 8]
 
 
@@ -55,5 +55,5 @@ def test_every_level_has_a_width():
         ("HAIR", 2.0**-30),
     ],
 )
-def test_the_derivation_of_a_limit_fails_beyond_what_it_covers(name, beyond):
+def test_the_derivation_of_each_limit_fails_beyond_the_range_that_it_covers(name, beyond):
     assert not PROOFS[name](Fraction(beyond))

@@ -25,7 +25,7 @@ from tests.kernel.compiling import HEADER, needs_compiler, shared_library
 HALF, WHOLE = 2**64, 2**128
 
 
-def test_the_middle_is_the_cubic_at_its_inflection():
+def test_middle_of_the_fixed_point_program_is_the_cubic_at_its_inflection():
     N, n2, n1, ps = sympy.symbols("N n2 n1 ps")
     names = dict(zip(("N", "n2", "n1", "ps"), (N, n2, n1, ps), strict=True))
     delta, middle = outputs(fixed.DISCRIMINANT, SYMBOLIC, names, ("delta", "middle"))
@@ -35,7 +35,7 @@ def test_the_middle_is_the_cubic_at_its_inflection():
     assert sympy.expand(middle - 27 * N**2 * cubic.subs(x, -n2 / (3 * N))) == 0
 
 
-def test_the_terms_are_those_of_the_integers_and_at_the_poles_a_factor_less():
+def test_terms_of_the_fixed_point_program_are_those_of_the_integers_up_to_a_factor():
     sides = dict(zip(("alpha", "gamma", "b", "d", "x", "y", "z"), sympy.symbols("alpha gamma b d x y z"), strict=True))
     wanted = ("p", "q", "s", "t", "xx", "yy", "S")
     squares = dict(zip(wanted, outputs(INTEGERS, SYMBOLIC, sides, wanted), strict=True))
@@ -83,7 +83,7 @@ PROGRAMS = {"terms": fixed.TERMS, "discriminant": fixed.DISCRIMINANT, "poles": f
 
 @settings(max_examples=20)
 @given(st.sampled_from(sorted(PROGRAMS)), st.data())
-def test_nothing_leaves_the_range_that_was_followed_through_a_program(name, data):
+def test_values_and_errors_of_a_fixed_point_program_stay_in_their_computed_ranges(name, data):
     program, ranges = PROGRAMS[name], fixed.RANGES[name]
     inputs = {}
     for each in program.inputs:
@@ -98,7 +98,7 @@ def test_nothing_leaves_the_range_that_was_followed_through_a_program(name, data
         assert told.under <= value - exact <= told.over, step
 
 
-def test_errors_are_whole_units_and_the_worst_of_the_ranges():
+def test_fixed_point_errors_are_whole_units_and_cover_the_computed_ranges():
     assert fixed.ERRORS == {"coefficient": 8, "pole": 22, "delta": 31, "middle": 39}
     for name in ("delta", "middle"):
         assert fixed.RANGES["discriminant"][name].error <= fixed.ERRORS[name]
@@ -111,7 +111,7 @@ def test_errors_are_whole_units_and_the_worst_of_the_ranges():
         ("r = a / a", 1, "div is no operation in fixed point"),
     ],
 )
-def test_a_program_that_fixed_point_cannot_run_is_refused(listing, high, trouble):
+def test_fixed_point_errors_refuse_a_program_that_cannot_run_in_fixed_point(listing, high, trouble):
     with pytest.raises(ValueError, match=trouble):
         fixed.errors(program_of("odd", ("a",), listing), {"a": fixed.Range(0, high)})
 
@@ -174,7 +174,7 @@ EDGES = [0, 1, -1, 2**63, 2**64 - 1, 2**64, -(2**64), 2**126 + 3, -(2**126) - 7,
 
 
 @needs_compiler
-def test_functions_of_c_are_those_of_fixed_point(library):
+def test_the_fixed_point_functions_in_c_compute_as_python_integers(library):
     random = np.random.default_rng(4)
     drawn = [int.from_bytes(random.bytes(16), "little", signed=True) >> int(random.integers(0, 120)) for _ in range(40)]
     for a, b in itertools.product(EDGES + drawn, repeat=2):
@@ -201,7 +201,7 @@ def square(number: int) -> int:
 
 
 @needs_compiler
-def test_a_sign_is_told_only_beyond_the_error(library):
+def test_the_fixed_point_sign_in_c_is_0_unless_the_number_exceeds_its_error(library):
     library.sign.argtypes = (ctypes.c_void_p, ctypes.c_uint64, ctypes.c_int)
     for error, grown in ((31, 0), (31, 100), (8, 60)):
         limit = error << grown
@@ -218,7 +218,7 @@ def answers(library, rows) -> np.ndarray:
 
 
 @needs_compiler
-def test_fixed_point_is_never_wrong_and_tells_nearly_all_rows_that_are_no_tangency(library):
+def test_the_fixed_point_stage_is_never_wrong_and_decides_nearly_all_rows_but_tangencies(library):
     rows = rows_of(*FAMILIES, count=5)
     truth, found = float_filter.positions(rows), answers(library, rows)
     assert (found == truth)[found != 2].all()
@@ -228,7 +228,7 @@ def test_fixed_point_is_never_wrong_and_tells_nearly_all_rows_that_are_no_tangen
 
 
 @needs_compiler
-def test_without_its_bound_the_discriminant_in_fixed_point_would_be_wrong(tmp_path):
+def test_the_fixed_point_stage_without_its_error_bound_answers_some_tangencies_wrongly(tmp_path):
     rows = rows_of("tangent")
     found = answers(built(tmp_path, delta=0), rows)
     assert (found != float_filter.positions(rows))[found != 2].any()

@@ -23,20 +23,20 @@ LEAST_NORMAL = Fraction(sys.float_info.min)
 U = Fraction(certified.U)
 
 
-def test_the_second_stage_decides_by_the_rule_for_all_signs():
+def test_the_certified_stage_decides_by_the_exact_rule_for_all_combinations_of_signs():
     assert program_rules.wrong_signs(certified.CERTIFIED) == []
 
 
-def test_the_stage_of_leaning_rows_decides_by_its_rule_for_all_signs():
+def test_the_stage_of_leaning_rows_decides_by_its_rule_for_all_combinations_of_signs():
     assert program_rules.wrong_signs_of_leaning_rows(tilted.TILTED) == []
 
 
 @pytest.mark.parametrize("program", [certified.CERTIFIED, tilted.TILTED], ids=lambda program: program.name)
-def test_the_float_stages_answer_within_their_limits_alone(program):
+def test_the_float_stages_decide_only_rows_within_their_limits(program):
     assert program_rules.wrong_limits(program) == []
 
 
-def test_nothing_overflows_where_the_second_stage_decides():
+def test_no_product_overflows_on_rows_that_the_certified_stage_decides():
     """With every size and centre at its limit the largest product of the bound is far from the largest float64."""
     most, far = (Fraction(certified.CONSTANTS[name]) for name in ("greatest", "farthest"))
     m2 = 2 * (2 * most + 1 + far)
@@ -49,20 +49,20 @@ def test_nothing_overflows_where_the_second_stage_decides():
     assert GREATEST / (2 * most * most) > far  # what x² + y² becomes when it overflows is seen
 
 
-def test_what_underflows_in_the_second_stage_is_within_the_unit_to_spare():
+def test_underflow_in_the_certified_stage_is_less_than_one_spare_unit_of_its_bound():
     least, most = (Fraction(certified.CONSTANTS[name]) for name in ("least", "greatest"))
     lost = 4 * most * 2 * LEAST_NORMAL / least**2  # of c1, where x², y² and z² are lost
     assert lost < U * least * least  # AB, the least of the terms' sum that e1 is measured by
 
 
-def test_nothing_overflows_or_is_lost_in_the_first_stage():
+def test_no_product_overflows_or_underflows_in_the_stage_of_lines():
     slope, constant, cap = (Fraction(each) for each in (lines.GREATEST_SLOPE, lines.LEAST_CONSTANT, lines.CAP))
     assert slope * cap * 2 < GREATEST
     assert 64 * cap < GREATEST
     assert 2 * LEAST_NORMAL * (1 + slope) < U * constant
 
 
-def test_squares_lost_in_single_precision_are_within_tiny():
+def test_squares_that_underflow_in_single_precision_are_below_the_constant_tiny():
     least_normal = Fraction(1, 2**126)
     lost = 2 * 2 * least_normal * (1 + Fraction(lines.FLOAT32_GREATEST_SLOPE))
     assert lost < Fraction(lines.FLOAT32_TINY)
@@ -72,7 +72,7 @@ def test_squares_lost_in_single_precision_are_within_tiny():
 
 
 @pytest.mark.parametrize("at", [0, 1])
-def test_a_chord_is_checked_at_both_ends(at):
+def test_the_chord_program_compares_both_ends_of_the_chord(at):
     """K + M T is 1 at T = 0 and 3 at T = 1; one end has room on either side, the other on none."""
     inputs = {"K": 1, "M": 2, "T_0": 0, "T_1": 1, "less": lines.LESS, "more": lines.MORE}
     heights = [1, 3]
@@ -83,7 +83,7 @@ def test_a_chord_is_checked_at_both_ends(at):
         assert outputs(lines.CHORD, EXACT, {**inputs, **one}, ("below", "above")) == (False, False)
 
 
-def test_the_longest_float64_has_room_among_the_integers():
+def test_the_longest_integer_from_float64_lengths_has_the_counted_number_of_bits():
     longest = Pair(sys.float_info.max, 1.0, 5e-324, 1.0, 5e-324, 0.0, 0.0).lengths.alpha
     assert longest.bit_length() == FLOAT64_BITS
     assert integers.position(Lengths(longest, 1, 0, 0, 1, 1, 0)) is Position.INTERIOR
@@ -141,7 +141,7 @@ def position_at(sizes: tuple[float, ...], R: Fraction, z: Fraction, *, above: bo
 
 @pytest.mark.thorough
 @needs_compiler
-def test_lines_of_a_compiled_scene_hold_at_both_ends_of_their_reach(tmp_path):
+def test_lines_of_a_compiled_scene_are_right_at_both_ends_of_their_reach(tmp_path):
     """At T = 0 and at the greatest T the exact position just beside each line is the one that the line claims."""
     binary = program(tmp_path, SCENE, *STRICT, "-Wno-unused-function", "-O1")
     asked = [(*sizes, size * 1.37) for sizes in SIZES for size in (sizes[1], sizes[3])]

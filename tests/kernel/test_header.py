@@ -34,22 +34,22 @@ CPP_COMPILERS = [
 ]
 
 
-def test_the_header_is_what_the_generator_prints():
+def test_the_committed_header_is_what_its_generator_prints():
     assert HEADER.read_text(encoding="utf-8") == generate.header(), f"run {generate.COMMAND}"
 
 
 @pytest.mark.parametrize("name", modules.modules())
-def test_a_printed_module_is_what_the_generator_prints(name):
+def test_each_committed_printed_module_is_what_its_generator_prints(name):
     assert (modules.FOLDER / name).read_text(encoding="utf-8") == modules.modules()[name], f"run {modules.COMMAND}"
 
 
-def test_the_header_has_every_step_of_the_programs():
+def test_the_header_has_every_step_of_the_certified_program():
     text = HEADER.read_text(encoding="utf-8")
     for step in needed(certified.CERTIFIED, ("exterior", "interior", "decided")):
         assert re.search(rf"const HC_(NUMBER|TRUTH) {step.name} = ", text), step.name
 
 
-def test_limits_of_the_scalar_function_are_those_of_the_program():
+def test_limits_of_the_scalar_function_are_those_of_the_certified_program():
     constants = certified.CONSTANTS
     assert (scalars.LEAST, scalars.GREATEST, scalars.FARTHEST, scalars.SLACK) == tuple(
         constants[name] for name in ("least", "greatest", "farthest", "slack")
@@ -83,7 +83,7 @@ PARTS = ("-funsafe-math-optimizations", "-fassociative-math -fno-signed-zeros -f
         *(pytest.param(CLANG, option, marks=needs_clang) for option in WHOLE),
     ],
 )
-def test_compiler_options_that_void_the_proofs_are_refused(option, compiler, tmp_path):
+def test_the_header_does_not_compile_with_options_that_void_the_proofs(option, compiler, tmp_path):
     done = compiled_source(tmp_path, IMPLEMENTATION, "-fsyntax-only", *option.split(), compiler=compiler)
     assert done.returncode != 0
     assert "error: " in done.stderr
@@ -94,7 +94,7 @@ def test_compiler_options_that_void_the_proofs_are_refused(option, compiler, tmp
 
 @needs_clang
 @pytest.mark.parametrize("option", PARTS)
-def test_options_that_clang_does_not_report_are_undone_in_the_header(option, tmp_path):
+def test_the_header_undoes_options_that_clang_does_not_report(option, tmp_path):
     """No operation carries a flag that lets clang reorder a sum or replace a quotient."""
     (tmp_path / "source.c").write_text(IMPLEMENTATION, encoding="utf-8")
     listing = [CLANG, "-O1", *option.split(), f"-I{HEADER.parent}", "-S", "-emit-llvm", "source.c", "-o", "-"]

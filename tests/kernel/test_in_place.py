@@ -29,7 +29,7 @@ def run(program, wanted, inputs):
 
 @pytest.mark.parametrize("program", WITHOUT_CHOICES.values(), ids=WITHOUT_CHOICES)
 @pytest.mark.parametrize("alone", [True, False], ids=["one-by-one", "all-at-once"])
-def test_every_printed_step_gives_the_same_bits(program, alone):
+def test_every_step_printed_in_place_gives_the_same_bits_as_its_program(program, alone):
     inputs = dict(zip(program.inputs, columns(program, "float64"), strict=True))
     before = {name: value.copy() for name, value in inputs.items()}
     expected = evaluate(program, float_arithmetic("float64"), inputs)
@@ -50,7 +50,7 @@ def test_in_place_statements_reuse_a_buffer_after_its_last_read():
     assert printed.statements[3] == "np.subtract(n0, -2.0, n0)  # d = c - -2"
 
 
-def test_copied_inputs_are_rounded_to_the_buffers_type_and_not_changed():
+def test_in_place_statements_round_copied_inputs_and_do_not_change_them():
     program = program_of("norm", ("x", "y", "k"), "xx = x * x\nyy = y * y\nr = xx + yy\np = r > k")
     printed = in_place_statements(program, ("r", "p"), copied=("x", "y"))
     assert (printed.numbers, printed.truths) == (2, 1)

@@ -27,7 +27,7 @@ def test_the_numpy_kernel_is_right_on_known_witnesses(row, position, clearance, 
 
 @pytest.mark.thorough
 @given(st.lists(pairs, min_size=1, max_size=20))
-def test_every_answer_has_a_checked_proof(some):
+def test_every_answer_of_the_numpy_kernel_has_a_certificate_that_holds(some):
     rows = np.array([pair.row for pair in some])
     for pair, position in zip(some, numpy_kernel.positions(rows).tolist(), strict=True):
         certificate = prove(pair)
@@ -36,7 +36,7 @@ def test_every_answer_has_a_checked_proof(some):
 
 
 @given(pairs, st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 3), min_size=1, max_size=20))
-def test_positions_of_a_scene_are_those_of_its_rows(pair, centers):
+def test_the_numpy_kernel_answers_a_scene_as_its_rows(pair, centers):
     x, y, z = np.array(centers).T
     rows = np.column_stack([*(np.full(len(x), size) for size in pair.row[:4]), x, y, z])
     found = numpy_kernel.positions_of_scene(pair.row[:4], x, y, z)
@@ -52,7 +52,7 @@ def test_the_numpy_kernel_is_right_on_random_rows_of_all_regimes(spread):
 
 @pytest.mark.parametrize("exponent", range(-52, -20, 4))
 @pytest.mark.parametrize("sign", [-1, 0, 1])
-def test_the_certified_stage_leaves_tangencies_undecided(exponent, sign):
+def test_the_numpy_kernel_is_exact_within_a_few_units_of_a_tangency(exponent, sign):
     """r − a = 1 + sign 2^exponent at the waist; the walls are steep, so the nearest point is there."""
     a = np.arange(1.0, 200.0)
     x = a + 1 + sign * 2.0**exponent
@@ -62,7 +62,7 @@ def test_the_certified_stage_leaves_tangencies_undecided(exponent, sign):
     assert set(numpy_kernel.positions(rows).tolist()) <= {1 if sign > 0 else 0}
 
 
-def test_rows_of_a_chunk_and_beyond_are_all_answered():
+def test_the_numpy_kernel_answers_rows_of_several_chunks():
     count = 2 * numpy_kernel.CHUNK + 3
     rows = np.tile([2.0, 5.0, 1.0, 1.0, 9.0, 0.0, 0.0], (count, 1))
     rows[-1, 4] = 0.5
@@ -72,7 +72,7 @@ def test_rows_of_a_chunk_and_beyond_are_all_answered():
 
 
 @pytest.mark.thorough
-def test_heights_that_no_line_covers_and_sizes_that_allow_none_are_answered_too():
+def test_the_numpy_kernel_is_exact_for_heights_and_sizes_without_lines():
     random = np.random.default_rng(2)
     x, y, z = random.uniform(-4, 4, (3, numpy_kernel.LINES_FROM))
     z[::1000] *= 1e5  # beyond every height of the sample, or the highest of it
@@ -95,7 +95,7 @@ SCENES = [
 
 
 @pytest.mark.parametrize(("sizes", "parallel", "two"), SCENES)
-def test_lines_decide_most_centres_beside_the_surface_and_none_wrongly(sizes, parallel, two):
+def test_lines_of_the_numpy_kernel_decide_most_centres_near_the_surface_and_none_wrongly(sizes, parallel, two):
     alpha, gamma, b, _ = sizes
     draw, count = np.random.default_rng(1), 8192
     z = draw.uniform(-1.5 * gamma, 1.5 * gamma, count)
@@ -116,7 +116,7 @@ def test_lines_decide_most_centres_beside_the_surface_and_none_wrongly(sizes, pa
             assert not share or decided[truth == position].mean() >= share
 
 
-def test_sizes_beyond_the_margins_of_the_lines_have_none_and_heights_of_zero_have_some():
+def test_lines_of_is_none_for_extreme_sizes_and_gives_lines_for_heights_of_zero():
     assert scene_lines.lines_of((1.0, 1e300, 1.0, 1.0), np.array([1.0])) is None
     for z in (np.zeros(3), np.array([5e-324]), np.array([np.nan, np.inf, 1e200])):
         lines = scene_lines.lines_of((2.0, 17.8, 0.25, 0.15), z)
@@ -125,14 +125,14 @@ def test_sizes_beyond_the_margins_of_the_lines_have_none_and_heights_of_zero_hav
 
 
 @pytest.mark.parametrize("up", [False, True])
-def test_a_shortened_height_has_a_square_that_is_a_float(up):
+def test_a_shortened_height_has_a_square_without_rounding(up):
     for value in (1.0, 0.1, 17.8 * 1.0625, 2.0**-60 / 3, 2.0**90 / 7):
         short = scene_lines._short(value, up=up)
         assert Fraction(short) ** 2 == Fraction(short * short)
         assert (value <= short <= value * (1 + 2.0**-24)) if up else (value * (1 - 2.0**-24) <= short <= value)
 
 
-def test_thresholds_are_on_the_safe_side_of_their_lines_at_both_ends():
+def test_thresholds_of_lines_are_on_the_safe_side_of_the_lines_at_both_ends():
     lines = {"beyond": (3.0, 0.5), "under": (2.5, 0.375), "within": (1.5, 0.25), "above": None}
     reach = 7.0
     found = scene_lines.thresholds(lines, reach)

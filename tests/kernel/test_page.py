@@ -28,7 +28,7 @@ def value_of(text: str) -> float:
     return float(eval(python, {"u": certified.U, "SLACK": certified.SLACK}))  # noqa: S307 - the page is ours
 
 
-def test_python_sessions_in_the_docs_give_what_they_show():
+def test_python_sessions_on_the_kernel_page_give_what_they_show():
     session = doctest.DocTestParser().get_doctest("\n".join(blocks("python")), {}, "docs/kernel.md", None, 0)
     assert len(session.examples) > 5
     results = doctest.DocTestRunner().run(session)
@@ -37,7 +37,7 @@ def test_python_sessions_in_the_docs_give_what_they_show():
 
 @pytest.mark.slow
 @needs_compiler
-def test_the_c_program_in_the_docs_prints_what_the_page_shows(tmp_path):
+def test_the_c_program_on_the_kernel_page_prints_what_the_page_shows(tmp_path):
     (source,) = blocks("c")
     done = subprocess.run([program(tmp_path, source, *STRICT, "-O1")], capture_output=True, text=True, check=True)
     shown = re.search(r"\./example\n((?:    .*\n)+)", PAGE)
@@ -45,7 +45,7 @@ def test_the_c_program_in_the_docs_prints_what_the_page_shows(tmp_path):
     assert done.stdout == re.sub("^    ", "", shown[1], flags=re.MULTILINE)
 
 
-def test_the_table_in_the_docs_has_every_constant_of_the_header():
+def test_the_table_on_the_kernel_page_has_every_constant_of_the_header():
     rows = re.findall(r"^\| (`.*?`) \| (.*?) \| .+ \|$", PAGE, flags=re.MULTILINE)
     told = {
         name.strip("`"): value_of(value)

@@ -71,7 +71,7 @@ SCENES = [TOWER, *(tuple(some) for some in sizes(np.random.default_rng(2), 60).t
 SCENES = [four for four in SCENES if max(four) < 1e4 and min(four) > 1e-4]
 
 
-def test_no_centre_passes_a_threshold_on_the_wrong_side():
+def test_parallel_lines_decide_no_centre_near_contact_wrongly():
     assert len(SCENES) > 20
     assert [wrong(scene) for scene in near()] == [0] * 10
     for scene in near()[:4]:
@@ -82,7 +82,7 @@ def test_no_centre_passes_a_threshold_on_the_wrong_side():
 
 
 @pytest.mark.parametrize("margin", [0.0, -scene_lines.FLOAT32_MARGIN])
-def test_thresholds_without_their_margin_are_wrong_for_such_centres(margin, monkeypatch):
+def test_parallel_lines_without_their_margin_decide_centres_near_contact_wrongly(margin, monkeypatch):
     scenes = near()
     monkeypatch.setattr(scene_lines, "FLOAT32_MARGIN", margin)
     assert any(wrong(scene) for scene in scenes)
@@ -107,7 +107,7 @@ def test_parallel_lines_decide_most_centres(tower):
 
 @pytest.mark.parametrize("value", [1e17, 1e200, -np.inf, np.nan])
 @pytest.mark.parametrize("column", [0, 1, 2])
-def test_a_centre_beyond_single_precision_is_left_to_later_stages(column, value, tower):
+def test_a_centre_beyond_single_precision_is_answered_exactly_by_later_stages(column, value, tower):
     tower[column, 7] = value
     rows = np.column_stack([np.tile(TOWER, (len(tower[0]), 1)), *tower])
     expected = np.full(len(rows), 127)

@@ -34,7 +34,7 @@ def as_function(program, number):
     ("number", "name"),
     [*(("double", name) for name in PROGRAMS), ("float", "everything"), ("long double", "everything")],
 )
-def test_every_printed_step_gives_the_same_bits(number, name, tmp_path):
+def test_every_step_printed_in_c_gives_the_same_bits_as_its_program(number, name, tmp_path):
     program = PROGRAMS[name]
     inputs = columns(program, FORMATS[number])
     library = shared_library(tmp_path, as_function(program, number), "-ffp-contract=off")
@@ -45,7 +45,7 @@ def test_every_printed_step_gives_the_same_bits(number, name, tmp_path):
     assert_same_bits(program, FORMATS[number], inputs, found)
 
 
-def test_a_statement_is_one_declaration_in_the_order_of_the_program():
+def test_c_statements_prints_one_declaration_per_step_in_the_order_of_the_program():
     assert c_statements(EVERYTHING, ("number", "truth", "r")) == (
         "const double d = x - (-3.0);",
         "const double q = x / y;",
@@ -66,7 +66,7 @@ def test_a_statement_is_one_declaration_in_the_order_of_the_program():
     )
 
 
-def test_literals_and_functions_are_of_the_type():
+def test_c_statements_prints_literals_and_functions_of_the_chosen_type():
     assert c_statements(EVERYTHING, ("r",), number="float") == (
         "const float d = x - (-3.0F);",
         "const float a = fabsf(d);",
@@ -75,7 +75,7 @@ def test_literals_and_functions_are_of_the_type():
     assert c_statements(EVERYTHING, ("m",), number="long double") == ("const long double m = 2048.0L * y;",)
 
 
-def test_a_wanted_input_needs_no_statement():
+def test_c_statements_prints_nothing_for_an_input():
     assert c_statements(EVERYTHING, ("x",)) == ()
 
 
@@ -90,5 +90,5 @@ def test_printing_an_unknown_type_or_a_reserved_name_in_c_raises_an_error():
         c_statements(program_of("p", ("double",), "y = double + 1"), ("y",))
 
 
-def test_every_operation_is_printed():
+def test_the_program_printed_in_these_tests_has_every_operation():
     assert {step.operation for step in EVERYTHING.steps} == set(OPERATIONS)

@@ -26,7 +26,7 @@ sevens = st.tuples(*[positives] * 7)
 
 
 @pytest.mark.parametrize("program", [certified.CERTIFIED, certified.SINGLE], ids=lambda program: program.name)
-def test_the_arithmetic_is_that_of_the_proved_formula(program):
+def test_the_discriminant_of_the_kernel_programs_is_that_of_the_proved_formula(program):
     """Step for step the discriminant of the formula "hessian", which the derivation proves equal to g's."""
     proved = needed(FORMULAS["hessian"].program, ("delta_3", "c1", "c2", "c0"))
     assert needed(program, ("delta_3", "c1", "c2", "c0")) == proved
@@ -38,7 +38,7 @@ def test_the_arithmetic_is_that_of_the_proved_formula(program):
     [(certified.CERTIFIED, certified.CONSTANTS), (certified.SINGLE, certified.SINGLE_CONSTANTS)],
     ids=["certified", "single"],
 )
-def test_constants_of_the_coefficients_cover_the_counted_roundings(program, constants, step, constant):
+def test_error_constants_of_the_coefficients_cover_their_counted_roundings(program, constants, step, constant):
     count = relative_error_counts(program, [step]).counts[step]
     # γ_k M of the exact M, and M is computed with at most 12 roundings more: one unit of room is enough for all of it.
     assert gamma(count, U) / (1 - 12 * U) < (count + 1) * U < Fraction(constants[constant])
@@ -46,18 +46,18 @@ def test_constants_of_the_coefficients_cover_the_counted_roundings(program, cons
 
 
 @pytest.mark.parametrize("step", ["h1", "h2", "h3", "delta_3"])
-def test_constant_of_the_discriminants_parts_covers_their_roundings(step):
+def test_the_error_constant_of_the_parts_of_the_discriminant_covers_their_roundings(step):
     known = ("h1", "h2", "h3") if step == "delta_3" else ("c0", "c1", "c2")
     count = relative_error_counts(cut(certified.CERTIFIED, known, (step,)), (step,)).counts[step]
     assert gamma(count, U) < Fraction(certified.CONSTANTS["u_4"])
 
 
-def test_constant_of_the_discriminant_in_single_covers_the_counted_roundings():
+def test_the_error_constant_of_the_discriminant_without_parts_covers_its_roundings():
     count = relative_error_counts(certified.SINGLE, ["delta_3"]).counts["delta_3"]
     assert gamma(count, U) * (1 + 64 * U) * 32 < certified.SINGLE_CONSTANTS["u_1536"]
 
 
-def test_sizes_of_the_terms_of_the_discriminant_are_bounded_by_a_product():
+def test_the_magnitude_of_the_discriminant_is_at_most_the_product_in_its_error_bound():
     """The counted magnitude of 3Δ is 4 H1 H3 + H2²; 32 (M2 M1)² less that has no negative coefficient."""
     a, c, r, h = sympy.symbols("a c r h", positive=True)
     zero, one = sympy.Integer(0), sympy.Integer(1)
@@ -70,7 +70,7 @@ def test_sizes_of_the_terms_of_the_discriminant_are_bounded_by_a_product():
 
 @pytest.mark.slow
 @given(sevens)
-def test_terms_of_the_bounds_are_the_counted_magnitudes(values):
+def test_terms_of_the_error_bounds_are_the_counted_magnitudes(values):
     row = dict(zip(COLUMNS, values, strict=True))
     inputs = {**row, **certified.CONSTANTS, **certified.SINGLE_CONSTANTS}
     for program, names in (
@@ -88,7 +88,7 @@ letters = {name: sympy.Symbol(name, positive=True) for name in ("e0", "e1", "e2"
 
 
 @pytest.mark.parametrize("step", ["E1", "E2", "E3", "E"])
-def test_bounds_of_the_discriminant_are_those_of_the_page(step):
+def test_error_bounds_of_the_discriminant_are_those_of_the_kernel_page(step):
     e0, e1, e2, m0, m1, m2, u4 = letters.values()
     a1, a2, a3, E1, E2, E3 = (sympy.Symbol(name, positive=True) for name in ("a1", "a2", "a3", "E1", "E2", "E3"))
     page = {
@@ -105,12 +105,12 @@ def test_bounds_of_the_discriminant_are_those_of_the_page(step):
 
 
 @pytest.mark.parametrize("step", ["slope_A", "slope_B", "offset_A", "offset_B"])
-def test_slopes_carry_fewer_roundings_than_their_16_units(step):
+def test_roundings_of_the_slopes_are_fewer_than_the_16_units_of_their_error_constant(step):
     part = cut(certified.CERTIFIED, ("c1", "c2"), (step,))
     assert gamma(relative_error_counts(part, (step,)).counts[step], U) < 15 * U < Fraction(certified.CONSTANTS["u_16"])
 
 
-def test_bounds_are_rounded_by_less_than_their_slack():
+def test_rounding_of_the_certified_error_bounds_is_within_their_slack():
     """Counted from the numbers they are built on, which are not negative, every bound has fewer than 100 factors."""
     known = ("A", "B", "AB", "BP", "AQ", "P", "Q", "c1", "c2", "h1", "h2", "h3", *certified.CONSTANTS)
     for step in ("E", "bound_A", "bound_B", "offset_bound_A", "offset_bound_B", "e1", "e2"):
@@ -122,7 +122,7 @@ def test_bounds_are_rounded_by_less_than_their_slack():
 
 @pytest.mark.slow
 @given(sevens, st.fractions(Fraction(1, 64), 8, max_denominator=64))
-def test_tangents_are_the_half_planes_of_the_page(values, multiplier):
+def test_tangent_lines_of_the_kernel_programs_have_the_formulas_of_the_kernel_page(values, multiplier):
     alpha, gamma_, b, d = values[:4]
     a, c = alpha / b, gamma_ / d
     sizes = dict(zip(COLUMNS, values, strict=True)) | WITHOUT_MARGINS
@@ -139,7 +139,7 @@ def test_tangents_are_the_half_planes_of_the_page(values, multiplier):
 
 @pytest.mark.slow
 @given(st.tuples(*[st.fractions(-8, 8, max_denominator=64)] * 7), positives, st.sampled_from([1, -1]))
-def test_a_piece_of_a_way_is_the_distance_from_a_line_as_a_quadratic(numbers, M, side):
+def test_the_piece_program_gives_the_offset_of_a_way_from_a_line_as_a_quadratic(numbers, M, side):
     x, y, z, u, v, w, K = numbers
     inputs = dict(zip(("x", "y", "z", "u", "v", "w", "K"), numbers, strict=True)) | {"M": M, "side": side, "u_8": 0}
     here, slope, bend = outputs(ways.PIECE, EXACT, inputs, ("here", "slope", "bend"))
@@ -149,7 +149,7 @@ def test_a_piece_of_a_way_is_the_distance_from_a_line_as_a_quadratic(numbers, M,
 
 
 @pytest.mark.parametrize("part", ["", "_slope", "_bend"])
-def test_the_error_taken_off_a_piece_covers_its_roundings(part):
+def test_the_error_that_the_piece_program_subtracts_covers_its_roundings(part):
     """4 factors in the gap, as many in the size, one for the difference: fewer than the 8 of u_8."""
     gap, size = f"gap{part}", f"size{part or '_here'}"
     count = relative_error_counts(ways.PIECE, [gap], positive={"M"}).counts[gap]
@@ -176,7 +176,7 @@ def test_the_error_taken_off_a_piece_covers_its_roundings(part):
         (lines.CHORD, "line_0", 2),
     ],
 )
-def test_sides_of_a_line_carry_the_roundings_that_the_margins_allow(program, step, most):
+def test_roundings_of_the_comparison_with_a_line_are_within_its_margins(program, step, most):
     """The comparison has 2 + 3 factors, a tangent's constants 8 and a chord's check 2 + 2: all within 2 MARGIN."""
     positive = {*program.inputs} - {"x", "y", "z"}
     assert relative_error_counts(program, [step], positive=positive).counts[step] <= most
@@ -185,7 +185,7 @@ def test_sides_of_a_line_carry_the_roundings_that_the_margins_allow(program, ste
     assert Fraction(lines.MORE) * (1 - 15 * U) >= 1 + 16 * U
 
 
-def test_thresholds_in_single_precision_are_moved_by_more_than_the_roundings():
+def test_the_margin_of_thresholds_in_single_precision_covers_their_roundings():
     """4 factors on R and on M T, the rounding of x, y, z included, and one more: 5, and MARGIN is three times that."""
     plane, compared = lines.PLANE, lines.PARALLEL_LINES
     u, of_inputs = Fraction(lines.FLOAT32_U), 2
@@ -199,7 +199,7 @@ def test_thresholds_in_single_precision_are_moved_by_more_than_the_roundings():
     assert Fraction(lines.FLOAT32_LESS) * (1 + 6 * u) < 1
 
 
-def test_integers_are_the_cubic_times_the_squares_of_b_and_d():
+def test_the_integers_program_gives_the_cubic_times_squares_of_b_and_d():
     names = ("N", "n2", "n1", "ps", "delta", "slope_at_B", "slope_at_A", "ring_excess", "offset_at_A", "offset_at_B")
     # With b = d = 1: alpha = a, gamma = c, x² = P, z² = Q.
     a, c, r, h = sympy.symbols("a c r h", positive=True)
@@ -236,7 +236,7 @@ def test_integers_are_the_cubic_times_the_squares_of_b_and_d():
 
 @settings(max_examples=30)
 @given(sevens)
-def test_integers_carry_the_powers_of_b_and_d_that_they_are_said_to(values):
+def test_each_value_of_the_integers_program_has_the_stated_powers_of_b_and_d(values):
     alpha, gamma_, b, d, x, y, z = values
     q, t = b * b, d * d
     N, A_, B_ = q * t, alpha**2 / q, gamma_**2 / t
@@ -259,7 +259,7 @@ def test_integers_carry_the_powers_of_b_and_d_that_they_are_said_to(values):
 
 
 @given(st.tuples(*[st.integers(-(2**40), 2**40)] * 7))
-def test_no_integer_is_longer_than_counted(values):
+def test_no_value_of_the_integers_program_is_longer_than_counted(values):
     counted = bits_counted(INTEGERS, 41)
     for name, value in evaluate(INTEGERS, EXACT, dict(zip(COLUMNS, values, strict=True))).items():
         assert int(value).bit_length() <= counted[name]

@@ -18,12 +18,12 @@ FUNCTIONS = pytest.mark.parametrize("function", [hypcheck.position, exact_positi
 
 @FUNCTIONS
 @given(pair=pairs)
-def test_a_pair_of_any_size_is_answered_exactly(function, pair):
+def test_position_of_one_pair_of_any_sizes_is_exact(function, pair):
     assert function(*pair.row) == exact.position(pair.lengths)
 
 
 @FUNCTIONS
-def test_pairs_at_the_borders_are_answered_exactly(function):
+def test_position_of_one_pair_is_exact_near_contact_and_on_the_ring(function):
     random = np.random.default_rng(6)
     rows = np.concatenate([near_contact(random, 3000), on_the_ring(random, 500)])
     assert [function(*row) for row in rows.tolist()] == float_filter.positions(rows).tolist()

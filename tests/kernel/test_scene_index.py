@@ -70,7 +70,7 @@ def centres_about(scene, count, seed):
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("seed", range(4))
-def test_a_forest_is_answered_as_if_every_tree_were_asked_exactly(seed):
+def test_scene_classify_of_a_forest_answers_as_exact_arithmetic_about_every_tree(seed):
     scene = forest(60, seed)
     centres = centres_about(scene, 120, seed)
     asked = Scene(scene)
@@ -81,7 +81,7 @@ def test_a_forest_is_answered_as_if_every_tree_were_asked_exactly(seed):
         assert answer == whole(scene, centre), centre
 
 
-def test_a_difference_of_centres_that_rounds_to_contact_is_decided_exactly():
+def test_scene_classify_is_exact_if_the_difference_of_two_centres_is_rounded():
     """One unit of the last place of a far centre is more than the clearance."""
     tree = Hyperboloid("tree", 1.0, 4.0, (2.0**60, 0.0, 0.0))
     scene = model.SceneModel("s", "position", (tree,), Mover(1.0, 1.0))
@@ -95,7 +95,7 @@ def test_a_difference_of_centres_that_rounds_to_contact_is_decided_exactly():
 
 
 @pytest.mark.slow
-def test_hyperboloids_that_the_grid_leaves_out_are_out_of_reach():
+def test_hyperboloids_that_the_scene_index_leaves_out_are_exterior():
     scene = forest(80, 9)
     bodies = bodies_of(scene.hyperboloids)
     grid = grid_of(bodies.origins[:, 0], bodies.origins[:, 1], reaches(bodies, scene.mover, scene.region.z))
@@ -109,7 +109,7 @@ def test_hyperboloids_that_the_grid_leaves_out_are_out_of_reach():
     assert asked < 200 * 80 / 4
 
 
-def test_a_tower_among_trees_and_one_without_end_are_always_asked():
+def test_scene_classify_is_exact_for_a_tower_wider_than_the_grid_and_a_region_without_end():
     trees = forest(40, 1)
     tower = Hyperboloid("tower", 20.0, 30.0, (0.0, 0.0, 0.0))
     scene = replace(trees, hyperboloids=(*trees.hyperboloids, tower))
@@ -119,13 +119,13 @@ def test_a_tower_among_trees_and_one_without_end_are_always_asked():
     assert Scene(endless).classify(0.0, 0.0, 50.0)[0] == whole(endless, (0.0, 0.0, 50.0))
 
 
-def test_outside_its_region_a_scene_is_asked_in_full():
+def test_scene_classify_is_exact_for_centres_outside_the_region():
     scene = forest(30, 2)
     for z in (-9.0, 2.5, 400.0):
         assert Scene(scene).classify(5.0, 5.0, z)[0] == whole(scene, (5.0, 5.0, z))
 
 
-def test_parts_are_asked_where_the_mover_is_not_clear():
+def test_scene_classify_asks_the_parts_of_a_mover_that_is_in_contact():
     tree = Hyperboloid("tower", 2.0, 17.8)
     rotors = tuple(MoverPart(0.1, 0.05, 0.135, angle) for angle in (0.0, 90.0, 180.0, 270.0))
     body = model.SceneModel("s", "position", (tree,), Mover(0.25, 0.15))
@@ -136,7 +136,7 @@ def test_parts_are_asked_where_the_mover_is_not_clear():
     assert Scene(parted).classify(3.0, 0.0, 0.0)[0] == 1
 
 
-def test_beyond_every_modelled_height_a_scene_gives_no_answer():
+def test_scene_classify_answers_cannot_say_beyond_every_modelled_height():
     tree = Hyperboloid("stump", 1.0, 2.0, (0.0, 0.0, 1.0), Span(-1.0, 1.0))
     scene = Scene(model.SceneModel("s", "position", (tree,), Mover(0.5, 0.5)))
     assert scene.classify([0.0, 1.2, 0.0], 0.0, [2.0, 1.0, 2.5]).tolist() == [-1, 0, 2]
@@ -149,14 +149,14 @@ def test_beyond_every_modelled_height_a_scene_gives_no_answer():
 @pytest.mark.parametrize(
     ("question", "answers"), [("exterior", [1, 0, 0]), ("interior", [0, 0, 1]), ("contact", [0, 1, 0])]
 )
-def test_a_question_is_answered_yes_or_no(question, answers):
+def test_scene_classify_answers_a_yes_or_no_question_with_1_or_0(question, answers):
     scene = model.SceneModel("s", question, (Hyperboloid("h", 2.0, 4.0),), Mover(0.5, 0.5))
     asked = Scene(scene)
     assert asked.classify([9.0, 2.0, 0.0], 0.0, 0.0).tolist() == answers
     assert [asked.position(x, 0.0, 0.0) for x in (9.0, 2.0, 0.0)] == answers
 
 
-def test_hypcheck_scene_reads_a_file(tmp_path):
+def test_scene_from_toml_reads_a_file_or_a_shipped_name(tmp_path):
     file = tmp_path / "scene.toml"
     file.write_text('name = "s"\n[[hyperboloid]]\nalpha = 2\ngamma = 4\n[mover]\nb = 1\nd = 1\n', encoding="utf-8")
     assert hypcheck.Scene.from_toml(file).classify(9.0, 0.0, 0.0).tolist() == [1]

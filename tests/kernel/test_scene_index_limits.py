@@ -30,7 +30,7 @@ def both(scene, centre):
     return answer
 
 
-def test_a_height_at_which_something_stands_is_exterior_wherever_nothing_is_near():
+def test_scene_answers_exterior_far_from_every_tree_at_a_modelled_height():
     """Whether the tree that is near, or none, is modelled at that height does not matter."""
     for region in (Region(), Region(z=Span(-2.0, 30.0)), Region(z=Span(0.0, 1.0))):
         scene = Scene(model.SceneModel("hills", "position", HILLS, Mover(0.3, 0.9), region))
@@ -44,7 +44,7 @@ def test_a_height_at_which_something_stands_is_exterior_wherever_nothing_is_near
         assert both(scene, (0.6, 0.0, math.nextafter(5.0, 6.0))) == 2
 
 
-def test_modelled_heights_end_at_the_exact_sum():
+def test_the_modelled_height_of_a_tree_ends_at_the_exact_sum_of_its_base_and_height():
     draw = random.Random(4)  # noqa: S311 - nothing is secret
     trees = [
         Hyperboloid(
@@ -58,7 +58,7 @@ def test_modelled_heights_end_at_the_exact_sum():
         assert high <= top < math.nextafter(high, math.inf)
 
 
-def test_levels_are_the_union_of_heights():
+def test_levels_of_gives_the_union_of_the_modelled_heights():
     draw = np.random.default_rng(2)
     spans = np.sort(draw.integers(0, 60, (12, 2)).astype(float), axis=1)
     levels = levels_of(spans)
@@ -67,7 +67,7 @@ def test_levels_are_the_union_of_heights():
     assert [levels.hold(z) for z in points.tolist()] == wanted.tolist() == levels.hold_each(points).tolist()
 
 
-def test_a_difference_that_leaves_float64_is_taken_exactly():
+def test_scene_answers_are_exact_if_a_difference_of_centres_overflows():
     far = Hyperboloid("far", 1.0, 2.0, (1e308, 0.0, -1e308))
     vast = Hyperboloid("vast", 1e308, 1e300, (-1.5e308, 0.0, 0.0))
     for body in (far, vast):
@@ -76,7 +76,7 @@ def test_a_difference_that_leaves_float64_is_taken_exactly():
             assert both(Scene(scene), centre) == truth_about(body, scene.mover, centre)
 
 
-def test_the_least_lengths_that_there_are_are_answered():
+def test_scene_answers_are_exact_for_the_smallest_subnormal_lengths():
     tiny = 5e-324
     body = Hyperboloid("tiny", tiny, tiny)
     scene = model.SceneModel("s", "position", (body,), Mover(tiny, tiny), Region(z=Span(-1, 1)))
@@ -84,7 +84,7 @@ def test_the_least_lengths_that_there_are_are_answered():
         assert both(Scene(scene), (x, 0.0, 0.0)) == truth_about(body, scene.mover, (x, 0.0, 0.0))
 
 
-def test_the_grid_answers_a_step_as_it_does_a_batch():
+def test_the_grid_finds_the_same_hyperboloids_for_one_centre_as_for_a_batch():
     draw = np.random.default_rng(3)
     x, y = draw.uniform(-50, 50, (2, 300))
     reaches = np.where(draw.random(300) < 0.02, np.inf, draw.uniform(0.1, 3, 300))
@@ -99,7 +99,7 @@ def test_the_grid_answers_a_step_as_it_does_a_batch():
         assert set(touched.tolist()) <= set(step)
 
 
-def test_outside_its_region_only_what_is_in_reach_is_asked():
+def test_scene_classify_outside_the_region_asks_only_hyperboloids_within_reach():
     count = 20_000
     trees = tuple(Hyperboloid(str(k), 0.4, 8.0, (5.0 * (k % 200), 5.0 * (k // 200), 0.0)) for k in range(count))
     scene = Scene(model.SceneModel("f", "contact", trees, Mover(0.3, 0.9), Region(z=Span(0.0, 0.0))))
@@ -124,7 +124,7 @@ def test_outside_its_region_only_what_is_in_reach_is_asked():
         ((0, 0, 0, math.inf), "heading is inf; it must be finite"),
     ],
 )
-def test_scene_position_refuses_what_is_no_centre_in_one_sentence(centre, sentence):
+def test_scene_position_refuses_an_invalid_centre_in_one_sentence(centre, sentence):
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     with pytest.raises(InputError, match=sentence):
         scene.classify(*centre)
@@ -133,7 +133,7 @@ def test_scene_position_refuses_what_is_no_centre_in_one_sentence(centre, senten
             scene.position(*centre)
 
 
-def test_position_of_a_scene_takes_every_kind_of_number_and_refuses_longer_arrays():
+def test_scene_position_takes_every_type_of_number_and_refuses_arrays_of_several():
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     for one in (0, 0.0, np.float32(0), np.int64(0), np.array(0.0), np.array([0.0])):
         assert scene.position(one, 0, 0) == -1  # the mover is narrower than the waist
@@ -141,7 +141,7 @@ def test_position_of_a_scene_takes_every_kind_of_number_and_refuses_longer_array
         scene.position(np.array([1.0, 2.0]), 0, 0)
 
 
-def test_scene_classify_takes_no_rows_and_arrays_of_any_layout():
+def test_scene_classify_takes_empty_arrays_and_arrays_of_any_layout():
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     assert scene.classify([], [], []).tolist() == []
     wide = np.arange(8.0)[::2]

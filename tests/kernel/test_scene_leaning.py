@@ -62,7 +62,7 @@ def leaning_forest(count, seed, heights=True):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_a_leaning_forest_is_answered_as_if_each_tree_were_asked_in_fractions(seed):
+def test_scene_classify_of_a_leaning_forest_answers_as_exact_fractions_about_each_tree(seed):
     scene = leaning_forest(6, seed)
     draw = random.Random(seed + 100)  # noqa: S311 - nothing is secret
     centres = [tuple(draw.randint(-64, 64) / 8 for _ in range(3)) for _ in range(25)]
@@ -78,7 +78,7 @@ def test_a_leaning_forest_is_answered_as_if_each_tree_were_asked_in_fractions(se
     assert alone == expected
 
 
-def test_forests_reach_every_answer():
+def test_the_leaning_forests_of_these_tests_have_centres_with_every_answer():
     said = set()
     for seed in range(6):
         scene = leaning_forest(3, seed)
@@ -89,7 +89,7 @@ def test_forests_reach_every_answer():
     assert said == {CONTACT, EXTERIOR, INTERIOR, SILENT}
 
 
-def test_a_hyperboloid_turned_with_its_mover_says_the_same():
+def test_a_leaning_pair_turned_by_a_quarter_turn_keeps_its_position():
     """Quarter turns about y take z to x exactly: no rounding, and a position that must not change."""
     draw = random.Random(7)  # noqa: S311 - nothing is secret
     for _ in range(60):
@@ -112,7 +112,7 @@ def turned(quaternion):
     return rows, a * a + b * b + c * c + d * d
 
 
-def test_what_leans_is_answered_as_the_same_turned_upright():
+def test_a_leaning_hyperboloid_has_the_position_of_the_same_pair_turned_upright():
     """A rational rotation turns the hyperboloid upright; the exact decision of ten numbers shares nothing with D."""
     draw = random.Random(11)  # noqa: S311 - nothing is secret
     said = []
@@ -134,7 +134,7 @@ def test_what_leans_is_answered_as_the_same_turned_upright():
     assert min(said.count(each) for each in (CONTACT, EXTERIOR, INTERIOR)) > 40
 
 
-def test_length_and_sense_of_both_axes_do_not_matter():
+def test_the_position_of_a_leaning_pair_ignores_the_length_and_sense_of_its_axes():
     draw = random.Random(8)  # noqa: S311 - nothing is secret
     for _ in range(40):
         sizes = [draw.randint(1, 12) / 4 for _ in range(4)]
@@ -145,7 +145,7 @@ def test_length_and_sense_of_both_axes_do_not_matter():
         assert position_leaning(sizes, centre, (0, 0, 0), *scaled) == first
 
 
-def test_parallel_axes_and_spheres_are_upright_pairs():
+def test_a_leaning_pair_of_parallel_axes_or_with_a_sphere_has_the_upright_position():
     draw = random.Random(9)  # noqa: S311 - nothing is secret
     for _ in range(40):
         alpha, gamma, b, d = (draw.randint(1, 12) / 4 for _ in range(4))
@@ -158,7 +158,7 @@ def test_parallel_axes_and_spheres_are_upright_pairs():
         assert position_leaning((alpha, gamma, b, b), centre, (0, 0, 0), direction(draw), w) == expected
 
 
-def test_centres_whose_difference_is_rounded_are_decided_exactly():
+def test_a_leaning_scene_is_exact_if_the_difference_of_centres_is_rounded():
     """At 2^52 a difference is wrong by halves: more than any clearance here."""
     far = 2.0**52
     draw = random.Random(3)  # noqa: S311 - nothing is secret
@@ -175,7 +175,7 @@ def test_centres_whose_difference_is_rounded_are_decided_exactly():
 
 @pytest.mark.parametrize("unit", [1.0, 2.0**-300, 2.0**300])
 @pytest.mark.parametrize(("shift", "expected"), [(-(2.0**-60), EXTERIOR), (0.0, CONTACT), (2.0**-60, CONTACT)])
-def test_a_clearance_that_the_difference_of_centres_loses_is_seen(shift, expected, unit):
+def test_a_leaning_scene_sees_a_clearance_that_rounding_of_the_difference_loses(shift, expected, unit):
     """A spheroid along y touches the waist of α = 1 at x = 2 from outside; 2 + 2^-60 is 2 once it is rounded."""
     body = Hyperboloid("waist", unit, 4 * unit, (shift * unit, 0.0, 0.0))
     scene = Scene(SceneModel("s", "position", (body,), Mover(unit, 0.5 * unit, axis=(0.0, 1.0, 0.0))))
@@ -184,7 +184,7 @@ def test_a_clearance_that_the_difference_of_centres_loses_is_seen(shift, expecte
     assert truth(scene.model, (2 * unit, 0.0, 0.0), (0.0, 1.0, 0.0)) == expected
 
 
-def test_a_mover_above_a_flaring_wall_touches_it_with_its_lower_side():
+def test_a_leaning_mover_above_a_widening_wall_has_contact_at_its_lower_side():
     """At height 2 the surface is 8 from the axis, at height 1.2 it is 5: under the mover's centre."""
     body = Hyperboloid("bowl", 1.0, 0.25, (0.0, 0.0, 0.0), None, (2.0, 0.0, 0.0))
     scene = Scene(SceneModel("s", "position", (body,), Mover(1.0, 0.75, axis=(1.0, 1.0, 0.0))))
@@ -194,7 +194,7 @@ def test_a_mover_above_a_flaring_wall_touches_it_with_its_lower_side():
     assert set(found) == {INTERIOR, CONTACT, EXTERIOR}
 
 
-def test_tangent_positions_are_contact_and_the_next_float_is_not():
+def test_a_leaning_scene_answers_contact_at_a_tangency_and_exterior_at_the_next_float():
     """Upright hyperboloid: α = γ = 1, a ball of radius 1 at (2, 0, 0) touches it however its axis points."""
     body = Hyperboloid("waist", 1.0, 4.0, (10.0, 0.0, 0.0), None, (0.0, 3.0, 0.0))
     scene = Scene(SceneModel("s", "position", (body,), Mover(1.0, 1.0, axis=(1.0, 2.0, 3.0))))
@@ -204,7 +204,7 @@ def test_tangent_positions_are_contact_and_the_next_float_is_not():
     assert scene.position(float(np.nextafter(8.0, 7.0)), 0.0, 0.0) == EXTERIOR
 
 
-def test_height_counts_along_the_axis_the_way_it_points():
+def test_the_modelled_height_of_a_leaning_tree_is_measured_in_the_direction_of_its_axis():
     low, high = -1.0, 2.0
     for axis, sense in (((0.0, 0.0, 5.0), 1), ((0.0, 0.0, -5.0), -1)):
         body = Hyperboloid("b", 1.0, 1.0, (0.0, 0.0, 3.0), Span(low, high), axis)
@@ -215,7 +215,7 @@ def test_height_counts_along_the_axis_the_way_it_points():
         assert scene.position(9.0, 0.0, 3.0 + sense * low - sense * 1e-9) == SILENT
 
 
-def test_height_along_a_leaning_axis_is_exact_at_its_end():
+def test_within_height_along_a_leaning_axis_is_exact_at_its_end():
     """Axis (3, 0, 4): 5 along it is 25/5, no rounding; the next float is beyond."""
     span, axis = (-5.0, 5.0), (3.0, 0.0, 4.0)
     for x, inside in ((3.0, True), (float(np.nextafter(3.0, 4.0)), False), (float(np.nextafter(3.0, 2.0)), True)):
@@ -229,7 +229,7 @@ def test_height_along_a_leaning_axis_is_exact_at_its_end():
     assert not is_within_height((0.0, below), root, (0.0, 0.0, 0.0), root)
 
 
-def test_height_of_many_is_that_of_fractions():
+def test_within_height_of_many_centres_is_that_of_exact_fractions():
     random_ = np.random.default_rng(2)
     axes = random_.integers(-3, 4, (400, 3)).astype(float)
     axes[(axes == 0).all(axis=1)] = 1.0
@@ -244,7 +244,7 @@ def test_height_of_many_is_that_of_fractions():
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_no_centre_beyond_a_reach_is_touched_by_what_leans(seed):
+def test_the_reach_of_a_leaning_hyperboloid_contains_every_centre_in_contact(seed):
     scene = leaning_forest(8, seed, heights=True)
     scene = replace(scene, mover=replace(scene.mover, axis=(1.0, 0.0, 1.0)))
     bodies = bodies_of(scene.hyperboloids)
@@ -262,7 +262,7 @@ def test_no_centre_beyond_a_reach_is_touched_by_what_leans(seed):
     assert beyond > 40
 
 
-def test_a_tower_that_leans_far_is_asked_where_its_top_is():
+def test_the_scene_index_finds_a_leaning_tower_at_its_top():
     """Its foot is 10 m away from where a mover meets it."""
     tower = Hyperboloid("tower", 1.0, 20.0, (0.0, 0.0, 0.0), Span(0.0, 20.0), (3.0, 0.0, 4.0))
     trees = tuple(Hyperboloid(f"tree {k}", 0.25, 4.0, (3.0 * k, 30.0, 0.0)) for k in range(12))
@@ -273,7 +273,7 @@ def test_a_tower_that_leans_far_is_asked_where_its_top_is():
     assert scene.position(12.0 - wall, 0.0, 16.0) == CONTACT
 
 
-def test_an_upright_mover_asks_its_parts_beside_what_leans():
+def test_an_upright_mover_with_parts_asks_them_near_a_leaning_hyperboloid():
     body = Hyperboloid("wall", 4.0, 4.0, (0.0, 0.0, 0.0), None, (0.0, 1.0, 0.0))
     part = MoverPart(0.125, 0.125, 0.5)
     mover = Mover(1.0, 0.25, (part,))
@@ -283,7 +283,7 @@ def test_an_upright_mover_asks_its_parts_beside_what_leans():
     assert scene.position(3.5, 0.0, 0.0, heading=0.0) == CONTACT
 
 
-def test_questions_are_answered_of_what_leans():
+def test_a_leaning_scene_answers_a_yes_or_no_question():
     body = Hyperboloid("wall", 4.0, 4.0, (0.0, 0.0, 0.0), Span(-2.0, 2.0), (0.0, 1.0, 0.0))
     scene = SceneModel("s", "interior", (body,), Mover(0.5, 0.25, axis=(1.0, 1.0, 0.0)))
     found = Scene(scene).classify([0.0, 4.0, 0.0], [0.0, 0.0, 3.0], 0.0)
@@ -315,13 +315,13 @@ UPSTANDING = replace(FREELY, mover=Mover(0.5, 0.25))
         ),
     ],
 )
-def test_an_axis_that_cannot_be_is_refused(scene, axis, message):
+def test_scene_refuses_an_invalid_or_unexpected_axis(scene, axis, message):
     for ask in (Scene(scene).position, Scene(scene).classify):
         with pytest.raises(InputError, match=message):
             ask(1.0, 2.0, 3.0, axis=axis)
 
 
-def test_an_axis_for_each_centre_or_one_for_all():
+def test_scene_classify_takes_one_axis_for_all_centres_or_one_for_each():
     axes = [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1.0)]
     scene = Scene(FREELY)
     each = scene.classify([1.4, 1.4, 1.4], 0.0, 0.0, axis=axes).tolist()
@@ -330,14 +330,14 @@ def test_an_axis_for_each_centre_or_one_for_all():
     assert len(set(each)) > 1
 
 
-def test_position_takes_one_axis_alone():
+def test_scene_position_refuses_an_array_of_axes():
     with pytest.raises(
         InputError, match=r"axis is of shape \(1, 3\); it must be three numbers \(classify takes arrays\)"
     ):
         Scene(FREELY).position(1.0, 2.0, 3.0, axis=[(0.0, 0.0, 1.0)])
 
 
-def test_classify_names_the_row_of_an_axis_that_cannot_be():
+def test_scene_classify_names_the_row_of_an_invalid_axis():
     for bad, message in (
         ((0.0, -0.0, 0.0), "row 1: axis_x, axis_y, axis_z are 0, 0, 0"),
         ((0, np.inf, 1), "row 1: axis_y is inf"),
@@ -357,7 +357,7 @@ def test_axes_of_a_scene_made_in_python_must_have_a_direction():
             scene.position(1.0, 2.0, 3.0)
 
 
-def test_a_mover_with_parts_that_leans_is_refused():
+def test_a_leaning_mover_with_parts_is_refused():
     mover = Mover(1.0, 1.0, (MoverPart(0.1, 0.1, 0.1),), (1.0, 0.0, 1.0))
     with pytest.raises(
         InputError, match="the mover leans and has parts, whose places are known only where it is upright"

@@ -26,7 +26,7 @@ def forest(height=None):
     ]
 
 
-def test_the_nearest_is_the_least_of_all_pairs():
+def test_scene_nearest_gives_the_least_distance_of_all_pairs():
     trees = forest()
     x, y, z = np.random.default_rng(4).uniform((-20, -20, -3), (20, 20, 3), (50, 3)).T
     found = scene(*trees).nearest(x, y, z)
@@ -41,7 +41,7 @@ def test_the_nearest_is_the_least_of_all_pairs():
     assert apart.sum() > 40
 
 
-def test_the_nearest_hyperboloids_are_marked_as_tied_at_equal_distance():
+def test_scene_nearest_marks_hyperboloids_at_equal_distance_as_tied():
     two = scene(Hyperboloid("a", 0.5, 4.0, (-3, 0, 0)), Hyperboloid("b", 0.5, 4.0, (3, 0, 0)))
     found = two.nearest([0, 0.5], 0, 0)
     assert found.tied.tolist() == [True, False]
@@ -51,7 +51,7 @@ def test_the_nearest_hyperboloids_are_marked_as_tied_at_equal_distance():
 
 
 @pytest.mark.parametrize("number", range(20))
-def test_above_its_end_a_tree_is_as_far_as_its_end(number):
+def test_scene_nearest_measures_to_the_end_of_a_tree_above_its_end(number):
     rng = np.random.default_rng(number)
     tree = Hyperboloid("stump", 0.5, 2.0, (1, 2, 0.5), Span(-0.5, 1.5))
     centre = np.array((1, 2, 2.0)) + rng.uniform((-3, -3, 1), (3, 3, 4))
@@ -65,7 +65,7 @@ def test_above_its_end_a_tree_is_as_far_as_its_end(number):
     assert 0 <= found.point[0, 2] <= 2 + 1e-12
 
 
-def test_trees_with_ends_leave_out_no_nearest_pair():
+def test_scene_nearest_finds_the_nearest_of_trees_with_limited_heights():
     trees = forest(Span(-0.5, 4.0))
     x, y, z = np.random.default_rng(5).uniform((-20, -20, 0), (20, 20, 4), (40, 3)).T
     found = scene(*trees).nearest(x, y, z)
@@ -77,7 +77,7 @@ def test_trees_with_ends_leave_out_no_nearest_pair():
         assert np.allclose(found.distance_upper[same], one.distance_upper[same], rtol=0, atol=1e-9)
 
 
-def test_what_has_no_answer_is_refused():
+def test_scene_nearest_refuses_leaning_hyperboloids_free_axes_and_invalid_centres():
     with pytest.raises(InputError, match="leaves the mover's axis free; the nearest is found where"):
         scene(Hyperboloid("a", 1, 1), mover=Mover(1, 2, (), "free")).nearest(0, 0, 0)
     with pytest.raises(InputError, match="'a' leans; the nearest is found only beside upright"):

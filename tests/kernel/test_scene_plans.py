@@ -17,7 +17,7 @@ from hypcheck.scene.reading import read_scene
 from tests.support.scenes import scene
 
 
-def test_pairs_of_the_same_sizes_share_a_setting():
+def test_pairs_of_the_same_sizes_share_a_setting_of_the_plan():
     tower = read_scene("tower")
     body, rotors = settings_of(tower)
     assert body.sizes == (2.0, 17.8, 0.25, 0.15)
@@ -48,7 +48,7 @@ def test_a_ball_whose_axis_leans_has_the_plan_of_an_upright_one():
         assert plan_of(leaning).settings == plan_of(upright).settings
 
 
-def test_the_region_is_seen_from_each_hyperboloid_and_wider_by_an_arm():
+def test_the_region_of_a_setting_is_relative_to_its_hyperboloid_and_widened_by_the_arm():
     trees = (Hyperboloid("oak", 1.0, 2.0, (10.0, 0.0, 0.0)), Hyperboloid("elm", 1.0, 3.0, (-10.0, 5.0, 1.0)))
     mover = Mover(0.5, 0.5, (MoverPart(0.1, 0.1, 0.25),))
     settings = settings_of(SceneModel("s", "position", trees, mover, Region(Span(-20, 20), None, Span(0, 4))))
@@ -59,7 +59,7 @@ def test_the_region_is_seen_from_each_hyperboloid_and_wider_by_an_arm():
     assert -30.25001 < arm.box.x.low < -30.25
 
 
-def test_a_height_is_asked_for_only_where_the_region_does_not_end_before_it():
+def test_a_setting_has_a_height_limit_only_if_the_region_extends_beyond_it():
     tree = Hyperboloid("oak", 1.0, 2.0, (0.0, 0.0, 0.0), Span(-1, 3))
     for region, cut in ((Region(), Span(-1, 3)), (Region(z=Span(0, 2)), None), (Region(z=Span(0, 5)), Span(-1, 3))):
         (setting,) = settings_of(SceneModel("s", "position", (tree,), Mover(1, 1), region))
@@ -67,7 +67,7 @@ def test_a_height_is_asked_for_only_where_the_region_does_not_end_before_it():
     assert settings_of(SceneModel("s", "position", (tree,), Mover(1, 1), Region(z=Span(4, 5)))) == ()
 
 
-def test_a_constant_height_leaves_two_thresholds():
+def test_a_plan_for_one_constant_height_has_only_thresholds():
     (stages,) = plan_of(scene(z=Span(0.0, 0.0))).settings
     assert stages.thresholds is not None
     assert stages.lines == ()
@@ -88,7 +88,7 @@ def test_a_plan_uses_a_positive_discriminant_only_where_it_means_clear():
     assert any("Δ > 0" in omission.what for omission in stages.omitted)
 
 
-def test_the_tower_costs_a_third_of_table_2():
+def test_the_plan_of_the_tower_needs_less_than_half_the_operations_of_table_2():
     lines = list(plan_lines(plan_of(replace(read_scene("tower"), question="position"))))
     averages = [float(line.split("search; ")[1].split()[0]) for line in lines if "before a search" in line]
     assert len(averages) == 1  # the body and the rotors cost the same and are told together
@@ -105,7 +105,7 @@ def test_a_plan_lists_all_settings_and_gives_shared_reasons_once():
     assert len(lines) < 5 * len(plan.settings)
 
 
-def test_shares_of_stages_add_up_to_one():
+def test_shares_of_the_stages_in_a_plan_add_up_to_one():
     for precision in ("float32", "float64"):
         for setting in plan_as_json(plan_of(read_scene("tower"), precision))["settings"]:
             assert sum(setting["shares"].values()) == pytest.approx(1)

@@ -71,7 +71,7 @@ def test_a_line_without_its_margin_is_wrong_at_its_point_of_tangency():
 
 
 @pytest.mark.parametrize("multiplier", [0, 64, -64, 10**6])
-def test_a_multiplier_outside_the_poles_gives_no_line(multiplier):
+def test_line_at_refuses_a_multiplier_outside_the_poles(multiplier):
     with pytest.raises(ValueError, match="is not in"):
         line_at(
             Fraction(multiplier), scaled((8.0, 8.0, 1.0, 1.0), FLOAT_FORMATS["float64"]), FLOAT_FORMATS["float64"], 1
@@ -80,7 +80,7 @@ def test_a_multiplier_outside_the_poles_gives_no_line(multiplier):
 
 @pytest.mark.parametrize("precision", FORMATS)
 @pytest.mark.parametrize("sizes", SIZES[:4])
-def test_beyond_its_bound_the_discriminant_has_its_exact_sign(sizes, precision):
+def test_a_computed_discriminant_larger_than_its_bound_has_the_exact_sign(sizes, precision):
     form, rows = FLOAT_FORMATS[precision], rows_for(sizes, 256)
     alpha, gamma, b, d = map(Fraction, sizes)
     corner = (2 * (alpha + b), 2 * (gamma + d))
@@ -97,7 +97,7 @@ def test_beyond_its_bound_the_discriminant_has_its_exact_sign(sizes, precision):
         assert (4 * h1 * h3 - h2 * h2 > 0) == (value > 0), row
 
 
-def test_a_discriminant_that_leaves_the_format_is_left_out():
+def test_a_plan_leaves_out_a_discriminant_that_overflows_its_float_format():
     sizes, form = (1e6, 1e6, 1e-6, 1e-6), FLOAT_FORMATS["float32"]
     scale = scaled(sizes, form)
     first, constants = entry(scale)
@@ -106,7 +106,7 @@ def test_a_discriminant_that_leaves_the_format_is_left_out():
 
 @pytest.mark.parametrize("sizes", SIZES[:4])
 @pytest.mark.parametrize("height", [0.0, 0.7, 40.0])
-def test_thresholds_part_the_positions(sizes, height):
+def test_thresholds_of_a_stage_separate_the_exact_positions(sizes, height):
     form = FLOAT_FORMATS["float64"]
     found = thresholds(sizes, height, scaled(sizes, form), form)
     radial = float(scaled(sizes, form).radial)
@@ -123,7 +123,7 @@ def test_thresholds_part_the_positions(sizes, height):
         assert position(found.inner * (1 + 1e-14)) is Position.CONTACT
 
 
-def test_only_a_region_with_one_answer_is_recognised_as_such():
+def test_position_of_box_gives_a_position_only_if_the_whole_region_has_it():
     sizes = (2.0, 17.8, 0.25, 0.15)
 
     def found(x, z):
@@ -138,7 +138,7 @@ def test_only_a_region_with_one_answer_is_recognised_as_such():
 
 
 @pytest.mark.parametrize("name", FORMATS)
-def test_rounded_gives_the_number_of_the_format_in_the_given_direction(name):
+def test_rounded_gives_the_next_number_of_the_float_format_in_the_given_direction(name):
     form = FLOAT_FORMATS[name]
     dtype = np.dtype(name).type
     for value in (Fraction(1, 3), Fraction(-7, 11), Fraction(10) ** 30, Fraction(1, 3 * 2**100)):

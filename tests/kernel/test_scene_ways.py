@@ -86,7 +86,7 @@ def expected(scene, starts, ends, axis=None):
     ],
     ids=["forest", "no-region", "heights", "small"],
 )
-def test_ways_have_the_answer_that_all_hyperboloids_give(scene):
+def test_scene_passage_answers_as_the_exact_decision_about_every_hyperboloid(scene):
     starts, ends = ways(40, 5)
     found = Scene(scene).passage(starts, ends)
     assert found.tolist() == expected(scene, starts, ends)
@@ -94,7 +94,7 @@ def test_ways_have_the_answer_that_all_hyperboloids_give(scene):
     assert len({*found.tolist()}) > 1
 
 
-def test_long_and_short_ways_in_one_call_are_answered_as_each_alone():
+def test_scene_passage_answers_long_and_short_ways_in_one_call_as_each_alone():
     scene, (starts, ends) = Scene(forest(60, 6)), ways(40, 7)
     ends = starts + (ends - starts) * np.repeat([1e-9, 1.0, 3.0, 1e3], 10)[:, None] * (1, 1, 0)
     found = scene.passage(starts, ends)
@@ -106,7 +106,7 @@ def test_long_and_short_ways_in_one_call_are_answered_as_each_alone():
     assert 0 < seen.sum() < found.sum() < 40
 
 
-def test_a_mover_that_leans_keeps_its_axis():
+def test_scene_passage_of_a_leaning_mover_is_exact_with_its_fixed_axis():
     axis = (1.0, 0.5, 2.0)
     scene = forest(5, 8, mover=Mover(0.3, 0.9, axis=axis))
     starts, ends = ways(16, 9)
@@ -117,12 +117,12 @@ TREE = Hyperboloid("tree", 2.0, 3.0)
 
 
 @pytest.mark.parametrize(("axis", "x", "hit"), [((1.0, 0.0, 0.0), 2.6, 1), ((0.0, 1.0, 0.0), 2.6, 0)])
-def test_a_mover_that_leans_is_as_wide_as_its_axis_makes_it(axis, x, hit):
+def test_scene_passage_uses_the_width_of_a_leaning_mover_along_its_axis(axis, x, hit):
     scene = SceneModel("tree", "position", (TREE,), Mover(0.3, 0.9, axis=axis), Region(z=Span(-1, 1)))
     assert Scene(scene).passage((x, -1.0, 0.0), (x, 1.0, 0.0)).tolist() == [hit]
 
 
-def test_the_rounding_of_a_difference_of_centres_makes_no_contact():
+def test_scene_passage_is_exact_if_the_difference_of_centres_is_rounded():
     """3.1 − 0.1 is more than the float 3.0, at which the spheroid would touch."""
     scene = Scene(SceneModel("tree", "position", (replace(TREE, center=(0.0, 0.1, 0.0)),), Mover(1.0, 1.0), Region()))
     assert scene.passage((0.0, 5.0, 0.0), [(0.0, 3.1, 0.0), (0.0, 3.0999999999999996, 0.0)]).tolist() == [0, 1]
@@ -143,7 +143,7 @@ def test_the_rounding_of_a_difference_of_centres_makes_no_contact():
         ((3.0, 0.0, 0.0), (3.0, 0.0, 0.0), 1),
     ],
 )
-def test_exact_tangency_and_the_longest_ways_are_decided(start, end, hit):
+def test_scene_passage_decides_exact_tangencies_and_very_long_ways(start, end, hit):
     for center in ((0.0, 0.0, 0.0), (0.0, 0.0, 0.1)):
         trees = (replace(TREE, center=center),)
         scene = SceneModel("tree", "exterior", trees, Mover(1.0, 1.0), Region(z=Span(-1, 1)))
@@ -151,7 +151,7 @@ def test_exact_tangency_and_the_longest_ways_are_decided(start, end, hit):
         assert Scene(scene).passage(np.add(start, up), np.add(end, up)).tolist() == [hit]
 
 
-def test_no_tree_says_anything_beyond_its_height():
+def test_scene_passage_answers_cannot_say_beyond_the_modelled_height():
     scene = Scene(SceneModel("tree", "contact", (replace(TREE, height=Span(-1.0, 1.0)),), Mover(1.0, 1.0), Region()))
     through = [(2.0, 0.0, 2.0), (2.0, 0.0, 1.5)], [(2.0, 0.0, -2.0), (2.0, 0.0, 1.0000001)]
     assert scene.passage(*through).tolist() == [1, 2]
@@ -162,7 +162,7 @@ def test_no_tree_says_anything_beyond_its_height():
 ROTORS = tuple(MoverPart(0.2, 0.1, 0.75, angle) for angle in (0.0, 180.0))
 
 
-def test_parts_are_asked_where_the_mover_has_contact():
+def test_scene_passage_asks_the_parts_of_a_mover_where_the_whole_has_contact():
     body, mover = replace(TREE, alpha=0.5, gamma=4.0, height=Span(-2.0, 2.0)), Mover(1.0, 0.5, ROTORS)
     scene = Scene(SceneModel("tree", "position", (body,), mover, Region()))
     random = np.random.default_rng(10)
@@ -200,7 +200,7 @@ def test_parts_are_asked_where_the_mover_has_contact():
         ),
     ],
 )
-def test_what_leans_otherwise_is_refused_in_one_sentence(changes, said):
+def test_scene_passage_refuses_free_axes_and_leaning_hyperboloids_in_one_sentence(changes, said):
     scene = SceneModel("tree", "position", (TREE,), Mover(1.0, 1.0), Region())
     with pytest.raises(InputError) as caught:
         Scene(replace(scene, **changes)).passage((0, 0, 0), (1, 0, 0))
@@ -215,13 +215,13 @@ def test_what_leans_otherwise_is_refused_in_one_sentence(changes, said):
         ("way", (1, 0, 0), "start is 'way'; it must be three numbers, x, y, z, or an array (n, 3) of them"),
     ],
 )
-def test_ends_that_are_no_points_are_refused_in_one_sentence(start, end, said):
+def test_scene_passage_refuses_invalid_ends_in_one_sentence(start, end, said):
     scene = Scene(SceneModel("tree", "position", (TREE,), Mover(1.0, 1.0), Region()))
     with pytest.raises(InputError) as caught:
         scene.passage(start, end)
     assert str(caught.value) == said
 
 
-def test_no_ways_have_no_answers():
+def test_scene_passage_of_no_ways_is_an_empty_array():
     scene = Scene(forest(3, 1))
     assert scene.passage(np.empty((0, 3)), np.empty((0, 3))).tolist() == []

@@ -18,7 +18,7 @@ from tests.kernel.test_page import PAGE
 UNSURE = 2
 
 
-def test_a_double_root_makes_whole_numbers_of_the_cubic():
+def test_the_cubic_with_a_double_root_has_the_coefficients_that_the_kernel_compares():
     """(D l - M)² (l - e²/D²) with M e = D K has the coefficients that the kernel compares."""
     D, K, M, x = sympy.symbols("D K M x")
     e = D * K / M
@@ -84,7 +84,7 @@ def asked(function, rows, *more) -> np.ndarray:
 
 
 @needs_compiler
-def test_a_tangency_is_told_and_a_row_one_ulp_beside_it_is_not(library):
+def test_the_tangency_stage_answers_tangencies_and_not_rows_one_ulp_beside_them(library):
     rows = FAMILIES["tangent"].rows(3, 60)
     found = asked(library.beside, rows)
     assert (found != UNSURE).mean() > 0.9
@@ -100,7 +100,7 @@ def test_a_tangency_is_told_and_a_row_one_ulp_beside_it_is_not(library):
 
 @needs_compiler
 @pytest.mark.parametrize("hair", [1e-20, 1e-60, 1e-300])
-def test_a_hair_moves_a_tangency_to_the_position_beside_it(library, hair):
+def test_the_tangency_stage_is_right_on_tangencies_moved_by_a_tiny_length(library, hair):
     rows = FAMILIES["tangent"].rows(4, 60)
     for column in (4, 5, 6):
         moved = rows[rows[:, column] == 0]
@@ -112,7 +112,7 @@ def test_a_hair_moves_a_tangency_to_the_position_beside_it(library, hair):
 
 
 @needs_compiler
-def test_rows_in_the_plane_of_the_waist_are_told_without_a_guess(library):
+def test_the_tangency_stage_decides_most_rows_in_the_plane_of_the_waist_rightly(library):
     random = np.random.default_rng(8)
     whole = random.integers(1, 6, (300, 4)) * [1.0, 5.0, 1.0, 1.0]
     rows = np.column_stack([whole, random.integers(0, 20, (300, 2)) / 4, np.zeros(300)])
@@ -128,14 +128,14 @@ def told() -> dict[str, int]:
     return {name: int(number.replace(",", "")) for name, number in rows}
 
 
-def test_the_page_tells_the_most_products_of_limbs_that_the_integers_take():
+def test_the_kernel_page_states_the_most_limb_products_of_the_integer_stage():
     page = told()
     for bits in (62, 128, FLOAT64_BITS):
         assert page[f"integers, lengths of {bits} bits"] == limb_products(INTEGERS, WORST, bits)
 
 
 @needs_compiler
-def test_no_row_takes_more_products_of_limbs_than_the_page_tells(library):
+def test_no_row_takes_more_limb_products_than_the_kernel_page_states(library):
     page, most = told(), 0
     names = ("tangent", "osculation", "ring", "near-axis", "extreme-float64", "extreme-hair", "tower-body")
     rows = np.concatenate([FAMILIES[name].rows(6, 12) for name in names])

@@ -57,14 +57,14 @@ def scene_rows(axis, centres):
 
 @pytest.mark.parametrize("each", KERNELS)
 @pytest.mark.parametrize("question", QUESTIONS)
-def test_rows_of_ten_are_answered_exactly_by_every_kernel(each, question, rows, truth):
+def test_rows_of_ten_numbers_are_answered_exactly_by_every_kernel(each, question, rows, truth):
     yes = {"position": truth, "exterior": truth == 1, "interior": truth == -1, "contact": truth == 0}
     found, refused = each.answer_rows(rows, question)
     assert (found.tolist(), refused) == (yes[question].astype(int).tolist(), 0)
 
 
 @pytest.mark.parametrize("name", frozen.TILTED_NAMES)
-def test_frozen_vectors_are_answered_as_they_are_labelled_by_every_kernel(name):
+def test_every_kernel_answers_frozen_tilted_vectors_as_they_are_labelled(name):
     vectors = frozen.frozen_rows(name)
     for each in KERNELS:
         assert (
@@ -73,7 +73,7 @@ def test_frozen_vectors_are_answered_as_they_are_labelled_by_every_kernel(name):
 
 
 @pytest.mark.parametrize("each", KERNELS)
-def test_frozen_rows_that_must_be_refused_are_127(each):
+def test_every_kernel_answers_127_for_the_frozen_invalid_tilted_rows(each):
     rows = frozen.rows_from_bits([case.bits for case in frozen.load_invalid_rows(frozen.TILTED_INVALID_NAME).cases])
     assert rows.shape[1] == 10
     found, refused = each.answer_rows(rows, "position")
@@ -81,7 +81,7 @@ def test_frozen_rows_that_must_be_refused_are_127(each):
     assert refused == len(rows) > 100
 
 
-def test_one_pair_with_an_axis_is_answered_as_its_row(rows, truth):
+def test_position_with_an_axis_answers_as_classify_about_its_row(rows, truth):
     for row, position in zip(rows.tolist(), truth.tolist(), strict=True):
         assert hypcheck.position(*row[:7], axis=row[7:]) == position
         assert exact_position(*row[:7], axis=tuple(row[7:])) == position
@@ -89,13 +89,13 @@ def test_one_pair_with_an_axis_is_answered_as_its_row(rows, truth):
     assert hypcheck.position(1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, axis=None) == 1
 
 
-def test_length_and_sign_of_an_axis_do_not_matter(rows, truth):
+def test_classify_ignores_the_length_and_the_sign_of_an_axis(rows, truth):
     for factor in (-1.0, 3.0, 2.0**-500, -(2.0**900)):
         scaled = np.column_stack([rows[:404, :7], rows[:404, 7:] * factor])
         assert (hypcheck.classify(scaled) == truth[:404]).all()
 
 
-def test_axis_along_z_gives_the_upright_answer(rows):
+def test_classify_with_an_axis_along_z_gives_the_upright_answer(rows):
     upright = hypcheck.classify(rows[:, :7])
     for s in (1.0, -3.0, 5e-324, 1.7e308):
         assert (
@@ -106,7 +106,7 @@ def test_axis_along_z_gives_the_upright_answer(rows):
 
 @pytest.mark.parametrize("each", KERNELS)
 @pytest.mark.parametrize("axis", AXES)
-def test_scene_with_one_axis_is_answered_exactly(each, axis, centres):
+def test_classify_scene_with_one_axis_is_exact_in_every_kernel(each, axis, centres):
     truth = positions(scene_rows(axis, centres))
     many = np.tile(centres, 4)  # enough for half spaces
     for question, wanted in (
@@ -121,13 +121,13 @@ def test_scene_with_one_axis_is_answered_exactly(each, axis, centres):
 
 
 @pytest.mark.parametrize("each", KERNELS)
-def test_scene_whose_axis_has_numbers_of_all_magnitudes_is_answered_exactly(each, centres):
+def test_classify_scene_is_exact_with_an_axis_of_very_different_magnitudes(each, centres):
     some = centres[:, :25]
     found, refused = each.answer_scene(SIZES, tuple(some), "position", None, MIXED)
     assert (found.tolist(), refused) == (positions(scene_rows(MIXED, some)).tolist(), 0)
 
 
-def test_axis_may_be_one_or_one_for_each_centre(centres):
+def test_classify_scene_takes_one_axis_or_one_for_each_centre(centres):
     random = np.random.default_rng(24)
     axes = random.normal(size=(centres.shape[1], 3)) * 10.0 ** random.integers(-300, 300, (centres.shape[1], 1))
     truth = positions(np.column_stack([np.tile(SIZES, (len(axes), 1)), centres.T, axes])).tolist()
@@ -147,7 +147,7 @@ def test_axis_may_be_one_or_one_for_each_centre(centres):
     assert hypcheck.classify_scene(SIZES, [], 0, 0, axis=np.empty((0, 3))).tolist() == []
 
 
-def test_many_centres_with_an_axis_each_are_made_into_rows_in_parts(centres, monkeypatch):
+def test_classify_scene_with_an_axis_for_each_centre_works_in_several_parts(centres, monkeypatch):
     axes = np.random.default_rng(25).normal(size=(centres.shape[1], 3))
     whole = hypcheck.classify_scene(SIZES, *centres, axis=axes)
     monkeypatch.setattr("hypcheck.kernel.classify.ROWS_AT_A_TIME", 64)
@@ -168,7 +168,7 @@ BAD = {
 
 @pytest.mark.parametrize(("sentence", "axis"), BAD.items())
 @pytest.mark.parametrize("d", [1.5, 0.5], ids=["spheroid", "sphere"])
-def test_an_invalid_axis_is_refused_or_marked(sentence, axis, d):
+def test_classify_refuses_an_invalid_axis_or_marks_it_with_127(sentence, axis, d):
     rows, out = np.array([[2, 3, 0.5, d, 1, 0, 0, 0, 1, 1]] * 3), np.full(3, 99, np.int8)
     rows[1, 7:] = axis
     right = hypcheck.classify(rows[:1]).tolist()
@@ -198,7 +198,7 @@ def test_an_invalid_axis_is_refused_or_marked(sentence, axis, d):
 
 
 @pytest.mark.parametrize("column", range(7))
-def test_an_axis_does_not_excuse_another_number(column):
+def test_classify_refuses_nan_in_another_column_of_a_row_with_an_axis(column):
     for axis in ((0.0, 0.0, 1.0), (1.0, 2.0, 3.0)):
         rows = np.array([[2, 3, 0.5, 1.5, 1, 0, 0, *axis]] * 2)
         rows[1, column] = np.nan
@@ -220,19 +220,19 @@ def test_an_axis_does_not_excuse_another_number(column):
         ((True, False, True), r"\(True, False, True\)"),
     ],
 )
-def test_an_axis_of_another_shape_or_type_is_refused(axis, found):
+def test_classify_scene_refuses_an_axis_of_another_shape_or_type(axis, found):
     with pytest.raises(InputError, match=rf"^axis is {found}; it must be three numbers, axis_x, axis_y, axis_z, or an"):
         hypcheck.classify_scene(SIZES, [1, 2], 0, 0, axis=axis)
     with pytest.raises(InputError, match=r"^axis(_[xyz])? is .*; it must be "):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, axis=axis)
 
 
-def test_as_many_axes_as_centres_are_needed():
+def test_classify_scene_refuses_another_number_of_axes_than_centres():
     with pytest.raises(InputError, match=r"x \(2,\), .* axis_x \(3,\), .* have shapes that do not fit together"):
         hypcheck.classify_scene(SIZES, [1, 2], 0, 0, axis=np.eye(3))
 
 
-def test_position_takes_no_other_keyword():
+def test_position_refuses_keywords_other_than_axis():
     with pytest.raises(TypeError):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, tilt=(1.0, 0.0, 0.0))
     with pytest.raises(TypeError):

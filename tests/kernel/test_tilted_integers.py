@@ -49,7 +49,7 @@ def wide_rows(seed, count):
 
 
 @pytest.mark.parametrize("row", small_rows(1, 5))
-def test_quartic_is_the_determinant_of_the_pencil_times_a_positive_number(row):
+def test_the_tilted_quartic_is_the_determinant_of_the_pencil_times_a_positive_number(row):
     names = (*COEFFICIENTS, "p", "q", "s", "t", "w")
     found = evaluate(QUARTIC, EXACT, dict(zip(TILTED_COLUMNS, map(Fraction, row), strict=True)))
     minus_f0, *others, p, q, s, t, w = (found[name] for name in names)
@@ -60,7 +60,7 @@ def test_quartic_is_the_determinant_of_the_pencil_times_a_positive_number(row):
 
 
 @pytest.mark.parametrize("roots", [(1, 2, 3, -4), (1, 1, 5, -2), (Fraction(1, 2), 7, -3, -9)])
-def test_discriminant_is_27_times_the_product_of_squared_differences(roots):
+def test_the_tilted_discriminant_is_27_times_the_product_of_squared_root_differences(roots):
     poly, lead = [Fraction(3)], Fraction(3)
     for root in roots:
         poly = [a - root * b for a, b in zip([Fraction(0), *poly], [*poly, Fraction(0)], strict=True)]
@@ -83,13 +83,13 @@ RINGS = (  # a pole is a double root of the quartic, and the pair is clear; the 
 
 
 @pytest.mark.parametrize(("row", "position"), RINGS)
-def test_double_root_at_a_pole_decides_nothing_by_itself(row, position):
+def test_tilted_integers_are_right_on_rows_with_a_double_root_at_a_pole(row, position):
     assert tilted_integers.discriminant(tilted_integers.quartic(tilted_integers.squares(row)).f) == 0
     assert exact_position(row) == position
     assert tilted_integers.position(row) == position
 
 
-def test_integers_decide_as_the_matrices_do():
+def test_tilted_integers_decide_as_exact_matrices_do():
     rows = small_rows(2, 500)
     found = [int(tilted_integers.position(row)) for row in rows]
     assert found == [exact_position(row) for row in rows]
@@ -105,7 +105,7 @@ def reference(row):
 
 @needs_compiler
 @pytest.mark.parametrize("options", [(), ("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS")], ids=["levels", "small-limbs"])
-def test_integers_in_c_decide_as_those_in_python(options, tmp_path):
+def test_tilted_integers_in_c_decide_as_those_in_python(options, tmp_path):
     (tmp_path / "hypcheck.h").write_text(_without_floats(), encoding="utf-8")
     library = shared_library(tmp_path, IMPLEMENTATION, *options)
     rows = [*(row for row, _ in RINGS), *small_rows(3, 1500), *wide_rows(4, 60)]
@@ -121,7 +121,7 @@ def _without_floats():
     return HEADER.read_text(encoding="utf-8").replace("#define HC_FLOATS_DECIDE 1", "#define HC_FLOATS_DECIDE 0")
 
 
-def test_memory_of_the_integers_suffices_for_the_longest_numbers():
+def test_the_memory_of_the_tilted_integers_suffices_for_the_longest_numbers():
     """What is counted is what numbers of 2,098 bits take; the sanitizers watch that nothing is written beyond it."""
     bits, numbers = tilted.pool_bits()
     counted = evaluate(QUARTIC, EXACT, dict.fromkeys(TILTED_COLUMNS, Fraction(2**2098 - 1)))

@@ -30,7 +30,7 @@ def found(row, at, constants=EXACTLY):
 
 
 @pytest.mark.parametrize("row", small_rows(11, 12))
-def test_values_are_those_of_the_determinant_and_of_the_dual_function(row):
+def test_values_of_the_tilted_program_are_those_of_the_determinant_and_the_dual_function(row):
     quartic = interpolated(*matrices(in_units_of_b(row)))
     for at in (Fraction(1, 3), Fraction(-2, 7), Fraction(5)):
         values = found(row, at)
@@ -43,7 +43,7 @@ def test_values_are_those_of_the_determinant_and_of_the_dual_function(row):
         assert values["k0"] + values["B_most"] * (k1 - t * values["B_most"]) <= 0
 
 
-def test_certificate_proves_the_position_whatever_the_multiplier_is():
+def test_the_tilted_program_decides_rightly_with_any_multiplier():
     draw, seen = random.Random(12), []  # noqa: S311
     for row in small_rows(12, 300):
         for at in (Fraction(draw.randint(-300, 300), 16) or 1, Fraction(draw.randint(-32, 32), 32) or 1):
@@ -55,7 +55,7 @@ def test_certificate_proves_the_position_whatever_the_multiplier_is():
 
 
 @pytest.mark.parametrize("name", tilted.BOUNDED)
-def test_bounds_have_room_for_the_roundings_and_for_one_unit_of_underflow(name):
+def test_error_bounds_of_the_tilted_program_cover_its_roundings_and_underflow(name):
     counts = tilted.counted()
     allowed = Fraction(tilted.CONSTANTS[f"u_{name}"]) / Fraction(SLACK)
     assert gamma(counts.counts[name], Fraction(U)) + Fraction(U) < allowed
@@ -63,7 +63,7 @@ def test_bounds_have_room_for_the_roundings_and_for_one_unit_of_underflow(name):
     assert step.arguments == (f"u_{name}", counts.magnitudes[name])
 
 
-def test_bounds_are_rounded_by_less_than_their_slack():
+def test_rounding_of_the_tilted_error_bounds_is_within_their_slack():
     names = tuple(tilted.BOUNDED.values())
     magnitudes = cut(tilted.TILTED, (*tilted.ROW, "l", *tilted.CONSTANTS), names)
     assert max(relative_error_counts(magnitudes, names, positive=()).counts[name] for name in names) < 100
@@ -73,12 +73,12 @@ def test_bounds_are_rounded_by_less_than_their_slack():
 
 
 @pytest.mark.parametrize("row", small_rows(13, 6))
-def test_at_the_multiplier_0_the_value_proves_no_side(row):
+def test_the_tilted_program_decides_nothing_at_the_multiplier_0(row):
     values = found(row, 0)
     assert values["F"] == -values["d_l"] == -values["p"] * values["k"]
 
 
-def test_nothing_overflows_and_underflows_are_within_a_unit_in_the_range():
+def test_the_tilted_program_does_not_overflow_and_its_underflow_is_within_one_unit():
     """Magnitudes at the limits of the range, and what a lost product can do to a value against the least bound."""
     most = {
         name: Fraction(2) ** power for name, power in (("p", 54), ("s", 54), ("t", 54), ("distance", 108), ("l", 60))

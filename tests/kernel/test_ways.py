@@ -38,7 +38,7 @@ def some_ways(seed, count, *, leaning=False):
 
 
 @pytest.mark.parametrize("name", WAY_NAMES)
-def test_no_frozen_way_is_answered_wrong_and_few_are_left_open(name):
+def test_the_compiled_kernel_answers_no_frozen_way_wrongly_and_decides_most(name):
     cases = frozen_rows(name)
     hits, times = compiled_kernel.answer_ways(cases.rows)
     decided = hits != CANNOT_SAY
@@ -50,7 +50,7 @@ def test_no_frozen_way_is_answered_wrong_and_few_are_left_open(name):
 
 
 @pytest.mark.parametrize(("count", "leaning"), [(300, False), (80, True)])
-def test_hits_are_exact_and_no_time_is_late(count, leaning):
+def test_the_compiled_kernel_gives_exact_hits_and_times_not_after_the_first_contact(count, leaning):
     rows = some_ways(1, count, leaning=leaning)
     hits, times = compiled_kernel.answer_ways(rows)
     truth = [scaled_passage(row) for row in rows.tolist()]
@@ -62,7 +62,7 @@ def test_hits_are_exact_and_no_time_is_late(count, leaning):
 
 
 @pytest.mark.parametrize(("count", "leaning"), [(120, False), (40, True)])
-def test_at_its_time_the_spheroid_a_little_larger_has_contact(count, leaning):
+def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit(count, leaning):
     rows = some_ways(2, count, leaning=leaning)
     hits, times = compiled_kernel.answer_ways(rows)
     timed = np.isfinite(times)
@@ -77,7 +77,7 @@ def test_at_its_time_the_spheroid_a_little_larger_has_contact(count, leaning):
 
 
 @pytest.mark.parametrize("mode", DIRECTED)
-def test_directed_rounding_makes_no_answer_wrong(mode):
+def test_the_compiled_kernel_answers_no_way_wrongly_in_any_rounding_mode(mode):
     for name in ("way-near-graze", "way-short", "way-stiff", "way-vertical", "tilted-way-end", "tilted-way-uniform"):
         cases = frozen_rows(name)
         hits, times = np.empty(len(cases.rows), np.int8), np.empty(len(cases.rows))
@@ -87,7 +87,7 @@ def test_directed_rounding_makes_no_answer_wrong(mode):
 
 
 @pytest.mark.parametrize("family", ["way-near-graze", "way-long"])
-def test_more_ways_beside_the_surface_are_answered_right(family):
+def test_the_compiled_kernel_answers_ways_near_the_surface_rightly(family):
     rows = WAY_FAMILIES[family].rows(3, 40)
     hits, _ = compiled_kernel.answer_ways(rows)
     decided = hits != CANNOT_SAY
@@ -98,7 +98,7 @@ def test_more_ways_beside_the_surface_are_answered_right(family):
 @pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
 @pytest.mark.parametrize("column", range(10))
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.0, -1.0])
-def test_an_invalid_row_is_refused_and_harms_no_other(answer_ways, column, value):
+def test_an_invalid_way_is_refused_and_changes_no_other_answer(answer_ways, column, value):
     rows = np.array([DOWN, DOWN, DOWN])
     rows[1, column] = value
     hits, times = answer_ways(rows)
@@ -108,7 +108,7 @@ def test_an_invalid_row_is_refused_and_harms_no_other(answer_ways, column, value
     assert valid or math.isnan(times[1])
 
 
-def test_an_axis_means_its_direction_alone_and_a_vertical_one_is_upright():
+def test_answers_about_ways_ignore_the_length_of_the_axis_and_a_vertical_axis_is_upright():
     rows = some_ways(4, 60, leaning=True)
     hits, times = compiled_kernel.answer_ways(rows)
     for factor in (-1.0, 2.0**500, 2.0**-600):
@@ -123,7 +123,7 @@ def test_an_axis_means_its_direction_alone_and_a_vertical_one_is_upright():
 
 @pytest.mark.parametrize("axis", [(0.0, -0.0, 0.0), (math.nan, 0.0, 1.0), (0.0, 1.0, -math.inf)])
 @pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
-def test_an_axis_without_direction_is_refused(answer_ways, axis):
+def test_a_way_whose_axis_has_no_direction_is_refused(answer_ways, axis):
     rows = np.array([(*DOWN, 1.0, 0.0, 1.0), (*DOWN, *axis)])
     hits, times = answer_ways(rows)
     assert (hits == REFUSED).tolist() == [False, True]
@@ -149,27 +149,27 @@ TINY, HUGE = 5e-324, 1.7e308
         ((2.0**90, 2.0**90, 2.0**80, 2.0**80, 2.0**95, 0, 0, 0, 0, 0), 1),
     ],
 )
-def test_subnormal_and_huge_numbers_are_decided_exactly(row, hit):
+def test_ways_with_subnormal_and_huge_numbers_are_decided_exactly(row, hit):
     rows = np.array([row], dtype=float)
     assert compiled_kernel.answer_ways(rows)[0][0] in (hit, CANNOT_SAY)
     assert ways.certified(rows).tolist() == [hit]
 
 
-def test_hits_do_not_depend_on_whether_times_are_asked_for():
+def test_hits_of_ways_do_not_depend_on_whether_times_are_asked_for():
     rows = np.concatenate([frozen_rows(name).rows for name in UPRIGHT])
     without = np.empty(len(rows), np.int8)
     compiled.passage(rows, without)
     assert (without == compiled_kernel.answer_ways(rows)[0]).all()
 
 
-def test_buffers_that_do_not_fit_are_refused():
+def test_compiled_passage_refuses_buffers_that_do_not_fit():
     rows, hits = np.array([DOWN, DOWN]), np.empty(2, np.int8)
     for given in ((rows, hits[:1]), (rows, hits, np.empty(1)), (rows, hits, hits), (hits, hits)):
         with pytest.raises(ValueError, match=r"ten or thirteen numbers for each hit|a buffer of format d is needed"):
             compiled.passage(*given)
 
 
-def test_threads_share_ways():
+def test_answers_about_ways_do_not_depend_on_the_number_of_threads():
     rows = np.tile(some_ways(3, 50), (20, 1))
     hits, times = compiled_kernel.answer_ways(rows)
     for count in (1, 3):

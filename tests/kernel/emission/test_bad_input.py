@@ -63,7 +63,7 @@ def test_emit_refuses_a_bad_scene_and_leaves_the_output_file_unchanged(old, new,
     assert sorted(each.name for each in tmp_path.iterdir()) == ["kernel.c", "scene.toml"]
 
 
-def test_emit_reports_files_that_it_cannot_read_or_write_in_one_sentence(tmp_path, capsys):
+def test_emit_ends_with_one_sentence_for_a_file_that_it_cannot_read_or_write(tmp_path, capsys):
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
     assert "is not UTF-8 text" in refused(["plan", str(tmp_path / "bytes.toml")], capsys)
     assert "is a directory" in refused(["plan", str(tmp_path)], capsys)
@@ -87,7 +87,7 @@ def test_emit_refuses_a_prefix_for_a_language_of_modules(language, capsys):
     assert f"a {language} kernel is a module with names of its own" in refused(emit, capsys)
 
 
-def test_plan_accepts_trees_that_overlap(tmp_path, capsys):
+def test_plan_accepts_a_scene_whose_trees_overlap(tmp_path, capsys):
     """Every pair is asked for itself; trees of the same sizes share a function."""
     path = tmp_path / "scene.toml"
     trees = "".join(

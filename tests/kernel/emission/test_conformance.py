@@ -52,7 +52,7 @@ def test_an_emitted_python_kernel_passes_the_conformance_run(tmp_path):
     assert found["asked"] > 600
 
 
-def test_an_emitted_javascript_kernel_works_in_place_of_the_predicate(tmp_path):
+def test_an_emitted_javascript_kernel_can_replace_a_users_predicate(tmp_path):
     skip_without("javascript")
     assert main(["init", "--language", "javascript", "--directory", str(tmp_path)]) == 0
     (adapter,) = tmp_path.rglob("adapter.mjs")

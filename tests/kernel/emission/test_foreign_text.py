@@ -30,14 +30,14 @@ def scene_named(name):
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_a_scene_name_in_any_script_stands_unchanged_in_the_head(language):
+def test_a_scene_name_in_any_script_is_unchanged_in_the_head_of_its_kernel(language):
     text = emitted(plan_of(scene_named("Kühlturm 塔")), language, ["hypcheck", "emit", "--scene", "Türme/塔.toml"])
     assert 'in the scene "Kühlturm 塔"' in text
     assert "hypcheck emit --scene 'Türme/塔.toml'" in text
     assert "the mover and Kühlturm 塔" in text
 
 
-def test_invisible_characters_in_names_are_escaped_and_end_no_comment_or_line():
+def test_invisible_characters_in_scene_names_are_escaped_in_the_kernel():
     assert comment_text("a\u202eb \udcff") == "a\\u202eb \\udcff"
     shown = comment_text(NASTY)
     assert not [harm for harm in ("*/", "/*", '"""', "??", "\u2028", "\n") if harm in shown]

@@ -34,7 +34,7 @@ SCENES = {
 @pytest.mark.parametrize("precision", ["float64", "float32"])
 @pytest.mark.parametrize("name", SCENES)
 @needs("c")
-def test_the_emitted_c_kernel_is_within_its_bound(name, precision, tmp_path):
+def test_the_emitted_c_kernel_is_within_its_error_bound(name, precision, tmp_path):
     for question in ("position", "interior") if name != "tower" else ("position", "exterior", "interior", "contact"):
         chosen = replace(SCENES[name], question=question)
         plan = plan_of(chosen, precision)

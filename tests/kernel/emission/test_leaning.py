@@ -56,7 +56,7 @@ SCENES = {
 
 @pytest.mark.parametrize("language", DIALECTS)
 @pytest.mark.parametrize("name", ["the tower, one axis", "two trees, any axis"])
-def test_a_kernel_for_a_mover_that_leans_is_within_its_bound_and_always_answers(name, language, tmp_path):
+def test_a_kernel_for_a_leaning_mover_is_within_its_error_bound_and_always_answers(name, language, tmp_path):
     skip_without(language)
     plan = plan_of(SCENES[name])
     kernel = asking(built(tmp_path, SCENES[name], language), language)
@@ -73,7 +73,7 @@ def test_a_kernel_for_a_mover_that_leans_is_within_its_bound_and_always_answers(
 
 @pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
 @needs("c")
-def test_a_kernel_for_a_mover_that_leans_answers_each_question_within_its_bound(question, tmp_path):
+def test_a_kernel_for_a_leaning_mover_answers_each_question_within_its_error_bound(question, tmp_path):
     chosen = tower(FREE, question)
     worst, asked = worst_error(asking(built(tmp_path, chosen, "c"), "c"), plan_of(chosen), 64)
     assert asked > 100
@@ -81,7 +81,7 @@ def test_a_kernel_for_a_mover_that_leans_answers_each_question_within_its_bound(
 
 
 @needs("c")
-def test_a_kernel_for_a_mover_that_leans_never_errs_about_clear_where_everything_is_contracted(tmp_path):
+def test_a_kernel_for_a_leaning_mover_compiled_with_fma_has_no_false_clear(tmp_path):
     """An FMA where a product is taken apart would lose its lower half; some of the answers +1 and -1 are wrong then."""
     options = ("-O3", "-march=native", "-ffp-contract=fast")
     library = built(tmp_path, tower(FREE), "c", "float64", *options)
@@ -127,7 +127,7 @@ def test_a_kernel_of_each_question_answers_cannot_say_where_the_axis_is_no_direc
 @pytest.mark.parametrize("axis", [PITCHED, FREE], ids=["one axis", "any axis"])
 @pytest.mark.parametrize("question", ["position", "exterior", "interior", "contact"])
 @needs("c")
-def test_a_kernel_of_each_question_answers_cannot_say_where_double_double_settles_nothing(
+def test_a_kernel_of_each_question_answers_cannot_say_where_double_double_cannot_decide(
     question, axis, tmp_path, monkeypatch
 ):
     """2 from the last stage is an answer to no question: compared with 0, it would be exterior."""
@@ -161,7 +161,7 @@ def last_stage(tmp_path_factory):
 
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("name", [name for name in families.TILTED_FAMILIES if not name.startswith("extreme")])
-def test_the_last_stage_is_right_or_within_1_u_on_every_family_of_tilted_spheroids(name, free, last_stage):
+def test_the_last_stage_for_a_leaning_mover_is_right_within_1_u_on_every_tilted_family(name, free, last_stage):
     rows = families.TILTED_FAMILIES[name].rows(11, 24)
     p, s, t = ((rows[:, [0, 1, 3]] / rows[:, [2]]) ** 2).T
     rows = rows[(abs(np.log2(p)) < 39) & (abs(np.log2(s)) < 39) & (abs(np.log2(t)) < 23)]
@@ -176,7 +176,7 @@ def test_the_last_stage_is_right_or_within_1_u_on_every_family_of_tilted_spheroi
     assert all(judge.measured(case, "position") <= criterion.unit for case in wrong)
 
 
-def test_a_frame_is_that_of_the_pencil():
+def test_the_frame_constants_of_a_leaning_kernel_make_both_matrices_diagonal():
     """Its rows make both matrices diagonal: M is the sum of their squares, D that of their squares over the poles."""
     alpha, gamma, b, d = 2.0, 17.8, 0.25, 0.15
     search = leaning_search((alpha, gamma, b, d), PITCHED)
@@ -236,12 +236,12 @@ def test_the_description_of_a_kernel_for_a_mover_that_leans_names_its_axis(axis)
         (replace(tower(PITCHED), mover=Mover(0.25, 1e-5, axis=FREE)), "float64", "where a spheroid leans, alpha/b"),
     ],
 )
-def test_a_kernel_for_a_mover_that_leans_is_refused_in_one_sentence(scene, precision, message):
+def test_emit_refuses_unsupported_scenes_with_a_leaning_mover_in_one_sentence(scene, precision, message):
     with pytest.raises(InputError, match=message):
         plan_of(scene, precision)
 
 
-def test_a_proof_and_times_of_a_kernel_for_a_mover_that_leans_are_refused(tmp_path, capsys):
+def test_proof_and_timing_of_a_kernel_for_a_leaning_mover_are_refused(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text(
         'name = "s"\n[[hyperboloid]]\nalpha = 2.0\ngamma = 9.0\n[mover]\nb = 0.25\nd = 0.15\naxis = "free"\n',

@@ -45,7 +45,7 @@ def test_an_emitted_kernel_is_right_or_cannot_say_where_squares_overflow(questio
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_an_emitted_kernel_does_not_answer_contact_for_nan(language, tmp_path):
+def test_an_emitted_kernel_answers_cannot_say_for_nan(language, tmp_path):
     skip_without(language)
     nan = math.nan
     for question in ("position", "interior"):
@@ -76,14 +76,14 @@ def test_emit_refuses_a_region_beyond_the_format():
 
 
 @pytest.mark.parametrize("height", [5e-324, 1e-200])
-def test_emit_refuses_a_border_whose_square_underflows(height):
+def test_emit_refuses_a_region_in_which_the_square_of_a_threshold_underflows(height):
     with pytest.raises(InputError, match="a border so near to the axis has no square"):
         plan_of(scene((1.0, 1.0, 1.0, 1.0), z=Span(height, height)))
 
 
 @pytest.mark.parametrize("height", [Span(-1e60, 1.0), Span(-1e-60, 1e60), Span(-3.5e38, 0.1)])
 @pytest.mark.parametrize("language", ["c", "cpp", "rust"])
-def test_a_modelled_height_beyond_the_format_leaves_no_number_in_the_kernel(height, language, tmp_path):
+def test_an_emitted_kernel_is_right_if_a_modelled_height_is_beyond_its_float_format(height, language, tmp_path):
     skip_without(language)
     tree = Hyperboloid("tree", 1.0, 2.0, height=height)
     hall = SceneModel("s", "position", (tree,), Mover(0.5, 0.5), Region(z=Span(-2.0, 2.0)))
@@ -109,7 +109,7 @@ def x_ends(span):
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_the_head_of_a_kernel_says_what_is_promised_in_which_region(language):
+def test_the_head_of_an_emitted_kernel_states_its_promise_and_its_region(language):
     """A kernel that does not look at a coordinate says so."""
 
     def head(**spans):
@@ -124,7 +124,7 @@ def test_the_head_of_a_kernel_says_what_is_promised_in_which_region(language):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_kernel_answers_for_each_of_many_settings_and_for_no_sizes_beside_them(language, tmp_path):
+def test_an_emitted_kernel_with_many_settings_answers_cannot_say_for_other_sizes(language, tmp_path):
     skip_without(language)
     trees = tuple(
         Hyperboloid(f"tree {number}", alpha, gamma, (0.0, 0.0, 0.0))

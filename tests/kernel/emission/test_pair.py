@@ -62,7 +62,7 @@ def answers(folder, language, text, rows):
 
 @pytest.mark.parametrize("filtered", [True, False])
 @pytest.mark.parametrize("language", ["python", "c"])
-def test_the_exact_code_answers_every_row_rightly_with_and_without_its_floats(tmp_path, vectors, language, filtered):
+def test_emitted_exact_pair_code_is_right_with_and_without_its_float_stage(tmp_path, vectors, language, filtered):
     text, (rows, positions) = emitted_pair("exact", language, COMMAND), vectors
     if not filtered:
         before, after = UNFILTERED[language]
@@ -73,7 +73,7 @@ def test_the_exact_code_answers_every_row_rightly_with_and_without_its_floats(tm
 
 @pytest.mark.slow
 @pytest.mark.parametrize("language", ["cpp", "rust", "javascript"])
-def test_the_whole_numbers_of_the_other_languages_answer_every_row_rightly(tmp_path, vectors, language):
+def test_emitted_exact_pair_code_without_floats_is_right_in_the_other_languages(tmp_path, vectors, language):
     text, (rows, positions) = emitted_pair("exact", language, COMMAND), vectors
     before, after = UNFILTERED[language]
     assert text.count(before) == 1
@@ -85,7 +85,7 @@ THOROUGH = [pytest.param(language, marks=pytest.mark.thorough) for language in (
 
 @pytest.mark.parametrize("method", ["certified", "dual", "local-maximum"])
 @pytest.mark.parametrize("language", ["python", "c", *THOROUGH])
-def test_code_in_floats_alone_is_right_or_cannot_say(tmp_path, vectors, language, method):
+def test_emitted_pair_code_in_floats_alone_is_right_or_answers_cannot_say(tmp_path, vectors, language, method):
     rows, positions = vectors
     found = answers(tmp_path, language, emitted_pair(method, language, COMMAND), rows)
     assert ((found == positions) | (found == 2)).all()
@@ -93,7 +93,7 @@ def test_code_in_floats_alone_is_right_or_cannot_say(tmp_path, vectors, language
 
 
 @pytest.mark.parametrize("method", ["dual", "local-maximum"])
-def test_code_by_the_dual_form_decides_every_row_of_everyday_families_and_the_ring(tmp_path, method):
+def test_emitted_dual_form_pair_code_decides_every_row_of_ordinary_families(tmp_path, method):
     named = ("tower-body", "tower-rotors", "forest-type-1", "flight", "uniform", "on-surface", "ring")
     found = [frozen.frozen_rows(name) for name in named]
     rows, positions = np.vstack([each.rows for each in found]), np.concatenate([each.positions for each in found])
@@ -101,7 +101,7 @@ def test_code_by_the_dual_form_decides_every_row_of_everyday_families_and_the_ri
 
 
 @pytest.mark.parametrize("method", ["dual", "local-maximum"])
-def test_a_bad_multiplier_leaves_rows_open_and_makes_no_answer_wrong(tmp_path, vectors, method):
+def test_emitted_dual_form_pair_code_with_a_wrong_multiplier_is_never_wrong(tmp_path, vectors, method):
     rows, positions = vectors
     text, found = emitted_pair(method, "python", COMMAND), "        lambda_found = B - v_"
     assert text.count(found) == 1
@@ -110,7 +110,7 @@ def test_a_bad_multiplier_leaves_rows_open_and_makes_no_answer_wrong(tmp_path, v
     assert 0.3 < (given == 2).mean() < 0.9
 
 
-def test_the_programs_of_the_dual_form_bound_the_errors_of_phi_and_its_slope(vectors):
+def test_the_dual_form_program_bounds_the_errors_of_phi_and_of_its_slope(vectors):
     rows, wanted = vectors[0][::2], ("in_range", "lambda_", "phi", "e", "phi_slope", "slope_error")
     inputs = {**dict(zip(COLUMNS, rows.T, strict=True)), **dual.CONSTANTS}
     in_range, *numbers = outputs(dual.DUAL, float_arithmetic("float64"), inputs, wanted)
@@ -124,7 +124,7 @@ def test_the_programs_of_the_dual_form_bound_the_errors_of_phi_and_its_slope(vec
         assert abs(slope - (P * A / W**2 - Q * B / V**2 - 1)) <= slope_error
 
 
-def test_the_exact_code_refuses_what_is_no_row(tmp_path):
+def test_emitted_exact_pair_code_answers_127_for_an_invalid_row(tmp_path):
     row = [2.0, 5.0, 1.0, 1.0, 3.0, 0.0, 0.0]
     rows = np.array([[*row[:place], bad, *row[place + 1 :]] for place in range(7) for bad in (np.nan, np.inf)])
     assert (answers(tmp_path, "python", emitted_pair("exact", "python", COMMAND), rows) == 127).all()
@@ -139,12 +139,12 @@ def test_the_exact_code_refuses_what_is_no_row(tmp_path):
         ([], "emit needs --scene SCENE, or --method exact for one pair of any sizes"),
     ],
 )
-def test_a_bad_combination_of_options_is_refused_in_a_sentence(capsys, words, said):
+def test_emit_for_one_pair_refuses_wrong_or_missing_options_in_one_sentence(capsys, words, said):
     assert main(["emit", "--language", "python", *words]) == 2
     assert said in capsys.readouterr().err
 
 
-def test_a_method_that_does_not_exist_is_refused():
+def test_emitted_pair_refuses_an_unknown_method():
     with pytest.raises(InputError, match="it must be exact, certified, dual or local-maximum"):
         emitted_pair("roots", "c", COMMAND)
     assert METHODS == ("exact", "certified", "dual", "local-maximum")

@@ -57,7 +57,7 @@ def emitted(path, scene, language, prefix):
 
 
 @pytest.mark.parametrize(("language", "suffix", "compiler"), [("c", "c", "cc"), ("cpp", "cpp", "c++")])
-def test_two_kernels_and_the_header_link_into_one_program(language, suffix, compiler, tmp_path):
+def test_two_emitted_kernels_and_the_header_link_into_one_program(language, suffix, compiler, tmp_path):
     if shutil.which(compiler) is None:
         pytest.skip(f"there is no {compiler}")
     sources = [
@@ -74,7 +74,7 @@ def test_two_kernels_and_the_header_link_into_one_program(language, suffix, comp
 
 
 @needs("rust")
-def test_two_kernels_are_modules_of_one_crate(tmp_path):
+def test_two_emitted_rust_kernels_can_be_modules_of_one_crate(tmp_path):
     for prefix, scene in (("tower", "tower"), ("forest", "forest")):
         emitted(tmp_path / f"{prefix}.rs", scene, "rust", prefix)
     row = ROWS.replace("{", "[").replace("}", "]").replace(",", ".0,", 1).replace("3, 0, 5", "3.0, 0.0, 5.0")

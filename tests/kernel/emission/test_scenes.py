@@ -54,7 +54,7 @@ RANDOM = range(0, 200, 1 if ALL else 12)
 
 
 @pytest.mark.parametrize(("name", "language", "precision"), EVERY if ALL else CHOSEN)
-def test_the_emitted_kernel_of_a_scene_is_within_8_u_in_every_language(name, language, precision, tmp_path):
+def test_emitted_kernels_have_backward_errors_within_8_u_in_every_language(name, language, precision, tmp_path):
     skip_without(language)
     plan = plan_of(SCENES[name], precision)
     kernel = asking(built(tmp_path, SCENES[name], language, precision), language)
@@ -65,7 +65,7 @@ def test_the_emitted_kernel_of_a_scene_is_within_8_u_in_every_language(name, lan
 
 @pytest.mark.parametrize("seed", RANDOM)
 @needs("c")
-def test_kernels_of_random_scenes_are_within_8_u(seed, tmp_path):
+def test_emitted_kernels_of_random_scenes_have_backward_errors_within_8_u(seed, tmp_path):
     chosen, precision = random_scene(seed), FORMATS[seed % 2]
     languages = LANGUAGES if ALL else ("c",)
     for language in languages:
@@ -82,7 +82,7 @@ def test_kernels_of_random_scenes_are_within_8_u(seed, tmp_path):
 
 @pytest.mark.parametrize("seed", RANDOM)
 @needs("c")
-def test_a_scene_at_the_limits_of_a_format_is_refused_or_within_8_u(seed, tmp_path):
+def test_emit_refuses_a_scene_at_the_limits_of_a_float_format_or_is_within_8_u(seed, tmp_path):
     chosen, precision = extreme_scene(seed), FORMATS[seed % 2]
     try:
         plan = plan_of(chosen, precision)

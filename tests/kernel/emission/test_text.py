@@ -53,7 +53,7 @@ def counted(function):
 
 @pytest.mark.parametrize("question", QUESTIONS)
 @pytest.mark.parametrize("name", SCENES)
-def test_operations_in_the_head_are_those_in_the_text(name, question):
+def test_operation_counts_in_the_head_of_a_kernel_are_those_of_its_code(name, question):
     """Comparisons of z with a modelled height stand before them all and are not counted."""
     plan = plan_of(replace(SCENES[name], question=question))
     module = ast.parse(emitted(plan, "python", COMMAND))
@@ -66,7 +66,7 @@ def test_operations_in_the_head_are_those_in_the_text(name, question):
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_a_kernel_of_many_settings_describes_each_at_its_function(language):
+def test_an_emitted_kernel_of_many_settings_describes_each_at_its_function(language):
     text = text_of(MANY, language)
     head, _, rest = text.partition("CANNOT_SAY")
     assert "There are 9 of these" in head
@@ -78,7 +78,7 @@ def test_a_kernel_of_many_settings_describes_each_at_its_function(language):
 
 @pytest.mark.thorough
 @pytest.mark.parametrize(("name", "language"), [("tower", "c"), ("forest", "c"), ("forest", "cpp"), ("forest", "rust")])
-def test_a_library_returns_a_description_of_any_length(name, language, tmp_path):
+def test_an_emitted_library_returns_a_description_longer_than_an_iso_c_string(name, language, tmp_path):
     """ISO C has no strings of more than 4095 characters; the forest's description is longer."""
     skip_without(language)
     chosen = read_scene(name)

@@ -96,7 +96,7 @@ LANGUAGES = [pytest.param(name, marks=[] if name in QUICK else pytest.mark.thoro
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_whole_kernel_says_what_the_scene_says(language, small, tmp_path):
+def test_an_emitted_whole_scene_kernel_answers_as_the_scene(language, small, tmp_path):
     skip_without(language)
     scene, plan, columns, answers = small
     assert (told(built(tmp_path, scene, language, plan), language, columns) == answers).all()
@@ -104,7 +104,7 @@ def test_a_whole_kernel_says_what_the_scene_says(language, small, tmp_path):
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("language", DIALECTS)
-def test_the_pairs_of_a_whole_kernel_are_within_the_bound_of_other_kernels(language, small, tmp_path):
+def test_the_pairs_of_a_whole_scene_kernel_are_within_8_u(language, small, tmp_path):
     skip_without(language)
     scene, plan, _, _ = small
     worst, asked = worst_error(asking(built(tmp_path, scene, language, plan), language), plan, 2)
@@ -113,14 +113,14 @@ def test_the_pairs_of_a_whole_kernel_are_within_the_bound_of_other_kernels(langu
 
 
 @pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
-def test_a_whole_kernel_answers_the_question_of_its_scene(question, small, tmp_path):
+def test_a_whole_scene_kernel_answers_the_question_of_its_scene(question, small, tmp_path):
     scene, columns = replace(small[0], question=question), small[2]
     answers = expected(scene, columns)
     assert set(answers.tolist()) == {0, 1, 2}
     assert (told(built(tmp_path, scene, "python", small[1]), "python", columns) == answers).all()
 
 
-def test_a_whole_kernel_answers_2_where_there_is_nothing_to_say(small, tmp_path):
+def test_a_whole_scene_kernel_answers_cannot_say_for_nan_and_beyond_all_modelled_heights(small, tmp_path):
     path = built(tmp_path, small[0], "python", small[1])
     nan, most = float("nan"), 1.7976931348623157e308
     for centre in ((nan, 0, 0, 0), (0, float("inf"), 0, 0), (0, 0, 7, 0), (0, 0, nan, 0), (0, 0, 0, nan)):
@@ -128,14 +128,14 @@ def test_a_whole_kernel_answers_2_where_there_is_nothing_to_say(small, tmp_path)
     assert load_module(path).whole(most, most, 0.0) == 1
 
 
-def test_a_whole_kernel_is_refused_where_the_mover_leans():
+def test_a_whole_scene_kernel_is_refused_if_the_mover_leans():
     scene = replace(forest(2, parts=()), mover=Mover(0.25, 0.15, (), (1.0, 0.0, 1.0)))
     with pytest.raises(InputError, match="no kernel is made for a whole scene whose mover leans"):
         whole_plan(scene)
 
 
 @pytest.mark.thorough
-def test_two_hundred_different_trees_are_one_kernel(tmp_path):
+def test_a_whole_scene_kernel_of_200_different_trees_answers_as_the_scene(tmp_path):
     skip_without("c")
     scene, columns = forest(200, parts=()), centres(20_000)
     path = built(tmp_path, scene, "c", whole_plan(scene))
