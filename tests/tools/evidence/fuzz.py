@@ -87,10 +87,12 @@ def figures_of(said: str, log: str) -> Figures:
 
 
 def minimised(program: Path, folder: Path) -> list[str]:
-    """The smallest part of the corpus that covers what all of it does, as lines of the kept file."""
+    """The smallest part of the corpus and of what it began with that covers as much, as lines of the kept file."""
     least = folder / "least"
     least.mkdir(exist_ok=True)
-    subprocess.run([program, "-merge=1", least, folder / "corpus"], cwd=folder, capture_output=True, check=True)
+    subprocess.run(
+        [program, "-merge=1", least, folder / "corpus", folder / "seeds"], cwd=folder, capture_output=True, check=True
+    )
     lines = [base64.b64encode(path.read_bytes()).decode("ascii") for path in least.iterdir()]
     lines = sorted(lines, key=lambda line: (len(line), line))
     ends = itertools.accumulate(len(line) + 1 for line in lines)
