@@ -17,7 +17,7 @@ from tests.vectors.case_rows import COUNT, fractions, kinds, lengths_of, ratios
 EXTERIOR, CONTACT, INTERIOR = Position
 
 
-def test_coefficients_vanish_exactly() -> None:
+def test_rows_constructed_for_a_vanishing_coefficient_have_it_exactly_0() -> None:
     for construct, vanishing in (
         (borders.second_coefficient_zero, {"n2"}),
         (borders.first_coefficient_zero, {"n1"}),
@@ -42,7 +42,7 @@ def test_interior_positions_with_a_vanishing_coefficient_and_a_waist_above_one_o
     assert min(left_out["c1"], left_out["c2"]) > 20
 
 
-def test_axis_waist_and_surface_are_met_exactly() -> None:
+def test_centres_of_axis_waist_and_on_surface_families_lie_there_exactly() -> None:
     assert (FAMILIES["axis"].rows(0, COUNT)[:, 4:6] == 0).all()
     assert (FAMILIES["axis"].rows(0, COUNT)[:, 6] == 0).any()
     assert (FAMILIES["waist"].rows(0, COUNT)[:, 6] == 0).all()
@@ -50,7 +50,7 @@ def test_axis_waist_and_surface_are_met_exactly() -> None:
         assert (x * x + y * y) / (alpha * alpha) - (z / gamma) ** 2 == 1
 
 
-def test_borders_are_met_exactly_and_left_by_one_ulp() -> None:
+def test_regime_borders_family_has_rows_on_each_border_and_one_ulp_beside_it() -> None:
     sides = {"a = 1": Counter(), "c² = a": Counter()}
     for a, c in ratios(FAMILIES["regime-borders"].rows(0, 600)):
         offset, border = min((abs(a - 1), a - 1, "a = 1"), (abs(c * c / a - 1), c * c / a - 1, "c² = a"))[1:]
@@ -60,7 +60,7 @@ def test_borders_are_met_exactly_and_left_by_one_ulp() -> None:
         assert min(counts[-1], counts[0], counts[1]) > 60
 
 
-def test_two_curve_crossings_are_common_outside_the_regimes() -> None:
+def test_crossings_in_two_curves_are_common_outside_the_regimes() -> None:
     rows = FAMILIES["out-of-regime"].rows(0, 600)
     assert all(a < 1 or c * c < a for a, c in ratios(rows))
     found = kinds(rows)
@@ -68,7 +68,7 @@ def test_two_curve_crossings_are_common_outside_the_regimes() -> None:
     assert found[Kind.CROSSING_THROAT_TWO_CURVES] > 60
 
 
-def test_osculations_and_throats_close_in_on_their_borders() -> None:
+def test_osculation_and_near_axis_families_approach_their_borders_from_both_sides() -> None:
     for name, gap in (("osculation", lambda a, c: c * c / a - 1), ("near-axis", lambda a, c: a - 1)):
         gaps = [gap(a, c) for a, c in ratios(FAMILIES[name].rows(0, 800))]
         assert max(map(abs, gaps)) < Fraction(1, 4)

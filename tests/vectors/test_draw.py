@@ -71,13 +71,13 @@ ALLOWED = {
 FORBIDDEN_METHODS = {"sum", "cumsum", "prod", "mean", "std", "dot", "random_sample", "normal", "uniform", "choice"}
 
 
-def test_streams_differ_in_each_part_of_their_name() -> None:
+def test_random_streams_differ_for_each_part_of_their_name() -> None:
     words = [Draw(*name).words(4).tolist() for name in (("a", 1, 2), ("a", 1, 3), ("a", 2, 2), ("b", 1, 2), ("a", 12))]
     assert len({tuple(w) for w in words}) == len(words)
     assert words[0] == Draw("a", 1, 2).words(4).tolist()
 
 
-def test_words_of_a_stream_are_those_of_the_published_philox() -> None:
+def test_words_of_a_random_stream_equal_the_published_philox() -> None:
     """Philox 4×64 with ten rounds, written out: the stream does not rest on numpy's promise alone."""
     key = int.from_bytes(hashlib.sha256(b"some/1/0").digest()[:16], "little")
     assert Draw("some", 1, 0).words(12).tolist() == [word for block in (1, 2, 3) for word in _philox(key, block)]
@@ -94,7 +94,7 @@ def _philox(key: int, block: int) -> list[int]:
     return [x0, x1, x2, x3]
 
 
-def test_blocks_side_by_side_have_the_words_that_each_has_alone() -> None:
+def test_random_blocks_drawn_together_equal_blocks_drawn_alone() -> None:
     names = [("side", number) for number in range(3)]
     together, alone = Draw.of_blocks(names), [Draw(*name) for name in names]
     for share in (4, 1, 7):
@@ -105,7 +105,7 @@ def test_blocks_side_by_side_have_the_words_that_each_has_alone() -> None:
         together.words(4)
 
 
-def test_drawn_numbers_lie_in_their_ranges() -> None:
+def test_random_numbers_lie_in_their_ranges_and_reach_both_ends() -> None:
     draw = Draw("ranges")
     integers = draw.integers(N, -3, 4)
     assert set(integers.tolist()) == set(range(-3, 5))
@@ -142,7 +142,7 @@ def test_circle_points_lie_on_the_circle_in_every_quadrant_and_on_the_axes() -> 
     assert [value.tolist() for value in circle_at(half)] == [[1, 0.6, 0], [0, 0.8, 1]]
 
 
-def test_stepped_moves_by_ulps() -> None:
+def test_stepped_moves_values_by_a_number_of_ulps() -> None:
     values = np.asarray([1.0, -1.0, 3e-310, 0.0, 1e300])
     up = [math.nextafter(value, math.inf if value > 0 else -math.inf) for value in values.tolist()]
     up[3] = 0.0
@@ -158,7 +158,7 @@ def test_rounding_to_bits_is_rounding_to_nearest_even() -> None:
     assert to_bits(values[:200], 24).tolist() == values[:200].astype(np.float32).astype(np.float64).tolist()
 
 
-def test_in_turn_takes_a_row_of_each_maker_in_turn() -> None:
+def test_in_turn_takes_rows_of_the_makers_cyclically() -> None:
     makers = [lambda draw, n, value=value: np.full((n, 7), value) for value in (1.0, 2.0, 3.0)]
     assert in_turn(*makers)(Draw(), 8)[:, 3].tolist() == [1, 2, 3, 1, 2, 3, 1, 2]
     assert turns(5, 7, 9).tolist() == [7, 9, 7, 9, 7]
@@ -177,7 +177,7 @@ def test_pythagorean_triples_and_integer_roots_are_exact() -> None:
     assert ((roots(big) ** 2 <= big) & (big < (roots(big) + 1) ** 2)).all()
 
 
-def test_rows_that_float64_cannot_hold_are_marked() -> None:
+def test_to_rows_marks_rows_that_float64_cannot_hold() -> None:
     def column(*values: int) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
         return np.asarray(values, dtype=object)
 
@@ -188,7 +188,7 @@ def test_rows_that_float64_cannot_hold_are_marked() -> None:
     assert rows[2].tolist() == [3, 1, 2, 2, 5, 0, 0]
 
 
-def test_other_coordinates_leave_the_ratios_alone() -> None:
+def test_change_of_units_keeps_all_ratios_of_lengths_exactly() -> None:
     rows, _ = to_rows(
         *([big_integers(Draw(name), 300, 1, 2**40) for _ in range(k)] for name, k in (("r", 4), ("a", 3)))
     )
@@ -207,7 +207,7 @@ def test_other_coordinates_leave_the_ratios_alone() -> None:
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: path.stem)
-def test_generators_use_correctly_rounded_operations_alone(path: Path) -> None:
+def test_generators_use_only_correctly_rounded_operations(path: Path) -> None:
     """No exp, log, power, hypot or sin, whose last bits differ between instruction sets; no sums of arrays."""
     assert len(MODULES) > 7
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -62,7 +62,7 @@ def test_each_intermediate_of_table_2_overflows_and_underflows(name: str, dtype:
 
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
-def test_subnormal_lengths_are_subnormal_in_each_format(dtype: type[np.floating]) -> None:
+def test_extreme_subnormal_family_has_subnormal_lengths_in_each_format(dtype: type[np.floating]) -> None:
     form = list(FLOAT_FORMATS).index(np.dtype(dtype).name)
     rows = FAMILIES["extreme-subnormal"].rows(0, 900)[form::3]
     b, d = rows[:, 2], rows[:, 3]
@@ -76,7 +76,7 @@ def test_subnormal_lengths_are_subnormal_in_each_format(dtype: type[np.floating]
     assert (low["b"] & low["d"]).any()
 
 
-def test_magnitudes_go_beyond_1e150_both_ways_in_all_combinations() -> None:
+def test_extreme_magnitude_family_has_all_combinations_of_sizes_above_1e149_and_below_1e_149() -> None:
     sizes = FAMILIES["extreme-magnitude"].rows(0, 400)[:, [2, 3]]
     assert ((sizes > 1e149) | (sizes < 1e-149)).all()
     assert len(np.unique(sizes > 1, axis=0)) == 4

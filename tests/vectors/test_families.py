@@ -77,7 +77,7 @@ def digest(family: Family) -> str:
 
 
 @every_family
-def test_a_family_is_described_in_full(family: Family) -> None:
+def test_every_family_has_a_complete_description(family: Family) -> None:
     assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", family.name)
     assert family.version >= 1
     for field in fields(family):
@@ -92,7 +92,7 @@ def test_a_family_is_described_in_full(family: Family) -> None:
 
 @pytest.mark.slow
 @every_family
-def test_rows_are_valid_and_a_longer_call_begins_with_a_shorter_one(family: Family) -> None:
+def test_rows_of_a_family_are_valid_and_more_rows_begin_with_fewer(family: Family) -> None:
     long = family.rows(3, BLOCK + 40)
     assert long.shape == (BLOCK + 40, 7)
     assert long.dtype == np.float64
@@ -107,7 +107,7 @@ def test_rows_are_valid_and_a_longer_call_begins_with_a_shorter_one(family: Fami
 @pytest.mark.parametrize(
     "family", [each for each in FAMILIES.values() if each.by_place], ids=lambda family: family.name
 )
-def test_blocks_made_at_one_go_are_those_made_alone(family: Family) -> None:
+def test_blocks_of_a_family_generated_together_equal_blocks_generated_alone(family: Family) -> None:
     blocks = [family.block(5, number) for number in range(TOGETHER + 3)]
     rows = family.rows(5, len(blocks) * BLOCK)
     assert rows.tobytes() == np.concatenate(blocks).tobytes()
@@ -116,13 +116,13 @@ def test_blocks_made_at_one_go_are_those_made_alone(family: Family) -> None:
 
 
 @every_family
-def test_rows_of_a_family_are_nearly_all_different(family: Family) -> None:
+def test_rows_of_a_family_are_almost_all_distinct(family: Family) -> None:
     rows = family.rows(1, BLOCK)
     assert len(np.unique(rows, axis=0)) > 0.85 * BLOCK
 
 
 @every_family
-def test_rows_are_those_of_every_release_before(family: Family) -> None:
+def test_rows_of_a_family_equal_those_of_earlier_releases(family: Family) -> None:
     assert digest(family) == DIGESTS[family.name]
 
 
@@ -131,7 +131,7 @@ def test_every_digest_has_a_family() -> None:
 
 
 @pytest.mark.slow
-def test_rows_do_not_depend_on_the_instruction_set() -> None:
+def test_rows_of_families_do_not_depend_on_the_instruction_set() -> None:
     """The same digests with every instruction set beyond numpy's baseline turned off."""
     optional = [name for name in numpy_core.__cpu_dispatch__ if numpy_core.__cpu_features__[name]]
     if not optional:
@@ -163,11 +163,11 @@ def test_select_takes_names_and_globs_and_keeps_the_order_of_the_table() -> None
     assert select(["ring", "r?ng"]) == (FAMILIES["ring"],)
 
 
-def test_without_a_pattern_no_extreme_family_is_taken() -> None:
+def test_select_without_a_pattern_takes_no_extreme_family() -> None:
     assert {family.name for family in select()} == {each.name for each in FAMILIES.values() if not each.extreme}
 
 
-def test_a_glob_takes_every_family_that_it_matches_and_a_star_takes_all() -> None:
+def test_select_with_a_glob_takes_every_matching_family_and_with_a_star_all() -> None:
     extremes = tuple(family for family in FAMILIES.values() if family.extreme)
     assert len(extremes) >= 5
     assert select(["extreme"]) == select(["extreme-*"]) == select(["?xtreme-*"]) == extremes
@@ -179,7 +179,7 @@ def test_a_glob_takes_every_family_that_it_matches_and_a_star_takes_all() -> Non
     ("pattern", "hint"),
     [("tower-bodi", "tower-body"), ("tangant", "tangent"), ("Ring", "ring"), ("qqq*", "forest-type-1")],
 )
-def test_an_unknown_name_is_answered_with_the_nearest(pattern: str, hint: str) -> None:
+def test_unknown_name_of_a_family_is_refused_with_a_suggestion(pattern: str, hint: str) -> None:
     with pytest.raises(InputError, match=re.escape(pattern)) as caught:
         select(["uniform", pattern])
     assert hint in str(caught.value)

@@ -49,12 +49,12 @@ LEANS = next(iter(families_for((LEANING,)))).name
         (LEANS.replace("1.0:0.0:1.0", "inf:0.0:1.0"), "names no family"),
     ],
 )
-def test_another_text_is_no_name_of_a_family_for_fixed_sizes(name, message):
+def test_invalid_name_of_a_family_for_fixed_sizes_is_refused(name, message):
     assert name not in (NAME, LEANS)
     with pytest.raises(InputError, match=message):
         family_at(name)
 
 
-def test_sizes_that_leave_no_room_in_float64_have_no_families():
+def test_families_for_fixed_sizes_refuse_sizes_that_leave_no_room_in_float64():
     with pytest.raises(InputError, match="leave no room in float64 for the centres about them"):
         list(families_for((FixedSizes((1e308, 1e308, 1e308, 1e308)),)))

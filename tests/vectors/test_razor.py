@@ -30,7 +30,7 @@ def position(sizes, x, z):
 
 @pytest.mark.parametrize("sizes", SIZES)
 @pytest.mark.parametrize("z", [0.0, -1.0, 17.8])
-def test_a_step_inward_from_the_edge_is_on_the_other_side_of_it(sizes, z):
+def test_edge_for_fixed_sizes_is_the_last_float_before_the_position_changes(sizes, z):
     for side in SIDES:
         x = fixed_sizes._edge(sizes, z, side)
         assert is_beyond(sizes, x, z, side) or (
@@ -45,7 +45,7 @@ def is_beyond(sizes, x, z, side):
 
 
 @pytest.mark.parametrize("sizes", SIZES)
-def test_the_edge_is_found_in_as_many_steps_as_a_float_has_bits(sizes, monkeypatch):
+def test_edge_for_fixed_sizes_is_found_in_at_most_64_exact_decisions(sizes, monkeypatch):
     asked = []
 
     def counted(lengths):
@@ -75,7 +75,7 @@ def test_the_edge_is_found_in_as_many_steps_as_a_float_has_bits(sizes, monkeypat
         (1e307, 5e-324, 5e-324, 1e307),
     ],
 )
-def test_all_rows_are_finite_where_float64_ends(trap, sizes):
+def test_rows_for_fixed_sizes_are_finite_at_the_limits_of_float64(trap, sizes):
     rows = fixed_sizes.family_at(f"{trap}@{','.join(map(repr, sizes))}").block(1, 0)
     assert np.isfinite(rows).all()
 
@@ -90,7 +90,7 @@ def test_float_at_inverts_ordinal(x):
 @pytest.mark.parametrize(
     "sizes", [(5e-324, 5e-324, 5e-324, 5e-324), (1e-300, 1e-300, 1e-300, 1e-300), (1.0, 1e150, 1.0, 1.0)]
 )
-def test_steps_from_the_edge_do_not_leave_the_least_of_subnormals(sizes):
+def test_razor_rows_for_subnormal_sizes_are_finite_with_nonzero_centres_below_1e_300(sizes):
     (razor,) = (each for each in fixed_sizes.families_for((FixedSizes(sizes),)) if each.name.startswith("razor"))
     rows = razor.rows(1, 300)
     assert np.isfinite(rows).all()

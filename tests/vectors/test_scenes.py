@@ -9,7 +9,7 @@ from hypcheck.vectors.scenes import ARM, FLIGHT_STEPS
 from tests.vectors.case_rows import COUNT, ratios
 
 
-def test_forests_keep_to_the_paper_s_conditions() -> None:
+def test_generated_forests_satisfy_the_conditions_of_the_paper() -> None:
     for name, wide in (("forest-type-1", True), ("forest-type-2", False)):
         rows = FAMILIES[name].rows(0, COUNT)
         for a, c in ratios(rows):
@@ -23,7 +23,7 @@ def test_forests_keep_to_the_paper_s_conditions() -> None:
         assert max(x.max(), y.max(), z.max()) < 50
 
 
-def test_the_tower_has_the_paper_s_sizes() -> None:
+def test_generated_tower_has_the_sizes_of_the_paper() -> None:
     for name, sizes in (
         ("tower-body", (2, 17.8, 0.25, 0.15)),
         ("flight", (2, 17.8, 0.25, 0.15)),
@@ -35,7 +35,7 @@ def test_the_tower_has_the_paper_s_sizes() -> None:
     assert (box.max(axis=0) > [3.98, 3.98, 17.7]).all()
 
 
-def test_rotors_stand_in_a_square_about_their_body() -> None:
+def test_tower_rotors_form_a_level_square_around_their_body() -> None:
     quads = FAMILIES["tower-rotors"].rows(0, 400)[:, 4:].reshape(100, 4, 3)
     body = (quads[:, 0] + quads[:, 2]) / 2
     assert np.allclose((quads[:, 1] + quads[:, 3]) / 2, body, atol=1e-12)
@@ -45,7 +45,7 @@ def test_rotors_stand_in_a_square_about_their_body() -> None:
     assert (quads[:, :, 2] == quads[:, :1, 2]).all()
 
 
-def test_flights_are_coherent_and_end_within_the_tower_s_height() -> None:
+def test_generated_flights_are_continuous_and_end_within_the_height_of_the_tower() -> None:
     rows = FAMILIES["flight"].rows(0, 64 * FLIGHT_STEPS)
     flights = rows[:, 4:].reshape(64, FLIGHT_STEPS, 3)
     assert np.abs(flights[:, :, 2]).max() <= 17.8

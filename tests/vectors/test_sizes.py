@@ -14,7 +14,7 @@ from hypcheck.vectors.families import FAMILIES
 from tests.vectors.case_rows import COUNT, ratios
 
 
-def test_uniform_visits_the_four_regimes_evenly() -> None:
+def test_uniform_family_has_each_of_the_four_regimes_in_at_least_a_fifth_of_its_rows() -> None:
     regimes = Counter((a >= 1, c * c >= a) for a, c in ratios(FAMILIES["uniform"].rows(0, COUNT)))
     assert len(regimes) == 4
     assert min(regimes.values()) > 0.2 * COUNT
@@ -39,7 +39,7 @@ def test_stiff_ratios_are_spread_over_both_sides_of_1e8(
     assert 4e-7 < within.min() <= within.max() < 4e6
 
 
-def test_giant_tiny_and_far_families_have_such_sizes() -> None:
+def test_giant_tiny_and_far_families_have_the_sizes_that_their_names_say() -> None:
     for name, low, high in (("giant-spheroids", 2.0**-17, 0.26), ("tiny-spheroids", 1000, 2.0**21)):
         rows = FAMILIES[name].rows(0, COUNT)
         for top, bottom in ((0, 2), (1, 3)):
@@ -62,7 +62,7 @@ def test_rows_for_short_formats_are_exact_in_them() -> None:
     assert np.mean(wide.astype(np.float16) != wide) > 0.5, "24 bits are used"
 
 
-def test_images_of_one_pair_have_one_answer() -> None:
+def test_symmetric_images_of_a_pair_have_the_same_position() -> None:
     rows = FAMILIES["symmetric-images"].rows(0, 960)
     answers = float_filter.positions(rows).reshape(-1, 16)
     assert (answers == answers[:, :1]).all()
@@ -70,7 +70,7 @@ def test_images_of_one_pair_have_one_answer() -> None:
     assert (np.signbit(rows[:, 4:]) & (rows[:, 4:] == 0)).any(), "−0.0 is among them"
 
 
-def test_the_whole_domain_is_visited_to_its_ends_and_not_beyond() -> None:
+def test_whole_domain_family_covers_the_domain_to_its_ends_and_not_beyond() -> None:
     rows = FAMILIES["whole-domain"].rows(0, 4000)
     assert within(rows).all()
     ratio = rows[:, :2] / rows[:, 2:4]
@@ -83,7 +83,7 @@ def test_the_whole_domain_is_visited_to_its_ends_and_not_beyond() -> None:
             assert min((column == least).sum(), (column == most).sum()) >= 10
 
 
-def test_every_position_is_met_in_each_regime_near_the_ends() -> None:
+def test_whole_domain_family_has_every_position_in_each_regime_and_near_its_ends() -> None:
     rows = FAMILIES["whole-domain"].rows(0, 4000)
     a, c = (rows[:, :2] / rows[:, 2:4]).T
     found = float_filter.positions(rows)
@@ -95,7 +95,7 @@ def test_every_position_is_met_in_each_regime_near_the_ends() -> None:
     assert min(Counter(found[far].tolist()).values()) > 100
 
 
-def test_one_number_changes_from_row_to_row() -> None:
+def test_one_number_changed_family_changes_one_number_from_row_to_row() -> None:
     rows = FAMILIES["one-number-changed"].rows(0, 60 * random_pairs.TURN)
     turns = rows.reshape(60, random_pairs.TURN, 7)
     changed = turns[:, 1:] != turns[:, :-1]

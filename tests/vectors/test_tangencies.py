@@ -19,7 +19,7 @@ from tests.vectors.case_rows import fractions, kinds, lengths_of, ratios
 EXTERIOR, CONTACT, INTERIOR = Position
 
 
-def test_tangencies_are_tangent_and_of_every_kind() -> None:
+def test_tangent_family_is_tangent_and_has_every_kind_of_tangency() -> None:
     found = kinds(FAMILIES["tangent"].rows(0, 400))
     assert set(found) == {kind for kind in Kind if kind.tangent}
     assert min(found.values()) >= 40
@@ -43,7 +43,7 @@ def test_beside_a_degenerate_crossing_the_discriminant_has_both_signs() -> None:
 
 
 @pytest.mark.parametrize("construct", [double_roots.by_ratios, double_roots.by_angle])
-def test_a_construction_knows_what_it_made(construct: type) -> None:
+def test_tangency_construction_states_tangency_and_side_as_the_exact_decision_does(construct: type) -> None:
     found = construct(Draw("construction"), 600)
     usable = found.usable
     assert usable.mean() > 0.5
@@ -57,7 +57,7 @@ def test_a_construction_knows_what_it_made(construct: type) -> None:
 
 
 @pytest.mark.parametrize("construct", [double_roots.by_ratios, double_roots.by_angle])
-def test_the_sine_is_the_normal_s(construct: type) -> None:
+def test_sine_of_a_tangency_construction_agrees_with_the_exact_normal(construct: type) -> None:
     """a² cos² − c² sin² = m², with the double root m taken from the exact cubic."""
     found = construct(Draw("sine"), 300)
     for row, sine in zip(found.rows[found.usable], found.sine[found.usable].tolist(), strict=True):
@@ -68,7 +68,7 @@ def test_the_sine_is_the_normal_s(construct: type) -> None:
         assert abs(Fraction(sine) ** 2 - exact_square) <= exact_square * Fraction(1, 2**50)
 
 
-def test_the_ring_is_clear_with_a_vanishing_discriminant() -> None:
+def test_ring_family_is_clear_with_a_vanishing_discriminant() -> None:
     assert set(kinds(FAMILIES["ring"].rows(0, 600))) == {Kind.EXTERIOR_RING}
 
 

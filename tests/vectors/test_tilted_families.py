@@ -67,7 +67,7 @@ def test_a_tilted_family_is_described_in_full_and_says_that_it_is_tilted(family)
 
 
 @every_family
-def test_tilted_rows_are_valid_and_a_longer_call_begins_with_a_shorter_one(family):
+def test_rows_of_a_tilted_family_are_valid_and_more_rows_begin_with_fewer(family):
     long = family.rows(3, BLOCK + 40)
     assert long.shape == (BLOCK + 40, 10)
     assert not invalid(long).any()
@@ -79,7 +79,7 @@ def test_tilted_rows_are_valid_and_a_longer_call_begins_with_a_shorter_one(famil
     assert len({row.tobytes() for row in long}) > 0.9 * len(long)
 
 
-def test_tilted_rows_are_those_of_their_generator_versions():
+def test_rows_of_tilted_families_equal_those_of_their_generator_version():
     assert {family.name: digest(family) for family in TILTED_FAMILIES.values()} == DIGESTS
 
 
@@ -88,7 +88,7 @@ def test_upright_families_are_not_tilted():
     assert not set(FAMILIES) & set(TILTED_FAMILIES)
 
 
-def test_tilted_families_are_chosen_only_where_they_are_wanted():
+def test_select_takes_tilted_families_only_if_tilt_is_requested():
     assert not any(family.tilted for family in (*select(), *select(["*", "extreme"])))
     assert select(tilted=True) == (*select(), *(each for each in TILTED_FAMILIES.values() if not each.extreme))
     assert select(["*"], tilted=True) == (*FAMILIES.values(), *TILTED_FAMILIES.values())

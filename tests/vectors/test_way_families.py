@@ -64,7 +64,7 @@ def test_a_family_of_ways_is_described_in_full(family):
 
 
 @every_family
-def test_rows_of_ways_are_valid_and_a_longer_call_begins_with_a_shorter_one(family):
+def test_rows_of_a_family_of_ways_are_valid_and_more_rows_begin_with_fewer(family):
     long = family.rows(3, BLOCK + 40)
     assert long.shape == (BLOCK + 40, 13 if family.tilted else 10)
     assert not invalid(long, WAYS).any()
@@ -75,7 +75,7 @@ def test_rows_of_ways_are_valid_and_a_longer_call_begins_with_a_shorter_one(fami
     assert len({row.tobytes() for row in long}) > 0.9 * len(long)
 
 
-def test_rows_of_ways_are_those_of_their_generator_versions():
+def test_rows_of_families_of_ways_equal_those_of_their_generator_version():
     assert {family.name: digest(family) for family in WAY_FAMILIES.values()} == DIGESTS
 
 
@@ -91,7 +91,7 @@ def test_generated_ways_across_a_ring_are_clear_where_rings_beside_the_surface_w
     assert not any(hits_at_size(row) for row in rows[near].tolist())
 
 
-def test_ways_are_chosen_only_where_they_are_wanted():
+def test_select_takes_families_of_ways_only_if_ways_are_requested():
     assert not any(family.layout is WAYS for family in select(["*"], tilted=True))
     assert set(select(["*"], tilted=True, layout=WAYS)) == set(WAY_FAMILIES.values())
     with pytest.raises(InputError, match="'way-ring' names ways"):

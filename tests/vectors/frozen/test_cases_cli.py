@@ -38,7 +38,7 @@ def refused(capsys, *arguments):
     return found.err
 
 
-def test_the_list_names_every_family_with_its_count(capsys):
+def test_cases_list_names_every_family_with_its_count(capsys):
     lines = printed(capsys, "list").splitlines()
     counts = {line.split()[0]: int(line.split()[1]) for line in lines}
     assert counts.pop("together") == sum(counts.values())
@@ -51,7 +51,7 @@ def test_the_list_names_every_family_with_its_count(capsys):
     assert sum("extreme: taken when asked for" in line for line in lines) == sum(file.head.extreme for file in files)
 
 
-def test_a_family_is_shown_with_what_its_flags_mean(capsys):
+def test_cases_show_explains_a_family_and_its_flags(capsys):
     text = " ".join(printed(capsys, "show", "ring").split())
     family = FAMILIES["ring"]
     for part in (family.title, family.source, family.purpose, family.game, family.drone, "ring-0000 to ring-0239"):
@@ -61,7 +61,7 @@ def test_a_family_is_shown_with_what_its_flags_mean(capsys):
     assert "96, invalid-0000 to invalid-0095, all to be refused" in printed(capsys, "show", "invalid")
 
 
-def test_a_case_is_shown_with_its_proof(capsys):
+def test_cases_show_prints_a_case_with_its_proof(capsys):
     lines = printed(capsys, "show", "ring-0007").splitlines()
     case = vectors.load("ring").cases[7]
     assert lines[0] == "ring-0007"
@@ -79,7 +79,7 @@ def test_a_case_is_shown_with_its_proof(capsys):
     assert printed(capsys, "show", "invalid-0003").splitlines()[1].endswith("at fault")
 
 
-def test_json_is_a_case_as_it_stands_in_its_file(capsys):
+def test_cases_show_json_prints_a_case_or_a_family_as_its_file_has_it(capsys):
     for name, text in (("ring-0007", "ring"), ("invalid-0003", "invalid")):
         line = printed(capsys, "show", name, "--json")
         assert line.rstrip("\n") in vectors.path_of(text).read_text(encoding="utf-8")
@@ -87,7 +87,7 @@ def test_json_is_a_case_as_it_stands_in_its_file(capsys):
     assert printed(capsys, "show", "axis", "--json") == vectors.path_of("axis").read_text(encoding="utf-8")
 
 
-def test_a_generated_case_is_shown_like_a_frozen_one(capsys):
+def test_cases_show_prints_a_generated_case_like_a_frozen_one(capsys):
     frozen = printed(capsys, "show", "waist-0011").splitlines()
     generated = printed(capsys, "show", "waist/1/1/11").splitlines()
     assert generated[0] == "waist/1/1/11"
@@ -116,7 +116,7 @@ def test_showing_an_unknown_case_names_the_existing_ones(capsys, name, hint):
     assert hint in message
 
 
-def test_generated_json_is_a_vector_file_whose_labels_hold(capsys, tmp_path):
+def test_cases_generate_json_writes_a_vector_file_with_right_labels(capsys, tmp_path):
     path = tmp_path / "mine.json"
     assert printed(capsys, "generate", "small-integers", "--seed", "9", "--count", "40", "--output", str(path)) == ""
     file = read_vectors(str(path))
@@ -129,7 +129,7 @@ def test_generated_json_is_a_vector_file_whose_labels_hold(capsys, tmp_path):
     )
 
 
-def test_csv_and_npy_are_the_bare_rows(tmp_path, capsysbinary):
+def test_cases_generate_csv_and_npy_write_the_rows_without_labels(tmp_path, capsysbinary):
     wanted = FAMILIES["symmetric-images"].rows(1, 20)
     table = tmp_path / "rows.csv"
     assert main(["cases", "generate", "symmetric-images", "--count", "20", "--output", str(table)]) == 0
@@ -146,7 +146,7 @@ def test_csv_and_npy_are_the_bare_rows(tmp_path, capsysbinary):
     assert array.read_bytes() == data
 
 
-def test_generated_rows_can_be_classified(capsys, tmp_path):
+def test_classify_reads_the_csv_that_cases_generate_writes(capsys, tmp_path):
     rows, answers = tmp_path / "rows.csv", tmp_path / "answers.csv"
     printed(capsys, "generate", "ring", "--count", "10", "--output", str(rows))
     assert main(["classify", "--input", str(rows), "--output", str(answers)]) == 0
@@ -180,7 +180,7 @@ def test_rows_of_a_family_for_given_sizes_are_generated_checked_and_classified(c
         (["ring", "--output", "no/such/folder/rows.csv"], "cannot write"),
     ],
 )
-def test_generate_refuses_invalid_arguments(capsys, arguments, message):
+def test_cases_generate_refuses_invalid_arguments(capsys, arguments, message):
     assert message in refused(capsys, "generate", *arguments)
 
 

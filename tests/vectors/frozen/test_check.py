@@ -48,13 +48,13 @@ def sentences(case, **changes):
 
 
 @every_sample
-def test_a_right_case_has_no_label_fault(case):
+def test_check_finds_no_fault_in_a_right_case(case):
     assert sentences(case) == []
 
 
 @every_sample
 @pytest.mark.parametrize("position", Position, ids=lambda position: position.label)
-def test_a_flipped_position_is_found_by_the_certificate_alone(case, position):
+def test_certificate_alone_finds_a_wrong_position_of_a_case(case, position):
     if position is case.position:
         return
     flips = {other: 0.5 for other in Position if other is not position}
@@ -62,13 +62,13 @@ def test_a_flipped_position_is_found_by_the_certificate_alone(case, position):
 
 
 @every_sample
-def test_a_flipped_tangency_is_found_by_the_certificate_alone(case):
+def test_certificate_alone_finds_a_wrong_tangency_of_a_case(case):
     assert any("the certificate" in sentence for sentence in sentences(case, tangent=not case.tangent))
 
 
 @pytest.mark.parametrize("other", SAMPLES, ids=lambda case: case.id)
 @every_sample
-def test_a_certificate_of_another_case_is_refused(case, other):
+def test_check_refuses_the_certificate_of_another_case(case, other):
     """Unless it proves this one too, which is looked at in rationals here."""
     if other is case or _proves(case, other.witness):
         return
@@ -92,7 +92,7 @@ def _proves(case, witness):
     return P * at / (A + at) - Q * at / (B - at) - 1 - at > 0
 
 
-def test_a_clear_pair_is_not_tangent_whatever_else_is_in_its_certificate():
+def test_clear_case_labelled_tangent_is_a_fault_even_with_a_double_root_in_its_certificate():
     for case in (CLEAR, INSIDE):
         both = replace(case.witness, double_root=Fraction(1))
         assert any("the certificate" in sentence for sentence in sentences(case, tangent=True, witness=both))
@@ -107,13 +107,13 @@ def test_a_clear_pair_is_not_tangent_whatever_else_is_in_its_certificate():
         ((5, 0, 0), (-5, 0, 0)),
     ],
 )
-def test_points_that_prove_nothing_are_refused(offsets):
+def test_certificate_whose_points_prove_nothing_is_refused(offsets):
     witness = StoredCertificate(offsets=tuple(tuple(map(Fraction, point)) for point in offsets))
     for case in (CLEAR, INSIDE, CROSSING, TOUCHING):
         assert any("the certificate" in sentence for sentence in sentences(case, witness=witness))
 
 
-def test_a_touching_point_does_not_pass_for_a_crossing():
+def test_certificate_with_a_touching_point_does_not_prove_a_crossing():
     """(α, γ, b, d) = (1, 2, 1, 1) at (2, 0, 0) touches at (1, 0, 0): that point proves contact, but no crossing."""
     touching = case_of("small-integers", lambda case: case.tangent)
     row = (1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0)
@@ -133,13 +133,13 @@ def test_a_touching_point_does_not_pass_for_a_crossing():
 
 @pytest.mark.parametrize("kind", Kind, ids=lambda kind: kind.value)
 @every_sample
-def test_a_wrong_kind_is_found_by_the_roots(case, kind):
+def test_wrong_kind_of_a_case_is_found_by_the_roots(case, kind):
     if kind is not case.kind:
         assert f"kind is {kind.value}; the roots say {case.kind.value}" in sentences(case, kind=kind)
 
 
 @every_sample
-def test_a_clearance_one_ulp_off_is_a_fault(case):
+def test_case_with_a_clearance_one_ulp_off_is_a_fault(case):
     for direction in (-math.inf, math.inf):
         changed = math.nextafter(case.clearance, direction)
         assert any(sentence.startswith("clearance is") for sentence in sentences(case, clearance=changed))
@@ -147,14 +147,14 @@ def test_a_clearance_one_ulp_off_is_a_fault(case):
 
 
 @every_sample
-def test_a_flip_one_ulp_off_is_a_fault(case):
+def test_case_with_a_flip_distance_one_ulp_off_is_a_fault(case):
     for position, distance in case.flips.items():
         changed = {**case.flips, position: math.nextafter(distance, math.inf)}
         assert [f"the flip to {position.label} is" in sentence for sentence in sentences(case, flips=changed)] == [True]
 
 
 @every_sample
-def test_a_missing_or_superfluous_flag_is_a_fault(case):
+def test_case_with_a_missing_or_superfluous_flag_is_a_fault(case):
     for flag in case.flags:
         fewer = tuple(other for other in case.flags if other != flag)
         assert any(sentence.startswith("flags are") for sentence in sentences(case, flags=fewer))
@@ -165,7 +165,7 @@ def test_a_missing_or_superfluous_flag_is_a_fault(case):
 
 @every_sample
 @pytest.mark.parametrize("place", range(7))
-def test_a_changed_number_is_a_fault(case, place):
+def test_case_with_one_changed_number_in_its_row_is_a_fault(case, place):
     """One part in 10⁶ of one number: flips move, if nothing else does. A zero becomes a hair."""
     row = list(case.row)
     row[place] = row[place] * (1 + 1e-6) if row[place] else 1e-9
@@ -173,7 +173,7 @@ def test_a_changed_number_is_a_fault(case, place):
 
 
 @pytest.mark.slow
-def test_labels_of_frozen_files_hold():
+def test_labels_of_frozen_files_are_right():
     """A sample of every file, the first case and the last among it, by certificate, roots, nearest point and flips."""
     for name in frozen.NAMES:
         file = frozen.load(name)
@@ -183,7 +183,7 @@ def test_labels_of_frozen_files_hold():
     assert faults_of_invalid_rows(frozen.load_invalid_rows()) == []
 
 
-def test_a_valid_row_among_those_to_be_refused_is_a_fault():
+def test_valid_row_in_a_file_of_invalid_rows_is_a_fault():
     file = frozen.load_invalid_rows()
     bits = tuple(int(word, 16) for word in ["3ff0000000000000"] * 7)
     valid = replace(file.cases[5], bits=bits)
@@ -271,7 +271,7 @@ def test_cases_check_checks_invalid_rows_too(tmp_path, capsys):
     assert "case invalid-0000: columns x are said to be at fault, but alpha is" in capsys.readouterr().out
 
 
-def test_a_pipe_without_end_is_refused_in_time(monkeypatch, capsys):
+def test_cases_check_refuses_an_endless_pipe_in_time(monkeypatch, capsys):
     class Endless(io.RawIOBase):
         def readinto(self, buffer):
             buffer[:] = b"\n" * len(buffer)
@@ -286,7 +286,7 @@ def test_a_pipe_without_end_is_refused_in_time(monkeypatch, capsys):
     assert "standard input has more than 2 MiB; it must be divided" in capsys.readouterr().err
 
 
-def test_a_frozen_file_that_is_missing_is_an_error(tmp_path, capsys, monkeypatch):
+def test_missing_frozen_file_is_an_error(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(frozen, "folder", lambda: tmp_path)
     assert main(["cases", "check"]) == 2
     assert "forest-type-1.json" in capsys.readouterr().err

@@ -58,7 +58,7 @@ def schema(name, version=SCHEMA):
     return opened(json.loads((FOLDER / "schema" / f"{name}-{version}.json").read_text(encoding="utf-8")))
 
 
-def test_there_is_a_file_for_each_family_and_no_other():
+def test_cases_folder_has_one_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
     pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
     assert found == set(ALL) == {*pairs, *WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
@@ -87,7 +87,7 @@ def test_every_family_of_a_later_version_has_rows_of_earlier_ones():
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-def test_the_rows_of_a_file_are_the_first_of_its_family_each_once(name):
+def test_rows_of_a_frozen_file_are_the_first_rows_of_its_family_without_duplicates(name):
     file = vectors.load(name)
     wanted = list(dict.fromkeys(bits(FAMILIES[name].rows(freezing.SEED, freezing.COUNTS[name]))))
     rows = bits(file.rows)
@@ -103,7 +103,7 @@ def test_frozen_files_are_those_that_freezing_from_nothing_makes(name):
     assert vectors_text(freezing.frozen(name)) == text_of(name)
 
 
-def test_the_rows_to_be_refused_are_what_freezing_makes():
+def test_frozen_invalid_rows_equal_those_that_freezing_makes():
     assert vectors.invalid_rows_text(freezing.frozen_invalid_rows()) == text_of(vectors.INVALID_NAME)
 
 
@@ -112,7 +112,7 @@ def test_a_frozen_file_is_written_back_to_the_same_bytes(name):
     assert vectors_text(vectors.load(name)) == text_of(name)
 
 
-def test_worst_cancellation_is_what_the_searches_find():
+def test_rows_of_worst_cancellation_are_those_that_its_searches_find():
     """Two of the searches made anew, one in each float format; the rows stand in the file in the order of searches."""
     known = bits(vectors.load(cancellation.NAME).rows)
     for wanted in (
@@ -142,13 +142,13 @@ def test_every_row_of_worst_cancellation_defeats_a_formula_in_the_default_domain
 
 
 @pytest.mark.parametrize("name", [*vectors.NAMES, vectors.INVALID_NAME])
-def test_every_file_fits_its_schema(name):
+def test_every_frozen_file_fits_its_schema(name):
     document = json.loads(text_of(name))
     wanted = schema("refusals" if name == vectors.INVALID_NAME else "vectors")
     assert violations(document, wanted, closed=True) == []
 
 
-def test_the_schema_refuses_each_malformed_document():
+def test_schema_of_vectors_refuses_each_malformed_document():
     document = json.loads(text_of("ring"))
     document["cases"] = document["cases"][:2]
     wanted = schema("vectors")
@@ -174,7 +174,7 @@ def test_the_schema_refuses_each_malformed_document():
         assert violations(changed, wanted, closed=True) != []
 
 
-def test_one_case_stands_on_one_line():
+def test_each_case_of_a_frozen_file_stands_on_its_own_line():
     for name in ALL:
         lines = text_of(name).splitlines()
         begin = lines.index('"cases": [') + 1
@@ -183,7 +183,7 @@ def test_one_case_stands_on_one_line():
         assert f'"count": {len(lines) - begin - 1},' in lines
 
 
-def test_the_arrays_of_a_file_hold_its_cases_in_order():
+def test_arrays_of_frozen_rows_hold_the_cases_of_a_file_in_order():
     frozen = vectors.frozen_rows("small-integers")
     file = vectors.load("small-integers")
     assert frozen.rows.shape == (len(file.cases), 7)
@@ -213,7 +213,7 @@ def test_every_tangent_ladder_changes_its_answer_once_and_has_every_rung():
     assert sides == set(Position)
 
 
-def test_rows_to_be_refused_have_every_column_at_fault_alone_and_every_kind_of_nan():
+def test_frozen_invalid_rows_include_each_column_invalid_alone_and_every_kind_of_nan():
     file = vectors.load_invalid_rows()
     assert invalid(file.rows).all()
     alone = Counter(case.columns for case in file.cases if len(case.columns) == 1)
@@ -236,7 +236,7 @@ def block(language):
     return found[0]
 
 
-def test_the_readme_has_a_line_for_each_family_as_its_file_says():
+def test_readme_of_cases_has_a_line_for_each_family_that_agrees_with_its_file():
     heads = {name: vectors.load(name) for name in vectors.NAMES} | {vectors.INVALID_NAME: vectors.load_invalid_rows()}
     heads |= {name: vectors.load_tilted(name) for name in vectors.TILTED_NAMES}
     heads |= {vectors.TILTED_INVALID_NAME: vectors.load_invalid_rows(vectors.TILTED_INVALID_NAME)}
@@ -250,7 +250,7 @@ def test_the_readme_has_a_line_for_each_family_as_its_file_says():
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 @pytest.mark.parametrize(("answer", "name", "code"), [(0, "tangent", 0), (0, "ring", 1), (1, "ring", 0)])
-def test_the_javascript_example_runs(tmp_path, answer, name, code):
+def test_javascript_example_of_the_cases_readme_runs_and_finds_wrong_answers(tmp_path, answer, name, code):
     (tmp_path / "check.mjs").write_text(block("javascript"), encoding="utf-8")
     (tmp_path / "mine.mjs").write_text(f"export const classify = (...row) => {answer};\n", encoding="utf-8")
     command = ["node", "check.mjs", str(vectors.path_of(name))]
@@ -261,7 +261,7 @@ def test_the_javascript_example_runs(tmp_path, answer, name, code):
 
 @pytest.mark.skipif(shutil.which("cc") is None or shutil.which("sed") is None, reason="no C compiler or sed")
 @pytest.mark.parametrize("name", ["ring", "extreme-subnormal", "symmetric-images"])
-def test_the_c_example_compiles_and_sees_every_number_to_the_bit(tmp_path, name):
+def test_c_example_of_the_cases_readme_compiles_and_reads_every_number_to_the_bit(tmp_path, name):
     shutil.copy(vectors.path_of(name), tmp_path / "ring.json")
     (tmp_path / "check.c").write_text(block("c"), encoding="utf-8")
     printing = "#include <stdio.h>\nint classify(const double row[7]) {\n  fwrite(row, 8, 7, stdout);\n  return 9;\n}\n"
@@ -278,7 +278,7 @@ def test_the_c_example_compiles_and_sees_every_number_to_the_bit(tmp_path, name)
     assert ran.stdout == wanted
 
 
-def test_the_files_are_installed_with_the_package(tmp_path, monkeypatch):
+def test_frozen_files_are_installed_with_the_package(tmp_path, monkeypatch):
     """What setup.py adds to a build: the same bytes, inside the package, and in a source distribution."""
     setuptools = pytest.importorskip("setuptools")
     root = Path(__file__).parents[3]
@@ -300,7 +300,7 @@ def test_the_files_are_installed_with_the_package(tmp_path, monkeypatch):
     assert {str(installed / path) for path in files} <= set(command.get_outputs())
 
 
-def test_the_folder_inside_an_installed_package_comes_first(tmp_path, monkeypatch):
+def test_cases_folder_inside_an_installed_package_is_used_first(tmp_path, monkeypatch):
     package = tmp_path / "site" / "hypcheck"
     (package / "casebook").mkdir(parents=True)
     monkeypatch.setattr(vectors, "__file__", str(package / "casebook" / "vectors.py"))

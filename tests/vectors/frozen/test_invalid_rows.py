@@ -32,7 +32,7 @@ BAD_FIRST = BAD_ROWS.index('"cases": [') + 1
         (lambda case: case.update(position=0), "has the key 'position'"),
     ],
 )
-def test_a_row_to_be_refused_that_is_wrongly_written_is_refused(tmp_path, change, message):
+def test_malformed_case_in_a_file_of_invalid_rows_is_refused(tmp_path, change, message):
     lines = list(BAD_ROWS)
     case = json.loads(lines[BAD_FIRST].removesuffix(","))
     assert case["row"][0] == "inf"

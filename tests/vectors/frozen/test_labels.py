@@ -93,7 +93,7 @@ def test_flags_of_rows_worked_out_by_hand_are_right(flag):
         assert [flag in flags for flags in flags_at(*without)] == [False] * len(without)
 
 
-def test_the_flags_of_rounding_agree_with_the_judge():
+def test_rounding_flags_of_cases_agree_with_the_wrong_answers_of_built_in_methods():
     """What judge.py calls wrong at 8 u of a built-in method, where exact arithmetic has it right."""
     from hypcheck.derivation.evaluation import EXACT
     from hypcheck.derivation.formulas import FORMULAS, answers
@@ -129,14 +129,14 @@ def test_the_default_domain_and_the_formats_ranges_are_those_of_the_methods():
         assert (in_range(rows, precision) == representable(rows, precision)).all()
 
 
-def test_flags_come_in_the_order_of_the_table():
+def test_flags_of_a_case_come_in_the_order_of_the_table():
     for flags in flags_at(*[case.row for case in vectors.load("ring").cases[:20]]):
         assert list(flags) == [name for name in FLAGS if name in flags]
 
 
 @given(pairs)
 @settings(max_examples=25)
-def test_shortened_proofs_still_hold(pair):
+def test_shortened_proofs_still_prove_a_crossing(pair):
     decision = exact.decide(pair.lengths)
     found = stored_certificate(pair, prove(pair, decision))
     crosses = decision.position is Position.CONTACT and not decision.tangent
@@ -174,7 +174,7 @@ def test_a_proof_point_on_the_spheroid_is_moved_inside(outward):
     assert max(len(exact_text(part)) for part in found.offsets[1]) < 20
 
 
-def test_points_outside_the_spheroid_show_nothing():
+def test_points_outside_the_spheroid_do_not_prove_a_crossing():
     """x = 4 is beyond the waist of x² + y² − z² = 1 and x = 0 inside it; a unit sphere at (3, 0, 0) has neither."""
     pair = Pair(1.0, 1.0, 1.0, 1.0, 3.0, 0.0, 0.0)
     inside, outside = (Fraction(-3), Fraction(0), Fraction(0)), (Fraction(1), Fraction(0), Fraction(0))
@@ -185,7 +185,7 @@ def test_points_outside_the_spheroid_show_nothing():
 
 @given(st.floats(allow_nan=False))
 @settings(max_examples=300)
-def test_written_numbers_read_back_as_themselves(value):
+def test_decimal_and_hexadecimal_texts_of_a_number_are_read_back_as_that_number(value):
     assert float.fromhex(hex_of(value)) == value
     assert math.copysign(1, float.fromhex(hex_of(value))) == math.copysign(1, value)
     if math.isfinite(value):
@@ -196,7 +196,7 @@ def test_written_numbers_read_back_as_themselves(value):
         assert decimal_of(value) == f'"{value}"'
 
 
-def test_hexadecimal_is_as_c_prints_it():
+def test_hexadecimal_text_of_a_number_equals_that_of_c_printf():
     assert [hex_of(value) for value in (0.0, -0.0, 1.5, -1e-300, 5e-324, 0.1, math.inf)] == [
         *("0x0p+0", "-0x0p+0", "0x1.8p+0", "-0x1.56e1fc2f8f359p-997", "0x0.0000000000001p-1022"),
         *("0x1.999999999999ap-4", "inf"),
@@ -205,7 +205,7 @@ def test_hexadecimal_is_as_c_prints_it():
 
 @given(st.fractions())
 @settings(max_examples=100)
-def test_rationals_are_read_as_they_are_written(value):
+def test_rational_text_is_read_back_as_that_rational(value):
     assert rational_of(exact_text(value)) == value
 
 
@@ -278,7 +278,7 @@ def test_freezing_refuses_a_label_that_fails_its_check(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_rows_to_be_refused_keep_their_ids_too():
+def test_freezing_keeps_ids_of_old_invalid_rows_and_appends_new_ones():
     now = vectors.invalid_rows()
     before = replace(now, cases=(replace(now.cases[4], id="invalid-0700"), now.cases[0]))
     after = frozen_invalid_rows(before)
@@ -288,11 +288,11 @@ def test_rows_to_be_refused_keep_their_ids_too():
     assert invalid_rows_text(frozen_invalid_rows(after)) == invalid_rows_text(after)
 
 
-def test_counts_are_for_every_family():
+def test_freezing_has_a_count_for_every_family_and_a_search_for_every_stratum():
     assert set(freezing.COUNTS) == set(FAMILIES)
     assert set(STRATA) <= set(FAMILIES)
     assert len(searches()) == len(DEFEATED) * 2 * len(STRATA) * BEGINNINGS
 
 
-def test_a_cancellation_search_that_finds_nothing_gives_none():
+def test_cancellation_search_that_finds_nothing_returns_none():
     assert worst_row(CancellationSearch("local-maximum", "float64", False, "uniform", 0)) is None

@@ -36,7 +36,7 @@ def checked(tmp_path, capsys, text):
         ('"equality"', '"luck"', 'line 4: the bug_type of the flag tangent is "luck"; it is "equality"'),
     ],
 )
-def test_a_wrong_description_in_the_metadata_is_a_fault(tmp_path, capsys, old, new, sentence):
+def test_wrong_description_in_the_metadata_of_a_family_is_a_fault(tmp_path, capsys, old, new, sentence):
     assert old in TEXT
     code, (said, closing) = checked(tmp_path, capsys, TEXT.replace(old, new, 1))
     assert code == 1
@@ -44,7 +44,7 @@ def test_a_wrong_description_in_the_metadata_is_a_fault(tmp_path, capsys, old, n
     assert closing == "6 cases checked, none with a wrong label; 1 file with a wrong head"
 
 
-def test_the_head_of_rows_to_be_refused_is_compared_too(tmp_path, capsys):
+def test_wrong_description_in_the_metadata_of_invalid_rows_is_a_fault(tmp_path, capsys):
     text = invalid_rows_text(frozen.load_invalid_rows())
     code, lines = checked(
         tmp_path, capsys, text.replace(frozen.INVALID_METADATA["invalid"].drone, "a bad row is answered")

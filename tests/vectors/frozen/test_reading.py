@@ -60,7 +60,7 @@ def with_head(name, change):
     return [*lines[:start], f'{begin}"{name}": {text},', *lines[end:]]
 
 
-def test_the_sound_file_is_read_and_written_to_the_same_bytes(tmp_path):
+def test_valid_vector_file_is_read_and_written_back_to_the_same_bytes(tmp_path):
     path = tmp_path / "mine.json"
     path.write_text("\n".join(SOUND) + "\n", encoding="utf-8")
     file = read_vectors(str(path))
@@ -71,7 +71,7 @@ def test_the_sound_file_is_read_and_written_to_the_same_bytes(tmp_path):
     assert file == frozen.load("tangent-ladder")
 
 
-def test_layout_and_notation_are_free_but_the_digits_are_not(tmp_path):
+def test_vector_file_may_have_any_layout_and_notation_but_no_other_digits(tmp_path):
     document = json.loads("\n".join(SOUND))
     path = tmp_path / "mine.json"
     path.write_text("\ufeff" + json.dumps(document, indent=3), encoding="utf-8")
@@ -146,7 +146,7 @@ CASES_AT_FAULT = {
     ("field", "value", "message"),
     [(field, value, message) for field, faults in CASES_AT_FAULT.items() for value, message in faults],
 )
-def test_a_field_of_a_case_that_is_wrong_is_refused(tmp_path, field, value, message):
+def test_case_with_a_wrong_field_is_refused(tmp_path, field, value, message):
     found = refused(tmp_path, with_case(lambda case: case.update({field: value})))
     assert found.startswith(f", line {FIFTH + 1}")
     if field != "id":
@@ -155,7 +155,7 @@ def test_a_field_of_a_case_that_is_wrong_is_refused(tmp_path, field, value, mess
 
 
 @pytest.mark.parametrize("field", CASE_FIELDS)
-def test_a_case_has_all_its_fields_and_no_other(tmp_path, field):
+def test_case_with_a_missing_or_unknown_field_is_refused(tmp_path, field):
     without = with_case(lambda case: {name: value for name, value in case.items() if name != field})
     assert f"lacks {field}" in refused(tmp_path, without)
     found = refused(tmp_path, with_case(lambda case: case.update({field + "s": 1})))
@@ -164,7 +164,7 @@ def test_a_case_has_all_its_fields_and_no_other(tmp_path, field):
 
 
 @pytest.mark.parametrize("case", [3, None, [], "x"])
-def test_a_case_that_is_no_object_is_refused(tmp_path, case):
+def test_case_that_is_no_json_object_is_refused(tmp_path, case):
     assert f", line {FIFTH + 1}: the case is" in refused(tmp_path, with_case(lambda _: case if case is not None else 0))
 
 
@@ -187,7 +187,7 @@ def test_a_case_that_is_no_object_is_refused(tmp_path, case):
         ("0.0", "greater than 0"),
     ],
 )
-def test_numbers_that_do_not_round_trip_or_are_none_are_refused(tmp_path, number, message):
+def test_case_with_a_number_that_does_not_round_trip_is_refused(tmp_path, number, message):
     lines = list(SOUND)
     lines[FIFTH] = re.sub(r'"row":\[[^,]*', f'"row":[{number}', lines[FIFTH])
     found = refused(tmp_path, lines)
@@ -196,7 +196,7 @@ def test_numbers_that_do_not_round_trip_or_are_none_are_refused(tmp_path, number
 
 
 @pytest.mark.parametrize("place", range(7))
-def test_decimal_and_hexadecimal_are_one_number(tmp_path, place):
+def test_case_whose_decimal_and_hexadecimal_numbers_differ_is_refused(tmp_path, place):
     """Another digit in either, though it round-trips by itself."""
 
     def change(case):
@@ -205,7 +205,7 @@ def test_decimal_and_hexadecimal_are_one_number(tmp_path, place):
     assert "the hex of" in refused(tmp_path, with_case(change))
 
 
-def test_a_key_that_stands_twice_is_refused_wherever_it_is(tmp_path):
+def test_vector_file_with_a_duplicate_key_is_refused_wherever_it_stands(tmp_path):
     lines = list(SOUND)
     lines[FIFTH] = lines[FIFTH].replace('"position":', '"position":1,"position":', 1)
     assert f", line {FIFTH + 1}: key 'position' stands twice" in refused(tmp_path, lines)
@@ -215,7 +215,7 @@ def test_a_key_that_stands_twice_is_refused_wherever_it_is(tmp_path):
     )
 
 
-def test_a_line_less_or_more_is_noticed_by_the_count(tmp_path):
+def test_vector_file_with_a_case_removed_or_added_is_refused_by_its_count(tmp_path):
     assert "count is 492, but there are 491 cases" in refused(tmp_path, SOUND[:FIFTH] + SOUND[FIFTH + 1 :])
     more = SOUND[FIFTH].replace(ID, "tangent-ladder-9999")
     assert "count is 492, but there are 493 cases" in refused(tmp_path, [*SOUND[:FIFTH], more, *SOUND[FIFTH:]])
@@ -224,7 +224,7 @@ def test_a_line_less_or_more_is_noticed_by_the_count(tmp_path):
 
 
 @pytest.mark.parametrize("value", [491, 492.0, "492", True, None])
-def test_a_wrong_count_is_refused(tmp_path, value):
+def test_vector_file_with_a_wrong_count_is_refused(tmp_path, value):
     assert "count is" in refused(tmp_path, with_head("count", lambda _: value))
 
 
@@ -248,12 +248,12 @@ def test_a_wrong_count_is_refused(tmp_path, value):
         ("flags", lambda flags: {}, "is not among those"),
     ],
 )
-def test_a_head_that_is_wrong_is_refused(tmp_path, name, change, message):
+def test_vector_file_with_wrong_metadata_is_refused(tmp_path, name, change, message):
     assert message in refused(tmp_path, with_head(name, change))
 
 
 @pytest.mark.parametrize("field", HEAD_FIELDS)
-def test_a_family_is_described_in_full(tmp_path, field):
+def test_vector_file_whose_family_lacks_a_field_is_refused(tmp_path, field):
     def without(head):
         return {name: value for name, value in head.items() if name != field}
 
@@ -261,7 +261,7 @@ def test_a_family_is_described_in_full(tmp_path, field):
 
 
 @pytest.mark.parametrize("name", [*MEMBERS, "cases"])
-def test_a_document_has_all_its_members_and_no_other(tmp_path, name):
+def test_vector_file_with_a_missing_or_unknown_member_is_refused(tmp_path, name):
     document = json.loads("\n".join(SOUND))
     value = document.pop(name)
     assert name in refused(tmp_path, json.dumps(document))
@@ -269,7 +269,7 @@ def test_a_document_has_all_its_members_and_no_other(tmp_path, name):
 
 
 @pytest.mark.parametrize("share", [0, 0.0001, 0.01, 0.3, 0.9, 0.9999])
-def test_a_file_that_was_cut_off_is_refused(tmp_path, share):
+def test_vector_file_that_was_cut_off_is_refused(tmp_path, share):
     text = "\n".join(SOUND)
     found = refused(tmp_path, text[: int(share * len(text))])
     assert "not a JSON document of cases" in found
@@ -297,24 +297,24 @@ def test_a_file_that_was_cut_off_is_refused(tmp_path, share):
         "\n".join([*SOUND, "]"]).encode(),
     ],
 )
-def test_reading_a_file_that_is_no_document_raises_an_error(tmp_path, content):
+def test_reading_a_file_that_is_no_vector_file_raises_an_error(tmp_path, content):
     refused(tmp_path, content)
 
 
-def test_a_binary_byte_among_the_cases_is_refused_with_its_line(tmp_path):
+def test_vector_file_with_a_binary_byte_is_refused_naming_its_line(tmp_path):
     text = "\n".join(SOUND).encode()
     place = text.index(ID.encode()) + 2
     assert f", line {FIFTH + 1}: byte 0xff" in refused(tmp_path, text[:place] + b"\xff" + text[place + 1 :])
     assert f", line {FIFTH + 1}: a NUL byte" in refused(tmp_path, text[:place] + b"\0" + text[place + 1 :])
 
 
-def test_a_file_that_cannot_be_opened_raises_an_error(tmp_path):
+def test_vector_file_that_cannot_be_opened_raises_an_error(tmp_path):
     for path in (tmp_path, tmp_path / "nowhere.json"):
         with pytest.raises(InputError, match=re.escape(str(path))):
             read_vectors(str(path))
 
 
-def test_every_kind_and_every_flag_there_is_occurs_in_the_frozen_files():
+def test_every_kind_and_every_flag_occurs_in_the_frozen_files():
     cases = [case for name in frozen.NAMES for case in frozen.load(name).cases]
     assert {case.kind for case in cases} == set(Kind)
     assert {flag for case in cases for flag in case.flags} == set(FLAGS)
@@ -323,6 +323,6 @@ def test_every_kind_and_every_flag_there_is_occurs_in_the_frozen_files():
 @pytest.mark.parametrize(
     ("name", "near"), [("rnig", "ring"), ("worst-cancelation", "worst-cancellation"), ("zzz", "there are")]
 )
-def test_an_unknown_name_is_answered_with_the_nearest(name, near):
+def test_unknown_name_of_a_frozen_file_is_refused_with_a_suggestion(name, near):
     with pytest.raises(InputError, match=near):
         frozen.load(name)

@@ -47,7 +47,7 @@ def test_there_are_at_least_2000_tilted_cases_in_at_least_12_families():
 
 
 @every_file
-def test_the_rows_of_a_tilted_file_are_the_first_of_its_family_each_once(name):
+def test_rows_of_a_tilted_file_are_the_first_rows_of_its_family_without_duplicates(name):
     file = frozen.load_tilted(name)
     wanted = list(dict.fromkeys(bits(TILTED_FAMILIES[name].rows(freezing.SEED, freezing.TILTED_COUNTS[name]))))
     assert bits(file.rows) == wanted
@@ -65,7 +65,7 @@ def test_the_positions_of_a_tilted_file_are_those_of_the_matrices(name):
 
 @pytest.mark.slow
 @every_file
-def test_the_labels_of_a_tilted_file_hold(name):
+def test_labels_of_a_tilted_file_are_right(name):
     assert faults_of_tilted(sample(name)) == []
 
 
@@ -76,7 +76,7 @@ def test_a_tilted_file_fits_its_published_schema(name):
     assert list(violations(document, schema("tilted-vectors", TILTED_SCHEMA))) == []
 
 
-def test_the_tilted_rows_to_be_refused_fit_their_schema_and_are_what_freezing_makes():
+def test_frozen_invalid_tilted_rows_fit_their_schema_and_equal_those_that_freezing_makes():
     text = text_of(frozen.TILTED_INVALID_NAME)
     assert list(violations(json.loads(text), schema("tilted-refusals", TILTED_SCHEMA))) == []
     assert invalid_rows_text(freezing.frozen_invalid_rows(name=frozen.TILTED_INVALID_NAME)) == text
@@ -89,7 +89,7 @@ def test_the_tilted_rows_to_be_refused_fit_their_schema_and_are_what_freezing_ma
     assert any(not np.any(case.row[7:]) for case in without)
 
 
-def test_the_analogue_of_the_ring_is_clear_with_a_vanishing_discriminant():
+def test_tilted_ring_cases_are_clear_with_a_vanishing_discriminant():
     cases = frozen.load_tilted("tilted-ring").cases
     exactly = [case for case in cases if "quartic-delta=0" in case.flags]
     assert len(exactly) >= len(cases) / 4
@@ -190,7 +190,7 @@ def printed(capsys, *arguments):
     return capsys.readouterr().out
 
 
-def test_tilted_families_and_cases_are_shown(capsys):
+def test_cases_show_prints_tilted_families_and_cases(capsys):
     assert "positions" in printed(capsys, "show", "tilted-ring")
     assert "all to be refused" in printed(capsys, "show", "tilted-invalid")
     text = " ".join(printed(capsys, "show", "tilted-ring-0000").split())
@@ -207,7 +207,7 @@ def test_tilted_families_and_cases_are_shown(capsys):
     assert "position" in printed(capsys, "show", "tilted-uniform/1/5/3")
 
 
-def test_tilted_rows_are_generated_in_every_format(capsys, tmp_path):
+def test_cases_generate_writes_tilted_rows_in_every_format(capsys, tmp_path):
     table = printed(capsys, "generate", "tilted-uniform", "--count", "3", "--format", "csv").splitlines()
     assert table[0] == ",".join(("id", *TILTED_COLUMNS))
     assert table[1].startswith("tilted-uniform/1/1/0,")
@@ -217,6 +217,6 @@ def test_tilted_rows_are_generated_in_every_format(capsys, tmp_path):
     assert printed(capsys, "check", str(path)) == "2 cases checked, none with a wrong label\n"
 
 
-def test_tilted_families_leave_the_upright_ones_unchanged():
+def test_tilted_and_upright_families_have_different_names():
     assert not set(FAMILIES) & set(TILTED_FAMILIES)
     assert set(frozen.NAMES).isdisjoint(frozen.TILTED_NAMES)

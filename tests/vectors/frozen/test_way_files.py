@@ -56,7 +56,7 @@ def test_there_are_at_least_2000_ways_in_at_least_14_families():
 
 
 @every_file
-def test_the_rows_of_a_file_of_ways_are_the_first_of_its_family_each_once(name):
+def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplicates(name):
     file = frozen.load_ways(name)
     wanted = list(dict.fromkeys(bits(WAY_FAMILIES[name].rows(freezing.SEED, freezing.WAY_COUNTS[name]))))
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(file.cases))]
@@ -98,7 +98,7 @@ def test_the_roots_of_the_discriminant_decide_ways_as_their_files_say(name):
 
 
 @every_file
-def test_the_labels_of_a_file_of_ways_hold(name):
+def test_labels_of_a_file_of_ways_are_right(name):
     assert faults_of_ways(replace(frozen.load_ways(name), cases=sample(name), lines=())) == []
 
 
@@ -111,7 +111,7 @@ def test_a_file_of_ways_fits_its_published_schema(name):
 
 
 @pytest.mark.parametrize(("name", "columns"), [("way-invalid", WAYS.upright), ("tilted-way-invalid", WAYS.tilted)])
-def test_rows_that_are_no_ways_fit_their_schema_and_are_what_freezing_makes(name, columns):
+def test_frozen_invalid_ways_fit_their_schema_and_equal_those_that_freezing_makes(name, columns):
     text = text_of(name)
     assert list(violations(json.loads(text), schema(name.replace("invalid", "refusals"), WAY_SCHEMA))) == []
     assert invalid_rows_text(freezing.frozen_invalid_rows(name=name)) == text
@@ -127,7 +127,7 @@ def test_rows_that_are_no_ways_fit_their_schema_and_are_what_freezing_makes(name
         assert sum(case.columns == WAYS.tilted[10:] and not any(case.row[10:]) for case in file.cases) == 12
 
 
-def test_families_of_ways_hold_what_they_promise():
+def test_frozen_ways_have_the_flags_that_their_family_promises():
     def flagged(name, flag):
         cases = frozen.load_ways(name).cases
         return sum(flag in case.flags for case in cases) / len(cases)
@@ -185,7 +185,7 @@ def test_a_damaged_file_of_ways_is_refused(tmp_path, old, new, message):
         read_ways(str(path))
 
 
-def test_the_commands_about_cases_know_ways(tmp_path, capsys):
+def test_cases_commands_accept_ways(tmp_path, capsys):
     assert main(["cases", "show", "way-ring"]) == 0
     assert "answers     108 clear, 3 contact" in capsys.readouterr().out
     assert main(["cases", "show", "way-grazing-0001"]) == 0
