@@ -76,7 +76,7 @@ def test_issue_forms_and_the_citation_fit_their_published_schemas(schema, files)
     assert tool(*command, *files) == (0, "ok -- validation done\n")
 
 
-def test_an_action_with_a_misspelt_key_is_noticed(tmp_path):
+def test_the_schema_check_refuses_an_action_with_a_misspelt_key(tmp_path):
     wrong = tmp_path / "action.yml"
     wrong.write_text(ACTION.read_text(encoding="utf-8").replace("shell: bash", "shel: bash"), encoding="utf-8")
     code, _ = tool(TOOLS / "check-jsonschema", "--builtin-schema", "vendor.github-actions", wrong)
@@ -99,16 +99,16 @@ def test_the_action_and_the_hook_pass_the_security_audit(tmp_path):
     assert "template-injection" in text
 
 
-def test_pre_commit_reads_the_hook():
+def test_pre_commit_accepts_the_manifest_of_the_hook():
     assert tool(TOOLS / "pre-commit", "validate-manifest", HOOKS)[0] == 0
 
 
-def test_the_hook_runs_verify_and_never_the_self_check():
+def test_the_pre_commit_hook_runs_verify_and_never_the_self_check():
     (hook,) = loaded(HOOKS)
     assert hook["entry"] == "env CI=true hypcheck verify"
 
 
-def test_inputs_reach_verify_as_single_words(tmp_path):
+def test_inputs_of_the_action_reach_verify_as_single_words(tmp_path):
     given = {
         "SPEC": "command:./mine --fast; rm -rf x",
         "FAMILIES": "ring,tang*",
@@ -122,11 +122,11 @@ def test_inputs_reach_verify_as_single_words(tmp_path):
     ]
 
 
-def test_inputs_that_are_left_out_leave_the_defaults_of_verify(tmp_path):
+def test_inputs_of_the_action_that_are_left_out_leave_the_defaults_of_verify(tmp_path):
     assert step_run("Verify", tmp_path, OUT="out") == ["hypcheck/bin/hypcheck", "verify", "--out", "out"]
 
 
-def test_options_that_the_action_names_are_options_of_verify():
+def test_the_options_that_the_action_passes_are_options_of_verify():
     named = set(re.findall(r"(?<![\w-])--(out|families|tolerance|\w+)(?= \"\$)", ACTION.read_text(encoding="utf-8")))
     known = {name.removeprefix("--") for option in verify.params for name in option.opts}
     assert {"out", "families", "tolerance"} == named
@@ -141,14 +141,14 @@ def test_options_that_the_action_names_are_options_of_verify():
         ({"FROM": "git+https://example.org/h.git@v1"}, "hypcheck[report] @ git+https://example.org/h.git@v1"),
     ],
 )
-def test_the_action_installs_itself_or_what_is_named_and_asks_no_package_index_for_a_name(tmp_path, given, what):
+def test_the_action_installs_its_own_source_or_the_named_requirement(tmp_path, given, what):
     lines = step_run("Install", tmp_path, **given)
     assert lines[:4] == ["python3", "-m", "venv", "--system-site-packages"]
     assert lines[5:8] == ["hypcheck/bin/python", "-m", "pip"]
     assert lines[-1] == what
 
 
-def test_the_workflow_of_the_page_uses_inputs_that_the_action_has(tmp_path):
+def test_the_workflow_on_the_ci_page_uses_only_inputs_of_the_action(tmp_path):
     steps = YAML(typ="safe").load(snippet("- uses: OWNER/hypcheck"))
     assert set(steps[0]["with"]) <= set(loaded(ACTION)["inputs"])
 
@@ -165,13 +165,13 @@ def test_actionlint_passes_a_workflow_that_uses_the_action(tmp_path):
     assert tool("actionlint", cwd=tmp_path) == (0, "")
 
 
-def test_the_pipeline_of_the_page_fits_the_published_schema_of_gitlab(tmp_path):
+def test_the_gitlab_pipeline_on_the_ci_page_fits_the_published_schema(tmp_path):
     (tmp_path / ".gitlab-ci.yml").write_text(snippet("hypcheck:"), encoding="utf-8")
     command = [TOOLS / "check-jsonschema", "--builtin-schema", "vendor.gitlab-ci"]
     assert tool(*command, tmp_path / ".gitlab-ci.yml")[0] == 0
 
 
-def test_pre_commit_reads_the_configuration_of_the_page(tmp_path):
+def test_pre_commit_accepts_the_configuration_on_the_ci_page(tmp_path):
     config = tmp_path / ".pre-commit-config.yaml"
     config.write_text(snippet("repos:"), encoding="utf-8")
     assert tool(TOOLS / "pre-commit", "validate-config", config)[0] == 0

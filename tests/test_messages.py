@@ -28,7 +28,7 @@ def test_escaped_text_is_printable_and_printable_text_is_unchanged(foreign):
         ("  a   b ", "a b"),
     ],
 )
-def test_invisible_characters_become_escapes(foreign, shown):
+def test_invisible_characters_are_shown_as_escapes(foreign, shown):
     assert escaped(foreign) == shown
 
 
@@ -40,17 +40,17 @@ def test_escaped_text_is_at_most_as_long_as_its_width(foreign, width):
     assert shown == shortened(escaped(foreign), width)
 
 
-def test_longer_text_ends_with_an_ellipsis():
+def test_shortened_text_ends_with_an_ellipsis():
     assert [shortened("abc def", width) for width in (7, 6, 5, 2)] == ["abc def", "abc d…", "abc…", "a…"]
 
 
-def test_a_number_has_its_noun_in_the_singular_of_one_alone():
+def test_counted_writes_the_noun_in_the_singular_only_for_1():
     assert [counted(number, "row") for number in (0, 1, 2, 5600)] == ["0 rows", "1 row", "2 rows", "5,600 rows"]
     assert [counted(number, "box", "boxes") for number in (1, 2)] == ["1 box", "2 boxes"]
 
 
 @pytest.mark.parametrize(("text", "trouble"), [('"a\nb"', "invalid control character"), ('"a', "unterminated string")])
-def test_what_is_wrong_with_json_ends_no_sentence_with_at(text, trouble):
+def test_json_trouble_leaves_out_the_trailing_at_of_the_json_error(text, trouble):
     with pytest.raises(json.JSONDecodeError) as caught:
         json.loads(text)
     assert json_trouble(caught.value) == trouble

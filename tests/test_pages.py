@@ -24,7 +24,7 @@ def test_every_file_that_a_page_for_contributors_names_exists(page):
     assert [path for path in named if not any((root / path).exists() for root in (ROOT, ROOT / "hypcheck"))] == []
 
 
-def test_the_picture_of_the_rooms_has_the_layers_of_the_import_contract():
+def test_the_architecture_diagram_has_the_layers_of_the_import_contract():
     settings = toml.parsed((ROOT / "pyproject.toml").read_text(encoding="utf-8"), "pyproject.toml")
     layers, *_ = settings["tool"]["importlinter"]["contracts"]
     picture = ARCHITECTURE.read_text(encoding="utf-8").split("```")[1]
@@ -32,7 +32,7 @@ def test_the_picture_of_the_rooms_has_the_layers_of_the_import_contract():
     assert drawn == [set(re.findall(r"(?<=hypcheck\.)\w+", layer)) for layer in layers["layers"]]
 
 
-def test_the_picture_of_the_rooms_has_every_room():
+def test_the_architecture_diagram_has_every_top_level_module_and_folder():
     rooms = {path.stem for path in (ROOT / "hypcheck").iterdir() if path.is_dir() or path.suffix == ".py"}
     picture = ARCHITECTURE.read_text(encoding="utf-8").split("```")[1]
     assert rooms - {"__init__", "__main__", "__pycache__"} <= set(picture.split())
@@ -44,7 +44,7 @@ def pages_in(nav):
             yield from pages_in(value) if isinstance(value, list) else (value,)
 
 
-def test_the_site_has_every_page_once_in_the_order_of_the_index():
+def test_the_site_navigation_has_every_page_once_in_the_order_of_the_index():
     settings = YAML(typ="safe").load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
     listed = [page for page in pages_in(settings["nav"]) if page != "docs/explorer.html"]
     index = (ROOT / "docs" / "README.md").read_text(encoding="utf-8").partition("## To learn")[2]
@@ -56,7 +56,7 @@ def test_the_site_has_every_page_once_in_the_order_of_the_index():
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
-def test_every_link_of_a_page_leads_to_a_file(page):
+def test_every_link_on_a_page_of_the_project_leads_to_a_file(page):
     links = re.findall(r"\]\((?!https?:|#)([^)#\s]+)", page.read_text(encoding="utf-8"))
     assert [link for link in links if not (page.parent / link).is_file()] == []
 

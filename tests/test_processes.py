@@ -43,7 +43,7 @@ sys.exit("not interrupted")
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
-def test_an_interrupted_parent_ends_its_processes_without_tracebacks(name):
+def test_an_interrupted_run_ends_its_worker_processes_without_tracebacks(name):
     command = [sys.executable, "-c", STARTS.format(name=name)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stderr) == (130, "")
@@ -63,7 +63,7 @@ if __name__ == "__main__":
 
 @needs_proc
 @pytest.mark.parametrize("more", ["executor.submit(time.sleep, 60)", "next(one_each(time.sleep, [0, 60], 2))"])
-def test_no_process_outlives_a_parent_that_is_killed(more, tmp_path, token):  # noqa: F811
+def test_no_worker_process_outlives_a_run_that_is_killed(more, tmp_path, token):  # noqa: F811
     file = tmp_path / "busy.py"
     file.write_text(BUSY.format(more=more))
     with (tmp_path / "said").open("wb") as said:
@@ -86,7 +86,7 @@ os._exit(0)
 """
 
 
-def test_resources_of_a_killed_process_are_removed_without_warnings():
+def test_shared_resources_of_a_killed_process_are_removed_without_warnings():
     done = subprocess.run([sys.executable, "-c", LEFT], capture_output=True, timeout=60, check=True)
     assert done.stderr == b""
 

@@ -11,7 +11,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 
 
-def test_a_byte_order_mark_is_ignored(tmp_path):
+def test_a_byte_order_mark_in_a_toml_file_is_ignored(tmp_path):
     path = tmp_path / "a.toml"
     path.write_bytes(b"\xef\xbb\xbfa = 1\r\n")
     assert toml.parsed(toml.text_of(str(path)), "a.toml") == {"a": 1}
@@ -34,7 +34,7 @@ def test_invalid_toml_is_refused_in_one_sentence(text, message):
         toml.parsed(text, "a.toml")
 
 
-def test_a_file_that_cannot_be_read_is_refused_in_one_sentence(tmp_path):
+def test_a_toml_file_that_cannot_be_read_is_refused_in_one_sentence(tmp_path):
     large, other = tmp_path / "large.toml", tmp_path / "other.toml"
     with large.open("wb") as file:
         file.truncate(toml.LARGEST + 1)
@@ -53,7 +53,7 @@ def test_a_file_that_cannot_be_read_is_refused_in_one_sentence(tmp_path):
         toml.text_of(str(tmp_path / "none.toml"))
 
 
-def test_decimal_points_and_runs_of_dots_do_not_count_as_parts_of_a_key():
+def test_dots_in_numbers_and_comments_do_not_count_towards_the_depth_of_toml_keys():
     """A forest on one line, and a comment that rules it off."""
     text = "trees = [" + "{ x = -0.5, y = 1.25e-3 }, " * 500 + "] #" + "." * 200
     assert len(toml.parsed(text, "a.toml")["trees"]) == 500
@@ -64,7 +64,7 @@ def test_decimal_points_and_runs_of_dots_do_not_count_as_parts_of_a_key():
     "words",
     [["verify"], ["plan", "pipe.toml"], ["verify", "--families", "ring", "--known-failures", "pipe.toml"]],
 )
-def test_a_pipe_as_settings_scene_or_known_failures_is_refused_and_not_waited_for(words, tmp_path, monkeypatch, capsys):
+def test_a_named_pipe_as_settings_scene_or_known_failures_file_is_refused(words, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     name = "pipe.toml" if "pipe.toml" in words else "hypcheck.toml"
     os.mkfifo(name)

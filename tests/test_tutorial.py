@@ -54,7 +54,7 @@ def test_the_commands_of_the_tutorial_print_what_it_shows(tmp_path):
 @pytest.mark.parametrize(
     ("shown", "found"), [(["a…", "c"], True), (["…", "c"], True), (["c", "a"], False), (["x"], False)]
 )
-def test_an_output_that_the_tutorial_does_not_show_is_noticed(shown, found):
+def test_is_shown_in_finds_output_that_the_tutorial_does_not_show(shown, found):
     assert is_shown_in("a b\nc\n", shown) == found
 
 
@@ -73,7 +73,7 @@ PAGES = sorted([*DOCS.glob("*.md"), *DOCS.parent.glob("*.md")])
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_every_link_of_a_page_leads_to_a_file_and_a_heading_that_exist(page):
+def test_every_link_on_a_docs_page_leads_to_an_existing_file_and_heading(page):
     for link in links(page):
         path, _, anchor = link.partition("#")
         target = (page.parent / path).resolve() if path else page
@@ -81,6 +81,6 @@ def test_every_link_of_a_page_leads_to_a_file_and_a_heading_that_exist(page):
         assert not anchor or anchor in anchors(target), link
 
 
-def test_the_index_lists_every_page():
+def test_the_index_of_the_docs_lists_every_page():
     listed = {(DOCS / link.partition("#")[0]).resolve() for link in links(DOCS / "README.md")}
     assert {page for page in DOCS.glob("*.md") if page.name != "README.md"} <= listed

@@ -167,7 +167,7 @@ def installed(request, tmp_path_factory):
     return Installed(request.param, made_once(tmp_path_factory, f"installed-{request.param}", make))
 
 
-def test_every_file_of_the_package_is_in_the_wheel_and_no_other(installed):
+def test_the_wheel_has_every_file_of_the_package_and_no_other(installed):
     (wheel,) = (installed.home / "dist").glob("*.whl")
     with zipfile.ZipFile(wheel) as archive:
         packed = {name for name in archive.namelist() if not re.match(r"hypcheck-[^/]*\.dist-info/", name)}
@@ -180,7 +180,7 @@ def test_every_file_of_the_package_is_in_the_wheel_and_no_other(installed):
     assert sorted(packed - compiled - wanted) == []
 
 
-def test_every_file_of_the_repository_is_in_the_sdist_and_no_other(installed):
+def test_the_sdist_has_every_file_of_the_repository_and_no_other(installed):
     (sdist,) = (installed.home / "dist").glob("*.tar.gz")
     with tarfile.open(sdist) as archive:
         packed = {member.name.partition("/")[2] for member in archive.getmembers() if member.isfile()}
@@ -189,7 +189,7 @@ def test_every_file_of_the_repository_is_in_the_sdist_and_no_other(installed):
     assert sorted(packed - made - tracked()) == []
 
 
-def test_the_installed_package_is_the_wheel_s_and_says_which_kernel_it_has(installed, tmp_path):
+def test_info_of_the_installed_wheel_names_the_kernel_that_was_built(installed, tmp_path):
     found = json.loads(installed.run("info --json", tmp_path).stdout)
     assert found["kernel"]["name"] == ("compiled" if installed.variant.compiler else "numpy")
     where = quietly(installed.python, "-c", "import hypcheck; print(hypcheck.__file__)", cwd=tmp_path)
@@ -247,7 +247,7 @@ FEW = ("verify", "verify-spec", "small")
 @pytest.mark.parametrize(
     "name", [name if name in FEW else pytest.param(name, marks=pytest.mark.thorough) for name in STEPS]
 )
-def test_every_command_of_the_installed_package_ends_as_it_should_in_an_empty_folder(installed, name, tmp_path):
+def test_every_command_of_the_installed_package_ends_with_its_code_in_an_empty_folder(installed, name, tmp_path):
     for command, code, part in STEPS[name]:
         if not installed.variant.compiler:
             code, part = WITHOUT_A_COMPILER.get(command, (code, part))  # noqa: PLW2901 - the same step, elsewhere
@@ -257,7 +257,7 @@ def test_every_command_of_the_installed_package_ends_as_it_should_in_an_empty_fo
         assert part in said, f"hypcheck {command}\n{said}"
 
 
-def test_the_installed_package_with_the_report_extra_writes_the_page_with_its_plots(installed, tmp_path):
+def test_the_installed_package_with_the_report_extra_writes_an_html_report_with_plots(installed, tmp_path):
     done = installed.run(f"{GATED} --out run", tmp_path, installed.report_extra)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "</svg>" in (tmp_path / "run/report.html").read_text(encoding="utf-8")
@@ -265,7 +265,7 @@ def test_the_installed_package_with_the_report_extra_writes_the_page_with_its_pl
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("source", ["wheel", "git"] if ALL else ["wheel"])
-def test_the_workflow_of_init_runs_as_written_in_a_fresh_clone_and_gates_two_languages(installed, source, tmp_path):
+def test_the_workflow_that_init_writes_runs_in_a_fresh_clone_for_two_languages(installed, source, tmp_path):
     """Its command lines, in an environment without hypcheck. The stubs are right in the family that is asked here."""
     repository, clone, environment = tmp_path / "engine", tmp_path / "clone", tmp_path / "environment"
     repository.mkdir()
@@ -305,5 +305,5 @@ def commit(repository: Path, clone: Path) -> None:
     quietly("git", "clone", "--quiet", repository, clone)
 
 
-def test_the_table_of_steps_has_every_command():
+def test_the_steps_for_the_installed_package_include_every_command():
     assert {command.split()[0] for steps in STEPS.values() for command, _, _ in steps} == set(COMMANDS)
