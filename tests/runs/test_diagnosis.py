@@ -99,19 +99,19 @@ def test_table_2_in_its_regime_errs_on_the_ring_and_by_rounding_alone():
         (changed(lambda rows: rows.__setitem__((slice(None), [2, 3]), rows[:, [3, 2]])), "b-d"),
     ],
 )
-def test_a_rule_about_every_row_is_named_where_it_gives_all_answers(implementation, cause):
+def test_diagnosis_names_a_rule_that_gives_all_answers(implementation, cause):
     causes, wrong = diagnosed(implementation, ("ring", "uniform"))
     assert causes == {cause: wrong}
 
 
-def test_mistakes_by_chance_are_explained_by_no_rule_about_every_row():
+def test_diagnosis_of_random_mistakes_names_no_rule_about_every_row():
     causes, wrong = diagnosed(with_mistakes_by_chance)
     everywhere = {cause.name for cause in CAUSES if cause.standing is Standing.EVERYWHERE}
     assert not everywhere & causes.keys()
     assert causes[None] > wrong / 2
 
 
-def test_an_axis_that_is_ignored_is_named():
+def test_diagnosis_names_an_ignored_axis():
     causes, wrong = diagnosed(
         changed(lambda rows: rows.__setitem__((slice(None), slice(7, None)), (0.0, 0.0, 1.0))),
         ("tilted-small-integers",),
@@ -119,7 +119,7 @@ def test_an_axis_that_is_ignored_is_named():
     assert causes == {"axis-ignored": wrong}
 
 
-def test_causes_of_rounding_agree_with_every_clear_answer_that_is_right():
+def test_rounding_causes_agree_with_every_right_clear_answer():
     found = frozen_rows("uniform")
     sure = found.positions != 0
     asked = Asked(found.rows[sure], found.positions[sure], found.positions[sure], ORDINARY)
@@ -128,7 +128,7 @@ def test_causes_of_rounding_agree_with_every_clear_answer_that_is_right():
         assert ((said == SILENT) | (said == asked.given)).all(), cause.name
 
 
-def test_diagnoses_add_up_in_any_order():
+def test_diagnoses_can_be_merged_in_any_order():
     found = frozen_rows("ring")
     given = np.zeros(len(found.rows), dtype=np.int8)
     scored = score(found.rows, found.positions, Answered.of(given), ORDINARY)

@@ -44,7 +44,7 @@ def judged(row, answer, criterion=Criterion()):  # noqa: B008  frozen
         (CLEAR, 1, "contact", Mistake.FALSE_CONTACT),
     ],
 )
-def test_mistake_is_named_after_its_consequence(row, answer, question, mistake):
+def test_judge_names_each_mistake_by_its_consequence(row, answer, question, mistake):
     (case,) = judged(row, answer, Criterion(question))
     assert case.mistake is mistake
     assert case.status is Status.WRONG
@@ -60,7 +60,7 @@ def test_mistake_is_named_after_its_consequence(row, answer, question, mistake):
         (CROSS, 2, "position"),
     ],
 )
-def test_right_answers_and_abstentions_are_not_wrong(row, answer, question):
+def test_judge_does_not_call_right_answers_and_abstentions_wrong(row, answer, question):
     assert judged(row, answer, Criterion(question)) == []
 
 
@@ -72,13 +72,13 @@ def test_wrong_answer_at_a_tangency_is_tolerated_unless_the_tolerance_is_0():
 @pytest.mark.parametrize(
     ("units", "status"), [(Fraction(799, 100), Status.WRONG), (Fraction(801, 100), Status.TOLERATED)]
 )
-def test_the_tolerance_is_met_to_the_last_digit(units, status):
+def test_tolerance_is_applied_exactly_at_its_limit(units, status):
     """x = 3 (1 + δ) with δ = 8 u · (6/3): contact is right after a change of 8 u, since 3(1+δ)(1−ε) = 3(1+ε)."""
     row = (2.0, 5.0, 1.0, 1.0, 3.0 + 48 * 2.0**-53, 0.0, 0.0)
     assert judged(row, 0, Criterion(tolerance=units))[0].status is status
 
 
-def test_units_are_those_of_the_declared_precision():
+def test_backward_errors_are_given_in_units_of_the_declared_precision():
     row = (2.0, 5.0, 1.0, 1.0, 3.0 + 48 * 2.0**-53, 0.0, 0.0)
     (case,) = judged(row, 0)
     error = judge.measured(case, "position")
@@ -96,14 +96,14 @@ def test_tolerance_of_1_tolerates_all_errors_except_infinite_ones(units):
     assert judged((4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 9.0), 1, criterion)[0].status is Status.WRONG
 
 
-def test_no_change_makes_the_axis_exterior():
+def test_exterior_answer_on_the_axis_has_an_infinite_backward_error():
     (case,) = judged((4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 9.0), 1)
     assert case.exponent == math.inf
     assert judge.measured(case, "position") == math.inf
 
 
 @pytest.mark.parametrize("bad", [{"question": "where"}, {"precision": "float8"}, {"tolerance": Fraction(-1)}])
-def test_invalid_criterion_is_refused(bad):
+def test_judge_refuses_an_invalid_criterion(bad):
     with pytest.raises(InputError, match=r"must be"):
         Criterion(**bad)
 

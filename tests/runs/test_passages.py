@@ -80,7 +80,7 @@ def test_wrong_implementation_of_ways_is_rejected(answer, rows):
 
 
 @pytest.mark.parametrize("answer", BEYOND_TOLERANCE_0, ids=lambda each: each.__name__)
-def test_clear_where_the_surface_is_only_touched_is_tolerated(answer, rows):
+def test_answer_clear_for_a_way_that_only_touches_the_surface_is_tolerated(answer, rows):
     cases = judged(rows, answer)
     assert cases
     assert {case.status for case in cases} == {Status.TOLERATED}
@@ -91,7 +91,7 @@ def test_right_implementation_of_ways_passes_without_any_tolerance(answer, rows)
     assert judged(rows, answer, Criterion("passage", tolerance=Fraction(0))) == []
 
 
-def test_there_are_20_wrong_implementations_and_3_right_ones():
+def test_there_are_at_least_20_wrong_and_3_right_test_implementations_of_ways():
     assert len(WRONG) >= 20
     assert len(RIGHT) == 3
 
@@ -107,7 +107,7 @@ def test_there_are_20_wrong_implementations_and_3_right_ones():
         ("runs into the waist", 1, 0.499, Mistake.EARLY, Status.WRONG),
     ],
 )
-def test_mistake_and_status_of_an_answer(name, hit, time, mistake, status):
+def test_answers_about_ways_get_the_expected_mistake_and_status(name, hit, time, mistake, status):
     start, end, _ = BY_HAND[name]
     (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([hit], np.array([time])))
     assert (case.mistake, case.status) == (mistake, status)
@@ -148,5 +148,5 @@ def test_way_of_a_spheroid_that_leans_is_measured_along_its_own_axis():
     assert way_in_radii((*sizes, *start, *end, 1.0, 1.0, 0.0)) == pytest.approx(3 * math.hypot(4, 2) / 2**0.5)
 
 
-def test_answer_that_cannot_say_is_not_wrong(rows):
+def test_answer_cannot_say_about_a_way_is_not_wrong(rows):
     assert judged(rows, lambda some: (np.full(len(some), 2), np.full(len(some), np.nan))) == []

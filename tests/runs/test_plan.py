@@ -36,14 +36,14 @@ def test_a_plan_with_impossible_options_is_refused(changes, message):
 
 
 @pytest.mark.parametrize("address", ["tcp://10.0.0.1:8786", "tls://host:1", "host:65535", "local:3"])
-def test_addresses_of_clusters_are_accepted(address):
+def test_plan_accepts_addresses_of_clusters(address):
     check_cluster_address(address)
 
 
 @pytest.mark.parametrize(
     "address", ["", "host", "tcp://host", "host:65536", "local:", "local:x", "http://host:80", "a b:1"]
 )
-def test_other_texts_are_no_addresses_of_clusters(address):
+def test_plan_refuses_texts_that_are_no_cluster_addresses(address):
     with pytest.raises(InputError, match="--cluster is "):
         check_cluster_address(address)
 
@@ -88,7 +88,7 @@ def test_a_file_that_cannot_be_sent_to_a_cluster_is_named(tmp_path, monkeypatch)
         files_to_ship(f"python:{path}:f")
 
 
-def test_changes_of_our_own_files_and_of_those_under_test_are_told_and_many_are_counted(monkeypatch, tmp_path):
+def test_changed_files_of_hypcheck_and_of_the_implementation_are_named_and_many_are_counted(monkeypatch, tmp_path):
     tested = tmp_path / "tested.py"
     tested.write_text("new")
     ours = {f"hypcheck/{number}.py": "old" for number in range(MAX_FILES_NAMED + 1)}
@@ -120,7 +120,7 @@ def test_ratios_and_errors_beyond_float64_are_infinite_or_the_smallest_number():
     assert relative_error(1 + Fraction(1, 10**400), Fraction(1)) == math.ulp(0.0)
 
 
-def test_changes_and_answers_are_told_in_words():
+def test_relative_changes_and_answers_are_described_in_words():
     assert _change(math.inf) == "by no relative change up to 1"
     assert _change((0.25, math.inf)) == "by no relative change up to 1, and not if by 0.25 or less"
     assert answer_said(2, "position") == "2, cannot say"

@@ -50,7 +50,7 @@ def statuses(scored):
     return [STATUSES[code].value for code in scored.status]
 
 
-def test_each_row_ends_in_one_status(scored):
+def test_score_gives_each_row_one_status(scored):
     assert statuses(scored) == ["right", "wrong", "wrong", "wrong", "wrong", "abstained", "crash"]
     assert scored.answered.tolist() == [True] * 6 + [False]
     assert scored.wrong.tolist() == [1, 2, 3, 4]
@@ -62,24 +62,24 @@ def test_wrong_answers_are_counted_by_mistake(scored):
     assert sides.mistakes == {Mistake.WRONG_SIDE: 1}
 
 
-def test_a_one_sided_question_makes_other_answers_wrong():
+def test_answer_yes_to_the_question_contact_is_wrong_for_rows_without_contact():
     answers = Answered.of(np.ones(7, dtype=np.int8))
     assert score(ROWS, TRUTH, answers, Criterion("contact")).wrong.tolist() == [0, 1, 4, 5]
 
 
-def test_only_chosen_wrong_answers_are_judged(scored):
+def test_score_judges_only_the_chosen_wrong_answers(scored):
     assert [(case.index, case.answer) for case in scored.judged(np.array([1, 3]))] == [(1, 0), (3, 1)]
     assert [case.status for case in scored.judged()].count(Status.WRONG) == 3  # the tangency flips at once
 
 
-def test_a_part_of_a_score_keeps_the_reasons_of_its_rows(scored):
+def test_part_of_a_score_keeps_the_reasons_of_its_rows(scored):
     part = scored.part(np.array([0, 4, 6]))
     assert statuses(part) == ["right", "wrong", "crash"]
     assert (part.wrong.tolist(), part.reasons) == ([1], {2: "it left"})
     assert scored.part(np.arange(3)).reasons == {}
 
 
-def test_answer_that_is_taken_out_of_a_score_is_not_wrong(scored):
+def test_answer_removed_from_a_score_is_no_longer_wrong(scored):
     lost = scored.without({1: (Status.NONDETERMINISTIC, "it changed")})
     assert statuses(lost)[1] == "nondeterministic"
     assert lost.wrong.tolist() == [2, 3, 4]

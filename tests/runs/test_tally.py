@@ -61,7 +61,7 @@ def tallied(rows, start=0, stop=None):
     return scored.tally(Numbered(), numbers, exponents, skipped=3)
 
 
-def test_bins_count_what_a_plain_loop_counts():
+def test_histogram_bins_equal_the_counts_of_a_plain_loop():
     rng = np.random.default_rng(4)
     rows = 2.0 ** rng.uniform(-9, 9, (500, 7))
     amiss = rng.random(500) < 0.3
@@ -105,7 +105,7 @@ def line_of(tallied):
     return tally.group_line(tallied, "family", CRITERION, method="mine", title="mine", spec="python:mine:f", failing=[])
 
 
-def test_parts_add_up_to_the_whole_in_any_order():
+def test_tallies_of_parts_add_up_to_the_whole_in_any_order():
     rows = rows_near_contact(300)
     whole = tallied(rows)
     cuts = [0, 1, 90, 91, 200, 300]
@@ -122,7 +122,7 @@ def test_parts_add_up_to_the_whole_in_any_order():
     assert tally.merged_tally([]) == tally.Tally()
 
 
-def test_the_worst_cases_are_those_with_the_largest_errors():
+def test_tally_keeps_the_cases_with_the_largest_errors():
     rows = rows_near_contact(120)
     answers = answered(rows, np.arange(120)).answers
     wrong = np.flatnonzero((answers != CANNOT_SAY) & (answers != float_filter.positions(rows)))
@@ -131,7 +131,7 @@ def test_the_worst_cases_are_those_with_the_largest_errors():
     assert [case.error for case in tallied(rows).worst] == errors[:3]
 
 
-def test_wrong_answers_are_kept_before_tolerated_ones_and_the_first_of_equal_ones():
+def test_tally_keeps_wrong_before_tolerated_answers_and_the_first_of_equal_ones():
     def case(number, status, error):
         return WorstCase((1, number), f"case-{number}", (1.0,), 0, 1, "false-clear", status, error)
 
@@ -141,7 +141,7 @@ def test_wrong_answers_are_kept_before_tolerated_ones_and_the_first_of_equal_one
     assert tally.Histogram() != [[]]
 
 
-def test_a_case_of_each_status_is_kept_however_many_of_another_came_first():
+def test_tally_keeps_a_case_of_each_status_however_many_others_came_first():
     faults = [UnansweredCase((1, n), f"case-{n}", (1.0,), "error", "why") for n in range(20)]
     faults += [
         UnansweredCase((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why")

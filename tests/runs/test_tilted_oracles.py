@@ -26,7 +26,7 @@ def tallied(task, batch):
     return oracles.compare_with_exact(task, opinions, batch, seconds)
 
 
-def test_the_frozen_vectors_of_every_family_but_the_extreme_one_are_asked(batches):
+def test_tilted_oracles_are_asked_the_frozen_vectors_of_every_family_except_the_extreme_one(batches):
     assert [batch.family.name for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
     assert all(batch.rows.shape == (6, 10) for batch in batches)
     assert batches[0].name(3) == "tilted-uniform-0003"
@@ -45,7 +45,7 @@ def test_four_oracles_are_asked_about_tilted_spheroids_and_agree_with_the_labels
 
 
 @pytest.mark.parametrize("name", ASKED)
-def test_an_oracle_that_is_wrong_about_tilted_spheroids_is_noticed(monkeypatch, batches, name):
+def test_wrong_oracle_for_tilted_spheroids_is_reported_as_disagreeing(monkeypatch, batches, name):
     wrong = replace(ORACLES[name], ask_tilted=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, name, wrong)
     ring: TiltedBatch = next(batch for batch in batches if batch.family.name == "tilted-ring")

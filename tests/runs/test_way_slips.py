@@ -39,7 +39,7 @@ def hits_of(change):
     return [hypcheck.passage(row[:4], row[4:7], row[7:]).hit for row in map(change, ROWS.tolist())]
 
 
-def test_the_ways_here_have_contacts_at_their_ends_between_them_and_none():
+def test_ways_of_these_tests_have_contacts_at_the_start_in_between_and_none():
     assert 5 < STARTS.sum() < 50
     assert 5 < (HITS & ~STARTS & ~ENDS & 1).sum()
     assert 5 < (HITS == 0).sum()
@@ -58,11 +58,11 @@ def test_the_ways_here_have_contacts_at_their_ends_between_them_and_none():
         ("way-level", hits_of(lambda r: [*r[:9], r[6]])),
     ],
 )
-def test_a_rule_gives_the_answers_of_an_implementation_that_errs_so(name, given):
+def test_rule_of_a_slip_gives_the_answers_of_an_implementation_with_that_slip(name, given):
     assert RULES[name](asked(given)).tolist() == np.asarray(given, dtype=np.int8).tolist()
 
 
-def test_positions_between_clear_ends_explain_missed_contacts_alone():
+def test_slip_of_testing_only_the_ends_explains_only_missed_contacts():
     given = STARTS | ENDS
     said = RULES["between-positions"](asked(given))
     missed = (HITS == 1) & (given == 0)
@@ -71,13 +71,13 @@ def test_positions_between_clear_ends_explain_missed_contacts_alone():
     assert (said[~missed] == SILENT).all()
 
 
-def test_columns_that_change_places_say_nothing_of_spheroids_that_lean():
+def test_slips_of_swapped_columns_do_not_apply_to_tilted_spheroids():
     leaning = np.hstack([ROWS, np.tile([0.0, 0.0, 1.0], (COUNT, 1))])
     assert (RULES["way-x-z"](asked(HITS, rows=leaning)) == SILENT).all()
     assert RULES["only-the-start"](asked(HITS, rows=leaning)).tolist() == STARTS.tolist()
 
 
-def test_a_hit_at_another_time_than_the_rule_gives_is_not_explained_by_it():
+def test_slip_does_not_explain_a_contact_at_another_time_than_its_own():
     times = np.where(STARTS == 1, 0.0, np.nan)
     assert RULES["only-the-start"](asked(STARTS, times)).tolist() == STARTS.tolist()
     later = RULES["only-the-start"](asked(STARTS, times + 0.5))
@@ -91,13 +91,13 @@ def explained(name, times):
     return RULES[name](asked(HITS, times)) == 1
 
 
-def test_times_from_the_end_are_told_from_right_ones():
+def test_slip_of_times_counted_from_the_end_explains_such_times_and_no_right_ones():
     assert explained("times-from-the-end", 1 - FIRST)[ON_THE_WAY].all()
     assert not explained("times-from-the-end", FIRST)[ON_THE_WAY].any()
 
 
 @pytest.mark.parametrize(("name", "off"), [("late-times", 1e-4), ("early-times", -1e-4)])
-def test_times_that_are_a_little_off_are_told_by_their_direction(name, off):
+def test_slips_of_slightly_wrong_times_are_distinguished_by_direction(name, off):
     assert ON_THE_WAY.sum() > 5
     assert explained(name, FIRST + off)[ON_THE_WAY].all()
     for other in (FIRST - off, FIRST, FIRST + 100 * off):
@@ -105,5 +105,5 @@ def test_times_that_are_a_little_off_are_told_by_their_direction(name, off):
 
 
 @pytest.mark.parametrize("name", ["times-from-the-end", "late-times"])
-def test_rules_about_times_say_nothing_where_there_are_none(name):
+def test_slips_about_times_do_not_apply_to_answers_without_times(name):
     assert (RULES[name](asked(HITS)) == SILENT).all()

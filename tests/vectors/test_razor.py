@@ -45,7 +45,7 @@ def is_beyond(sizes, x, z, side):
 
 
 @pytest.mark.parametrize("sizes", SIZES)
-def test_edge_for_fixed_sizes_is_found_in_at_most_64_exact_decisions(sizes, monkeypatch):
+def test_edge_for_fixed_sizes_is_found_in_at_most_65_exact_decisions(sizes, monkeypatch):
     asked = []
 
     def counted(lengths):

@@ -71,13 +71,13 @@ def refusal(address, monkeypatch):
     "address",
     ["nonsense", "host", "host:", "host:65536", "local:0", "local:x", "http://host:8786", "tcp://host/a:1", ""],
 )
-def test_text_that_is_no_cluster_address_is_refused(address):
+def test_option_cluster_refuses_text_that_is_no_scheduler_address(address):
     with pytest.raises(InputError, match=r"it must be that of a dask\.distributed scheduler, such as"):
         check_cluster_address(address)
 
 
 @pytest.mark.parametrize("address", ["host:8786", "tcp://10.0.0.1:8786", "tls://[::1]:65535", "local:1", "local:9999"])
-def test_cluster_address_is_accepted(address):
+def test_option_cluster_accepts_scheduler_addresses(address):
     check_cluster_address(address)
 
 

@@ -15,7 +15,7 @@ from hypcheck.vectors.families import FAMILIES, row_of
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-def test_generated_rows_begin_where_the_frozen_ones_end(name):
+def test_generated_rows_of_a_family_begin_after_its_frozen_rows(name):
     family = FAMILIES[name]
     frozen = {row.tobytes() for row in vectors.frozen_rows(name).rows}
     assert first_unfrozen(family, 2) == 0
@@ -25,7 +25,7 @@ def test_generated_rows_begin_where_the_frozen_ones_end(name):
     assert [row.tobytes() in frozen for row in rows] == [True] * start + [False]
 
 
-def test_the_chunks_of_a_family_are_all_of_its_cases_once():
+def test_chunks_of_a_family_contain_each_of_its_cases_once():
     family = FAMILIES["tower-body"]
     frozen, *generated = chunks.family_chunks(family, 1, 2 * CHUNK_ROWS)
     start = first_unfrozen(family, 1)
@@ -43,7 +43,7 @@ def test_the_chunks_of_a_family_are_all_of_its_cases_once():
 @pytest.mark.parametrize(
     "chunk", [CaseChunk("flight", 1, 122, 400), CaseChunk("ring", None, 3, 90), CaseChunk("axis", 7, 0, 50)]
 )
-def test_a_case_is_found_by_its_id_and_is_what_the_id_says(chunk):
+def test_case_id_leads_to_the_case_that_it_names(chunk):
     made = cases_of_chunk(chunk)
     assert made.positions.tolist() == float_filter.positions(made.rows).tolist()
     assert (made.by_column == made.rows).all()
@@ -57,7 +57,7 @@ def test_a_case_is_found_by_its_id_and_is_what_the_id_says(chunk):
     assert chunk.find("ring-0999") is None
 
 
-def test_a_part_of_a_chunk_names_the_same_cases():
+def test_part_of_a_chunk_has_the_same_case_names_and_rows():
     chunk = CaseChunk("flight", 1, 128, 528, measured=100)
     part = chunk.between(90, 300)
     assert [part.name(i) for i in range(len(part))] == [chunk.name(90 + i) for i in range(210)]
@@ -67,7 +67,7 @@ def test_a_part_of_a_chunk_names_the_same_cases():
 
 
 @pytest.mark.parametrize("name", ["tangent", "extreme-hair", "extreme-subnormal", "small-integers", "stiff-axial"])
-def test_frozen_vectors_say_how_near_they_are_to_another_position(name):
+def test_stored_flip_exponents_of_frozen_vectors_equal_computed_ones(name):
     chunk = next(iter(chunks.family_chunks(FAMILIES[name], 1, 0)))
     made = cases_of_chunk(chunk)
     some = np.arange(0, len(chunk), 3)

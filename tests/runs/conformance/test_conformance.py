@@ -34,13 +34,13 @@ def statuses(record):
 
 
 @pytest.mark.thorough
-def test_an_exact_implementation_passes_with_no_tolerance(tmp_path):
+def test_verify_passes_an_exact_implementation_with_tolerance_0(tmp_path):
     code, record = gate(tmp_path, subject("exact"), "--tolerance", "0", "--families", "extreme,*", count="10")
     assert code == 0
     assert set(statuses(record)) <= {"right", "skipped"}
 
 
-def test_the_ring_fails_table_2_and_its_own_scenes_do_not(tmp_path):
+def test_table_2_fails_on_the_ring_and_passes_on_the_scenes_of_the_paper(tmp_path):
     assert gate(tmp_path, "builtin:table-2-float64", "--families", "ring")[0] == 1
     assert gate(tmp_path, "builtin:table-2-float64", "--families", "forest-type-1,forest-type-2")[0] == 0
 
@@ -52,7 +52,7 @@ def test_implementation_with_a_constant_answer_fails(tmp_path):
     assert statuses(record)["wrong"] > 1000
 
 
-def test_fail_on_false_clear_passes_other_wrong_answers(tmp_path):
+def test_option_fail_on_false_clear_passes_other_wrong_answers(tmp_path):
     families = ["--families", "near-tangent-outside"]
     assert gate(tmp_path, subject("never_clear_by_a_little"), *families, count="4")[0] == 1
     assert gate(tmp_path, subject("never_clear_by_a_little"), *families, "--fail-on", "false-clear", count="4")[0] == 0
@@ -78,7 +78,7 @@ def test_implementation_with_changing_answers_fails(tmp_path):
     ("name", "status", "families"),
     [("dies_on_the_axis", "crash", "extreme-float16,tower-body"), ("raises_at_the_waist", "error", "waist,tower-body")],
 )
-def test_a_fault_costs_its_own_cases(tmp_path, name, status, families):
+def test_fault_of_an_implementation_affects_only_the_cases_that_cause_it(tmp_path, name, status, families):
     code, record = gate(tmp_path, subject(name), "--families", families, "--restarts", "200", count="10")
     assert code == 1
     found = {line.family: line for line in record.of(GroupLine)}
@@ -88,7 +88,7 @@ def test_a_fault_costs_its_own_cases(tmp_path, name, status, families):
     assert found[other].faults[0].reason
 
 
-def test_a_hang_ends_as_timeout(tmp_path):
+def test_implementation_that_hangs_is_counted_as_timeout(tmp_path):
     code, record = gate(
         tmp_path, subject("hangs_on_the_ring"), "--families", "ring", "--timeout", "0.4", "--restarts", "2", count="3"
     )
@@ -188,11 +188,11 @@ def test_invalid_list_of_known_failures_is_refused(tmp_path, capsys, text, messa
         ["builtin:fast", "--domain", "{"],
     ],
 )
-def test_wrong_usage_ends_with_2(tmp_path, options):
+def test_verify_with_wrong_usage_ends_with_2(tmp_path, options):
     assert main(["verify", "--out", str(tmp_path), *options]) == 2
 
 
-def test_the_summary_keeps_its_contract(tmp_path):
+def test_summary_json_of_verify_has_its_documented_counts_and_families(tmp_path):
     gate(tmp_path, "builtin:table-2-float32", "--families", "ring,tower-body")
     (found,) = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))["implementations"]
     assert found["spec"] == "builtin:table-2-float32"
@@ -201,7 +201,7 @@ def test_the_summary_keeps_its_contract(tmp_path):
     assert set(found["families"]) == {"ring", "tower-body"}
 
 
-def test_gating_loads_no_sympy_mpmath_or_fcl(tmp_path):
+def test_verify_loads_no_sympy_mpmath_or_fcl(tmp_path):
     arguments = ["verify", subject("exact"), "--families", "ring", "--out", str(tmp_path)]
     program = (
         "import sys; sys.modules.update(matplotlib=None, jinja2=None)\nfrom hypcheck.cli.main import main\n"

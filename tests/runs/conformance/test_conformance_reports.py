@@ -49,7 +49,7 @@ def record(out):
     return read(out / "record.jsonl")
 
 
-def test_the_record_fits_its_schema(out):
+def test_record_of_verify_fits_its_schema(out):
     record = read(out / "record.jsonl")
     lines = [as_json(line) for line in (record.header, *record.lines, record.footer)]
     assert {"header", "group", "implementation", "footer"} == {line["type"] for line in lines}
@@ -72,14 +72,14 @@ def test_the_record_fits_its_schema(out):
         lambda line: line.update(surprise=1),
     ],
 )
-def test_spoilt_line_does_not_fit_the_schema(record, spoil):
+def test_record_line_with_a_wrong_value_does_not_fit_the_schema(record, spoil):
     line = as_json(record.of(ImplementationLine)[0])
     assert violations(line, RECORD, closed=True) == []
     spoil(line)
     assert violations(line, RECORD, closed=True)
 
 
-def test_the_summary_fits_its_schema_and_shows_both(record):
+def test_summary_of_verify_fits_its_schema_and_shows_declared_and_used_settings(record):
     found = json.loads(summary.render(record))
     assert violations(found, SUMMARY, closed=True) == []
     table_2 = next(each for each in found["implementations"] if each["name"] == "table-2-float64")
@@ -87,7 +87,7 @@ def test_the_summary_fits_its_schema_and_shows_both(record):
     assert table_2["asked_again"]["asked"] > 0
 
 
-def test_reports_show_what_is_declared_and_what_was_judged(record):
+def test_reports_show_declared_and_used_settings_of_each_implementation(record):
     text = markdown.render(record).decode()
     section = text.partition("## Implementations under test")[2].partition("\n## ")[0]
     rows = [line for line in section.splitlines() if line.startswith("|") and "float" in line]
@@ -134,7 +134,7 @@ def test_every_failing_family_has_a_command_that_shows_it(record):
         assert f"replay: {each.replay}" in xml
 
 
-def test_the_command_of_a_failure_shows_the_failure(record, capsys):
+def test_replay_command_of_a_failure_reproduces_the_failure(record, capsys):
     wrong = next(each for each in failures(record) if each.kind == "wrong" and each.name == "table-2-float64")
     assert main([*shlex.split(wrong.replay)[1:], "--json"]) == 1
     found = json.loads(capsys.readouterr().out)
@@ -144,13 +144,13 @@ def test_the_command_of_a_failure_shows_the_failure(record, capsys):
     assert json.loads(capsys.readouterr().out)["status"] == "crash"
 
 
-def test_number_of_a_failure_in_reports_names_its_case(out, record):
+def test_number_of_a_failure_in_a_report_leads_to_its_case(out, record):
     for each in failures(record):
         if each.place:
             assert case_of(f"{out}/{each.place}").name == each.case
 
 
-def test_a_spec_is_kept_and_quoted_as_it_was_written(tmp_path):
+def test_replay_command_quotes_the_spec_as_it_was_written(tmp_path):
     (tmp_path / "two  words.py").write_text("def classify(rows):\n    return [0] * len(rows)\n", encoding="utf-8")
     spec = f"python:{tmp_path}/two  words.py:classify"
     assert main(["verify", spec, "--families", "tower-body", "--count", "2", "--out", str(tmp_path / "out")]) == 1
@@ -158,7 +158,7 @@ def test_a_spec_is_kept_and_quoted_as_it_was_written(tmp_path):
     assert shlex.split(failure.replay)[3] == spec
 
 
-def test_an_excused_case_is_not_shown_as_the_wrong_one(tmp_path):
+def test_reports_do_not_show_an_excused_case_as_the_wrong_one(tmp_path):
     """The worst error of the family is known; what fails the run is another, smaller one."""
     out, listed = tmp_path / "out", tmp_path / "known.toml"
     words = ["verify", "builtin:table-2-float64", "--families", "ring", "--count", "0", "--out", str(out)]
@@ -174,7 +174,7 @@ def test_an_excused_case_is_not_shown_as_the_wrong_one(tmp_path):
     assert failure.case not in worst
 
 
-def test_the_only_sizes_of_a_domain_are_named_and_fit_the_schema(record):
+def test_reports_name_the_fixed_sizes_of_a_domain_and_the_record_fits_its_schema(record):
     line = as_json(record.of(ImplementationLine)[0])
     line["used"]["domain"]["settings"] = [{"sizes": [2.0, 17.8, 0.25, 0.15], "x": None, "y": [-1, "inf"], "z": [0, 0]}]
     assert violations(line, RECORD, closed=True) == []

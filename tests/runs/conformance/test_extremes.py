@@ -39,13 +39,13 @@ def test_declared_range_limits_extreme_rows(tmp_path, capsys, domain):
     assert "no case was judged" in capsys.readouterr().err
 
 
-def test_other_families_keep_to_ordinary_ranges(tmp_path):
+def test_families_that_are_not_extreme_skip_rows_outside_ordinary_ranges(tmp_path):
     code, counted = counts(tmp_path, "builtin:dual-float64", families="stiff-both,extreme-hair")
     assert code == 0 or counted.keys() <= {"right", "tolerated", "skipped"}
     assert counted["skipped"] > 50
 
 
-def test_a_case_is_replayed_and_minimised_where_it_was_asked(capsys):
+def test_extreme_case_that_verify_asked_can_be_replayed_and_minimised(capsys):
     assert main(["replay", "extreme-magnitude-0000", "python:tests.runs.faulty:contact_everywhere"]) == 1
     assert "verify skips this case" not in capsys.readouterr().out
     assert main(["minimise", "python:tests.runs.faulty:contact_everywhere", "extreme-magnitude-0000"]) == 0

@@ -40,7 +40,7 @@ def by_heart(tmp_path, monkeypatch):
     return "python:by_heart.py:classify"
 
 
-def test_implementation_that_knows_the_rows_by_heart_fails_on_fresh_rows_alone(by_heart, text_reports, capsys):
+def test_implementation_that_memorised_the_usual_rows_fails_only_on_fresh_rows(by_heart, text_reports, capsys):
     words = ["verify", by_heart, "--families", "uniform", "--count", "20", "--out", "out"]
     assert main(words) == 0
     assert main([*words, "--fresh", str(SEED)]) == 1
@@ -53,7 +53,7 @@ def test_implementation_that_knows_the_rows_by_heart_fails_on_fresh_rows_alone(b
     assert re.search(rf"hypcheck replay uniform/\d+/{SEED}/\d+ {by_heart}", report)
 
 
-def test_ci_draws_another_seed_for_each_run_and_a_desk_draws_none(monkeypatch):
+def test_fresh_seed_is_random_in_ci_and_absent_elsewhere_unless_an_option_sets_it(monkeypatch):
     assert verify._fresh_seed(None, None) is None
     monkeypatch.setenv("CI", "true")
     seeds = {verify._fresh_seed(None, None) for _ in range(9)}

@@ -22,7 +22,7 @@ def counts(record):
     return {line.family: line.counts for line in record.of(GroupLine)}
 
 
-def test_retest_finds_answers_carried_over_from_moment_to_moment(tmp_path):
+def test_retest_finds_answers_that_depend_on_the_previous_moment_of_a_flight(tmp_path):
     code, record = gate(tmp_path, "carries_over", "--families", "flight")
     assert code == 1
     (line,) = record.of(GroupLine)

@@ -26,7 +26,7 @@ def test_retest_asks_every_pending_case(stands, n, part):
     assert set(np.concatenate([places for places, _ in again])) == set(range(n))
 
 
-def test_parts_1_and_2_of_a_round_share_the_small_batches():
+def test_small_batches_of_a_retest_round_are_shared_between_parts_1_and_2():
     shares = [asked(LONGEST, np.resize(TRUTH, 3 * N), np.full(3 * N, -1), part=part) for part in (1, 2)]
     for share in shares:
         assert [len(places) for places, batch in share if batch == 1] == [ALONE // 2]
@@ -39,12 +39,12 @@ def test_slow_implementation_is_retested_with_few_rows():
     assert sum(len(places) for places, _ in asked(LARGE_QUESTION - 1)) == once
 
 
-def test_rounds_after_the_first_ask_few_rows():
+def test_retest_rounds_after_the_first_ask_few_rows():
     once = N + 4 * retest.TWINS
     assert sum(len(places) for places, _ in asked(LONGEST, number=1)) < once + FULL_QUESTION
 
 
-def test_each_place_of_full_and_of_longest_questions_has_each_position():
+def test_each_index_of_the_largest_retest_batches_has_every_position_in_turn():
     for size, fewest in ((FULL_QUESTION, FULL_QUESTION - 2), (LONGEST, LONGEST - 2)):
         large = [places for places, _ in asked(LONGEST) if fewest <= len(places) <= size][-3:]
         assert [len(places) for places in large] == [size, size, size - 2]
@@ -58,7 +58,7 @@ def test_implementation_that_is_slow_with_full_batches_gets_no_longest_batches(m
     assert max(len(places) for places, _ in asked(LONGEST)) == FULL_QUESTION
 
 
-def test_small_batches_have_every_remainder_of_a_vector_length():
+def test_small_retest_batches_have_every_remainder_of_a_vector_length():
     lengths = {len(places) for places, batch in asked(LONGEST) if batch and batch > 1}
     assert lengths >= set(LENGTHS)
     for lanes in (2, 4, 8, 16):
@@ -66,12 +66,12 @@ def test_small_batches_have_every_remainder_of_a_vector_length():
 
 
 @pytest.mark.parametrize(("seconds", "count"), [(60.0, ALONE + MANY), (0.0, ALONE)])
-def test_implementation_is_asked_many_single_rows_until_the_time_for_them_is_over(monkeypatch, seconds, count):
+def test_retest_asks_many_single_rows_until_their_time_is_over(monkeypatch, seconds, count):
     monkeypatch.setattr(retest, "MANY", MANY)
     monkeypatch.setattr(retest, "MANY_S", seconds)
     assert sum(len(places) for places, batch in asked(LONGEST) if batch == 1) == count
 
 
-def test_objects_that_move_are_asked_moment_by_moment():
+def test_moving_objects_are_retested_moment_by_moment():
     moments = np.tile(np.arange(8), 4)
     assert [(len(places), batch) for places, batch in asked(64, TRUTH[:32], moments)][-9:] == [(8, 1), *[(4, None)] * 8]

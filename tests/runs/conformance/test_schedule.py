@@ -80,7 +80,7 @@ def read_back(state):
     return restored_state(decoded(json.loads(json.dumps(as_json(saved_state(state)), allow_nan=False)), SavedState))
 
 
-def test_results_add_up_in_any_order():
+def test_results_of_tasks_can_be_merged_in_any_order():
     with RIGHT.open() as it:
         rules = rules_of(it)
         some = [step for step in steps_of(["ring-neighbourhood", "ring"], 375) if not isinstance(step, RetestStep)]
@@ -128,7 +128,7 @@ def test_every_pending_case_is_retested_in_one_part_of_one_round():
 
 
 @pytest.mark.thorough
-def test_restarts_are_charged_in_the_order_of_steps():
+def test_restarts_are_counted_in_the_order_of_steps():
     """Cases on the axis end the process: the first few do, and all others are not run."""
     some = steps_of(["tower-body", "axis", "tower-rotors"], 375)
     with DIES.open() as it:
@@ -228,7 +228,7 @@ LIMITS = Allowance(20, 100)
         ),
     ],
 )
-def test_the_task_in_which_the_limits_run_out_is_the_last_that_counts(left, task, expected):
+def test_task_that_exhausts_the_restart_limits_is_the_last_that_counts(left, task, expected):
     assert left.after(task, LIMITS) == expected
 
 
@@ -289,7 +289,7 @@ def test_implementation_that_never_answered_is_given_up_after_three_hangs_with_a
     assert {name: count for name, count in only.counts.items() if count} == {"timeout": 2, "not-run": only.asked - 2}
 
 
-def test_result_is_restored_from_json():
+def test_merged_result_is_restored_from_its_json():
     fault = tally.UnansweredCase(
         (0, 3), "invalid-0003", (float("nan"), float("inf"), -0.0, 1.0, 1.0, 1.0, 1.0), "wrong", "said \ud83d"
     )

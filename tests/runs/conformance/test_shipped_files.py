@@ -33,13 +33,13 @@ def files(tmp_path, monkeypatch):
         ("command:run.sh rows.txt", ["rows.txt"], ["rows.txt"]),
     ],
 )
-def test_files_of_a_spec_are_found_and_those_given_by_path_are_sent(files, spec, named, sent):
+def test_files_of_a_spec_are_found_and_only_those_given_by_path_are_sent_to_workers(files, spec, named, sent):
     assert [each.path.name for each in files_of(spec)] == named
     assert [each.path.rpartition("/")[2] for each in files_to_ship(spec)] == sent
     assert list(fingerprints([spec]).values()) == [sha256(files / name) for name in named]
 
 
-def test_a_program_is_found_on_the_path_and_each_worker_has_its_own():
+def test_program_found_on_the_path_is_not_sent_to_workers():
     (found,) = files_of("command:sh -c true")
     assert str(found.path) == shutil.which("sh")
     assert files_to_ship("command:sh -c true") == ()
@@ -51,7 +51,7 @@ def test_fingerprint_of_a_python_module_is_that_of_its_file(files):
     assert module_sha256("python:module.py:f") == module_sha256("command:sh") == ""
 
 
-def test_paths_of_sent_files_replace_words_of_the_command(files, tmp_path):
+def test_paths_of_sent_files_replace_the_paths_in_the_command(files, tmp_path):
     spec = f"command:{sys.executable} rows.txt -v"
     sent = files_to_ship(spec)
     assert spec_on_worker(spec, sent, "w", tmp_path) == "command:" + json.dumps(

@@ -96,7 +96,7 @@ def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_al
     assert f'"axis": ["{found[LEANING].worst[0].axis[0]}"' in (tmp_path / "upright" / "record.jsonl").read_text("utf-8")
 
 
-def test_a_fault_about_a_tilted_spheroid_costs_its_own_case_and_is_recorded_with_its_axis(tmp_path):
+def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_with_its_axis(tmp_path):
     code, record = gate(tmp_path, "raises_far_over", "--families", LEANING, count="60")
     faults = [fault for line in record.of(GroupLine) for fault in line.faults if fault.status == "error"]
     assert code == 1
@@ -144,7 +144,7 @@ def test_families_of_tilted_spheroids_asked_of_an_implementation_without_tilt_ar
     assert f"{LEANING}: these are families of tilted spheroids, and fast takes none" in capsys.readouterr().err
 
 
-def test_a_record_of_an_implementation_without_tilt_says_nothing_of_tilt(tmp_path):
+def test_record_of_an_implementation_without_tilt_has_no_field_about_tilt(tmp_path):
     assert main(["verify", "builtin:fast", "--families", "ring", "--count", "5", "--out", str(tmp_path)]) == 0
     text = (tmp_path / "record.jsonl").read_text()
     assert "tilt" not in text.partition("\n")[2]

@@ -31,7 +31,7 @@ def verified(folder, *words):
 
 
 @pytest.mark.thorough
-def test_samples_that_miss_contact_or_are_late_fail_and_are_counted_apart(tmp_path):
+def test_sampled_passage_fails_with_missed_contacts_and_late_times_counted_separately(tmp_path):
     assert verified(tmp_path, "builtin:passage-sampled-4", *FEW) == 1
     (group,) = (line for line in read(tmp_path).of(GroupLine))
     assert group.question == "passage"
@@ -51,7 +51,7 @@ def test_samples_that_miss_contact_or_are_late_fail_and_are_counted_apart(tmp_pa
 
 
 @pytest.mark.slow
-def test_right_function_passes_with_its_times_when_asked_again(tmp_path):
+def test_right_passage_function_passes_and_repeats_its_times_in_the_retest(tmp_path):
     assert verified(tmp_path, function("passage"), *FEW) == 0
     group, refused = (line for line in read(tmp_path).of(GroupLine))
     assert group.counts == {"right": ASKED}
@@ -62,7 +62,7 @@ def test_right_function_passes_with_its_times_when_asked_again(tmp_path):
 
 
 @pytest.mark.slow
-def test_known_failures_of_ways_are_excused_and_one_that_is_right_again_fails_the_run(tmp_path, capsys):
+def test_known_failure_of_a_way_is_excused_and_fails_the_run_if_it_no_longer_occurs(tmp_path, capsys):
     listed = tmp_path / "known.toml"
     some = [case.id for case in frozen.load_ways("way-still").cases[:3]]
     entries = {"family": ["way-tunnelling", "way-still"], "case": some}
@@ -96,13 +96,13 @@ def test_known_failures_of_ways_are_excused_and_one_that_is_right_again_fails_th
         (("builtin:fast", "--question", "passage"), 'its description must say "question": "passage"'),
     ],
 )
-def test_families_and_questions_that_do_not_fit_together_are_refused(words, sentence, tmp_path, capsys):
+def test_verify_refuses_families_that_do_not_match_the_question(words, sentence, tmp_path, capsys):
     assert verified(tmp_path, *words) == 2
     assert sentence in capsys.readouterr().err
 
 
 @pytest.mark.slow
-def test_rows_that_are_no_ways_are_asked_of_implementations_that_refuse(tmp_path):
+def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(tmp_path):
     assert verified(tmp_path, "python:tests.runs.moving:clear_from_infinity", *FEW) == 1
     found = {line.family: line for line in read(tmp_path).of(GroupLine)}
     assert found["way-tunnelling"].counts == {"right": ASKED}
@@ -113,7 +113,7 @@ def test_rows_that_are_no_ways_are_asked_of_implementations_that_refuse(tmp_path
     assert all(fault.reason.startswith("answered 0; a row with an invalid ") for fault in group.faults)
 
 
-def test_rows_that_are_no_ways_are_chosen_by_what_is_declared():
+def test_invalid_ways_are_chosen_by_declared_refuses_and_tilt():
     def chosen(**said):
         return [each.family for each in invalid_rows(**said, layout=WAYS)]
 
@@ -122,7 +122,7 @@ def test_rows_that_are_no_ways_are_chosen_by_what_is_declared():
     assert chosen(refuses=False, tilt=True) == []
 
 
-def test_progress_keeps_ways_and_times():
+def test_saved_progress_keeps_ends_and_times_of_ways():
     worst = WorstCase((1, 0), "way-anywhere/1/1/0", ROW, 1, 1, "late", "wrong", 0.5, 0.75)
     lost = UnansweredCase((1, 1), "way-anywhere/1/1/1", (*ROW, 0.0, 3.0, 4.0), "crash", "it crashed")
     pending = PendingRetest(

@@ -54,7 +54,7 @@ def _ends_at_once(*_):
     os._exit(9)
 
 
-def test_processes_that_cannot_start_end_the_run(monkeypatch):
+def test_run_ends_with_an_error_if_worker_processes_cannot_start(monkeypatch):
     """Nothing is known of any case then, so that none may be called a crash."""
     monkeypatch.setattr(executors, "_serve", _ends_at_once)
     some = steps_of(["uniform"], 2000)
@@ -119,7 +119,7 @@ def test_stopped_worker_that_is_continued_in_time_is_not_killed(monkeypatch):
 
 
 @STOPS
-def test_is_stopped_detects_a_stopped_process():
+def test_is_stopped_returns_true_for_a_stopped_process():
     with WorkerPool(1, nullcontext) as running:
         assert running.submit(os.getpid).result() == running.processes[0].pid
         for number in (signal.SIGSTOP, signal.SIGCONT):

@@ -20,7 +20,7 @@ ROWS = FAMILIES["uniform"].rows(5, 24)
 
 @pytest.mark.parametrize("mover", MOVERS)
 @pytest.mark.parametrize("far", [False, True])
-def test_the_position_changes_from_one_factor_to_the_next(mover, far):
+def test_border_factor_is_the_last_before_the_position_changes(mover, far):
     mask = hunt_search.columns_of(np.full(len(ROWS), mover))
     factors = hunt_search.border_factors(ROWS, mask, np.full(len(ROWS), far))
     found = np.flatnonzero(np.isfinite(factors))
@@ -32,7 +32,7 @@ def test_the_position_changes_from_one_factor_to_the_next(mover, far):
         assert [a == b for a, b in zip(row, next_row, strict=True)].count(False) <= len(MOVERS[mover])
 
 
-def test_of_two_borders_the_far_one_is_beyond_the_near_one():
+def test_far_border_of_a_row_lies_beyond_its_near_border():
     """Out along a radius of the tower: interior, contact between 1 and 3, exterior."""
     rows = np.array([[2.0, 20.0, 1.0, 1.0, 0.5, 0.0, 0.0]] * 2)
     mask = hunt_search.columns_of(np.array(["radius", "radius"]))
@@ -47,7 +47,7 @@ def test_row_whose_position_never_changes_has_no_border():
     assert np.isnan(hunt_search.border_factors(rows, mask, np.zeros(2, dtype=bool))).all()
 
 
-def test_ladders_lead_away_from_the_border_to_both_sides():
+def test_hunt_ladders_lead_away_from_the_border_on_both_sides():
     rows = ROWS[:3]
     mask = hunt_search.columns_of(np.full(3, "radius"))
     rungs, numbers = hunt_search.ladders(rows, mask, hunt_search.border_factors(rows, mask, np.ones(3, dtype=bool)))
@@ -86,13 +86,13 @@ def test_rows_of_a_crossing_are_on_or_next_to_its_surfaces_and_near_contact(stra
     assert (octaves < -8).mean() > 0.5
 
 
-def test_strata_are_the_same_every_time_and_differ_by_seed_and_number():
+def test_hunt_strata_are_reproducible_and_differ_by_seed_and_number():
     stratum = hunt_search.strata()[-1]
     assert stratum.rows(1, 0).tobytes() == stratum.rows(1, 0).tobytes()
     assert len({stratum.rows(*which).tobytes() for which in ((1, 0), (1, 1), (2, 0))}) == 3
 
 
-def test_every_family_and_every_crossing_that_can_be_left_is_a_stratum():
+def test_hunt_has_a_stratum_for_every_family_and_every_crossing_of_surfaces_with_a_free_length():
     names = [stratum.name for stratum in hunt_search.strata()]
     assert len(set(names)) == len(names)
     assert {f"the family {name}" for name in FAMILIES} < set(names)

@@ -50,7 +50,7 @@ def told(capsys, *arguments):
 
 
 @pytest.mark.thorough
-def test_hunt_prints_the_worst_first_with_commands_to_continue(capsys):
+def test_hunt_prints_the_worst_answer_first_with_commands_to_continue(capsys):
     code, output, _ = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "3000", "--show", "2")
     assert code == Exit.WRONG
     lines = output.splitlines()
@@ -73,7 +73,7 @@ def test_hunt_prints_the_worst_first_with_commands_to_continue(capsys):
 
 
 @pytest.mark.thorough
-def test_options_replace_what_the_implementation_declares(capsys):
+def test_hunt_options_replace_what_the_implementation_declares(capsys):
     arguments = ("hunt", "builtin:procedure-1-float64", "--queries", "2600")
     everywhere = told(capsys, *arguments, "--regimes", "any", "--tolerance", "9")[1]
     assert "c² < a" in everywhere
@@ -164,7 +164,7 @@ def test_hunt_asks_nothing_if_its_vector_file_cannot_be_written(capsys, tmp_path
         assert str(path) in errors
 
 
-def test_a_file_that_is_no_vector_file_is_left_alone(capsys, tmp_path):
+def test_hunt_refuses_and_keeps_an_output_file_that_is_no_vector_file(capsys, tmp_path):
     path = tmp_path / "notes.json"
     path.write_text("not vectors")
     code, output, errors = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "2500", "--out", str(path))

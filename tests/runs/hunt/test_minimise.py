@@ -60,7 +60,7 @@ def test_every_ring_case_is_minimised_to_a_ring_of_single_digits(refused_rings, 
     assert longest == 1
 
 
-def test_minimised_row_is_claimed_by_the_implementation():
+def test_minimised_row_stays_in_the_domain_of_the_implementation():
     """With α/b and γ/d in 5 … 1000 the ring (7, 7, 1, 1, 10, 0, 0) is about the simplest."""
     run = minimised("table-2-float64", (7, 11, 1, 1, 8, 114 / 11, 0), Domain(ratio=(5.0, 1000.0)))
     check(run)
@@ -70,7 +70,7 @@ def test_minimised_row_is_claimed_by_the_implementation():
     assert complexity(run.last.case.row)[0] < complexity(run.first.case.row)[0]
 
 
-def test_the_simplest_row_is_still_wrong_beyond_tolerance():
+def test_minimised_row_is_still_wrong_beyond_the_tolerance():
     sizes = (1.358995682045953, 0.05380053815595681, 1.2878085719496009, 0.052372349017701395)
     row = (*sizes, -2.4977900109670843, -0.8755459253855836, -2.1774468648097007e-06)
     run = minimised("table-2-float64", row, tolerance=5 * 10**9)
@@ -78,7 +78,7 @@ def test_the_simplest_row_is_still_wrong_beyond_tolerance():
     assert run.last.error_u > 5e9
 
 
-def test_simplest_row_stays_as_it_is():
+def test_minimise_leaves_the_simplest_row_unchanged():
     run = minimised("table-2-float64", (1, 1, 2, 1, 3, 1, 0))
     assert len(run.steps) == 1
     assert run.last.case.row == (1, 1, 2, 1, 3, 1, 0)
@@ -111,7 +111,7 @@ def test_simplest_row_stays_as_it_is():
         ),
     ],
 )
-def test_other_failures_become_short_too(spec, row, most, claims):
+def test_minimise_shortens_rows_of_failures_off_the_ring_too(spec, row, most, claims):
     run = minimised(spec, row, **claims)
     check(run)
     assert complexity(row)[0] > 3 * most
@@ -133,7 +133,7 @@ def test_minimise_refuses_a_row_that_is_answered_rightly(row, claims, sentence):
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
-def test_a_number_counts_as_many_characters_as_its_shortest_text(value):
+def test_complexity_counts_the_characters_of_the_shortest_text_of_a_number(value):
     count = characters(value)
     if value == 0:
         assert count == 0
@@ -158,13 +158,13 @@ def test_characters_counts_those_of_the_shortest_decimal(value, count):
     assert characters(value) == count
 
 
-def test_rounding_gives_ever_longer_numbers_around_a_value():
+def test_roundings_of_a_value_are_ever_longer_numbers_around_it():
     values = list(rounded(2.718281828459045))
     assert values[:6] == [3, 4, 2, 2.7, 2.8, 2.6]
     assert all(abs(value - 2.718281828459045) < 2 for value in values)
 
 
-def test_the_simplest_rows_are_different_and_below_the_limit():
+def test_simplest_rows_are_distinct_and_below_the_limit_of_complexity():
     rows = [tuple(row) for row in simplest_below((6, 1, 9)).tolist()]
     assert len(set(rows)) == len(rows) > 1000
     complexities = [complexity(row) for row in rows]

@@ -30,7 +30,7 @@ from hypcheck.vectors.families import FAMILIES
         ((3, 4, 1, 1, 6, 0, 5), OPEN, OPEN),
     ],
 )
-def test_place_of_a_row_is_named_after_the_surface_that_explains_most(row, kind, words):
+def test_place_of_a_row_is_named_after_the_special_surface_that_explains_most(row, kind, words):
     place = place_of(Pair.from_row(row))
     assert place.kind == kind
     assert place.words.startswith(words)
@@ -40,17 +40,17 @@ def test_place_of_a_row_is_named_after_the_surface_that_explains_most(row, kind,
     ("family", "kind"),
     [("ring", "the ring"), ("tangent", "exactly tangent"), ("degenerate-crossing", "Δ = 0 without a tangency")],
 )
-def test_constructions_are_recognised_whatever_their_size(family, kind):
+def test_place_of_a_constructed_row_is_recognised_at_any_size(family, kind):
     assert {place_of(Pair.from_row(row)).kind for row in FAMILIES[family].rows(3, 60).tolist()} == {kind}
 
 
-def test_extreme_rows_have_a_place_too():
+def test_extreme_rows_have_a_place_in_words():
     for family in ("extreme-float64", "extreme-subnormal", "extreme-magnitude"):
         for row in FAMILIES[family].rows(1, 40).tolist():
             assert place_of(Pair.from_row(row)).words
 
 
-def test_cause_is_the_same_on_and_near_the_ring_and_differs_between_regimes():
+def test_cause_of_a_row_is_the_same_on_and_near_the_ring_and_differs_by_regime():
     def cause(*row):
         return place_of(Pair.from_row(row)).cause
 

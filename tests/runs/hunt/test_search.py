@@ -164,7 +164,7 @@ def hunt_for(run, rounds):
         run_hunt(run, progress)
 
 
-def test_neighbours_are_one_step_away_or_on_a_surface_and_their_ladders_lead_away_from_contact():
+def test_hunt_neighbours_are_one_step_away_or_on_a_surface_and_their_ladders_leave_contact():
     row = (3.0, 4.0, 1.5, 2.0, 7.0, 1.0, 5.0)
     around = neighbours(Draw("test"), [hunt_search.Climber(row, 1.0, 0.25)])
     single = np.bincount(around.ladders)[around.ladders] == 1
@@ -191,7 +191,7 @@ def test_hunt_finds_nothing_in_an_exact_implementation(spec, claims):
     assert run.asked == run.answered == 5_000
 
 
-def test_findings_are_true_and_the_worst_stand_first():
+def test_hunt_findings_are_really_wrong_and_sorted_by_error():
     run = hunted("table-2-float32", 3000)
     found = run.findings.worst_first()
     assert len(found) > 3
@@ -227,7 +227,7 @@ def test_a_budget_of_seconds_ends_the_hunt():
     assert run.asked > 100
 
 
-def test_only_rows_that_are_claimed_are_asked():
+def test_hunt_asks_only_rows_in_the_declared_regimes_and_precision():
     double = Double(float_filter.positions, precision="float32")
     target = target_of("double", double, regimes=("a>=1", "c2>=a"))
     run_hunt(Hunt(target, HuntPlan(None, 3000)))
@@ -245,7 +245,7 @@ def test_implementation_that_always_answers_contact_has_every_kind_of_false_cont
     assert worst == {(Mistake.FALSE_CONTACT, Position.EXTERIOR), (Mistake.FALSE_CONTACT, Position.INTERIOR)}
 
 
-def test_answer_that_no_change_makes_right_ranks_first():
+def test_hunt_ranks_an_answer_with_an_infinite_error_first():
     run = Hunt(target_of("double", Double(lambda rows: np.ones(len(rows)))), HuntPlan(None, 3500))
     run_hunt(run)
     worst = run.findings.worst_first()[0].worst
@@ -253,14 +253,14 @@ def test_answer_that_no_change_makes_right_ranks_first():
     assert worst.case.row[4:6] == (0, 0)
 
 
-def test_cannot_say_is_counted_and_never_wrong():
+def test_hunt_counts_cannot_say_as_abstained_and_never_as_wrong():
     run = Hunt(target_of("double", Double(lambda rows: np.full(len(rows), CANNOT_SAY))), HuntPlan(None, 1000))
     run_hunt(run)
     assert (run.asked, run.counts) == (1000, {"abstained": 1000})
     assert run.findings.clusters == {}
 
 
-def test_a_fault_is_kept_with_its_first_row_and_a_lost_implementation_ends_the_hunt():
+def test_hunt_keeps_the_first_row_of_a_fault_and_ends_if_the_implementation_is_lost():
     nothing = lambda rows: np.full(len(rows), CANNOT_SAY)  # noqa: E731
     crashing = Hunt(target_of("double", Double(nothing, Outcome.CRASH)), HuntPlan(None, 1000))
     run_hunt(crashing)
@@ -275,7 +275,7 @@ def test_a_fault_is_kept_with_its_first_row_and_a_lost_implementation_ends_the_h
 ONE_SCENE = Domain(settings=(FixedSizes((2.5, 9.0, 0.5, 0.25), z=(-4.0, 4.0)),))
 
 
-def test_kernel_for_one_scene_is_asked_only_about_its_sizes():
+def test_hunt_asks_a_kernel_for_one_scene_only_about_its_sizes():
     double = Double(lambda rows: np.zeros(len(rows)), domain=ONE_SCENE)
     run = Hunt(target_of("double", double), HuntPlan(None, 4000))
     run_hunt(run)

@@ -57,7 +57,7 @@ def test_neighbours_of_upright_and_tilted_rows_are_asked_together_and_are_all_va
 
 @pytest.mark.thorough
 @pytest.mark.slow
-def test_the_simplest_row_that_fails_alike_is_about_a_tilted_spheroid_and_short(capsys):
+def test_minimised_row_of_a_tilted_failure_is_tilted_and_short(capsys):
     assert main(["minimise", UPRIGHT, "tilted-uniform/1/1/5"]) == 0
     said = capsys.readouterr().out
     (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*axis_z\)$", said, flags=re.MULTILINE)

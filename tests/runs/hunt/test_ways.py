@@ -57,7 +57,7 @@ def test_a_hunt_finds_wrong_answers_and_late_times_and_keeps_their_ways(quickly,
     assert "0 rows added, the others were there already" in capsys.readouterr().out
 
 
-def test_nothing_is_found_in_an_implementation_that_is_right(quickly, capsys):
+def test_hunt_finds_nothing_in_the_exact_passage(quickly, capsys):
     assert main(["hunt", "builtin:passage-exact", "--queries", "30", "--tolerance", "0"]) == 0
     assert "0 answers were wrong" in capsys.readouterr().out
 
@@ -116,12 +116,12 @@ def test_the_simplest_way_that_fails_alike_is_short_and_its_answer_is_proved(mon
         (("builtin:passage-sampled-4", "way-invalid-0007"), "way-invalid-0007: gamma is inf; it must be finite"),
     ],
 )
-def test_what_cannot_be_simplified_is_refused_in_one_sentence(words, sentence, capsys):
+def test_minimise_refuses_ways_that_it_cannot_simplify_in_one_sentence(words, sentence, capsys):
     assert main(["minimise", *words]) == 2
     assert sentence in capsys.readouterr().err
 
 
-def test_a_way_in_other_coordinates_has_the_same_answer():
+def test_way_in_other_coordinates_has_the_same_answer():
     for row in [THROUGH, *map(tuple, WAY_FAMILIES["tilted-way-uniform"].rows(4, 2).tolist())]:
         hit = hits_at_size(row)
         for other in list(same_way(row))[:4]:  # units are rounded
@@ -144,7 +144,7 @@ def test_a_way_in_other_coordinates_has_the_same_answer():
         ({4: 9.0, 7: 99999.0}, "a long way"),
     ],
 )
-def test_the_place_of_a_way_says_what_happens_on_it(changes, kind):
+def test_place_of_a_way_names_what_happens_on_it(changes, kind):
     row = tuple(changes.get(place, value) for place, value in enumerate(THROUGH))
     place = way_place(row)
     assert place.kind == place.cause == kind

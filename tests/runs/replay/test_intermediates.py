@@ -20,7 +20,7 @@ RING = (0.150390625, 0.109375, 2.8125, 0.375, -2.978515625, 0.0, 0.0)
 """Δ = 0 in the air; in float32 it comes out positive."""
 
 
-def test_values_are_those_of_the_definitions():
+def test_exact_intermediate_values_equal_their_definitions():
     found = compare_formula(FORMULAS["table-2"], "float32", RING)
     alpha, gamma, b, d, x, _, _ = map(Fraction, RING)
     A, B, P = (alpha / b) ** 2, (gamma / d) ** 2, (x / b) ** 2
@@ -33,7 +33,7 @@ def test_values_are_those_of_the_definitions():
     assert 0 < found["A"].error_u < 3  # two roundings of a/b, one of the square
 
 
-def test_the_first_wrong_decision_and_its_number():
+def test_comparison_names_the_first_wrong_decision_and_the_number_that_causes_it():
     found = compare_formula(FORMULAS["table-2"], "float32", RING)
     assert found["delta"].exact == 0 < found["delta"].value
     assert (found.first_wrong, found.culprit) == ("distinct", "delta")
@@ -41,7 +41,7 @@ def test_the_first_wrong_decision_and_its_number():
     assert [each.name for each in found.values if each.decided_otherwise] == ["distinct", "distinct_and_c2", "valid"]
 
 
-def test_of_two_numbers_the_one_farther_off_is_named():
+def test_comparison_names_the_less_accurate_of_two_numbers_in_a_wrong_decision():
     """λm < B, where λm is a surd just above B = 16/49: it loses more digits than B's single rounding does."""
     found = compare_formula(FORMULAS["local-maximum"], "float16", (0.875, 0.5, 1.125, 0.875, -2.0, 0.625, -0.25))
     assert (found.first_wrong, found.culprit) == ("below_B", "lambda_m")
@@ -50,13 +50,13 @@ def test_of_two_numbers_the_one_farther_off_is_named():
     assert found["lambda_m"].value < found["B"].value != found["B"].exact
 
 
-def test_no_decision_is_named_if_none_differs():
+def test_comparison_names_no_decision_if_all_agree():
     found = compare_formula(FORMULAS["table-2"], "float64", (1.0, 2.0, 1.0, 1.0, 5.0, 0.0, 0.0))
     assert (found.first_wrong, found.culprit) == (None, None)
     assert found.answer == found.exact_answer == 1
 
 
-def test_overflow_is_no_number_and_a_wrong_decision():
+def test_comparison_names_a_decision_on_nan_after_overflow_as_wrong():
     """c1 > 0 is asked of inf − inf in float16."""
     row = (1.8, 4.4, 0.038, 0.2285, -10.86, 0.0, -26.15)
     found = compare_formula(FORMULAS["hessian"], "float16", row)
@@ -76,7 +76,7 @@ def test_values_that_are_undefined_in_exact_arithmetic_are_shown_as_undefined():
 
 @pytest.mark.parametrize("name", [name for name in SHOWN_FORMULAS if name != "dual"])
 @pytest.mark.parametrize("format_name", ["float16", "float32", "float64", "longdouble"])
-def test_compared_answers_are_those_of_the_formula(name, format_name):
+def test_comparison_gives_the_answer_of_the_formula_in_each_format(name, format_name):
     for row in (RING, (2.0, 17.8, 0.25, 0.15, 1.2, -1.7, 0.3), (1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0)):
         found = compare_formula(FORMULAS[name], format_name, row)
         columns = dict(zip(COLUMNS, row, strict=True))
@@ -84,7 +84,7 @@ def test_compared_answers_are_those_of_the_formula(name, format_name):
 
 
 @given(pairs)
-def test_the_dual_form_answers_as_its_method_does(pair):
+def test_comparison_of_the_dual_form_gives_the_answer_of_its_built_in_method(pair):
     for precision in ("float32", "float64"):
         found = compare_formula(FORMULAS["dual"], precision, pair.row)
         if found is not None:

@@ -27,13 +27,13 @@ def decimal_of(surd):
 
 
 @given(FRACTIONS, FRACTIONS, NOT_SQUARES)
-def test_a_surd_is_near_its_rational(p, q, h):
+def test_rational_approximation_of_a_surd_is_within_its_precision(p, q, h):
     value = Surd(p, q, Fraction(h))
     near, true = rational(value, 80), Fraction(decimal_of(value))
     assert abs(near - true) <= abs(true) / 2**79
 
 
-def test_number_text_of_a_surd_that_nearly_cancels_is_right():
+def test_decimal_text_of_a_surd_that_nearly_cancels_is_right():
     close = Fraction(math.isqrt(2 * 10**80), 10**40)  # √2 to 40 digits
     value = Surd(-close, Fraction(1), Fraction(2))
     true = Fraction(decimal_of(value))
@@ -42,7 +42,7 @@ def test_number_text_of_a_surd_that_nearly_cancels_is_right():
     assert number_text(value) == f"{decimal_of(value):.8}".replace("E", "e")
 
 
-def test_number_text_of_a_surd_with_a_tiny_root_is_right():
+def test_decimal_text_of_a_surd_with_a_tiny_root_is_right():
     value = Surd(Fraction(0), Fraction(3), Fraction(1, 2**2001))
     true = Fraction(9, 2**2001)
     assert abs(rational(value, 64) ** 2 - true) < true / 2**62
@@ -69,12 +69,12 @@ def test_number_text_of_a_surd_with_a_tiny_root_is_right():
         (float("-inf"), "-inf"),
     ],
 )
-def test_number_text_shows_values_of_both_arithmetics(value, text):
+def test_number_text_shows_exact_and_float_values(value, text):
     assert number_text(value) == text
 
 
 @pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64, np.longdouble])
-def test_machine_numbers_come_back_exactly(kind):
+def test_numpy_floats_are_converted_to_exact_numbers(kind):
     third = kind(1) / kind(3)
     assert number_of(np.asarray(third)) == Fraction(*third.as_integer_ratio())
     assert number_of(kind("inf")) == math.inf

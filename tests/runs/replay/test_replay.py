@@ -35,7 +35,7 @@ def replayed(capsys, *words, code=0):
     return json.loads(capsys.readouterr().out)
 
 
-def test_right_answer_is_replayed_as_right(capsys):
+def test_replay_of_a_right_answer_says_right(capsys):
     found = replayed(capsys, FREE, subject("exact"))
     assert found["status"] == "right"
     assert (found["answer"], found["truth"]["label"], found["mistake"]) == (1, "exterior", None)
@@ -53,7 +53,7 @@ def test_replay_shows_the_backward_error_of_a_wrong_answer(capsys):
     assert found["truth"]["flips"]["interior"] > found["backward_error"]
 
 
-def test_tolerated_is_within_the_tolerance_and_not_beyond(capsys):
+def test_replay_says_tolerated_within_the_tolerance_and_wrong_beyond(capsys):
     row = f"1,2,1,1,{2 + 2**-50!r},0,0"
     found = replayed(capsys, row, subject("contact"))
     assert found["status"] == "tolerated"
@@ -75,7 +75,7 @@ def test_replay_of_a_yes_no_question_shows_its_answer_in_words(capsys):
     assert FORMULAS[found["values"]["formula"]].question in ("interior", "position")
 
 
-def test_a_formula_is_shown_as_itself(capsys):
+def test_replay_of_a_built_in_formula_shows_the_values_of_that_formula(capsys):
     found = replayed(capsys, "ring-0003", "builtin:hessian-float32")
     assert found["values"]["formula"] == "hessian"
     assert found["values"]["format"] == "float32"
@@ -104,7 +104,7 @@ def ring_where_table_2_errs():
     ("precision", "shown"),
     [("float16", "float16"), ("bfloat16", "float32"), ("exact", "float64"), ("binary128", "longdouble")],
 )
-def test_every_precision_has_a_format(capsys, precision, shown):
+def test_replay_shows_values_in_a_format_for_every_precision(capsys, precision, shown):
     found = replayed(capsys, FREE, "builtin:fast", "--precision", precision)
     assert found["values"]["format"] == shown
     assert ("stands for it" in found["values"]["why"]) is (precision != "float16")
@@ -129,7 +129,7 @@ def test_replay_finds_an_answer_that_depends_on_other_rows(capsys):
     assert "at place 33: it answers -1" in found["reason"]
 
 
-def test_a_zero_keeps_its_sign(capsys):
+def test_replay_keeps_the_sign_of_a_zero(capsys):
     assert replayed(capsys, HIT, subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
     assert replayed(capsys, HIT.replace("-0.0", "0"), subject("minds_the_sign_of_zero"))["answer"] == 0
     assert replayed(capsys, HIT.replace("-0.0", "-0x0p+0"), subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
@@ -160,7 +160,7 @@ def test_case_ids_name_the_same_rows_in_replay_as_elsewhere():
     assert case_of("0x1.8p+1,2, 1,1,-0x1p-3,0,0").row == (3.0, 2.0, 1.0, 1.0, -0.125, 0.0, 0.0)
 
 
-def test_cases_of_a_record_are_numbered(tmp_path, capsys, text_reports):
+def test_replay_finds_the_cases_of_a_record_by_their_number(tmp_path, capsys, text_reports):
     out = tmp_path / "out"
     assert main(["verify", subject("contact"), "--families", "ring,tangent", "--count", "5", "--out", str(out)]) == 1
     capsys.readouterr()
@@ -178,7 +178,7 @@ def test_cases_of_a_record_are_numbered(tmp_path, capsys, text_reports):
     assert f"they are 1 to {len(kept)}" in capsys.readouterr().err
 
 
-def test_the_text_marks_the_first_wrong_decision(capsys):
+def test_text_of_replay_marks_the_first_wrong_decision(capsys):
     assert main(["replay", "ring-0003", "builtin:table-2-float32"]) == 0
     text = capsys.readouterr().out
     assert [line for line in text.splitlines() if line.startswith(">>")] == [
@@ -211,7 +211,7 @@ def test_error_of_another_formula_is_not_reported_about_the_implementation(capsy
     assert json.loads(capsys.readouterr().out)["values"]["own"] is own
 
 
-def test_text_of_every_formula_can_be_printed(capsys):
+def test_replay_prints_the_text_of_every_formula(capsys):
     for name in ("shared", "local-maximum", "dual", "procedure-2a-spheroid"):
         assert main(["replay", "tangent/1/1/5", "builtin:fast", "--formula", name, "--precision", "float32"]) == 0
         assert f"of {name}, as --formula asks" in capsys.readouterr().out
@@ -240,7 +240,7 @@ def test_text_of_every_formula_can_be_printed(capsys):
         ([FREE, "builtin:fast", "--question", "where"], "the question"),
     ],
 )
-def test_bad_input_ends_with_2(words, message, capsys):
+def test_replay_with_bad_input_ends_with_2(words, message, capsys):
     assert main(["replay", *words]) == 2
     assert message in capsys.readouterr().err
 
@@ -266,7 +266,7 @@ def test_record_with_an_invalid_row_is_refused(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("spec", ["builtin:table-2-float64", subject("exact")])
-def test_no_sympy_mpmath_or_fcl_is_loaded(spec):
+def test_replay_loads_no_sympy_mpmath_fcl_or_matplotlib(spec):
     program = (
         "import sys; from hypcheck.cli.main import main\n"
         f"code = main(['replay', 'ring-0003', {spec!r}])\n"

@@ -47,7 +47,7 @@ def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one
     assert told[0]["kind"] == "crossing-one-curve"
 
 
-def test_a_tilted_row_to_be_refused_is_replayed_by_its_id(capsys):
+def test_invalid_tilted_row_is_replayed_by_its_id(capsys):
     code, said = replayed(capsys, "tilted-invalid-0000", f"{SPEC}exact")
     assert code == 0
     assert "axis_z" in said.out
@@ -81,7 +81,7 @@ def test_case_that_cannot_be_replayed_is_refused_in_one_sentence(case, spec, sen
     assert sentence in said.err
 
 
-def test_a_formula_is_not_shown_for_a_tilted_spheroid(capsys):
+def test_replay_refuses_a_formula_for_a_tilted_row(capsys):
     code, said = replayed(capsys, BESIDE, f"{SPEC}exact", "--formula", "table-2")
     assert code == 2
     assert "the given row is about a tilted spheroid, which no formula takes" in said.err

@@ -48,7 +48,7 @@ def test_generated_way_is_replayed_by_its_id(capsys):
 
 
 @pytest.mark.slow
-def test_a_row_that_is_no_way_must_be_refused(capsys):
+def test_replay_calls_an_answer_to_an_invalid_way_wrong_unless_it_is_refused(capsys):
     code, said = replayed(capsys, "way-invalid-0040", "python:tests.runs.moving:exact")
     assert code == 0
     assert "truth       invalid row (" in said.out

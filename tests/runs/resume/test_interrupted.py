@@ -18,7 +18,7 @@ from tests.tools.miniatures import all_gone, needs_proc, token  # noqa: F401
 @pytest.mark.thorough
 @needs_proc
 @pytest.mark.parametrize(("number", "code", "workers"), [(signal.SIGINT, 130, "2"), (signal.SIGTERM, 143, "1")])
-def test_interrupted_run_names_its_finished_part(tmp_path, token, number, code, workers):  # noqa: F811
+def test_interrupted_run_says_which_part_is_finished(tmp_path, token, number, code, workers):  # noqa: F811
     out, summary = tmp_path / "out", tmp_path / "summary.md"
     spec = "python:tests.runs.faulty:wrong_now_and_then"
     options = ["--families", "tower-body", "--count", "1000000000", "--workers", workers]

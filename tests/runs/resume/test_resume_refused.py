@@ -135,7 +135,7 @@ def test_folder_of_a_running_run_is_refused(tmp_path, capsys):
         process.communicate()
 
 
-def test_a_folder_has_one_owner_at_a_time(tmp_path):
+def test_folder_of_a_run_can_be_locked_by_one_process_at_a_time(tmp_path):
     with folder_locked(tmp_path), pytest.raises(FolderInUseError), folder_locked(tmp_path):
         pass
     with folder_locked(tmp_path):
