@@ -65,7 +65,7 @@ def test_advice_is_the_fastest_exact_method_that_was_never_wrong():
     ("interval", "floor", "alike"),
     [((1.4, 1.8), None, []), ((0.9, 1.8), None, ["b"]), ((1.4, 1.8), 0.7, ["b"]), ((1.4, 1.8), 0.2, [])],
 )
-def test_advice_names_methods_as_fast_within_the_noise(interval, floor, alike):
+def test_advice_names_methods_that_are_as_fast_within_the_noise(interval, floor, alike):
     """By their intervals (a's ends at 1.01) or by the noise (1.5 is within 70 % of 1)."""
     record = chosen(
         method("a", 1.0, {"uniform": 0.0}, exact=True),
@@ -92,7 +92,7 @@ def test_advice_beyond_a_distance_is_given_for_all_and_for_timed_workloads():
 
 
 @pytest.mark.parametrize(("farther", "name"), [(8e-13, "quick"), (1.7e-12, "near")])
-def test_a_slow_method_is_not_advised_for_an_octave_or_two(farther, name):
+def test_slow_method_is_not_advised_for_one_or_two_distance_exponents_only(farther, name):
     record = chosen(method("near", 50.0, {"uniform": 1e-13}), method("quick", 1.0, {"uniform": farther}))
     found = advice(record)["plain float64; errors end by 8.0e-13", EVERYWHERE, "position"]
     assert found.use.name == name
@@ -126,7 +126,7 @@ def test_a_method_for_another_question_is_advised_only_for_that_question():
     }
 
 
-def test_a_method_no_slower_than_an_empty_call_has_no_time():
+def test_method_no_slower_than_an_empty_call_is_not_advised():
     lost = [
         {**line, "median_ns": 0.01} if line["type"] == "speed" else line
         for line in method("a", 1e-9, {"uniform": 0.0}, exact=True)
@@ -148,7 +148,7 @@ def test_advice_lists_needs_that_no_method_meets():
     assert ("reliable beyond 1e-12", EVERYWHERE) in unmet
 
 
-def test_advice_names_methods_that_another_beats():
+def test_advice_names_methods_that_another_method_beats():
     record = chosen(
         method("good", 1.0, {"uniform": 1e-9, "ring": 1e-9}),
         method("slower", 2.0, {"uniform": 1e-6, "ring": 1e-9}),

@@ -32,7 +32,7 @@ REFUSED = {
 }
 
 
-def test_a_benchmark_in_which_all_held_has_passed():
+def test_benchmark_without_failures_has_passed():
     said = verdict(bench_record())
     assert said.passed
     assert said.sentence == (
@@ -100,13 +100,13 @@ def test_a_missed_target_fails_the_run_or_is_inconclusive_within_the_noise(kind,
 
 
 @pytest.mark.parametrize("found", ["does not hold", "inconclusive"])
-def test_a_claim_of_cost_that_does_not_hold_does_not_fail_the_run(found):
+def test_claim_about_cost_that_does_not_hold_does_not_fail_the_benchmark(found):
     body = [line for line in lines("cost", verdict=found) if line["type"] != "comparison"]
     assert failures(bench_record(body)) == []
     assert verdict(bench_record(body)).passed
 
 
-def test_a_comparison_that_does_not_gate_is_neither_a_failure_nor_counted():
+def test_comparison_that_does_not_gate_is_no_failure_and_is_not_counted():
     record = bench_record(lines("comparison", verdict="slower", gates=False))
     assert failures(record) == []
     assert "held to the baseline's" not in verdict(record).sentence
@@ -128,7 +128,7 @@ def test_every_report_names_the_failures_of_a_benchmark():
     assert violations(found, SUMMARY, closed=True) == []
 
 
-def test_reports_name_what_was_left_out_and_how_to_install_it():
+def test_reports_name_missing_methods_and_how_to_install_them():
     text = terminal.render(bench_record(bench_lines.lines())).decode()
     assert "left out: coal cannot be imported; pip install 'hypcheck[peers]' brings it\n" in text
 
@@ -163,7 +163,7 @@ def test_a_run_in_which_nothing_is_compared_with_its_baseline_has_not_passed():
     assert verdict(record).sentence.startswith("INCONCLUSIVE, exit code 4: ")
 
 
-def test_a_benchmark_has_its_suites_in_junit():
+def test_junit_has_suites_for_a_benchmark():
     record = bench_record([*lines("comparison", verdict="slower"), REFUSED], 1)
     root = ElementTree.fromstring(junit.render(record))  # noqa: S314 - just written
     counts = {suite.get("name"): (int(suite.get("tests")), int(suite.get("failures"))) for suite in root}

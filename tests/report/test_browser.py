@@ -51,13 +51,13 @@ def test_the_page_passes_every_check_in_all_sizes_and_schemes(chromium, files, n
 
 
 @pytest.mark.parametrize("name", ["small", "bench"])
-def test_tables_filter_and_print_whole(chromium, files, name):
+def test_report_tables_can_be_filtered_and_are_printed_in_full(chromium, files, name):
     visit = chromium.visit(files[name])
     assert page_checks.folded_on_paper(visit) == []
     assert page_checks.unfiltered(visit) == []
 
 
-def test_the_dark_scheme_is_dark_and_paper_is_light(chromium, files):
+def test_page_is_dark_in_the_dark_scheme_and_white_on_paper(chromium, files):
     visit = chromium.visit(files["small"])
     ground = "getComputedStyle(document.body).backgroundColor"
     visit.page.emulate_media(color_scheme="dark")
@@ -80,7 +80,7 @@ def numbers(visit):
     return [float(visit.page.locator(f"#explorer-{name}").input_value()) for name in COLUMNS]
 
 
-def test_the_explorer_is_quiet_readable_and_named_for_a_screen_reader(visit):
+def test_explorer_has_no_errors_and_is_readable_and_labelled_for_a_screen_reader(visit):
     assert "Exact answer: exterior. Clearance: 0.5 spheroid radii. On the ring" in said(visit)
     unnamed = "all => all.filter(each => !each.labels.length && !each.ariaLabel).map(each => each.outerHTML)"
     assert visit.page.locator("input").evaluate_all(unnamed) == []
@@ -131,7 +131,7 @@ def test_a_pointer_drags_the_centre_of_the_explorer(visit):
     assert ellipse["x"] + ellipse["width"] / 2 == pytest.approx(edge["x"] + edge["width"] / 2, abs=1)
 
 
-def test_the_explorer_refuses_what_is_no_size_in_a_sentence(visit):
+def test_explorer_refuses_an_invalid_size_in_one_sentence(visit):
     field = visit.page.get_by_label("b, semi-axis across", exact=True)
     field.fill("-1")
     assert "b, semi-axis across must be a number greater than 0 of float64." in said(visit)
@@ -226,7 +226,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("fault", BROKEN)
-def test_every_check_of_the_page_finds_a_broken_page(chromium, files, tmp_path, fault):
+def test_every_page_check_detects_a_broken_page(chromium, files, tmp_path, fault):
     check, break_it = BROKEN[fault]
     page = files["small"].read_text(encoding="utf-8")
     page = page if check is page_checks.quiet else loosened(page)

@@ -46,7 +46,7 @@ WORSE = record_samples.record(
 BENCH = bench_lines.bench_record()
 
 
-def test_nothing_changes_from_a_record_to_itself():
+def test_comparison_of_a_record_with_itself_shows_no_change():
     for record in (BEFORE, BENCH):
         assert status_changes(record, record) == []
         assert accuracy_changes(record, record) == []
@@ -79,7 +79,7 @@ def test_a_family_is_worse_by_its_share_of_wrong_answers_and_not_by_their_number
     ("interval", "verdict"),
     [([0.2, 0.3], FASTER), ([0.9, 1.2], SLOWER), ([0.5, 0.9], UNCLEAR), (None, UNCLEAR)],
 )
-def test_ratios_differ_where_their_intervals_are_apart(interval, verdict):
+def test_ratios_of_two_records_differ_if_their_intervals_do_not_overlap(interval, verdict):
     body = [bench_lines.speed("m", "uniform", "batch", 60.0, 100.0)]  # 0.576 to 0.624
     after = changed(body, "speed", {"ratio_ci95": interval})
     (change,) = ratio_changes(record_samples.record(body), record_samples.record(after))

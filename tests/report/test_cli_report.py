@@ -32,7 +32,7 @@ OF_OTHER_RUNS = ("errors", "pareto", "front", "ways")
 
 
 @pytest.mark.parametrize("name", OF_OTHER_RUNS)
-def test_a_picture_without_its_lines_is_refused(run, name, tmp_path, capsys):
+def test_report_refuses_a_picture_that_the_record_has_no_lines_for(run, name, tmp_path, capsys):
     assert main(["report", str(run), "--format", name, "--out", str(tmp_path / "a.svg")]) == 2
     assert "hypcheck: error: the record has no " in capsys.readouterr().err
     assert not (tmp_path / "a.svg").exists()
@@ -99,7 +99,7 @@ def test_report_options_that_do_not_fit_are_refused(run, monkeypatch, capsys, wo
     assert (run / "record.jsonl").read_bytes() == before
 
 
-def test_a_truncated_record_is_reported_and_noted(run, capsys):
+def test_report_of_a_truncated_record_says_truncated(run, capsys):
     (run / "record.jsonl").write_text(record_samples.text_and_record(exit_code=None)[0], encoding="utf-8")
     assert main(["report", str(run)]) == 0
     out, err = capsys.readouterr()

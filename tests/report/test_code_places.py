@@ -61,7 +61,7 @@ def test_every_failure_of_a_run_is_a_result_of_valid_sarif(record):
         assert run["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
 
 
-def test_a_key_that_sarif_does_not_have_is_noticed():
+def test_sarif_validation_of_these_tests_refuses_an_unknown_key():
     log = json.loads(render_sarif(made(*FAILING, exit_code=6)))
     log["runs"][0]["results"][0]["mesage"] = {"text": "misspelt"}
     with pytest.raises(ValueError, match="mesage"):
@@ -80,7 +80,7 @@ def test_every_failure_of_a_run_is_an_issue_with_the_keys_that_gitlab_reads(reco
     assert len({issue["fingerprint"] for issue in issues}) == len(issues)
 
 
-def test_a_run_that_was_cut_off_does_not_look_like_one_in_which_nothing_failed():
+def test_truncated_run_is_not_shown_as_a_run_without_failures():
     record = made(exit_code=None)
     assert "TRUNCATED" in json.loads(render_gitlab(record))[0]["description"]
     (run,) = json.loads(render_sarif(record))["runs"]
@@ -106,7 +106,7 @@ def test_a_python_function_is_placed_at_its_definition(tmp_path, monkeypatch):
     assert place_of("python:mine.py:imported", {"mine.py": told}) == Place("mine.py")
 
 
-def test_a_python_file_that_is_not_the_one_that_was_asked_gives_no_line(tmp_path, monkeypatch):
+def test_changed_python_file_of_an_implementation_is_placed_without_a_line(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
     assert place_of("python:mine.py:position", {"mine.py": "0" * 64}) == Place("mine.py")
@@ -125,7 +125,7 @@ def test_a_python_file_that_is_not_the_one_that_was_asked_gives_no_line(tmp_path
         ("python:pack.mine:f", ["/somewhere/pack/mine.py"], Place("/somewhere/pack/mine.py")),
     ],
 )
-def test_an_implementation_is_placed_as_far_as_its_file_is_known(spec, files, place):
+def test_implementation_is_placed_in_code_as_far_as_its_file_is_known(spec, files, place):
     assert place_of(spec, dict.fromkeys(files, "0" * 64)) == place
 
 
@@ -146,7 +146,7 @@ def test_a_path_in_sarif_is_a_uri():
         ([], 130, "unfinished", "lightgrey"),
     ],
 )
-def test_the_badge_says_how_the_run_ended(lines, exit_code, message, color):
+def test_badge_shows_how_the_run_ended(lines, exit_code, message, color):
     shown = json.loads(render_badge(made(*lines, exit_code=exit_code)))
     assert shown == {"schemaVersion": 1, "label": "hypcheck", "message": message, "color": color}
 

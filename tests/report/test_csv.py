@@ -20,13 +20,13 @@ def values(found, **wanted):
     return [row["value"] for row in found if all(row[name] == value for name, value in wanted.items())]
 
 
-def test_every_csv_line_has_every_column():
+def test_every_line_of_the_csv_report_has_every_column():
     for row in rows(bench_record()):
         assert list(row) == list(HEAD)
         assert None not in row.values()
 
 
-def test_the_csv_has_every_sample_of_a_time():
+def test_csv_report_has_every_sample_of_a_timing():
     found = rows(bench_record())
     speeds = [line for line in bench_lines.lines() if line["type"] == "speed"]
     for line in speeds:
@@ -44,7 +44,7 @@ def test_the_csv_has_every_sample_of_a_time():
     assert [float(ratio[name]) for name in ("value", "low", "high")] == [line["ratio"], *line["ratio_ci95"]]
 
 
-def test_wrong_answers_by_octave_in_the_csv_add_up():
+def test_wrong_answers_by_distance_exponent_in_the_csv_add_up():
     found = rows(bench_record())
     for line in (line for line in bench_lines.lines() if line["type"] == "accuracy"):
         here = {"kind": "accuracy", "method": line["method"], "workload": line["workload"]}
@@ -55,14 +55,14 @@ def test_wrong_answers_by_octave_in_the_csv_add_up():
         assert sum(int(row["value"]) for row in octaves if row["quantity"] == "asked") == line["asked"]
 
 
-def test_the_csv_of_a_verification_has_its_counts():
+def test_csv_report_of_a_verification_has_its_counts():
     found = rows(record_samples.record())
     assert values(found, kind="group", method="table-2-float32", workload="ring", detail="", quantity="wrong") == ["6"]
     assert values(found, kind="oracle", method="roots", workload="ring", quantity="undecided") == ["2"]
     assert values(found, kind="timing", method="fast path", detail="round 1") == ["90.0"]
 
 
-def test_the_csv_has_every_type_of_line_that_measures():
+def test_csv_report_has_every_type_of_line_with_measurements():
     measuring = {kind.__struct_config__.tag for kind in MEASUREMENTS}
     assert {
         row["kind"] for row in rows(record_samples.record([*record_samples.lines(), *bench_lines.lines()]))
@@ -70,7 +70,7 @@ def test_the_csv_has_every_type_of_line_that_measures():
 
 
 @pytest.mark.parametrize("name", ["=1+1", "@SUM(A1)", "-2+3", "+x", '"quoted", with commas', "two\nlines"])
-def test_foreign_names_in_the_csv_are_no_formulas(name):
+def test_csv_report_escapes_foreign_names_that_look_like_formulas(name):
     body = record_samples.rewritten(bench_lines.lines(), "foreign-adapter", name)
     names = {row["method"] for row in rows(bench_record(body))}
     assert not any(each[:1] in "=+-@" for each in names if each)

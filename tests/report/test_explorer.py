@@ -77,14 +77,14 @@ def found(tmp_path_factory):
     return list(zip(asked, json.loads(done.stdout), strict=True))
 
 
-def test_the_exact_answers_of_the_explorer_are_those_of_classify(found):
+def test_exact_answers_of_the_explorer_equal_those_of_classify(found):
     truth = hypcheck.classify([row for row, _ in found])
     wrong = [row for (row, each), position in zip(found, truth.tolist(), strict=True) if each["position"] != position]
     assert wrong == []
     assert set(truth.tolist()) == {-1, 0, 1}
 
 
-def test_tangencies_and_the_ring_of_the_explorer_are_those_of_the_exact_decision(found):
+def test_explorer_agrees_with_the_exact_decision_on_tangencies_and_the_ring(found):
     seen = set()
     for row, each in found:
         decision = exact.decide(Pair.from_row(row).lengths)
@@ -103,7 +103,7 @@ def test_every_formula_of_the_explorer_answers_as_it_does_in_numpy(found):
         assert np.flatnonzero(answers[:, place] != column).tolist() == [], formulas[place // 2].name
 
 
-def test_the_bounds_of_the_squared_distance_hold_the_clearance_of_the_nearest_point(found):
+def test_bounds_of_the_squared_distance_in_the_explorer_hold_that_of_the_nearest_oracle(found):
     measured = [(row, each["gap"]) for row, each in found if each["gap"]]
     assert len(measured) >= ROWS // 16
     for row, bounds in measured:
@@ -121,7 +121,7 @@ def coefficients(row):
     return A - B + 1 - P - Q, -A * B + A - B + B * P - A * Q, -A * B
 
 
-def test_the_roots_of_the_explorer_are_those_of_g(found):
+def test_roots_shown_by_the_explorer_are_those_of_the_cubic(found):
     for row, each in found[len(found) // 2 : 3 * len(found) // 4]:
         c2, c1, c0 = coefficients(row)
         discriminant = c1 * c1 * (c2 * c2 - 4 * c1) + c0 * (c2 * (18 * c1 - 4 * c2 * c2) - 27 * c0)
@@ -131,14 +131,14 @@ def test_the_roots_of_the_explorer_are_those_of_g(found):
             assert np.abs(wanted - root).min() <= 1e-6 * np.abs(wanted).max(), row
 
 
-def test_only_valid_rows_of_upright_spheroids_at_rest_are_drawn():
+def test_reports_draw_only_valid_rows_of_upright_spheroids_at_rest():
     upright = explorer.ON_THE_RING
     for row, drawn in ((upright, True), ((*upright, 0.0, 0.0, 1.0), False), ((math.nan, *upright[1:]), False)):
         text = html.html_text(Code("ring-0001", row))
         assert ('<svg class="bodies"' in text, 'data-row="1.0 2.0 1.0 1.0 2.5 0.0 0.0"' in text) == (drawn, drawn)
 
 
-def test_every_place_of_a_small_picture_is_a_number_and_thin_bodies_are_wide_enough_to_be_seen():
+def test_small_picture_has_finite_coordinates_and_draws_thin_bodies_wide_enough_to_be_seen():
     for row in [*rows()[-100:], (1e300, 1e-300, 1e-320, 1e300, 1e308, 1e308, -1e308), (5e-324,) * 7]:
         drawn = explorer.small_picture(row)
         places = re.findall(r'(?:points|rx|ry)="([^"]*)"', drawn)

@@ -64,7 +64,7 @@ def test_the_replay_command_has_a_separate_line_in_an_annotation():
 
 
 @given(st.lists(st.text("ab\n", max_size=30), min_size=1, max_size=30), st.integers(-5, 400))
-def test_a_report_is_cut_at_the_end_of_a_line(texts, room):
+def test_step_summary_is_cut_only_at_the_end_of_a_line(texts, room):
     report = ("\n".join(texts) + "\n").encode()
     cut = github.fitting(report, room)
     assert len(cut) <= max(room, 0)
@@ -137,7 +137,7 @@ def test_workflow_commands_in_foreign_text_are_suspended(monkeypatch, tmp_path, 
     assert ANNOTATION.fullmatch(annotation)
 
 
-def test_the_environment_says_whether_it_is_github():
+def test_on_github_is_true_only_if_github_actions_is_true_in_the_environment():
     assert github.on_github({"GITHUB_ACTIONS": "true"})
     assert not github.on_github({"GITHUB_ACTIONS": "1"})
     assert not github.on_github({})

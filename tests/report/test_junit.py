@@ -50,7 +50,7 @@ def milliseconds(element):
         junit(body=[], exit_code=70),
     ],
 )
-def test_the_counts_of_suites_add_up(root):
+def test_counts_and_times_of_junit_suites_add_up(root):
     for parent in (root, *root):
         cases = list(parent.iter("testcase"))
         assert int(parent.get("tests")) == len(cases) > 0
@@ -61,14 +61,14 @@ def test_the_counts_of_suites_add_up(root):
     assert len({suite.get("name") for suite in root}) == len(root)
 
 
-def test_times_are_seconds_to_the_millisecond():
+def test_junit_times_are_seconds_to_the_millisecond():
     root = junit()
     assert case(root, "oracles.nearest", "ring").get("time") == "0.250"
     short = junit(body=[record_samples.oracle("exact", "ring", {"proved": 1}, seconds=0.0074)])
     assert case(short, "oracles.exact", "ring").get("time") == "0.007"
 
 
-def test_the_time_of_the_run_stands_once_and_a_case_that_was_not_timed_has_none():
+def test_junit_has_the_time_of_the_run_once_and_no_time_for_a_case_that_was_not_timed():
     _, record = record_samples.text_and_record(exit_code=0)
     record = dataclasses.replace(record, footer=FooterLine(lines=9, exit_code=0, seconds=12.5))
     root = parsed(record)
@@ -86,7 +86,7 @@ def test_the_time_of_the_run_stands_once_and_a_case_that_was_not_timed_has_none(
         (None, DRIFT),
     ],
 )
-def test_the_name_of_a_case_does_not_depend_on_its_result(good, bad):
+def test_name_of_a_junit_case_does_not_depend_on_its_result(good, bad):
     names = [
         [(each.get("classname"), each.get("name")) for each in junit(*filter(None, [line])).iter("testcase")]
         for line in (good, bad)
@@ -94,17 +94,17 @@ def test_the_name_of_a_case_does_not_depend_on_its_result(good, bad):
     assert names[0] == names[1]
 
 
-def test_names_of_cases_are_unique():
+def test_names_of_junit_cases_are_unique():
     found = [(each.get("classname"), each.get("name")) for each in junit().iter("testcase")]
     assert len(set(found)) == len(found)
     assert ("hypcheck.proofs", "table-2: c2 (2)") in found
 
 
-def test_a_timestamp_has_no_offset():
+def test_junit_timestamp_has_no_utc_offset():
     assert all(re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d", suite.get("timestamp")) for suite in junit())
 
 
-def test_wrong_answers_of_the_papers_formulas_are_passed_cases():
+def test_junit_counts_wrong_answers_of_the_papers_formulas_as_passed():
     root = junit()
     assert root.get("failures") == root.get("errors") == "0"
     assert "misprint: the coefficient of λ² lacks" in case(root, "equations", "(12)").findtext("system-out")
@@ -116,7 +116,7 @@ def test_wrong_answers_of_the_papers_formulas_are_passed_cases():
     assert "the ring: Δ = 0 without contact" in finding.findtext("system-out")
 
 
-def test_cases_that_were_not_asked_are_skipped():
+def test_junit_marks_cases_that_were_not_asked_as_skipped():
     assert ended(junit(), "skipped") == [
         ("hypcheck.oracles.mesh", "available"),
         ("hypcheck.implementations.table-2-float64", "tower-body"),
@@ -135,7 +135,7 @@ def test_cases_that_were_not_asked_are_skipped():
         (DRIFT, "findings", "known findings", "drift"),
     ],
 )
-def test_each_failure_of_the_run_is_one_failed_case(line, suite, name, kind):
+def test_junit_has_one_failed_case_for_each_failure_of_the_run(line, suite, name, kind):
     root = junit(line, exit_code=1)
     assert ended(root, "failure") == [(f"hypcheck.{suite}", name)]
     assert ended(root, "error") == []
@@ -143,14 +143,14 @@ def test_each_failure_of_the_run_is_one_failed_case(line, suite, name, kind):
 
 
 @pytest.mark.parametrize(("line", "suite"), [(DISAGREEMENT, "oracles.nearest"), (EXACT_WRONG, "implementations.fast")])
-def test_a_failed_case_has_its_replay_command(line, suite):
+def test_junit_gives_the_replay_command_of_a_failed_case(line, suite):
     (failure,) = junit(line, exit_code=1).iter("failure")
     assert line["family"] == "tangent"
     assert "case tangent/1/1/" in failure.text
     assert "replay: hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0" in failure.text
 
 
-def test_every_disagreement_is_listed():
+def test_junit_lists_every_recorded_disagreement_of_an_oracle():
     cases = [record_samples.disagreement("roots", f"tangent/1/1/{place}") for place in range(20)]
     line = record_samples.oracle("roots", "tangent", {"signs suffice": 50}, cases=cases, disagreeing=33)
     (failure,) = junit(line, exit_code=6).iter("failure")
@@ -169,13 +169,13 @@ def test_every_disagreement_is_listed():
         ((DRIFT,), 0, "unexplained"),
     ],
 )
-def test_a_run_that_did_not_end_well_is_an_error(extra, code, kind):
+def test_junit_marks_a_run_that_did_not_end_normally_as_an_error(extra, code, kind):
     (error,) = junit(*extra, exit_code=code).iter("error")
     assert error.get("type") == kind
     assert not junit(body=[]).findall("testsuite/testcase/failure")
 
 
-def test_a_run_that_asked_nothing_is_an_error():
+def test_junit_marks_a_run_that_asked_nothing_as_an_error():
     (error,) = junit(body=[]).iter("error")
     assert error.get("message").startswith("NOTHING")
 
@@ -197,7 +197,7 @@ PLACES = (
 @pytest.mark.parametrize("old", PLACES)
 @settings(max_examples=25)
 @given(foreign=record_samples.FOREIGN)
-def test_no_control_character_reaches_the_file(old, foreign):
+def test_junit_contains_no_control_character(old, foreign):
     failing = [DISAGREEMENT, UNPROVED, EXACT_WRONG, DRIFT]
     changed = record_samples.rewritten([*record_samples.lines(), *failing], old, foreign)
     content = render(record_samples.record(changed, 6)).decode("utf-8")
@@ -207,6 +207,6 @@ def test_no_control_character_reaches_the_file(old, foreign):
 
 
 @given(record_samples.FOREIGN)
-def test_a_foreign_name_comes_back_from_the_xml(foreign):
+def test_junit_keeps_a_foreign_name_in_escaped_form(foreign):
     root = parsed(record_samples.record(record_samples.rewritten(record_samples.lines(), "table-2-float32", foreign)))
     assert escaped(f"implementations.{foreign}") in [suite.get("name") for suite in root]

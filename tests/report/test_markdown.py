@@ -61,7 +61,7 @@ def test_markdown_has_its_sections_in_order():
     assert headings(report(body=[])) == ["The run"]
 
 
-def test_failures_come_before_everything_else():
+def test_markdown_shows_failures_first_with_cases_and_commands():
     text = report(DRIFT, EXACT_WRONG, CRASHED, UNPROVED, DISAGREEMENT, exit_code=6)
     assert headings(text)[0] == "What failed"
     failed = text[text.index("## What failed") : text.index("## The oracles")]
@@ -71,7 +71,7 @@ def test_failures_come_before_everything_else():
     assert "`hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0`" in items[0]
 
 
-def test_markdown_shows_the_oracles():
+def test_markdown_shows_the_counts_of_each_oracle():
     table = rows(report(), "The oracles")
     assert table[0] == ["oracle", "asked", "agreed", "undecided", "disagreed", "how it answered", "seconds"]
     assert table[1] == ["`exact`", "40", "40", "0", "0", "proved 40", "0.5"]
@@ -154,7 +154,7 @@ def test_markdown_shows_timings():
     assert rows(report(body=alone), "Timings")[1][-1] == "–"
 
 
-def test_the_picture_is_linked_only_where_it_was_written():
+def test_markdown_links_the_map_only_if_it_was_written():
     assert "](map.svg)" in report(picture=("map.svg",))
     assert "](" not in report()
     assert "- the ring: `table-2-float32` is wrong at 4 of 9 grid points" in report()
@@ -175,7 +175,7 @@ def inline(text):
 @example("\\|")
 @example("`|`")
 @example("**x** [y](z) <b> &amp; ~~s~~ `c`")
-def test_foreign_text_in_a_cell_stays_text(foreign):
+def test_markdown_escapes_foreign_text_in_a_table_cell(foreign):
     children = inline(markdown.escape_text(foreign)).children
     assert {child.type for child in children} <= {"text", "text_special"}
     assert "".join(child.content for child in children) == escaped(foreign)
@@ -186,7 +186,7 @@ def test_foreign_text_in_a_cell_stays_text(foreign):
 @example("`")
 @example("\\")
 @example("<script>|")
-def test_foreign_code_in_a_cell_stays_text(foreign):
+def test_markdown_escapes_foreign_code_in_a_table_cell(foreign):
     children = inline(markdown.code_span(foreign)).children
     shown = "".join(child.content for child in children if child.type != "html_inline")
     assert {child.type for child in children} <= {"text", "text_special", "code_inline", "html_inline"}
@@ -199,7 +199,7 @@ def test_foreign_code_in_a_cell_stays_text(foreign):
 @example("1. x")
 @example("# x")
 @example("===")
-def test_foreign_text_at_the_start_of_a_line_starts_no_block(foreign):
+def test_markdown_escapes_foreign_text_at_the_start_of_a_line(foreign):
     tokens = PARSER.parse(f"- {markdown.escape_text(foreign)}")
     kinds = [token.type for token in tokens if token.type.endswith("_open")]
     assert kinds in (["bullet_list_open", "list_item_open", "paragraph_open"], ["bullet_list_open", "list_item_open"])
@@ -209,7 +209,7 @@ def test_foreign_text_at_the_start_of_a_line_starts_no_block(foreign):
 @pytest.mark.parametrize("old", ["table-2-float32", "ring", "the ring: Δ = 0 without contact", "how fast path works"])
 @settings(max_examples=12)
 @given(foreign=record_samples.FOREIGN)
-def test_foreign_text_breaks_no_table(old, foreign):
+def test_markdown_table_is_not_broken_by_foreign_text(old, foreign):
     changed = record_samples.rewritten(record_samples.lines(), old, foreign)
     text = render(record_samples.record(changed), ReportContext(["map.svg"])).decode("utf-8")
     assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\ud800-\udfff]", text)

@@ -35,30 +35,30 @@ from tests.report import record_samples
         (5e-324, "4.9e-324"),
     ],
 )
-def test_figures_have_three_digits(value, text):
+def test_figures_in_messages_have_three_digits(value, text):
     assert figure(value) == text
 
 
 @pytest.mark.parametrize(
     ("items", "text"), [([], ""), (["a"], "a"), (["a", "b"], "a and b"), (list("abc"), "a, b and c")]
 )
-def test_lists_are_written_as_in_a_sentence(items, text):
+def test_lists_in_messages_are_joined_with_commas_and_and(items, text):
     assert listed(items) == text
 
 
-def test_counts_have_their_noun():
+def test_counts_in_messages_have_a_noun_in_the_right_number():
     assert [counted(number, "case") for number in (0, 1, 5600)] == ["0 cases", "1 case", "5,600 cases"]
 
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=7, max_size=7))
-def test_a_row_survives_the_record_and_the_command(row):
+def test_row_is_read_back_exactly_from_the_record_and_the_classify_command(row):
     assert list(from_hex(record_samples.hexes(row))) == row
     words = shlex.split(classify_command(row))
     assert words[2:10:2] == ["--alpha", "--gamma", "--b", "--d"]
     assert [float(word) for word in (*words[3:10:2], *words[11:])] == row
 
 
-def test_a_short_row_has_six_digits():
+def test_short_text_of_a_row_has_at_most_six_digits_a_number():
     assert (
         short_row((2.0, 17.8, 0.25, 1 / 3, -3.0, 0.0, 1e-9))
         == "alpha 2, gamma 17.8, b 0.25, d 0.333333, centre (-3, 0, 1e-09)"
@@ -70,14 +70,14 @@ def test_a_number_beyond_float64_in_a_record_is_bad_input():
         from_hex(["0x1p+0", "0x1p+5000"])
 
 
-def test_a_domain_of_many_sizes_names_four_and_counts_the_rest():
+def test_text_of_a_domain_names_four_fixed_sizes_and_counts_the_rest():
     sizes = [FixedSizesPart(sizes=(float(n), 2.0, 0.5, 0.25), x=None, y=None, z=None, axis=None) for n in range(1, 7)]
     domain = DomainPart(regimes=[], ratio=None, magnitude=None, settings=sizes)
     assert "(4, 2, 0.5, 0.25) or 2 more" in domain_text(domain)
     assert "5, 2, 0.5" not in domain_text(domain)
 
 
-def test_a_wrong_time_is_told_with_the_first_contact_and_the_way_between_them():
+def test_message_about_a_wrong_time_gives_the_first_contact_and_the_distance_between_them():
     case = WrongAnswer(
         case="way/1", row=("0x1p+0",) * 7, truth=1, answer=1, mistake="late", status="wrong",
         backward_error=3.25, backward_error_u=3.25, time=0.5, first=(0.125, 0.126),
@@ -85,5 +85,5 @@ def test_a_wrong_time_is_told_with_the_first_contact_and_the_way_between_them():
     assert error_text(case) == "at 0.5, but the first contact is at 0.125, 3.25 radii of the way from there"
 
 
-def test_marks_of_text_are_left_out_where_it_is_plain():
+def test_plain_text_omits_the_marks_of_strong_emphasised_and_code_parts():
     assert plain(("of ", Strong("all"), " that ", Emphasis(("is ", Code("here"))))) == "of all that is here"

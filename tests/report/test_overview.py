@@ -34,7 +34,7 @@ def test_the_overview_of_a_benchmark_has_advice_and_pictures():
     assert places == sorted(places)
 
 
-def test_the_overview_says_what_a_benchmark_shows():
+def test_overview_of_a_benchmark_states_claims_targets_and_accuracy():
     found = [*claim_facts(bench_record()), *benchmark_facts(bench_record())]
     assert "claim holds, the tower: Procedure 2.b costs less than 2.a (§ 4)" in found
     assert "targets of the kernels: 2 of 2 met" in found

@@ -86,7 +86,7 @@ def without(monkeypatch, module):
 
 
 @pytest.mark.parametrize("name", RECORDS)
-def test_the_page_loads_nothing(pages, name):
+def test_page_loads_no_external_resource(pages, name):
     for tag, attributes in Elements(pages[name]).found:
         for attribute in ("src", "href", "xlink:href", "action", "data", "poster", "srcset"):
             value = attributes.get(attribute)
@@ -113,7 +113,7 @@ def test_the_security_policy_allows_only_the_pages_own_style_and_script(pages, n
         assert not any(name.startswith("on") for name in attributes), tag
 
 
-def test_hostile_names_in_the_page_are_text(pages):
+def test_page_shows_hostile_names_as_text(pages):
     elements = Elements(pages["hostile"])
     assert len(elements.texts["script"]) == len(elements.texts["style"]) == 1
     assert not any(tag in {"b", "img"} for tag, _ in elements.found)
@@ -178,7 +178,7 @@ def test_the_page_shows_changes_against_another_record(no_plots):
     assert text.index("What changed") < text.index("Which method to use when")
 
 
-def test_every_plot_of_the_table_is_drawn_for_one_of_the_samples(pages):
+def test_every_registered_plot_is_drawn_for_a_sample_record(pages):
     about_ways = ways(case("way-long/1/1/3", *THROUGH, 2.0))
     records = (record_samples.record(), bench_record())
     drawn = {

@@ -29,18 +29,18 @@ def contrast(one, other):
 
 
 @pytest.mark.parametrize("ground", [0, 1])
-def test_colours_stand_out_from_their_ground(ground):
+def test_plot_colours_have_enough_contrast_with_the_background(ground):
     surface = ROLES["surface"][ground]
     for role, both in ROLES.items():
         least = {"surface": 1, "rule": 1, "share-0": 1, "share-1": 1, "share-2": 1, "ink": 12, "soft": 4.5}.get(role, 3)
         assert contrast(both[ground], surface) >= least, role
 
 
-def test_no_two_roles_have_the_same_colour():
+def test_no_two_roles_of_a_plot_have_the_same_colour():
     assert len({light for light, _ in ROLES.values()}) == len(ROLES)
 
 
-def test_curves_differ_without_colour():
+def test_curves_of_a_plot_differ_in_marker_and_dashes_too():
     looks = [curve_style(place) for place in range(curves.AT_MOST)]
     for one, other in combinations(looks, 2):
         assert one.marker != other.marker
@@ -48,13 +48,13 @@ def test_curves_differ_without_colour():
     assert len({(each.colour, each.marker, str(each.dashes)) for each in map(curve_style, range(40))}) == 40
 
 
-def test_no_wrong_answer_of_n_is_drawn_as_its_upper_limit():
+def test_curve_without_wrong_answers_is_drawn_at_the_upper_confidence_limit():
     assert Octave(-3, 300, 0).share == 0.01
     assert Octave(-3, 300, 6).share == 0.02
     assert Octave(-3, 2, 0).share == 1.0
 
 
-def test_many_octaves_are_merged_and_keep_all_cases():
+def test_many_distance_exponents_are_merged_in_a_curve_without_losing_cases():
     few = curve("few", {-3.0: (10, 1), -2.0: (20, 0), TANGENT: (5, 2)})
     assert few.octaves == (Octave(TANGENT, 5, 2), Octave(-3, 10, 1), Octave(-2, 20, 0))
     many = curve("many", {float(k): (10, int(k == -30)) for k in range(-40, 0)})
@@ -64,7 +64,7 @@ def test_many_octaves_are_merged_and_keep_all_cases():
     assert wrong.exponent <= -30 < wrong.exponent + wrong.width
 
 
-def test_a_curve_s_marks_stand_where_their_octaves_are():
+def test_marks_of_a_curve_stand_at_their_distance_exponents():
     found = curve("m", {-9.0: (10, 5), -5.0: (100, 1), -1.0: (1000, 0)})
     with styled():
         plot = curves.curve_plot("p", "title", [found])
@@ -94,15 +94,15 @@ def test_many_curves_are_divided_evenly_among_plots():
     ("asked", "wrong", "role"),
     [(10, 0, 0), (1000, 1, 1), (100, 1, 1), (100, 2, 2), (10, 1, 2), (10, 2, 3), (10, 5, 3), (10, 6, 4), (1, 1, 4)],
 )
-def test_each_share_of_wrong_answers_has_its_step_of_colour(asked, wrong, role):
+def test_heat_map_has_a_colour_step_for_each_share_of_wrong_answers(asked, wrong, role):
     assert heat.step(asked, wrong) == f"share-{role}"
 
 
-def test_cells_are_merged_by_sums_also_at_negative_places():
+def test_heat_map_merges_cells_by_sums_also_at_negative_indices():
     assert heat.cells([[-1, 0, 5, 1], [-2, 1, 5, 2], [0, 0, 7, 0]], 2) == {(-1, 0): (10, 3), (0, 0): (7, 0)}
 
 
-def test_the_front_has_the_points_that_no_other_beats():
+def test_pareto_front_has_the_points_that_no_other_point_beats():
     points = [
         ParetoPoint("fast", "C", 1.0, 1e-3, 5000, exact=False),
         ParetoPoint("beaten", "C", 2.0, 1e-2, 5000, exact=False),
@@ -115,13 +115,13 @@ def test_the_front_has_the_points_that_no_other_beats():
     assert [point.name for point in front(points)] == ["fast", "better", "never wrong"]
 
 
-def test_few_answers_are_drawn_hollow():
+def test_pareto_point_with_too_few_answers_is_drawn_hollow():
     assert ParetoPoint("a", "C", 1.0, 0.0, pareto.ENOUGH, exact=False).shown
     assert not ParetoPoint("a", "C", 1.0, 0.0, pareto.ENOUGH - 1, exact=False).shown
     assert 3 / pareto.ENOUGH == 1 / 1000
 
 
-def test_labels_cover_neither_each_other_nor_points_nor_lines():
+def test_plot_labels_overlap_neither_each_other_nor_points_nor_lines():
     points = [(x / 10, y / 10) for x in range(2, 9, 2) for y in range(2, 9)]
     lines = [((0.0, 0.5), (1.0, 0.5))]
     with styled():
@@ -153,7 +153,7 @@ def test_a_logarithmic_axis_always_has_two_marks(low, high, wanted):
     assert [label for _, label in ticks(low, high)] == wanted
 
 
-def test_powers_of_ten_are_written_as_on_an_axis():
+def test_axis_labels_show_powers_of_ten_as_plain_numbers_or_with_an_exponent():
     assert [power_of_ten(k) for k in (-17, -3, -2, 0, 2, 3)] == ["10⁻¹⁷", "10⁻³", "0.01", "1", "100", "10³"]
     assert decades(1e-18, 1.0) == [-18, -15, -12, -9, -6, -3, 0]
 
@@ -176,6 +176,6 @@ def test_every_plot_has_named_axes_a_description_and_tooltips(name):
             assert all(tips)
 
 
-def test_without_their_lines_there_are_no_plots():
+def test_no_plot_is_drawn_for_a_record_without_its_lines():
     for name in PLOTS:
         assert list(draw_plots(name, record_samples.record([]))) == []

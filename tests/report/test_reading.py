@@ -27,7 +27,7 @@ def written(tmp_path, body=None, **header):
 
 
 @pytest.mark.parametrize("body", [record_samples.lines(), bench_lines.lines()])
-def test_a_record_from_its_file_or_its_folder(tmp_path, body):
+def test_record_is_read_from_its_file_or_its_folder(tmp_path, body):
     path = written(tmp_path, body)
     assert read(path) == read(tmp_path)
     assert notes(read(path)) == []
@@ -55,7 +55,7 @@ def test_a_record_from_its_file_or_its_folder(tmp_path, body):
         ),
     ],
 )
-def test_an_invalid_line_is_refused_by_its_number(tmp_path, kind, spoilt, said):
+def test_invalid_record_line_is_refused_naming_its_number_and_type(tmp_path, kind, spoilt, said):
     body = [{**line, **spoilt} if line["type"] == kind else line for line in record_samples.lines()]
     number = 2 + next(place for place, line in enumerate(body) if line["type"] == kind)
     with pytest.raises(InputError) as caught:
@@ -72,7 +72,7 @@ def test_an_invalid_line_is_refused_by_its_number(tmp_path, kind, spoilt, said):
         ([[-3, "-inf", 3]], 'octaves[0][1] is "-inf"; it must be a whole number'),
     ],
 )
-def test_impossible_counts_are_refused_by_name(tmp_path, octaves, said):
+def test_record_line_with_impossible_counts_is_refused_naming_the_field(tmp_path, octaves, said):
     body = [{**line, "octaves": octaves} if line["type"] == "accuracy" else line for line in bench_lines.lines()]
     with pytest.raises(InputError) as caught:
         read(written(tmp_path, body))
@@ -80,14 +80,14 @@ def test_impossible_counts_are_refused_by_name(tmp_path, octaves, said):
 
 
 @pytest.mark.parametrize("constant", ["NaN", "Infinity"])
-def test_constants_that_are_no_json_are_refused(tmp_path, constant):
+def test_record_with_a_constant_that_is_no_json_is_refused(tmp_path, constant):
     path = tmp_path / "record.jsonl"
     path.write_text(f'{{"type": "header", "schema": "1.1.0"}}\n{{"type": "proof", "seconds": {constant}}}\n')
     with pytest.raises(InputError, match=f"in line 2, at byte 38: {constant} is no number of JSON"):
         read(path)
 
 
-def test_a_line_that_lacks_a_field_is_refused_naming_the_field(tmp_path):
+def test_record_line_that_lacks_a_field_is_refused_naming_the_field(tmp_path):
     """Whatever is left out, there is a sentence or a report."""
     every = [*record_samples.lines(), *bench_lines.lines()]
     first = {line["type"]: line for line in reversed(every)}

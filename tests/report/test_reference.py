@@ -22,13 +22,13 @@ def record():
     return read(REFERENCE / "record.jsonl")
 
 
-def test_the_reference_run_is_complete_of_this_version_and_held(record):
+def test_reference_run_is_complete_of_this_version_and_without_failures(record):
     assert record.header.hypcheck == VERSION
     assert record.header.schema.partition(".")[0] == SCHEMA.partition(".")[0]
     assert record.footer.exit_code == 0
 
 
-def test_every_family_went_through_the_oracles_in_large_numbers(record):
+def test_reference_run_asked_the_oracles_many_cases_of_every_family(record):
     asked = {}
     for line in record.of(OracleLine):
         asked.setdefault(line.oracle, {})[line.family] = line.asked
@@ -39,7 +39,7 @@ def test_every_family_went_through_the_oracles_in_large_numbers(record):
         assert sum(asked[oracle].values()) >= least
 
 
-def test_the_reference_reports_equal_those_made_from_its_record(record):
+def test_reference_reports_equal_those_rendered_from_its_record(record):
     assert json.loads((REFERENCE / "summary.json").read_bytes()) == json.loads(summary.render(record))
     assert (REFERENCE / "junit.xml").read_bytes() == junit.render(record)
     assert (REFERENCE / "report.md").read_bytes() == markdown.render(record, ReportContext(["map.svg"]))

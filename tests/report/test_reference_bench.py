@@ -74,13 +74,13 @@ def words(picture):
     return [(each.tag.rpartition("}")[2], "".join(each.itertext()).strip()) for each in elements]
 
 
-def test_the_readme_shows_its_picture():
+def test_readme_shows_the_picture_of_the_reference_benchmark():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert "](reports/reference/bench/front.svg)" in text
     assert "](reports/reference/bench/README.md)" in text
 
 
-def test_the_reference_benchmark_is_small():
+def test_files_of_the_reference_benchmark_have_less_than_3_megabytes():
     assert sum(REPORTS[name].file in {path.name for path in FOLDER.iterdir()} for name in PICTURES) == len(PICTURES)
     kept = [FOLDER / name for name in ("record.jsonl", "README.md", "report.md", *(REPORTS[p].file for p in PICTURES))]
     assert sum(path.stat().st_size for path in kept) < 3_000_000

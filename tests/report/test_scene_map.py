@@ -30,14 +30,14 @@ def of_figure(body=None):
         return half_plane.maps_together(record_samples.record(body)).figure
 
 
-def test_the_map_is_svg_without_a_date():
+def test_scene_map_is_svg_without_date_and_version():
     content = pictures.render_map(record_samples.record())
     assert ElementTree.fromstring(content).tag == "{http://www.w3.org/2000/svg}svg"  # noqa: S314 - just written
     assert b"<dc:date>" not in content
     assert b"Matplotlib v" not in content
 
 
-def test_each_grid_point_of_the_map_has_its_colour():
+def test_each_grid_point_of_the_scene_map_has_the_colour_of_its_position():
     colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in half_plane.REGIONS.items()}
     panels = [axes for axes in of_figure().axes if axes.images]
     assert len(panels) == len(maps())
@@ -50,7 +50,7 @@ def test_each_grid_point_of_the_map_has_its_colour():
                 assert np.allclose(image[up, across], [*wanted, 1])
 
 
-def test_a_grid_point_stands_where_its_coordinates_are():
+def test_grid_point_of_the_scene_map_is_drawn_at_its_coordinates():
     tower, ring = (axes for axes in of_figure().axes if axes.images)
     left, right, low, high = tower.images[0].get_extent()
     assert np.allclose(
@@ -62,7 +62,7 @@ def test_a_grid_point_stands_where_its_coordinates_are():
     )
 
 
-def test_axes_have_names_and_units_and_the_legend_has_everything():
+def test_scene_map_axes_have_names_and_units_and_the_legend_is_complete():
     figure = of_figure()
     for axes in figure.axes:
         assert "(m)" in axes.get_xlabel()
@@ -80,7 +80,7 @@ def test_axes_have_names_and_units_and_the_legend_has_everything():
     assert not any(box.overlaps(axes.get_tightbbox()) for axes in figure.axes)
 
 
-def test_colours_differ_in_lightness():
+def test_scene_map_colours_differ_in_lightness():
     """Whoever sees no colours, or prints without them, still tells them apart."""
     lightness = sorted(
         float(np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)))
@@ -101,7 +101,7 @@ def test_matplotlib_settings_of_the_user_are_neither_used_nor_changed():
         assert dict(matplotlib.rcParams) == before
 
 
-def test_without_a_map_there_is_no_picture():
+def test_record_without_a_map_has_no_picture_of_it():
     with pytest.raises(UnavailableError, match="has no map"):
         pictures.render_map(record_samples.record([]))
 

@@ -59,11 +59,11 @@ def of_summary(record):
 
 
 @pytest.mark.parametrize("file", PUBLISHED, ids=lambda file: file.name)
-def test_a_published_schema_is_that_of_the_classes(file):
+def test_published_schema_equals_the_one_generated_from_the_classes(file):
     assert file.read_text(encoding="utf-8") == text(PUBLISHED[file]()), "make schemas writes it anew"
 
 
-def test_every_line_of_the_sample_fits_its_schema():
+def test_every_line_of_the_sample_record_fits_its_schema():
     text, _ = record_samples.text_and_record()
     kinds = set()
     for line in lines_of(text):
@@ -93,7 +93,7 @@ def test_a_line_that_fits_an_older_schema_fits_this_one(version):
             assert violations(plain(line), older) == violations(plain(line), RECORD) == []
 
 
-def test_the_line_of_an_implementation_that_did_not_start_has_only_its_trouble():
+def test_record_line_of_an_implementation_that_did_not_start_has_only_its_error():
     line = {"type": "implementation", "spec": "command:x", "name": "x", "started": False, "trouble": "none"}
     assert violations(line, RECORD, closed=True) == []
     assert violations({**line, "started": True}, RECORD["$defs"]["implementation"] | {"$defs": RECORD["$defs"]})
@@ -127,7 +127,7 @@ def test_the_summary_of_a_run_fits_its_schema(really_recorded, tmp_path):
 
 
 @pytest.mark.parametrize(("kind", "type_"), [("equation", EquationCheck), ("proof", Proof)])
-def test_lines_of_the_derivation_have_the_fields_of_their_values(kind, type_):
+def test_record_lines_of_the_derivation_have_the_fields_of_their_classes(kind, type_):
     assert set(RECORD["$defs"][kind]["required"]) == {field.name for field in fields(type_)} | {"type"}
 
 
@@ -166,7 +166,7 @@ def test_summaries_of_samples_fit_their_schema(record):
         lambda found: found.update(surprise=1),
     ],
 )
-def test_a_spoilt_summary_does_not_fit(spoil):
+def test_summary_with_a_wrong_value_does_not_fit_its_schema(spoil):
     found = of_summary(record_samples.record())
     spoil(found)
     assert violations(found, SUMMARY, closed=True)
@@ -188,6 +188,6 @@ def test_a_spoilt_summary_does_not_fit(spoil):
         ("proof", "crc32", "0123456G"),
     ],
 )
-def test_a_spoilt_line_does_not_fit(kind, field, value):
+def test_record_line_with_a_wrong_value_does_not_fit_its_schema(kind, field, value):
     line = next(line for line in record_samples.lines() if line["type"] == kind)
     assert violations({**line, field: value}, RECORD)

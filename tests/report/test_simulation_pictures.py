@@ -42,7 +42,7 @@ RESULTS = {
 
 
 @pytest.mark.parametrize("name", RESULTS)
-def test_axes_have_units_and_nothing_overlaps(name):
+def test_simulation_picture_axes_have_units_and_nothing_overlaps(name):
     module, result = RESULTS[name]()
     with styled():
         for plot in module.plots(result):
@@ -60,7 +60,7 @@ def test_axes_have_units_and_nothing_overlaps(name):
                 assert all(label in ("position", "Δ") or label.endswith(")") for label in labels), labels
 
 
-def test_the_same_result_is_the_same_file():
+def test_same_simulation_result_gives_the_same_picture_file():
     for module, result in (RESULTS["tower without a table"](), RESULTS["forest without phantoms"]()):
         with styled():
             files = [standalone(next(module.plots(result))) for _ in range(2)]
@@ -69,7 +69,7 @@ def test_the_same_result_is_the_same_file():
         assert b"<desc" in files[0]
 
 
-def test_the_flights_are_drawn_where_they_went():
+def test_flights_of_the_tower_are_drawn_at_their_positions():
     result = flown(runs=0)
     with styled():
         (plot,) = tower.plots(result)
@@ -88,7 +88,7 @@ def test_the_flights_are_drawn_where_they_went():
     assert "Δ (10" in along.get_ylabel()
 
 
-def test_the_table_is_drawn_over_the_step():
+def test_table_5_is_drawn_over_the_length_of_a_step():
     table = flown()["table_5"]
     with styled():
         _, plot = tower.plots(flown())
@@ -103,7 +103,7 @@ def test_the_table_is_drawn_over_the_step():
     assert "not identified by the table" in plot.description
 
 
-def test_shares_of_wrong_answers_are_drawn_over_the_step():
+def test_shares_of_wrong_answers_by_pitch_are_drawn_over_the_length_of_a_step():
     result = flown(pitch=35.0)
     with styled():
         *_, plot = tower.plots(result)
@@ -124,7 +124,7 @@ def test_shares_of_wrong_answers_are_drawn_over_the_step():
     assert min(wall.get_xdata()) == 2.0
 
 
-def test_every_stop_is_drawn_with_the_ring_of_its_tree():
+def test_every_stop_of_the_walk_is_drawn_with_the_ring_of_its_tree():
     result = walked(1500)
     with styled():
         plot, _ = forest_walk.plots(result)
@@ -145,7 +145,7 @@ def test_every_stop_is_drawn_with_the_ring_of_its_tree():
     assert np.allclose(image[letters == "E"], to_rgba(colour("clear")))
 
 
-def test_the_kinds_of_trees_differ_in_lightness():
+def test_trunk_colours_of_kinds_of_trees_differ_in_lightness():
     """Whoever sees no colours still tells them apart."""
     from matplotlib.colors import to_rgb
 
@@ -154,7 +154,7 @@ def test_the_kinds_of_trees_differ_in_lightness():
 
 
 @pytest.mark.parametrize("name", ["tower-flights", "forest-walk", "forest-space"])
-def test_first_contacts_are_marked_where_they_are(name):
+def test_first_contacts_of_simulated_ways_are_marked_at_their_place(name):
     contact = {"start": [0.0, 1.0, 2.0], "end": [1.0, 1.0, 0.0], "first_lower": 0.25, "first_upper": 0.25}
     module, result = (tower, flown(runs=0)) if name.startswith("tower") else (forest_walk, walked(15))
     if name.startswith("tower"):

@@ -15,7 +15,7 @@ def summary(record):
     return json.loads(render(record))
 
 
-def test_the_summary_has_its_documented_keys():
+def test_summary_json_has_its_documented_keys():
     """The fields that other people's programs read."""
     found = summary(record_samples.record())
     assert (found["schema"], found["exit_code"], found["passed"], found["truncated"]) == ("1.4.0", 0, True, False)
@@ -49,7 +49,7 @@ def test_the_summary_has_its_documented_keys():
     }
 
 
-def test_an_implementation_is_the_sum_of_its_families():
+def test_counts_of_an_implementation_in_the_summary_are_sums_over_its_families():
     for each in summary(record_samples.record())["implementations"]:
         for field in ("asked", "right", "tolerated", "wrong", "excused"):
             assert each[field] == sum(family[field] for family in each["families"].values())
@@ -88,7 +88,7 @@ def test_an_interrupted_run_has_no_exit_code_and_has_not_passed():
     assert not found["passed"]
 
 
-def test_the_order_of_keys_does_not_depend_on_the_run():
+def test_order_of_keys_in_the_summary_does_not_depend_on_the_run():
     def keys(value):
         return [(name, keys(part)) for name, part in value.items()] if isinstance(value, dict) else None
 

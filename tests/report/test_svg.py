@@ -38,7 +38,7 @@ def parsed(text):
     return ElementTree.fromstring(text)  # noqa: S314 - just written
 
 
-def test_colours_are_classes_and_nothing_is_styled():
+def test_svg_plot_uses_classes_for_colours_and_no_inline_style():
     text = inline(simple())
     assert "style" not in text
     assert not set(re.findall(r"#[0-9a-f]{6}", text)) & {light for light, _ in ROLES.values()}
@@ -52,7 +52,7 @@ def test_foreign_text_in_a_plot_stays_text():
     assert [each.text for each in parsed(inline(simple())).iter(f"{SVG}text")].count("<x> & $y$") == 1
 
 
-def test_every_mark_has_its_tooltip():
+def test_every_mark_of_an_svg_plot_has_its_tooltip():
     root = parsed(inline(simple()))
     assert [use.find(f"{SVG}title").text for use in root.iter(f"{SVG}use") if use.find(f"{SVG}title") is not None] == [
         "mark 0",
@@ -60,19 +60,19 @@ def test_every_mark_has_its_tooltip():
     ]
 
 
-def test_more_tooltips_than_marks_raise_value_error():
+def test_svg_plot_with_more_tooltips_than_marks_raises_value_error():
     with pytest.raises(ValueError, match="marks has 2 marks and 3 tooltips"):
         inline(simple(tips=3))
 
 
-def test_a_plot_has_a_title_and_a_description():
+def test_svg_plot_has_a_title_and_a_description():
     root = parsed(inline(simple(title="\x1b[31m<b>\u202e")))
     assert root.get("role") == "img"
     texts = {each.get("id"): each.text for each in root if each.get("id")}
     assert [texts[name] for name in root.get("aria-labelledby").split()] == [r"\x1b[31m<b>\u202e", "a description"]
 
 
-def test_two_plots_share_no_id():
+def test_two_svg_plots_share_no_id():
     first, second = (set(re.findall(r'id="([^"]*)"', inline(simple(name)))) for name in ("p", "q"))
     assert first
     assert not first & second
@@ -104,7 +104,7 @@ def test_pictures_of_a_benchmark_have_all_their_plots(name):
         render_picture(name, record_samples.record(), {})
 
 
-def test_the_same_record_is_the_same_bytes_in_every_process():
+def test_pictures_of_the_same_record_are_the_same_bytes_in_every_process():
     """A picture of a benchmark, and the map of a run of verify behind it."""
     code = (
         "import sys; from hypcheck.report.plots import pictures; from hypcheck.report.drawings import render_picture;"

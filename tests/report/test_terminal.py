@@ -25,7 +25,7 @@ def shown(*extra, exit_code=0, body=None, options=None, **how):
     return summary_lines(record_samples.record(lines, exit_code, options), WRITTEN, **how)
 
 
-def test_the_terminal_shows_a_run_that_held():
+def test_terminal_shows_a_run_without_failures():
     assert shown() == [
         record_samples.HELD,
         "oracles in agreement: exact 40 of 40, nearest 40 of 40, roots 3 of 5",
@@ -41,7 +41,7 @@ def test_the_terminal_shows_a_run_that_held():
     ]
 
 
-def test_failures_follow_the_verdict_with_their_cases():
+def test_terminal_shows_failures_with_their_cases_after_the_verdict():
     lines = shown(DISAGREEMENT, UNPROVED, EXACT_WRONG, exit_code=6)
     assert lines[0].startswith("FAILED with exit code 6: ")
     said = "nearest: contact, tangent: False, None; exact decision: exterior, tangent: False, exterior"
@@ -50,7 +50,7 @@ def test_failures_follow_the_verdict_with_their_cases():
     assert lines[3].startswith("  ✗ fast promises to be exact, but 1 of 5 cases ended as wrong; tangent/1/1/0 is ")
 
 
-def test_an_interrupted_run_says_so_first():
+def test_terminal_shows_truncated_first_for_an_interrupted_run():
     assert shown(exit_code=None)[0].startswith("TRUNCATED: ")
 
 
@@ -97,13 +97,13 @@ ONE = {"counts": {"right": 9, "tolerated": 1}, "cases": [record_samples.worst("r
         ),
     ],
 )
-def test_the_worst_answer_is_shown_with_the_reason_why_it_is_within_the_tolerance(group, options, says):
+def test_terminal_shows_why_the_worst_answer_is_within_the_tolerance(group, options, says):
     lines = shown(body=[record_samples.group("m", "float64", "ring", **group)], options=options)
     assert f"float64: {says}" in lines
 
 
 @pytest.mark.parametrize("code", [0, 6, None])
-def test_the_summary_has_colour_only_if_asked_for(code):
+def test_terminal_summary_has_colour_only_if_requested(code):
     plain, coloured = shown(exit_code=code), shown(exit_code=code, colour=True)
     assert not any("\x1b" in line for line in plain)
     assert coloured[0].startswith("\x1b[32m" if code == 0 else "\x1b[31m")
@@ -113,7 +113,7 @@ def test_the_summary_has_colour_only_if_asked_for(code):
 @pytest.mark.parametrize("old", ["table-2-float32", "ring/1/1/7", "python-fcl cannot be imported", "fast path", "ring"])
 @settings(max_examples=25)
 @given(foreign=record_samples.FOREIGN)
-def test_foreign_text_does_nothing_to_the_terminal(old, foreign):
+def test_terminal_summary_escapes_control_characters_of_foreign_text(old, foreign):
     changed = record_samples.rewritten([*record_samples.lines(), DISAGREEMENT, EXACT_WRONG], old, foreign)
     for line in summary_lines(record_samples.record(changed, 6), WRITTEN):
         assert line.isprintable()

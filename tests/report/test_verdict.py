@@ -31,14 +31,14 @@ DRIFT = {"type": "drift", "sentence": "table-2 errs on uniform inside its stated
 TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is no pass."
 
 
-def test_a_run_in_which_all_held_has_passed():
+def test_run_without_failures_has_passed():
     found = verdict(of())
     assert found.passed
     assert found.sentence == record_samples.HELD
     assert failures(of()) == []
 
 
-def test_a_single_oracle_claims_no_agreement():
+def test_verdict_of_a_run_with_a_single_oracle_claims_no_agreement():
     body = [record_samples.oracle("exact", "ring", {"proved": 20})]
     assert verdict(of(body=body)).sentence == "HELD: 20 cases asked of exact and of no other oracle."
 
@@ -65,7 +65,7 @@ def test_wrong_answers_of_the_papers_formulas_do_not_fail_the_run():
         (DRIFT, 1, "1 drift from what is known", None),
     ],
 )
-def test_each_failure_is_named(line, code, says, case):
+def test_verdict_names_each_failure_with_its_case_and_replay_command(line, code, says, case):
     record = of(line, exit_code=code)
     assert verdict(record).sentence == f"FAILED with exit code {code}: {says}."
     assert not verdict(record).passed
@@ -80,7 +80,7 @@ def test_the_replay_of_a_failure_is_the_command_that_decides_its_row():
     assert failure.replay == "hypcheck classify --alpha 1.0 --gamma 2.0 --b 1.0 --d 1.0 --center 2.5 -0.0 0.0"
 
 
-def test_several_failures_are_counted_worst_first():
+def test_verdict_counts_several_failures_from_worst_to_least():
     record = of(DRIFT, EXACT_WRONG, UNPROVED, DISAGREEMENT, DISAGREEMENT, exit_code=6)
     assert verdict(record).sentence == (
         "FAILED with exit code 6: 2 disagreements of oracles, 1 failed proof, 1 implementation failure and"
@@ -88,7 +88,7 @@ def test_several_failures_are_counted_worst_first():
     )
 
 
-def test_disagreements_that_the_record_did_not_keep_are_counted():
+def test_verdict_counts_disagreements_that_the_record_did_not_keep():
     line = record_samples.oracle(
         "roots", "tangent", {"signs suffice": 50}, cases=[record_samples.disagreement("roots")] * 20, disagreeing=33
     )
@@ -114,7 +114,7 @@ def test_disagreements_that_the_record_did_not_keep_are_counted():
         ((UNPROVED,), 0, "CONTRADICTORY: the record ends with exit code 0, but holds 1 failed proof."),
     ],
 )
-def test_a_run_with_any_other_end_has_not_passed(extra, code, sentence):
+def test_run_that_is_truncated_or_ended_with_another_code_has_not_passed(extra, code, sentence):
     assert verdict(of(*extra, exit_code=code)).sentence == sentence
     assert not verdict(of(*extra, exit_code=code)).passed
 
@@ -126,7 +126,7 @@ def test_a_run_that_asked_nothing_has_not_passed():
     assert not verdict(record_samples.record(skipped)).passed
 
 
-def test_an_oracles_counts_add_up():
+def test_totals_of_an_oracle_are_sums_over_its_families():
     refused = record_samples.disagreement("exact", opinion="certificate refused")
     body = [
         record_samples.oracle("exact", "ring", {"proved": 7, "certificate refused": 1}, undecided=1, cases=[refused]),
@@ -139,7 +139,7 @@ def test_an_oracles_counts_add_up():
     assert exact.stages == {"certificate refused": 1, "proved": 11}
 
 
-def test_the_totals_of_an_implementation_add_up_its_families():
+def test_totals_of_an_implementation_are_sums_over_its_families():
     fast, low, high = implementations(record_samples.record())
     assert (fast.name, fast.exact, fast.asked, fast.worst) == ("fast", True, 40, None)
     assert (low.spec, low.asked) == ("builtin:table-2-float32", 39)
@@ -150,7 +150,7 @@ def test_the_totals_of_an_implementation_add_up_its_families():
     assert (high.asked, high.statuses) == (20, {"right": 20, "skipped": 20})
 
 
-def test_a_ratio_is_taken_round_by_round():
+def test_ratio_of_two_timings_is_the_median_of_the_ratios_of_each_round():
     fast, plain = timing_totals(record_samples.record())
     assert plain.ratio == 1
     assert fast.ratio == 0.5  # the median of 0.5, 0.9 and 0.4
@@ -159,7 +159,7 @@ def test_a_ratio_is_taken_round_by_round():
     assert timing_totals(record_samples.record(alone))[0].ratio is None
 
 
-def test_an_implementation_that_broke_the_protocol_throughout_is_a_failure_of_its_start():
+def test_implementation_that_always_breaks_the_protocol_is_one_failure_of_kind_protocol():
     line = implementation(broke_protocol_throughout=True)
     found = failures(of(line, body=[]))
     assert [(each.kind, each.name, each.message) for each in found] == [

@@ -40,7 +40,7 @@ def test_write_reports_writes_every_format(tmp_path):
     assert b"](map.svg)" in contents["report.md"]
 
 
-def test_a_record_from_its_file_makes_the_same_reports(tmp_path):
+def test_reports_of_a_record_read_from_its_file_are_the_same(tmp_path):
     text, record = record_samples.text_and_record()
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")
@@ -71,7 +71,7 @@ def test_reports_of_a_run_that_was_interrupted_anywhere_are_written(kept, tmp_pa
     assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of(MapLine)))
 
 
-def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
+def test_write_reports_without_matplotlib_writes_all_reports_without_plots(tmp_path, monkeypatch):
     def unavailable(*_):
         raise UnavailableError("matplotlib is not here")
 
@@ -85,7 +85,7 @@ def test_without_matplotlib_the_others_are_written(tmp_path, monkeypatch):
     assert "map.svg" not in (tmp_path / "report.md").read_text(encoding="utf-8")
 
 
-def test_plots_are_drawn_here_if_a_process_that_draws_them_is_killed(monkeypatch):
+def test_plots_are_drawn_in_the_main_process_if_a_drawing_process_is_killed(monkeypatch):
     def killed(*_):
         raise BrokenProcessPool
 
@@ -94,20 +94,20 @@ def test_plots_are_drawn_here_if_a_process_that_draws_them_is_killed(monkeypatch
     assert drawings.draw_ahead(record_samples.record()) == {}
 
 
-def test_a_report_that_cannot_be_written_is_named(tmp_path):
+def test_write_reports_raises_an_error_naming_a_report_that_it_cannot_write(tmp_path):
     (tmp_path / "junit.xml").mkdir()
     with pytest.raises(InputError, match=r"cannot write .*junit\.xml"):
         write_reports(record_samples.record(), tmp_path)
     assert not [name for name in os.listdir(tmp_path) if name.startswith(".")]
 
 
-def test_a_folder_that_cannot_be_made_is_named(tmp_path):
+def test_write_reports_raises_an_error_naming_a_folder_that_it_cannot_make(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(InputError, match=r"cannot make the folder .*file"):
         write_reports(record_samples.record(), tmp_path / "file" / "reports")
 
 
-def test_an_error_while_a_report_is_made_leaves_the_old_report(tmp_path, monkeypatch):
+def test_error_while_a_report_is_rendered_leaves_the_old_report(tmp_path, monkeypatch):
     (tmp_path / "summary.json").write_text("old", encoding="utf-8")
 
     def broken(record):
@@ -120,14 +120,14 @@ def test_an_error_while_a_report_is_made_leaves_the_old_report(tmp_path, monkeyp
     assert os.listdir(tmp_path) == ["summary.json"]
 
 
-def test_an_old_report_that_cannot_be_removed_is_named(tmp_path):
+def test_write_reports_raises_an_error_naming_an_old_report_that_it_cannot_remove(tmp_path):
     (tmp_path / "map.svg").mkdir()
     without = [line for line in record_samples.lines() if line["type"] != "map"]
     with pytest.raises(InputError, match=r"cannot remove .*map\.svg: is a directory"):
         write_reports(record_samples.record(without), tmp_path, ["map"])
 
 
-def test_plots_of_a_large_record_are_drawn_ahead_as_they_would_be_later(monkeypatch):
+def test_plots_of_a_large_record_drawn_ahead_equal_plots_drawn_later(monkeypatch):
     record = bench_lines.bench_record()
     assert drawings.draw_ahead(record) == {}
     monkeypatch.setattr(drawings, "MANY", 1)
