@@ -148,7 +148,7 @@ def test_baseline_may_be_given_as_the_folder_of_a_run(tmp_path):
     assert list(found.speeds) == [("mine", "uniform", "batch")]
 
 
-def test_a_run_does_not_replace_its_baseline(tmp_path):
+def test_bench_refuses_an_out_folder_that_would_overwrite_its_baseline(tmp_path):
     path = tmp_path / "record.jsonl"
     recorded(path)
     before = path.read_bytes()
@@ -159,7 +159,7 @@ def test_a_run_does_not_replace_its_baseline(tmp_path):
     assert path.read_bytes() == before
 
 
-def test_missing_baseline_is_refused(tmp_path):
+def test_a_missing_baseline_record_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"none\.jsonl"):
         read_baseline(BenchPlan(baseline=tmp_path / "none.jsonl"))
     assert read_baseline(BenchPlan()) is None

@@ -81,7 +81,7 @@ def test_compiler_flags_do_not_change_the_answers_of_methods_in_c():
     assert not {flag for flag in FLAGS if "fast" in flag or "unsafe" in flag or flag == "-Ofast"}
 
 
-def test_missing_compiler_is_reported_in_one_sentence(tmp_path, monkeypatch):
+def test_a_missing_c_compiler_is_reported_in_one_sentence(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
     with pytest.raises(UnavailableError, match="no C compiler is found"):

@@ -139,7 +139,7 @@ def test_cost_lines_hold_ratios_verdicts_and_operation_counts_of_each_claim():
     assert next(speed.cost_lines(BenchPlan(amounts=FEW), found)).verdict == "inconclusive"
 
 
-def test_the_first_alternative_of_a_claim_is_measured_twice_to_know_the_noise(plan):
+def test_bench_times_the_first_alternative_of_a_cost_claim_twice_to_measure_the_noise(plan):
     claim = claims.cost_claims(plan)[0]
     together = _compared(MeasuringSession(plan, 0, {}, {}), claim)
     *names, again = together.ready

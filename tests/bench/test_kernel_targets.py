@@ -59,7 +59,7 @@ def small(monkeypatch):
 
 
 @COMPILER
-def test_every_target_has_a_line_of_the_record_s_schema(small):
+def test_every_kernel_target_has_a_line_that_fits_the_record_schema(small):
     pytest.importorskip("hypcheck.kernel._compiled")
     recorder, advanced = Recorder(), []
     targets.run(recorder, advanced.append, quick=True)
@@ -110,7 +110,7 @@ def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
     assert 0 < max(map(abs, clearance)) < 4e-14
 
 
-def test_a_target_is_missed_if_the_whole_interval_misses_it():
+def test_a_kernel_target_is_missed_only_if_the_whole_interval_misses_it():
     least, most = KernelTarget("speed", "", 2.0), KernelTarget("time", "", 2.0, at_most=True)
     for rounds, fast, slow in (
         ([3.0, 3.1, 3.2], True, False),

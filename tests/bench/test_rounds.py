@@ -61,11 +61,11 @@ def test_timing_work_of_no_measurable_time_ends_at_the_largest_number_of_loops()
     assert measured([TimingEntry("a", 1, Clock("a", [], ns=0))])["a"].loops == MOST_LOOPS
 
 
-def test_a_measurement_keeps_the_number_of_loops_that_it_is_given():
+def test_a_measurement_with_a_given_number_of_loops_keeps_that_number():
     assert measured([TimingEntry("a", 1, Clock("a", []), loops=17)])["a"].loops == 17
 
 
-def test_method_with_other_answers_during_timing_is_refused_and_asked_no_more():
+def test_a_method_whose_answers_change_during_timing_is_refused_and_asked_no_more():
     order = []
     changing = Clock("b", order, checksums=[7, 7, 8])
     found = measured([TimingEntry("a", 1, Clock("a", order), 7, 1), TimingEntry("b", 1, changing, 7, 1)], rounds=5)

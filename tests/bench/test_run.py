@@ -87,7 +87,7 @@ def test_bench_times_each_method_in_every_process_and_round(small):
     assert timed[REFERENCE, "uniform", "batch"].ratio == 1.0
 
 
-def test_a_call_of_numpy_for_one_row_costs_more_than_a_row_in_a_batch(small):
+def test_one_row_in_a_numpy_call_of_its_own_costs_more_than_one_row_in_a_batch(small):
     _, record = small
     timed = {(line.method, line.mode): line.median_ns for line in record.of(SpeedLine)}
     assert timed[REFERENCE, "single"] > 5 * timed[REFERENCE, "batch"]

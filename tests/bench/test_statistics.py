@@ -43,7 +43,7 @@ def test_interval_does_not_count_the_rounds_of_one_process_as_separate_processes
     assert found.high >= 1.02
 
 
-def test_the_interval_shrinks_with_more_rounds():
+def test_the_confidence_interval_shrinks_with_more_rounds():
     generator = np.random.default_rng(3)
 
     def width(rounds):
@@ -53,7 +53,7 @@ def test_the_interval_shrinks_with_more_rounds():
     assert width(3) > 3 * width(300)
 
 
-def test_interval_contains_the_sample_median_and_is_repeatable():
+def test_interval_contains_the_median_of_its_samples_and_is_reproducible():
     samples = [[3.0, 1.0, 2.0], [5.0, 4.0]]
     assert estimate(samples) == estimate(samples)
     found = estimate(samples)
@@ -61,7 +61,7 @@ def test_interval_contains_the_sample_median_and_is_repeatable():
     assert 1.0 <= found.low <= found.median <= found.high <= 5.0
 
 
-def test_a_single_sample_is_its_own_interval():
+def test_the_interval_of_a_single_sample_is_that_sample():
     assert estimate([[4.0]]) == Estimate(4.0, 4.0, 4.0)
     with pytest.raises(ValueError, match="no sample"):
         estimate([[], []])
