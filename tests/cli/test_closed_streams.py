@@ -21,7 +21,7 @@ main.process()
 """
 
 
-def test_an_opened_file_never_gets_the_number_of_a_closed_standard_stream():
+def test_a_closed_standard_stream_is_opened_on_the_null_device_at_the_start():
     read, write = os.pipe()
 
     def begin():

@@ -69,7 +69,7 @@ def test_an_expected_error_ends_with_its_exit_code_and_its_message_in_one_line(k
     assert ending.lines == ("hypcheck: error: a.csv: what is wrong",)
 
 
-def test_messages_escape_control_characters():
+def test_error_messages_escape_control_characters():
     assert ending_of(InputError("a\x1b[31m\udc80 α")).lines == ("hypcheck: error: a\\x1b[31m\\udc80 α",)
 
 

@@ -44,13 +44,13 @@ def record(tmp_path_factory):
 
 
 @pytest.mark.parametrize("form", [(), ("--json",)])
-def test_replay_of_a_record_escapes_the_names_of_its_cases(form, record, capsys):
+def test_replay_escapes_the_names_of_cases_in_a_record(form, record, capsys):
     found = said(capsys, "replay", f"{record}:1", "builtin:table-2-float64", *form, codes=(1,))
     assert ("\\u001b]0;title\\u0007" if form else r"\x1b]0;title\x07\x1b[2J\x9b31m\u202e\r") in found
 
 
 @pytest.mark.parametrize("form", ["terminal", "markdown", "json"])
-def test_report_of_a_record_escapes_the_names_of_its_cases(form, record, capsys):
+def test_report_escapes_the_names_of_cases_in_a_record(form, record, capsys):
     if form == "json":  # for programs, whose strings have escapes of their own
         assert main(["report", str(record), "--format", form]) == 0
         assert "\x1b" not in capsys.readouterr().out
@@ -70,7 +70,7 @@ def test_report_of_a_record_escapes_the_names_of_its_cases(form, record, capsys)
     ],
     ids=" ".join,
 )
-def test_commands_that_take_a_scene_escape_the_names_in_it(words, tmp_path, capsys):
+def test_commands_that_take_a_scene_escape_the_names_in_its_file(words, tmp_path, capsys):
     acts = json.dumps(ACTS)[1:-1]
     name = "tower" if "tower" in words else "forest"
     text = shipped_text(name).replace('name = "', f'name = "{acts}')
@@ -79,7 +79,7 @@ def test_commands_that_take_a_scene_escape_the_names_in_it(words, tmp_path, caps
     assert ("\\u001b]0;title" if "json" in " ".join(words) else r"\x1b]0;title") in found
 
 
-def test_cases_check_escapes_names_of_files_and_cases(tmp_path, capsys):
+def test_cases_check_escapes_the_names_of_files_and_cases(tmp_path, capsys):
     path = tmp_path / f"{ACTS}.json"
     text = frozen.path_of("ring").read_text(encoding="utf-8")
     path.write_text(text.replace('"tangent":false', '"tangent":true', 1), encoding="utf-8")

@@ -39,7 +39,7 @@ def test_info_json_has_the_kernel_the_header_and_the_oracles(run):
     assert set(found["versions"]) >= {"numpy", "sympy", "click"}
 
 
-def test_info_text_shows_the_same_as_json(run):
+def test_info_as_text_shows_the_same_facts_as_json(run):
     code, said, _ = run(HYPCHECK_KERNEL="numpy")
     assert code == 0
     assert "kernel     numpy, up to 1 thread: HYPCHECK_KERNEL asks for it\n" in said
