@@ -45,12 +45,12 @@ def everything():
 
 
 @pytest.mark.slow
-def test_the_list_of_tested_chains_has_every_chain_and_section_of_the_derivation():
+def test_the_list_of_tested_proof_chains_has_all_chains_and_sections():
     assert tuple(everything()) == CHAINS
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_every_part_of_every_link_of_a_chain_holds(name):
+def test_every_part_of_every_link_of_a_proof_chain_holds(name):
     chain = everything()[name]
     for link in chain.links:
         assert link.reason in REASONS
@@ -80,7 +80,7 @@ def broken(part):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CHAINS)
-def test_a_mistake_in_any_part_makes_its_link_and_chain_fail(name):
+def test_a_mistake_in_any_part_of_a_proof_chain_makes_its_link_and_chain_fail(name):
     chain = everything()[name]
     for link in chain.links:
         for part in link.parts:
@@ -91,12 +91,12 @@ def test_a_mistake_in_any_part_makes_its_link_and_chain_fail(name):
                 assert not replace(chain, links=tuple(bad if each is link else each for each in chain.links)).holds
 
 
-def test_a_link_or_chain_without_anything_to_check_does_not_hold():
+def test_a_link_or_a_proof_chain_without_anything_to_check_does_not_hold():
     assert not Link("so it is said", "identity", ()).holds
     assert not Chain("empty", "nothing", ()).holds
 
 
-def test_a_chain_is_proved_only_if_those_that_it_needs_are(monkeypatch):
+def test_a_proof_chain_is_proved_only_if_the_chains_that_it_needs_are(monkeypatch):
     assert all(proved(name) for name in chains())
     false = replace(chains()["roots"], links=(Link("1 < 0", "sign", (sign("1 < 0"),)),))
     monkeypatch.setattr(chain_book, "chains", lambda: {**chains(), "roots": false})
@@ -111,7 +111,7 @@ def test_a_chain_is_proved_only_if_those_that_it_needs_are(monkeypatch):
     }
 
 
-def test_chains_are_listed_after_the_chains_that_they_need():
+def test_proof_chains_are_listed_after_the_chains_that_they_need():
     seen = set()
     for name, chain in chains().items():
         assert set(chain.needs) <= seen
@@ -119,7 +119,7 @@ def test_chains_are_listed_after_the_chains_that_they_need():
 
 
 @pytest.mark.parametrize("coefficient", ["c0", "c1", "c2"])
-def test_chains_fail_if_the_cubic_has_a_misprint(monkeypatch, coefficient):
+def test_proof_chains_fail_if_the_cubic_has_a_misprint(monkeypatch, coefficient):
     """The chains rest on the derived cubic: with a misprint in it they fail."""
     right = pencil.cubic()
     wrong = replace(right, **{coefficient: getattr(right, coefficient) + pencil.P * pencil.Q})
@@ -149,7 +149,7 @@ def test_the_regime_of_a_proposition_excludes_all_root_patterns_on_which_its_rul
 
 
 @pytest.mark.parametrize(("one", "two", "excluded_by"), [(-1, 1, 0), (-3, -1, 1), (1, 3, 2)])
-def test_each_condition_of_the_roots_case_split_is_needed(one, two, excluded_by):
+def test_each_condition_of_the_case_split_in_the_chain_roots_is_needed(one, two, excluded_by):
     """Two roots with −A, 0 or B between them are ruled out by one condition alone (A = B = 2)."""
     conditions = [one * two > 0, (one + 2) * (two + 2) >= 0, (one - 2) * (two - 2) >= 0]
     assert [number for number, holds in enumerate(conditions) if not holds] == [excluded_by]
@@ -162,7 +162,7 @@ def test_sign_raises_an_error_for_a_text_that_states_no_sign():
         sign("A = B")
 
 
-def test_an_identity_checks_the_text_that_it_shows():
+def test_identity_checks_the_formula_in_the_text_that_it_shows():
     a, b = symbol("A"), symbol("B")
     assert identity("(A + B)² = A² + 2·A·B + B²", (a + b) ** 2).holds
     assert not identity("(A + B)² = A² + A·B + B²", (a + b) ** 2).holds

@@ -71,7 +71,7 @@ def test_formulas_for_all_sizes_are_right_on_pairs_with_a_known_position(name, a
         (3, 3, (1, 0, 0), 0, CONTACT),
     ],
 )
-def test_the_dual_form_answers_by_the_given_multiplier(a, c, center, multiplier, position):
+def test_the_dual_form_decides_with_the_given_multiplier(a, c, center, multiplier, position):
     assert answer("dual", a, c, center, lambda_=multiplier) == position
 
 
@@ -142,7 +142,7 @@ def rotor_scenes(draw):
 
 @settings(max_examples=40)
 @given(rotor_scenes())
-def test_procedures_2_equal_their_test_of_one_spheroid_for_each_rotor(scene):
+def test_procedures_2_test_each_rotor_as_their_formula_for_one_spheroid(scene):
     rotors = evaluate(FORMULAS["procedure-2a"].program, EXACT, scene)
     # Rotor i stands at l/√2·(T1, T2) from the centre, and the next one a quarter of a turn on.
     cosine, sine = scene["cosine"], scene["sine"]
