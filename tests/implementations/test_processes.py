@@ -59,7 +59,7 @@ def eventually(holds) -> None:
         time.sleep(0.01)
 
 
-def test_a_process_leads_a_new_session_and_its_environment_asks_for_one_thread(run):
+def test_a_process_has_a_session_of_its_own_and_an_environment_that_asks_for_one_thread(run):
     told = "'%9d %9d %9s' % (os.getsid(0), os.getpgrp(), os.environ['OMP_NUM_THREADS'])"
     process = run(f"import os, sys; print({told}, flush=True); sys.stdin.read()")
     session, group, threads = map(int, hear(process, 29).split())

@@ -39,7 +39,7 @@ WORDS = [
 
 
 @pytest.mark.parametrize(("text", "words"), WORDS)
-def test_spec_is_parsed_into_kind_and_words(text, words):
+def test_parse_spec_splits_a_spec_into_its_kind_and_words(text, words):
     parsed = parse_spec(text)
     assert (parsed.text, parsed.kind, parsed.words) == (text, text.partition(":")[0], words)
 
@@ -75,7 +75,7 @@ def test_spec_is_parsed_into_kind_and_words(text, words):
         ("\x1b[31m", r"'\\x1b\[31m' begins with none of"),
     ],
 )
-def test_text_that_is_no_spec_is_refused_with_a_correct_example(text, sentence):
+def test_parse_spec_refuses_other_text_with_a_correct_example(text, sentence):
     with pytest.raises(InputError, match=sentence) as caught:
         parse_spec(text)
     assert str(caught.value).isprintable()
@@ -151,7 +151,7 @@ def test_parsing_a_spec_that_is_not_built_in_loads_no_built_in_method():
 DEFAULTS = description.Description(name="it")
 
 
-def test_description_with_all_keys_is_read():
+def test_a_description_with_all_keys_is_read():
     said = description.described_by_json(
         '{"protocol":1,"name":"a\\u001b","version":"2","language":"go","precision":"x87","question":"contact",'
         '"domain":{"regimes":["c2>=a"],"ratio":[1,1e9],"magnitude":[0,1e999]},"refuses":true,"binary":true,"time":false}',
@@ -194,7 +194,7 @@ def test_an_empty_description_gets_the_default_values():
         ({1: 2}, "has the key '1'"),
     ],
 )
-def test_invalid_description_is_refused_with_key_and_value(said, sentence):
+def test_an_invalid_description_is_refused_with_its_key_and_value(said, sentence):
     with pytest.raises(InputError, match=sentence):
         description.described(said, DEFAULTS)
 

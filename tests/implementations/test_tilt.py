@@ -100,7 +100,7 @@ def test_row_text_of_ten_numbers_reads_back_to_the_bit():
     assert back.tobytes() == some.tobytes()
 
 
-def test_the_magnitude_range_of_a_domain_ignores_the_axis_and_its_precision_does_not():
+def test_the_magnitude_range_of_a_domain_ignores_the_axis_but_the_precision_limits_it():
     some = tilted_rows(3)
     some[0, 7:] = 1e300, -1e300, 1e300
     some[1, 7:] = 1e-300, 0.0, 0.0
