@@ -31,7 +31,7 @@ def rows():
     return np.concatenate([FAMILIES[name].rows(3, 10) for name in UPRIGHT])
 
 
-def test_the_numpy_kernel_alone_encloses_clearances_touches_and_distances(rows, numpy_kernel):
+def test_clearance_in_the_numpy_kernel_encloses_the_exact_clearances_touches_and_distances(rows, numpy_kernel):
     found, true = hypcheck.clearance(rows), nearest.clearances(rows)
     assert (found.position == true.position).all()
     assert ((found.lower <= true.clearance) & (true.clearance <= found.upper)).all()
@@ -48,7 +48,7 @@ def test_the_numpy_kernel_alone_encloses_clearances_touches_and_distances(rows, 
             assert off <= found.touch_error[k]
 
 
-def test_the_distances_of_ordinary_rows_are_enclosed_narrowly_by_the_numpy_kernel(numpy_kernel):
+def test_clearance_in_the_numpy_kernel_gives_narrow_distance_intervals_for_ordinary_rows(numpy_kernel):
     rows = FAMILIES["uniform"].rows(4, 60)
     found = hypcheck.clearance(rows)
     clear = found.position != 0
@@ -59,7 +59,7 @@ def test_the_distances_of_ordinary_rows_are_enclosed_narrowly_by_the_numpy_kerne
 
 @pytest.mark.parametrize("exponent", [990, -960, 700, -700])
 @pytest.mark.parametrize("tilted", [False, True])
-def test_rows_of_another_unit_have_the_same_clearance_and_scaled_distances(exponent, tilted, numpy_kernel):
+def test_rows_in_another_unit_have_the_same_clearance_and_scaled_distances(exponent, tilted, numpy_kernel):
     rows = (TILTED_FAMILIES["tilted-uniform"] if tilted else FAMILIES["uniform"]).rows(5, 6)
     scaled = rows.copy()
     scaled[:, :7] = np.ldexp(rows[:, :7], exponent)
@@ -72,7 +72,7 @@ def test_rows_of_another_unit_have_the_same_clearance_and_scaled_distances(expon
     assert np.ldexp(there.touch, -exponent) == pytest.approx(here.touch, rel=1e-9)
 
 
-def test_a_factor_less_one_is_exact_from_a_half_to_two_and_else_on_its_side():
+def test_subtracting_1_from_a_factor_is_exact_from_half_to_2_and_else_rounded_as_asked():
     factors = np.array([0.0, 1e-30, 0.3, 0.5, 0.75, 1.0, 1 + 2.0**-52, 1.9, 2.0, 2.1, 1e9, 1e30])
     for towards, side in ((-np.inf, -1), (np.inf, 1)):
         found = clearance._less_one(factors, towards)
@@ -82,7 +82,7 @@ def test_a_factor_less_one_is_exact_from_a_half_to_two_and_else_on_its_side():
             assert not off or not 0.5 <= factor <= 2
 
 
-def test_enlarged_sizes_are_rounded_to_their_side_and_the_same_for_a_factor_of_one():
+def test_enlarged_sizes_are_rounded_in_the_given_direction_and_unchanged_by_the_factor_1():
     rows = np.array([[1.0, 2.0, 0.3, 0.7, 3.0, 0.1, 0.2]] * 3)
     factors = np.array([1.0, 1.1, 0.37])
     for towards, side in ((np.inf, 1), (0.0, -1)):
@@ -95,7 +95,7 @@ def test_enlarged_sizes_are_rounded_to_their_side_and_the_same_for_a_factor_of_o
                 assert 0 < off * side < 2 * math.ulp(grown[k, column])
 
 
-def test_only_extreme_rows_are_scaled_and_only_where_that_is_exact():
+def test_clearance_scales_only_extreme_rows_and_only_by_exact_powers_of_two():
     row = np.array([1.0, 2.0, 0.3, 0.7, 3.0, -0.1, 0.2])
     rows = np.array([row, np.ldexp(row, 990), np.ldexp(row, -1000), row, row])
     rows[3, 2] = 1e-310
@@ -109,7 +109,7 @@ def test_only_extreme_rows_are_scaled_and_only_where_that_is_exact():
     assert shift[4] == 0
 
 
-def test_scaled_lengths_come_back_rounded_to_their_side():
+def test_clearance_scales_lengths_back_with_rounding_in_the_given_direction():
     lengths, shift = np.array([3.0, 3.0, 0.0, 5e-324 * 3]), np.array([0, 2, 5, 1])
     assert clearance._lowered(lengths, shift, 0.0).tolist() == [3.0, math.nextafter(0.75, 0), 0.0, 5e-324]
     assert clearance._lowered(lengths, shift, np.inf).tolist() == [3.0, math.nextafter(0.75, 1), 0.0, 5e-324 * 3]

@@ -89,7 +89,7 @@ def test_the_longest_integer_from_float64_lengths_has_the_counted_number_of_bits
     assert integers.position(Lengths(longest, 1, 0, 0, 1, 1, 0)) is Position.INTERIOR
 
 
-def test_a_tangency_whose_slope_at_the_pole_is_0_is_contact_and_no_ring():
+def test_integers_answer_contact_for_a_tangency_whose_slope_at_the_pole_is_0():
     """The ring asks for the slope 0 at B, and for the height 0: here it is 26, and a double root lies below B."""
     alpha, gamma, b, d, x, y, z = 48, 72, 35, 35, 6, 87, 26
     A, B, P, Q = Fraction(alpha, b) ** 2, Fraction(gamma, d) ** 2, Fraction(x * x + y * y, b * b), Fraction(z, d) ** 2

@@ -18,7 +18,7 @@ from tests.kernel.test_tilted_integers import small_rows
 from tests.truth.tilted.cases import SYMMETRIC, TOUCHING_AND_CROSSING, WITNESSES, in_floats
 
 
-def test_upright_pairs_of_small_integers_have_their_exact_positions():
+def test_integers_decide_upright_pairs_of_small_integers_exactly():
     """Tangencies of every kind, rings and double roots are among them."""
     kinds = set()
     for row in itertools.product(*[range(1, 5)] * 4, range(7), (0,), range(5)):
@@ -29,7 +29,7 @@ def test_upright_pairs_of_small_integers_have_their_exact_positions():
     assert len(kinds) > 10
 
 
-def test_upright_pairs_of_any_centre_have_their_exact_positions():
+def test_integers_decide_upright_pairs_with_random_centres_exactly():
     draw = random.Random(3)  # noqa: S311
     for _ in range(1500):
         row = [draw.uniform(0.2, 5) for _ in range(4)] + [draw.uniform(-6, 6) for _ in range(3)]
@@ -38,12 +38,12 @@ def test_upright_pairs_of_any_centre_have_their_exact_positions():
 
 
 @pytest.mark.parametrize("part", [0, 1])
-def test_leaning_pairs_of_small_integers_have_their_exact_positions(part):
+def test_tilted_integers_decide_leaning_pairs_of_small_integers_exactly(part):
     for row in small_rows(17 + part, 500):
         assert tilted_integers.position(row) is tilted_exact.position(TiltedLengths.of(row)), row
 
 
-def test_leaning_pairs_with_coincidences_have_their_exact_positions():
+def test_tilted_integers_decide_symmetric_and_tangent_leaning_pairs_exactly():
     rows = [list(map(float, row)) for row, *_ in (*SYMMETRIC, *WITNESSES)]
     rows += [found for row in TOUCHING_AND_CROSSING if (found := in_floats(row)) is not None]
     for row in rows:
@@ -51,7 +51,7 @@ def test_leaning_pairs_with_coincidences_have_their_exact_positions():
             assert tilted_integers.position(row) is tilted_exact.position(TiltedPair.from_row(row).lengths), row
 
 
-def test_upright_rows_and_balls_are_decided_as_upright_pairs():
+def test_tilted_integers_decide_upright_rows_and_balls_as_upright_pairs():
     draw = random.Random(5)  # noqa: S311
     for _ in range(300):
         row = [float(draw.randint(1, 6)) for _ in range(4)] + [float(draw.randint(-9, 9)) for _ in range(3)]
@@ -69,7 +69,7 @@ def turned(vector):
     return x, y, z
 
 
-def test_a_pair_of_two_leaning_bodies_has_the_position_of_the_pair_turned_upright():
+def test_tilted_integers_decide_two_leaning_bodies_as_the_pair_turned_upright():
     for row in small_rows(23, 250):
         expected = tilted_exact.position(TiltedLengths.of(row))
         centre, axis, other = turned(row[4:7]), turned(row[7:]), turned((0, 0, 3))
@@ -79,13 +79,13 @@ def test_a_pair_of_two_leaning_bodies_has_the_position_of_the_pair_turned_uprigh
         assert tilted_integers.position_of_squares(found) is expected, row
 
 
-def test_parallel_axes_and_balls_are_known_from_the_squares():
+def test_squares_of_a_tilted_row_are_upright_for_parallel_axes_and_balls():
     row = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
     for d, axis, upright in ((4.0, (0, 0, 2), True), (4.0, (1, 0, 2), False), (3.0, (1, 0, 2), True)):
         assert tilted_integers.squares([*row[:3], d, *row[4:], *map(float, axis)]).upright is upright
 
 
-def test_rows_lean_where_their_axis_does_and_they_are_no_balls():
+def test_leaning_is_true_for_rows_whose_axis_leans_except_balls():
     row = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
     rows = [[*row, *axis] for axis in ((0, 0, 1), (1, 0, 0), (0, -1, 5), (1, 1, 1), (1, 0, 1))]
     rows.append([*row[:3], 3.0, *row[4:], 1.0, 0.0, 0.0])

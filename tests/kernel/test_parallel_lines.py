@@ -125,7 +125,7 @@ def test_a_scene_beyond_single_precision_has_lines_in_double_precision(unit, tow
     assert len(lines_left(unit * tower, four)) < 0.005 * len(tower[0])
 
 
-def test_a_line_that_proves_nothing_decides_no_centre():
+def test_thresholds_of_lines_that_prove_nothing_decide_no_centre():
     nothing = dict.fromkeys(("beyond", "under", "within", "above"))
     found = scene_lines.thresholds(nothing, 1.0)
     assert found is not None

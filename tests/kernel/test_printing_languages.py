@@ -40,7 +40,7 @@ def by_library(command, path, source, inputs, count):
 
 @needs("g++")
 @pytest.mark.parametrize(("wide", "name"), CASES)
-def test_printed_cpp_gives_the_same_bits(wide, name, tmp_path):
+def test_every_step_printed_in_cpp_gives_the_same_bits_as_its_program(wide, name, tmp_path):
     program, number = PROGRAMS[name], "double" if wide else "float"
     inputs, steps = columns(program, FORMATS[number]), names_of(program)
     body = "\n".join(
@@ -61,7 +61,7 @@ def test_printed_cpp_gives_the_same_bits(wide, name, tmp_path):
 
 @needs("rustc")
 @pytest.mark.parametrize(("wide", "name"), [(True, "everything"), (True, "coefficients"), (False, "everything")])
-def test_printed_rust_gives_the_same_bits(wide, name, tmp_path):
+def test_every_step_printed_in_rust_gives_the_same_bits_as_its_program(wide, name, tmp_path):
     program, number = PROGRAMS[name], "f64" if wide else "f32"
     inputs, steps = columns(program, FORMATS[number]), names_of(program)
     kinds = {line.split(":")[0].removeprefix("let "): ": bool =" in line for line in rust_lines(program, number)}
@@ -91,7 +91,7 @@ def rust_lines(program, number):
 
 @needs("node")
 @pytest.mark.parametrize(("wide", "name"), CASES)
-def test_printed_javascript_gives_the_same_bits(wide, name, tmp_path):
+def test_every_step_printed_in_javascript_gives_the_same_bits_as_its_program(wide, name, tmp_path):
     program, number = PROGRAMS[name], "number" if wide else "float32"
     format_name = "float64" if wide else "float32"
     inputs, steps = columns(program, format_name), names_of(program)
@@ -121,7 +121,7 @@ def test_printed_javascript_gives_the_same_bits(wide, name, tmp_path):
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
-def test_printed_python_gives_the_same_bits(name):
+def test_every_step_printed_in_python_gives_the_same_bits_as_its_program(name):
     program = PROGRAMS[name]
     inputs, steps = columns(program, "float64"), names_of(program)
     code = compile("\n".join(python_statements(program, steps)), name, "exec")
@@ -150,7 +150,7 @@ def test_one_step_is_printed_as_expected_in_each_language():
     ("printer", "reserved"),
     [(cpp_statements, "new"), (rust_statements, "loop"), (javascript_statements, "let"), (python_statements, "def")],
 )
-def test_printing_a_reserved_name_raises_an_error(printer, reserved):
+def test_printing_a_step_named_as_a_reserved_word_raises_an_error(printer, reserved):
     with pytest.raises(ValueError, match=f"step {reserved}: {reserved} is no name in the language"):
         printer(program_of("p", ("x",), f"{reserved} = x + 1"), (reserved,))
 

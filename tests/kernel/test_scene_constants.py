@@ -28,7 +28,7 @@ def drawn_sizes(count):
 
 
 @pytest.mark.parametrize("sizes", [*SIZES, *drawn_sizes(6)])
-def test_the_coefficients_of_the_discriminant_are_those_of_the_cubic_in_another_unit(sizes):
+def test_coefficients_of_the_discriminant_stage_are_those_of_the_scaled_cubic(sizes):
     form = FLOAT_FORMATS["float64"]
     s, constants = exact_constants(scaled(sizes, form))
     assert math.log2(s).is_integer()
@@ -48,7 +48,7 @@ def test_the_coefficients_of_the_discriminant_are_those_of_the_cubic_in_another_
 
 @pytest.mark.parametrize("precision", FORMATS)
 @pytest.mark.parametrize("sizes", SIZES[:2])
-def test_the_constants_of_the_search_are_its_quotients_rounded(sizes, precision):
+def test_constants_of_the_search_stage_are_its_exact_quotients_rounded(sizes, precision):
     form, scale = FLOAT_FORMATS[precision], scaled(sizes, FLOAT_FORMATS[precision])
     found = search(scale, form, CORNER)
     alpha, gamma, b, d = (Fraction(each) for each in sizes)
@@ -74,7 +74,7 @@ def test_the_constants_of_the_search_are_its_quotients_rounded(sizes, precision)
         assert low >= min(pole * form.unit / 4096, 1 / (4 + 4 * steepest))
 
 
-def test_a_search_is_refused_where_the_region_or_the_spheroid_is_too_large():
+def test_the_search_stage_is_refused_if_the_region_or_the_spheroid_is_too_large():
     form = FLOAT_FORMATS["float32"]
     scale = scaled((1.0, 4.0, 1.0, 1.0), form)
     far = Fraction(2) ** 63
@@ -87,7 +87,7 @@ def test_a_search_is_refused_where_the_region_or_the_spheroid_is_too_large():
 
 
 @pytest.mark.parametrize("sizes", SIZES[:3])
-def test_a_line_is_tangent_to_the_border_of_the_positions(sizes):
+def test_each_line_of_a_scene_is_tangent_to_the_border_between_two_positions(sizes):
     """It proves the rows a little beyond it, and at its point of tangency the position changes."""
     form = FLOAT_FORMATS["float64"]
     scale = scaled(sizes, form)
@@ -106,7 +106,7 @@ def test_a_line_is_tangent_to_the_border_of_the_positions(sizes):
 
 
 @pytest.mark.parametrize("sizes", SIZES[:3])
-def test_centres_fill_the_box_evenly_and_reach_around_the_surface_where_it_is_open(sizes):
+def test_centres_for_stage_shares_fill_the_box_evenly_and_an_open_box_around_the_surface(sizes):
     alpha, gamma, b, d = sizes
     x, y, z = centres(Setting(sizes, Box(None, Span(-3.0, 5.0), None), None, ()))
     for values, low, high in (
@@ -123,7 +123,7 @@ def test_centres_fill_the_box_evenly_and_reach_around_the_surface_where_it_is_op
         assert abs(counts / 64 - 1).max() < 0.35
 
 
-def test_sizes_far_from_1_are_scaled_by_powers_of_two_that_bring_the_spheroid_near_1():
+def test_scaled_uses_powers_of_two_that_bring_the_size_of_the_spheroid_near_1():
     form = FLOAT_FORMATS["float64"]
     usual = scaled((2.0, 17.8, 0.25, 0.15), form)
     assert (usual.radial, usual.axial, usual.bb) == (1, 1, Fraction(1, 16))
@@ -138,7 +138,7 @@ def test_sizes_far_from_1_are_scaled_by_powers_of_two_that_bring_the_spheroid_ne
     assert (tall.A, tall.B) == (64, (Fraction(2) ** 300 / 5) ** 2)
 
 
-def test_a_box_around_the_axis_counts_from_it():
+def test_position_of_box_measures_a_box_that_contains_the_axis_from_the_axis():
     sizes = (2.0, 17.8, 0.25, 0.15)
     wide = Span(-1.0, 1.0)
 

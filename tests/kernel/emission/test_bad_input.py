@@ -82,7 +82,7 @@ def test_emit_refuses_a_prefix_that_is_no_identifier(prefix, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("language", ["javascript", "python"])
-def test_emit_refuses_a_prefix_for_a_language_of_modules(language, capsys):
+def test_emit_refuses_a_prefix_for_a_language_with_modules(language, capsys):
     emit = ["emit", "--scene", "tower", "--language", language, "--prefix", "tower"]
     assert f"a {language} kernel is a module with names of its own" in refused(emit, capsys)
 

@@ -51,6 +51,6 @@ def test_an_emitted_kernel_is_within_its_error_bound_near_the_asymptotic_cone(si
         ("float32", (1.4e-85, 1e-48, 2e70, 1.4e79), Span(1e-48, 1e-48)),
     ],
 )
-def test_emit_refuses_sizes_whose_scale_leaves_the_format(precision, sizes, z):
+def test_emit_refuses_sizes_whose_scale_leaves_the_float_format(precision, sizes, z):
     with pytest.raises(InputError, match=r"no kernel is made for .* is no normal number of float32"):
         plan_of(scene(sizes, z=z), precision)

@@ -94,14 +94,14 @@ def test_a_kernel_for_a_leaning_mover_compiled_with_fma_has_no_false_clear(tmp_p
 
 
 @needs("c")
-def test_a_kernel_for_one_axis_answers_cannot_say_for_another(tmp_path):
+def test_a_kernel_for_one_axis_answers_cannot_say_for_another_axis(tmp_path):
     library = built(tmp_path, tower(PITCHED), "c")
     rows = np.array([[2.0, 17.8, 0.25, 0.15, 0.0, 0.0, 0.0, *axis] for axis in (PITCHED, (0.3, 0.1, 1.1), (0, 0, 1))])
     assert answers(library, rows).tolist() == [-1, CANNOT_SAY, CANNOT_SAY]
 
 
 @pytest.mark.parametrize("language", DIALECTS)
-def test_a_kernel_for_any_axis_answers_cannot_say_where_the_axis_is_no_direction(language, tmp_path):
+def test_a_kernel_for_any_axis_answers_cannot_say_if_the_axis_has_no_direction(language, tmp_path):
     skip_without(language)
     kernel = asking(built(tmp_path, tower(FREE), language), language)
     rows = [[2.0, 17.8, 0.25, 0.15, 2.2, 0.0, 0.0, *axis] for axis in ((0, 0, 0), (np.nan, 0, 1), (0, -np.inf, 1))]
@@ -115,7 +115,7 @@ def test_a_kernel_for_any_axis_answers_cannot_say_where_the_axis_is_no_direction
 
 @pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
 @pytest.mark.parametrize("language", DIALECTS)
-def test_a_kernel_of_each_question_answers_cannot_say_where_the_axis_is_no_direction(language, question, tmp_path):
+def test_a_kernel_of_each_question_answers_cannot_say_if_the_axis_has_no_direction(language, question, tmp_path):
     skip_without(language)
     kernel = asking(built(tmp_path, tower(FREE, question), language), language)
     ask = (lambda rows: answers(_library(kernel), rows)) if language in {"c", "cpp", "rust"} else kernel
@@ -127,7 +127,7 @@ def test_a_kernel_of_each_question_answers_cannot_say_where_the_axis_is_no_direc
 @pytest.mark.parametrize("axis", [PITCHED, FREE], ids=["one axis", "any axis"])
 @pytest.mark.parametrize("question", ["position", "exterior", "interior", "contact"])
 @needs("c")
-def test_a_kernel_of_each_question_answers_cannot_say_where_double_double_cannot_decide(
+def test_a_kernel_of_each_question_answers_cannot_say_if_its_last_stage_does_not_decide(
     question, axis, tmp_path, monkeypatch
 ):
     """2 from the last stage is an answer to no question: compared with 0, it would be exterior."""
@@ -196,7 +196,7 @@ def test_the_frame_constants_of_a_leaning_kernel_make_both_matrices_diagonal():
 
 
 @needs("c")
-def test_a_kernel_for_a_mover_that_leans_passes_the_conformance_run(tmp_path, capsys):
+def test_a_kernel_for_a_leaning_mover_passes_the_conformance_run(tmp_path, capsys):
     for name, scene in (("fixed", tower(PITCHED)), ("free", tower(FREE))):
         folder = tmp_path / name
         folder.mkdir()
@@ -207,7 +207,7 @@ def test_a_kernel_for_a_mover_that_leans_passes_the_conformance_run(tmp_path, ca
 
 
 @needs("c")
-def test_a_kernel_with_the_axis_turned_the_wrong_way_fails_the_conformance_run(tmp_path):
+def test_a_kernel_with_the_frame_of_another_axis_fails_the_conformance_run(tmp_path):
     """The frame of another axis in the kernel of this one."""
     turned = replace(tower(PITCHED), mover=Mover(0.25, 0.15, axis=(0.1, 0.3, 1.0)))
     right, wrong = (emitted(plan_of(scene), "python", COMMAND) for scene in (tower(PITCHED), turned))
@@ -223,7 +223,7 @@ def test_a_kernel_with_the_axis_turned_the_wrong_way_fails_the_conformance_run(t
 
 
 @pytest.mark.parametrize("axis", [PITCHED, FREE])
-def test_the_description_of_a_kernel_for_a_mover_that_leans_names_its_axis(axis):
+def test_the_description_of_a_kernel_for_a_leaning_mover_names_its_axis(axis):
     claimed = described_by_json(json.dumps(description(plan_of(tower(axis)), "c")), Description(""))
     assert claimed.tilt
     assert [setting.axis for setting in claimed.domain.settings] == [axis]

@@ -64,13 +64,13 @@ def test_an_emitted_kernel_answers_cannot_say_for_nan(language, tmp_path):
         ("float64", (1e-76, 1e-76, 1e76, 1e76)),
     ],
 )
-def test_emit_refuses_sizes_whose_products_leave_the_format(precision, sizes):
+def test_emit_refuses_sizes_whose_products_leave_the_float_format(precision, sizes):
     """Each of these once had a kernel that answered at random next to contact."""
     with pytest.raises(InputError, match=r"no kernel is made for alpha .*: .*\(hypcheck.Scene asks any\)"):
         plan_of(scene(sizes), precision)
 
 
-def test_emit_refuses_a_region_beyond_the_format():
+def test_emit_refuses_a_region_beyond_the_float_format():
     with pytest.raises(InputError, match="products of the lengths in the region leave float32"):
         plan_of(scene(SIZES, z=Span(-1e30, 1e30)), "float32")
 
@@ -93,7 +93,7 @@ def test_an_emitted_kernel_is_right_if_a_modelled_height_is_beyond_its_float_for
 
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-def test_the_bound_of_an_emitted_kernel_holds_on_the_border_of_its_region(precision, tmp_path):
+def test_the_error_bound_of_an_emitted_kernel_holds_on_the_border_of_its_region(precision, tmp_path):
     skip_without("c")
     kernel = asking(built(tmp_path, replace(HILLS, question="position"), "c", precision), "c")
     for body, stages in zip(HILLS.hyperboloids, plan_of(HILLS).settings, strict=True):

@@ -82,7 +82,7 @@ def test_emitted_kernels_of_random_scenes_have_backward_errors_within_8_u(seed, 
 
 @pytest.mark.parametrize("seed", RANDOM)
 @needs("c")
-def test_emit_refuses_a_scene_at_the_limits_of_a_float_format_or_is_within_8_u(seed, tmp_path):
+def test_a_kernel_for_a_scene_at_the_limits_of_a_float_format_is_refused_or_within_8_u(seed, tmp_path):
     chosen, precision = extreme_scene(seed), FORMATS[seed % 2]
     try:
         plan = plan_of(chosen, precision)
