@@ -9,7 +9,7 @@ import pytest
 
 from tests.tools.evidence.battery import CORE
 from tests.tools.evidence.c_sites import HEADER
-from tests.tools.evidence.fuzz import FUZZING, corpus_kept, figures_of
+from tests.tools.evidence.fuzz import FUZZING, corpus_kept, figures_of, with_earlier
 from tests.tools.evidence.seeds import seeds
 
 OPTIONS = ("-std=gnu99", "-O1", "-w", "-frounding-math", "-ffp-contract=off")
@@ -68,3 +68,11 @@ def test_figures_of_a_fuzz_run_count_and_name_its_findings():
     assert figures_of("WRONG: kind 0\n", log)["first"] == ["WRONG: kind 0"]
     assert figures_of("", "==1==ERROR: AddressSanitizer: x\n")["first"] == ["==1==ERROR: AddressSanitizer: x"]
     assert figures_of("", "")["first"] == ["it ended before its time"]
+
+
+def test_long_fuzz_runs_add_up_on_one_header_and_begin_anew_on_another():
+    first = {"executions": 10, "seconds": 60, "findings": 0, "first": [], "header": "a"}
+    second = {"executions": 5, "seconds": 30, "findings": 1, "first": ["WRONG: row"]}
+    both = {"executions": 15, "seconds": 90, "findings": 1, "first": ["WRONG: row"], "header": "a"}
+    assert with_earlier(second, first, "a") == both
+    assert with_earlier(second, first, "b") == {**second, "header": "b"}
