@@ -69,7 +69,7 @@ def measure() -> Figures:
         again = [Mutation(**each["mutation"]) for each in left]
         second = tried(f"{name}-again", again, ran, MOST_AGAIN, SECONDS_AGAIN, longest=True)
         figures[name] = summary([each for each in first if each not in left] + second, reasons)
-    return with_totals(figures)
+    return with_totals(figures) | {"tests": len(_breadth(ran))}
 
 
 Contexts = dict[str, dict[int, set[str]]]
@@ -266,8 +266,8 @@ An operator, a comparison, a constant or a condition is changed, or a statement 
 the tests that run its line judge it: at first those that run the fewest lines, then long ones against what survives.
 Of {mutants} mutants, drawn by a checksum of their text, {killed} were killed ({share} %): a test failed, or took
 several times as long. {explained} survivors have an explanation; {left} have none yet. Functions that run only when a
-module is loaded, and `strict=` of zip, are not changed. Of the thorough tests those of `tests/truth/`,
-`test_parallel_lines.py` and `test_tilted_integers.py` were asked.
+module is loaded, and `strict=` of zip, are not changed. The tests are chosen among the {tests} of which coverage has
+kept what they run; others, as most of `make thorough`, were not asked.
 
 | code | mutants | killed | share | explained | left |
 | --- | --- | --- | --- | --- | --- |"""
