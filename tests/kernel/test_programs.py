@@ -52,7 +52,7 @@ def test_the_error_constant_of_the_parts_of_the_discriminant_covers_their_roundi
     assert gamma(count, U) < Fraction(certified.CONSTANTS["u_4"])
 
 
-def test_the_error_constant_of_the_discriminant_without_parts_covers_its_roundings():
+def test_the_error_constant_of_the_discriminant_for_one_pair_covers_its_roundings():
     count = relative_error_counts(certified.SINGLE, ["delta_3"]).counts["delta_3"]
     assert gamma(count, U) * (1 + 64 * U) * 32 < certified.SINGLE_CONSTANTS["u_1536"]
 
