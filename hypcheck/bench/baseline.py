@@ -62,17 +62,19 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
     record = read(path)
     options = record.header.options
     if options.get("command") != "bench":
-        raise InputError(f"--baseline {path}: is a record of another command; it must be one of hypcheck bench")
+        raise InputError(f"--baseline {path} is a record of another command; it must be a record of hypcheck bench")
     if options.get("reference") != plan.reference:
         told = options.get("reference")
-        raise InputError(f"--baseline {path}: its ratios are to {told!r}; this version's are to {plan.reference!r}")
+        raise InputError(
+            f"--baseline {path}: its ratios are relative to {told!r}, those of this version to {plan.reference!r}"
+        )
     if options.get("quick") != plan.quick:
         kind = "quick" if options.get("quick") else "full"
-        raise InputError(f"--baseline {path}: is of a {kind} run; compare it with another {kind} one")
+        raise InputError(f"--baseline {path} is of a {kind} run; compare it with another {kind} run")
     baseline = speeds_of(record.lines)
     if not baseline.speeds:
         raise InputError(
-            f"--baseline {path}: holds no speed relative to {plan.reference}; it proves nothing about speed"
+            f"--baseline {path} has no speed relative to {plan.reference}; nothing can be compared with it"
         )
     return baseline
 
@@ -116,7 +118,7 @@ def require_common(before: Baseline, names: set[str]) -> None:
     known = {method for method, _, _ in before.speeds}
     if not known & names:
         told = f"{', '.join(sorted(names)) or 'nothing'}; it has {', '.join(sorted(known))}"
-        raise InputError(f"--baseline: holds no speed of what is to be held to it: {told}")
+        raise InputError(f"--baseline has no speed of any method that is compared with it: {told}")
 
 
 def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[ComparisonLine]:

@@ -111,7 +111,7 @@ class BenchPlan:
         alone = [name for name, is_given in zip(whats, given, strict=True) if is_given]
         more = len(alone) > 1 or ((self.kernel or self.forest) and (self.chosen or self.tilted))
         if more:
-            raise InputError(f"{alone[0]} measures {whats[alone[0]]} and nothing else; it goes with no other choice")
+            raise InputError(f"{alone[0]} measures only {whats[alone[0]]}; leave out the other choices")
         if self.question == PASSAGE and (alone or self.tilted):
             other = "--tilted" if self.tilted else alone[0]
             raise InputError(f"--question passage compares methods for ways of upright spheroids; leave out {other}")

@@ -69,7 +69,7 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
     leaning = leaning_scenes(plan.scenes)
     if plan.scenes and not leaning and not plan.tilted:
         if plan.chosen:
-            raise InputError("--scene measures scenes and nothing else; it goes with other choices if its mover leans")
+            raise InputError("--scene measures only scenes; other choices are allowed only if its mover leans")
         return (_scenes(plan, plan.scenes, recorder, outcome),)
     plan = _tilted_plan(plan, leaning)
     workloads = len(chosen_workloads(plan))
@@ -112,7 +112,7 @@ def _tilted_plan(plan: BenchPlan, leaning: Sequence[str]) -> BenchPlan:
     if not plan.scenes:
         return plan
     if not leaning:
-        raise InputError(f"--tilted is about movers that lean, and none does in the scene {plan.scenes[0]!r}")
+        raise InputError(f"--tilted measures movers that lean; the mover of the scene {plan.scenes[0]!r} does not")
     if len(plan.scenes) > 1:
         raise InputError(f"the mover of the scene {leaning[0]!r} leans; measure that scene alone, with one --scene")
     return replace(plan, tilted=True)

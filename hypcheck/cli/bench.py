@@ -33,15 +33,21 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 @click.option("--methods", help="Names and globs, separated by commas.  [default: all]")
 @click.option("--workloads", help="Names and globs, separated by commas.  [default: all]")
 @click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--processes", type=IntegerOption(1), help="Fresh processes that measure.  [default: 5; quick: 3]")
-@click.option("--rounds", type=IntegerOption(1), help="Rounds in each process.  [default: 5; quick: 3]")
 @click.option(
-    "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes that judge.  [default: one a processor]"
+    "--processes", type=IntegerOption(1), help="Number of fresh processes that measure.  [default: 5; quick: 3]"
+)
+@click.option("--rounds", type=IntegerOption(1), help="Number of rounds in each process.  [default: 5; quick: 3]")
+@click.option(
+    "--workers",
+    type=IntegerOption(1, MOST_PROCESSES),
+    help="Number of processes that judge answers.  [default: one a processor]",
 )
 @click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to compare with.")
-@click.option("--max-slowdown", type=NumberOption(1), help="What --baseline allows.  [default: 1.1]")
-@click.option("--kernel", is_flag=True, help="Measure the fast path against its targets, and nothing else.")
-@click.option("--forest", is_flag=True, help="Measure a walker's step among 10 to 10^6 trees, and nothing else.")
+@click.option(
+    "--max-slowdown", type=NumberOption(1), help="Largest time allowed relative to --baseline.  [default: 1.1]"
+)
+@click.option("--kernel", is_flag=True, help="Measure only the fast path, against its targets.")
+@click.option("--forest", is_flag=True, help="Measure only a walker's step among 10 to 10^6 trees.")
 @click.option("--tilted", is_flag=True, help="Compare methods for spheroids whose axis leans.")
 @click.option(
     "--question",
@@ -54,7 +60,7 @@ from hypcheck.errors import Exit, InputError, RunOutcome
     "--scene",
     multiple=True,
     metavar="SCENE",
-    help="Measure what this scene saves, and nothing else; any number. If its mover leans: methods, on its rows.",
+    help="Measure only what a kernel for this scene saves; may be repeated. If its mover leans: methods on its rows.",
 )
 @ISOLATE
 @PASS_ENV

@@ -46,7 +46,7 @@ def show(name: str, as_json: bool) -> None:
 @cases.command(short_help="Make rows of a family, as many as you like.")
 @click.argument("family")
 @click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--count", type=IntegerOption(1), default=100, show_default=True, help="Rows.")
+@click.option("--count", type=IntegerOption(1), default=100, show_default=True, help="Number of rows.")
 @click.option("--format", "said", type=click.Choice(_FORMATS), help="By default the ending of --output, or json.")
 @click.option("--output", "target", metavar="FILE", default="-", help="By default standard output.")
 def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:

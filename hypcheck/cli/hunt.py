@@ -38,10 +38,14 @@ if TYPE_CHECKING:
 
 IMPLEMENTATION_OPTIONS = (
     click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"),
-    click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]"),
-    click.option("--domain", metavar="JSON", help="The domain to ask in, in place of the one it declares."),
+    click.option(
+        "--precision", metavar="FORMAT", help="The precision whose unit roundoff is u.  [default: as declared]"
+    ),
+    click.option("--domain", metavar="JSON", help="The domain to ask in, instead of the declared domain."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
-    click.option("--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="In units u."),
+    click.option(
+        "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
+    ),
     with_limits,
 )
 """How an implementation is opened and judged: options of the commands that ask a single one."""
@@ -102,13 +106,21 @@ Ends with 0 if no answer was wrong beyond the tolerance (which proves nothing), 
 
 @click.command(help=_HUNT_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
 @click.argument("spec")
-@click.option("--budget", type=NumberOption(0, excluded=True), help="Seconds.  [default: 60, or none with --queries]")
 @click.option(
-    "--queries", type=IntegerOption(1), help="Rows asked at most; without --budget, a run finds the same again."
+    "--budget",
+    type=NumberOption(0, excluded=True),
+    help="Time limit in seconds.  [default: 60, or none with --queries]",
+)
+@click.option(
+    "--queries", type=IntegerOption(1), help="Largest number of rows to ask; without --budget, a run is reproducible."
 )
 @click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
 @click.option(
-    "--show", type=IntegerOption(0), default=10, show_default=True, help="Kinds of wrong answers shown in full."
+    "--show",
+    type=IntegerOption(0),
+    default=10,
+    show_default=True,
+    help="Number of kinds of wrong answers to show in full.",
 )
 @click.option(
     "--out", type=OutputPath(), metavar="FILE", help="A vector file to which the worst row of each kind is added."
@@ -264,10 +276,12 @@ Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC canno
 @click.argument("spec")
 @click.option("--formula", metavar="NAME", help="The formula to show.  [default: its own, or one with the same answer]")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
-@click.option("--precision", metavar="FORMAT", help="The precision u is taken from.  [default: as declared]")
+@click.option("--precision", metavar="FORMAT", help="The precision whose unit roundoff is u.  [default: as declared]")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]")
-@click.option("--domain", metavar="JSON", help="The domain where it must be right, in place of the one it declares.")
-@click.option("--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="In units u.")
+@click.option("--domain", metavar="JSON", help="The domain where it must be right, instead of the declared domain.")
+@click.option(
+    "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
+)
 @with_limits
 @click.pass_context
 def replay(

@@ -121,20 +121,32 @@ _SECONDS = NumberOption(0, excluded=True)
 ISOLATE = click.option(
     "--isolate",
     type=click.Choice(["auto", "on", "off"]),
-    help="Isolate it from this machine as far as the system allows; on: run it only if that works.  [default: auto]",
+    help="Isolate the implementation as far as the system allows; on: run it only if that works.  [default: auto]",
 )
-PASS_ENV = click.option("--pass-env", metavar="NAMES", help="Environment variables that it sees though it is isolated.")
+PASS_ENV = click.option(
+    "--pass-env", metavar="NAMES", help="Environment variables that the isolated implementation sees."
+)
 
 _LIMITS = (
     click.option(
-        "--startup-timeout", type=_SECONDS, default=30.0, show_default=True, help="Seconds until it must be ready."
+        "--startup-timeout",
+        type=_SECONDS,
+        default=30.0,
+        show_default=True,
+        help="Time limit for its start, in seconds.",
     ),
-    click.option("--timeout", type=_SECONDS, default=10.0, show_default=True, help="Seconds without progress."),
     click.option(
-        "--restarts", type=IntegerOption(0), default=20, show_default=True, help="Restarts after crashes and hangs."
+        "--timeout", type=_SECONDS, default=10.0, show_default=True, help="Time limit without progress, in seconds."
     ),
     click.option(
-        "--memory", metavar="BYTES", default="4G", show_default=True, help="Memory of its processes together."
+        "--restarts",
+        type=IntegerOption(0),
+        default=20,
+        show_default=True,
+        help="Most restarts after crashes and hangs.",
+    ),
+    click.option(
+        "--memory", metavar="BYTES", default="4G", show_default=True, help="Memory limit of all its processes together."
     ),
     ISOLATE,
     PASS_ENV,

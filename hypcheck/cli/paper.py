@@ -151,7 +151,7 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     "--pitch",
     type=NumberOption(0, 90),
     metavar="DEGREES",
-    help="Fly the table with a quadcopter that leans so far into its movement, and count the wrong answers.",
+    help="Fly the table with a quadcopter that leans by this angle into its movement, and count the wrong answers.",
 )
 @click.option(
     "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes for the table.  [default: one a processor]"

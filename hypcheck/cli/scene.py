@@ -129,9 +129,7 @@ default names.
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
 @click.option("--whole", is_flag=True, help="The whole scene: places, heights and parts too, of any number of trees.")
-@click.option(
-    "--prefix", default="hypcheck", show_default=True, metavar="NAME", help="The beginning of the functions' names."
-)
+@click.option("--prefix", default="hypcheck", show_default=True, metavar="NAME", help="Prefix of the function names.")
 @click.option(
     "--output", default="-", show_default=True, metavar="FILE", help="The file to write; - is standard output."
 )

@@ -181,7 +181,9 @@ _COUNT = IntegerOption(1)
 @click.option(
     "--families", help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]"
 )
-@click.option("--count", type=IntegerOption(0), default=400, show_default=True, help="Generated rows of each family.")
+@click.option(
+    "--count", type=IntegerOption(0), default=400, show_default=True, help="Number of generated rows of each family."
+)
 @click.option(
     "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Seed of the generated rows."
 )
@@ -190,20 +192,32 @@ _COUNT = IntegerOption(1)
 )
 @click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="The oracles to ask.")
 @click.option(
-    "--judged", type=_COUNT, default=400, show_default=True, help="Rows of a family asked of the built-in methods."
+    "--judged",
+    type=_COUNT,
+    default=400,
+    show_default=True,
+    help="Number of rows of each family for the built-in methods.",
 )
-@click.option("--roots", type=_COUNT, default=1500, show_default=True, help="Rows in all for the roots oracle.")
-@click.option("--meshes", type=_COUNT, default=2000, show_default=True, help="Rows in all for the mesh oracle.")
+@click.option(
+    "--roots", type=_COUNT, default=1500, show_default=True, help="Total number of rows for the roots oracle."
+)
+@click.option(
+    "--meshes", type=_COUNT, default=2000, show_default=True, help="Total number of rows for the mesh oracle."
+)
 @click.option(
     "--workers",
     type=IntegerOption(1, MOST_PROCESSES),
-    help="Processes.  [default: one a processor; with SPEC, of large runs]",
+    help="Number of processes.  [default: one a processor; with SPEC, of large runs]",
 )
 @click.option("--precision", help="With SPEC: used instead of the declared precision.")
 @click.option("--question", help="With SPEC: used instead of the declared question.")
 @click.option("--domain", help="With SPEC: used instead of the declared domain; JSON.")
 @click.option(
-    "--max-abstained", type=IntegerOption(0), default=0, show_default=True, help="Cases that it may leave unanswered."
+    "--max-abstained",
+    type=IntegerOption(0),
+    default=0,
+    show_default=True,
+    help="Number of cases that it may answer with cannot say.",
 )
 @click.option(
     "--fail-on",
@@ -220,7 +234,7 @@ _COUNT = IntegerOption(1)
     "--fresh",
     type=FreshOption(),
     metavar="SEED",
-    help="With SPEC: as many rows more, of this seed; auto draws one, off asks none.  [default: auto if CI is set]",
+    help="With SPEC: as many further rows, of this seed; auto draws one, off asks none.  [default: auto if CI is set]",
 )
 @with_limits
 @click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to continue it.")

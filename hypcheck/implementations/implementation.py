@@ -185,7 +185,7 @@ class Implementation:
         least = 0 if self.spec.kind == "library" else 1
         if not least <= len(rows) <= LARGEST or repeat < 1:
             asked = f"{counted(len(rows), 'row')} cannot be timed {counted(repeat, 'time')}"
-            raise InputError(f"{asked}; {least} to {LARGEST} can, once or more")
+            raise InputError(f"{asked}; {least} to {LARGEST} rows can be timed, once or more")
         try:
             session = self._supervisor.session()
             began = time.monotonic_ns()

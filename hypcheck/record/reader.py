@@ -72,7 +72,7 @@ def file_of(path: Path) -> Path:
 def interrupted_in(path: Path) -> Path:
     """The record to resume; in a folder, that of a killed run takes precedence. Raises InputError for a stream."""
     if str(path) == STREAM:
-        raise InputError(f"--resume {STREAM} is no file; name a record, or the folder of a run")
+        raise InputError(f"--resume {STREAM} is standard input; name the file of a record, or the folder of a run")
     return path / GROWING if (path / GROWING).is_file() else file_of(path)
 
 

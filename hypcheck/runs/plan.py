@@ -178,7 +178,9 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
     layout = used.asked.layout
     families = chosen_families(plan, tilt=used.tilt, layout=layout)
     if not families and not chosen_families(plan, tilt=True, layout=layout):
-        raise InputError(f"{', '.join(plan.families)}: no case of these is about the question {used.question!r}")
+        raise InputError(
+            f"{', '.join(plan.families)}: none of these families has cases for the question {used.question!r}"
+        )
     if not families:
         raise InputError(
             f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "

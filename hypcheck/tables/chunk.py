@@ -36,7 +36,9 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
         raise InputError(f"{where}: {noun} {double}")
     for name in ADDED:
         if name in names:
-            raise InputError(f"{where}: {noun} {name!r} is there already and would be added; rename or remove it")
+            raise InputError(
+                f"{where}: {noun} {name!r} has the name of a {noun} that the output adds; rename or remove it"
+            )
     missing = [name for name in columns_of(names) if name not in names]
     if missing:
         nouns = noun if len(missing) == 1 else f"{noun}s"

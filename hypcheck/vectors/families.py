@@ -127,7 +127,9 @@ def parse_case_id(text: str) -> CaseId:
     except InputError as error:
         raise InputError(f"case {text!r}: {error}") from None
     if version != family.version:
-        raise InputError(f"case {text!r}: this version makes {name} by generator {family.version}, not {version}")
+        raise InputError(
+            f"case {text!r}: this version of hypcheck has generator {family.version} of {name}, not generator {version}"
+        )
     return CaseId(family, seed, index)
 
 

@@ -113,8 +113,8 @@ def content_of(document: JsonDocument, path: str) -> str:
     place, version = document.members["schema"]
     if version not in (SCHEMA, TILTED_SCHEMA, WAY_SCHEMA):
         raise InputError(
-            f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}, of tilted spheroids "
-            f"{TILTED_SCHEMA!r}, and of ways {WAY_SCHEMA!r}"
+            f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}, "
+            f"{TILTED_SCHEMA!r} about tilted spheroids and {WAY_SCHEMA!r} about ways"
         )
     place, content = document.members["content"]
     known = [name for name, of in SCHEMAS.items() if of == version]

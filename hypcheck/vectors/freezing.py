@@ -116,7 +116,7 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
         if name not in NAMES:
             raise InputError(f"there are no frozen vectors {name!r}; there are {', '.join(NAMES)}")
     if not folder.is_dir():
-        raise InputError(f"{folder} is no folder; make it, or name another with --into")
+        raise InputError(f"{folder} is no folder; create it, or name another folder with --into")
     for name in wanted:
         path = folder / f"{name}.json"
         text = _text(name, path)

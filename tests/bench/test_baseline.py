@@ -112,7 +112,9 @@ def test_bench_gates_the_chosen_methods_or_else_the_certified_ones():
 
 
 def test_baseline_without_the_gated_methods_is_refused():
-    with pytest.raises(InputError, match="holds no speed of what is to be held to it: other; it has mine"):
+    with pytest.raises(
+        InputError, match="--baseline has no speed of any method that is compared with it: other; it has mine"
+    ):
         require_common(run(), {"other"})
     require_common(run(), {"other", "mine"})
 
@@ -131,9 +133,9 @@ def recorded(path, lines=(), **options):
     ("options", "message"),
     [
         ({"command": "verify"}, "is a record of another command"),
-        ({"reference": "another"}, "its ratios are to 'another'"),
-        ({"quick": False}, "is of a full run; compare it with another full one"),
-        ({}, "holds no speed relative to"),
+        ({"reference": "another"}, "its ratios are relative to 'another'"),
+        ({"quick": False}, "is of a full run; compare it with another full run"),
+        ({}, "has no speed relative to"),
     ],
 )
 def test_baseline_of_another_kind_of_run_is_refused(tmp_path, options, message):

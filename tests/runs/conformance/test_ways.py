@@ -91,8 +91,14 @@ def test_known_failure_of_a_way_is_excused_and_fails_the_run_if_it_no_longer_occ
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("builtin:passage-exact", "--families", "ring"), "ring: no case of these is about the question 'passage'"),
-        (("builtin:fast", "--families", "way-anywhere"), "no case of these is about the question 'position'"),
+        (
+            ("builtin:passage-exact", "--families", "ring"),
+            "ring: none of these families has cases for the question 'passage'",
+        ),
+        (
+            ("builtin:fast", "--families", "way-anywhere"),
+            "none of these families has cases for the question 'position'",
+        ),
         (("builtin:fast", "--question", "passage"), 'its description must say "question": "passage"'),
     ],
 )
