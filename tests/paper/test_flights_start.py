@@ -40,7 +40,7 @@ def rim_is_valid(start):
     return bool(valid(CRAFT, at, heading).all())
 
 
-def test_a_start_is_refused_exactly_if_some_place_on_its_rim_is_not_valid():
+def test_flight_simulation_refuses_a_start_disc_exactly_if_a_place_on_its_rim_is_invalid():
     told = {True: 0, False: 0}
     for start in starts(300):
         expected = rim_is_valid(start)

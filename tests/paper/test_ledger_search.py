@@ -191,7 +191,7 @@ def test_repaired_propositions_have_counterexamples_outside_their_regime():
         assert not statement.where(found)
 
 
-def test_a_search_counts_the_points_that_it_tried():
+def test_counterexample_search_counts_the_points_that_it_tried():
     assert first_point(lambda _: False).tried == len(everything())
     assert first_point(lambda _: True).tried == 1
     tall = first_point(lambda _: False, entry.tall).tried

@@ -122,7 +122,7 @@ def test_craft_leans_backwards_in_a_backward_move(monkeypatch):
     assert (lean.axis[2] > 0).all()
 
 
-def test_moves_up_or_down_and_turns_are_not_counted():
+def test_pitch_counts_omit_vertical_moves_and_turns():
     at, heading = near_the_wall(10)
     moves = moves_at(at, heading, back=np.zeros(10, np.bool_), accepted=np.ones(10, np.bool_))
     counts = PitchVerdicts()
@@ -131,7 +131,7 @@ def test_moves_up_or_down_and_turns_are_not_counted():
     assert counts == PitchVerdicts()
 
 
-def test_a_body_that_does_not_lean_is_judged_as_the_upright_one():
+def test_craft_with_pitch_0_is_judged_as_the_upright_craft():
     at, heading = near_the_wall(100)
     moves = moves_at(at, heading, back=np.zeros(100, np.bool_), accepted=np.ones(100, np.bool_))
     counts = PitchVerdicts()

@@ -50,7 +50,7 @@ def test_the_text_about_leaning_has_dangerous_and_needless_answers_apart():
     ]
 
 
-def test_the_text_about_leaning_without_a_move_has_no_share():
+def test_text_about_pitch_without_a_counted_move_has_no_share():
     none = {**LEANS, "total": dict.fromkeys(LEANS["total"], 0)}
     assert "  of 0 horizontal moves its answer is wrong about 0:" in list(pitch_lines(none))
 

@@ -116,7 +116,7 @@ def test_simulate_tower_with_0_runs_has_no_table():
     assert simulated(runs=0)["table_5"] is None
 
 
-def test_the_result_has_three_paths_of_25_positions_with_their_discriminants():
+def test_result_of_the_tower_simulation_has_three_paths_of_25_positions_with_discriminants():
     result = simulated(runs=0)["flights"]
     assert result["ways"] is None
     assert len(result["paths"]) == 3
@@ -145,7 +145,7 @@ def test_continuous_tower_simulation_adds_verdicts_on_the_ways_between_positions
     assert [ways[name] for name in differ] == [0, 0, 0]  # B > A + 1 in this tower
 
 
-def test_the_result_names_every_assumption():
+def test_result_of_the_tower_simulation_names_every_assumption():
     told = simulated()["assumptions"]
     assert told["scene"] == "cooling tower"
     assert (told["l"], told["g1_from_heading"], told["turn"], told["backward"]) == (0.135, 45.0, "executed", True)
@@ -173,7 +173,7 @@ def test_simulate_tower_refuses_invalid_plans(changes, message):
         simulated(**changes)
 
 
-def test_the_default_scene_fits_the_table_as_was_measured():
+def test_default_scene_fits_table_5_as_closely_as_measured():
     """RMS 0.53 as printed and 0.23 with 0.25, at 1000 runs of 500 m; here one cell, which is 13.85 ± 0.05 at 1000."""
     block = replace(blocks(craft_of(TOWER), TOWER.flight, 1, 150, watched=False)[0.3, 10][0], lanes=150)
     tallies = fly_block(block).tallies

@@ -97,7 +97,7 @@ def test_a_file_that_coq_refuses_is_an_error_with_what_coq_said(tools, said, mes
     assert raised.value.exit_code == Exit.WRONG
 
 
-def test_assumptions_are_the_names_that_coq_prints_and_none_of_a_closed_proof(tools):
+def test_assumptions_of_a_proof_are_read_from_coq_and_empty_for_a_closed_proof(tools):
     build.BUILT.mkdir()
     tools.says = {"Assumptions.v": (0, REAL_NUMBERS, "")}
     assert build.assumptions(("Geometry",)) == {

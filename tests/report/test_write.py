@@ -64,7 +64,7 @@ def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
 
 
 @pytest.mark.parametrize("kept", range(len(record_samples.lines()) + 1))
-def test_reports_of_a_run_that_was_interrupted_anywhere_are_written(kept, tmp_path):
+def test_reports_are_written_for_a_run_interrupted_at_any_line(kept, tmp_path):
     record = record_samples.record(record_samples.lines()[:kept], exit_code=None)
     written = write_reports(record, tmp_path, [*TEXTS, *(["map", "html"] if kept % 6 == 0 else [])])
     assert not [each.path.name for each in written if each.skipped]

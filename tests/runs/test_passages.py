@@ -113,7 +113,7 @@ def test_answers_about_ways_get_the_expected_mistake_and_status(name, hit, time,
     assert (case.mistake, case.status) == (mistake, status)
 
 
-def test_time_of_a_graze_is_right_as_long_as_the_grown_spheroid_touches():
+def test_judge_accepts_the_time_of_a_graze_while_the_grown_spheroid_touches():
     start, end, _ = BY_HAND["grazes in the middle"]
     rows = np.array([[*BODY, *start, *end]])
     near, far = 0.5 + 2.0**-27, 0.5 + 1e-3

@@ -81,13 +81,13 @@ def test_histogram_bins_equal_the_counts_of_a_plain_loop():
 
 
 @pytest.mark.parametrize("scale", [1e-300, 1.0, 1e300])
-def test_place_bins_hold_centres_of_any_magnitude(scale):
+def test_histogram_by_place_counts_centres_of_any_magnitude(scale):
     rows = np.array([[1.0, 1, 1, 1, 1.5, 2, 0.25], [1.0, 1, 1, 1, 0, 0, 1e9]]) * [1, 1, 1, 1, scale, scale, 1]
     rows[:, 0] = scale
     assert tally.by_place(rows, np.array([True, False])).as_lists() == [[0, 63, 1, 0], [20, 2, 1, 1]]
 
 
-def test_sparse_and_dense_bins_give_the_same_counts():
+def test_sparse_and_dense_histograms_give_the_same_counts():
     rng = np.random.default_rng(5)
     rows = np.ones((3000, 7))
     rows[:, :4] = np.ldexp(1.0, rng.integers(-500, 500, (3000, 4)).astype(np.int32))

@@ -171,7 +171,7 @@ def test_each_piece_of_a_proof_is_positive_over_its_whole_stretch(row):
     assert found.contact is not None or last == 1
 
 
-def test_the_special_time_is_where_the_height_or_the_distance_from_the_axis_is_least():
+def test_special_time_of_a_way_is_where_its_height_or_distance_from_the_axis_is_least():
     rising = journey((2.0, 3.0, 1.0, 1.0, -6.0, 5.0, -1.5, 8.0, 3.25, 4.0))
     assert rising._special_time() == Fraction(3, 11)
     for row in (

@@ -52,7 +52,7 @@ def test_giant_tiny_and_far_families_have_the_sizes_that_their_names_say() -> No
     assert far.max() > 1e7
 
 
-def test_rows_for_short_formats_are_exact_in_them() -> None:
+def test_rows_of_float32_and_float16_families_are_exact_in_these_formats() -> None:
     for name, dtype in (("float32-exact", np.float32), ("float16-exact", np.float16)):
         rows = FAMILIES[name].rows(0, COUNT)
         assert np.array_equal(rows.astype(dtype).astype(np.float64), rows)

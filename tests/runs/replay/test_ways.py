@@ -73,7 +73,9 @@ def test_replay_calls_an_answer_to_an_invalid_way_wrong_unless_it_is_refused(cap
         ("1,2,1,1,4,0,0,0,0,0,0,0,1", "builtin:passage-exact", "has an axis, but passage-exact takes none; its"),
     ],
 )
-def test_case_that_is_no_way_or_a_way_where_none_is_wanted_is_refused_in_one_sentence(case, spec, sentence, capsys):
+def test_replay_refuses_a_case_that_does_not_match_the_question_about_ways_in_one_sentence(
+    case, spec, sentence, capsys
+):
     code, said = replayed(capsys, case, spec)
     assert code == 2
     assert sentence in said.err

@@ -69,7 +69,7 @@ def check(plan, used, rules, content):
     ],
     ids=lambda plan: plan.specs[0].rpartition(":")[2],
 )
-def test_every_state_of_a_run_is_consistent(plan):
+def test_every_saved_state_of_a_run_passes_the_consistency_check(plan):
     kinds = set()
     for used, rules, state in every_state(plan):
         check(plan, used, rules, as_json(saved_state(state)))

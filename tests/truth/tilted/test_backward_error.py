@@ -101,7 +101,7 @@ def test_centre_on_the_axis_of_the_hyperboloid_is_never_exterior():
     assert tolerated(row, decided(row), [EXTERIOR], Fraction(1)) is False
 
 
-def test_tolerance_is_met_by_one_of_several_right_answers():
+def test_answer_is_tolerated_if_one_of_several_accepted_answers_is_within_the_tolerance():
     row = [1, 4, 0.125, 0.25, 1.125 - STEP, 0, 0, 0, 1, 0]  # in contact, and STEP away from exterior
     assert tolerated(row, decided(row), [INTERIOR], Fraction(STEP)) is False
     assert tolerated(row, decided(row), [INTERIOR, EXTERIOR], Fraction(STEP)) is True
