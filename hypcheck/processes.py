@@ -102,12 +102,13 @@ def perform(
 
 
 def in_order(
-    function: Callable[[Task], Result], tasks: Iterable[Task], workers: int, alone: int
+    function: Callable[[Task], Result], tasks: Iterable[Task], workers: int, alone: int, ahead: int = 2
 ) -> Generator[Result, None, None]:
     """The result of each task, in order. The first `alone` tasks are done here, the others by so many workers.
 
-    Tasks are taken in advance, but an error is raised after the results before it. If a worker is killed, its task is
-    done here. The caller closes the generator if it does not exhaust it.
+    Tasks are taken in advance, `ahead` for each worker, which has something to do while another's task takes long. An
+    error is raised after the results before it. If a worker is killed, its task is done here. The caller closes the
+    generator if it does not exhaust it.
     """
     coming = iter(tasks)
     yield from map(function, islice(coming, alone))
@@ -119,7 +120,7 @@ def in_order(
             queue: deque[tuple[Task | _TaskError, Future[Result] | None]] = deque()
             for task in _tasks_then_error(chain([first], coming)):
                 queue.append((task, _submitted(function, task, executor)))
-                if len(queue) == 2 * workers:
+                if len(queue) == ahead * workers:
                     yield _finished(function, *queue.popleft())
             while queue:
                 yield _finished(function, *queue.popleft())

@@ -217,7 +217,7 @@ class _SelfCheck:
         """Do all tasks, in processes where the plan has several workers, and record what they find, in their order."""
         found: list[FindingLine] = []
         tallies: list[OracleTally] = []
-        with closing(in_order(performed, tasks, self.plan.workers, 0)) as results:
+        with closing(in_order(performed, tasks, self.plan.workers, 0, ahead=len(tasks))) as results:
             for task, result in zip(tasks, results, strict=True):
                 match task:
                     case DerivationTask():
