@@ -174,13 +174,40 @@ _PYTHON = {
 }
 
 
+_HAS_DIRECTION = """
+{before}{integer} has_direction(const double axis[3])
+{{
+    const double largest = {std}fmax({std}fmax({std}fabs(axis[0]), {std}fabs(axis[1])), {std}fabs(axis[2]));
+    const double spread = (axis[0] - axis[0]) + (axis[1] - axis[1]) + (axis[2] - axis[2]);
+    return largest > 0 && spread == 0;
+}}
+"""
+
 _C_AXIS = {
+    "check": _HAS_DIRECTION.format(
+        before="/* Whether an axis is one: of finite numbers, not 0, 0, 0. */\nstatic ", integer="int", std=""
+    ),
+    "checked": " && has_direction(axis)",
+    "checked_row": " && has_direction(row + 7)",
     "axis": ", const double axis[3]",
     "given": ", axis",
     "row": ", row + 7",
     "header": "#include <float.h>\n",
 }
+_CPP_AXIS = {
+    **_C_AXIS,
+    "check": _HAS_DIRECTION.format(
+        before="// Whether an axis is one: of finite numbers, not 0, 0, 0.\n", integer="bool", std="std::"
+    ),
+}
 _RUST_AXIS = {
+    "check": """
+/// Whether an axis is one: of finite numbers, not 0, 0, 0.
+fn has_direction(axis: &[f64; 3]) -> bool {
+    axis.iter().all(|part| part.is_finite()) && axis.iter().any(|part| *part != 0.0)
+}
+""",
+    "checked": ".filter(|_| has_direction(axis))",
     "axis": ", axis: &[f64; 3]",
     "given": ", axis",
     "row": ", &[row[7], row[8], row[9]]",
@@ -191,12 +218,26 @@ _RUST_AXIS = {
     "read": "let axis = &*axis.cast::<[f64; 3]>();\n    ",
 }
 _JAVASCRIPT_AXIS = {
+    "check": """
+/** Whether an axis is one: of finite numbers, not 0, 0, 0. */
+function has_direction(axis) {
+    return axis.every(Number.isFinite) && axis.some((part) => part !== 0);
+}
+""",
+    "checked": " && has_direction([axisX, axisY, axisZ])",
     "axis": ", axis",
     "given": ", axis",
     "row": ", [axisX, axisY, axisZ]",
     "names": ", axisX, axisY, axisZ",
 }
 _PYTHON_AXIS = {
+    "check": """
+
+def has_direction(axis: tuple[float, float, float]) -> bool:
+    \"\"\"Whether an axis is one: of finite numbers, not 0, 0, 0.\"\"\"
+    return all(map(math.isfinite, axis)) and any(axis)
+""",
+    "checked": " or not has_direction((axis_x, axis_y, axis_z))",
     "axis": ", axis: tuple[float, float, float]",
     "given": ", axis",
     "row": ", (axis_x, axis_y, axis_z)",
@@ -215,7 +256,9 @@ DIALECTS = {
     dialect.name: dialect
     for dialect in (
         Dialect("c", "kernel.c", "c", " * ", _C_NUMBERS, c_statements, _C_LIKE, _C_SUFFIXES, _C_AXIS, True, True),
-        Dialect("cpp", "kernel.cpp", "cpp", "// ", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES, _C_AXIS, True, True),
+        Dialect(
+            "cpp", "kernel.cpp", "cpp", "// ", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES, _CPP_AXIS, True, True
+        ),
         Dialect("rust", "kernel.rs", "rs", "//! ", _RUST_NUMBERS, rust_statements, _RUST, {}, _RUST_AXIS, exports=True),
         Dialect(
             "javascript",

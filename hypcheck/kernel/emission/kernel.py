@@ -134,7 +134,9 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "number": number,
         "search": _searches_text(plan, dialect),
         **_axis_parts(plan, dialect),
-        "imports": "\n".join(["import math"] * bool(_searched(plan)) + ["from collections.abc import Iterable"]),
+        "imports": "\n".join(
+            ["import math"] * bool(_searched(plan) or plan.free) + ["from collections.abc import Iterable"]
+        ),
         "settings": ("\n\n\n" if language == "python" else "\n\n").join([*_settings(plan, dialect), *functions]),
         "many": "\n\n".join(batch_function(plan, stages, place, dialect) for place, stages in _numbered(plan))
         if dialect.by_block

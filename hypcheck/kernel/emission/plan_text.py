@@ -129,7 +129,7 @@ def _paragraphs(plan: ScenePlan, command: Sequence[str]) -> Iterator[str]:
     yield (
         "x, y and z are the centre of the spheroid as seen from the centre of the hyperboloid: finite numbers. "
         f"The sizes alpha, gamma, b, d{_and_axis(plan)} are those below; any other is answered {CANNOT_SAY}, which "
-        "means: cannot say. "
+        f"means: cannot say. {_no_direction(plan)}"
         "What is promised below is promised of centres in the region of their sizes, its border included."
     )
     if len(plan.settings) <= FEW:
@@ -171,6 +171,11 @@ def _question_in_comment(question: str) -> str:
     if question == "position":
         return "+1 exterior, 0 contact (tangency included), -1 interior"
     return f"1 if it is {question if question != 'contact' else 'in contact'}, else 0"
+
+
+def _no_direction(plan: ScenePlan) -> str:
+    """What a kernel for any axis answers where a query names none."""
+    return "So is an axis that is 0, 0, 0 or not finite. " if plan.free else ""
 
 
 def _setting(stages: Stages, question: str) -> str:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description, described_by_json, domain_of
 from hypcheck.kernel.emission.dialects import DIALECTS
@@ -25,6 +27,7 @@ from tests.kernel.emission import building
 from tests.kernel.emission.building import (
     COMMAND,
     answers,
+    answers_by_scene,
     asking,
     built,
     load_module,
@@ -111,6 +114,33 @@ def test_a_kernel_for_any_axis_answers_cannot_say_if_the_axis_has_no_direction(l
         kernel(np.array(rows)) if language not in {"c", "cpp", "rust"} else answers(_library(kernel), np.array(rows))
     )
     assert found.tolist() == [CANNOT_SAY, CANNOT_SAY, CANNOT_SAY, 0, 1]
+
+
+@pytest.mark.parametrize("language", DIALECTS)
+def test_a_kernel_for_any_axis_answers_cannot_say_without_a_direction_where_every_axis_has_one_answer(
+    language, tmp_path
+):
+    """Deep inside and far out no stage needs the axis, and the elm, far from its region, is exterior unseen."""
+    skip_without(language)
+    nowhere = SceneModel("an elm", "position", TREES[1:], Mover(0.3, 0.9, axis=FREE), Region(x=Span(90.0, 99.0)))
+    nowhere = replace(nowhere, region=replace(nowhere.region, z=Span(-1.0, 1.0)))
+    assert [stages.always for stages in plan_of(nowhere).settings] == [Position.EXTERIOR]
+    places = [
+        (tower(FREE), [2.0, 17.8, 0.25, 0.15], ((0.0, -1), (9.0, 1))),
+        (nowhere, [0.14, 10, 0.3, 0.9], ((95, 1),)),
+    ]
+    for number, (scene, sizes, centres) in enumerate(places):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        kernel = asking(built(folder, scene, language), language)
+        for x, right in centres:
+            axes = np.array([(0, 0, 1), (0, 0, 0), (0.0, -0.0, 0), (np.nan, 0, 1), (0, np.inf, 1), (1, 0, -np.inf)])
+            rows = np.column_stack([np.tile(np.array([*sizes, x, 0, 0], float), (len(axes), 1)), axes])
+            entries = [kernel]
+            if language in {"c", "cpp", "rust"}:
+                entries = [partial(answers, _library(kernel)), partial(answers_by_scene, _library(kernel))]
+            for entry in entries:
+                assert [int(entry(row[None])[0]) for row in rows] == [right, *[CANNOT_SAY] * 5]
 
 
 @pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
