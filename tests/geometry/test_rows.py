@@ -25,6 +25,14 @@ def test_as_rows_takes_seven_numbers_of_any_array_type(values):
     assert rows.flags.c_contiguous
 
 
+def test_as_rows_refuses_masked_numbers_and_takes_an_array_that_masks_none():
+    rows = np.ma.masked_array([GOOD, GOOD], mask=False)
+    assert as_rows(rows).tolist() == [GOOD, GOOD]
+    rows[0, 4] = rows[1, 6] = np.ma.masked
+    with pytest.raises(InputError, match="the rows are masked in 2 places; fill these, with nan or a number"):
+        as_rows(rows)
+
+
 def test_as_rows_does_not_copy_contiguous_float64_rows():
     rows = np.array([GOOD, GOOD])
     assert as_rows(rows) is rows

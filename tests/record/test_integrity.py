@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import zlib
+from fractions import Fraction
 from itertools import combinations
 
 import pytest
@@ -133,6 +134,12 @@ def test_a_number_that_is_too_large_for_float64_is_refused(number):
     line = b'{"type": "header", "schema": "1.0.0", "seed": %s}\n' % number.encode()
     with pytest.raises(InputError, match="is too large for float64"):
         list(RecordScan(Reader(io.BytesIO(line), "it")))
+
+
+@pytest.mark.parametrize("number", ["1e300", "-2.5e+100", "0.12345678901234567890123"])
+def test_a_number_with_many_digits_or_a_large_exponent_is_read_as_the_nearest_float64(number):
+    line = b'{"type": "header", "schema": "1.0.0", "seed": %s}\n' % number.encode()
+    assert next(iter(RecordScan(Reader(io.BytesIO(line), "it"))))["seed"] == float(Fraction(number))
 
 
 def test_a_large_integer_that_float64_holds_is_read_as_it_is():

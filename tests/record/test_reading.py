@@ -88,6 +88,16 @@ def test_record_line_with_impossible_bins_is_refused_and_one_with_the_farthest_b
             decoded({**line, field: value}, kind)
 
 
+def test_a_line_knows_the_type_that_the_record_gives_it():
+    header, drift = decoded(HEADER, HeaderLine), DriftLine(sentence="it moved")
+    assert (header.type, drift.type, FooterLine(lines=2, exit_code=0, seconds=0.0).type) == (
+        "header",
+        "drift",
+        "footer",
+    )
+    assert decoded({**SAMPLE}, ImplementationLine).type == "implementation"
+
+
 def test_recorded_cases_are_numbered_from_1_with_the_worst_of_a_group_before_its_faults():
     counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": []}
     names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
@@ -100,6 +110,12 @@ def test_recorded_cases_are_numbered_from_1_with_the_worst_of_a_group_before_its
 @pytest.fixture
 def path(tmp_path):
     return tmp_path / "record.jsonl"
+
+
+def test_the_error_about_a_wrong_line_names_its_number_in_the_file_and_its_type(path):
+    path.write_bytes(resealed([HEADER, SAMPLE, {**SAMPLE, "restarts": -1}, {**FOOTER, "lines": 4}]))
+    with pytest.raises(InputError, match="line 3, implementation: restarts"):
+        read(path)
 
 
 def test_a_record_is_read_back_as_it_was_written(path):

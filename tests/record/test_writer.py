@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import errno
 import fcntl
+import io
 import platform
+import time
 
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.record import writer
+from hypcheck.record import read, writer
 from hypcheck.record.fields import Unsigned, decoded
-from hypcheck.record.writer import GrowingFile, folder_locked
+from hypcheck.record.lines import DriftLine, NotStartedLine
+from hypcheck.record.writer import FolderInUseError, GrowingFile, Recorder, folder_locked
+from tests.record.test_removed import PROGRESS
 
 
 def test_folder_is_used_without_a_lock_on_systems_without_file_locks(monkeypatch, tmp_path):
@@ -21,6 +25,52 @@ def test_folder_is_used_without_a_lock_on_systems_without_file_locks(monkeypatch
     monkeypatch.setattr(fcntl, "flock", without)
     with folder_locked(tmp_path), folder_locked(tmp_path):
         (tmp_path / "file").touch()
+
+
+def test_a_folder_is_locked_for_one_run_at_a_time_and_free_again_after_it(tmp_path):
+    for _ in range(2):
+        with folder_locked(tmp_path):
+            with (
+                pytest.raises(FolderInUseError, match="another run is writing its record there"),
+                folder_locked(tmp_path),
+            ):
+                pass
+            (tmp_path / "file").touch()
+
+
+def test_a_growing_file_replaces_what_a_killed_run_left_beside_it(tmp_path):
+    path = tmp_path / "record.jsonl"
+    (tmp_path / "record.jsonl.new").write_bytes(b"half of a line")
+    with GrowingFile(path) as file:
+        file.renew(b"whole")
+        file.write(b", and more")
+        assert path.read_bytes() == b"whole, and more"
+    assert [each.name for each in tmp_path.iterdir()] == [path.name]
+
+
+def test_a_recorder_that_resumes_keeps_the_carried_lines_and_puts_the_progress_behind_them(tmp_path):
+    drift, path = DriftLine(sentence="it moved"), tmp_path / "record.jsonl"
+    with GrowingFile(path) as file:
+        recorder = Recorder(file, {}, carried=[drift, PROGRESS])
+        assert recorder.lines == (drift,)
+        assert read(path).lines == (drift, PROGRESS)
+        recorder.close(0)
+    assert read(path).lines == (drift,)
+
+
+def test_a_record_can_be_resumed_once_it_has_one_implementation_or_progress():
+    not_started = NotStartedLine(spec="python:mine:f", name="mine", trouble="no such module")
+    for carried, goes_on in (([], False), ([DriftLine(sentence="it moved")], False), ([not_started], True)):
+        assert Recorder(io.StringIO(), {}, carried=carried).goes_on is goes_on
+    assert Recorder(io.StringIO(), {}, carried=[PROGRESS]).goes_on
+
+
+def test_the_footer_holds_the_seconds_since_the_recorder_was_made(monkeypatch):
+    now = 1000.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    recorder = Recorder(io.StringIO(), {})
+    now = 1002.5
+    assert recorder.close(0).footer.seconds == 2.5
 
 
 def test_error_while_closing_a_growing_file_is_reported_unless_another_error_is_raised(monkeypatch, tmp_path):
@@ -49,6 +99,12 @@ def test_processor_name_comes_from_python_if_the_system_gives_none(monkeypatch):
     assert writer._processor() == "unknown"
     monkeypatch.setattr(platform, "processor", lambda: "s390x")
     assert writer._processor() == "s390x"
+
+
+def test_processor_name_is_that_of_the_first_processor_that_the_system_lists(monkeypatch):
+    listed = "processor\t: 0\nmodel\t\t: 6\nmodel name\t: One of 2 GHz\nprocessor\t: 1\nmodel name\t: Two\n"
+    monkeypatch.setattr(writer.Path, "open", lambda *_, **__: io.StringIO(listed))
+    assert writer._processor() == "One of 2 GHz"
 
 
 def test_a_number_of_a_record_that_must_not_be_negative_is_refused_below_0():

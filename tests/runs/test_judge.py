@@ -170,6 +170,15 @@ def test_every_wrong_answer_about_leaning_rows_is_judged_where_some_are_proved_a
     assert not found[1].least
 
 
+def test_exponent_of_a_wrong_answer_about_a_leaning_spheroid_is_minus_infinity_at_a_tangency_alone():
+    needle = [1.0, 4.0, 0.125, 0.25, 1.125, 0.0, 0.0, 0.0, 1.0, 0.0]  # across the x axis, it touches the throat
+    rows = np.array([needle, [*needle[:4], 1.25, *needle[5:]]])
+    truth, answers = np.array([0, 1], dtype=np.int8), np.array([1, 0], dtype=np.int8)
+    touching, clear = judge.wrong_cases(rows, truth, answers, Criterion(tolerance=Fraction(0)))
+    assert touching.exponent == -math.inf
+    assert math.floor(clear.exponent) == math.floor(math.log2(1 / 19))  # contact where x (1 − ε) = (α + b)(1 + ε)
+
+
 @pytest.mark.parametrize("units", [256, 300])
 def test_a_tolerance_of_1_tolerates_an_error_that_rounds_up_to_1(units):
     """α = 1e-9 and x = 1: the spheroid has to shrink and the hyperboloid to move by nearly all of themselves."""

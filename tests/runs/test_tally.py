@@ -9,8 +9,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from msgspec import UNSET
 
-from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS
 from hypcheck.implementations.questions import Answered
 from hypcheck.implementations.session import Outcome
 from hypcheck.runs import judge, tally
@@ -184,3 +185,24 @@ def test_sizes_are_binned_by_their_octaves_one_or_several():
     assert tally.by_size(rows, amiss).as_lists() == [[3, -2, 2, 1]]
     rows[1, 3] = 0.9
     assert tally.by_size(rows, amiss).as_lists() == [[3, -2, 1, 1], [3, 0, 1, 0]]
+
+
+def test_radii_of_places_count_both_coordinates_alike():
+    assert tally._radius(np.array([[1.0, 1, 1, 1, 3, 4, 0], [1.0, 1, 1, 1, -5, 12, 0]])).tolist() == [5, 13]
+
+
+def test_rows_of_one_scene_are_in_one_size_bin_wherever_their_spheroids_are():
+    rows = np.array([[2.0, 16.0, 0.25, 0.5, x, 0.0, 0.0] for x in (1.0, 2.0, 3.0)])
+    assert tally.by_size(rows, np.array([True, False, True])).as_lists() == [[3, 5, 3, 2]]
+
+
+def test_line_of_a_worst_answer_has_the_time_of_a_way_and_bounds_of_its_first_contact():
+    """A ball of radius 1/2 comes along the x axis from 5 to 1 and meets the throat of radius 1 at 3/2: at 7/8."""
+    way = (1.0, 4.0, 0.5, 0.5, 5.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    case = WorstCase((1, 0), "mine/0", way, 1, 1, "late", "wrong", 0.25, time=0.9375)
+    found = tally.worst_line(case, Criterion("passage", tolerance=Fraction(0)), WAYS)
+    assert (found.case, found.mistake, found.time, found.backward_error) == ("mine/0", "late", 0.9375, 0.25)
+    assert found.first[0] <= 0.875 <= found.first[1] < found.first[0] + 1e-9
+    still = WorstCase((1, 1), "mine/1", way[:7], 1, 0, "false-contact", "wrong", 0.25)
+    found = tally.worst_line(still, CRITERION, PAIRS)
+    assert (found.case, found.row[4], found.time, found.first) == ("mine/1", (5.0).hex(), UNSET, UNSET)
