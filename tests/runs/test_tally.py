@@ -188,7 +188,7 @@ def test_sizes_are_binned_by_their_octaves_one_or_several():
 
 
 def test_radii_of_places_count_both_coordinates_alike():
-    assert tally._radius(np.array([[1.0, 1, 1, 1, 3, 4, 0], [1.0, 1, 1, 1, -5, 12, 0]])).tolist() == [5, 13]
+    assert tally._radius(np.array([[1.0, 1, 1, 1, 4, 3, 0], [1.0, 1, 1, 1, -12, 5, 0]])).tolist() == [5, 13]
 
 
 def test_rows_of_one_scene_are_in_one_size_bin_wherever_their_spheroids_are():

@@ -81,6 +81,57 @@ def test_the_bound_of_the_float_stage_covers_its_error(factor):
     assert max(used) > 1e-4  # nor is the bound so wide that it says nothing
 
 
+@pytest.mark.parametrize("factor", [1.0, 0.5, 2.0**-20])
+def test_the_bound_of_the_dual_is_at_least_what_its_derivation_says(factor):
+    """64η(|λ|(u + C)(near + far) + |λ|T + (u + C)|F|), in rationals from the row and the u that was chosen."""
+    rows = mixed_rows(300, seed=21, span=20)
+    scaled = nearest_batch._scale(rows)
+    with np.errstate(all="ignore"):
+        tau, sigma = nearest_batch._solve(scaled)
+        tau, sigma = np.where(tau <= sigma, tau * factor, tau), np.where(tau <= sigma, sigma, sigma * factor)
+        error = nearest_batch._evaluate(scaled, tau, sigma).error
+    eta, seen = Fraction(double_double.ERROR), 0
+    for row, near_A, near_B, bound in zip(rows.tolist(), tau.tolist(), sigma.tolist(), error.tolist(), strict=True):
+        alpha, gamma, b, d, x, y, z = map(Fraction, row)
+        A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / b**2, (z / d) ** 2
+        u = Fraction(min(near_A, near_B))
+        if not 0 < u < (A + B) / 4 or not math.isfinite(bound):
+            continue
+        seen += 1
+        C = A if near_A <= near_B else B
+        at = u - A if near_A <= near_B else B - u
+        down, up = P / (A + at) ** 2, Q / (B - at) ** 2
+        F, T = A * down - B * up - 1, A * down + B * up + 1
+        inexact = 100 * eta  # λ, F and their terms are themselves known so well
+        size, slope = max(abs(at) - inexact * (u + C), 0), max(abs(F) - inexact * T, 0)
+        derived = 64 * eta * (size * (u + C) * (down + up) + size * T + (u + C) * slope)
+        assert Fraction(bound) >= derived * (1 - Fraction(1, 2**40))
+    assert seen > 200
+
+
+def test_the_gap_is_within_its_bound_where_nothing_but_roundings_is_left():
+    """With the poles far away the gap is F²/(2|F′|), which float64 rounds."""
+    rng = np.random.default_rng(22)
+    slope, curvature = 2.0 ** rng.uniform(-60, 5, (2, 500))
+    found, error = nearest_batch._gap(slope, np.zeros(500), curvature, np.full(500, 2.0**300))
+    exact = [Fraction(each) ** 2 / (2 * Fraction(bend)) for each, bend in zip(slope, curvature, strict=True)]
+    assert (np.abs(exactly(found) - exact) <= exactly(error)).all()
+    assert (exactly(found) != exact).any()
+    assert (error <= 2.0**-40 * found).all()
+
+
+@pytest.mark.parametrize("order", [-40, -3, 3, 60])
+def test_the_clearance_of_an_exactly_known_squared_distance_is_within_its_bound(order):
+    rng = np.random.default_rng(23)
+    high = 2.0**order * rng.uniform(1, 4, 300)
+    squared = two_sum(high, high * 2.0**-53 * rng.uniform(-1, 1, 300))
+    (first, second), error = nearest_batch._clearance(squared, np.zeros(300))
+    with mp.workprec(400):
+        for s, low, one, two, bound in zip(*squared, first, second, error, strict=True):
+            assert abs(mpf(one) + mpf(two) - (mp.sqrt(mpf(s) + mpf(low)) - 1)) <= bound
+    assert (error < 2.0**-95 * (1 + np.sqrt(high))).all()
+
+
 def test_float_stage_claims_no_position_from_a_multiplier_beyond_the_poles():
     """The dual is no bound there; a solver that strays must not be believed."""
     scaled = nearest_batch._scale(mixed_rows(300, seed=13))

@@ -54,3 +54,14 @@ def test_clearance_of_a_known_squared_distance_is_its_rounded_root_minus_1(numer
         beside = Fraction(found) * (1 + share * (1 if found > 0 else -1)) + 1
         assert (beside**2 >= exact) if larger else (beside < 0 or beside**2 <= exact)
     assert nearest_exact._clearance_of_square(5, 5) == 0
+
+
+@pytest.mark.parametrize("sizes", [(3, 5, 2, 7), (1, 1, 1, 1), (9, 2, 4, 5), (2, 10, 3, 1)])
+@pytest.mark.parametrize("K", [1, 3, 10])
+def test_a_multiplier_is_moved_to_the_nearest_one_strictly_between_the_poles(sizes, K):
+    """Against a plain search among the multiples of 1/K."""
+    alpha, gamma, b, d = sizes
+    squares = nearest_exact.SquaredLengths(alpha=alpha, b=b, R=1, gamma=gamma, d=d, z=1)
+    inside = [L for L in range(-200, 200) if -Fraction(alpha, b) < Fraction(L, K) < Fraction(gamma, d)]
+    for L in range(-150, 150):
+        assert nearest_exact._within(squares, L, K) == min(inside, key=lambda each: abs(each - L))

@@ -121,6 +121,14 @@ def test_piece_of_a_proof_that_reaches_over_a_contact_is_refused():
         assert clear_until(row, PassageCertificate(((multiplier, Fraction(1)),))) is None
 
 
+def test_a_piece_that_ends_after_the_way_proves_no_time():
+    """The ball stays outside on the straight line beyond the way, too."""
+    clear = (2.0, 3.0, 1.0, 1.0, 4.0, 0.0, 0.0, 4.0, 1.0, 0.0)
+    multiplier = prove(clear)[2].pieces[0][0]
+    assert clear_until(clear, PassageCertificate(((multiplier, Fraction(1)),))) == 1
+    assert clear_until(clear, PassageCertificate(((multiplier, Fraction(3, 2)),))) is None
+
+
 def test_damaged_proof_of_contact_on_a_way_is_refused():
     _, first, certificate = prove(TUNNEL)
     assert check_passage(TUNNEL, certificate, first)

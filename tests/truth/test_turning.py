@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.turning import squared_distances, turning
+from hypcheck.truth.turning import _all_the_way, _summit, squared_distances, turning
 from tests.support.fractions_truth import exact_position
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
@@ -155,3 +155,26 @@ def test_turning_raises_an_error_for_an_invalid_turn(arm, direction, angle, mess
         turning(SIZES, (0, 0, 0), arm, direction, angle)
     with pytest.raises(InputError, match="gamma is 0"):
         turning((2, 0, 1, 1), (0, 0, 0), 1, (0, 1), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("squared", "b", "truth"),
+    [("2.24", "0.6", CONTACT), ("2.19", "0.51", INTERIOR), ("6.2", "0.495", CONTACT), ("6.245", "0.495", EXTERIOR)],
+)
+def test_no_wrong_answer_about_a_turn_is_given_where_its_radius_is_known_to_a_half_alone(squared, b, truth):
+    """At z = 0 contact is from α − b to α + b; of the halves beside the radius, one is where the truth is another."""
+    squared, b = Fraction(squared), Fraction(b)
+    inner, outer = ((2 + side * b) ** 2 for side in (-1, 1))
+    assert truth is (INTERIOR if squared < inner else EXTERIOR if squared > outer else CONTACT)
+    row = (Fraction(2), Fraction(3), b, b, Fraction(0), Fraction(0), Fraction(0))
+    assert _all_the_way(row, (squared, squared), (squared, squared), 1) in (None, truth)
+    assert _all_the_way(row, (squared, squared), (squared, squared), 20) is truth
+
+
+def test_the_largest_of_a_piece_is_the_summit_where_a_slope_may_still_rise():
+    """ρ = 1; at the start cos is 0.995 and falls by 0.1, which an enclosure of 1/2 to each side does not tell."""
+    start, slope = (Fraction("0.99"), Fraction(1)), (Fraction("-0.6"), Fraction("0.4"))
+    end, falls = (Fraction("0.8"), Fraction("0.9")), (Fraction("-0.6"), Fraction("-0.5"))
+    reach = (Fraction(2), Fraction("2.1"))
+    assert _summit(start, end, slope, falls, reach) == (Fraction("0.99"), Fraction("2.1"))
+    assert _summit(start, end, falls, falls, reach) == start
