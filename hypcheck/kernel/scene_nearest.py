@@ -95,9 +95,8 @@ def _cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
         beside = np.maximum(across - wide * OUTWARD, 0)
         low, high = bodies.heights.T
         beyond = np.maximum(np.maximum(centres[:, 2, None] - high, low - centres[:, 2, None]), 0)
-        inside = across < wide * OUTWARD
         least = np.hypot(beside, beyond) * (1 - 2.0**-40) - max(mover.b, mover.d) - _ROUNDED * (across + wide)
-        least = np.where(np.isfinite(least) & ~(inside & (beyond == 0)), np.maximum(least, 0), 0)
+        least = np.where(np.isfinite(least), np.maximum(least, 0), 0)
         return np.asarray(np.where(low <= high, least, np.inf))
 
 

@@ -101,7 +101,7 @@ def hits_beside(bodies: Bodies, body: Indices, mover: Mover, axis: Point | None,
         lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
         stretch = np.where(lost == 0, 0.0, lost / min(radii) * (1 + MARGIN) + ROUNDED)
         larger, smaller = np.outer(1 + stretch, radii), np.outer(1 - stretch, radii)
-        fits = np.isfinite(start).all(axis=1) & np.isfinite(end).all(axis=1) & (lost < GREATEST)
+        fits = lost < GREATEST  # NaN where a difference overflows
         fits &= (smaller > LEAST).all(axis=1) & (larger < GREATEST).all(axis=1)
     hits = np.zeros(len(body), np.bool_)
     open_ways = ~fits

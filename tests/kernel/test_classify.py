@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.errors import InputError
+from hypcheck.kernel import classify
 from hypcheck.truth import exact
 from tests.support.pairs import pairs
 
@@ -174,3 +176,19 @@ def test_classify_refuses_an_unknown_on_invalid():
         hypcheck.classify(ROWS, on_invalid="ignore")
     with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):
         hypcheck.classify_scene((1, 2, 1, 1), 1, 2, 3, on_invalid="ignore")
+
+
+def test_prepared_shows_the_kernel_the_centres_it_was_given(monkeypatch):
+    seen = []
+    monkeypatch.setattr(classify, "kernel", lambda: SimpleNamespace(prepared=lambda *asked: seen.append(asked)))
+    hypcheck.Prepared((2, 4, 1, 1), like=([1.0, 2.0], [3.0, 4.0], [5.0, 6.0]))
+    ((_, columns, _),) = seen
+    assert [each.tolist() for each in columns] == [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
+
+
+def test_columns_that_share_memory_with_out_or_are_not_contiguous_do_not_lie_apart():
+    room = np.zeros(64)
+    out, apart, strided = room.view(np.int8)[:8], room[32:40], room[32:48:2]
+    assert classify._lie_apart(out, (apart, apart, apart))
+    assert not classify._lie_apart(out, (apart, room[:8], apart))
+    assert not classify._lie_apart(out, (apart, apart, strided))

@@ -262,3 +262,68 @@ def test_a_touch_far_from_the_surface_or_with_a_nearly_singular_matrix_has_no_er
     assert np.isnan(known_error(row, 0.2, [0.5, 0.0, 0.0])[0])
     assert np.isnan(known_error(row, 0.2, [0.9, 0.0, 0.0], share=4.0)[0])
     assert np.isnan(known_error(row, 0.2, [0.9, 0.0, 0.0], share=2.0**-44)[0])
+
+
+@pytest.mark.parametrize("wrong", [-0.4, -1e-3, 0.0])
+@pytest.mark.parametrize("rounded", [2.0**-8, 2.0**-46])
+def test_the_error_bound_of_an_upright_touch_is_that_of_its_written_formulas(monkeypatch, wrong, rounded):
+    """√(Γ A/τ) and √(Γ B/σ), and what the hyperboloid makes of them; each coordinate rounds by a share of itself."""
+    rows, poles = np.concatenate([UPRIGHT, stretched(UPRIGHT)]), clearance_points._poles
+
+    def moved(A, B, p, q):
+        tau, sigma = poles(A, B, p, q)
+        return tau * (1 + wrong), sigma * (1 + wrong)
+
+    monkeypatch.setattr(clearance_points, "_poles", moved)
+    monkeypatch.setattr(clearance_points, "_ROUNDED", rounded)
+    found = clearance_points.upright_touches(rows)
+    for k, row in enumerate(rows):
+        written = written_error(row, rounded, [each[0] for each in moved(*poles_asked(row))], found.point[k])
+        assert found.error[k] == pytest.approx(written, rel=1e-6)
+
+
+def poles_asked(row):
+    alpha, gamma, b, d, x, y, z = row
+    return [np.array([each]) for each in ((alpha / b) ** 2, (gamma / d) ** 2)] + [
+        np.array([each]) for each in (alpha / b * np.hypot(x, y) / b, gamma / d * abs(z) / d)
+    ]
+
+
+def written_error(row, rounded, poles, point):
+    """In units of b and d, by the docstring of clearance_points."""
+    alpha, gamma, b, d, x, y, z = row
+    A, B, r, h = (alpha / b) ** 2, (gamma / d) ** 2, np.hypot(x, y) / b, abs(z) / d
+    tau, sigma = (poles[0], A + B - poles[0]) if poles[0] < poles[1] else (A + B - poles[1], poles[1])
+    rho, zeta = A * r / tau, B * h / sigma
+    at_zeta, at_rho = np.sqrt(A * (1 + zeta**2 / B)), np.sqrt(max(B * (rho**2 / A - 1), 0))
+    square = B * rho**2 / A  # what at_rho² is the difference of
+    slack = rounded * square / at_rho if at_rho else np.inf
+    gammas = (
+        (abs(at_zeta - rho) + rounded * (at_zeta + rho)) ** 2 * tau / A,
+        (abs(at_rho - zeta) + rounded * (at_rho + zeta) + slack) ** 2 * sigma / B,
+    )
+    across, up = np.sqrt(min(gammas) * A / tau), np.sqrt(min(gammas) * B / sigma)
+    by_zeta = d * up + b * A * (zeta + up) / (B * at_zeta) * up
+    by_rho = b * across + d * (B / A * ((rho + across) ** 2 - rho**2) / at_rho + slack) if at_rho else np.inf
+    return min(by_zeta, by_rho) + rounded * np.abs(point).sum()
+
+
+def test_the_error_of_a_leaning_touch_includes_the_move_to_the_surface_and_the_rounding_of_the_point(monkeypatch):
+    monkeypatch.setattr(clearance_points, "_error", lambda rows, *_: np.zeros(len(rows)))
+    for rounded in (2.0**-6, 2.0**-46):
+        monkeypatch.setattr(clearance_points, "_ROUNDED", rounded)
+        found = clearance_points.leaning_touches(LEANING)
+        assert (found.error >= rounded * np.abs(found.point).sum(axis=1)).all()
+
+
+def test_the_error_bound_of_a_leaning_touch_counts_the_terms_that_round(monkeypatch):
+    """r = (M + λD) X − M C is 0 but for the rounding of its terms, of which λ D X is nearly all."""
+    at, D, rounded = -1000.0, np.array([1e-4, 1e-4, -1e4]), 2.0**-40
+    place = np.array([110.0, 0.0, 0.01 * np.sqrt(0.21)])
+    sizes, axis = (100, 0.01, 1, 2), (1, 0, 1)
+    M = metric(np.array([(*sizes, 0, 0, 0, *axis)], dtype=float))[0]
+    G = M + at * np.diag(D)
+    monkeypatch.setattr(clearance_points, "_ROUNDED", rounded)
+    found, mu = known_error((*sizes, *np.linalg.solve(M, G @ place), *axis), at, place)
+    off = rounded * np.linalg.norm(at * D * place)
+    assert found >= off / mu + np.sqrt(np.trace(G) / mu) * off / mu

@@ -11,6 +11,7 @@ import pytest
 import hypcheck
 from hypcheck.geometry.pair import Pair
 from hypcheck.kernel import choice, clearance
+from hypcheck.kernel import clearance_points as points
 from hypcheck.truth import nearest
 from hypcheck.truth.nearest_exact import nearest as nearest_of
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
@@ -113,3 +114,17 @@ def test_clearance_scales_lengths_back_with_rounding_in_the_given_direction():
     lengths, shift = np.array([3.0, 3.0, 0.0, 5e-324 * 3]), np.array([0, 2, 5, 1])
     assert clearance._lowered(lengths, shift, 0.0).tolist() == [3.0, math.nextafter(0.75, 0), 0.0, 5e-324]
     assert clearance._lowered(lengths, shift, np.inf).tolist() == [3.0, math.nextafter(0.75, 1), 0.0, 5e-324 * 3]
+
+
+def test_the_measured_length_of_a_gap_has_the_unit_of_its_row():
+    """Every term of its bound is a length, so that with all lengths times 2ᵏ it is 2ᵏ times as long."""
+    rows = np.array([[1.0, 2.0, 0.001, 4.0, 3.0, 1.0, 2.0, 1.0, 0.0, 1.0]])
+    there, here = np.array([[1.5, 0.5, 0.25]]), np.array([[2.5, 1.0, 0.5]])
+    one = points.Gaps(np.ones(1), np.ones(1), there, here)
+    measured = clearance._measured(rows, one)
+    assert measured > np.linalg.norm(there - here)
+    for unit in (2.0**-30, 2.0**30):
+        scaled = rows.copy()
+        scaled[:, :7] *= unit
+        other = points.Gaps(np.ones(1), np.ones(1), there * unit, here * unit)
+        assert clearance._measured(scaled, other) == measured * unit

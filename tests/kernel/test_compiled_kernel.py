@@ -189,3 +189,17 @@ def test_the_compiled_extension_refuses_wrong_buffers_in_one_sentence():
         compiled.ask(0, rows, frozen)
     with pytest.raises(TypeError, match="takes 7 numbers"):
         compiled.position(1.0, 2.0)
+
+
+def test_few_rows_are_one_part_and_parts_are_whole_blocks_of_about_equal_size():
+    parts = []
+
+    def part(start, stop):
+        parts.append((start, stop))
+        return stop - start
+
+    assert compiled_kernel.in_parts(part, 1000, None) == 1000
+    assert parts == [(0, 1000)]
+    parts.clear()
+    assert compiled_kernel.in_parts(part, 1000, 3) == 1000
+    assert sorted(parts) == [(0, 320), (320, 640), (640, 1000)]

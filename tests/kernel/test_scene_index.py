@@ -12,8 +12,10 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.kernel import scene_pairs
 from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_index import bodies_of, grid_of, reaches
+from hypcheck.kernel.scene_pairs import position_beside, positions_beside
 from hypcheck.scene import model
 from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, Span
 from hypcheck.truth import exact
@@ -177,3 +179,47 @@ def test_scene_classify_refuses_invalid_centres(centre, sentence):
     if not isinstance(centre[0], np.ndarray) and not isinstance(centre[1], list):
         with pytest.raises(InputError, match=r"^x is inf; it must be finite"):
             Scene(forest(3, 3)).position(*centre)
+
+
+TWO_60 = 2.0**-60
+
+
+@pytest.mark.parametrize(
+    ("sizes", "centre", "axis", "outwards"),
+    [
+        ((1.0, 4.0, 1.0, 1.0), (2.0, 0.0, 0.0), 0, -1),  # α + b from the axis, at the waist
+        ((1.0, 4.0, 1.0, 1.0), (0.0, 2.0, 0.0), 1, -1),
+        ((1.0, 1.0, 0.3125, 0.390625), (1.5, 0.0, 0.515625), 2, 1),  # it touches at (5/4, 3/4)
+    ],
+)
+def test_a_tangency_that_rounding_of_the_difference_moves_keeps_its_exact_position(sizes, centre, axis, outwards):
+    """2⁻⁶⁰ towards one side is exterior, towards the other contact, and the rounded difference is the tangency."""
+    alpha, gamma, b, d = sizes
+    for side, expected in ((outwards, Position.EXTERIOR), (-outwards, Position.CONTACT)):
+        origin = [0.0, 0.0, 0.0]
+        origin[axis] = side * TWO_60
+        assert centre[axis] - origin[axis] == centre[axis]
+        found = positions_beside(np.array([sizes]), np.array([centre]), np.array([origin]))
+        assert found.tolist() == [expected]
+        assert position_beside((alpha, gamma, *origin, -np.inf, np.inf), b, d, *centre) == expected
+
+
+def test_an_exact_difference_of_centres_is_decided_by_one_call(monkeypatch):
+    asked = []
+    monkeypatch.setattr(scene_pairs, "position", lambda *row: asked.append(row) or 1)
+    assert position_beside((1.0, 4.0, 0.5, 0.25, 0.125, -np.inf, np.inf), 1.0, 1.0, 3.0, -7.0, 11.0) == 1
+    assert asked == [(1.0, 4.0, 1.0, 1.0, 2.5, -7.25, 10.875)]
+
+
+def test_scene_position_asks_parts_only_where_the_mover_is_in_contact(monkeypatch):
+    rotors = tuple(MoverPart(0.1, 0.05, 0.135, angle) for angle in (0.0, 90.0, 180.0, 270.0))
+    scene = Scene(model.SceneModel("s", "position", (Hyperboloid("tower", 2.0, 17.8),), Mover(0.25, 0.15, rotors)))
+    assert scene.position(1.76, 0.0, 0.0, 45.0) == -1
+    assert scene.position(1.80, 0.0, 0.0, 0.0) == 0
+    monkeypatch.setattr(Scene, "_of_parts", None)
+    assert [scene.position(x, 0.0, 0.0) for x in (3.0, 1.0)] == [1, -1]
+
+
+def test_scene_position_takes_any_number_as_its_float():
+    scene = Scene(model.SceneModel("s", "position", (Hyperboloid("h", 2.0, 4.0),), Mover(0.5, 0.5)))
+    assert [scene.position(x, np.float32(0), [0]) for x in (9, 2, 0)] == [1, 0, -1]

@@ -12,9 +12,9 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.kernel.scene import Scene
-from hypcheck.kernel.scene_index import WIDEST, bodies_of, grid_of, levels_of
+from hypcheck.kernel.scene_index import WIDEST, bodies_of, grid_of, levels_of, reaches
 from hypcheck.scene import model
-from hypcheck.scene.model import Hyperboloid, Mover, Region, Span
+from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Region, Span
 from tests.kernel.test_scene_index import truth_about
 
 HILLS = (
@@ -151,3 +151,39 @@ def test_scene_classify_takes_empty_arrays_and_arrays_of_any_layout():
 def test_a_scene_without_hyperboloids_raises_an_error():
     with pytest.raises(InputError, match="the scene has no hyperboloid"):
         Scene(replace(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)), hyperboloids=()))
+
+
+def test_levels_of_are_disjoint_where_spans_touch_or_overlap():
+    spans = np.array([(0.0, 1.0), (1.0, 2.0), (5.0, 7.0), (6.0, 8.0), (9.0, 9.0)])
+    levels = levels_of(spans)
+    assert (levels.starts, levels.ends) == ([0.0, 5.0, 9.0], [2.0, 8.0, 9.0])
+
+
+def test_a_hyperboloid_whose_axis_points_down_has_its_modelled_heights_turned():
+    bodies = bodies_of([Hyperboloid("h", 1.0, 1.0, (0.0, 0.0, 8.0), Span(-1.0, 5.0), axis=(0.0, 0.0, -2.0))])
+    assert bodies.heights.tolist() == [[3.0, 9.0]]
+    assert bodies.spans.tolist() == [[-5.0, 1.0]]
+    assert not bodies.leaning.any()
+
+
+def test_a_hyperboloid_over_more_than_64_cells_is_kept_aside():
+    """The median reach of 1/2 makes cells of side 1."""
+    x, y = np.full(5, 0.5), np.full(5, 0.5)
+    for reach, cells in ((3.25, 49), (4.25, 81)):  # 7 × 7, 9 × 9
+        grid = grid_of(x, y, np.array([0.5, 0.5, 0.5, 0.5, reach]))
+        assert grid.side == 1
+        assert grid.everywhere == ([4] if cells > 64 else [])
+
+
+@pytest.mark.parametrize(
+    ("mover", "axis", "height", "expected"),
+    [
+        (Mover(0.5, 2.0), UPRIGHT, None, 3 * math.sqrt(1 + (10 / 4) ** 2) + 0.5),  # as tall as 8, and d
+        (Mover(0.5, 2.0), UPRIGHT, Span(0.0, 1.0), 3 * math.sqrt(1 + (8 / 4) ** 2) + 0.5),  # 6 above its centre
+        (Mover(0.5, 2.0, axis=(1.0, 0.0, 1.0)), UPRIGHT, None, 3 * math.sqrt(1 + (10 / 4) ** 2) + 2),
+        (Mover(0.5, 2.0), (1.0, 0.0, 1.0), None, math.hypot(8, 3 * math.sqrt(1 + (10 / 4) ** 2) + 2)),
+    ],
+)
+def test_the_reach_is_the_radius_at_the_mover_s_farther_end_and_its_width(mover, axis, height, expected):
+    bodies = bodies_of([Hyperboloid("h", 3.0, 4.0, (0.0, 0.0, -5.0), Span(-8.0, 8.0), axis=axis)])
+    assert reaches(bodies, mover, height) == pytest.approx(expected, rel=2.0**-37)

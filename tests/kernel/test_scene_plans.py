@@ -5,15 +5,18 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
+from hypcheck.derivation.float_format import FLOAT_FORMATS
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines, printed_operations
-from hypcheck.kernel.specialise.plan import plan_of
-from hypcheck.kernel.specialise.settings import settings_of
+from hypcheck.kernel.specialise.plan import _corner, _decided, plan_of
+from hypcheck.kernel.specialise.settings import centres, settings_of
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
+from hypcheck.truth import float_filter
 from tests.support.scenes import scene
 
 
@@ -138,3 +141,61 @@ def test_plan_refuses_bad_input_in_one_sentence(words, sentence, capsys):
     error = capsys.readouterr().err
     assert sentence in error
     assert "Traceback" not in error
+
+
+def sample(setting):
+    """The sample's centres as rows."""
+    return np.stack([*np.broadcast_arrays(*setting.sizes, *centres(setting))], axis=1)
+
+
+def test_lines_of_a_plan_leave_contact_and_the_centre_s_side_answers_a_one_sided_question():
+    for question in ("position", "exterior", "interior"):
+        (stages,) = plan_of(scene(question=question)).settings
+        rows = sample(stages.setting)
+        contact = (float_filter.positions(rows) == 0).mean()
+        outside = (rows[:, 4] ** 2 + rows[:, 5] ** 2 > 4 * (1 + (rows[:, 6] / 17.8) ** 2)).mean()
+        if question == "position":
+            assert stages.shares["lines"] <= 1 - contact
+        else:
+            assert stages.shares["lines"] >= (1 - outside if question == "exterior" else outside)
+
+
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 2.0)])
+def test_a_plan_leaves_out_the_test_of_height_only_where_the_region_ends_before_the_hyperboloids(axis):
+    for z, height, left_out in ((None, None, False), (Span(-1, 3), None, True), (Span(-1, 3), Span(0, 2), False)):
+        tree = Hyperboloid("oak", 2.0, 17.8, height=height)
+        some = SceneModel("s", "position", (tree,), Mover(0.25, 0.15, axis=axis), Region(z=z))
+        (stages,) = plan_of(some).settings
+        said = [omission.what for omission in stages.omitted]
+        assert ("the test of height" in said) == left_out
+        assert any(what.startswith("the discriminant") for what in said) == (stages.discriminant is None)
+        assert sum(stages.shares.values()) == pytest.approx(1)
+
+
+def test_a_plan_for_a_one_sided_question_names_the_side_that_it_does_not_tell_from_contact():
+    for question, other in (("exterior", "interior"), ("interior", "exterior")):
+        (stages,) = plan_of(scene(question=question)).settings
+        assert f"whatever tells {other} from contact" in {omission.what for omission in stages.omitted}
+
+
+def test_a_discriminant_whose_bound_is_infinite_decides_no_centre():
+    (stages,) = plan_of(scene((3.0, 1.0, 1.0, 1.0))).settings
+    delta, form = stages.discriminant, FLOAT_FORMATS["float64"]
+    R, zz = np.array([1.0, 9.0, 100.0]), np.array([0.5, 0.5, 0.0])
+    assert _decided(delta, form, R, zz).any()
+    assert not _decided(replace(delta, bound=np.inf), form, R, zz).any()
+
+
+def test_the_corner_of_an_open_box_is_as_many_waists_and_heights_away_as_asked():
+    (setting,) = settings_of(scene((3.0, 1.0, 0.5, 0.25)))
+    assert _corner(setting, 8) == (28, 10)
+    (setting,) = settings_of(scene((3.0, 1.0, 0.5, 0.25), x=Span(-40, 1), z=Span(-2, 1)))
+    assert _corner(setting, 8) == (40, 2)
+
+
+def test_sample_centres_are_a_lattice_of_the_powers_of_the_root_of_x4_is_x_plus_1():
+    (setting,) = settings_of(scene(x=Span(0, 1), y=Span(0, 1), z=Span(0, 1)))
+    root = max(each.real for each in np.roots([1, 0, 0, -1, -1]) if each.imag == 0)
+    for power, column in enumerate(centres(setting), start=1):
+        assert column[0] == 0.5
+        assert np.diff(column) % 1 == pytest.approx(np.full(len(column) - 1, root**-power), abs=1e-11)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
+from math import isqrt
 
 import numpy as np
 import pytest
@@ -14,8 +16,8 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.description import representable
 from hypcheck.kernel.specialise.first_stages import entry, line_at, thresholds
-from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant
-from hypcheck.kernel.specialise.settings import FORMATS, Box, Setting, position_of_box, scaled
+from hypcheck.kernel.specialise.last_stages import _begin, backward_bound, discriminant, search
+from hypcheck.kernel.specialise.settings import FORMATS, Box, ScaledSetting, Setting, position_of_box, scaled
 from hypcheck.scene.model import Span
 from hypcheck.truth import exact, float_filter
 from hypcheck.vectors.fixed_sizes import families_for
@@ -157,3 +159,46 @@ def test_rounded_gives_the_next_number_of_the_float_format_in_the_given_directio
 def test_the_bound_of_the_search_is_at_most_the_promised_8_u():
     """The tolerance that verify grants unless told otherwise is 8 units."""
     assert backward_bound() == 8
+
+
+def test_position_of_an_open_box_is_that_beside_the_axis():
+    for span in (None, Span(-3.0, 3.0)):
+        assert position_of_box(Setting((0.1, 1.0, 0.1, 0.1), Box(span, span, Span(-0.1, 0.1)), None, ())) is None
+
+
+@pytest.mark.parametrize("precision", FORMATS)
+def test_a_line_whose_constants_are_below_the_root_of_the_least_number_is_left_out(precision):
+    """A square that underflows would count beside them."""
+    form = FLOAT_FORMATS[precision]
+    for share, there in ((Fraction(3, 4), False), (Fraction(1, 4), True)):
+        steep = ScaledSetting(*[Fraction(1)] * 6)
+        steep = replace(steep, B=Fraction(2) ** round(-form.least * share))
+        assert (line_at(Fraction(1), steep, form, 1) is not None) == there
+
+
+def test_the_discriminant_promises_its_bound_up_to_the_corner_alone():
+    form = FLOAT_FORMATS["float64"]
+    scale = scaled((3.0, 1.0, 1.0, 1.0), form)
+    for x, z in ((3, 5), (Fraction(1, 2), Fraction(1, 4))):
+        found = discriminant(scale, form, *entry(scale), (Fraction(x), Fraction(z)))
+        assert (found.widest, found.highest) == (2 * x**2, z**2)
+
+
+def test_a_search_takes_corners_up_to_its_ends_and_refuses_those_beyond():
+    form = FLOAT_FORMATS["float64"]
+    scale = scaled((2.0, 17.8, 0.25, 0.15), form)
+    ends = search(scale, form, (Fraction(1), Fraction(1)))
+    across, up = (Fraction(isqrt(int(each))) for each in (ends.widest / 2, ends.highest))
+    near, beyond = 1 - Fraction(1, 2**40), 1 + Fraction(1, 2**40)
+    assert search(scale, form, (across * near, up * near)) == ends
+    for corner in ((across * beyond, Fraction(1)), (Fraction(1), up * beyond)):
+        with pytest.raises(OverflowError, match="products of the lengths in the region"):
+            search(scale, form, corner)
+
+
+def test_a_search_begins_where_the_distance_to_the_pole_changes_nothing():
+    """Ten bits beyond the format's of the pole, and no farther than the steepest side allows."""
+    form = FLOAT_FORMATS["float64"]
+    for pole in (Fraction(1), Fraction(2) ** 70):
+        assert _begin(pole, Fraction(0), form) == min(pole / 2 ** (form.bits + 10), Fraction(1, 2))
+    assert _begin(Fraction(2) ** 70, Fraction(7), form) == Fraction(1, 16)
