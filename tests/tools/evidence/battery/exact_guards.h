@@ -101,6 +101,110 @@ static void check_steps_beyond(void) {
     for (i = 0; i < 5; i++) CHECK(hc_touches_by(rows[i], guesses[i]) == 2);
 }
 
+/* A guess of which only a rest modulo 2^128 is right: 2^128 times the double root of a touch from within, whose e is found by one
+   step. It is not about the root. And nothing is converted to a whole number that does not fit: that would be invalid. */
+static void check_guesses_modulo(void) {
+    const uint64_t within[7] = {(uint64_t)1 << 30, 1, 1, (uint64_t)1 << 31, ((uint64_t)1 << 30) - 1, 0, 0}, outer[7] = {1, 2, 1, 1, 2, 0, 0};
+    CHECK(hc_touches_by(within, -two(30)) == -1 && hc_touches_by(within, -two(158)) == 2);
+    feclearexcept(FE_ALL_EXCEPT);
+    CHECK(hc_touches_by_short(outer, 1e300) == 2 && !fetestexcept(FE_INVALID));
+    CHECK(hc_touches_by_short(outer, 1e-300) == 2 && !fetestexcept(FE_INVALID));
+}
+
+/* M = alpha d and e = b gamma of touches in the waist; one of them is 100, and the guess 0.4 from it. */
+static void check_nearest_guesses(void) {
+    const uint64_t inner[7] = {100, 1, 1, 1, 99, 0, 0}, outer[7] = {1, 100, 1, 1, 2, 0, 0};
+    CHECK(hc_touches_by_short(inner, -99.6) == -1 && hc_touches_by_short(inner, -100.4) == -1);
+    CHECK(hc_touches_by_short(outer, 100 / 99.6) == 1 && hc_touches_by_short(outer, 100 / 100.4) == 1);
+}
+
+/* A coordinate that is a hair beside the other kind's length alone is none, and the row without it, which touches, says nothing. */
+static void check_hairs(void) {
+    const double within[7] = {4096, two(70), 1, two(60), 512, 4095, 0}, turned[7] = {4096, two(70), 1, two(60), 4095, 512, 0};
+    const double raised[7] = {two(90), 2, two(90), 1, two(91), 0, two(20)}, beside[7] = {4096, two(70), 1, two(60), 1e-19, 4095, 0};
+    const int moved = hc_position_beside_tangency(within, -4096), other = hc_position_beside_tangency(turned, -4096);
+    const int inside = hc_position_beside_tangency(raised, 1);
+    CHECK((moved == 1 || moved == 2) && (other == 1 || other == 2)); /* some 30 b away from the surface, which is nearly a cylinder */
+    CHECK(inside == -1 || inside == 2);                              /* where the hyperboloid is 2^19 times as wide */
+    CHECK(hc_position_beside_tangency(beside, -4096) == 0);          /* a hair more leads from within into contact */
+}
+
+/* ---- integers ---- */
+
+static hc_integer whole(hc_limb *limb, int value) {
+    hc_integer number;
+    *limb = (hc_limb)(value < 0 ? -value : value);
+    number.limbs = limb, number.length = value != 0, number.sign = (value > 0) - (value < 0);
+    return number;
+}
+
+static void check_integers(void) {
+    static hc_limb memory[4096];
+    hc_limb around[64], limbs[5];
+    const hc_integer f[5] = {whole(limbs, 1), whole(limbs + 1, 0), whole(limbs + 2, 0), whole(limbs + 3, 0), whole(limbs + 4, 1)};
+    hc_pool pool = {memory};
+    hc_integer none = {0};
+    memset(around, 0, sizeof around);
+    around[0] = around[1] = 1;
+    none.limbs = around + 1;
+    CHECK(hc_bits_of(&none) == 0);
+    hc_in_units(&none, hc_parts_of(0), 2000);
+    CHECK(none.sign == 0 && none.length == 0 && around[1] == 1); /* 0 has no limbs, and none is written */
+    /* 4 I^3 - J^2 of l^4 - 1 is 27 times its discriminant, -256: 13 bits */
+    CHECK(hc_discriminant_sign(pool, f, 0) == -1 && hc_discriminant_sign(pool, f, 12) == -1 && hc_discriminant_sign(pool, f, 13) == 0);
+}
+
+/* U + V root(D) with U = 0: of u + v m at m = 3 and m = -1, the roots of m^2 = 2 m + 3. */
+static void check_signs_with_root(void) {
+    static hc_limb memory[4096];
+    hc_limb limbs[4];
+    const hc_integer n = whole(limbs, 3), u = whole(limbs + 1, -1), v = whole(limbs + 2, 1);
+    hc_pool pool = {memory};
+    hc_quartic pair;
+    memset(&pair, 0, sizeof pair);
+    pair.k1 = whole(limbs + 3, 2);
+    CHECK(hc_sign_with_root(pool, &pair, &n, u, v, 1) == 1 && hc_sign_with_root(pool, &pair, &n, u, v, -1) == -1);
+}
+
+/* Of a level axis, A1 = p/q, A2 = p/t and B = s/q: what is said by the product is so in whole numbers. */
+static void check_products_of_roots(void) {
+    static hc_limb memory[4096];
+    hc_limb limbs[7];
+    hc_pool pool = {memory};
+    hc_quartic pair;
+    int p, q, s, t, said[3] = {0, 0, 0};
+    memset(&pair, 0, sizeof pair);
+    pair.k0 = whole(limbs, 1), pair.k1 = whole(limbs + 1, 0), pair.k2 = whole(limbs + 2, 1 << 20); /* A2 = B = 2^-10 */
+    CHECK(hc_between_poles(pool, &pair, 1, -11) == 1 && hc_between_poles(pool, &pair, 1, -9) == -1);
+    CHECK(hc_between_poles(pool, &pair, -1, -11) == 1 && hc_between_poles(pool, &pair, -1, -9) == -1);
+    for (p = 1; p < 50; p++)
+        for (q = 1; q < 16; q++)
+            for (s = 1; s < 16; s += 3)
+                for (t = 1; t < 16; t++) {
+                    int outer, inner;
+                    if (q == t) continue;
+                    pair.p = whole(limbs + 3, p), pair.q = whole(limbs + 4, q), pair.s = whole(limbs + 5, s), pair.t = whole(limbs + 6, t);
+                    pair.k0 = whole(limbs, p * s), pair.k1 = whole(limbs + 1, s * t - p * q), pair.k2 = whole(limbs + 2, q * t);
+                    pair.oblate = q > t;
+                    outer = hc_product_too_small(pool, &pair, 1), inner = hc_product_too_small(pool, &pair, -1);
+                    said[0] += outer, said[pair.oblate ? 1 : 2] += inner;
+                    CHECK(!outer || (s * s > p * q && s * s * t > p * q * q)); /* B^2 > A1, A2 */
+                    CHECK(!inner || (pair.oblate ? p * t > q * q : p * q > t * t)); /* A1^2 > A2, or A2^2 > A1 */
+                }
+    CHECK(said[0] > 100 && said[1] > 100 && said[2] > 100);
+    /* Of an axis that leans A1 = 15/16, A2 > 1.59 and B < 1.1: at 1.1 it is below 0, and A2 B = 225/128. */
+    pair.p = whole(limbs + 3, 15), pair.q = whole(limbs + 4, 16), pair.s = whole(limbs + 5, 15), pair.t = whole(limbs + 6, 8);
+    pair.k0 = whole(limbs, 6750), pair.k1 = whole(limbs + 1, -1920), pair.k2 = whole(limbs + 2, 3840);
+    pair.oblate = 1;
+    CHECK(!hc_product_too_small(pool, &pair, 1));
+}
+
+static void check_uprights(void) {
+    const double upright[10] = {1, 1, 1, 2, 9, 0, 0, 0, -0.0, 3}, leaning[10] = {1, 1, 1, 2, 9, 0, 0, 0, 1, 3};
+    const double leaning_by_x[10] = {1, 1, 1, 2, 9, 0, 0, 1, 0, 3}, sphere[10] = {1, 1, 2, 2, 9, 0, 0, 1, 2, 3};
+    CHECK(hc_is_upright(upright) && hc_is_upright(sphere) && !hc_is_upright(leaning) && !hc_is_upright(leaning_by_x));
+}
+
 /* ---- clearances ---- */
 
 static double halved(double b, double d, double low, double high, double width) {
@@ -242,6 +346,13 @@ static void check_exact_guards(void) {
     check_third_equation();
     check_long_numbers();
     check_steps_beyond();
+    check_guesses_modulo();
+    check_nearest_guesses();
+    check_hairs();
+    check_integers();
+    check_signs_with_root();
+    check_products_of_roots();
+    check_uprights();
     check_distances();
     check_lost_gaps();
     check_prepared();
