@@ -128,3 +128,25 @@ def test_the_measured_length_of_a_gap_has_the_unit_of_its_row():
         scaled[:, :7] *= unit
         other = points.Gaps(np.ones(1), np.ones(1), there * unit, here * unit)
         assert clearance._measured(scaled, other) == measured * unit
+
+
+def halved(low, high, border, sizes=1.0):
+    """What _halve makes of a bracket where a spheroid is clear below the border and in contact from it on."""
+    rows, low, high = np.full((1, 7), sizes), np.array([low]), np.array([high])
+    clearance._halve(rows, low, high, lambda _, factor: factor < border, lambda _, factor: factor >= border)
+    return low[0], high[0]
+
+
+@pytest.mark.parametrize("border", [1e-300, *(k * clearance.WIDTH for k in (0.6, 1.4, 1.9, 3.0)), 0.5, 1.0])
+def test_halving_ends_within_the_promised_width_below_1(border):
+    low, high = halved(0.0, 1.0, border)
+    assert low < border <= high
+    assert high - low <= clearance.WIDTH
+
+
+def test_halving_never_lowers_a_factor_that_is_proved():
+    """Beyond 2¹⁰⁰⁰ no middle is tried."""
+    assert halved(2.0**1001, np.inf, np.inf) == (2.0**1001, np.inf)
+    low, high = halved(1.0, np.inf, 1e200)
+    assert low < 1e200 <= high
+    assert high - low <= clearance.WIDTH * low
