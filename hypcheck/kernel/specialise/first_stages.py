@@ -24,7 +24,8 @@ x, y and z may carry one rounding each, on entry; the square doubles it and adds
 carry at most 4 and 3 factors (1+δ), |δ| ≤ u, R + lift 5, and intercept + slope·Z at most 5. The sides therefore differ
 from what the constants say by less than (1+u)^5/(1−u)^5 < 1 + 11u; MARGIN is 16u. A coordinate whose square underflows
 changes a side by less than 2^least of the format, which the constants, kept above 2^(least/2), do not notice at 5u.
-An overflow of R alone means far outside, one of slope·Z alone far inside, and both compare false.
+An overflow of R alone means far outside, one of slope·Z alone far inside, and both compare false. Where Z itself
+overflows, slope·Z need not be larger than R if the slope is below 1: such a line asks that Z is finite.
 
 Thresholds. At a fixed height two thresholds on R are enough: exterior beyond one, interior below the other. The
 exterior positions are an up-set when R grows, the interior ones when it falls (docs/mathematics.md), so each threshold
@@ -130,6 +131,8 @@ def line_at(multiplier: Fraction, scaled: ScaledSetting, form: FloatFormat, numb
     if not all(2.0 ** (form.least / 2) < value < 2.0 ** (form.greatest / 2) for value in constants.values()):
         return None
     holds = f"beyond_line_{number}"
+    if side is Position.INTERIOR and slope < 1:
+        constants[f"most_{number}"] = form.rounded(Fraction(2) ** form.greatest * (1 - form.unit))
     inputs = ("R", "zz", *constants)
     return ProvedLine(side, multiplier, program_of(holds, inputs, _listing(side, constants, number)), holds, constants)
 
@@ -158,7 +161,12 @@ def _listing(side: Position, constants: dict[str, float], number: int) -> str:
     if f"lift_{number}" in constants:
         lines.append(f"lifted_{number} = R + lift_{number}")
         left = f"lifted_{number}"
-    lines.append(f"beyond_line_{number} = {left} {'>' if side is Position.EXTERIOR else '<'} {right}")
+    sign = ">" if side is Position.EXTERIOR else "<"
+    if f"most_{number}" in constants:
+        lines += [f"below_{number} = {left} {sign} {right}", f"is_finite_{number} = zz <= most_{number}"]
+        lines.append(f"beyond_line_{number} = below_{number} and is_finite_{number}")
+    else:
+        lines.append(f"beyond_line_{number} = {left} {sign} {right}")
     return "\n".join(lines)
 
 

@@ -44,6 +44,23 @@ def test_an_emitted_kernel_is_right_or_cannot_say_where_squares_overflow(questio
     assert not said.all()
 
 
+@pytest.mark.parametrize("question", ["position", "interior", "contact"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_an_emitted_kernel_proves_no_exterior_centre_interior_where_the_square_of_z_alone_overflows(
+    question, language, tmp_path
+):
+    """The line's slope is below 1: times a square of 2^1025 or so it is no larger than an R that is finite."""
+    skip_without(language)
+    z = 1.35e154 * np.linspace(1, 1.8, 40)
+    rows = np.concatenate([rows_at(np.column_stack([x * z / SIZES[1], 0 * z, z])) for x in (1.0, 2.1, 2.5, 6.0)])
+    truth = float_filter.positions(rows)
+    right = truth if question == "position" else truth == Position[question.upper()]
+    assert set(truth.tolist()) == {-1, 1}
+    found = asking(built(tmp_path, scene(SIZES, question), language), language)(rows)
+    said = found != CANNOT_SAY
+    assert (found[said] == right[said]).all()
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_an_emitted_kernel_answers_cannot_say_for_nan(language, tmp_path):
     skip_without(language)
