@@ -32,6 +32,7 @@ from tests.tools.attack import places
 from tests.tools.attack.strike import truth_of
 from tests.tools.evidence.battery.constructed import BESIDE_TANGENCIES
 from tests.tools.evidence.battery.questions import frozen
+from tests.tools.evidence.emitted_rows import ask_limits
 from tests.tools.evidence.seeds import ROWS
 
 EVERY = 9
@@ -39,6 +40,9 @@ EVERY = 9
 
 COUNT = 24
 """Rows of each family for a kernel of a scene."""
+
+MOST_LIMITS = 6
+"""Settings of a whole scene that are asked at their limits: those after them share their functions."""
 
 Kernels = dict[str, tuple[str, Callable[[Path], None]]]
 """The text in C and what asks the library, by name."""
@@ -88,6 +92,11 @@ def _asks_scene(plan: ScenePlan) -> Callable[[Path], None]:
                 assert (found[alike] == answers_by_scene(library, rows[alike])).all()
             return found
 
+        def both_at_once(rows: np.ndarray) -> np.ndarray:
+            found = answers(library, rows)
+            assert (found == answers_by_scene(library, rows)).all()
+            return found
+
         worst, asked = worst_error(both, plan, COUNT)
         assert worst <= plan.bound_u, worst
         assert asked
@@ -96,6 +105,7 @@ def _asks_scene(plan: ScenePlan) -> Callable[[Path], None]:
             _ask_odd(library, np.array([alpha, gamma, b, d, alpha + (b + d) / 2, 0, 0]), stages.setting.axis)
             for rows in _wide(np.array(stages.setting.sizes), stages.setting.axis, plan.format.name == "float32"):
                 both(rows)
+            ask_limits(plan, stages, both_at_once)
 
     return ask
 
@@ -172,6 +182,8 @@ def _asks_whole(scene: SceneModel) -> Callable[[Path], None]:
         for stages in plan.settings:
             for rows in _wide(np.array(stages.setting.sizes), None, False):
                 pairs(rows)
+        for stages in plan.settings[:MOST_LIMITS]:
+            ask_limits(plan, stages, pairs)
         for column in range(4):
             for value in (np.nan, np.inf, -np.inf, 1e308):
                 odd = np.array([[0.0], [0.0], [0.0], [0.0]])

@@ -63,7 +63,86 @@ _ALL_AT_ONCE = (
     "the template has it for all settings"
 )
 
+_LINES_FIRST = (
+    "unreachable: a centre whose maximum is nearer to a pole than to 0 is beyond the line of its side, and on a side "
+    "without a line the side of the centre has answered. Half way to the pole, P and Q must satisfy F > 0, which is "
+    "P > (A + B/2)^2/A (1 + 4Q/B), or F <= 0 on the inner side; in both numbers this is beyond the line "
+    "(test_emitted_gaps.py compares them for each setting)"
+)
+_WITHIN_HEIGHT = (
+    "unreachable: what has a modelled height is answered beyond it first. Within it zz is within the box of the "
+    "discriminant, and a centre with R beyond that box is beyond the line for exterior "
+    "(test_emitted_gaps.py compares the numbers); what is no number has been answered too"
+)
+_ALL_OPEN = (
+    "unreachable: the setting has no line, and the question is the position, so the first pass leaves every centre open"
+)
+_ALWAYS_ASKED = "unreachable: a hyperboloid of this scene has no modelled height, and is asked at every height"
+_QUESTION = "a constant of the text: the scene's question"
+_ROOTS = (
+    "unreachable: the frame takes the roots of a sum of squares, of which one is 2^-200 at least as the axis is "
+    "scaled, of q1^2 + ps/t, and of quotients of positive numbers; the guard keeps 0 from a quotient for programs to "
+    "come"
+)
+_RISES = (
+    "unreachable for these sizes: q1 has the sign of s (t h + c) - p (t c + h), and s min(t, 1) is above p max(t, 1) "
+    "(test_emitted_gaps.py)"
+)
+_SECOND = (
+    "unreachable where t <= 1: at l = A1 = p the polynomial l^2 + 2 q1 l - ps/t of A2 is p h (p + s)(1 - 1/t) <= 0, so "
+    "A2 >= A1; both are compared by their upper halves, and A1 is 64, a double, which an error of 2^-82 cannot pass"
+)
+_NOT_INSIDE = (
+    "unreachable behind a maximum above 0: the question is exterior, and a centre that is not outside has been "
+    "answered. One that rounding lets through is on the surface but for a few roundings, where the maximum is below 0"
+)
+
 EMITTED: dict[tuple[str, str], str] = {
+    **{
+        (
+            rf"(forest|tower|tower-simplest|whole,) (float..|position|exterior|contact|parts): {function}",
+            text,
+        ): _LINES_FIRST
+        for function, text in (
+            ("past_maximum", "never false: is_near_zero"),
+            ("search", "never false: is_near_zero"),
+            ("search", "never false: past_maximum("),
+        )
+    },
+    (r"tower exterior: search|forest float64: search", "never true: past_zero"): _NOT_INSIDE,
+    **dict.fromkeys(
+        (
+            (r"a hill: position_1", "R <= 6.6248"),
+            (r"two trees, any axis: position_1", "R <= 6.6248"),
+            (r"two trees, any axis: position_1", "never false: zz <= 25.0"),
+            (r"two trees, one axis: position_1", "R <= 6.6248"),
+            (r"two trees, one axis: position_1", "never false: zz <= 25.0"),
+            (r"whole, contact: shape_1", "c[16]"),
+            (r"whole, contact: shape_1", "zz <= c[17]"),
+            (r"whole, contact: shape_3", "c[19]"),
+            (r"whole, contact: shape_3", "zz <= c[20]"),
+            (r"whole, contact: shape_4", "c[14]"),
+            (r"whole, contact: shape_4", "zz <= c[15]"),
+            (r"whole, parts: shape_1", "c[19]"),
+            (r"whole, parts: shape_1", "zz <= c[20]"),
+            (r"whole, exterior, everywhere: shape_1", "c[19]"),
+            (r"whole, exterior, everywhere: shape_1", "zz <= c[20]"),
+        ),
+        _WITHIN_HEIGHT,
+    ),
+    (r"two trees, any axis: many_2", "before == 3.0"): _ALL_OPEN,
+    (r"two trees, any axis: many_2", "never false: left"): _ALL_OPEN,
+    (r"whole, .*: whole", "never true: !asked"): _ALWAYS_ASKED,
+    (r"whole, .*: whole", "MC/DC of condition 1: !asked"): _ALWAYS_ASKED,
+    **{
+        (rf"whole, {name}: whole", f"never {way}: {number}"): _QUESTION
+        for name, number in (("parts", 0), ("contact", 3), ("exterior, everywhere", 1))
+        for way in ("true", "false")
+    },
+    (r".* any axis.*: dd_sqrt", "!(value.hi > 0)"): _ROOTS,
+    (r".* any axis.*: dd_abs", "value.hi < 0"): _RISES,
+    (r".* any axis.*: frame_of", "never false: rises"): _RISES,
+    (r"the tower, any axis.*: frame_of", "never true: second"): _SECOND,
     **{
         (r"forest float64: many_\d+", text): _ALL_AT_ONCE
         for text in ("never true: left", "pass_over > 0", "code[i] == 3.0", "i < count")

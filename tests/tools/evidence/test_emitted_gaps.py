@@ -1,0 +1,79 @@
+"""What reasons of gaps in emitted code say of numbers holds for every setting that they are about."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.kernel.emission.whole import whole_plan
+from hypcheck.kernel.specialise.plan import ONE_SIDED, plan_of
+from hypcheck.kernel.specialise.settings import scaled
+from hypcheck.scene.model import FREE
+from tests.tools.evidence.emitted_kernels import _scenes, _whole_scenes
+
+UPRIGHT = [(name, plan_of(scene, precision)) for name, scene, precision in _scenes()]
+PLANS = dict([*UPRIGHT, *((name, whole_plan(scene)) for name, scene in _whole_scenes())])
+LINES_FIRST = [name for name in PLANS if name.startswith(("forest", "tower")) or name == "whole, parts"]
+
+
+def line_of(stages, side):
+    """The intercept and the slope of the first line of a side in P and Q, as real numbers."""
+    line = next(line for line in stages.lines if line.side is side)
+    of, where = scaled(stages.setting.sizes, FORMAT), line.multiplier
+    return (of.A + where) * (1 + 1 / where), (of.A + where) / (of.B - where)
+
+
+FORMAT = PLANS["tower float64"].format
+
+
+@pytest.mark.parametrize("name", LINES_FIRST)
+def test_every_centre_whose_maximum_is_nearer_to_a_pole_is_beyond_a_line(name):
+    """In P and Q, 2⁻¹⁸ apart at least: more than the roundings of float32 and the lines' own margin together."""
+    plan, slack = PLANS[name], 1 + Fraction(1, 2**18)
+    asked = [stages for stages in plan.settings if stages.search is not None]
+    assert asked
+    for stages in asked:
+        of = scaled(stages.setting.sizes, plan.format)
+        if plan.question != "interior":
+            intercept, slope = line_of(stages, Position.EXTERIOR)
+            half = (of.A + of.B / 2) ** 2 / of.A
+            assert half > intercept * slack
+            assert half * 4 / of.B > slope * slack
+        if plan.question != "exterior":
+            intercept, slope = line_of(stages, Position.INTERIOR)
+            assert of.A / 4 * slack < intercept
+            assert of.A / 4 * of.B / (of.B + of.A / 2) ** 2 * slack < slope
+        assert plan.question not in ONE_SIDED or stages.centre
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "a hill",
+        "two trees, any axis",
+        "two trees, one axis",
+        "whole, contact",
+        "whole, parts",
+        "whole, exterior, everywhere",
+    ],
+)
+def test_within_a_modelled_height_the_line_for_exterior_begins_before_the_box_of_the_discriminant_ends(name):
+    cut = [stages for stages in PLANS[name].settings if stages.setting.cut is not None]
+    assert cut
+    for stages in cut:
+        (line,) = (line for line in stages.lines if line.side is Position.EXTERIOR)
+        (intercept,) = (value for key, value in line.constants.items() if key.startswith("intercept"))
+        (slope,) = (value for key, value in line.constants.items() if key.startswith("slope"))
+        tallest = max(abs(stages.setting.cut.low), abs(stages.setting.cut.high)) ** 2
+        assert intercept + slope * tallest < stages.discriminant.widest
+        assert tallest <= stages.discriminant.highest or name == "a hill"  # whose zz is seen on both sides
+
+
+def test_the_larger_term_of_a_frame_has_the_same_sign_at_every_axis_of_the_scenes_for_any_axis():
+    free = [stages.setting.sizes for plan in PLANS.values() if plan.axis == FREE for stages in plan.settings]
+    assert len(free) == 4
+    for alpha, gamma, b, d in free:
+        p, s, t = ((each / b) ** 2 for each in (alpha, gamma, d))
+        assert s * min(t, 1) > 1.01 * p * max(t, 1)
