@@ -217,9 +217,7 @@ def _judge(inside: Mask, dual: DualArrays) -> Decided:
     Clear is claimed on the evidence of the one λ alone, D(λ) > 1, and on the side that its sign shows.
     """
     squared = double_double.add_float(dual.value, dual.gap)
-    (high, low), error = _clearance(
-        squared, dual.error + dual.gap_error + 2.0 * double_double.ERROR * np.abs(squared[0])
-    )
+    (high, low), error = _clearance(squared, dual.error + dual.gap_error)
     clear = inside & ((dual.value[0] - 1.0) + dual.value[1] > 1.001 * dual.error) & (dual.side != 0.0)
     contact = inside & (high < -1.001 * error)
     position = np.where(clear, dual.side, 0.0).astype(np.int8)
@@ -246,7 +244,9 @@ def _gap(slope: Floats, slope_error: Floats, curvature: Floats, pole: Floats) ->
 def _clearance(squared: DoubleDouble, error: Floats) -> tuple[DoubleDouble, Floats]:
     """√squared − 1 and a bound of its error, for a squared distance known within `error`.
 
-    |√s − √t| is at most |s − t|/√s, and at most √|s − t|, which is what serves near a distance of 0.
+    |√s − √t| is at most |s − t|/√s, and at most √|s − t|, which is what serves near a distance of 0. The sum of D and
+    the gap is rounded by η s, which leaves (η/2)√s after the root; the root is rounded by η√s, and the subtraction by
+    η(1 + √s). 4η(1 + √s) covers all three. Where D is below 0, the room in D's own bound covers η|D|.
     """
     below = squared[0] < 0.0
     root = double_double.square_root((np.where(below, 0.0, squared[0]), np.where(below, 0.0, squared[1])))
