@@ -45,7 +45,7 @@ def _multiplier(g: Cubic) -> Fraction:
         top = g.n1 / (root - g.n2) if g.n2 < 0 else -(g.n2 + root) / (3 * g.n3)  # the form that does not cancel
         at = _round(top, bits)
         u, v = at.numerator, at.denominator
-        inside = (u * g.t < v * g.s) if u > 0 else (-u * g.q < v * g.p)
+        inside = u < 0 or u * g.t < v * g.s  # below 0, g > 0 means λ > −A: g(−A) ≤ 0, and g rises up to there
         if inside and ((g.n3 * u + g.n2 * v) * u + g.n1 * v * v) * u + g.n0 * v**3 > 0:
             return at
     raise AssertionError("unreachable: the precisions do not end")

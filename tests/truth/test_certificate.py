@@ -10,6 +10,7 @@ from hypothesis import given, settings
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact
+from hypcheck.truth import prove as prove_module
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
 from tests.support.pairs import pairs
@@ -150,3 +151,20 @@ def test_pairs_a_hair_from_tangency_and_far_from_it_have_short_proofs_that_hold(
     if certificate.multiplier is not None:
         digits = abs(certificate.multiplier.numerator)
         assert (digits // (digits & -digits)).bit_length() <= (2 if row[4] in (4.0, 1.0) else 64)
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        (2.0, 1.75, 2.0, 6.0, 0.0, 0.0, 1.0),
+        (4.5, 4.5, 3.0, 9.0, 1.5, 0.0, 1.25),
+        (0.5, 2.0, 1.0, 7.0, 0.0, 0.0, 7.0),
+        (4.0, 7.0, 2.0, 5.0, 2.0, 0.0, 2.25),
+    ],
+)
+def test_multiplier_of_a_tall_spheroid_is_found_within_64_bits(monkeypatch, row):
+    pair = Pair(*row)
+    monkeypatch.setattr(prove_module, "_precisions", lambda: (1, 2, 4, 8, 16, 32, 64))
+    certificate = prove(pair)
+    assert certificate.multiplier is not None
+    assert check_certificate(pair, certificate)

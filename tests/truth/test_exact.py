@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
@@ -12,6 +13,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.exact import cubic
+from hypcheck.truth.kinds import Kind
 from hypcheck.truth.prove import prove
 from tests.support.pairs import KINDS, WITNESSES, pairs
 
@@ -89,3 +91,13 @@ def test_pairs_one_ulp_from_a_tangency_are_decided_rightly(ulps):
     decision = exact.decide(Pair(2.0, 5.0, 1.0, 1.0, x, 0.0, 0.0).lengths)
     assert decision.tangent == (ulps == 0)
     assert decision.position is (Position.EXTERIOR if ulps > 0 else Position.CONTACT)
+
+
+@pytest.mark.parametrize("bottom", [1, 2, 9])
+@pytest.mark.parametrize(("double", "simple"), [(3, 5), (3, 2), (4, 5), (4, 3), (7, 30)])
+def test_kind_of_a_double_root_beyond_both_poles_is_told_by_the_place_of_the_simple_root(double, simple, bottom):
+    """g = (x − m)² (x − n) and B = 1 < m, with m as a fraction of any denominator."""
+    g = SimpleNamespace(n3=1, n2=-(2 * double + simple), s=1, t=1)
+    found = exact._outer_tangency(g, double * bottom, bottom)
+    beyond = simple > double
+    assert found is (Kind.CROSSING_GROOVE_ISOLATED_POINT if beyond else Kind.CROSSING_GROOVE_NODE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 from itertools import pairwise
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import assume, given, settings
@@ -13,7 +14,7 @@ from hypothesis import strategies as st
 from hypcheck.geometry.pair import Pair
 from hypcheck.truth import mesh_meridian
 from hypcheck.truth.mesh import distance_to_mesh, ribbon
-from hypcheck.truth.mesh_meridian import REACH, UNIT, bounds_of, cell_of, halves, meridian_of, window_of
+from hypcheck.truth.mesh_meridian import REACH, UNIT, _facets, bounds_of, cell_of, halves, meridian_of, window_of
 from tests.support.fractions_truth import everyday, rows_of
 
 
@@ -128,3 +129,9 @@ def test_side_of_the_surface_on_which_the_centre_lies_is_exact(row):
 )
 def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
     assert mesh_meridian._nearest_on(*ends) == nearest
+
+
+def test_facets_are_the_chords_of_cells_or_else_their_tangents():
+    cells = [SimpleNamespace(chord=("chord", n), tangents=("tangent", n, n)) for n in (1, 2)]
+    assert _facets(cells, chords=True) == ("chord", 1, "chord", 2)
+    assert _facets(cells, chords=False) == ("tangent", 1, 1, "tangent", 2, 2)

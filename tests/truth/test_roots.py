@@ -15,6 +15,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact, polynomial_roots
 from hypcheck.truth import roots as oracle
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.polynomial_roots import _none_by_descartes, linear_factor, polynomial_product
 from hypcheck.truth.roots import Invariants, RootPlace, classify_by_roots, classify_invariants, coefficients
 
 # Rows alpha, gamma, b, d, x, y, z. With z = 0 the cubic is (λ − B)(λ² − (P − 1 − A) λ + A); with r = 0 it is
@@ -288,3 +289,15 @@ def test_conditions_hold_at_their_borders_as_they_are_written():
     for A, B, expected in ((1, 1, "a ≤ 1, c² = a"), (Fraction(1, 4), 1, "a < 1, a ≤ 1, c² > a"), (4, 1, "c² < a")):
         held = oracle._occurs(Invariants(Fraction(A), Fraction(B), Fraction(1), Fraction(1)))
         assert {name for name, holds in held.items() if holds} == {"always", *expected.split(", ")}
+
+
+def test_the_rule_of_signs_excludes_no_polynomial_that_has_a_root_from_0_to_1():
+    """And it does exclude one whose values grow from 1 on."""
+    for root in (Fraction(1, 9), Fraction(1, 2), Fraction(7, 8), Fraction(99, 100)):
+        for others in itertools.product((Fraction(-3), Fraction(-1, 5), Fraction(3, 2), Fraction(40)), repeat=2):
+            factors = [linear_factor(each) for each in (root, *others)]
+            assert not _none_by_descartes(factors[0])
+            assert not _none_by_descartes(polynomial_product(factors[0], factors[1]))
+            assert not _none_by_descartes(polynomial_product(polynomial_product(*factors[:2]), factors[2]))
+    assert _none_by_descartes((1, 2, 1))
+    assert _none_by_descartes((1, -6, 8))  # roots 2 and 4

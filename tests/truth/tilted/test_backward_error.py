@@ -12,7 +12,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import backward_error
 from hypcheck.truth import exact as upright_exact
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.backward_error import _short, bracket, tolerated
+from hypcheck.truth.tilted.backward_error import _short, bracket, estimate, tolerated
 from hypcheck.truth.tilted.pair import TiltedLengths
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC
@@ -99,6 +99,7 @@ def test_centre_on_the_axis_of_the_hyperboloid_is_never_exterior():
     found = bracket(row, decided(row), EXTERIOR)
     assert (found.lower, found.upper) == (math.inf, math.inf)
     assert tolerated(row, decided(row), [EXTERIOR], Fraction(1)) is False
+    assert estimate(row, decided(row), EXTERIOR) == math.inf
 
 
 def test_answer_is_tolerated_if_one_of_several_accepted_answers_is_within_the_tolerance():
@@ -106,6 +107,8 @@ def test_answer_is_tolerated_if_one_of_several_accepted_answers_is_within_the_to
     assert tolerated(row, decided(row), [INTERIOR], Fraction(STEP)) is False
     assert tolerated(row, decided(row), [INTERIOR, EXTERIOR], Fraction(STEP)) is True
     assert tolerated(row, decided(row), [EXTERIOR], Fraction(0)) is False
+    assert tolerated(row, decided(row), [EXTERIOR], Fraction(1)) is True
+    assert estimate(row, decided(row), EXTERIOR) == pytest.approx(STEP / (2.25 - STEP), rel=0.05)
 
 
 @pytest.mark.parametrize("value", [Fraction(1, 3), Fraction(2, 3) * 2**70, Fraction(5, 7) / 2**300, Fraction(1)])

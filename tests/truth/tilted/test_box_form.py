@@ -65,10 +65,11 @@ def test_derivatives_by_the_axis_are_those_of_the_quadratic_form(row):
     assert dot(across(v, q), v) == 0
 
 
+@pytest.mark.parametrize("radius", [Fraction(1, 1000), Fraction(1, 4), Fraction(1)])
 @pytest.mark.parametrize("row", ROWS)
-def test_a_reach_holds_the_nearest_point_of_every_pair_of_the_box(row):
-    """X(λ) with (1 + λ Σ D) X = C, for the corners of a box of centres and axes."""
-    at, radius = Fraction(1, 50), Fraction(1, 1000)
+def test_a_reach_holds_the_nearest_point_of_every_pair_of_the_box(row, radius):
+    """X(λ) with (1 + λ Σ D) X = C, for the corners of a box of centres and axes; a wide box may have none."""
+    at = Fraction(1, 50)
     sizes, C, v = row[:4], row[4:7], row[7:]
     form = Form([iv.mpf(each.numerator) / each.denominator for each in sizes])
     number = lambda each: iv.mpf(each.numerator) / each.denominator  # noqa: E731 - short
@@ -77,7 +78,9 @@ def test_a_reach_holds_the_nearest_point_of_every_pair_of_the_box(row):
     assert found is not None
     X0, inverse = found
     reach = box_certificate._reach(form, number(at), list(map(wide, C)), list(map(wide, v)), X0, inverse)
-    assert reach is not None
+    assert reach is not None or radius > Fraction(1, 1000)
+    if reach is None:
+        return
     D = [1 / row[0] ** 2, 1 / row[0] ** 2, -1 / row[1] ** 2]
     middle = [plain.mpf(each.mid.a) for each in X0]
     farthest = [plain.mpf(0)] * 3
@@ -89,7 +92,7 @@ def test_a_reach_holds_the_nearest_point_of_every_pair_of_the_box(row):
         off = [abs(plain.mpf(x.numerator) / x.denominator - m) for x, m in zip(X, middle, strict=True)]
         assert all(a <= b for a, b in zip(off, reach, strict=True))
         farthest = [max(a, b) for a, b in zip(off, farthest, strict=True)]
-    assert all(b < 20 * max(farthest) for b in reach)
+    assert all(b < 20 * max(farthest) for b in reach) or radius > Fraction(1, 1000)
 
 
 def solved(A, right):

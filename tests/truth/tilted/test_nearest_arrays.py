@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -85,6 +88,41 @@ def test_least_eigenvalue_of_a_matrix_that_is_not_definite_has_no_bound():
     pairs = nearest_arrays._Pairs.of(rows)
     beyond = np.where(np.arange(200) % 2, 1.01 * (rows[:, 1] / rows[:, 2:4].min(axis=1)) ** 2, -1e9)
     assert (nearest_arrays._least_eigenvalue(pairs, beyond) == 0).all()
+
+
+def test_a_least_eigenvalue_that_is_claimed_of_a_nearly_singular_matrix_is_below_all_of_them(monkeypatch):
+    """Two small eigenvalues, one below 0 in half of the matrices; rationals count how many are above the bound."""
+    rng, count = np.random.default_rng(6), 1500
+    turned = np.array([np.linalg.qr(each)[0] for each in rng.normal(size=(count, 3, 3))])
+    least = rng.choice([-1, 1], count) * 2.0 ** rng.uniform(-70, -40, count)
+    own = np.stack([least, 2.0 ** rng.uniform(-40, -3, count), np.ones(count)], axis=1) / 4
+    matrices = np.einsum("nij,nj,nkj->nik", turned, own, turned)
+    half = tuple(matrices[:, i, j] for i in range(3) for j in range(i, 3))
+    monkeypatch.setattr(nearest_arrays, "_matrix", lambda *_: half)
+    quarter, none = np.full(count, 0.25), np.zeros(count)
+    some = SimpleNamespace(thick=quarter, long=quarter, D=(none, none, none))
+    bound = nearest_arrays._least_eigenvalue(some, none)
+    claimed = np.flatnonzero(bound > 0)
+    assert len(claimed) > 10
+    for place in claimed.tolist():
+        a, b, c, d, e, f = (Fraction(each[place]) for each in half)
+        a, d, f = (each - Fraction(bound[place]) for each in (a, d, f))
+        determinant = a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d)
+        assert min(a, a * d - b * b, determinant) > 0
+
+
+def test_no_eigenvalue_is_claimed_where_roundings_of_the_matrix_alone_show_one():
+    """Balls, for which M + λD is diagonal: 1/b² + λ/α² twice, here 0 up to roundings of its two parts."""
+    rng, count = np.random.default_rng(8), 400
+    gamma, alpha, b = np.sort(rng.uniform(0.5, 3, (3, count)), axis=0)[[0, 2, 1]]
+    rows = np.stack([alpha, gamma, b, b, *np.ones((6, count))], axis=1)
+    at = -((alpha / b) ** 2) * (1 + rng.integers(-6, 7, count) * 2.0**-53)
+    with np.errstate(all="ignore"):
+        bound = nearest_arrays._least_eigenvalue(nearest_arrays._Pairs.of(rows), at)
+    for row, multiplier, found in zip(rows.tolist(), at.tolist(), bound.tolist(), strict=True):
+        exact = 1 / Fraction(row[2]) ** 2 + Fraction(multiplier) / Fraction(row[0]) ** 2
+        assert found == 0 or found <= exact
+    assert (bound == 0).all()
 
 
 def test_a_table_with_a_certain_row_of_another_position_than_the_kernel_says_is_refused(monkeypatch):
