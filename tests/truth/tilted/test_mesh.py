@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Position
 from hypcheck.truth.mesh import availability
@@ -79,3 +80,34 @@ def test_tilted_mesh_oracle_is_undecided_where_fcl_does_not_confirm_it(monkeypat
 
 def test_tilted_mesh_oracle_leaves_extreme_ratios_of_lengths_undecided():
     assert mesh.position(TiltedPair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3))) is None
+
+
+def test_tilted_mesh_oracle_says_contact_at_once_where_the_centre_is_on_the_surface():
+    assert mesh.position(TiltedPair.from_row((1.0, 4.0, 0.125, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0))) is Position.CONTACT
+
+
+def test_corners_of_cells_are_within_their_slack_of_the_exact_ones():
+    """Also near the end of a line, where the tangent turns a rounding of its angle into much."""
+    scene = mesh._Scene(TiltedPair.from_row(CLEAR))
+    for beside in (1.0, 1e-3, 1e-6):
+        tau = math.pi / 2 - beside
+        cells = np.array([[theta + tau, theta + tau + beside / 4, theta - tau, theta - tau + beside / 4] for theta in
+                          np.linspace(0.1, 6, 40)])  # fmt: skip
+        corners, slack = scene.corners(cells)
+        alpha, gamma, centre = scene.alpha, scene.gamma, scene.centre
+        with mp.workprec(200):
+            for cell, found, allowed in zip(cells.tolist(), corners.tolist(), slack.tolist(), strict=True):
+                for corner, (i, j) in zip(found, ((0, 2), (0, 3), (1, 2), (1, 3)), strict=True):
+                    a, b = mpf(cell[i]), mpf(cell[j])
+                    theta, half = (a + b) / 2, (a - b) / 2
+                    point = [alpha * mp.cos(theta) / mp.cos(half), alpha * mp.sin(theta) / mp.cos(half)]
+                    way = [p - c for p, c in zip([*point, gamma * mp.tan(half)], centre.tolist(), strict=True)]
+                    exact = [
+                        sum(w * mpf(r) for w, r in zip(way, column, strict=True)) for column in scene.root.T.tolist()
+                    ]
+                    assert all(abs(mpf(x) - y) <= allowed for x, y in zip(corner, exact, strict=True))
+
+
+def test_triangle_with_two_equal_corners_has_no_area():
+    vertices = np.array([[1.0, 0, 0], [1.0, 0, 0], [2.0, 1, 0], [3.0, 5, 1]])
+    assert mesh._has_area(vertices, np.array([[0, 1, 2], [0, 2, 3], [2, 3, 2]])).tolist() == [False, True, False]
