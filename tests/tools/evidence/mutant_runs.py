@@ -16,6 +16,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from itertools import pairwise
 from pathlib import Path
 from types import FunctionType
 from typing import Any
@@ -102,7 +103,7 @@ class Runner:
         return {"outcome": outcome, "tests": len(ordered), "seconds": round(seconds, 3), "by": by}
 
     def _tested(self, tests: Sequence[pytest.Item], tell: Tell) -> int:
-        for item, following in zip(tests, [*tests[1:], None], strict=True):
+        for item, following in pairwise([*tests, None]):
             tell(item.nodeid)
             item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
             if self._failed:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 from collections import Counter
 
 import pytest
 
 from tests.tools.evidence.mutations import apply, functions_of, mutations
 from tests.tools.evidence.parts import ROOT, kept
-from tests.tools.evidence.python_mutants import _lot, chosen
+from tests.tools.evidence.python_mutants import EXPLAINED, _lot, chosen
 
 SOURCE = '''\
 from functools import cache
@@ -117,3 +118,10 @@ def test_kept_coverage_figures_include_at_least_95_percent_of_the_code():
     sizes = {str(path.relative_to(ROOT)): path.stat().st_size for path in files}
     unknown = sum(size for name, size in sizes.items() if name not in known)
     assert unknown < 0.05 * sum(sizes.values())
+
+
+def test_every_explained_python_mutant_is_a_mutant_of_the_present_code():
+    explained = json.loads(EXPLAINED.read_text(encoding="utf-8"))
+    modules = sorted({key.partition(" ")[0] for key in explained})
+    keys = {each.key for module in modules for each in mutations(module, (ROOT / module).read_text(encoding="utf-8"))}
+    assert not set(explained) - keys
