@@ -132,7 +132,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "header": header(plan, command, dialect.comment),
         "prefix": prefix,
         "number": number,
-        "search": _searches_text(plan, dialect),
+        "search": _searches_text(plan, dialect) + (dialect.axis["check"].lstrip("\n") + "\n" if plan.free else ""),
         **_axis_parts(plan, dialect),
         "imports": "\n".join(
             ["import math"] * bool(_searched(plan) or plan.free) + ["from collections.abc import Iterable"]
