@@ -87,10 +87,12 @@ def _octave(right: Callable[[Fraction], bool]) -> tuple[Fraction, Fraction]:
 def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> bool:
     """Whether an answer is right for b and d both multiplied by 1 + tolerance, or for both by 1 − tolerance.
 
-    By monotony one of the two is the one to ask about. From a tolerance of 1 on every size error below 1 is tolerated.
+    By monotony one of the two is the one to ask about. From a tolerance of 1 on, nothing is left of the smaller
+    spheroid, and no contact is needed.
     """
-    change = min(tolerance, _LARGEST)
-    return hits_at_size(row, 1 + change if answer else 1 - change) == answer
+    if answer:
+        return hits_at_size(row, 1 + tolerance)
+    return tolerance >= 1 or not hits_at_size(row, 1 - tolerance)
 
 
 def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> Fraction:
@@ -124,8 +126,10 @@ def time_window(row: Sequence[Rational], change: Rational) -> tuple[Fraction | N
     """The earliest and the latest time that a right answer may give for the first contact.
 
     The first contact of the spheroid grown by `change`, rounded down, and of it shrunk by `change`, rounded up; None
-    where there is none: without the second there is no upper end, without the first no time is right.
+    where there is none: without the second there is no upper end, without the first no time is right. A change of 1
+    leaves nothing to shrink.
     """
-    part = min(Fraction(change), _LARGEST)
-    grown, shrunk = (scaled_passage(row, 1 + sign * part).first for sign in (1, -1))
+    part = Fraction(change)
+    grown = scaled_passage(row, 1 + part).first
+    shrunk = scaled_passage(row, 1 - part).first if part < 1 else None
     return None if grown is None else grown[0], None if shrunk is None else shrunk[1]

@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.truth import passage_error
@@ -84,11 +84,28 @@ def test_both_ends_of_a_size_error_are_proved_by_exact_decisions(sizes, start, e
     st.sampled_from([Fraction(1, 2**n) for n in (3, 6, 12)]),
     st.lists(st.sampled_from([-1, 0, 1]), min_size=10, max_size=10),
 )
+@example(
+    (303 / 1024, 405 / 1024, 1 / 16, 1 / 16),
+    (31 / 64, 0.0, 860 / 1024),
+    (0.0, 60 / 1024, 3 / 1024),
+    Fraction(1, 8),
+    [-1, 0, 0, -1, 0, -1, -1, -1, -1, -1],
+)  # the tolerance is 6.5: nothing is left of the smaller spheroid, whose centre crosses the surface
 def test_answer_about_a_way_that_is_right_for_slightly_changed_inputs_is_tolerated(sizes, start, end, change, signs):
     """The claim by which the tolerance is derived, at corners of the box of changes."""
     row = tuple(map(Fraction, (*sizes, *start, *end)))
     moved = tuple(each * (1 + sign * change) for each, sign in zip(row, signs, strict=True))
     assert is_tolerated(row, hits_at_size(moved), tolerance(row, 1, change))
+
+
+def test_contact_far_from_a_small_spheroid_is_tolerated_where_the_tolerance_multiplies_its_size():
+    far = (2.0, 3.0, 0.5, 0.5, -4.0, 4.0, 0.0, 4.0, 4.0, 0.0)  # the surface is 2 away: 4 semi-axes
+    assert not hits_at_size(far)
+    assert is_tolerated(far, True, Fraction(4))
+    assert not is_tolerated(far, True, Fraction(2))
+    earliest, latest = time_window(far, Fraction(4))
+    assert earliest is not None
+    assert latest is None
 
 
 def test_tolerance_of_a_way_is_the_sum_of_the_effects_of_each_input():
