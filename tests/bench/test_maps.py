@@ -87,6 +87,7 @@ def test_bounding_line_counts_false_clear_answers_of_a_shape_that_does_not_enclo
     assert error_maps.bounding_line(rows, alternatives.bounding_sphere, "sphere", "uniform").false_clear == 0
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
 def test_convergence_lines_show_fewer_errors_with_more_triangles():
     lines = list(error_maps.convergence_lines(PLAN))

@@ -21,11 +21,13 @@ def coverage(processes, rounds, between, within, median=1.0):
     return held / DRAWN
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("median", [1e-3, 1.0, 250.0])
 def test_interval_contains_the_median_in_94_of_100_runs_if_only_rounds_differ(median):
     assert coverage(5, 5, 0.0, 0.02, median) >= 0.94
 
 
+@pytest.mark.slow
 def test_interval_contains_the_median_in_90_of_100_runs_if_processes_differ_too():
     assert coverage(5, 5, 0.02, 0.02) >= 0.90
 
@@ -43,6 +45,7 @@ def test_interval_does_not_count_the_rounds_of_one_process_as_separate_processes
     assert found.high >= 1.02
 
 
+@pytest.mark.slow
 def test_the_confidence_interval_shrinks_with_more_rounds():
     generator = np.random.default_rng(3)
 

@@ -137,6 +137,7 @@ def test_bench_of_ways_refuses_methods_and_workloads_that_ways_do_not_have(tmp_p
         ended(tmp_path, "--question", "passage", *options)
 
 
+@pytest.mark.slow
 def test_bench_takes_a_spec_only_if_it_answers_the_question_of_the_run():
     found = foreign.foreign_method(command("passage", "binary"), Limits(), [], layout=WAYS)
     assert found.name in contenders(BenchPlan(question=PASSAGE, foreign=(found,)))

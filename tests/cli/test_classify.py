@@ -112,7 +112,8 @@ def integer(digits: str) -> int:
     return int(digits) if len(digits) < 4000 else integer(digits[:-4000]) * 10**4000 + int(digits[-4000:])
 
 
-@settings(max_examples=150)
+@pytest.mark.slow
+@settings(max_examples=60)
 @given(pairs)
 def test_every_proof_that_classify_prints_can_be_checked_from_its_text(pair):
     found = answer(pair)

@@ -79,6 +79,7 @@ def test_commands_that_take_a_scene_escape_the_names_in_its_file(words, tmp_path
     assert ("\\u001b]0;title" if "json" in " ".join(words) else r"\x1b]0;title") in found
 
 
+@pytest.mark.slow
 def test_cases_check_escapes_the_names_of_files_and_cases(tmp_path, capsys):
     path = tmp_path / f"{ACTS}.json"
     text = frozen.path_of("ring").read_text(encoding="utf-8")

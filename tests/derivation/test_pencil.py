@@ -32,6 +32,7 @@ def determinant(matrix):
     return total
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(positive, positive, positive, positive, coordinate, coordinate, coordinate, coordinate)
 def test_the_polynomial_f_is_the_determinant_of_the_pencil(alpha, gamma, b, d, x, y, z, at):

@@ -20,6 +20,7 @@ def rows():
     return np.concatenate([family.rows(11, 60) for family in select()])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in builtin_methods() if not name.startswith("fcl")])
 def test_each_built_in_method_gives_answers_that_its_question_allows(name, rows):
     method = builtin(name)

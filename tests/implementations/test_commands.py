@@ -153,6 +153,7 @@ def test_a_command_that_never_answers_is_given_up_after_three_timeouts():
     )
 
 
+@pytest.mark.thorough
 def test_a_command_that_answered_once_may_time_out_as_often_as_restarts_allow():
     some = rows()
     some[1:5, 1] = 13.0

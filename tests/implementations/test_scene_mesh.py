@@ -72,6 +72,7 @@ def test_scene_mesh_answers_rightly_farther_from_contact_than_its_deviation(engi
     assert set(answers.tolist()) == {-1, 0, 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ENGINES)
 def test_scene_mesh_answers_rightly_about_leaning_ellipsoids_away_from_contact(engine):
     rows = TILTED_FAMILIES["tilted-tower"].rows(1, 400)

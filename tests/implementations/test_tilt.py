@@ -32,6 +32,7 @@ def library(tmp_path_factory):
     return compiled("tilted", tmp_path_factory.mktemp("tilted") / "tilted.so", *SHARED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spec", [command("tilted"), command("tilted", "binary"), function("tilted")])
 def test_an_implementation_with_tilt_is_asked_rows_of_ten_numbers_about_upright_pairs_too(spec):
     leaning, upright = tilted_rows(), rows(lucky=True)

@@ -20,6 +20,7 @@ from tests.support.pairs import pairs
 ROWS = [[1, 2, 1, 1, 2.5, 0, 0], [1, 2, 1, 1, 2, 0, 0], [4, 4, 1, 1, 0, 0, 0]]
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(st.lists(pairs, max_size=10))
 def test_classify_and_classify_scene_give_exact_positions(some):

@@ -173,6 +173,7 @@ def wrapped(number: int) -> int:
 EDGES = [0, 1, -1, 2**63, 2**64 - 1, 2**64, -(2**64), 2**126 + 3, -(2**126) - 7, 2**127 - 1, -(2**127) + 1]
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_the_fixed_point_functions_in_c_compute_as_python_integers(library):
     random = np.random.default_rng(4)
@@ -217,6 +218,7 @@ def answers(library, rows) -> np.ndarray:
     return np.array([library.of_row((ctypes.c_double * 7)(*row)) for row in rows.tolist()])
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_the_fixed_point_stage_is_never_wrong_and_decides_nearly_all_rows_but_tangencies(library):
     rows = rows_of(*FAMILIES, count=5)
@@ -227,6 +229,7 @@ def test_the_fixed_point_stage_is_never_wrong_and_decides_nearly_all_rows_but_ta
     assert (answers(library, rows_of("tangent")) == 2).mean() > 0.9
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_the_fixed_point_stage_without_its_error_bound_answers_some_tangencies_wrongly(tmp_path):
     rows = rows_of("tangent")

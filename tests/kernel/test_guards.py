@@ -23,6 +23,7 @@ LEAST_NORMAL = Fraction(sys.float_info.min)
 U = Fraction(certified.U)
 
 
+@pytest.mark.slow
 def test_the_certified_stage_decides_by_the_exact_rule_for_all_combinations_of_signs():
     assert program_rules.wrong_signs(certified.CERTIFIED) == []
 

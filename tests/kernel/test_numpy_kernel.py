@@ -35,6 +35,7 @@ def test_every_answer_of_the_numpy_kernel_has_a_certificate_that_holds(some):
         assert check_certificate(pair, certificate)
 
 
+@pytest.mark.slow
 @given(pairs, st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 3), min_size=1, max_size=20))
 def test_the_numpy_kernel_answers_a_scene_as_its_rows(pair, centers):
     x, y, z = np.array(centers).T

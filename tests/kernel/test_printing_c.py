@@ -29,6 +29,7 @@ def as_function(program, number):
     )
 
 
+@pytest.mark.slow
 @needs_compiler
 @pytest.mark.parametrize(
     ("number", "name"),

@@ -83,6 +83,7 @@ def asked(function, rows, *more) -> np.ndarray:
     return np.array([function((ctypes.c_double * 7)(*row), *more) for row in rows.tolist()])
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_the_tangency_stage_answers_tangencies_and_not_rows_one_ulp_beside_them(library):
     rows = FAMILIES["tangent"].rows(3, 60)

@@ -43,6 +43,7 @@ def test_values_of_the_tilted_program_are_those_of_the_determinant_and_the_dual_
         assert values["k0"] + values["B_most"] * (k1 - t * values["B_most"]) <= 0
 
 
+@pytest.mark.slow
 def test_the_tilted_program_decides_rightly_with_any_multiplier():
     draw, seen = random.Random(12), []  # noqa: S311
     for row in small_rows(12, 300):

@@ -34,7 +34,7 @@ def written(module, chosen):
     return list(module.lines(chosen))
 
 
-@pytest.mark.parametrize("chosen", [ALL, CLAIM], ids=["all", "claim"])
+@pytest.mark.parametrize("chosen", [pytest.param(ALL, marks=pytest.mark.thorough), CLAIM], ids=["all", "claim"])
 def test_derive_text_fits_into_100_columns_and_says_what_was_checked(chosen):
     lines = written(text, chosen)
     assert max(map(columns, lines)) <= WIDTH

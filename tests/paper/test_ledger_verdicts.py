@@ -167,6 +167,7 @@ def test_a_true_statement_that_is_called_false_is_not_confirmed(statement):
     assert without_counterexample(statement).holds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("statement", FALSE_STATEMENTS, ids=named)
 def test_a_false_statement_that_is_called_proved_is_not_confirmed(statement):
     evidence = (by_chain("rule"), without_counterexample(statement))

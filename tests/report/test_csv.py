@@ -26,6 +26,7 @@ def test_every_line_of_the_csv_report_has_every_column():
         assert None not in row.values()
 
 
+@pytest.mark.slow
 def test_csv_report_has_every_sample_of_a_timing():
     found = rows(bench_record())
     speeds = [line for line in bench_lines.lines() if line["type"] == "speed"]

@@ -77,6 +77,7 @@ def found(tmp_path_factory):
     return list(zip(asked, json.loads(done.stdout), strict=True))
 
 
+@pytest.mark.slow
 def test_exact_answers_of_the_explorer_equal_those_of_classify(found):
     truth = hypcheck.classify([row for row, _ in found])
     wrong = [row for (row, each), position in zip(found, truth.tolist(), strict=True) if each["position"] != position]

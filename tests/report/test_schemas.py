@@ -72,6 +72,7 @@ def test_every_line_of_the_sample_record_fits_its_schema():
     assert kinds == set(LINES) - {"cause", "drift", "implementation", "progress"} - OF_A_BENCHMARK
 
 
+@pytest.mark.slow
 def test_every_line_of_a_benchmark_fits_its_schema():
     found = [as_json(line) for line in bench_lines.bench_record().lines]
     for line in found:
@@ -79,6 +80,7 @@ def test_every_line_of_a_benchmark_fits_its_schema():
     assert {line["type"] for line in found} == OF_A_BENCHMARK - {"refused", "unmeasured"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("version", ["1.0.0", "1.2.0"])
 def test_a_line_that_fits_an_older_schema_fits_this_one(version):
     older = schema(f"record-{version}.json")

@@ -26,6 +26,7 @@ def tallied(task, batch):
     return oracles.compare_with_exact(task, opinions, batch, seconds)
 
 
+@pytest.mark.slow
 def test_tilted_oracles_are_asked_the_frozen_vectors_of_every_family_except_the_extreme_one(batches):
     assert [batch.family.name for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
     assert all(batch.rows.shape == (6, 10) for batch in batches)

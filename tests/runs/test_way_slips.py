@@ -91,6 +91,7 @@ def explained(name, times):
     return RULES[name](asked(HITS, times)) == 1
 
 
+@pytest.mark.slow
 def test_slip_of_times_counted_from_the_end_explains_such_times_and_no_right_ones():
     assert explained("times-from-the-end", 1 - FIRST)[ON_THE_WAY].all()
     assert not explained("times-from-the-end", FIRST)[ON_THE_WAY].any()

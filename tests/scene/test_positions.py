@@ -179,6 +179,7 @@ def documents(draw):
     return written
 
 
+@pytest.mark.slow
 @given(documents())
 def test_line_of_every_value_is_found_in_random_toml(written):
     found = lines_of(written.text)
@@ -186,6 +187,7 @@ def test_line_of_every_value_is_found_in_random_toml(written):
     assert set(leaves(tomllib.loads(written.text))) <= set(found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     ["#\n" * 100_000, "\n" * 200_000, 'a = "%s"' % (r"\n" * 100_000), "'%s' = 1" % ("a " * 100_000)],

@@ -74,6 +74,7 @@ def test_scenes_that_the_reader_accepts_fit_the_schema(text):
     assert violations(tomllib.loads(text), SCHEMA, closed=True) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [WHOLE])
 def test_scene_reader_and_schema_agree_on_missing_values_and_wrong_types(text):
     """A missing value, a wrong one, an unknown key; what a schema cannot say is left out."""

@@ -37,6 +37,7 @@ def test_answers_about_tilted_rows_equal_answers_about_each_tilted_pair(wanted):
     assert found.clearance.tolist() == [each.clearance for each in wanted]
 
 
+@pytest.mark.slow
 def test_csv_columns_of_the_axis_are_found_in_any_order_and_other_columns_are_kept(tmp_path, wanted):
     names = ("note", *reversed(TILTED_COLUMNS))
     lines = [",".join(names), *(",".join(["a b", *map(repr, reversed(row))]) for row in ROWS)]

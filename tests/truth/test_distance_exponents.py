@@ -23,6 +23,7 @@ def one_by_one(rows):
     return octaves
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FAMILIES)
 def test_distance_exponents_equal_those_of_exact_changes(name):
     rows = FAMILIES[name].rows(11, 24)

@@ -15,6 +15,7 @@ from hypcheck.truth import exact, float_filter
 from tests.support.pairs import pairs
 
 
+@pytest.mark.slow
 @given(st.lists(pairs, min_size=1, max_size=40))
 def test_float_filter_positions_of_many_rows_equal_those_of_single_pairs(some):
     rows = np.array([pair.row for pair in some])

@@ -71,6 +71,7 @@ def test_constants_of_a_line_are_rounded_to_its_safe_side(some, reach):
             assert sign * Fraction(constant) >= sign * moved * b**2 * (A + sign * multiplier) * (1 + sign / multiplier)
 
 
+@pytest.mark.slow
 @given(sizes, st.floats(-4, 4), st.sampled_from([-1, 1]))
 def test_lines_prove_no_wrong_position_beside_the_rim_of_the_level_disc(some, share, side):
     """Centres b off the surface, level, by some ulps more or less."""

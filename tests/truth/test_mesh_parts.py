@@ -71,6 +71,7 @@ def test_window_of_the_meridian_holds_every_point_within_reach(row, share):
         assert not within(last + share)
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(
     st.lists(st.tuples(*[st.floats(-1.25, 1.25)] * 2).map(tuple), min_size=2, max_size=20),

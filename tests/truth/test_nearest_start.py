@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import mpmath
 import numpy as np
+import pytest
 
 from hypcheck.geometry.pair import Pair
 from hypcheck.truth import nearest, nearest_dual
@@ -73,6 +74,7 @@ def test_first_tau_of_newton_is_never_below_the_root():
             assert math.isfinite(tau)
 
 
+@pytest.mark.slow
 def test_the_first_tau_of_arrays_is_at_or_above_the_root_and_within_a_modest_factor():
     draw, count = np.random.default_rng(8), 150
     W = np.exp(draw.uniform(-3, 3, count))

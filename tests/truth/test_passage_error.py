@@ -64,6 +64,7 @@ def test_larger_spheroid_never_loses_contact_on_the_way(sizes, start, end, scale
     assert other >= hit if scale > 1 else other <= hit
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(_sizes, _centers, _centers)
 def test_both_ends_of_a_size_error_are_proved_by_exact_decisions(sizes, start, end):

@@ -95,6 +95,7 @@ QUICK = ("c", "python")
 LANGUAGES = [pytest.param(name, marks=[] if name in QUICK else pytest.mark.thorough) for name in DIALECTS]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_an_emitted_whole_scene_kernel_answers_as_the_scene(language, small, tmp_path):
     skip_without(language)
@@ -112,6 +113,7 @@ def test_the_pairs_of_a_whole_scene_kernel_are_within_8_u(language, small, tmp_p
     assert asked > 50
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
 def test_a_whole_scene_kernel_answers_the_question_of_its_scene(question, small, tmp_path):
     scene, columns = replace(small[0], question=question), small[2]

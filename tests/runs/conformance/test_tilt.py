@@ -49,6 +49,7 @@ def by_family(record):
     return {line.family: line for line in record.of(GroupLine)}
 
 
+@pytest.mark.slow
 def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted_families(tmp_path):
     code, record = gate(tmp_path, "exact", "--families", f"ring,{LEANING}")
     found = by_family(record)
@@ -60,6 +61,7 @@ def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted
     assert line.again.asked > 30
 
 
+@pytest.mark.slow
 def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_the_tilted_invalid_rows_alone(
     tmp_path,
 ):
@@ -80,6 +82,7 @@ def test_tilted_invalid_rows_are_asked_only_if_refuses_and_tilt_are_declared():
     assert invalid_rows(refuses=False, tilt=True) == ()
 
 
+@pytest.mark.slow
 def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_alone_and_the_record_has_the_axis(
     tmp_path,
 ):
@@ -96,6 +99,7 @@ def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_al
     assert f'"axis": ["{found[LEANING].worst[0].axis[0]}"' in (tmp_path / "upright" / "record.jsonl").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_with_its_axis(tmp_path):
     code, record = gate(tmp_path, "raises_far_over", "--families", LEANING, count="60")
     faults = [fault for line in record.of(GroupLine) for fault in line.faults if fault.status == "error"]
@@ -107,6 +111,7 @@ def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_wit
         assert "no heading" in fault.reason
 
 
+@pytest.mark.slow
 def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(tmp_path):
     steps, more = [], []
     plan = ConformancePlan(("python:tests.runs.leaning:exact",), ("ring", "tilted-ring"), count=3)

@@ -83,6 +83,7 @@ def test_comparison_gives_the_answer_of_the_formula_in_each_format(name, format_
         assert found.answer == answers(FORMULAS[name], float_arithmetic(format_name), columns)
 
 
+@pytest.mark.slow
 @given(pairs)
 def test_comparison_of_the_dual_form_gives_the_answer_of_its_built_in_method(pair):
     for precision in ("float32", "float64"):

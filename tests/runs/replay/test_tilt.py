@@ -17,6 +17,7 @@ def replayed(capsys, *words):
     return code, capsys.readouterr()
 
 
+@pytest.mark.slow
 def test_a_tilted_row_is_replayed_with_its_axis_a_proof_and_two_ends_for_each_other_position(capsys):
     code, said = replayed(capsys, BESIDE, f"{SPEC}exact")
     assert code == 0
@@ -27,6 +28,7 @@ def test_a_tilted_row_is_replayed_with_its_axis_a_proof_and_two_ends_for_each_ot
     assert "values" not in said.out
 
 
+@pytest.mark.slow
 def test_a_wrong_answer_about_a_tilted_spheroid_is_judged_as_a_run_judges_it(capsys):
     code, said = replayed(capsys, "tilted-uniform/1/1/5", f"{SPEC}upright", "--json")
     told = json.loads(said.out)
@@ -38,6 +40,7 @@ def test_a_wrong_answer_about_a_tilted_spheroid_is_judged_as_a_run_judges_it(cap
     assert told["truth"]["kind"] is told["values"] is None
 
 
+@pytest.mark.slow
 def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one(capsys):
     told = [
         json.loads(replayed(capsys, row, f"{SPEC}exact", "--json")[1].out)["truth"]
@@ -47,6 +50,7 @@ def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one
     assert told[0]["kind"] == "crossing-one-curve"
 
 
+@pytest.mark.slow
 def test_invalid_tilted_row_is_replayed_by_its_id(capsys):
     code, said = replayed(capsys, "tilted-invalid-0000", f"{SPEC}exact")
     assert code == 0
@@ -81,6 +85,7 @@ def test_case_that_cannot_be_replayed_is_refused_in_one_sentence(case, spec, sen
     assert sentence in said.err
 
 
+@pytest.mark.slow
 def test_replay_refuses_a_formula_for_a_tilted_row(capsys):
     code, said = replayed(capsys, BESIDE, f"{SPEC}exact", "--formula", "table-2")
     assert code == 2

@@ -120,6 +120,7 @@ def test_kept_coverage_figures_include_at_least_95_percent_of_the_code():
     assert unknown < 0.05 * sum(sizes.values())
 
 
+@pytest.mark.slow
 def test_every_explained_python_mutant_is_a_mutant_of_the_present_code():
     explained = json.loads(EXPLAINED.read_text(encoding="utf-8"))
     modules = sorted({key.partition(" ")[0] for key in explained})

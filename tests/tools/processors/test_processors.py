@@ -37,6 +37,7 @@ def here(tmp_path_factory):
     return build, builds.program(build, folder), folder
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_kernel_program_answers_frozen_vectors_ways_and_clearances_rightly(here):
     build, program, folder = here

@@ -21,6 +21,7 @@ def by_intervals(rows):
     return [nearest(TiltedPair.from_row(row)) for row in rows.tolist()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
 def test_certain_float_clearances_and_positions_equal_those_by_intervals(name):
     rows = TILTED_FAMILIES[name].rows(7, 40)
