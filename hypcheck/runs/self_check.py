@@ -136,7 +136,7 @@ class FamilyTask:
 
 
 Task = DerivationTask | FamilyTask | OracleTask
-"""What a worker does at a time, and knows all about."""
+"""A unit of work that a process does without anything else from the run."""
 
 
 @dataclass(frozen=True, slots=True)

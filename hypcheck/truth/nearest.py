@@ -246,7 +246,7 @@ def _clearance(squared: DoubleDouble, error: Floats) -> tuple[DoubleDouble, Floa
 
     |√s − √t| is at most |s − t|/√s, and at most √|s − t|, which is what serves near a distance of 0. The sum of D and
     the gap is rounded by η s, which leaves (η/2)√s after the root; the root is rounded by η√s, and the subtraction by
-    η(1 + √s). 4η(1 + √s) covers all three. Where D is below 0, the room in D's own bound covers η|D|.
+    η(1 + √s). 4η(1 + √s) covers all three. Where the sum is below 0, so is the exact one, and t is at most `error`.
     """
     below = squared[0] < 0.0
     root = double_double.square_root((np.where(below, 0.0, squared[0]), np.where(below, 0.0, squared[1])))

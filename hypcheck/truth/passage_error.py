@@ -88,7 +88,7 @@ def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> 
     """Whether an answer is right for b and d both multiplied by 1 + tolerance, or for both by 1 − tolerance.
 
     By monotony one of the two is the one to ask about. From a tolerance of 1 on, nothing is left of the smaller
-    spheroid, and no contact is needed.
+    spheroid, so that the answer "no contact" is always tolerated.
     """
     if answer:
         return hits_at_size(row, 1 + tolerance)

@@ -3,7 +3,7 @@
 For a fixed λ the spheroid is clear while a quadratic in t is positive (journey.py). The best λ of one time gives the
 step, and the end of the step is the next time. Near a contact that the way runs into, each step leaves about the square
 of what was left, so that a few steps enclose the first contact; a way that keeps a distance ends after a few steps as
-well. Each step is proved in integers. Where a way only grazes the surface, or ends in tangency, the steps come to
+well. Each step is proved in integers. Where a way only grazes the surface, or ends in tangency, the steps decide
 nothing, and the roots of the critical polynomial must tell (swept.py).
 """
 
@@ -23,7 +23,7 @@ WIDTH_BITS = 60
 
 MOST_STEPS = 64
 SHORTEST = Fraction(1, 2**240)
-"""A step below this, or so many steps, says that steps come to nothing here."""
+"""A step below this, or so many steps, says that steps decide nothing here."""
 
 _STEP_BITS = 40
 
@@ -48,7 +48,7 @@ class Steps:
 
 
 def steps(journey: Journey, width_bits: int | None = WIDTH_BITS) -> Steps | None:
-    """The steps of a way that begins clear, or None where they come to nothing.
+    """The steps of a way that begins clear, or None where they decide nothing.
 
     The enclosure of the first contact is 2^−width_bits of it; as wide as it happens to be where that is None.
     """

@@ -86,7 +86,7 @@ def passage(
 
 
 def by_steps(journey: Journey, width_bits: int | None = WIDTH_BITS) -> Passage | None:
-    """What happens on a way, by steps; None where they come to nothing, or where it begins with a tangency."""
+    """What happens on a way, by steps; None where they decide nothing, or where it begins with a tangency."""
     here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
     if not journey.moves:
         return None
