@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -69,14 +68,14 @@ def first_that_applies(reasons: Iterable[int]) -> Exit:
 
 @dataclass
 class RunOutcome:
-    """The reasons for the exit code of a run: sentences by code."""
+    """The codes that a run has a reason to end with; the lines of its record say the reasons."""
 
-    because: defaultdict[Exit, list[str]] = field(default_factory=lambda: defaultdict(list))
+    codes: set[Exit] = field(default_factory=set)
 
     @property
     def exit_code(self) -> Exit:
         """The first code that applies; HELD without any reason."""
-        return first_that_applies(code for code, reasons in self.because.items() if reasons)
+        return first_that_applies(self.codes)
 
 
 class HypcheckError(Exception):

@@ -51,8 +51,8 @@ def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     return plan
 
 
-def needs_met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> BenchPlan:
-    """The plan with the methods of its SPECs; those that cannot be started are recorded and added to the list.
+def needs_met(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
+    """The plan with the methods of its SPECs; those that cannot be started are recorded instead.
 
     Raises InputError if a text is no SPEC.
     """
@@ -64,7 +64,6 @@ def needs_met(plan: BenchPlan, recorder: Recorder, not_started: list[str]) -> Be
             found.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted, layout=layout))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
             recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
-            not_started.append(str(error))
     return replace(plan, foreign=tuple(found))
 
 

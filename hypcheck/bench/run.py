@@ -74,7 +74,9 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
     plan = _tilted_plan(plan, leaning)
     workloads = len(chosen_workloads(plan))
     before = read_baseline(plan)
-    plan = needs_met(plan_with_needs(plan, recorder), recorder, outcome.because[Exit.NOT_STARTED])
+    plan = needs_met(plan_with_needs(plan, recorder), recorder)
+    if len(plan.foreign) < len(plan.specs):
+        outcome.codes.add(Exit.NOT_STARTED)
     if before is not None:
         plan = replace(plan, foreign=alike(before, plan.foreign))
     run = _Run(plan, recorder, outcome, contenders(plan), baseline=before)
@@ -123,9 +125,7 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
         forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
         for line in recorder.lines:
             if isinstance(line, ForestLine) and line.exact and line.wrong:
-                outcome.because[Exit.WRONG].append(
-                    f"{line.method} promises to be exact and is not, among {line.trees:,} trees"
-                )
+                outcome.codes.add(Exit.WRONG)
 
     sizes = forest.sizes(plan)
     return Stage("forest", len(sizes), measure)
@@ -133,8 +133,11 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
 
 def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
-        outcome.because[Exit.WRONG].extend(scene.run_scenes(plans, recorder, advance, plan.folder, quick=plan.quick))
-        if plan.scenes and not any(isinstance(line, SceneLine) for line in recorder.lines):
+        scene.run_scenes(plans, recorder, advance, plan.folder, quick=plan.quick)
+        measured = [line for line in recorder.lines if isinstance(line, SceneLine)]
+        if any(line.wrong for line in measured):
+            outcome.codes.add(Exit.WRONG)
+        if plan.scenes and not measured:
             reasons = [line.reason for line in recorder.lines if isinstance(line, AbsentLine)]
             raise NothingJudgedError(f"no scene was measured: {'; '.join(reasons)}")
 
@@ -146,7 +149,7 @@ def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: A
     targets.run(recorder, advance, plan.quick)
     for line in recorder.lines:
         if isinstance(line, KernelLine) and not line.met:
-            outcome.because[Exit.SLOWER].append(f"{line.name}: {line.says}")
+            outcome.codes.add(Exit.SLOWER)
 
 
 def _introduce(run: _Run, advance: Advance) -> None:
@@ -192,13 +195,13 @@ def _judge(run: _Run, advance: Advance) -> None:
     for each in run.answers:
         if each.trouble:
             run.recorder.add(RefusedLine(method=each.method, workload=each.workload, mode="batch", reason=each.trouble))
-            run.outcome.because[Exit.WRONG].append(f"{each.method}: {each.trouble}")
+            run.outcome.codes.add(Exit.WRONG)
         if not len(each.places):
             continue
         line = accuracy.accuracy_line(run.found[each.method], each, truths[each.workload], tried)
         run.recorder.add(line)
         if run.found[each.method].exact and (line.wrong or line.abstained):
-            run.outcome.because[Exit.WRONG].append(f"{each.method} promises to be exact and is not, on {each.workload}")
+            run.outcome.codes.add(Exit.WRONG)
 
 
 def _map(run: _Run, advance: Advance) -> None:
@@ -232,7 +235,7 @@ def _measure(run: _Run, advance: Advance) -> None:
         run.recorder.add(line)
         run.speeds.append(line)
         if isinstance(line, RefusedLine):
-            run.outcome.because[Exit.WRONG].append(f"{line.method}: {line.reason}")
+            run.outcome.codes.add(Exit.WRONG)
     for claim in speed.cost_lines(run.plan, found):
         run.recorder.add(claim)
 
@@ -243,15 +246,12 @@ def _compare(run: _Run, advance: Advance) -> None:
         for line in comparisons(run.plan, run.baseline, speeds_of(run.speeds), names):
             run.recorder.add(line)
             compared |= line.gates
-            where = f"{line.method} on {line.workload}, {line.mode}"
             if line.gates and line.verdict == "slower":
-                run.outcome.because[Exit.SLOWER].append(f"{where}: {line.change:.2f} times as slow as the baseline")
+                run.outcome.codes.add(Exit.SLOWER)
             if line.gates and line.verdict == "inconclusive":
-                run.outcome.because[Exit.INCONCLUSIVE].append(
-                    f"{where}: {line.change:.2f} times as slow, give or take the noise"
-                )
+                run.outcome.codes.add(Exit.INCONCLUSIVE)
         if not compared:
-            run.outcome.because[Exit.INCONCLUSIVE].append("nothing that both runs timed is held to the baseline")
+            run.outcome.codes.add(Exit.INCONCLUSIVE)  # both runs timed nothing that is held to the baseline
         advance(1)
 
 

@@ -131,8 +131,8 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         recording(options["out"], plan.options, title, provenance) as running,
     ):
         run_stages(run.stages(replace(plan, folder=Path(folder)), running.recorder, outcome))
-        if unchanged is not None:
-            outcome.because[Exit.WRONG].extend(unchanged.record_changes(running.recorder))
+        if unchanged is not None and unchanged.record_changes(running.recorder):
+            outcome.codes.add(Exit.WRONG)
         running.exit_code = outcome.exit_code
     if outcome.exit_code == Exit.INCONCLUSIVE:
         click.echo(

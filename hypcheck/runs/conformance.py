@@ -65,7 +65,7 @@ def run_conformance(
                 recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
                 advance(cases)
             state = None
-    add_reasons(recorder.lines, outcome)
+    add_exit_codes(recorder.lines, outcome)
 
 
 def _cluster_client(address: str) -> AbstractContextManager[Client]:
@@ -145,29 +145,25 @@ def _task_execution(
     return execution_on_cluster(client, opener, rules, implementation)
 
 
-def add_reasons(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
-    """Add to the outcome why the run fails, as its lines say.
+def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
+    """Add to the outcome the codes that the lines of a run give a reason for.
 
     Raises NothingJudgedError if no case at all was judged, which proves nothing.
     """
     judged = 0
-    not_started, failed = outcome.because[Exit.NOT_STARTED], outcome.because[Exit.WRONG]
-    inconclusive = outcome.because[Exit.INCONCLUSIVE]
     for line in recorded:
         if isinstance(line, GroupLine):
             judged += line.asked
-            for status in line.failing or ():
-                reasons = inconclusive if status == Status.UNDECIDED else failed
-                reasons.append(f"{line.method} on {line.family}: {status}")
+            undecided = Status.UNDECIDED.value
+            outcome.codes |= {Exit.INCONCLUSIVE if each == undecided else Exit.WRONG for each in line.failing or ()}
         elif isinstance(line, DriftLine):
-            failed.append(line.sentence)
+            outcome.codes.add(Exit.WRONG)
         elif isinstance(line, NotStartedLine):
-            not_started.append(line.trouble)
+            outcome.codes.add(Exit.NOT_STARTED)
         elif isinstance(line, ImplementationLine):
-            if line.broke_protocol_throughout:
-                not_started.append(f"{line.spec} broke the protocol throughout")
-            failed += line.troubles
-    if not judged and not not_started:
+            outcome.codes |= {Exit.NOT_STARTED} if line.broke_protocol_throughout else set()
+            outcome.codes |= {Exit.WRONG} if line.troubles else set()
+    if not judged and Exit.NOT_STARTED not in outcome.codes:
         raise NothingJudgedError(
             "no case was judged: every case is outside the domain, or the declared precision cannot hold its numbers"
         )

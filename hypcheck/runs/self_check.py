@@ -223,7 +223,7 @@ class _SelfCheck:
                     case DerivationTask():
                         self._record_derivation(*result)
                     case FamilyTask():
-                        found += self._record_family(task.family, result)
+                        found += self._record_family(result)
                     case OracleTask():
                         tallies.append(oracles.compare_with_exact(task, result[0], asked[task.batch], result[1]))
                 advance(1)
@@ -236,30 +236,27 @@ class _SelfCheck:
         for proof in proofs:
             self.recorder.add(lines.ProofLine(**asdict(proof)))
             if not proof.holds:
-                self.outcome.because[Exit.ORACLES_DISAGREE].append(f"{proof.formula}: {proof.statement}")
+                self.outcome.codes.add(Exit.ORACLES_DISAGREE)
 
-    def _record_family(self, family: str, made: FamilyLines) -> list[FindingLine]:
+    def _record_family(self, made: FamilyLines) -> list[FindingLine]:
         """Record a family's lines; its findings with the reasons of those that are known."""
         known = findings.known_findings()
         found = [msgspec.structs.replace(each, reason=findings.reason_for(each, known)) for each in made.findings]
         for line in (*found, *made.groups):
             self.recorder.add(line)
-        self.outcome.because[Exit.WRONG] += [
-            f"{line.method} on {family}"
-            for line in made.groups
-            if line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value}
-        ]
+        if any(line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value} for line in made.groups):
+            self.outcome.codes.add(Exit.WRONG)
         return found
 
     def _record_drift(self, found: Sequence[FindingLine]) -> None:
         for sentence in findings.finding_drift(found, findings.known_findings(), complete=self.plan.complete):
             self.recorder.add(lines.DriftLine(sentence=sentence))
-            self.outcome.because[Exit.WRONG].append(sentence)
+            self.outcome.codes.add(Exit.WRONG)
 
     def _record_oracles(self, tallies: Sequence[OracleTally]) -> None:
         for tally in oracles.merged_tallies(tallies):
-            disagreeing = self.outcome.because[Exit.ORACLES_DISAGREE]
-            disagreeing += [f"{case.oracle} on {case.case}" for case in tally.disagreements]
+            if tally.disagreements:
+                self.outcome.codes.add(Exit.ORACLES_DISAGREE)
             self.recorder.add(
                 lines.OracleLine(
                     oracle=tally.oracle,

@@ -115,7 +115,7 @@ def test_bench_kernel_ends_with_slower_if_a_kernel_misses_a_target(monkeypatch):
     recorder, outcome = Recorder(), RunOutcome()
     (stage,) = run.stages(BenchPlan(kernel=True), recorder, outcome)
     stage.run(lambda steps: None)
-    assert dict(outcome.because) == {Exit.SLOWER: ["slow: slow says"]}
+    assert outcome.codes == {Exit.SLOWER}
 
 
 def test_bench_plan_has_the_compiled_library_or_records_once_that_it_is_missing(monkeypatch, tmp_path):

@@ -20,7 +20,7 @@ from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.record.progress import SavedResult
 from hypcheck.runs import judge
 from hypcheck.runs.cases import CaseChunk, cases_of_chunk
-from hypcheck.runs.conformance import add_reasons, run_conformance
+from hypcheck.runs.conformance import add_exit_codes, run_conformance
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.plan import ConformancePlan, invalid_rows, planned_cases, planned_size, steps_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest
@@ -196,9 +196,8 @@ def test_an_undecided_answer_makes_a_run_inconclusive_that_would_have_passed_and
     assert "INCONCLUSIVE, exit code 4: 1 answer undecided: the tolerance lies between the two ends" in shown
     assert leaning.UNDECIDED in (tmp_path / "wrong_where_no_proof_is_found" / "report.md").read_text("utf-8")
     outcome = RunOutcome()
-    add_reasons(record.lines, outcome)
-    assert outcome.because[Exit.INCONCLUSIVE] == ["leaning on tilted-twins: undecided"]
-    assert not outcome.because[Exit.WRONG]
+    add_exit_codes(record.lines, outcome)
+    assert outcome.codes == {Exit.INCONCLUSIVE}
 
 
 class AskedAgain:
