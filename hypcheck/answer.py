@@ -24,7 +24,6 @@ from hypcheck.truth.prove import prove
 from hypcheck.truth.tilted import certificate as tilted_certificate
 from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted import prove as tilted_prove
-from hypcheck.truth.tilted.certificate import TiltedCertificate
 from hypcheck.truth.tilted.pair import TiltedPair
 
 
@@ -73,7 +72,7 @@ class TiltedAnswer:
     pair: TiltedPair
     decision: tilted_exact.TiltedDecision
     clearance: float
-    certificate: TiltedCertificate
+    certificate: Certificate
 
 
 def measured_clearance(pair: TiltedPair, decision: tilted_exact.TiltedDecision) -> float:
@@ -178,7 +177,7 @@ def answer_as_json(answer: Answer | TiltedAnswer) -> str:
     )
 
 
-def proof_as_json(pair: Pair | TiltedPair, certificate: Certificate | TiltedCertificate) -> dict[str, Any]:
+def proof_as_json(pair: Pair | TiltedPair, certificate: Certificate) -> dict[str, Any]:
     """A certificate about a pair, and the numbers that check it, as values for JSON."""
     if isinstance(pair, TiltedPair):
         return _tilted_proof_as_json(pair, certificate)
@@ -202,7 +201,7 @@ def proof_as_json(pair: Pair | TiltedPair, certificate: Certificate | TiltedCert
     return _points_as_json(pair, certificate.points)
 
 
-def _tilted_proof_as_json(pair: TiltedPair, certificate: Certificate | TiltedCertificate) -> dict[str, Any]:
+def _tilted_proof_as_json(pair: TiltedPair, certificate: Certificate) -> dict[str, Any]:
     """The same where the axis leans: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
     if certificate.multiplier is not None:
         pivots = _pivots(pair, certificate.multiplier, 4)
@@ -277,7 +276,7 @@ def kind_as_text(kind: Kind) -> str:
     return f"{kind.value}: {kind.description[0].lower()}{kind.description[1:].rstrip('.')}"
 
 
-def proof_lines(pair: Pair | TiltedPair, certificate: Certificate | TiltedCertificate) -> list[str]:
+def proof_lines(pair: Pair | TiltedPair, certificate: Certificate) -> list[str]:
     """A certificate about a pair as lines of text, and how to check it by hand."""
     if isinstance(pair, TiltedPair):
         return _tilted_proof_lines(pair, certificate)
@@ -299,7 +298,7 @@ def _with_note(lines: list[str]) -> list[str]:
     return [*lines, *(["≈ marks a rounded number; --json gives all of them exactly."] if rounded else [])]
 
 
-def _tilted_proof_lines(pair: TiltedPair, certificate: Certificate | TiltedCertificate) -> list[str]:
+def _tilted_proof_lines(pair: TiltedPair, certificate: Certificate) -> list[str]:
     matrix = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
     if certificate.multiplier is not None:
         at, side = certificate.multiplier, "above" if certificate.multiplier > 0 else "below"

@@ -15,8 +15,7 @@ from hypcheck.bench.contender import InPython, PreparedWork
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import clocked
 from hypcheck.bench.workloads import WORKLOADS
-from hypcheck.derivation.costs import cost_of
-from hypcheck.derivation.formulas import FORMULAS, REPAIRED, ROOTS_TRIGONOMETRIC, Formula
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED, ROOTS_TRIGONOMETRIC, Formula, cost_of
 from hypcheck.derivation.program import Operations, count
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.method import RECIPROCAL, by_rows, by_scene

@@ -17,7 +17,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from hypcheck.derivation.program import Program, needed
+from hypcheck.derivation.program import Program, needed, split
 
 
 @dataclass(frozen=True)
@@ -102,6 +102,21 @@ def outputs(
 ) -> tuple[Any, ...]:
     """The values of the wanted names alone, as an Evaluator gives them; for a program that is evaluated once."""
     return Evaluator(program, arithmetic, wanted)(inputs)
+
+
+def loop_body(
+    program: Program, arithmetic: Arithmetic, constants: Mapping[str, Any], wanted: Iterable[str]
+) -> Evaluator:
+    """From the other inputs to the wanted values, bit for bit as without hoisting.
+
+    Every number that depends on the constants alone is computed here, once. The constants may be arrays (the sizes of
+    many trees). Raises KeyError where a wanted name does not exist.
+    """
+    names = tuple(wanted)
+    before, body = split(program, names, tuple(constants))
+    known = tuple(step.name for step in before.steps)
+    values = Evaluator(before, arithmetic, known)(constants)
+    return Evaluator(body, arithmetic, names, {**constants, **dict(zip(known, values, strict=True))})
 
 
 _Move = tuple[str, tuple[int, ...], int, tuple[int, ...]]

@@ -11,12 +11,15 @@ In its written form, the listing, a program has one step a line:
     # a remark
 
 Nothing nests: what is written is what is rounded, and in that order.
+
+`hoist` and `split` take the steps that depend on the sizes alone out of the loop over centres, as the paper's Table 2
+does; `loop_body` of evaluation.py evaluates what stays inside.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 NUMBER = "number"
@@ -186,6 +189,49 @@ def cut(program: Program, known: Iterable[str], wanted: Iterable[str]) -> Progra
     steps = needed(remaining, tuple(dict.fromkeys(wanted)))
     read = {name for step in steps for name in step.reads}
     return Program(program.name, (*given, *(name for name in others if name in read)), steps)
+
+
+@dataclass(frozen=True, slots=True)
+class Hoisting:
+    """A program's steps in two parts: those that depend on fixed inputs alone, and those that move with the rest."""
+
+    outside: tuple[Step, ...]
+    inside: tuple[Step, ...]
+
+
+def hoist(program: Program, fixed: Collection[str]) -> Hoisting:
+    """The program's steps, parted by whether they depend on the `fixed` inputs (and constants) alone.
+
+    Raises ValueError where one of these is no input of the program.
+    """
+    unknown = sorted(set(fixed) - set(program.inputs))
+    if unknown:
+        raise ValueError(f"program {program.name} has no input {', '.join(unknown)}")
+    known = set(fixed)
+    outside, inside = [], []
+    for step in program.steps:
+        if known.issuperset(step.reads):
+            known.add(step.name)
+            outside.append(step)
+        else:
+            inside.append(step)
+    return Hoisting(tuple(outside), tuple(inside))
+
+
+def split(program: Program, wanted: tuple[str, ...], fixed: tuple[str, ...]) -> tuple[Program, Program]:
+    """A program in two: what the fixed inputs alone decide, and what is left, up to the wanted names.
+
+    Inputs of a program are numbers, so a comparison of fixed numbers stays in the second part: it costs one operation.
+    Raises KeyError where a wanted name does not exist.
+    """
+    kinds = dict.fromkeys(program.inputs, NUMBER)
+    for step in program.steps:
+        kinds[step.name] = kind_of(step, kinds)
+    numbers = [step.name for step in hoist(program, fixed).outside if kinds[step.name] == NUMBER]
+    left = cut(program, numbers, wanted)
+    read = {name for step in left.steps for name in step.reads} | set(wanted)
+    known = [name for name in numbers if name in read]
+    return cut(program, fixed, known), cut(program, known, wanted)
 
 
 _INFIX = {operation.sign: name for name, operation in KNOWN.items() if len(operation.takes) == 2}

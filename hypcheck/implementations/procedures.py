@@ -16,11 +16,10 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.derivation.costs import split
 from hypcheck.derivation.evaluation import Evaluator
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
-from hypcheck.derivation.program import Program
+from hypcheck.derivation.program import Program, split
 from hypcheck.geometry.rows import Floats
 from hypcheck.implementations.method import Answers, in_chunks
 from hypcheck.kernel import numpy_kernel

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.derivation.costs import loop_body
+from hypcheck.derivation.evaluation import loop_body
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck.derivation.costs import loop_body
+from hypcheck.derivation.evaluation import loop_body
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError

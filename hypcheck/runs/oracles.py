@@ -22,7 +22,7 @@ from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart
 from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan
 from hypcheck.truth import certificate, exact, mesh, nearest, nearest_exact, prove, roots
-from hypcheck.truth.mesh_meridian import MeshOutcome
+from hypcheck.truth.mesh import MeshOutcome
 from hypcheck.truth.tilted import certificate as tilted_certificate
 from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted import mesh as tilted_mesh

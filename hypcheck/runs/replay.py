@@ -45,7 +45,6 @@ from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.prove import prove
-from hypcheck.truth.tilted.certificate import TiltedCertificate
 from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors import frozen
@@ -152,7 +151,7 @@ class ProvedTruth:
 
     pair: Pair | TiltedPair
     decision: Decision | TiltedDecision
-    certificate: Certificate | TiltedCertificate
+    certificate: Certificate
     flips: Mapping[Position, float | tuple[float, float]]
 
     @property

@@ -12,22 +12,9 @@ ball can be too round to fit (c² < a).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum, unique
 
 from hypcheck.geometry.pair import Position
-
-
-@dataclass(frozen=True, slots=True)
-class Facts:
-    """What the table says of one kind; the fields are described at Kind, which carries them too."""
-
-    position: Position
-    limit_of: Position | None
-    contact_set: str
-    occurs: str
-    roots: str
-    description: str
 
 
 @unique
@@ -49,12 +36,21 @@ class Kind(Enum):
     roots: str
     description: str
 
-    def __new__(cls, name: str, facts: Facts) -> Kind:
-        """A member that carries its facts; its value is the name alone."""
+    def __new__(
+        cls,
+        name: str,
+        position: Position,
+        limit_of: Position | None,
+        contact_set: str,
+        occurs: str,
+        roots: str,
+        description: str,
+    ) -> Kind:
+        """A member that carries what the table says of it; its value is the name alone."""
         member = object.__new__(cls)
         member._value_ = name
-        for field in Facts.__slots__:
-            setattr(member, field, getattr(facts, field))
+        member.position, member.limit_of, member.contact_set = position, limit_of, contact_set
+        member.occurs, member.roots, member.description = occurs, roots, description
         return member
 
     @property
@@ -64,166 +60,136 @@ class Kind(Enum):
 
     INTERIOR = (
         "interior",
-        Facts(
-            Position.INTERIOR,
-            None,
-            "nothing",
-            "always",
-            "two distinct in (−A, 0), or −A and one in (−A, 0) when r = 0",
-            "The spheroid lies inside the hyperboloid and does not touch it.",
-        ),
+        Position.INTERIOR,
+        None,
+        "nothing",
+        "always",
+        "two distinct in (−A, 0), or −A and one in (−A, 0) when r = 0",
+        "The spheroid lies inside the hyperboloid and does not touch it.",
     )
     INTERIOR_TANGENT_POINT = (
         "interior-tangent-point",
-        Facts(
-            Position.CONTACT,
-            Position.INTERIOR,
-            "1 point",
-            "always",
-            "double in (−A, 0)",
-            "The spheroid touches the hyperboloid from inside at one point.",
-        ),
+        Position.CONTACT,
+        Position.INTERIOR,
+        "1 point",
+        "always",
+        "double in (−A, 0)",
+        "The spheroid touches the hyperboloid from inside at one point.",
     )
     INTERIOR_TANGENT_CIRCLE = (
         "interior-tangent-circle",
-        Facts(
-            Position.CONTACT,
-            Position.INTERIOR,
-            "1 circle",
-            "a ≤ 1",
-            "double at −A (only when r = 0)",
-            "The spheroid, centred on the axis, lies in the throat like a ball in a funnel and touches along a circle.",
-        ),
+        Position.CONTACT,
+        Position.INTERIOR,
+        "1 circle",
+        "a ≤ 1",
+        "double at −A (only when r = 0)",
+        "The spheroid, centred on the axis, lies in the throat like a ball in a funnel and touches along a circle.",
     )
     CROSSING_THROAT_TWO_CURVES = (
         "crossing-throat-two-curves",
-        Facts(
-            Position.CONTACT,
-            None,
-            "2 curves",
-            "a < 1",
-            "two distinct below −A, or −A and one below when r = 0",
-            "The spheroid is too wide for the throat and cuts it in two curves round the axis (circles if r = 0).",
-        ),
+        Position.CONTACT,
+        None,
+        "2 curves",
+        "a < 1",
+        "two distinct below −A, or −A and one below when r = 0",
+        "The spheroid is too wide for the throat and cuts it in two curves round the axis (circles if r = 0).",
     )
     CROSSING_THROAT_NODE = (
         "crossing-throat-node",
-        Facts(
-            Position.CONTACT,
-            None,
-            "1 curve with a node",
-            "a < 1",
-            "double below −A",
-            "The two curves round the throat have come together in a point where the curve crosses itself.",
-        ),
+        Position.CONTACT,
+        None,
+        "1 curve with a node",
+        "a < 1",
+        "double below −A",
+        "The two curves round the throat have come together in a point where the curve crosses itself.",
     )
     CROSSING_ONE_CURVE = (
         "crossing-one-curve",
-        Facts(
-            Position.CONTACT,
-            None,
-            "1 curve",
-            "always",
-            "a complex pair",
-            "The surfaces cross in one closed curve.",
-        ),
+        Position.CONTACT,
+        None,
+        "1 curve",
+        "always",
+        "a complex pair",
+        "The surfaces cross in one closed curve.",
     )
     EXTERIOR = (
         "exterior",
-        Facts(
-            Position.EXTERIOR,
-            None,
-            "nothing",
-            "always",
-            "two distinct in (0, B), or one in (0, B), one at B and one above B when z = 0",
-            "The spheroid lies outside the hyperboloid and does not touch it.",
-        ),
+        Position.EXTERIOR,
+        None,
+        "nothing",
+        "always",
+        "two distinct in (0, B), or one in (0, B), one at B and one above B when z = 0",
+        "The spheroid lies outside the hyperboloid and does not touch it.",
     )
     EXTERIOR_RING = (
         "exterior-ring",
-        Facts(
-            Position.EXTERIOR,
-            None,
-            "nothing",
-            "c² > a",
-            "simple in (0, B), double at B (only when z = 0)",
-            "The spheroid lies outside and does not touch, though the discriminant is 0 as at a tangency.",
-        ),
+        Position.EXTERIOR,
+        None,
+        "nothing",
+        "c² > a",
+        "simple in (0, B), double at B (only when z = 0)",
+        "The spheroid lies outside and does not touch, though the discriminant is 0 as at a tangency.",
     )
     EXTERIOR_TANGENT_POINT = (
         "exterior-tangent-point",
-        Facts(
-            Position.CONTACT,
-            Position.EXTERIOR,
-            "1 point",
-            "always",
-            "double in (0, B)",
-            "The spheroid touches the hyperboloid from outside at one point.",
-        ),
+        Position.CONTACT,
+        Position.EXTERIOR,
+        "1 point",
+        "always",
+        "double in (0, B)",
+        "The spheroid touches the hyperboloid from outside at one point.",
     )
     EXTERIOR_TANGENT_TWO_POINTS = (
         "exterior-tangent-two-points",
-        Facts(
-            Position.CONTACT,
-            Position.EXTERIOR,
-            "2 points",
-            "c² < a",
-            "double at B, simple above B (only when z = 0)",
-            "The spheroid, in the plane of the waist, rests on both flanks of the groove, touching each at one point.",
-        ),
+        Position.CONTACT,
+        Position.EXTERIOR,
+        "2 points",
+        "c² < a",
+        "double at B, simple above B (only when z = 0)",
+        "The spheroid, in the plane of the waist, rests on both flanks of the groove, touching each at one point.",
     )
     EXTERIOR_TANGENT_OSCULATING = (
         "exterior-tangent-osculating",
-        Facts(
-            Position.CONTACT,
-            Position.EXTERIOR,
-            "1 point",
-            "c² = a",
-            "triple at B (only when z = 0)",
-            "The spheroid touches the bottom of the groove at one point and has the groove's own curvature there.",
-        ),
+        Position.CONTACT,
+        Position.EXTERIOR,
+        "1 point",
+        "c² = a",
+        "triple at B (only when z = 0)",
+        "The spheroid touches the bottom of the groove at one point and has the groove's own curvature there.",
     )
     CROSSING_GROOVE_TWO_CURVES = (
         "crossing-groove-two-curves",
-        Facts(
-            Position.CONTACT,
-            None,
-            "2 curves",
-            "c² < a",
-            "three distinct above B, or B and two above when z = 0",
-            "The spheroid is too round for the groove and cuts it in two curves, neither of them round the axis.",
-        ),
+        Position.CONTACT,
+        None,
+        "2 curves",
+        "c² < a",
+        "three distinct above B, or B and two above when z = 0",
+        "The spheroid is too round for the groove and cuts it in two curves, neither of them round the axis.",
     )
     CROSSING_GROOVE_ISOLATED_POINT = (
         "crossing-groove-isolated-point",
-        Facts(
-            Position.CONTACT,
-            None,
-            "1 curve and 1 isolated point",
-            "c² < a",
-            "double above B, simple above that",
-            "The spheroid cuts the groove in a curve and touches the flank away from its centre at one more point.",
-        ),
+        Position.CONTACT,
+        None,
+        "1 curve and 1 isolated point",
+        "c² < a",
+        "double above B, simple above that",
+        "The spheroid cuts the groove in a curve and touches the flank away from its centre at one more point.",
     )
     CROSSING_GROOVE_NODE = (
         "crossing-groove-node",
-        Facts(
-            Position.CONTACT,
-            None,
-            "1 curve with a node",
-            "c² < a",
-            "double above B, simple at B or between B and that",
-            "The two curves in the groove have come together in a point where the curve crosses itself.",
-        ),
+        Position.CONTACT,
+        None,
+        "1 curve with a node",
+        "c² < a",
+        "double above B, simple at B or between B and that",
+        "The two curves in the groove have come together in a point where the curve crosses itself.",
     )
     CROSSING_GROOVE_CUSP = (
         "crossing-groove-cusp",
-        Facts(
-            Position.CONTACT,
-            None,
-            "1 curve with a cusp",
-            "c² < a",
-            "triple above B",
-            "The surfaces cross in one curve that has a cusp: the border between a node and an isolated point.",
-        ),
+        Position.CONTACT,
+        None,
+        "1 curve with a cusp",
+        "c² < a",
+        "triple above B",
+        "The surfaces cross in one curve that has a cusp: the border between a node and an isolated point.",
     )

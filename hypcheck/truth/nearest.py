@@ -38,8 +38,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import double_double
 from hypcheck.truth.double_double import DoubleDouble
-from hypcheck.truth.nearest_dual import SquaredLengths
-from hypcheck.truth.nearest_exact import NearestStage, Optimum, optimise
+from hypcheck.truth.nearest_exact import NearestStage, Optimum, SquaredLengths, optimise
 
 _BOUND = 64.0 * double_double.ERROR
 _FLOOR = 2.0**-400

@@ -23,7 +23,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, Position
-from hypcheck.truth.tilted.certificate import Point, TiltedCertificate, check_certificate, matrices
+from hypcheck.truth.certificate import Certificate, Point
+from hypcheck.truth.tilted.certificate import check_certificate, matrices
 
 Rationals = tuple[Fraction, ...]
 
@@ -113,7 +114,7 @@ def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fractio
     time = certificate.time
     if time is None or not 0 <= time <= 1:
         return None
-    claim = TiltedCertificate(Position.CONTACT, points=certificate.points, double_root=certificate.double_root)
+    claim = Certificate(Position.CONTACT, points=certificate.points, double_root=certificate.double_root)
     return time if check_certificate(place(row, time), claim) else None
 
 

@@ -19,7 +19,7 @@ import math
 
 import numpy as np
 
-from hypcheck.derivation.float_format import FLOAT_FORMATS, FloatFormat
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, FloatFormat
 from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import double_roots
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gather

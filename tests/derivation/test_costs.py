@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hypcheck.derivation.costs import cost_of, costs, discriminant_share, loop_as_printed
-from hypcheck.derivation.formulas import FORMULAS, REPAIRED
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED, cost_of, costs, discriminant_share, loop_as_printed
 from hypcheck.derivation.program import Operations
 
 

@@ -7,8 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.derivation.costs import loop_body
-from hypcheck.derivation.evaluation import EXACT, outputs
+from hypcheck.derivation.evaluation import EXACT, loop_body, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.geometry.pair import COLUMNS, SIZES

@@ -8,10 +8,20 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.derivation.costs import hoist
 from hypcheck.derivation.evaluation import EXACT, Arithmetic, evaluate, outputs
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.program import Operations, Program, Step, count, cut, listing_of, needed, program_of, steps_of
+from hypcheck.derivation.program import (
+    Operations,
+    Program,
+    Step,
+    count,
+    cut,
+    hoist,
+    listing_of,
+    needed,
+    program_of,
+    steps_of,
+)
 from hypcheck.geometry.pair import COLUMNS, SIZES
 
 SMALL = program_of("small", ("x", "y"), "s = x + y\nt = s * s\nunused = x - y\nlarge = t > 4\nanswer = large ? t : 0")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
-from hypcheck.derivation.float_format import FLOAT_FORMATS
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.geometry.pair import Position
 from hypcheck.kernel.specialise import last_stages
 from hypcheck.kernel.specialise.first_stages import line_at

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.derivation.float_format import FLOAT_FORMATS
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines, printed_operations
 from hypcheck.kernel.specialise.plan import _corner, _decided, plan_of

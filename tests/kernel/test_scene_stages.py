@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.evaluation import evaluate, outputs
-from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.float_format import FLOAT_FORMATS
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, float_arithmetic
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.description import representable

@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import mesh, mesh_meridian
-from hypcheck.truth.mesh import availability, verdict
-from hypcheck.truth.mesh_meridian import MeshOutcome
+from hypcheck.truth import mesh
+from hypcheck.truth.mesh import MeshOutcome, availability, verdict
 from tests.support.fractions_truth import (
     everyday,
     exact_position,
@@ -161,7 +160,7 @@ def test_mesh_oracle_is_undecided_if_fcl_contradicts_it(monkeypatch, row, said):
 
 
 def test_mesh_oracle_is_undecided_if_too_many_cells_stay_open(monkeypatch):
-    monkeypatch.setattr(mesh_meridian, "MOST_CELLS", 100)
+    monkeypatch.setattr(mesh, "MOST_CELLS", 100)
     found = verdict(Pair(4, 2, 1, 1, 5, 0, 0))
     assert found.outcome is MeshOutcome.UNDECIDED
     assert "too many cells" in found.reason

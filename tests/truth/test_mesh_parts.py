@@ -12,9 +12,19 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import mesh_meridian
-from hypcheck.truth.mesh import distance_to_mesh, ribbon
-from hypcheck.truth.mesh_meridian import REACH, UNIT, _facets, bounds_of, cell_of, halves, meridian_of, window_of
+from hypcheck.truth import mesh
+from hypcheck.truth.mesh import (
+    REACH,
+    UNIT,
+    _facets,
+    bounds_of,
+    cell_of,
+    distance_to_mesh,
+    halves,
+    meridian_of,
+    ribbon,
+    window_of,
+)
 from tests.support.fractions_truth import everyday, rows_of
 
 
@@ -129,7 +139,7 @@ def test_side_of_the_surface_on_which_the_centre_lies_is_exact(row):
     ],
 )
 def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
-    assert mesh_meridian._nearest_on(*ends) == nearest
+    assert mesh._nearest_on(*ends) == nearest
 
 
 def test_facets_are_the_chords_of_cells_or_else_their_tangents():

@@ -17,8 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.truth.nearest import clearances, positions
-from hypcheck.truth.nearest_dual import SquaredLengths, tangency
-from hypcheck.truth.nearest_exact import STAGES, NearestStage, nearest
+from hypcheck.truth.nearest_exact import STAGES, NearestStage, SquaredLengths, nearest, tangency
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference, ulps
 
 

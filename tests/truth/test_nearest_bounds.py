@@ -14,8 +14,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.truth import double_double, nearest_exact
 from hypcheck.truth import nearest as nearest_batch
 from hypcheck.truth.nearest import clearances
-from hypcheck.truth.nearest_dual import SquaredLengths
-from hypcheck.truth.nearest_exact import NearestStage, nearest
+from hypcheck.truth.nearest_exact import NearestStage, SquaredLengths, nearest
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference
 
 

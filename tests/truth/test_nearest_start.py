@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import nearest, nearest_dual
-from hypcheck.truth.nearest_dual import SquaredLengths, dual
+from hypcheck.truth import nearest, nearest_exact
+from hypcheck.truth.nearest_exact import SquaredLengths, dual
 
 APART = (4.0, 4.0, 1e-310, 1.0, 4.0, 0.1, 1e10)
 """The spheroid is a needle: A is 1e621, B is 16, and the centre is a little outside the evolute."""
@@ -25,14 +25,14 @@ def rows(count, decades, dice):
 def steps(squares, monkeypatch):
     """How many steps the iteration takes: each takes one square root, and two are taken before."""
     taken = []
-    iterate = nearest_dual._iterate
+    iterate = nearest_exact._iterate
 
     def counting(squares, ratio, sqrt):
         return iterate(squares, ratio, lambda value: (taken.append(value), sqrt(value))[1])
 
     with monkeypatch.context() as patch:
-        patch.setattr(nearest_dual, "_iterate", counting)
-        nearest_dual.start(squares)
+        patch.setattr(nearest_exact, "_iterate", counting)
+        nearest_exact.start(squares)
     return len(taken) - 2
 
 
@@ -48,7 +48,7 @@ def test_newton_start_lies_next_to_the_maximum_by_exact_evaluation():
     dice = random.Random(6)  # noqa: S311
     for row in (APART, *rows(60, 1, dice), *rows(30, 100, dice)):
         squares = SquaredLengths.of(Pair.from_row(row))
-        at_A, mantissa, exponent = nearest_dual.start(squares)
+        at_A, mantissa, exponent = nearest_exact.start(squares)
         pole = Fraction(mantissa) * Fraction(2) ** exponent
         slopes = []
         for factor in (1 - Fraction(1, 2**48), 1 + Fraction(1, 2**48)):
@@ -67,7 +67,7 @@ def test_first_tau_of_newton_is_never_below_the_root():
             p = 1 + dice.choice([-1, 1]) * 10 ** mpmath.mpf(dice.uniform(-spread, 0)) * dice.choice([0, 1, 1])
             p = p if p > 0 and dice.random() < 0.6 else 10 ** mpmath.mpf(dice.uniform(-spread, spread))
             q = 10 ** mpmath.mpf(dice.uniform(-2 * spread, spread))
-            tau, sigma = nearest_dual._above(p, q, W, p - W)
+            tau, sigma = nearest_exact._above(p, q, W, p - W)
             assert 0 < tau <= W * (1 + mpmath.mpf(2) ** -60)
             assert sigma > 0
             assert tau * mpmath.sqrt(1 + (q / sigma) ** 2) >= p * (1 - mpmath.mpf(2) ** -100), (p, q)

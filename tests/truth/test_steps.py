@@ -12,8 +12,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.truth import exact
 from hypcheck.truth.journey import piece, shortened
 from hypcheck.truth.polynomial_roots import discriminant, value
-from hypcheck.truth.steps import WIDTH_BITS, reach, steps
-from hypcheck.truth.swept import _between, journey_of
+from hypcheck.truth.swept import WIDTH_BITS, _between, journey_of, reach, steps
 from hypcheck.truth.tilted import exact as tilted
 from tests.truth.test_passage_certificate import INSIDE, OUTSIDE, THROUGH, TUNNEL, random_ways
 

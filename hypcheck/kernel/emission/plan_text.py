@@ -15,9 +15,8 @@ from fractions import Fraction
 from textwrap import wrap
 from typing import Any
 
-from hypcheck.derivation.costs import hoist
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.program import Operations, Step, count, needed
+from hypcheck.derivation.program import Operations, Step, count, hoist, needed
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel.specialise import leaning

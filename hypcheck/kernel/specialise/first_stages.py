@@ -44,8 +44,7 @@ from math import isqrt
 import numpy as np
 
 from hypcheck.derivation.evaluation import outputs
-from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.float_format import FloatFormat
+from hypcheck.derivation.float_arithmetic import FloatFormat, float_arithmetic
 from hypcheck.derivation.program import Program, program_of
 from hypcheck.geometry.pair import Lengths, Position, Sizes, to_integers
 from hypcheck.geometry.rows import Floats, Mask

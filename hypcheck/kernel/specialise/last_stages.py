@@ -49,7 +49,7 @@ from fractions import Fraction
 from math import isqrt
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
-from hypcheck.derivation.float_format import FloatFormat, power_of_two_near
+from hypcheck.derivation.float_arithmetic import FloatFormat, power_of_two_near
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.listings import HESSIAN_DISCRIMINANT
 from hypcheck.derivation.program import Program, cut, program_of

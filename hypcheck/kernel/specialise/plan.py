@@ -9,8 +9,7 @@ from typing import Literal
 import numpy as np
 
 from hypcheck.derivation.evaluation import evaluate, outputs
-from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.derivation.float_format import FloatFormat
+from hypcheck.derivation.float_arithmetic import FloatFormat, float_arithmetic
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Position

@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 
 from hypcheck.answer import proof_as_json
-from hypcheck.derivation.costs import Cost
+from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain, FiniteCases, Identity, Link, Part, Sign
 from hypcheck.derivation.program import Operations
 from hypcheck.paper.derive.latex import formula

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from hypcheck.derivation.costs import Cost
+from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain, Identity, Link, Part
 from hypcheck.paper.derive import PARTS
 from hypcheck.paper.derive.selection import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from hypcheck.derivation.costs import Cost
+from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain
 from hypcheck.paper.derive import PARTS
 from hypcheck.paper.derive.selection import (

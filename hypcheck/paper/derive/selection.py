@@ -14,7 +14,7 @@ from difflib import get_close_matches
 from functools import cached_property
 
 from hypcheck.derivation.chain_book import chains
-from hypcheck.derivation.costs import Cost, costs
+from hypcheck.derivation.formulas import Cost, costs
 from hypcheck.derivation.links import Chain
 from hypcheck.derivation.walk import walk
 from hypcheck.errors import InputError

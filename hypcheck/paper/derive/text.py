@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import sympy
 
 from hypcheck.answer import proof_lines
-from hypcheck.derivation.costs import Cost
+from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain, Identity, Link, Part
 from hypcheck.geometry.pair import CENTER, SIZES, Pair
 from hypcheck.paper.derive import PARTS

@@ -12,9 +12,15 @@ from functools import cache
 import sympy
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.costs import Cost, cost_of, discriminant_share, loop_as_printed
-from hypcheck.derivation.costs import costs as counted
-from hypcheck.derivation.formulas import FORMULAS, ROOTS_TRIGONOMETRIC
+from hypcheck.derivation.formulas import (
+    FORMULAS,
+    ROOTS_TRIGONOMETRIC,
+    Cost,
+    cost_of,
+    discriminant_share,
+    loop_as_printed,
+)
+from hypcheck.derivation.formulas import costs as counted
 from hypcheck.derivation.pencil import plain, read
 from hypcheck.derivation.printed_equations import EquationCheck, check, check_equations, equality, printed_claims
 from hypcheck.geometry.pair import Position

@@ -32,7 +32,7 @@ class LeaningWitness:
     """A pair with the certificates of two positions: as it leans, and upright; `shows` says what it shows."""
 
     pair: TiltedPair
-    certificate: tilted.TiltedCertificate
+    certificate: upright.Certificate
     vertical: upright.Certificate
     shows: str
 

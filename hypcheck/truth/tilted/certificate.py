@@ -11,21 +11,21 @@ definite, the hyperboloid's equation is > 0 on the whole closed spheroid; if λ 
   second derivative must then not be > 0, or φ would be > 0 before m (k = 2 needs an upright spheroid or a sphere,
   where φ has no other root on this side).
 
-This module shares no code with what makes certificates: it starts from the ten floats and the definitions.
+A certificate is that of truth/certificate.py. This module shares no code with what makes certificates: it starts from
+the ten floats and the definitions.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations
 from typing import Protocol
 
 from hypcheck.geometry.pair import Position
+from hypcheck.truth.certificate import Certificate
 
-Point = tuple[Fraction, Fraction, Fraction]
 Matrix = list[list[Fraction]]
 
 
@@ -41,17 +41,7 @@ class Query(Protocol):
         """A vector along the axis of revolution."""
 
 
-@dataclass(frozen=True, slots=True)
-class TiltedCertificate:
-    """A claim with its witness: `multiplier` λ, or `points` (in the caller's coordinates), or `double_root` m."""
-
-    position: Position
-    multiplier: Fraction | None = None
-    points: tuple[Point, ...] = ()
-    double_root: Fraction | None = None
-
-
-def check_certificate(pair: Query, certificate: TiltedCertificate) -> bool:
+def check_certificate(pair: Query, certificate: Certificate) -> bool:
     """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone.
 
     Numbers of other types are taken as the rationals that they are. Raises ValueError for a claim that is no position,

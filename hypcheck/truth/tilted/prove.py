@@ -15,8 +15,10 @@ from itertools import count
 
 from hypcheck.geometry.pair import Position
 from hypcheck.truth import prove as upright
+from hypcheck.truth.certificate import Certificate, Point
+from hypcheck.truth.polynomial_roots import polynomial_product
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.certificate import Point, Query, TiltedCertificate
+from hypcheck.truth.tilted.certificate import Query
 from hypcheck.truth.tilted.exact import Quartic, TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair
 
@@ -25,20 +27,19 @@ Matrix = list[list[int]]
 Homogeneous = tuple[Vector, int]
 
 
-def prove(pair: TiltedPair, decision: TiltedDecision | None = None) -> TiltedCertificate:
+def prove(pair: TiltedPair, decision: TiltedDecision | None = None) -> Certificate:
     """A certificate for the exact answer about a pair (`decision`, where the caller has it already)."""
     vertical = pair.upright
     if vertical is not None:
-        found = upright.prove(vertical)
-        return TiltedCertificate(found.position, found.multiplier, found.points, found.double_root)
+        return upright.prove(vertical)
     lengths = pair.lengths
     decision = decision or exact.decide(lengths)
     F = exact.quartic(lengths)
     if decision.tangent:
-        return TiltedCertificate(decision.position, double_root=exact.double_root(F) * F.side)
+        return Certificate(decision.position, double_root=exact.double_root(F) * F.side)
     if decision.position is Position.CONTACT:
-        return TiltedCertificate(decision.position, points=points(pair, F))
-    return TiltedCertificate(decision.position, multiplier=_multiplier(F))
+        return Certificate(decision.position, points=points(pair, F))
+    return Certificate(decision.position, multiplier=_multiplier(F))
 
 
 def _multiplier(F: Quartic) -> Fraction:
@@ -59,7 +60,7 @@ def slope_of_quotient(F: Quartic) -> tuple[int, ...]:
     """
     signed = F.side * F.q
     K = (-signed * F.e2, signed * F.e1 - F.p * F.e2, signed * F.e0 + F.p * F.e1, F.p * F.e0)
-    return _difference(_product(_derived(F.coefficients), K), _product(F.coefficients, _derived(K)))
+    return _difference(polynomial_product(_derived(F.coefficients), K), polynomial_product(F.coefficients, _derived(K)))
 
 
 def _toward_maximum(F: Quartic) -> Iterator[Fraction]:
@@ -218,14 +219,6 @@ def _cofactor(m: Matrix, i: int, j: int) -> int:
 
 def _derived(f: tuple[int, ...]) -> tuple[int, ...]:
     return tuple(each * (len(f) - 1 - i) for i, each in enumerate(f[:-1]))
-
-
-def _product(f: tuple[int, ...], g: tuple[int, ...]) -> tuple[int, ...]:
-    result = [0] * (len(f) + len(g) - 1)
-    for i, a in enumerate(f):
-        for j, b in enumerate(g):
-            result[i + j] += a * b
-    return tuple(result)
 
 
 def _difference(f: tuple[int, ...], g: tuple[int, ...]) -> tuple[int, ...]:

@@ -17,7 +17,7 @@ from hypcheck.geometry.pair import NO_DIRECTION, TILTED_COLUMNS, Position
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.tables.numbers import decimal_of, hex_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
-from hypcheck.truth.tilted.certificate import TiltedCertificate
+from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.family import CaseFile, FlagFacts, Row, StoredCertificate
@@ -68,11 +68,11 @@ class TiltedVector:
         return TiltedPair.from_row(self.row)
 
     @property
-    def certificate(self) -> TiltedCertificate:
+    def certificate(self) -> Certificate:
         """What proves the position, its points in the caller's coordinates."""
         b, x, y, z = map(Fraction, (self.row[2], *self.row[4:7]))
         points = tuple((x + b * s, y + b * t, z + b * w) for s, t, w in self.witness.offsets)
-        return TiltedCertificate(self.position, self.witness.multiplier, points, self.witness.double_root)
+        return Certificate(self.position, self.witness.multiplier, points, self.witness.double_root)
 
 
 class TiltedVectorFile(CaseFile[TiltedVector]):

@@ -16,9 +16,10 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import within
 from hypcheck.tables.numbers import decimal_of
 from hypcheck.truth import exact as upright
+from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.backward_error import bracket, excluded_at_once, goal_of, is_bracket
-from hypcheck.truth.tilted.certificate import TiltedCertificate, check_certificate
+from hypcheck.truth.tilted.certificate import check_certificate
 from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
 from hypcheck.truth.tilted.nearest import nearest
 from hypcheck.truth.tilted.pair import TiltedPair
@@ -87,7 +88,7 @@ def tilted_flags(pair: TiltedPair, decision: TiltedDecision) -> tuple[str, ...]:
     return tuple(name for name, holds in found.items() if holds)
 
 
-def _stored(pair: TiltedPair, certificate: TiltedCertificate) -> StoredCertificate:
+def _stored(pair: TiltedPair, certificate: Certificate) -> StoredCertificate:
     """The certificate in a file's terms; of two points of a crossing the second is rounded as far as it can be."""
     if not certificate.points:
         return StoredCertificate(multiplier=certificate.multiplier, double_root=certificate.double_root)

@@ -9,8 +9,9 @@ from types import SimpleNamespace
 import pytest
 
 from hypcheck.geometry.pair import Position
+from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.certificate import TiltedCertificate, check_certificate, pivots
+from hypcheck.truth.tilted.certificate import check_certificate, pivots
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
 from hypcheck.truth.tilted.prove import prove
 from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, grown, near_contact, random_rows
@@ -50,7 +51,7 @@ def test_tilted_certificate_of_one_position_is_refused_for_every_other(proofs):
         at = certificate.multiplier
         if at is not None:
             assert not check_certificate(pair, replace(certificate, multiplier=-at))
-            assert not check_certificate(pair, TiltedCertificate(CONTACT, double_root=at))
+            assert not check_certificate(pair, Certificate(CONTACT, double_root=at))
 
 
 def test_double_root_proves_every_tangency_from_rational_rotations():
@@ -59,16 +60,16 @@ def test_double_root_proves_every_tangency_from_rational_rotations():
         root = exact.double_root(F) * F.side
         pair = SimpleNamespace(row=row, axis=row[7:])
         assert root * side > 0
-        assert check_certificate(pair, TiltedCertificate(CONTACT, double_root=root))
-        assert not check_certificate(pair, TiltedCertificate(CONTACT, double_root=root * (1 + Fraction(1, 2**99))))
+        assert check_certificate(pair, Certificate(CONTACT, double_root=root))
+        assert not check_certificate(pair, Certificate(CONTACT, double_root=root * (1 + Fraction(1, 2**99))))
         for claim in (EXTERIOR, INTERIOR):
-            assert not check_certificate(pair, TiltedCertificate(claim, multiplier=root))
+            assert not check_certificate(pair, Certificate(claim, multiplier=root))
 
 
 @pytest.mark.parametrize("row", [row for row, position, _ in SYMMETRIC if position is not CONTACT])
 def test_double_root_at_a_pole_does_not_prove_the_ring_tangent(row):
     F = exact.quartic(TiltedLengths.of(row))
-    certificate = TiltedCertificate(CONTACT, double_root=exact.double_root(F) * F.side)
+    certificate = Certificate(CONTACT, double_root=exact.double_root(F) * F.side)
     assert not check_certificate(TiltedPair.from_row(row), certificate)
 
 
@@ -76,7 +77,7 @@ def test_double_root_at_a_double_pole_does_not_prove_a_crossing_tangent():
     # Upright and on the axis det(S + λH) has a double root at −A = −1/4 whatever the height.
     crossing = TiltedPair(1, 1, 2, 2, 0, 0, 0.5, 0, 0, 1)
     assert exact.decide(crossing.lengths) == exact.TiltedDecision(CONTACT)
-    assert not check_certificate(crossing, TiltedCertificate(CONTACT, double_root=Fraction(-1, 4)))
+    assert not check_certificate(crossing, Certificate(CONTACT, double_root=Fraction(-1, 4)))
 
 
 def test_two_points_prove_contact_only_within_the_spheroid_and_on_two_sides():
@@ -90,7 +91,7 @@ def test_two_points_prove_contact_only_within_the_spheroid_and_on_two_sides():
         ([(2, 0, 0), (Fraction(1, 2), 0, Fraction(1, 2))], False),
         ([], False),
     ):
-        assert check_certificate(pair, TiltedCertificate(CONTACT, points=tuple(points))) is proves
+        assert check_certificate(pair, Certificate(CONTACT, points=tuple(points))) is proves
 
 
 @pytest.mark.parametrize(

@@ -16,8 +16,8 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact as upright
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.batch import positions
+from hypcheck.truth.tilted.journey import Surd
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
-from hypcheck.truth.tilted.surd import Surd
 from tests.truth.tilted.cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 
 

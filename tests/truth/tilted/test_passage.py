@@ -16,9 +16,8 @@ from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error,
 from hypcheck.truth.swept import by_roots, by_steps, journey_of, passage
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import matrices
-from hypcheck.truth.tilted.journey import _ring_between, _sign_at_root
+from hypcheck.truth.tilted.journey import Surd, _ring_between, _sign_at_root
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
-from hypcheck.truth.tilted.surd import Surd
 from hypcheck.vectors.tilted.coincidences import RINGS, TWO_POINTS
 
 CONTACT = Position.CONTACT
