@@ -4,7 +4,7 @@ With p, q, s, t the squares of α, b, γ, d, with the axis v and w = v·v, and �
 
     F(λ) = p² q² s t w det(S + λH) = λ (λ E + (p + qλ)(G − λ m)) − (1 + λ)(p + qλ) K(λ),   K(λ) = k0 + k1 λ − k2 λ²
 
-is the quartic of the pair in whole numbers (programs/tilted_integers.py has E, G, m and K). The poles of the dual
+is the quartic of the pair in whole numbers (programs/integers.py has E, G, m and K). The poles of the dual
 function φ = F/((p + qλ) K) are −A1 = −p/q and the roots −A2 < 0 < B of K; S + λH is positive definite exactly where
 F > 0 between λ₋ = −min(A1, A2) and B. F(0) < 0 < F(±∞), F(B) ≤ 0, F(λ₋) ≤ 0, and φ is concave from λ₋ to B, so
 

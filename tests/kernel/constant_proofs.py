@@ -17,7 +17,7 @@ from pathlib import Path
 from hypcheck.derivation.program import cut, program_of
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.kernel import core
-from hypcheck.kernel.core import tilted as tilted_pool
+from hypcheck.kernel.core import generate
 from hypcheck.kernel.programs import certified, fixed, lines, tilted
 
 U = Fraction(certified.U)
@@ -150,7 +150,7 @@ def _cut_bits(value: Fraction) -> bool:
     off_I, off_J = 16 * (2 * most + 1), 137 * (3 * most**2 + 3 * most + 1)
     I, J = 16 * most**2, 137 * most**3  # noqa: E741 - the names of the invariants
     off = 4 * (3 * I**2 * off_I + 3 * I * off_I**2 + off_I**3) + 2 * J * off_J + off_J**2
-    return off < 2 ** (5 * n + 20) and n <= tilted_pool.CUT_BITS + 63
+    return off < 2 ** (5 * n + 20) and n <= generate.CUT_BITS + 63
 
 
 def _tangency_bits(value: Fraction) -> bool:

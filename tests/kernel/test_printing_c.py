@@ -81,7 +81,7 @@ def test_c_statements_prints_nothing_for_an_input():
 
 
 def test_printing_an_unknown_type_or_a_reserved_name_in_c_raises_an_error():
-    with pytest.raises(ValueError, match="no C type of numbers 'half'; there are double, float, long double"):
+    with pytest.raises(ValueError, match="c has no type of numbers 'half'; it has double, float, long double"):
         c_statements(EVERYTHING, ("r",), number="half")
     with pytest.raises(KeyError, match="has no nothing"):
         c_statements(EVERYTHING, ("nothing",))

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.program import program_of
-from hypcheck.kernel.printing.languages import cpp_statements, javascript_statements, python_statements, rust_statements
+from hypcheck.kernel.printing.languages import NUMBERS, statements_in
 from tests.kernel.printing_samples import EVERYTHING, PROGRAMS, assert_same_bits, columns
 
 FORMATS = {"double": "float64", "f64": "float64", "number": "float64", "float": "float32", "f32": "float32"}
@@ -46,7 +46,7 @@ def test_every_step_printed_in_cpp_gives_the_same_bits_as_its_program(wide, name
     body = "\n".join(
         [
             *(f"const {number} {each} = in[{k} * n + i]; (void){each};" for k, each in enumerate(program.inputs)),
-            *cpp_statements(program, steps, number=number),
+            *statements_in("cpp", program, steps, number=number),
             *(f"out[{k} * n + i] = static_cast<{number}>({each});" for k, each in enumerate(steps)),
         ]
     )
@@ -86,7 +86,7 @@ def test_every_step_printed_in_rust_gives_the_same_bits_as_its_program(wide, nam
 
 
 def rust_lines(program, number):
-    return rust_statements(program, names_of(program), number=number)
+    return statements_in("rust", program, names_of(program), number=number)
 
 
 @needs("node")
@@ -98,7 +98,7 @@ def test_every_step_printed_in_javascript_gives_the_same_bits_as_its_program(wid
     body = "\n".join(
         [
             *(f"const {each} = input[{k} * n + i];" for k, each in enumerate(program.inputs)),
-            *javascript_statements(program, steps, number=number),
+            *statements_in("javascript", program, steps, number=number),
             *(f"output[{k} * n + i] = Number({each});" for k, each in enumerate(steps)),
         ]
     )
@@ -124,7 +124,7 @@ def test_every_step_printed_in_javascript_gives_the_same_bits_as_its_program(wid
 def test_every_step_printed_in_python_gives_the_same_bits_as_its_program(name):
     program = PROGRAMS[name]
     inputs, steps = columns(program, "float64"), names_of(program)
-    code = compile("\n".join(python_statements(program, steps)), name, "exec")
+    code = compile("\n".join(statements_in("python", program, steps)), name, "exec")
     kept, found = [], []
     for index, values in enumerate(inputs.T.tolist()):
         scope = {"math": math, **dict(zip(program.inputs, values, strict=True))}
@@ -140,22 +140,22 @@ def test_every_step_printed_in_python_gives_the_same_bits_as_its_program(name):
 
 def test_one_step_is_printed_as_expected_in_each_language():
     wanted = ("number", "r")
-    assert cpp_statements(EVERYTHING, wanted)[-1] == "const double number = neither ? q : four;"
-    assert rust_statements(EVERYTHING, wanted)[-1] == "let number: f64 = if neither { q } else { four };"
-    assert javascript_statements(EVERYTHING, wanted, number="float32")[0] == "const d = Math.fround(x - (-3.0));"
-    assert python_statements(EVERYTHING, wanted)[-1] == "number = q if neither else four"
+    assert statements_in("cpp", EVERYTHING, wanted)[-1] == "const double number = neither ? q : four;"
+    assert statements_in("rust", EVERYTHING, wanted)[-1] == "let number: f64 = if neither { q } else { four };"
+    assert statements_in("javascript", EVERYTHING, wanted, number="float32")[0] == "const d = Math.fround(x - (-3.0));"
+    assert statements_in("python", EVERYTHING, wanted)[-1] == "number = q if neither else four"
 
 
 @pytest.mark.parametrize(
-    ("printer", "reserved"),
-    [(cpp_statements, "new"), (rust_statements, "loop"), (javascript_statements, "let"), (python_statements, "def")],
+    ("language", "reserved"),
+    [("c", "short"), ("cpp", "new"), ("rust", "loop"), ("javascript", "let"), ("python", "def")],
 )
-def test_printing_a_step_named_as_a_reserved_word_raises_an_error(printer, reserved):
+def test_printing_a_step_named_as_a_reserved_word_raises_an_error(language, reserved):
     with pytest.raises(ValueError, match=f"step {reserved}: {reserved} is no name in the language"):
-        printer(program_of("p", ("x",), f"{reserved} = x + 1"), (reserved,))
+        statements_in(language, program_of("p", ("x",), f"{reserved} = x + 1"), (reserved,))
 
 
-@pytest.mark.parametrize("printer", [cpp_statements, rust_statements, javascript_statements, python_statements])
-def test_printing_an_unknown_type_of_numbers_raises_an_error(printer):
-    with pytest.raises(ValueError, match=r"of numbers 'half'; there (are|is)"):
-        printer(EVERYTHING, ("r",), number="half")
+@pytest.mark.parametrize("language", NUMBERS)
+def test_printing_an_unknown_type_of_numbers_raises_an_error(language):
+    with pytest.raises(ValueError, match=f"{language} has no type of numbers 'half'; it has {NUMBERS[language][0]}"):
+        statements_in(language, EVERYTHING, ("r",), number="half")

@@ -16,7 +16,7 @@ from hypcheck.derivation.program import cut, needed
 from hypcheck.derivation.proofs import SYMBOLIC
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.kernel.programs import certified, lines, ways
+from hypcheck.kernel.programs import certified, lines
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
 
 U = Fraction(certified.U)
@@ -133,7 +133,7 @@ def test_tangent_lines_of_the_kernel_programs_have_the_formulas_of_the_kernel_pa
     K, M = outputs(lines.TANGENT_WITHIN, EXACT, sizes | {"mu": multiplier}, ("K_least", "M_least"))
     assert K == b**2 * (a**2 - multiplier) * (1 - 1 / multiplier)
     assert M == (b / d) ** 2 * (a**2 - multiplier) / (c**2 + multiplier)
-    fall, M_high = outputs(ways.TANGENT_HIGH, EXACT, sizes | {"mu": multiplier}, ("fall_most", "M_least"))
+    fall, M_high = outputs(lines.TANGENT_HIGH, EXACT, sizes | {"mu": multiplier}, ("fall_most", "M_least"))
     assert (fall, M_high) == (-K, M)
 
 
@@ -142,7 +142,7 @@ def test_tangent_lines_of_the_kernel_programs_have_the_formulas_of_the_kernel_pa
 def test_the_piece_program_gives_the_offset_of_a_way_from_a_line_as_a_quadratic(numbers, M, side):
     x, y, z, u, v, w, K = numbers
     inputs = dict(zip(("x", "y", "z", "u", "v", "w", "K"), numbers, strict=True)) | {"M": M, "side": side, "u_8": 0}
-    here, slope, bend = outputs(ways.PIECE, EXACT, inputs, ("here", "slope", "bend"))
+    here, slope, bend = outputs(lines.PIECE, EXACT, inputs, ("here", "slope", "bend"))
     for s in (Fraction(0), Fraction(1, 3), Fraction(1)):
         R, T = (x + s * u) ** 2 + (y + s * v) ** 2, (z + s * w) ** 2
         assert here + 2 * slope * s + bend * s * s == side * (R - M * T - K)
@@ -152,9 +152,9 @@ def test_the_piece_program_gives_the_offset_of_a_way_from_a_line_as_a_quadratic(
 def test_the_error_that_the_piece_program_subtracts_covers_its_roundings(part):
     """4 factors in the gap, as many in the size, one for the difference: fewer than the 8 of u_8."""
     gap, size = f"gap{part}", f"size{part or '_here'}"
-    count = relative_error_counts(ways.PIECE, [gap], positive={"M"}).counts[gap]
+    count = relative_error_counts(lines.PIECE, [gap], positive={"M"}).counts[gap]
     assert count <= 4
-    counted = relative_error_counts(cut(ways.PIECE, ("K", "R", "rise"), (size,)) if not part else ways.PIECE, [size])
+    counted = relative_error_counts(cut(lines.PIECE, ("K", "R", "rise"), (size,)) if not part else lines.PIECE, [size])
     assert counted.counts[size] <= 4
     assert gamma(count, U) + U < Fraction(certified.CONSTANTS["u_8"]) * (1 - gamma(5, U)) - 2 * U
 
@@ -170,9 +170,9 @@ def test_the_error_that_the_piece_program_subtracts_covers_its_roundings(part):
         (lines.TANGENT_BEYOND, "gap_terms", 3),
         (lines.TANGENT_WITHIN, "across_terms", 3),
         (lines.TANGENT_WITHIN, "along", 3),
-        (ways.TANGENT_HIGH, "one_minus_mu", 1),
-        (ways.TANGENT_HIGH, "across_terms", 3),
-        (ways.TANGENT_HIGH, "along", 3),
+        (lines.TANGENT_HIGH, "one_minus_mu", 1),
+        (lines.TANGENT_HIGH, "across_terms", 3),
+        (lines.TANGENT_HIGH, "along", 3),
         (lines.CHORD, "line_0", 2),
     ],
 )

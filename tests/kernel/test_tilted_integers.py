@@ -13,8 +13,8 @@ import pytest
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.geometry.pair import TILTED_COLUMNS, Pair
 from hypcheck.kernel import integers, tilted_integers
-from hypcheck.kernel.core import tilted
-from hypcheck.kernel.programs.tilted_integers import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
+from hypcheck.kernel.core import generate
+from hypcheck.kernel.programs.integers import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
 from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
 from tests.support.tilted_fractions import exact_position, interpolated, matrices
 
@@ -123,7 +123,7 @@ def _without_floats():
 
 def test_the_memory_of_the_tilted_integers_suffices_for_the_longest_numbers():
     """What is counted is what numbers of 2,098 bits take; the sanitizers watch that nothing is written beyond it."""
-    bits, numbers = tilted.pool_bits()
+    bits, numbers = generate.pool_bits()
     counted = evaluate(QUARTIC, EXACT, dict.fromkeys(TILTED_COLUMNS, Fraction(2**2098 - 1)))
     assert bits > sum(int(value).bit_length() for value in counted.values())
     assert numbers > len(counted) - 1

@@ -14,13 +14,19 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from hypcheck.derivation.program import Program, Step, needed
-from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
 from hypcheck.kernel import clearance
-from hypcheck.kernel.core import tilted
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
-from hypcheck.kernel.programs import certified, fixed, lines, tilted_lines, ways
-from hypcheck.kernel.programs import tilted as tilted_program
-from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
+from hypcheck.kernel.programs import certified, fixed, lines, tilted
+from hypcheck.kernel.programs.integers import (
+    COEFFICIENTS,
+    DISCRIMINANT,
+    FLOAT64_BITS,
+    INTEGERS,
+    INVARIANTS,
+    QUARTIC,
+    bits_counted,
+)
 
 HERE = Path(__file__).parent
 TARGET = HERE / "hypcheck.h"
@@ -28,8 +34,8 @@ COMMAND = "python -m hypcheck.kernel.core.generate"
 
 CONSTANTS = {
     **certified.CONSTANTS,
-    **tilted_program.CONSTANTS,
-    **tilted_lines.CONSTANTS,
+    **tilted.CONSTANTS,
+    **lines.SPACE_CONSTANTS,
     "u_1536": certified.SINGLE_CONSTANTS["u_1536"],
     "more": lines.MORE,
     "less": lines.LESS,
@@ -42,13 +48,6 @@ CONSTANTS = {
     "greatest_height": 2.0**150,
     **clearance.CONSTANTS,
 }
-SCENE = {
-    **{name: "{1}[{2}].{0}".format(*name.split("_")) for name in lines.LINE_CONSTANTS},
-    "reach": "reach",
-}
-"""Where the C struct of a scene keeps the inputs of the line programs."""
-LINE_PROGRAMS = (lines.ONE_LINE, lines.TWO_LINES)
-
 QUESTIONS = {
     "position": {"plus": "exterior", "minus": "interior", "decided": "decided"},
     "exterior": {"plus": "exterior", "decided": "exterior_decided"},
@@ -107,7 +106,7 @@ def header() -> str:
 def _part(name: str) -> str:
     text = (HERE / "parts" / name).read_text(encoding="utf-8")
     printed = {key: make() for key, make in _TEXTS.items() if f"@{key}@" in text}
-    said = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(kilobytes()), "TILTED_KILOBYTES": str(tilted.kilobytes())}
+    said = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(kilobytes()), "TILTED_KILOBYTES": str(tilted_kilobytes())}
     return re.sub(r"@(\w+)@", lambda match: said.get(match[1], match[0]), _filled(text, printed))
 
 
@@ -124,26 +123,40 @@ def _constants() -> list[str]:
     return [f"#define HC_{name} {value!r} /* {value.hex()} */" for name, value in CONSTANTS.items()]
 
 
+def _first_stage(
+    part: str, total: str, constants: Iterable[str], functions: Iterable[tuple[Program, str, str]]
+) -> list[str]:
+    """The functions of programs of lines.py: of each the program, its name in C, and the question that it answers.
+
+    The struct of a scene keeps K_beyond_1 of the constants as beyond[1].K, and others under their own names. `total`
+    is the step whose sum over a block has to be below `cap`.
+    """
+    text = (HERE / "parts" / part).read_text(encoding="utf-8")
+    fields = {name: "{1}[{2}].{0}".format(*name.split("_")) if name[0] in "aKM" else name for name in constants}
+    found = []
+    for program, name, question in functions:
+        results = QUESTIONS[question]
+        wanted = (total, *results.values())
+        read = {each for step in needed(program, wanted) for each in step.reads}
+        parts = {
+            "FIELDS": [f"const HC_NUMBER {each} = HC_SET(scene->{at});" for each, at in fields.items() if each in read],
+            "STEPS": statements(program, wanted, VECTOR),
+            "RESULTS": [f"found.{field} |= HC_BITS({step}) << at;" for field, step in results.items()],
+        }
+        found.append(_filled(text.replace("@NAME@", name).replace("@PROGRAM@", program.name), parts))
+    return "\n".join(found).splitlines()
+
+
 def _line_functions() -> list[str]:
-    text = (HERE / "parts" / "line_function.h").read_text(encoding="utf-8")
-    return "\n".join(
-        _line_function(text, program, question) for program in LINE_PROGRAMS for question in QUESTIONS
-    ).splitlines()
+    programs = (("one_line", lines.ONE_LINE), ("two_lines", lines.TWO_LINES))
+    asked = [(program, f"{name}_{question}", question) for name, program in programs for question in QUESTIONS]
+    return _first_stage("line_function.h", "R_plus_T", (*lines.LINE_CONSTANTS, "reach"), asked)
 
 
-def _line_function(text: str, program: Program, question: str) -> str:
-    results = QUESTIONS[question]
-    wanted = ("R_plus_T", *results.values())
-    read = {name for step in needed(program, wanted) for name in step.reads}
-    texts = {
-        "LINE_CONSTANTS": [
-            f"const HC_NUMBER {name} = HC_SET(scene->{field});" for name, field in SCENE.items() if name in read
-        ],
-        "LINES": statements(program, wanted, VECTOR),
-        "LINE_RESULTS": [f"found.{field} |= HC_BITS({step}) << at;" for field, step in results.items()],
-    }
-    named = text.replace("@NAME@", f"{program.name.replace('-', '_')}_{question}").replace("@PROGRAM@", program.name)
-    return _filled(named, texts)
+def _plane_functions() -> list[str]:
+    asked = [(lines.ONE_PLANE, "one_plane", "position"), (lines.TWO_PLANES, "two_planes", "position")]
+    constants = (*lines.PLANE_CONSTANTS, *lines.BASIS, "reach")
+    return _first_stage("plane_function.h", "distance", constants, asked)
 
 
 def _integer_statement(step: Step, bits: dict[str, int]) -> str:
@@ -203,43 +216,93 @@ def kilobytes() -> int:
     return -(-(8 * limbs + 24 * 70 + 16 * 1024) // 1024)
 
 
-def _plane_functions() -> list[str]:
-    text = (HERE / "parts" / "plane_function.h").read_text(encoding="utf-8")
-    programs = (tilted_lines.ONE_PLANE, tilted_lines.TWO_PLANES)
-    return "\n".join(_plane_function(text, program) for program in programs).splitlines()
+KEPT = ("p", "q", "s", "t", "k0", "k1", "k2", *COEFFICIENTS)
+"""What hc_quartic_of keeps, in the order of the program."""
+
+CUT_BITS = 128
 
 
-def _plane_function(text: str, program: Program) -> str:
-    results = QUESTIONS["position"]
-    wanted = ("distance", *results.values())
-    read = {name for step in needed(program, wanted) for name in step.reads}
-    fields = {name: "{1}[{2}].{0}".format(*name.split("_")) for name in tilted_lines.PLANE_CONSTANTS}
-    fields |= {name: name for name in (*tilted_lines.BASIS, "reach")}
-    texts = {
-        "PLANE_CONSTANTS": [
-            f"const HC_NUMBER {name} = HC_SET(scene->{field});" for name, field in fields.items() if name in read
-        ],
-        "PLANES": statements(program, wanted, VECTOR),
-        "PLANE_RESULTS": [f"found.{field} |= HC_BITS({step}) << at;" for field, step in results.items()],
-    }
-    named = text.replace("@NAME@", program.name.replace("-", "_")).replace("@PROGRAM@", program.name)
-    return _filled(named, texts)
+def pool_bits() -> tuple[int, int]:
+    """The most bits that the integers of hc_exact_tilted_position have at any time, and the most numbers these are."""
+    quartic = bits_counted(QUARTIC)
+    kept = sum(quartic[name] for name in KEPT)
+    invariants = _bits_of(INVARIANTS, {name: quartic[name] for name in COEFFICIENTS})
+    discriminant = _bits_of(DISCRIMINANT, {name: invariants[name] for name in ("I", "J")})
+    phases = (
+        sum(quartic.values()),
+        kept + 5 * (CUT_BITS + 64) + sum(invariants.values()),
+        kept + 5 * (CUT_BITS + 64) + sum(discriminant.values()),
+        kept + max(_bits_about_a_pole(quartic)),
+    )
+    return max(phases), len(QUARTIC.steps) + len(TILTED_COLUMNS)
+
+
+def tilted_kilobytes() -> int:
+    """What the stack holds at most for a row whose axis leans: the integers, and what calls them."""
+    bits, numbers = pool_bits()
+    return -(-(bits // 8 + 16 * numbers + 24 * 1024) // 1024)
+
+
+def _bits_of(program: Program, inputs: Mapping[str, int]) -> dict[str, int]:
+    bits = bits_counted(program, max(inputs.values()))
+    return {**bits, **inputs}
+
+
+def _bits_about_a_pole(k: Mapping[str, int]) -> list[int]:
+    """The bits in use at each step of hc_coefficient_sign and hc_sign_with_root."""
+    n, scale = k["k0"] + k["k2"], max(k["k2"], k["q"])
+    u, v, power, found = scale + 3, 0, 1, []
+    for name in ("f3", "f2", "f1", "minus_f0"):
+        term = k[name] + power
+        v_n, v_k1, u_p = v + n, v + k["k1"], u + k["p"]
+        next_u, next_v, next_power = max(v_n, term + 3, u_p) + 1, max(u, v_k1) + 1, power + scale
+        found.append(n + u + v + power + 2 * term + 3 + v_n + v_k1 + u_p + next_u + next_v + next_power)
+        u, v, power = next_u, next_v, next_power
+    U, D = max(u + 2, v + k["k1"]) + 1, max(2 * k["k1"], n + 3) + 1
+    found.append(n + u + v + power + u + 2 + v + k["k1"] + U + 2 * U + 2 * v + 2 * k["k1"] + n + 3 + D + 2 * v + D)
+    found[-1] += max(2 * U, 2 * v + D) + 1
+    return found
+
+
+def _pool_statement(step: Step) -> str:
+    left, right = step.arguments
+    if isinstance(left, int):
+        return f"const hc_integer {step.name} = hc_multiple(POOL, {left}, &{right});"
+    if step.operation == "mul":
+        return f"const hc_integer {step.name} = hc_product(POOL, &{left}, &{right});"
+    sign = {"add": 1, "sub": -1}[step.operation]
+    return f"const hc_integer {step.name} = hc_sum(POOL, &{left}, &{right}, {sign});"
+
+
+def _pool_statements(program: Program, wanted: tuple[str, ...], pool: str) -> list[str]:
+    return [_pool_statement(step).replace("POOL", pool) for step in needed(program, wanted)]
+
+
+def _pool_size() -> list[str]:
+    bits, numbers = pool_bits()
+    return [
+        f"#define HC_CUT_BITS {CUT_BITS}",
+        f"#define HC_TILTED_LIMBS ({bits} / HC_LIMB_BITS + {2 * numbers}) /* counted from the programs */",
+    ]
 
 
 def _tilted() -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The program of a row that leans, before a multiplier is chosen, and after it."""
-    both = statements(tilted_program.TILTED, ("exterior", "interior", "decided"), VECTOR)
-    first = len([step for step in tilted_program.TILTED.steps if step.name in tilted_program.BEFORE])
+    both = statements(tilted.TILTED, ("exterior", "interior", "decided"), VECTOR)
+    first = len([step for step in tilted.TILTED.steps if step.name in tilted.BEFORE])
     return both[:first], both[first:]
 
 
 _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
-    **tilted.TEXTS,
+    "TILTED_POOL": _pool_size,
+    "TILTED_QUARTIC": lambda: _pool_statements(QUARTIC, KEPT, "pool"),
+    "TILTED_INVARIANTS": lambda: _pool_statements(INVARIANTS, ("I", "J"), "&pool"),
+    "TILTED_DISCRIMINANT": lambda: _pool_statements(DISCRIMINANT, ("delta",), "&pool"),
     "TILTED_LEVEL": lambda: _part("tilted_level.h").splitlines(),
     "NEAR_LEVEL": lambda: _part("near_level.h").splitlines(),
-    "TILTED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in tilted_program.CONSTANTS],
+    "TILTED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in tilted.CONSTANTS],
     "TILTED_INPUTS": lambda: [
-        f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(tilted_program.ROW)
+        f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(tilted.ROW)
     ],
     "PLANE_FUNCTIONS": _plane_functions,
     "TILTED_FORM": lambda: _tilted()[0],
@@ -264,8 +327,8 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "SINGLE": lambda: c_statements(certified.SINGLE, certified.SINGLE_RESULTS, number="double"),
     "TANGENT_BEYOND": lambda: c_statements(lines.TANGENT_BEYOND, ("K_most", "M_most", "gap_least")),
     "TANGENT_WITHIN": lambda: c_statements(lines.TANGENT_WITHIN, ("K_least", "M_least", "across_least")),
-    "TANGENT_HIGH": lambda: c_statements(ways.TANGENT_HIGH, ("across_least", "fall_most", "M_least")),
-    "PIECE": lambda: statements(ways.PIECE, ("here", "slope", "bend", "size"), PLAIN),
+    "TANGENT_HIGH": lambda: c_statements(lines.TANGENT_HIGH, ("across_least", "fall_most", "M_least")),
+    "PIECE": lambda: statements(lines.PIECE, ("here", "slope", "bend", "size"), PLAIN),
     "CHORD": lambda: c_statements(lines.CHORD, ("below", "above")),
 }
 

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
-from hypcheck.kernel.printing.languages import (
-    c_statements,
-    cpp_statements,
-    javascript_statements,
-    python_statements,
-    rust_statements,
-)
+from hypcheck.kernel.printing.languages import statements_in
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages
 
 
 @dataclass(frozen=True)
 class Dialect:
-    """A language: the file its kernel is usually called, its types of numbers, and its phrases.
+    """A language: its types of numbers, and its phrases.
 
     `extension` is that of its source files and templates, `comment` begins a line of the head. `numbers` has the type
-    for each format that the language computes in, as its printer knows it. `phrases` are templates with {name},
+    for each format that the language computes in, as printing/languages.py has it. `phrases` are templates with {name},
     {value}, {condition}, {left} and {right}; the keys are those of _C_LIKE. `suffixes` end literals of a format.
     `axis` has what a kernel's text says besides where it takes an axis: how one is declared, given on, read from a row.
     `exports`: its kernels have functions that a linker sees; the others' names are their module's. `by_block`: they
@@ -30,14 +24,12 @@ class Dialect:
     """
 
     name: str
-    file: str
     extension: str
     comment: str
     numbers: Mapping[str, str]
-    printer: Callable[..., tuple[str, ...]]
     phrases: Mapping[str, str]
+    axis: Mapping[str, str]
     suffixes: Mapping[str, str] = field(default_factory=dict)
-    axis: Mapping[str, str] = field(default_factory=dict)
     exports: bool = False
     by_block: bool = False
 
@@ -53,7 +45,7 @@ class Dialect:
 
     def statements(self, program: Program, wanted: tuple[str, ...], precision: str) -> tuple[str, ...]:
         """The needed part of the program, in numbers of the format; a statement for each step."""
-        return self.printer(program, wanted, number=self.number_of(precision))
+        return statements_in(self.name, program, wanted, number=self.number_of(precision))
 
     def say(self, phrase: str, **words: object) -> str:
         """A phrase with its words filled in; {place} is the setting's number and {number} the type of numbers."""
@@ -255,23 +247,11 @@ _JAVASCRIPT_NUMBERS = {"float64": "number", "float32": "float32"}
 DIALECTS = {
     dialect.name: dialect
     for dialect in (
-        Dialect("c", "kernel.c", "c", " * ", _C_NUMBERS, c_statements, _C_LIKE, _C_SUFFIXES, _C_AXIS, True, True),
-        Dialect(
-            "cpp", "kernel.cpp", "cpp", "// ", _C_NUMBERS, cpp_statements, _CPP, _C_SUFFIXES, _CPP_AXIS, True, True
-        ),
-        Dialect("rust", "kernel.rs", "rs", "//! ", _RUST_NUMBERS, rust_statements, _RUST, {}, _RUST_AXIS, exports=True),
-        Dialect(
-            "javascript",
-            "predicate.mjs",
-            "mjs",
-            "// ",
-            _JAVASCRIPT_NUMBERS,
-            javascript_statements,
-            _JAVASCRIPT,
-            {},
-            _JAVASCRIPT_AXIS,
-        ),
-        Dialect("python", "kernel.py", "py", "", {"float64": "float"}, python_statements, _PYTHON, {}, _PYTHON_AXIS),
+        Dialect("c", "c", " * ", _C_NUMBERS, _C_LIKE, _C_AXIS, _C_SUFFIXES, exports=True, by_block=True),
+        Dialect("cpp", "cpp", "// ", _C_NUMBERS, _CPP, _CPP_AXIS, _C_SUFFIXES, exports=True, by_block=True),
+        Dialect("rust", "rs", "//! ", _RUST_NUMBERS, _RUST, _RUST_AXIS, exports=True),
+        Dialect("javascript", "mjs", "// ", _JAVASCRIPT_NUMBERS, _JAVASCRIPT, _JAVASCRIPT_AXIS),
+        Dialect("python", "py", "", {"float64": "float"}, _PYTHON, _PYTHON_AXIS),
     )
 }
 """By name: what `emit --language` takes."""

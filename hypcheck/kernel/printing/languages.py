@@ -27,7 +27,7 @@ from __future__ import annotations
 import keyword
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 
 from hypcheck.derivation.program import NUMBER, OPERATIONS, Argument, Program, Step, kind_of, needed
 
@@ -111,6 +111,40 @@ def _argument(argument: Argument, spelling: Spelling) -> str:
     return argument if isinstance(argument, str) else spelling.constant(argument)
 
 
+NUMBERS = {
+    "c": ("double", "float", "long double"),
+    "cpp": ("double", "float"),
+    "rust": ("f64", "f32"),
+    "javascript": ("number", "float32"),
+    "python": ("float",),
+}
+"""The types of numbers of each language: first that of binary64."""
+
+
+def statements_in(
+    language: str, program: Program, wanted: tuple[str, ...], *, number: str | None = None
+) -> tuple[str, ...]:
+    """The needed part of the program in a language of NUMBERS, one declaration a step: `const double name = x + y;`.
+
+    The inputs are in scope under their own names, as `number`s, by default of binary64. `abs` and `sqrt` need math.h in
+    C, <cmath> in C++ and `import math` in Python; a lint of Rust that wants snake_case has to allow A, B, P and Q.
+    Raises ValueError for another type and for names that the language reserves, and KeyError where a wanted name does
+    not exist.
+    """
+    numbers = NUMBERS[language]
+    if number is not None and number not in numbers:
+        raise ValueError(f"{language} has no type of numbers {number!r}; it has {', '.join(numbers)}")
+    return statements(program, wanted, _spelling(language, number or numbers[0]))
+
+
+c_statements = partial(statements_in, "c")
+
+
+@cache
+def _spelling(language: str, number: str) -> Spelling:
+    return _SPELLINGS[language](number)
+
+
 C_SUFFIXES = {"double": "", "float": "f", "long double": "l"}
 """What ends the name of a function of math.h for each type of numbers, and, in upper case, a literal."""
 
@@ -119,31 +153,13 @@ auto break case char const continue default do double else enum extern float for
 restrict return short signed sizeof static struct switch typedef union unsigned void volatile while I NULL
 """
 
-
-def c_statements(program: Program, wanted: tuple[str, ...], *, number: str = "double") -> tuple[str, ...]:
-    """The needed part of the program as C99: one declaration a step, `const double name = left + right;`.
-
-    The inputs are in scope under their own names, as `number`s ("double", "float" or "long double"); truth values are
-    int. `abs` and `sqrt` need math.h. Raises ValueError for another type and for names that C reserves, and KeyError
-    where a wanted name does not exist.
-    """
-    if number not in C_SUFFIXES:
-        raise ValueError(f"no C type of numbers {number!r}; there are {', '.join(C_SUFFIXES)}")
-    return statements(program, wanted, _c_spelling(number))
+_C_LIKE = {**INFIX, **BITWISE, "not": "!{0}", "select": "{0} ? {1} : {2}"}
 
 
-@cache
-def _c_spelling(number: str) -> Spelling:
+def _c(number: str) -> Spelling:
     suffix = C_SUFFIXES[number]
     return Spelling(
-        operations={
-            **INFIX,
-            **BITWISE,
-            "not": "!{0}",
-            "abs": f"fabs{suffix}({{0}})",
-            "sqrt": f"sqrt{suffix}({{0}})",
-            "select": "{0} ? {1} : {2}",
-        },
+        operations={**_C_LIKE, "abs": f"fabs{suffix}({{0}})", "sqrt": f"sqrt{suffix}({{0}})"},
         number=number,
         boolean="int",
         declaration="const {type} {name} = {value};",
@@ -151,9 +167,6 @@ def _c_spelling(number: str) -> Spelling:
         reserved=frozenset(_C_KEYWORDS.split()),
     )
 
-
-CPP_SUFFIXES = {"double": "", "float": "F"}
-"""What ends a literal of each type of numbers."""
 
 _CPP_KEYWORDS = """
 alignas alignof and and_eq asm auto bitand bitor bool break case catch char class compl const constexpr const_cast
@@ -164,38 +177,16 @@ throw true try typedef typeid typename union unsigned using virtual void volatil
 """
 
 
-def cpp_statements(program: Program, wanted: tuple[str, ...], *, number: str = "double") -> tuple[str, ...]:
-    """The needed part of the program: one declaration a step, `const double name = left + right;`.
-
-    The inputs are in scope under their own names, as `number`s ("double" or "float"); truth values are bool. `abs` and
-    `sqrt` need <cmath>. Raises ValueError for another type and for names that C++ reserves, and KeyError where a wanted
-    name does not exist.
-    """
-    if number not in CPP_SUFFIXES:
-        raise ValueError(f"no C++ type of numbers {number!r}; there are {', '.join(CPP_SUFFIXES)}")
-    return statements(program, wanted, _cpp_spelling(number))
-
-
-@cache
-def _cpp_spelling(number: str) -> Spelling:
+def _cpp(number: str) -> Spelling:
     return Spelling(
-        operations={
-            **INFIX,
-            **BITWISE,
-            "not": "!{0}",
-            "abs": "std::abs({0})",
-            "sqrt": "std::sqrt({0})",
-            "select": "{0} ? {1} : {2}",
-        },
+        operations={**_C_LIKE, "abs": "std::abs({0})", "sqrt": "std::sqrt({0})"},
         number=number,
         boolean="bool",
         declaration="const {type} {name} = {value};",
-        constant=literal(CPP_SUFFIXES[number]),
+        constant=literal(C_SUFFIXES[number].upper()),
         reserved=frozenset(_CPP_KEYWORDS.split()),
     )
 
-
-RUST_NUMBERS = ("f64", "f32")
 
 _RUST_KEYWORDS = """
 Self abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if
@@ -204,30 +195,15 @@ typeof unsafe unsized use virtual where while yield
 """
 
 
-def rust_statements(program: Program, wanted: tuple[str, ...], *, number: str = "f64") -> tuple[str, ...]:
-    """The needed part of the program: one `let name: f64 = left + right;` a step.
-
-    The inputs are in scope under their own names, as `number`s ("f64" or "f32"); truth values are bool. A lint that
-    wants snake_case has to allow A, B, P and Q. Raises ValueError for another type and for names that Rust reserves,
-    and KeyError where a wanted name does not exist.
-    """
-    if number not in RUST_NUMBERS:
-        raise ValueError(f"no Rust type of numbers {number!r}; there are {', '.join(RUST_NUMBERS)}")
-    return statements(program, wanted, _rust_spelling(number))
-
-
-@cache
-def _rust_spelling(number: str) -> Spelling:
+def _rust(number: str) -> Spelling:
+    operations = {
+        "neg": "-({0})",
+        "abs": f"{number}::abs({{0}})",
+        "sqrt": f"{number}::sqrt({{0}})",
+        "select": "if {0} {{ {1} }} else {{ {2} }}",
+    }
     return Spelling(
-        operations={
-            **INFIX,
-            **BITWISE,
-            "not": "!{0}",
-            "neg": "-({0})",
-            "abs": f"{number}::abs({{0}})",
-            "sqrt": f"{number}::sqrt({{0}})",
-            "select": "if {0} {{ {1} }} else {{ {2} }}",
-        },
+        operations={**_C_LIKE, **operations},
         number=number,
         boolean="bool",
         declaration="let {name}: {type} = {value};",
@@ -235,8 +211,6 @@ def _rust_spelling(number: str) -> Spelling:
         reserved=frozenset(_RUST_KEYWORDS.split()),
     )
 
-
-JAVASCRIPT_NUMBERS = ("number", "float32")
 
 _JAVASCRIPT_EXACT = frozenset({"neg", "abs", "select"})
 """Operations that round nothing, whatever the format."""
@@ -248,30 +222,15 @@ static super switch this throw true try typeof undefined var void while with yie
 """
 
 
-def javascript_statements(program: Program, wanted: tuple[str, ...], *, number: str = "number") -> tuple[str, ...]:
-    """The needed part of the program: one `const name = left + right;` a step.
-
-    The inputs are in scope under their own names: numbers, and of binary32 where `number` is "float32" rather than
-    "number"; truth values are booleans. Raises ValueError for another type and for names that JavaScript reserves, and
-    KeyError where a wanted name does not exist.
-    """
-    if number not in JAVASCRIPT_NUMBERS:
-        raise ValueError(f"no JavaScript format of numbers {number!r}; there are {', '.join(JAVASCRIPT_NUMBERS)}")
-    return statements(program, wanted, _javascript_spelling(number))
-
-
-@cache
-def _javascript_spelling(number: str) -> Spelling:
+def _javascript(number: str) -> Spelling:
     operations = {
-        **INFIX,
+        **_C_LIKE,
         "eq": "{0} === {1}",
         "ne": "{0} !== {1}",
         "and": "{0} && {1}",
         "or": "{0} || {1}",
-        "not": "!{0}",
         "abs": "Math.abs({0})",
         "sqrt": "Math.sqrt({0})",
-        "select": "{0} ? {1} : {2}",
     }
     if number == "float32":
         for name, operation in OPERATIONS.items():
@@ -287,30 +246,22 @@ def _javascript_spelling(number: str) -> Spelling:
     )
 
 
-_PYTHON_SPELLING = Spelling(
-    operations={
-        **INFIX,
+def _python(number: str) -> Spelling:
+    operations = {
         "and": "{0} and {1}",
         "or": "{0} or {1}",
         "not": "not {0}",
         "abs": "abs({0})",
         "sqrt": "math.sqrt({0})",
         "select": "{1} if {0} else {2}",
-    },
-    number="float",
-    boolean="bool",
-    declaration="{name} = {value}",
-    constant=literal(),
-)
+    }
+    return Spelling({**INFIX, **operations}, number, "bool", "{name} = {value}", literal())
 
 
-def python_statements(program: Program, wanted: tuple[str, ...], *, number: str = "float") -> tuple[str, ...]:
-    """The needed part of the program: one `name = left + right` a step.
-
-    The inputs are in scope under their own names, as floats; truth values are bool. `sqrt` needs `import math`. Raises
-    ValueError for another type of numbers and for names that Python reserves, and KeyError where a wanted name does not
-    exist.
-    """
-    if number != "float":
-        raise ValueError(f"no Python type of numbers {number!r}; there is float alone")
-    return statements(program, wanted, _PYTHON_SPELLING)
+_SPELLINGS: dict[str, Callable[[str], Spelling]] = {
+    "c": _c,
+    "cpp": _cpp,
+    "rust": _rust,
+    "javascript": _javascript,
+    "python": _python,
+}

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from hypcheck.derivation.program import NUMBER, Program, Step, kind_of, line_of, needed
 from hypcheck.geometry.pair import CENTER, COLUMNS, TILTED_COLUMNS
-from hypcheck.kernel.printing.languages import python_statements
+from hypcheck.kernel.printing.languages import statements_in
 from hypcheck.kernel.programs import certified, lines, tilted
 
 _UFUNCS = {
@@ -233,7 +233,7 @@ def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]
         f"def {name}({', '.join(f'{each}: float' for each in given)}) -> tuple[{kind}, ...]:",
         f'{INDENT}"""{", ".join(wanted)} of the program "{program.name}"."""',
         *(f"{INDENT}{each} = {constants[each]!r}  # {constants[each].hex()}" for each in constants if each in read),
-        *(f"{INDENT}{line}" for line in python_statements(program, wanted)),
+        *(f"{INDENT}{line}" for line in statements_in("python", program, wanted)),
         f"{INDENT}return {', '.join(wanted)}",
     ]
 

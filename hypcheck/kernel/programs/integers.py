@@ -1,13 +1,22 @@
-"""The program of the last stage: N = b² d² times the coefficients of g, and what the rule for all regimes asks of them.
+"""The programs of the last stage, in whole numbers: nothing is divided, so integers stay integers.
 
-Nothing is divided, so integers stay integers; lengths may be in one unit for α, b, x, y and in another for γ, d, z.
-n2, n1 and −n0 = p s are N c2, N c1 and N c0's size; delta is 3 N⁴ Δ, slope_at_B is N t² g'(B), slope_at_A N q² g'(−A).
+**Upright.** N = b² d² times the coefficients of g, and what the rule for all regimes asks of them. Lengths may be in
+one unit for α, b, x, y and in another for γ, d, z. n2, n1 and −n0 = p s are N c2, N c1 and N c0's size; delta is
+3 N⁴ Δ, slope_at_B is N t² g'(B), slope_at_A N q² g'(−A).
+
+**An axis that leans.** The quartic of the pair, and its discriminant: with p, q, s, t the squares of α, b, γ, d, and w
+that of the axis' length,
+
+    F(λ) = λ (λ E + (p + qλ)(G − λ m)) − (1 + λ)(p + qλ)(k0 + k1 λ − k2 λ²) = f4 λ⁴ + f3 λ³ + f2 λ² + f1 λ + f0
+
+is p² q² s t w det(S + λH), as tests/kernel/test_tilted_integers.py checks. Lengths have one unit, the axis another.
+`minus_f0` is the size of f0, which is negative. `delta` is 27 times the discriminant.
 """
 
 from __future__ import annotations
 
-from hypcheck.derivation.program import Argument, Program, needed, program_of
-from hypcheck.geometry.pair import COLUMNS
+from hypcheck.derivation.program import Argument, Program, program_of
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
 
 INTEGERS = program_of(
     "integers",
@@ -77,6 +86,122 @@ INTEGERS = program_of(
 """,
 )
 
+QUARTIC = program_of(
+    "tilted-quartic",
+    TILTED_COLUMNS,
+    """
+    p = alpha * alpha
+    q = b * b
+    s = gamma * gamma
+    t = d * d
+    axis_xx = axis_x * axis_x
+    axis_yy = axis_y * axis_y
+    level = axis_xx + axis_yy
+    upward = axis_z * axis_z
+    w = level + upward
+    xx = x * x
+    yy = y * y
+    radius = xx + yy
+    height = z * z
+    distance = radius + height
+    axis_x_y = axis_x * y
+    axis_y_x = axis_y * x
+    cross = axis_x_y - axis_y_x
+    axis_x_x = axis_x * x
+    axis_y_y = axis_y * y
+    axis_z_z = axis_z * z
+    along_level = axis_x_x + axis_y_y
+    along = along_level + axis_z_z
+    t_minus_q = t - q
+    s_plus_p = s + p
+    scale_E = t_minus_q * s_plus_p
+    cross_cross = cross * cross
+    E = scale_E * cross_cross
+    s_radius = s * radius
+    p_height = p * height
+    slope = s_radius - p_height
+    G = w * slope
+    tw = t * w
+    tw_distance = tw * distance
+    along_along = along * along
+    along_part = t_minus_q * along_along
+    m = tw_distance - along_part
+    ps = p * s
+    k0 = ps * w
+    t_level = t * level
+    q_upward = q * upward
+    along_z = t_level + q_upward
+    t_upward = t * upward
+    q_level = q * level
+    across_z = t_upward + q_level
+    s_along_z = s * along_z
+    p_across_z = p * across_z
+    k1 = s_along_z - p_across_z
+    k2 = q * tw
+    p_plus_q = p + q
+    minus_f0 = p * k0
+    G_k1 = G - k1
+    p_G_k1 = p * G_k1
+    pq_k0 = p_plus_q * k0
+    f1 = p_G_k1 - pq_k0
+    G_k0 = G - k0
+    q_G_k0 = q * G_k0
+    k2_m = k2 - m
+    p_k2_m = p * k2_m
+    pq_k1 = p_plus_q * k1
+    E_q = E + q_G_k0
+    E_q_p = E_q + p_k2_m
+    f2 = E_q_p - pq_k1
+    m_k1 = m + k1
+    q_m_k1 = q * m_k1
+    pq_k2 = p_plus_q * k2
+    f3 = pq_k2 - q_m_k1
+    f4 = q * k2
+""",
+)
+
+COEFFICIENTS = ("minus_f0", "f1", "f2", "f3", "f4")
+
+INVARIANTS = program_of(
+    "tilted-invariants",
+    COEFFICIENTS,
+    """
+    f2_f2 = f2 * f2
+    f3_f1 = f3 * f1
+    f4_f0 = f4 * minus_f0
+    thrice_f3_f1 = 3 * f3_f1
+    twelvefold_f4_f0 = 12 * f4_f0
+    two_terms = f2_f2 - thrice_f3_f1
+    I = two_terms - twelvefold_f4_f0
+    ninefold_f3_f1 = 9 * f3_f1
+    many_f4_f0 = 72 * f4_f0
+    twice_f2_f2 = 2 * f2_f2
+    one_factor = ninefold_f3_f1 - many_f4_f0
+    factor = one_factor - twice_f2_f2
+    middle = f2 * factor
+    f3_f3 = f3 * f3
+    f0_f3_f3 = minus_f0 * f3_f3
+    f1_f1 = f1 * f1
+    f4_f1_f1 = f4 * f1_f1
+    ends = f0_f3_f3 - f4_f1_f1
+    many_ends = 27 * ends
+    J = middle + many_ends
+""",
+)
+"""I = 12 f4 f0 − 3 f3 f1 + f2² and J = 72 f4 f2 f0 + 9 f3 f2 f1 − 27 f4 f1² − 27 f0 f3² − 2 f2³."""
+
+DISCRIMINANT = program_of(
+    "tilted-discriminant",
+    ("I", "J"),
+    """
+    I_I = I * I
+    I_I_I = I_I * I
+    fourfold_I = 4 * I_I_I
+    J_J = J * J
+    delta = fourfold_I - J_J
+""",
+)
+
 FLOAT64_BITS = 2098
 """Bits of the largest float64 in units of the smallest: 2¹⁰²⁴ / 2⁻¹⁰⁷⁴."""
 
@@ -101,18 +226,3 @@ def bits_counted(program: Program, of_inputs: int = FLOAT64_BITS) -> dict[str, i
         else:
             raise ValueError(f"program {program.name}: step {step.name}: {step.operation} is no operation on integers")
     return bits
-
-
-def limb_products(program: Program, wanted: tuple[str, ...], of_inputs: int = FLOAT64_BITS, limb: int = 64) -> int:
-    """The most products of two limbs that the steps which lead to `wanted` take, by the method of school."""
-    bits = bits_counted(program, of_inputs)
-
-    def limbs(argument: Argument) -> int:
-        return -(-(bits[argument] if isinstance(argument, str) else abs(argument).bit_length()) // limb)
-
-    products = (step.arguments for step in needed(program, wanted) if step.operation == "mul")
-    return sum(limbs(left) * limbs(right) for left, right in products)
-
-
-WORST = ("delta", "slope_at_B", "ring_excess")
-"""What the rule asks of a row at most: where there is no ring it is less."""

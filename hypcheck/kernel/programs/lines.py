@@ -1,6 +1,7 @@
-"""The programs of the first stage: half planes that prove a position of one scene, in double and in single precision.
+"""The programs of lines: half planes and half spaces that prove positions of one scene, and what they prove of ways.
 
-In the plane of R = x² + y² and T = z² the exterior positions are the union over λ in (0, B) of the half planes
+**Half planes.** They are the first stage. In the plane of R = x² + y² and T = z² the exterior positions are the union
+over λ in (0, B) of the half planes
 
     R > b² (A+λ)(1 + 1/λ) + (b²/d²) (A+λ)/(B−λ) T,
 
@@ -21,9 +22,9 @@ Rows whose R + T is not below CAP = 2⁴⁰⁰ are for the next stage: nothing o
 NaN, or the largest finite number that an overflow becomes when it is rounded down, passes for a proof. It suffices to
 ask that of the sum of R + T over many rows, since no term is negative.
 
-PARALLEL_LINES is for numpy, in single precision: a row there costs what its passes over arrays cost, and float32 halves
-each. The two lines that bound a side, beyond and under, or within and above, get one slope M, so that they are two
-thresholds of the same number:
+**Single precision.** PARALLEL_LINES is for numpy: a row there costs what its passes over arrays cost, and float32
+halves each. The two lines that bound a side, beyond and under, or within and above, get one slope M, so that they are
+two thresholds of the same number:
 
     R − M T > K proves exterior, R − M T < K not exterior; likewise on the inner side.
 
@@ -42,11 +43,54 @@ says T ≤ `reach` of the exact T.
 
 Range. With `reach` and the squares of the sizes in 2^±60, M ≤ 2⁴⁰ and R̂ < FLOAT32_CAP = 2¹⁰⁰ nothing overflows;
 infinities, NaN and the largest float32 are not below it. Scenes outside are left to the lines in float64.
+
+**Half spaces.** They are the first stage of a spheroid that leans, for one orientation. In the basis in which both
+matrices are diagonal, with P1, P2 and Q the squares of the centre's components,
+
+    exterior positions are the union over λ in (0, B) of   P1 + β P2 > κ + ν Q,
+        β = (A1+λ)/(A2+λ),   κ = (A1+λ)(1 + 1/λ),   ν = (A1+λ)/(B−λ);
+
+for interior ones the sign of the comparison is turned, and λ = −μ with μ in (0, min(A1, A2)). So those that are not
+exterior form a convex set, as do those that are not interior. A plane under corners that are not exterior is a proof,
+as a chord is: the part of 0 ≤ Q ≤ Q_most with P1 + a P2 ≤ K + M Q is the hull of its corners on the two P axes and of
+what lies below them in P1 and P2, or above them in Q; likewise the other side.
+
+The components are computed with an error. With |C| ≤ max(b, d) √N, N = P1 + P2 + Q, the rounded component is within
+η √N of the exact one, η = max(b, d) Σ (4u |r| + e) over the row r of the basis, known within e; so each square is
+within ζ N, ζ = 2η + η² + 2u, and a test with a, K, M decides what the plane with
+
+    1 ± z, a ± z, K, M ∓ z,        z ≥ (1 + a + M) ζ,
+
+says of the exact squares. core/parts/tilted_scene.h chooses a, K, M so that this is a plane that was proved. u = 2⁻⁵²
+covers every rounding mode. The comparison's own roundings, 2 on the left and 2 on the right of positive terms, are in
+MARGIN, and so is underflow, where K ≥ LEAST_CONSTANT and a, M ≤ GREATEST_SLOPE. |C|² summed over a block is below CAP;
+with sizes in 2^±100 no product overflows then, and NaN is not below it.
+
+**Straight ways.** The centre goes along (x, y, z) + s (u, v, w), 0 ≤ s ≤ 1, and R − M T − K is a quadratic in s there.
+Beside a line that proves exterior positions (side 1, TANGENT_BEYOND) it is to be positive, beside one that proves
+interior positions (side −1, TANGENT_WITHIN and TANGENT_HIGH) negative. PIECE gives three numbers with
+
+    side (R − M T − K) ≥ here + 2 slope s + bend s²   for all s in [0, 1].
+
+Rounding (u = 2⁻⁵², which covers every rounding mode). A term carries at most 4 factors: R two and one for the
+difference, M T two, one for the sum with K and one for the difference. So each coefficient is off by 4u (1 + 4u) times
+the sum of its terms' sizes at most. 8u SLACK of that sum, as computed, is taken off: it covers the 4 factors that the
+sum carries as well, and the rounding of the last difference, u of the sum at most, with 2u to spare.
+
+Underflow. What products lose that underflow or are flushed is at most 2⁻¹⁰²¹ (2 + M) for each coefficient, with M ≤
+GREATEST_SLOPE = 2⁴⁰⁰ less than 2⁻⁶¹⁸ for all s in [0, 1]; `here` has 2u |K| ≥ 2⁻³⁵¹ to spare for that, by |K| ≥
+LEAST_CONSTANT. Overflow is excluded: who uses the result asks for `size` < CAP first, which no infinity is, nor NaN,
+nor the largest finite number.
+
+TANGENT_HIGH is TANGENT_WITHIN for μ < 1, where its K is negative: high up in a hyperboloid whose throat is narrow. K is
+−b² (A − μ)(1 − μ)/μ; the error of A − μ is added there to make K smaller, and taken off M. It carries 7 factors.
 """
 
 from __future__ import annotations
 
-from hypcheck.derivation.program import program_of
+from collections.abc import Callable
+
+from hypcheck.derivation.program import Program, program_of
 
 U = 2.0**-52
 MARGIN = 16 * U
@@ -68,7 +112,7 @@ PLACES = (0, 1, 2)
 
 LINE_CONSTANTS = tuple(f"{part}_{side}_{place}" for side in SIDES for place in PLACES for part in "KM")
 
-_PLANE = """
+_IN_REACH = """
     xx = x * x
     yy = y * y
     R = xx + yy
@@ -82,6 +126,9 @@ _ANSWERS = """
     contact = contact_in_reach and in_reach
     clear = exterior or interior
     decided = clear or contact
+"""
+
+_LINE_ANSWERS = f"""{_ANSWERS}
     not_exterior = is_under and in_reach
     exterior_decided = exterior or not_exterior
     not_interior = is_above and in_reach
@@ -89,36 +136,39 @@ _ANSWERS = """
 """
 
 
-def _line(side: str, place: int, name: str) -> str:
+def _line(side: str, place: int, holds: str) -> str:
     return f"""
     rise_{side}_{place} = M_{side}_{place} * T
     line_{side}_{place} = K_{side}_{place} + rise_{side}_{place}
-    {name} = R {SIDES[side]} line_{side}_{place}
+    {holds} = R {SIDES[side]} line_{side}_{place}
 """
 
 
-_NAMES = {"beyond": "exterior", "within": "interior", "under": "is_under", "above": "is_above"}
+_HOLDS = {"beyond": "exterior", "within": "interior", "under": "is_under", "above": "is_above"}
 _JOINED = {"beyond": "or", "within": "or", "under": "and", "above": "and"}
 
-ONE_LINE = program_of(
-    "one-line",
-    ("x", "y", "z", "reach", *LINE_CONSTANTS),
-    _PLANE,
-    *(_line(side, 0, _NAMES[side]) for side in SIDES),
-    _ANSWERS,
+
+def _one_and_two(
+    names: tuple[str, str], inputs: tuple[str, ...], place: str, border: Callable[[str, int, str], str], answers: str
+) -> tuple[Program, Program]:
+    """The program that asks one border a side, number 0, and the one that asks two, 1 and 2."""
+    one = program_of(names[0], inputs, place, *(border(side, 0, holds) for side, holds in _HOLDS.items()), answers)
+    two = program_of(
+        names[1],
+        inputs,
+        place,
+        *(border(side, number, f"{holds}_{number}") for side, holds in _HOLDS.items() for number in (1, 2)),
+        *(f"{holds} = {holds}_1 {_JOINED[side]} {holds}_2" for side, holds in _HOLDS.items()),
+        answers,
+    )
+    return one, two
+
+
+ONE_LINE, TWO_LINES = _one_and_two(
+    ("one-line", "two-lines"), ("x", "y", "z", "reach", *LINE_CONSTANTS), _IN_REACH, _line, _LINE_ANSWERS
 )
 """From x, y, z and the scene's constants to `exterior`, `interior` and `decided`, and what settles one side alone
-(`exterior_decided`, `interior_decided`), where R_plus_T < CAP."""
-
-TWO_LINES = program_of(
-    "two-lines",
-    ("x", "y", "z", "reach", *LINE_CONSTANTS),
-    _PLANE,
-    *(_line(side, place, f"{_NAMES[side]}_{place}") for side in SIDES for place in (1, 2)),
-    *(f"{_NAMES[side]} = {_NAMES[side]}_1 {_JOINED[side]} {_NAMES[side]}_2" for side in SIDES),
-    _ANSWERS,
-)
-"""The same with two lines a side: more work a row, and fewer rows left."""
+(`exterior_decided`, `interior_decided`), where R_plus_T < CAP. Two lines are more work a row, and leave fewer rows."""
 
 # The constants of a half plane from any λ in (0, B), or any μ in (1, A). `gap` is B − λ in units of 1/d², `across`
 # A ± λ in units of 1/b². Where these are differences they may cancel: their error, at most 3u of their terms, is taken
@@ -171,6 +221,33 @@ TANGENT_WITHIN = program_of(
 """,
 )
 
+TANGENT_HIGH = program_of(
+    "tangent-high",
+    ("alpha", "gamma", "b", "d", "mu", "u_8", "more", "less"),
+    """
+    p = alpha * alpha
+    q = b * b
+    q_mu = q * mu
+    across = p - q_mu                   # b² (A − μ)
+    across_terms = p + q_mu
+    across_error = u_8 * across_terms
+    across_least = across - across_error
+    across_most = across + across_error
+    one_minus_mu = 1 - mu
+    product = across_most * one_minus_mu
+    fall = product / mu                 # b² (A − μ)(1 − μ)/μ
+    fall_most = more * fall
+    s = gamma * gamma
+    t = d * d
+    t_mu = t * mu
+    along = s + t_mu                    # d² (B + μ)
+    M = across_least / along
+    M_least = less * M
+""",
+)
+"""From sizes and μ in (0, 1) to K = −fall_most and M_least of a half plane R < K + M T that proves interior positions,
+where across_least > 0."""
+
 # Whether the line K + M T passes below, or above, the points (T_0, R_0) and (T_1, R_1), hence their chord, with MARGIN
 # to spare: two factors on the left, one on the right.
 CHORD = program_of(
@@ -193,6 +270,106 @@ CHORD = program_of(
     above = above_0 and above_1
 """,
 )
+
+BASIS = ("r1_x", "r1_y", "r2_x", "r2_y", "r2_z", "r3_x", "r3_y", "r3_z")
+PLANE_CONSTANTS = tuple(f"{part}_{side}_{place}" for side in SIDES for place in PLACES for part in "aKM")
+
+SPACE_CONSTANTS = {
+    "unit": U,
+    "more_than": 1 + 2.0**-40,
+    "lost": 2.0**-1000,
+    "least_ratio": 2.0**-20,
+    "greatest_ratio": 2.0**20,
+    "greatest_zeta": 2.0**-10,
+}
+
+_COMPONENTS = """
+    xx = x * x
+    yy = y * y
+    zz = z * z
+    radius = xx + yy
+    distance = radius + zz
+    x1 = r1_x * x
+    y1 = r1_y * y
+    c1 = x1 + y1
+    x2 = r2_x * x
+    y2 = r2_y * y
+    xy2 = x2 + y2
+    z2 = r2_z * z
+    c2 = xy2 + z2
+    x3 = r3_x * x
+    y3 = r3_y * y
+    xy3 = x3 + y3
+    z3 = r3_z * z
+    c3 = xy3 + z3
+    P1 = c1 * c1
+    P2 = c2 * c2
+    Q = c3 * c3
+    in_reach = Q <= reach
+"""
+
+
+def _plane(side: str, place: int, holds: str) -> str:
+    return f"""
+    part_{side}_{place} = a_{side}_{place} * P2
+    place_{side}_{place} = P1 + part_{side}_{place}
+    rise_{side}_{place} = M_{side}_{place} * Q
+    line_{side}_{place} = K_{side}_{place} + rise_{side}_{place}
+    {holds} = place_{side}_{place} {SIDES[side]} line_{side}_{place}
+"""
+
+
+ONE_PLANE, TWO_PLANES = _one_and_two(
+    ("one-plane", "two-planes"), ("x", "y", "z", "reach", *BASIS, *PLANE_CONSTANTS), _COMPONENTS, _plane, _ANSWERS
+)
+"""From x, y, z and the scene's constants to `exterior`, `interior` and `decided`, where `distance` < CAP."""
+
+PIECE = program_of(
+    "piece",
+    ("x", "y", "z", "u", "v", "w", "K", "M", "side", "u_8"),
+    """
+    xx = x * x
+    yy = y * y
+    R = xx + yy
+    T = z * z
+    rise = M * T
+    line = K + rise
+    gap = R - line
+    size_K = abs K
+    size_line = size_K + rise
+    size_here = R + size_line
+    error_here = u_8 * size_here
+    side_gap = side * gap
+    here = side_gap - error_here
+    xu = x * u
+    yv = y * v
+    R_slope = xu + yv
+    zw = z * w
+    rise_slope = M * zw
+    gap_slope = R_slope - rise_slope
+    size_xu = abs xu
+    size_yv = abs yv
+    size_R_slope = size_xu + size_yv
+    size_rise_slope = abs rise_slope
+    size_slope = size_R_slope + size_rise_slope
+    error_slope = u_8 * size_slope
+    side_gap_slope = side * gap_slope
+    slope = side_gap_slope - error_slope
+    uu = u * u
+    vv = v * v
+    R_bend = uu + vv
+    ww = w * w
+    rise_bend = M * ww
+    gap_bend = R_bend - rise_bend
+    size_bend = R_bend + rise_bend
+    error_bend = u_8 * size_bend
+    side_gap_bend = side * gap_bend
+    bend = side_gap_bend - error_bend
+    size_ends = size_here + size_bend
+    size = size_ends + size_slope
+""",
+)
+"""From a centre, its change, a line and its side to `here`, `slope` and `bend`, valid where `size` < CAP."""
 
 
 FLOAT32_U = 2.0**-23

@@ -1,6 +1,6 @@
 """The program of the stage that decides spheroids whose axis leans in floats: any multiplier l, and what it proves.
 
-With lengths in units of b and the axis v, the quartic of programs/tilted_integers.py is F = φ d at λ = l, where
+With lengths in units of b and the axis v, the quartic of programs/integers.py is F = φ d at λ = l, where
 
     d = (p + l) k,   k = k0 + l k1 − t l²,   φ = l N/d − 1 − l,   N = l E + (p + l)(G − l m),
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hypcheck.kernel.core import generate, tilted
+from hypcheck.kernel.core import generate
 from tests.tools.processors.builds import HEADER_FOLDER, Build, run
 from tests.tools.processors.jobs import stack_used
 
@@ -65,7 +65,7 @@ class Cost:
 
 def stated() -> tuple[int, int]:
     """The bytes of stack that the header says are enough, for upright rows and for leaning ones."""
-    return 1024 * generate.kilobytes(), 1024 * tilted.kilobytes()
+    return 1024 * generate.kilobytes(), 1024 * generate.tilted_kilobytes()
 
 
 def cost(build: Build, program: Path, rows: np.ndarray, leaning: np.ndarray, folder: Path) -> Cost:

@@ -1,7 +1,7 @@
 HC_TARGET static void HC_NAME(hc_@NAME@)(const hc_scene *scene, int blocks, const double *x_of, const double *y_of,
                                           const double *z_of, int fetch, hc_signs *signs, uint64_t *left) {
     int block;
-    @LINE_CONSTANTS@
+    @FIELDS@
     for (block = 0; block < blocks; block++) {
         const int base = HC_BLOCK * block;
         HC_NUMBER sum = HC_SET(0.0);
@@ -18,10 +18,10 @@ HC_TARGET static void HC_NAME(hc_@NAME@)(const hc_scene *scene, int blocks, cons
             const HC_NUMBER y = HC_LOAD(y_of + base + at);
             const HC_NUMBER z = HC_LOAD(z_of + base + at);
             /* printed from the program "@PROGRAM@" */
-            @LINES@
+            @STEPS@
             /* end of the program "@PROGRAM@" */
             sum = sum + R_plus_T;
-            @LINE_RESULTS@
+            @RESULTS@
         }
         signs[block].plus = found.plus;
         signs[block].minus = found.minus;
