@@ -22,8 +22,7 @@ from hypcheck.bench.mesh_contenders import COAL_TRIANGLES, ONCE, TRIANGLES, InEn
 from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_names
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Rows
-from hypcheck.implementations import alternatives, tilted_alternatives
-from hypcheck.implementations.alternatives import dual_by_scene
+from hypcheck.implementations import alternatives
 from hypcheck.implementations.builtin import (
     SAMPLES,
     builtin_methods,
@@ -34,8 +33,8 @@ from hypcheck.implementations.builtin import (
 )
 from hypcheck.implementations.description import EVERYWHERE, Domain
 from hypcheck.implementations.meshes import COAL, FCL
-from hypcheck.implementations.method import Answers, ByScene, Method, by_scene
-from hypcheck.implementations.way_meshes import WAY_SOLVERS, height_of_ways, way_mesh
+from hypcheck.implementations.method import Answers, ByScene, Method, by_scene, on_scene
+from hypcheck.implementations.ways import WAY_SOLVERS, height_of_ways, way_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.truth.tilted import batch
@@ -82,7 +81,7 @@ def _formulas(methods: Methods) -> Iterable[Contender]:
 
 
 def _scene_of_formula(name: str, format_name: str) -> ByScene:
-    return partial(dual_by_scene, format_name) if name == "dual" else by_scene(FORMULAS[name], format_name)
+    return on_scene(alternatives.dual(format_name)) if name == "dual" else by_scene(FORMULAS[name], format_name)
 
 
 def _fast(methods: Methods) -> Iterable[Contender]:
@@ -105,8 +104,8 @@ def _position() -> InScalars:
 
 def _roots(methods: Methods) -> Iterable[Contender]:
     for precision in PRECISIONS:
-        scene, method = alternatives.trigonometric_roots_by_scene(precision), methods[f"trigonometric-{precision}"]
-        yield of_method(method, "numpy", "roots", scene=scene, note=THIRTEEN)
+        scene = on_scene(alternatives.trigonometric_roots(precision))
+        yield of_method(methods[f"trigonometric-{precision}"], "numpy", "roots", scene=scene, note=THIRTEEN)
     yield of_method(methods["numpy-roots"], "python", "roots", judged=2000, timed=96, note="one call a row")
     for name in (name for name in methods if name.startswith("mpmath-roots-")):
         found = of_method(methods[name], "python", "roots", judged=240, timed=4, note=_UNSAID)
@@ -124,7 +123,7 @@ def _exact(methods: Methods) -> Iterable[Contender]:
 def _shapes(methods: Methods) -> Iterable[Contender]:
     scenes: dict[str, ByScene] = {
         "bounding-sphere": alternatives.bounding_sphere_scene,
-        "bounding-cylinder": alternatives.bounding_cylinder_scene,
+        "bounding-cylinder": on_scene(alternatives.bounding_cylinder),
     }
     for name, scene in scenes.items():
         yield of_method(methods[name], "numpy", "bounding", scene=scene, note="another shape in the spheroid's place")
@@ -178,18 +177,18 @@ def tilted_contenders() -> Iterable[Contender]:
     yield _ours("nearest-point", "python", "exact", _NEAREST, _nearest, judged=240, timed=16, note=_TELLS)
     yield _ours(
         TILTED_REFERENCE, "numpy", "algebraic", "eigenvectors by numpy.linalg.eigh, then the dual function, float64",
-        tilted_alternatives.by_eigenvectors, tilted_alternatives.by_eigenvectors_scene, timed=4096,
+        alternatives.by_eigenvectors, alternatives.by_eigenvectors_scene, timed=4096,
         note="its multiplier is found by plain bisection",
     )  # fmt: skip
-    yield _ours("roots", "numpy", "roots", _ROOTS, tilted_alternatives.by_roots, timed=4096)
+    yield _ours("roots", "numpy", "roots", _ROOTS, alternatives.by_roots, timed=4096)
     shapes = "another shape in the spheroid's place"
     yield _ours(
         "upright", "C" if choice().kernel == "compiled" else "numpy", "bounding", _UPRIGHT,
-        tilted_alternatives.upright, tilted_alternatives.upright_scene, note="wrong by its axis alone",
+        alternatives.upright, alternatives.upright_scene, note="wrong by its axis alone",
     )  # fmt: skip
     yield _ours(
         "bounding-sphere", "numpy", "bounding", "the circumscribed sphere in the spheroid's place, exact",
-        tilted_alternatives.bounding_sphere, tilted_alternatives.bounding_sphere_scene, note=shapes,
+        alternatives.bounding_sphere, alternatives.bounding_sphere_scene, note=shapes,
     )  # fmt: skip
     for triangles in TRIANGLES:
         yield built_once(FCL, ELLIPSOID, triangles)

@@ -25,7 +25,7 @@ from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.meshes import FCL, PAIRINGS, height_of, scene_mesh
-from hypcheck.implementations.method import Answers
+from hypcheck.implementations.method import Answers, on_rows
 from hypcheck.processes import perform
 from hypcheck.record.measurements import BoundingLine, ConvergenceLine, PlacesLine, Scenery, StabilityLine
 from hypcheck.runs import judge
@@ -220,7 +220,7 @@ def _convergence_line(pairing: str, triangles: int, rows: Rows, truth: Answers) 
 
 
 BOUNDING_SHAPES: Mapping[str, Callable[[Rows], Answers]] = MappingProxyType(
-    {"sphere": alternatives.bounding_sphere, "cylinder": alternatives.bounding_cylinder}
+    {"sphere": alternatives.bounding_sphere, "cylinder": on_rows(alternatives.bounding_cylinder)}
 )
 BOUNDING_WORKLOADS = ("uniform", "flight")
 BOUNDING_RATIOS = tuple(2.0**exponent for exponent in range(-4, 5))

@@ -24,7 +24,7 @@ from hypcheck.bench.timing import (
     times_as_long,
 )
 from hypcheck.geometry.rows import Floats, Rows, tilted_rows
-from hypcheck.implementations.tilted_alternatives import by_eigenvectors
+from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.kernel.choice import choice
 from hypcheck.record.measurements import KernelLine
 

@@ -1,4 +1,4 @@
-"""Other ways to decide: the dual form, the roots of g, and a sphere or a cylinder about the spheroid.
+"""Other ways to decide: the dual form, the roots of g, a sphere or a cylinder about the spheroid, eigenvectors.
 
 The dual form searches the best λ without cancellation, and takes the sign of φ there. φ(λ) + 1 is a lower bound of the
 squared distance for every λ between the poles, so an answer "clear" is as good as the evaluation of φ; the search
@@ -16,6 +16,11 @@ answer is "cannot say".
 The sphere and the cylinder are circumscribed, so "clear" is right (for the cylinder except for rounding), and contact
 often is not. The sphere has the radius max(b, d), the cylinder the radius b, the half height d and an axis parallel to
 that of the hyperboloid.
+
+Spheroids that lean, rows (n, 10), are decided as one would write it without certificates. Eigenvectors turn the pair
+into a unit ball about the origin and a surface with three poles, x²/A1 + y²/A2 − z²/B = 1 (docs/mathematics.md,
+"General position"); then the greatest value of the dual function decides. The roots of det(S + λH) beside its poles
+decide as well. Plain floats err near contact.
 """
 
 from __future__ import annotations
@@ -30,10 +35,11 @@ from hypcheck.derivation.evaluation import Evaluator, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import cut
-from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Mask, Rows
-from hypcheck.implementations.method import Answers, ByRows, ByScene, in_chunks
+from hypcheck.geometry.pair import COLUMNS, UPRIGHT, Axis, Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Mask, Positions, Rows
+from hypcheck.implementations.method import Answers, ByColumns
 from hypcheck.kernel import numpy_kernel
+from hypcheck.kernel.classify import kernel
 
 AnyFloats = NDArray[Any]
 
@@ -45,32 +51,22 @@ _PHI = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
 """The dual form from the distances of λ to 0, −A and B, which the search knows more accurately than λ itself."""
 
 
-def dual_positions(rows: Rows, precision: str) -> Answers:
-    """Positions by the dual form, with all computation including the search in one float format; int8 (n,)."""
-    return in_chunks(len(rows), lambda part: _dual_sides(dict(zip(COLUMNS, rows[part].T, strict=True)), precision))
+def dual(precision: str) -> ByColumns:
+    """The dual form on columns, with all computation including the search in one float format."""
+
+    def sides(columns: Mapping[str, Any]) -> Answers:
+        found = searched(columns, precision)
+        (phi,) = outputs(_PHI, float_arithmetic(precision), found, ("phi",))
+        return np.where(phi > 0, np.sign(found["lambda_"]), 0).astype(np.int8)
+
+    return sides
 
 
-def dual_by_scene(precision: str, sizes: Sizes, x: AnyFloats, y: AnyFloats, z: AnyFloats) -> Answers:
-    """Positions by the dual form for many centres and one α, γ, b, d."""
-    fixed = dict(zip(SIZES, sizes, strict=True))
-    return in_chunks(len(x), lambda part: _dual_sides({**fixed, "x": x[part], "y": y[part], "z": z[part]}, precision))
-
-
-def searched(rows: Rows, precision: str) -> dict[str, AnyFloats]:
+def searched(columns: Mapping[str, Any], precision: str) -> dict[str, AnyFloats]:
     """The columns in a float format, and the distances of the best λ that is found in it: (n,) each."""
-    return _searched(dict(zip(COLUMNS, rows.T, strict=True)), precision)
-
-
-def _searched(columns: Mapping[str, AnyFloats | float], precision: str) -> dict[str, AnyFloats]:
     with np.errstate(all="ignore"):
         rounded = {name: np.asarray(columns[name], dtype=precision) for name in COLUMNS}
         return {**rounded, **dict(zip(DISTANCES, _best_multiplier(**rounded), strict=True))}
-
-
-def _dual_sides(columns: Mapping[str, AnyFloats | float], precision: str) -> Answers:
-    found = _searched(columns, precision)
-    (phi,) = outputs(_PHI, float_arithmetic(precision), found, ("phi",))
-    return np.where(phi > 0, np.sign(found["lambda_"]), 0).astype(np.int8)
 
 
 def _best_multiplier(
@@ -126,25 +122,10 @@ _STEPS, _EXTRA_BITS = 200, 200
 _COEFFICIENTS = Evaluator(_LISTED, float_arithmetic("float64"), _CUBIC[:-1])
 
 
-def trigonometric_roots(format_name: str) -> ByRows:
-    """A function from rows to positions by the trigonometric form, with all computation in one float format."""
+def trigonometric_roots(format_name: str) -> ByColumns:
+    """The trigonometric form on columns, with all computation in one float format."""
     ready = Evaluator(_LISTED, float_arithmetic(format_name), _CUBIC)
-
-    def answers(rows: Rows) -> Answers:
-        return in_chunks(len(rows), lambda part: _root_sides(*ready(dict(zip(COLUMNS, rows[part].T, strict=True)))))
-
-    return answers
-
-
-def trigonometric_roots_by_scene(format_name: str) -> ByScene:
-    """Positions by the trigonometric form for many centres and one α, γ, b, d."""
-    ready = Evaluator(_LISTED, float_arithmetic(format_name), _CUBIC)
-
-    def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
-        fixed = dict(zip(SIZES, sizes, strict=True))
-        return in_chunks(len(x), lambda part: _root_sides(*ready({**fixed, "x": x[part], "y": y[part], "z": z[part]})))
-
-    return answers
+    return lambda columns: _root_sides(*ready(columns))
 
 
 def _root_sides(A: Any, B: Any, c0: Any, c1: Any, c2: Any, delta: NDArray[Any]) -> NDArray[np.int8]:  # noqa: ANN401
@@ -212,41 +193,113 @@ def _side(lowest: Any, middle: Any, A: Any, B: Any) -> int:  # noqa: ANN401 - of
 
 
 def bounding_sphere(rows: Rows) -> Answers:
-    """Positions (n,) of the sphere, exact, so that all errors about the spheroid are due to the shape."""
-    spheres = rows.copy()
+    """Positions (n,) of the sphere, which no axis turns, exact, so that all errors are due to the shape."""
+    spheres = rows[:, : len(COLUMNS)].copy()
     spheres[:, 2:4] = np.maximum(rows[:, 2], rows[:, 3])[:, np.newaxis]
     return numpy_kernel.positions(spheres)
 
 
-def bounding_sphere_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
+def bounding_sphere_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, _axis: Axis = UPRIGHT) -> Answers:
     """Positions of the sphere for many centres and one α, γ, b, d."""
     alpha, gamma, b, d = sizes
     return numpy_kernel.positions_of_scene((alpha, gamma, max(b, d), max(b, d)), x, y, z)
 
 
-def bounding_cylinder(rows: Rows) -> Answers:
-    """Positions (n,) of the cylinder in plain floats."""
-    alpha, gamma, b, d, x, y, z = rows.T
-    return _cylinder(alpha, gamma, b, d, x, y, z)
+def bounding_cylinder(columns: Mapping[str, Any]) -> NDArray[np.int8]:
+    """Positions (n,) of the cylinder on columns, in plain floats.
 
-
-def bounding_cylinder_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
-    """Positions of the cylinder for many centres and one α, γ, b, d."""
-    return _cylinder(*sizes, x, y, z)
-
-
-def _cylinder(
-    alpha: Floats | float,
-    gamma: Floats | float,
-    b: Floats | float,
-    d: Floats | float,
-    x: Floats,
-    y: Floats,
-    z: Floats,
-) -> Answers:
-    # The hyperboloid's radius grows with |z|, so it is widest at the cylinder's farther end, and narrowest at its
-    # nearer end or, if that lies between the two, in the plane of the waist.
+    The hyperboloid's radius grows with |z|, so it is widest at the cylinder's farther end, and narrowest at its nearer
+    end or, if that lies between the two, in the plane of the waist.
+    """
+    alpha, gamma, b, d, x, y, z = (columns[name] for name in COLUMNS)
     r, height = np.hypot(x, y), np.abs(z)
     widest = alpha * np.hypot(1.0, (height + d) / gamma)
     narrowest = alpha * np.hypot(1.0, np.maximum(height - d, 0.0) / gamma)
-    return (r - b > widest).astype(np.int8) - (r + b < narrowest).astype(np.int8)
+    return np.asarray((r - b > widest).astype(np.int8) - (r + b < narrowest).astype(np.int8))
+
+
+TURNS = 56
+"""Bisections of the interval of λ, down to neighbouring floats: some dual functions are greatest at a pole."""
+
+
+def by_eigenvectors(rows: Rows, turns: int = TURNS) -> Positions:
+    """Positions of rows (n, 10) by numpy.linalg.eigh, and the dual function's greatest value.
+
+    By bisection for its slope, which is safe from any start. Uncertified: near contact it is sometimes wrong.
+    """
+    with np.errstate(all="ignore"):
+        return _by_dual(*_eigenbasis(rows[:, :4], rows[:, 7:]), rows[:, 4:7], turns)
+
+
+def by_eigenvectors_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis) -> Positions:
+    """The same for many centres of one spheroid, whose eigenvectors are found once."""
+    with np.errstate(all="ignore"):
+        return _by_dual(*_eigenbasis(np.array([sizes]), np.array([axis])), np.column_stack([x, y, z]), TURNS)
+
+
+def _eigenbasis(sizes: Floats, axes: Floats) -> tuple[Floats, Floats]:
+    """The poles −B, then A1 and A2 with the nearer one last, (n, 3); and the map of a centre to its components."""
+    b, d = sizes[:, 2, None, None], sizes[:, 3, None, None]
+    unit = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    along = unit[:, :, None] * unit[:, None, :]
+    root = b * np.eye(3) + (d - b) * along  # M^(-1/2)
+    values, vectors = np.linalg.eigh(root @ (_diagonal(sizes)[:, :, None] * root))
+    inverse = np.eye(3) / b + (1 / d - 1 / b) * along
+    return 1 / values, np.swapaxes(vectors, 1, 2) @ inverse
+
+
+def _diagonal(sizes: Floats) -> Floats:
+    """The diagonal of D = diag(1/α², 1/α², −1/γ²), (n, 3)."""
+    alpha, gamma = sizes[:, 0], sizes[:, 1]
+    return np.column_stack([alpha**-2, alpha**-2, -(gamma**-2)])
+
+
+def _by_dual(poles: Floats, turned: Floats, centres: Floats, turns: int) -> Positions:
+    squares = (turned @ centres[:, :, None])[:, :, 0] ** 2
+    low, high = (np.broadcast_to(-poles[:, k], len(centres)) for k in (2, 0))
+    for _ in range(turns):
+        middle = (low + high) / 2
+        rising = (poles * squares / (poles + middle[:, None]) ** 2).sum(axis=1) > 1
+        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+    at = (low + high) / 2
+    phi = at * (squares / (poles + at[:, None])).sum(axis=1) - 1 - at
+    return np.where(phi > 0, np.sign(at), 0).astype(np.int8)
+
+
+def by_roots(rows: Rows) -> Positions:
+    """Positions of rows (n, 10) by the roots of det(S + λH), which numpy.linalg.eigvals finds; real if they say so.
+
+    Exterior: two different roots between 0 and B. Interior: two between −min(A1, A2) and 0.
+    """
+    sizes, centre, axes = rows[:, :4], rows[:, 4:7], rows[:, 7:]
+    b, d = sizes[:, 2, None, None], sizes[:, 3, None, None]
+    unit = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    quadratic = np.eye(3) / b**2 + (1 / d**2 - 1 / b**2) * unit[:, :, None] * unit[:, None, :]  # M
+    linear = (quadratic @ centre[:, :, None])[:, :, 0]
+    inverse = 1 / np.column_stack([_diagonal(sizes), -np.ones(len(rows))])  # of H
+    pencil = np.empty((len(rows), 4, 4))
+    pencil[:, :3, :3], pencil[:, 3, 3] = quadratic, (linear * centre).sum(axis=1) - 1
+    pencil[:, :3, 3] = pencil[:, 3, :3] = -linear
+    roots = np.linalg.eigvals(-inverse[:, :, None] * pencil)
+    poles = np.linalg.eigvals(-inverse[:, :3, None] * quadratic).real
+    nearest = [np.where(poles * side > 0, np.abs(poles), np.inf).min(axis=1) for side in (1, -1)]
+    sides = [_pair_below(side * roots, pole) for side, pole in zip((1, -1), nearest, strict=True)]
+    return sides[0].astype(np.int8) - sides[1].astype(np.int8)
+
+
+def _pair_below(roots: NDArray[Any], pole: Floats) -> Positions:
+    """Whether two different real roots lie between 0 and the pole, (n,)."""
+    real = np.where((roots.imag == 0) & (roots.real > 0), roots.real, np.inf)
+    lowest, second = np.sort(real, axis=1)[:, :2].T
+    return np.asarray((lowest < second) & (second <= pole))
+
+
+def upright(rows: Rows) -> Answers:
+    """Positions (n,) as if the spheroid stood upright, exact, so that every error is due to its axis."""
+    return kernel().answer_rows(np.ascontiguousarray(rows[:, : len(COLUMNS)]), "position", 1)[0]
+
+
+def upright_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, _axis: Axis) -> Answers:
+    """The same for many centres of one spheroid."""
+    columns: Columns = (x, y, z)
+    return kernel().answer_scene(sizes, columns, "position", 1)[0]

@@ -159,7 +159,7 @@ class Domain:
         return inside
 
 
-EVERYWHERE = Domain(ratio=UNBOUNDED, magnitude=UNBOUNDED)
+ORDINARY, EVERYWHERE = Domain(), Domain(ratio=UNBOUNDED, magnitude=UNBOUNDED)
 
 
 def in_regime(rows: Rows, regime: str) -> Mask:
@@ -292,7 +292,7 @@ class Description:
     language: str = ""
     precision: str = "float64"
     question: str = "position"
-    domain: Domain = Domain()
+    domain: Domain = ORDINARY
     refuses: bool = False
     binary: bool = False
     time: bool = False

@@ -11,16 +11,16 @@ CANNOT_SAY if the engine refuses the mesh.
 
 The naive use of FCL builds a plain mesh for each row, as one would write it at first. It is under test, and no source
 of truth. The mesh differs from the surface by up to its sagitta on one side; docs/mesh-oracle.md shows the effect of
-that, and of FCL's own tolerances. `ellipsoid_mesh`, `sphere_mesh` and `point_mesh` are the three pairings. They answer
-as above, with CANNOT_SAY if a number of the mesh exceeds FCL's safe range. All raise UnavailableError without FCL.
+that, and of FCL's own tolerances. It has the same pairings and answers, with CANNOT_SAY also if a number of the mesh
+exceeds FCL's safe range. It raises UnavailableError without FCL.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from math import cos, hypot, isqrt, pi, sqrt
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,23 +55,30 @@ PAIRINGS = ("point", "sphere", "ellipsoid")
 class MeshLibrary:
     """A collision engine; `trouble` gives the reason why it cannot be used, or None.
 
-    `question` takes pairing, vertices, triangles, b and d, and returns None if the engine refuses the mesh; `distance`
-    takes vertices and triangles.
+    `mesh` makes the engine's object of vertices and triangles, or None where the engine refuses them. From that object
+    `collides` makes the query of the pairing sphere or ellipsoid, which has b and d, and `distance` the distance.
     """
 
     name: str
     title: str
     trouble: Callable[[], str | None]
-    question: Callable[[str, Vertices, Triangles, float, float], ContactQuery | None]
-    distance: Callable[[Vertices, Triangles], Distance | None]
+    mesh: Callable[[Vertices, Triangles], Any]
+    collides: Callable[[Any, str, float, float], ContactQuery]
+    distance: Callable[[Any], Distance]
+
+    def question(self, pairing: str, mesh: tuple[Vertices, Triangles], b: float, d: float) -> ContactQuery | None:
+        """The query of one of PAIRINGS about a mesh; None if the engine refuses the mesh."""
+        built = self.mesh(*mesh)
+        if built is None:
+            return None
+        if pairing != "point":
+            return self.collides(built, pairing, b, d)
+        distance = self.distance(built)
+        return lambda x, y, z, _turn=None: distance(x, y, z) <= 1.0
 
 
-def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> ContactQuery | None:
-    if pairing == "point":
-        return _within_1(_fcl_distance(vertices, triangles))
-    fcl, mesh = fcl_module(), mesh_object(vertices, triangles)
-    if mesh is None:
-        return None
+def _fcl_collides(mesh: object, pairing: str, b: float, d: float) -> ContactQuery:
+    fcl = fcl_module()
     body = fcl.CollisionObject(fcl.Sphere(1.0) if pairing == "sphere" else fcl.Ellipsoid(b, b, d))
     request = fcl.CollisionRequest()
 
@@ -84,10 +91,8 @@ def _fcl(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: fl
     return collides
 
 
-def _fcl_distance(vertices: Vertices, triangles: Triangles) -> Distance | None:
-    fcl, mesh = fcl_module(), mesh_object(vertices, triangles)
-    if mesh is None:
-        return None
+def _fcl_distance(mesh: object) -> Distance:
+    fcl = fcl_module()
     point, near = fcl.CollisionObject(fcl.Sphere(0.0)), fcl.DistanceRequest()
 
     def distance(x: float, y: float, z: float) -> float:
@@ -97,22 +102,8 @@ def _fcl_distance(vertices: Vertices, triangles: Triangles) -> Distance | None:
     return distance
 
 
-def _within_1(distance: Distance | None) -> ContactQuery | None:
-    if distance is None:
-        return None
-
-    def within(x: float, y: float, z: float, _turn: Floats | None = None) -> bool:
-        return distance(x, y, z) <= 1.0
-
-    return within
-
-
-def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: float) -> ContactQuery | None:
-    if pairing == "point":
-        return _within_1(_coal_distance(vertices, triangles))
-    coal, mesh = _coal_module(), _coal_mesh(vertices, triangles)
-    if mesh is None:
-        return None
+def _coal_collides(mesh: object, pairing: str, b: float, d: float) -> ContactQuery:
+    coal = _coal_module()
     shape = coal.Sphere(1.0) if pairing == "sphere" else coal.Ellipsoid(b, b, d)
     here, there = coal.Transform3s(), coal.Transform3s()
     request = coal.CollisionRequest()
@@ -126,10 +117,8 @@ def _coal(pairing: str, vertices: Vertices, triangles: Triangles, b: float, d: f
     return collides
 
 
-def _coal_distance(vertices: Vertices, triangles: Triangles) -> Distance | None:
-    coal, mesh = _coal_module(), _coal_mesh(vertices, triangles)
-    if mesh is None:
-        return None
+def _coal_distance(mesh: object) -> Distance:
+    coal = _coal_module()
     point, here, there, near = coal.Sphere(0.0), coal.Transform3s(), coal.Transform3s(), coal.DistanceRequest()
 
     def distance(x: float, y: float, z: float) -> float:
@@ -163,8 +152,8 @@ def _coal_trouble() -> str | None:
     return None
 
 
-FCL = MeshLibrary("fcl", "FCL", availability, _fcl, _fcl_distance)
-COAL = MeshLibrary("coal", "coal", _coal_trouble, _coal, _coal_distance)
+FCL = MeshLibrary("fcl", "FCL", availability, mesh_object, _fcl_collides, _fcl_distance)
+COAL = MeshLibrary("coal", "coal", _coal_trouble, _coal_mesh, _coal_collides, _coal_distance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,7 +260,7 @@ def scene_mesh(engine: MeshLibrary, pairing: str, sizes: Sizes, height: float, t
     scaled = grid_of(alpha / b, gamma / d, height / d, triangles)
     whole = pairing == "ellipsoid"
     grid = MeshGrid(alpha, gamma, height, scaled.around, scaled.along) if whole else scaled
-    touches = engine.question(pairing, *grid.mesh(), b, d)
+    touches = engine.question(pairing, grid.mesh(), b, d)
     return SceneMesh(sizes, (1.0, 1.0, 1.0) if whole else (b, b, d), scaled.deviation, grid.triangles, touches)
 
 
@@ -290,8 +279,7 @@ _MARGIN = 1.1
 """The mesh covers this many semi-axes on each side of the body."""
 
 
-@dataclass(frozen=True, slots=True)
-class FclBody:
+class _Body(NamedTuple):
     """A pair for FCL: the surface about the origin, the body turned to azimuth 0, at (rho, 0, z)."""
 
     alpha: float
@@ -302,32 +290,21 @@ class FclBody:
     z: float
 
 
-Query = Callable[[FclBody, object], bool]
-
-
-def ellipsoid_mesh(rows: Rows, triangles: int = 2000) -> Positions:
-    """Positions (n,) of rows (n, 7): fcl.collide of an Ellipsoid and a mesh of about that many triangles."""
-    return _positions(rows, triangles, scaled=False, touches=_ellipsoid_touches)
-
-
-def sphere_mesh(rows: Rows, triangles: int = 2000) -> Positions:
-    """Positions (n,) of rows (n, 7): fcl.collide of a Sphere(1) and a mesh of about that many triangles."""
-    return _positions(rows, triangles, scaled=True, touches=_sphere_touches)
-
-
-def point_mesh(rows: Rows, triangles: int = 2000) -> Positions:
-    """Positions (n,) of rows (n, 7): fcl.distance of the centre and a mesh of about that many triangles, to 1."""
-    return _positions(rows, triangles, scaled=True, touches=_point_touches)
-
-
-def _positions(rows: Rows, triangles: int, *, scaled: bool, touches: Query) -> Positions:
+def naive_fcl(rows: Rows, pairing: str, triangles: int = 2000) -> Positions:
+    """Positions (n,) of rows (n, 7) by one of PAIRINGS and a mesh of about that many triangles for each row."""
     require_fcl()
     with np.errstate(all="ignore"):
-        answers = [_position(_body(row, scaled=scaled), triangles, touches) for row in rows]
-    return np.array(answers, dtype=np.int8)
+        return np.array([_position(_body(row, pairing), pairing, triangles) for row in rows], dtype=np.int8)
 
 
-def _position(body: FclBody, triangles: int, touches: Query) -> int:
+def _body(row: Floats, pairing: str) -> _Body:
+    alpha, gamma, b, d, x, y, z = row
+    if pairing == "ellipsoid":
+        return _Body(alpha, gamma, b, d, np.hypot(x, y), z)
+    return _Body(alpha / b, gamma / d, 1.0, 1.0, np.hypot(x, y) / b, z / d)
+
+
+def _position(body: _Body, pairing: str, triangles: int) -> int:
     level = (body.rho / body.alpha) ** 2 - (body.z / body.gamma) ** 2 - 1
     if np.isnan(level):
         return CANNOT_SAY
@@ -335,22 +312,15 @@ def _position(body: FclBody, triangles: int, touches: Query) -> int:
     vertices, indices = _mesh(body, triangles)
     if not len(indices):
         return side
-    if not max(np.abs(vertices).max(), *np.abs(astuple(body))) < LARGEST:
+    if not max(np.abs(vertices).max(), *np.abs(body)) < LARGEST:
         return CANNOT_SAY
-    mesh = mesh_object(vertices, indices)
-    if mesh is None:
+    touches = FCL.question(pairing, (vertices, indices), body.b, body.d)
+    if touches is None:
         return CANNOT_SAY
-    return 0 if touches(body, mesh) else side
+    return 0 if touches(body.rho, 0.0, body.z) else side
 
 
-def _body(row: NDArray[np.float64], *, scaled: bool) -> FclBody:
-    alpha, gamma, b, d, x, y, z = row
-    if scaled:
-        return FclBody(alpha / b, gamma / d, 1.0, 1.0, np.hypot(x, y) / b, z / d)
-    return FclBody(alpha, gamma, b, d, np.hypot(x, y), z)
-
-
-def _mesh(body: FclBody, triangles: int) -> tuple[Vertices, Triangles]:
+def _mesh(body: _Body, triangles: int) -> tuple[Vertices, Triangles]:
     """A square grid of about that many triangles inscribed in the surface near the body; empty if none is there.
 
     Its heights are those of the body, cut off beyond the body's greatest distance from the axis; its azimuths are those
@@ -370,29 +340,3 @@ def _mesh(body: FclBody, triangles: int) -> tuple[Vertices, Triangles]:
     row = cells + 1
     first = (np.arange(cells)[:, np.newaxis] * row + np.arange(cells)).reshape(-1, 1, 1)
     return vertices, (first + np.array([[0, 1, row + 1], [0, row + 1, row]])).reshape(-1, 3)
-
-
-def _ellipsoid_touches(body: FclBody, mesh: object) -> bool:
-    return _collides(fcl_module().Ellipsoid(body.b, body.b, body.d), body, mesh)
-
-
-def _sphere_touches(body: FclBody, mesh: object) -> bool:
-    return _collides(fcl_module().Sphere(1.0), body, mesh)
-
-
-def _point_touches(body: FclBody, mesh: object) -> bool:
-    fcl = fcl_module()
-    distance = fcl.distance(_placed(fcl.Sphere(0.0), body), mesh, fcl.DistanceRequest(), fcl.DistanceResult())
-    return bool(distance <= 1.0)
-
-
-def _collides(shape: object, body: FclBody, mesh: object) -> bool:
-    fcl = fcl_module()
-    # FCL does not reset a result between calls: each needs its own.
-    return bool(fcl.collide(_placed(shape, body), mesh, fcl.CollisionRequest(), fcl.CollisionResult()) > 0)
-
-
-def _placed(shape: object, body: FclBody) -> object:
-    fcl = fcl_module()
-    placed: object = fcl.CollisionObject(shape, fcl.Transform(np.array([body.rho, 0.0, body.z])))
-    return placed

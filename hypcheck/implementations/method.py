@@ -6,7 +6,7 @@ program are looked up once, so that a timing measures little besides the arithme
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
@@ -20,7 +20,7 @@ from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import Program, Step, hoist, split
 from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes
 from hypcheck.geometry.rows import Floats, Rows
-from hypcheck.implementations.description import Domain
+from hypcheck.implementations.description import ORDINARY, Domain
 
 Answers = NDArray[np.int8]
 
@@ -29,19 +29,19 @@ Answers = NDArray[np.int8]
 class Method:
     """A method under test.
 
-    `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be right. `answer`
-    maps valid rows, float64 (n, 7) or of ways (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1 and 0 for yes
-    and no. `timed` stands in its place where a method also gives the times of hits. `exact`
-    marks a method that is never wrong. `max_rows` limits the rows of each family for a slow one. `measured` marks a
-    method that only `bench` uses: its errors are no finding of `verify`.
+    `answer` maps valid rows, float64 (n, 7) or of ways (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1 and
+    0 for yes and no. `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be
+    right. `exact` marks a method that is never wrong. `max_rows` limits the rows of each family for a slow one.
+    `measured` marks a method that only `bench` uses: its errors are no finding of `verify`. `timed` stands in the place
+    of `answer` where a method also gives the times of hits.
     """
 
     name: str
     title: str
-    question: str
-    precision: str
     answer: Callable[[Rows], Answers] = field(repr=False)
-    domain: Domain
+    question: str = "position"
+    precision: str = "float64"
+    domain: Domain = ORDINARY
     exact: bool = False
     max_rows: int | None = None
     measured: bool = False
@@ -51,38 +51,48 @@ class Method:
 CHUNK = 8192
 """Rows of a chunk, whose temporaries stay in the cache."""
 
+ByColumns = Callable[[Mapping[str, Any]], NDArray[Any]]
+"""A function from the seven columns by name, (n,) each or a number for a size, to answers (n,)."""
+
 ByRows = Callable[[Rows], Answers]
 ByScene = Callable[[Sizes, Floats, Floats, Floats], Answers]
+
+
+def on_rows(answer: ByColumns) -> ByRows:
+    """The function on rows (n, 7), a chunk at a time."""
+    return lambda rows: in_chunks(len(rows), lambda part: answer(dict(zip(COLUMNS, rows[part].T, strict=True))))
+
+
+def on_scene(answer: ByColumns, before: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict) -> ByScene:
+    """The function on many centres and one α, γ, b, d; it is given what `before` makes of these, once a call."""
+
+    def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
+        known = before(dict(zip(SIZES, sizes, strict=True)))
+        return in_chunks(len(x), lambda part: answer({**known, "x": x[part], "y": y[part], "z": z[part]}))
+
+    return answers
 
 
 def by_rows(formula: Formula, format_name: str) -> ByRows:
     """The formula on rows in one float format: a function to answers, int8 (n,)."""
     ready = Evaluator(formula.program, float_arithmetic(format_name), (formula.answer,))
-    return lambda rows: in_chunks(len(rows), lambda part: ready(dict(zip(COLUMNS, rows[part].T, strict=True)))[0])
+    return on_rows(lambda columns: ready(columns)[0])
 
 
 def by_scene(formula: Formula, format_name: str) -> ByScene:
     """The formula for many centres and one α, γ, b, d; steps that depend on these only are evaluated once a call."""
     first, then = parts(formula)
-    arithmetic = float_arithmetic(format_name)
-    outside, inside = Evaluator(first, arithmetic, _numbers(first)), Evaluator(then, arithmetic, (formula.answer,))
-
-    def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
-        fixed = dict(zip(SIZES, sizes, strict=True))
-        known = {**fixed, **dict(zip(_numbers(first), outside(fixed), strict=True))}
-        return in_chunks(len(x), lambda part: inside({**known, "x": x[part], "y": y[part], "z": z[part]})[0])
-
-    return answers
+    arithmetic, names = float_arithmetic(format_name), tuple(step.name for step in first.steps)
+    outside, inside = Evaluator(first, arithmetic, names), Evaluator(then, arithmetic, (formula.answer,))
+    return on_scene(
+        lambda columns: inside(columns)[0], lambda sizes: {**sizes, **dict(zip(names, outside(sizes), strict=True))}
+    )
 
 
 @cache
 def parts(formula: Formula) -> tuple[Program, Program]:
     """The formula's program in two parts: the steps that depend on sizes only, and the rest."""
     return split(formula.program, (formula.answer,), SIZES)
-
-
-def _numbers(outside: Program) -> tuple[str, ...]:
-    return tuple(step.name for step in outside.steps)
 
 
 def in_chunks(count: int, answer: Callable[[slice], Any]) -> Answers:

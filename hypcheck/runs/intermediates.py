@@ -193,7 +193,10 @@ def _plain(formula: Formula, row: tuple[float, ...]) -> Prepared:
 
 
 def _dual(format_name: str, row: tuple[float, ...]) -> Prepared:
-    found = {name: values[0] for name, values in searched(np.array([row]), format_name).items()}
+    found = {
+        name: values[0]
+        for name, values in searched(dict(zip(COLUMNS, np.array([row]).T, strict=True)), format_name).items()
+    }
     if not all(np.isfinite(found[name]) for name in DISTANCES):
         return _DUAL_DECIDED, found, {}
     columns = dict(zip(COLUMNS, map(Fraction, row), strict=True))

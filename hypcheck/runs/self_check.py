@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import msgspec
@@ -21,7 +22,7 @@ from hypcheck.errors import Exit, RunOutcome
 from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations.alternatives import numpy_roots
 from hypcheck.implementations.builtin import builtin, builtin_methods, fast_scene, methods_without_meshes
-from hypcheck.implementations.meshes import point_mesh
+from hypcheck.implementations.meshes import naive_fcl
 from hypcheck.implementations.method import Answers, Method
 from hypcheck.processes import Advance, Stage, in_order
 from hypcheck.record import Recorder, lines
@@ -68,7 +69,12 @@ def timed_methods(*, meshes: bool) -> list[TimedMethod]:
     ]
     if meshes and ORACLES["mesh"].available() is None:
         found += [
-            TimedMethod("FCL point-mesh", "distance to a mesh of 2,000 triangles built for each row", point_mesh, 12),
+            TimedMethod(
+                "FCL point-mesh",
+                "distance to a mesh of 2,000 triangles built for each row",
+                partial(naive_fcl, pairing="point"),
+                12,
+            ),
             TimedMethod("FCL certified", "two one-sided meshes built for each row; contact or clear only", _mesh, 60),
         ]
     return found

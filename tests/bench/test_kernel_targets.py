@@ -15,7 +15,7 @@ from hypcheck.bench.compiled_targets import LEVEL_FLAGS, TOWER_SIZES, c_baseline
 from hypcheck.bench.timing import KernelTarget, Samples
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.rows import tilted_rows
-from hypcheck.implementations.tilted_alternatives import by_eigenvectors
+from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.kernel.choice import LEVELS, choice
 from hypcheck.record import SCHEMA
 from hypcheck.record.fields import as_json

@@ -16,7 +16,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, first_trouble
 from hypcheck.implementations.builtin import passage_methods
 from hypcheck.implementations.session import Limits
-from hypcheck.implementations.way_meshes import WAY_SOLVERS
+from hypcheck.implementations.ways import WAY_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
 from hypcheck.report import markdown

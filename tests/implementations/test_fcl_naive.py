@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,13 +12,13 @@ import pytest
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.meshes import ellipsoid_mesh, point_mesh, sphere_mesh
+from hypcheck.implementations.meshes import PAIRINGS, naive_fcl
 from hypcheck.truth.mesh import verdict
 from tests.support.fractions_truth import exact_position, near_contact_rows, tangent_row
 
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")
 
-METHODS = [ellipsoid_mesh, sphere_mesh, point_mesh]
+METHODS = [partial(naive_fcl, pairing=pairing) for pairing in PAIRINGS]
 
 CLEAR_OF_DOUBT = np.array(
     [
@@ -63,7 +64,7 @@ def test_naive_fcl_is_wrong_near_contact_where_the_certified_mesh_is_right(metho
 
 def test_naive_fcl_with_more_triangles_has_fewer_errors_but_some():
     rows, positions = rows_at_gap(Fraction(1, 2**16), 1.0)
-    wrong = [np.count_nonzero(point_mesh(rows, triangles) != positions) for triangles in (50, 5000)]
+    wrong = [np.count_nonzero(naive_fcl(rows, "point", triangles) != positions) for triangles in (50, 5000)]
     assert wrong[0] > wrong[1] > 0
 
 
@@ -71,8 +72,8 @@ def test_naive_fcl_with_ellipsoids_misses_contacts_of_flat_spheroids():
     missed = {}
     for flatness in (1.0, 2.0**-20):
         rows, positions = rows_at_gap(Fraction(1, 2**4), flatness)
-        assert sphere_mesh(rows).tolist() == positions.tolist()
-        missed[flatness] = np.count_nonzero((ellipsoid_mesh(rows) != 0) & (positions == 0))
+        assert naive_fcl(rows, "sphere").tolist() == positions.tolist()
+        missed[flatness] = np.count_nonzero((naive_fcl(rows, "ellipsoid") != 0) & (positions == 0))
     assert missed[1.0] == 0
     assert missed[2.0**-20] >= np.count_nonzero(positions == 0) / 2
 

@@ -103,7 +103,7 @@ def test_scene_mesh_with_more_triangles_has_fewer_errors_near_contact(engine):
 
 
 def test_scene_mesh_answers_cannot_say_if_the_engine_refuses_the_mesh():
-    refusing = replace(FCL, question=lambda *_: None)
+    refusing = replace(FCL, mesh=lambda *_: None)
     rows = WORKLOADS["uniform"].rows(1, 3)
     assert scene_mesh(refusing, "point", TOWER, 25.0, 100).answers(rows).tolist() == [CANNOT_SAY] * 3
 

@@ -12,7 +12,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import ways
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.meshes import COAL, FCL
-from hypcheck.implementations.way_meshes import WAY_SOLVERS, ball_mesh, height_of_ways, hits_and_times, way_mesh
+from hypcheck.implementations.ways import WAY_SOLVERS, ball_mesh, height_of_ways, hits_and_times, way_mesh
 
 HERE = [name for name, solver in WAY_SOLVERS.items() if solver.engine.trouble() is None]
 NEEDS_FCL = pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
@@ -93,7 +93,7 @@ def test_a_way_too_long_for_an_engine_is_answered_cannot_say(name):
 
 
 def test_way_mesh_answers_cannot_say_if_the_engine_refuses_the_mesh():
-    refusing = replace(WAY_SOLVERS["passage-fcl-naive-10"], meets=lambda *_: None)
+    refusing = replace(WAY_SOLVERS["passage-fcl-naive-10"], engine=replace(FCL, mesh=lambda *_: None))
     assert way_mesh(refusing, SIZES, 20.0).answers(ROWS).tolist() == [CANNOT_SAY] * len(ROWS)
 
 

@@ -7,7 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.implementations.alternatives import dual_positions
+from hypcheck.implementations.alternatives import dual
+from hypcheck.implementations.method import on_rows
 from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.classify import classify
 from tests.tools.mutants import exactly
@@ -55,19 +56,19 @@ def last_stage(rows):
 @right()
 def dual_form_in_float64(rows):
     """The dual form in float64, which stays within a unit; at the extremes it overflows, and is rejected there."""
-    return dual_positions(rows, "float64")
+    return on_rows(dual("float64"))(rows)
 
 
 @right(claim=("--precision", "float32"))
 def dual_form_in_float32(rows):
     """The dual form in float32, which stays within two units of it."""
-    return dual_positions(rows, "float32")
+    return on_rows(dual("float32"))(rows)
 
 
 @right(claim=("--precision", "float16"))
 def dual_form_claimed_for_float16(rows):
     """The dual form in float32, claimed for float16."""
-    return dual_positions(rows, "float32")
+    return on_rows(dual("float32"))(rows)
 
 
 @right(claim=("--question", "exterior"), asked=NO_TOLERANCE)
@@ -169,7 +170,7 @@ def moderate_ratios(rows):
 @right(claim=("--domain", '{"ratio": [1e-8, 1e8], "magnitude": [1e-6, 1e6]}'), asked=("--families", "extreme,*"))
 def dual_form_within_its_ranges(rows):
     """The dual form in float64, which declares the ordinary ranges and so is asked no more of the extreme families."""
-    return dual_positions(rows, "float64")
+    return on_rows(dual("float64"))(rows)
 
 
 @right(asked=NO_TOLERANCE)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hypcheck.implementations.alternatives import dual_positions
+from hypcheck.implementations.alternatives import dual
+from hypcheck.implementations.method import on_rows
 from tests.tools.mutants.exactly import position
 from tests.tools.mutants.expectation import EXTREME, NO_TOLERANCE, wrong
 
@@ -63,13 +64,13 @@ def small_squares_are_zero(rows):
 @wrong(asked=EXTREME)
 def dual_form_in_float64(rows):
     """The dual form in plain float64, which overflows, with no range declared."""
-    return dual_positions(rows, "float64")
+    return on_rows(dual("float64"))(rows)
 
 
 @wrong(claim=("--domain", '{"ratio": [0, 1e300], "magnitude": [0, 1e300]}'), asked=EXTREME)
 def claims_everything(rows):
     """The same where all of float64 is claimed: no other family goes so far."""
-    return dual_positions(rows, "float64")
+    return on_rows(dual("float64"))(rows)
 
 
 @wrong(asked=EXTREME)

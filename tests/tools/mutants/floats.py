@@ -11,7 +11,8 @@ from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.formulas import answers as evaluated
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations import alternatives
-from hypcheck.implementations.alternatives import dual_positions
+from hypcheck.implementations.alternatives import dual
+from hypcheck.implementations.method import on_rows
 from hypcheck.kernel import numpy_kernel
 from tests.tools.mutants.exactly import position, signs
 from tests.tools.mutants.expectation import NO_TOLERANCE, wrong
@@ -47,31 +48,31 @@ def _by_bisection(rows, steps):
 @wrong()
 def dual_form_in_float32(rows):
     """Claims float64, and computes the dual form in float32."""
-    return dual_positions(rows, "float32")
+    return on_rows(dual("float32"))(rows)
 
 
 @wrong(claim=FLOAT32)
 def dual_form_in_float16(rows):
     """Claims float32, and computes the dual form in float16."""
-    return dual_positions(rows, "float16")
+    return on_rows(dual("float16"))(rows)
 
 
 @wrong(claim=("--precision", "x87"))
 def x87_in_name_only(rows):
     """Claims x87, and computes the dual form in float64."""
-    return dual_positions(rows, "float64")
+    return on_rows(dual("float64"))(rows)
 
 
 @wrong(claim=("--precision", "exact"))
 def exact_in_name_only(rows):
     """Claims to be exact, and computes the dual form in float64."""
-    return dual_positions(rows, "float64")
+    return on_rows(dual("float64"))(rows)
 
 
 @wrong(asked=NO_TOLERANCE)
 def dual_form_rounded(rows):
     """The dual form in float64: backward stable, and not exact."""
-    return dual_positions(rows, "float64")
+    return on_rows(dual("float64"))(rows)
 
 
 @wrong()

@@ -1,10 +1,11 @@
-"""The methods that only bench uses keep what they promise."""
+"""Methods that only bench uses keep what they promise; those for spheroids that lean are right away from contact."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+import hypcheck
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
@@ -12,11 +13,25 @@ from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import alternatives
 from hypcheck.implementations import method as formula
-from hypcheck.implementations.alternatives import dual_by_scene, dual_positions
+from hypcheck.implementations.alternatives import (
+    bounding_cylinder,
+    bounding_sphere,
+    bounding_sphere_scene,
+    by_eigenvectors,
+    by_eigenvectors_scene,
+    by_roots,
+    dual,
+    numpy_roots,
+    trigonometric_roots,
+    upright,
+    upright_scene,
+)
 from hypcheck.implementations.builtin import builtin, builtin_methods
+from hypcheck.implementations.method import on_rows, on_scene
 from hypcheck.kernel import numpy_kernel
 from hypcheck.truth import float_filter
-from hypcheck.vectors.families import FAMILIES, select
+from hypcheck.truth.tilted import batch
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
 
 BY_PAIRS = [name for name, each in FORMULAS.items() if each.classifies_pairs]
 
@@ -57,20 +72,17 @@ def test_a_formula_answers_rows_of_several_chunks_as_those_of_one(tower):
 
 
 @pytest.mark.parametrize(
-    ("by_rows", "by_scene"),
-    [
-        (alternatives.trigonometric_roots("float64"), alternatives.trigonometric_roots_by_scene("float64")),
-        (alternatives.trigonometric_roots("float32"), alternatives.trigonometric_roots_by_scene("float32")),
-        (alternatives.bounding_sphere, alternatives.bounding_sphere_scene),
-        (alternatives.bounding_cylinder, alternatives.bounding_cylinder_scene),
-        (lambda rows: dual_positions(rows, "float64"), lambda *each: dual_by_scene("float64", *each)),
-    ],
+    "answer", [trigonometric_roots("float64"), trigonometric_roots("float32"), dual("float64"), bounding_cylinder]
 )
-def test_a_bench_method_answers_alike_by_scene_and_by_rows(by_rows, by_scene, tower):
-    assert (by_scene(*scene(tower)) == by_rows(tower)).all()
+def test_a_method_on_columns_answers_alike_by_scene_and_by_rows(answer, tower):
+    assert (on_scene(answer)(*scene(tower)) == on_rows(answer)(tower)).all()
 
 
-@pytest.mark.parametrize("answer", [alternatives.trigonometric_roots("float64"), alternatives.numpy_roots])
+def test_the_bounding_sphere_answers_alike_by_scene_and_by_rows(tower):
+    assert (bounding_sphere_scene(*scene(tower)) == bounding_sphere(tower)).all()
+
+
+@pytest.mark.parametrize("answer", [on_rows(trigonometric_roots("float64")), numpy_roots])
 def test_root_methods_are_right_away_from_contact(answer):
     regimes = [FAMILIES[name].rows(3, 250) for name in ("tower-body", "forest-type-1", "forest-type-2")]
     rows = np.concatenate([*regimes, FAMILIES["out-of-regime"].rows(3, 250)])
@@ -92,10 +104,10 @@ def test_mpmath_roots_with_50_digits_are_right_where_15_digits_are_not():
 
 def test_numpy_roots_answers_cannot_say_if_the_coefficients_overflow():
     huge = np.array([[1e200, 1e200, 1.0, 1.0, 0.0, 0.0, 0.0]])
-    assert alternatives.numpy_roots(huge).tolist() == [CANNOT_SAY]
+    assert numpy_roots(huge).tolist() == [CANNOT_SAY]
 
 
-@pytest.mark.parametrize("answer", [alternatives.bounding_sphere, alternatives.bounding_cylinder])
+@pytest.mark.parametrize("answer", [bounding_sphere, on_rows(bounding_cylinder)])
 def test_a_bounding_shape_is_never_clear_where_the_spheroid_is_not(answer, rows):
     found = answer(rows)
     claimed = found != 0
@@ -106,12 +118,12 @@ def test_a_bounding_shape_is_never_clear_where_the_spheroid_is_not(answer, rows)
 def test_bounding_sphere_is_exact_for_spheres_and_contains_other_spheroids(tower):
     spheres = tower.copy()
     spheres[:, 3] = spheres[:, 2]
-    assert (alternatives.bounding_sphere(spheres) == numpy_kernel.positions(spheres)).all()
+    assert (bounding_sphere(spheres) == numpy_kernel.positions(spheres)).all()
     tall = tower.copy()
     tall[:, 3] = 8 * tall[:, 2]
     wide = tall.copy()
     wide[:, 2] = wide[:, 3]
-    assert (alternatives.bounding_sphere(tall) == float_filter.positions(wide)).all()
+    assert (bounding_sphere(tall) == float_filter.positions(wide)).all()
 
 
 @pytest.mark.parametrize("name", ["exact-integers", "exact-oracle", "nearest-point"])
@@ -124,3 +136,53 @@ def test_methods_only_for_bench_can_be_opened_by_name():
     measured = [name for name, method in builtin_methods().items() if method.measured]
     assert {"table-2-float16", "trigonometric-float64", "mpmath-roots-100", "bounding-sphere"} <= set(measured)
     assert all(builtin(name).name == name for name in measured)
+
+
+LEANING = ("tilted-uniform", "tilted-tower")
+
+
+@pytest.mark.parametrize("name", LEANING)
+@pytest.mark.parametrize("method", [by_eigenvectors, by_roots])
+def test_numpy_methods_for_tilted_rows_are_right_away_from_contact(method, name):
+    rows = TILTED_FAMILIES[name].rows(3, 300)
+    assert (method(rows) == batch.positions(rows)).all()
+
+
+@pytest.mark.parametrize("method", [by_eigenvectors, by_roots])
+def test_numpy_methods_for_tilted_rows_are_sometimes_wrong_at_exact_tangencies(method):
+    rows = TILTED_FAMILIES["tilted-tangent"].rows(3, 200)
+    wrong = np.count_nonzero(method(rows) != hypcheck.classify(rows))
+    assert 0 < wrong < 150
+
+
+@pytest.mark.parametrize(
+    ("by_rows", "by_scene"),
+    [(by_eigenvectors, by_eigenvectors_scene), (upright, upright_scene), (bounding_sphere, bounding_sphere_scene)],
+)
+def test_a_method_for_tilted_rows_answers_alike_by_scene_and_by_rows(by_rows, by_scene):
+    rows = TILTED_FAMILIES["tilted-tower"].rows(4, 400)
+    rows[:, 7:] = rows[0, 7:]
+    found = by_scene((2.0, 17.8, 0.25, 0.15), *np.ascontiguousarray(rows[:, 4:7].T), tuple(rows[0, 7:].tolist()))
+    assert (found == by_rows(rows)).all()
+    assert len(set(found.tolist())) == 3
+
+
+def test_the_method_that_ignores_the_axis_is_right_for_spheres_and_wrong_for_others():
+    spheres, tower = (TILTED_FAMILIES[name].rows(3, 300) for name in ("tilted-sphere", "tilted-tower"))
+    assert (upright(spheres) == hypcheck.classify(spheres)).all()
+    assert (upright(tower) != hypcheck.classify(tower)).sum() > 30
+    assert (upright(tower) == hypcheck.classify(tower[:, :7])).all()
+
+
+def test_the_bounding_sphere_is_never_clear_where_the_leaning_spheroid_is_not():
+    rows = TILTED_FAMILIES["tilted-tower"].rows(3, 1000)
+    found, truth = bounding_sphere(rows), hypcheck.classify(rows)
+    assert ((found == truth) | (found == 0)).all()
+    assert (found != truth).any()
+
+
+def test_by_eigenvectors_with_few_bisections_has_more_errors():
+    rows = TILTED_FAMILIES["tilted-near-contact"].rows(3, 1000)
+    truth = hypcheck.classify(rows)
+    few, many = (np.count_nonzero(by_eigenvectors(rows, turns) != truth) for turns in (5, alternatives.TURNS))
+    assert 2 * many < few
