@@ -208,7 +208,7 @@ class ImplementationLines:
         )
 
     def _group(self, family: str, tallied: Tally) -> GroupLine:
-        wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in frozen.INVALID_METADATA
+        wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in frozen.INVALID_CONTENTS
         grave = (*((Status.WRONG,) if wrong_fails else ()), Status.UNDECIDED, *UNANSWERED)
         failing = [status.value for status in grave if tallied.counts.get(status.value)]
         name = self.used.name

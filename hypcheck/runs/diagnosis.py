@@ -29,7 +29,7 @@ from hypcheck.runs.slips import UPRIGHT_SLIPS
 from hypcheck.runs.way_slips import WAY_SLIPS
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
-from hypcheck.vectors.fixed_sizes import MARK
+from hypcheck.vectors.family import MARK
 
 CAUSES: tuple[Cause, ...] = (*PLACES, *UPRIGHT_SLIPS, *TILTED_SLIPS, *WAY_SLIPS)
 """All causes; a set of them is a number with a bit for each, in this order."""
@@ -210,7 +210,7 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
     layout = QUESTIONS[criterion.question].layout
     widths: dict[int, list[tuple[Rows, Positions]]] = {}
     for family in clean:
-        if family in frozen.INVALID_METADATA or MARK in family:
+        if family in frozen.INVALID_CONTENTS or MARK in family:
             continue
         found = frozen.frozen_rows(family)
         inside = claimed(found.rows, domain, criterion.precision, extreme=is_extreme(family), layout=layout)

@@ -49,8 +49,7 @@ from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import WAY_FAMILIES, is_extreme, parse_case_id
-from hypcheck.vectors.family import BLOCK
-from hypcheck.vectors.fixed_sizes import MARK
+from hypcheck.vectors.family import MARK
 from hypcheck.vectors.showing import invalid_row_of, vector_of
 
 _RECORDED = re.compile(r"(.+):([0-9]+)", re.ASCII | re.DOTALL)
@@ -88,10 +87,8 @@ def case_of(text: str) -> ReplayCase:
         return ReplayCase("the given row", _given_row(text))
     if "/" in text:
         case = parse_case_id(text)
-        block, place = divmod(case.index, BLOCK)
-        row = tuple(case.family.block(case.seed, block)[place].tolist())
-        return ReplayCase(text, row, case.family.layout)
-    if text.rpartition("-")[0] in frozen.INVALID_METADATA:
+        return ReplayCase(text, case.family.row(case.seed, case.index), case.family.layout)
+    if text.rpartition("-")[0] in frozen.INVALID_CONTENTS:
         of_ways = text.rpartition("-")[0] in frozen.INVALID_NAMES[WAYS]
         return ReplayCase(text, invalid_row_of(text).row, WAYS if of_ways else PAIRS)
     way = text.rpartition("-")[0] in WAY_FAMILIES

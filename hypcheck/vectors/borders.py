@@ -7,7 +7,6 @@ import numpy as np
 from hypcheck.geometry.rows import Mask, Rows
 from hypcheck.vectors.double_roots import big_integers, big_integers_of_any_length, to_rows, triples, turned
 from hypcheck.vectors.draw import Draw, in_turn, ldexp, stepped, turns
-from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import UNITS, Sizes, all_regimes, around, centred, heights, offsets, sizes
 from hypcheck.vectors.tangency import exact_maker
 
@@ -147,74 +146,4 @@ coefficient_zero = in_turn(
     exact_maker(first_coefficient_zero),
     exact_maker(first_coefficient_zero_for_any_waist),
     exact_maker(both_coefficients_zero),
-)
-
-
-BORDER_FAMILIES = (
-    Family(
-        name="near-axis",
-        version=1,
-        title="a ball that all but fills the throat",
-        source="a = 1 ± 2⁻⁵⁰ … 2⁻³, centres next to the axis and the waist, or on them",
-        purpose="two roots lie next to −a²: the sign of g at its local maximum is lost in rounding",
-        game="a ball sticks in a funnel it fits through",
-        drone="a passage just wide enough is refused, or one just too narrow taken",
-        regimes="a on both sides of 1, within 1/8",
-        make=near_axis,
-    ),
-    Family(
-        name="coefficient-zero",
-        version=1,
-        title="c1 = 0 or c2 = 0, exactly",
-        source="whole numbers that solve c1 = 0 or c2 = 0; the paper's Proposition 5 leaves such positions out",
-        purpose="interior positions with a vanishing coefficient are refused by the conditions as printed",
-        game="a flyer is stopped by nothing at places that no one can see",
-        drone="a valid movement is refused, so the drone turns in free air",
-        regimes="all four",
-        make=coefficient_zero,
-    ),
-    Family(
-        name="axis",
-        version=1,
-        title="centres on the axis",
-        source="x = y = 0, the origin among them, and heights about the one where the ball begins to fit",
-        purpose="−a² is a root of g itself, the nearest points are a circle, and a direction is 0/0",
-        game="the middle of the tunnel is the one place that fails",
-        drone="the centre line, the planner's favourite, is the one line that fails",
-        regimes="all four",
-        make=axis,
-    ),
-    Family(
-        name="waist",
-        version=1,
-        title="centres in the plane of the waist",
-        source="z = 0, near r = a − 1, r = a + 1 and the radius where both flanks are touched",
-        purpose="c² is a root of g itself, so Δ is a square there and vanishes on the ring",
-        game="on level ground at the waist's height, where everybody walks, the answer fails",
-        drone="in a level flight at the waist's height the answer fails from one end to the other",
-        regimes="all four",
-        make=waist,
-    ),
-    Family(
-        name="regime-borders",
-        version=1,
-        title="a = 1 and c² = a, and one ulp beside",
-        source="the borders of the paper's Propositions 3 and 5, where it prints both > and ≥",
-        purpose="a program that takes another path in each regime must agree with itself at the seam",
-        game="two trees of equal looks behave in two ways",
-        drone="a parameter rounded in a configuration file changes the branch taken",
-        regimes="the borders of all four",
-        make=regime_borders,
-    ),
-    Family(
-        name="out-of-regime",
-        version=1,
-        title="crossings in two curves, and clear positions next to them",
-        source="a < 1 or c² < a, outside the hypotheses of Propositions 3 and 5 of the paper",
-        purpose="Δ > 0 though the surfaces cross: Procedure 1 calls such a pair valid, the unsafe mistake",
-        game="a boulder passes into a groove that is too narrow for it",
-        drone="a drone too round for the groove, or too wide for the throat, is told that it is clear",
-        regimes="a < 1 or c² < a",
-        make=out_of_regime,
-    ),
 )

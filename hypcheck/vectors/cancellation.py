@@ -21,7 +21,7 @@ from hypcheck.geometry.rows import Rows, within
 from hypcheck.truth import backward_error, exact, float_filter
 from hypcheck.vectors.draw import Draw, ldexp, stepped, to_bits
 from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.family import Metadata, Row, rows_of
+from hypcheck.vectors.family import Row, rows_of
 from hypcheck.vectors.flags import DEFEATED, TOLERANCE_U, exactly_right, in_range, leaves_range, wrong_answers
 
 NAME = "worst-cancellation"
@@ -42,21 +42,6 @@ ROUNDS = 40
 
 EXAMINED = 16
 """Rows of a round whose backward error is measured to its digits, out of those in the highest octave."""
-
-METADATA = Metadata(
-    name=NAME,
-    version=VERSION,
-    title="where rounding does most harm, found by search",
-    source="found for Table 2 and for the sign of g at its local maximum, in float32 and in float64, for contacts "
-    f"missed and contacts imagined: from {len(STRATA)} families, seed {SEED}, {ROUNDS} rounds of local search for the "
-    "largest backward error",
-    purpose="right in exact arithmetic, the formulas cancel here until their answers are as wrong as could be found",
-    game="the invisible wall at its thickest, and the hole in the wall at its widest",
-    drone="the worst that a textbook formula does to sizes that people use",
-    regimes="all four",
-    extreme=False,
-    made_by=f"hypcheck cases freeze {NAME}",
-)
 
 
 @dataclass(frozen=True, slots=True)

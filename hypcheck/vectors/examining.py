@@ -9,50 +9,39 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 from hypcheck.errors import NothingJudgedError
 from hypcheck.geometry import rows
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, read_document
-from hypcheck.vectors import cancellation, frozen
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.family import FamilyDescription, FlagFacts, Metadata
+from hypcheck.vectors import frozen
+from hypcheck.vectors.family import FlagFacts, Metadata
 from hypcheck.vectors.file_types import type_of_content
 from hypcheck.vectors.format import REFUSALS, content_of
 from hypcheck.vectors.frozen import invalid_rows_of
 from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows
 
-DESCRIPTIONS: Mapping[str, FamilyDescription] = {
-    **FAMILIES,
-    cancellation.NAME: cancellation.METADATA,
-    **TILTED_FAMILIES,
-    **WAY_FAMILIES,
-    **frozen.INVALID_METADATA,
-}
-
 
 def wrong_description(head: Metadata) -> Iterator[str]:
     """A sentence for each wrong description of a known family in a file; the command that made it is not compared."""
-    known = DESCRIPTIONS.get(head.name)
+    known = frozen.head_of(head.name) if head.name in frozen.ALL_NAMES else None
     if known is None or head.version < known.version:
         return
-    for name, said, right in _differences(FamilyDescription, head, known):
+    for name, said, right in _differences(head, replace(known, made_by=head.made_by)):
         yield f"family.{name} is {said}; of {head.name} it is {right}"
 
 
 def wrong_meanings(flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts]) -> Iterator[str]:
     """A sentence for each flag whose description in a file is not the meaning that is checked."""
     for flag, facts in flags.items():
-        for name, said, right in _differences(FlagFacts, facts, known[flag]):
+        for name, said, right in _differences(facts, known[flag]):
             yield f"the {name} of the flag {flag} is {said}; it is {right}"
 
 
-def _differences(
-    kind: type[FamilyDescription | FlagFacts], there: object, known: object
-) -> Iterator[tuple[str, str, str]]:
+def _differences(there: Metadata | FlagFacts, known: Metadata | FlagFacts) -> Iterator[tuple[str, str, str]]:
     """Names of fields that differ, with what is said there, cut where it is long, and what is right, whole."""
-    for each in fields(kind):
+    for each in fields(known):
         said, right = getattr(there, each.name), getattr(known, each.name)
         if said != right:
             yield each.name, shown_json(said), json.dumps(right, ensure_ascii=False)

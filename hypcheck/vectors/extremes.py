@@ -24,7 +24,6 @@ from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import double_roots
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gather
 from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, to_bits, turns
-from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, around, beside, heights, offsets, sizes
 from hypcheck.vectors.tangency import exact_maker, two_points_on_an_axis
 
@@ -52,43 +51,6 @@ def _split(draw: Draw, ratio: Floats) -> tuple[Floats, Floats]:
     """Two lengths of this ratio, as far from 1 metre one as the other."""
     short = ldexp(draw.log_uniform(len(ratio), -1, 1), -(exponent(ratio) // 2))
     return ratio * short, short
-
-
-STIFF_FAMILIES = (
-    Family(
-        name="stiff-radial",
-        version=1,
-        title="α/b from 1e3 to 1e12",
-        source="α/b log-uniform, γ/d in [1/4, 64)",
-        purpose="A towers over every other term, and the surface is all but two planes with a slit between them",
-        game="a bullet in the slit between two discs as wide as the world passes through them, or stops in mid-air",
-        drone="a small drone between two wide canopies is told that both are far away",
-        regimes="a > 1, c² < a for most",
-        make=stiff(radial=True, axial=False),
-    ),
-    Family(
-        name="stiff-axial",
-        version=1,
-        title="γ/d from 1e3 to 1e12",
-        source="γ/d log-uniform, α/b in [1/4, 64)",
-        purpose="B towers over every other term: the surface is a cylinder until z is very large",
-        game="a flat disc slides along an endless pipe and its wall moves with the height",
-        drone="a flat drone in a tall chimney, where c² multiplies every rounding of r",
-        regimes="a on both sides of 1, c² > a",
-        make=stiff(radial=False, axial=True),
-    ),
-    Family(
-        name="stiff-both",
-        version=1,
-        title="α/b and γ/d from 1e3 to 1e12",
-        source="both log-uniform, and independent of each other",
-        purpose="Δ has degree 12: float32 overflows for a 30 m tower and a drone of 1 cm, float64 beyond 1e25",
-        game="a pebble that falls on a moon is told that it lies on it already, or never will",
-        drone="a real tower and a real small drone: an autopilot that computes in float32 refuses every flight",
-        regimes="a > 1, c² on both sides of a",
-        make=stiff(radial=True, axial=True),
-    ),
-)
 
 
 LENGTHS, DOMAIN_RATIOS = 20, 27
@@ -138,21 +100,6 @@ def _heights(draw: Draw, size: Sizes) -> Floats:
     aloft = np.where(size.a < 1, size.c / size.a * (0.5 + 8 * share), size.c * draw.log_uniform(n, -8, 8))
     kind = draw.integers(n, 0, 3)
     return np.asarray(np.choose(np.minimum(kind, 2), [8 * share, 2 * size.c * share, aloft]))
-
-
-WHOLE_DOMAIN_FAMILIES = (
-    Family(
-        name="whole-domain",
-        version=1,
-        title="sizes and ratios up to the ends of what everybody is asked",
-        source="semi-axes in 1e-6 … 1e6, α/b and γ/d in 1e-8 … 1e8, some of them exactly at the ends",
-        purpose="limits that were not declared, thresholds in metres, tables that end: right for common sizes alone",
-        game="an ant beside a mountain, in one scene: the ant walks into it",
-        drone="a map in kilometres and a sensor in micrometres are both taken at their word, and one of them is lost",
-        regimes="all four",
-        make=whole_domain,
-    ),
-)
 
 
 POWERS = (2, 4, 6, 8, 10, 12)
@@ -280,73 +227,7 @@ _touching_on_zero = in_turn(
 )
 
 
-def _in_format(name: str, game: str, drone: str) -> Family:
-    return Family(
-        name=f"extreme-{name}",
-        version=1,
-        title=f"every intermediate of Table 2 at the ends of {name}",
-        source=f"the paper, Table 2, and the limits of {name}; all numbers are 0 or normal in {name}",
-        purpose="an intermediate is infinite, 0 or NaN, and NaN compares like contact: clear pairs are refused",
-        game=game,
-        drone=drone,
-        regimes="all four",
-        make=in_turn(
-            long_ratios(FLOAT_FORMATS[name]), long_units(FLOAT_FORMATS[name]), short_coordinates(FLOAT_FORMATS[name])
-        ),
-        extreme=True,
-    )
-
-
-EXTREME_FAMILIES = (
-    _in_format(
-        "float16",
-        game="half-precision culling breaks at sizes of every room",
-        drone="a neural accelerator's arithmetic breaks at sizes of every hangar",
-    ),
-    _in_format(
-        "float32",
-        game="between planets and ants in one engine everything reads as contact",
-        drone="a tower in millimetres and a drone in kilometres: units mixed by mistake, and no warning",
-    ),
-    _in_format(
-        "float64",
-        game="a generated world runs away and takes the collision test with it",
-        drone="a wrong unit or a corrupted field gives an answer where it should give none",
-    ),
-    Family(
-        name="extreme-subnormal",
-        version=1,
-        title="lengths among the subnormal numbers",
-        source="numbers that are subnormal in float16, float32 and float64, in turn",
-        purpose="processors that flush subnormals to 0 divide by it; a valid size becomes an invalid one",
-        game="the same scene works on one console and not on the other",
-        drone="the flight computer flushes to 0 what the simulator on the desk does not",
-        regimes="all four",
-        make=subnormal,
-        extreme=True,
-    ),
-    Family(
-        name="extreme-magnitude",
-        version=1,
-        title="lengths of 1e±150 and beyond",
-        source="ordinary ratios, each group of lengths in a unit of its own",
-        purpose="the answer depends on the ratios alone, yet b² overflows or vanishes and P with it",
-        game="scaled scenes answer differently from the same scenes unscaled",
-        drone="a map in other units answers differently from the same map in metres",
-        regimes="all four",
-        make=magnitudes,
-        extreme=True,
-    ),
-    Family(
-        name="extreme-hair",
-        version=1,
-        title="tangencies missed by a coordinate of 1e-60 to 1e-300",
-        source="exact tangencies of the family tangent with a coordinate that is not quite 0",
-        purpose="the square of that coordinate decides and is lost in every sum; no λ in floats proves these answers",
-        game="nothing that a player would see: these rows tell exact programs from careful ones",
-        drone="nothing that shows in flight: these rows tell exact programs from careful ones",
-        regimes="all four",
-        make=almost_zero,
-        extreme=True,
-    ),
-)
+def at_the_ends_of(name: str) -> Maker:
+    """Every intermediate of Table 2 at the ends of a float format, all numbers being 0 or normal in it."""
+    form = FLOAT_FORMATS[name]
+    return in_turn(long_ratios(form), long_units(form), short_coordinates(form))

@@ -8,41 +8,113 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Pair
-from hypcheck.geometry.rows import PAIRS, Layout
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout
 from hypcheck.messages import suggestion
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency
-from hypcheck.vectors.family import BLOCK, Family
-from hypcheck.vectors.fixed_sizes import MARK, family_at
-from hypcheck.vectors.tilted import families as tilted_families
-from hypcheck.vectors.ways import families as way_families
+from hypcheck.vectors.family import MARK, Family
+from hypcheck.vectors.fixed_sizes import family_at
+from hypcheck.vectors.tilted import coincidences
+from hypcheck.vectors.tilted import families as tilted
+from hypcheck.vectors.ways import coincidences as touching_ways
+from hypcheck.vectors.ways import families as ways
 
-FAMILIES: dict[str, Family] = {
-    family.name: family
-    for group in (
-        scenes.SCENE_FAMILIES,
-        random_pairs.RANDOM_FAMILIES,
-        random_pairs.CHANGE_FAMILIES,
-        tangency.TANGENT_FAMILIES,
-        tangency.LADDER_FAMILIES,
-        tangency.RING_FAMILIES,
-        borders.BORDER_FAMILIES,
-        extremes.STIFF_FAMILIES,
-        extremes.WHOLE_DOMAIN_FAMILIES,
-        extremes.EXTREME_FAMILIES,
-    )
-    for family in group
-}
+
+def _table(*families: Family) -> dict[str, Family]:
+    return {family.name: family for family in families}
+
+
+FAMILIES = _table(
+    Family("forest-type-1", scenes.forest_type_1, by_place=True),
+    Family("forest-type-2", scenes.forest_type_2, by_place=True),
+    Family("tower-body", scenes.tower_body, by_place=True),
+    Family("tower-rotors", scenes.tower_rotors, by_place=True),
+    Family("flight", scenes.flight, by_place=True, movement=scenes.FLIGHT_STEPS),
+    Family("uniform", random_pairs.uniform, by_place=True),
+    Family("far-centers", random_pairs.far_centers, by_place=True),
+    Family("giant-spheroids", random_pairs.giant_spheroids, by_place=True),
+    Family("tiny-spheroids", random_pairs.tiny_spheroids, by_place=True),
+    Family("float32-exact", random_pairs.exact_in(24, 2.0**-126), by_place=True),
+    Family("float16-exact", random_pairs.exact_in(11, 2.0**-14), by_place=True),
+    Family("small-integers", random_pairs.small_integers, version=2, by_place=True),
+    Family("symmetric-images", random_pairs.symmetric_images, by_place=True),
+    Family("one-number-changed", random_pairs.one_number_changed),
+    Family("tangent", tangency.tangent),
+    Family("near-tangent-outside", tangency.near_tangent(outer=True)),
+    Family("near-tangent-inside", tangency.near_tangent(outer=False)),
+    Family("degenerate-crossing", tangency.degenerate_crossing),
+    Family("degenerate-neighbourhood", tangency.degenerate_neighbourhood),
+    Family("on-surface", tangency.on_surface),
+    Family("tangent-ladder", tangency.ladder),
+    Family("ring", tangency.ring),
+    Family("ring-neighbourhood", tangency.ring_neighbourhood),
+    Family("osculation", tangency.osculation),
+    Family("near-axis", borders.near_axis),
+    Family("coefficient-zero", borders.coefficient_zero),
+    Family("axis", borders.axis),
+    Family("waist", borders.waist),
+    Family("regime-borders", borders.regime_borders),
+    Family("out-of-regime", borders.out_of_regime),
+    Family("stiff-radial", extremes.stiff(radial=True, axial=False)),
+    Family("stiff-axial", extremes.stiff(radial=False, axial=True)),
+    Family("stiff-both", extremes.stiff(radial=True, axial=True)),
+    Family("whole-domain", extremes.whole_domain),
+    Family("extreme-float16", extremes.at_the_ends_of("float16"), extreme=True),
+    Family("extreme-float32", extremes.at_the_ends_of("float32"), extreme=True),
+    Family("extreme-float64", extremes.at_the_ends_of("float64"), extreme=True),
+    Family("extreme-subnormal", extremes.subnormal, extreme=True),
+    Family("extreme-magnitude", extremes.magnitudes, extreme=True),
+    Family("extreme-hair", extremes.almost_zero, extreme=True),
+)
 """The families of upright spheroids."""
 
-TILTED_FAMILIES: dict[str, Family] = {family.name: family for family in tilted_families.TILTED_FAMILIES}
+TILTED_FAMILIES = _table(
+    Family("tilted-uniform", tilted.uniform, tilted=True),
+    Family("tilted-tower", tilted.tower, tilted=True),
+    Family("tilted-near-contact", tilted.near_contact, tilted=True),
+    Family("tilted-tangent", coincidences.tangent, tilted=True),
+    Family("tilted-near-tangent", coincidences.near_tangent, tilted=True),
+    Family("tilted-crossing", coincidences.crossing, tilted=True),
+    Family("tilted-symmetric", tilted.symmetric, tilted=True),
+    Family("tilted-sphere", tilted.spheres, tilted=True),
+    Family("tilted-upright", tilted.upright, tilted=True),
+    Family("tilted-slight", tilted.slight, tilted=True),
+    Family("tilted-twins", coincidences.twins, tilted=True),
+    Family("tilted-ring", coincidences.ring, tilted=True),
+    Family("tilted-stiff", tilted.stiff, tilted=True),
+    Family("tilted-axis-length", tilted.any_length, tilted=True),
+    Family("tilted-small-integers", tilted.small_integers, tilted=True),
+    Family("extreme-tilted", tilted.whole_domain, tilted=True, extreme=True),
+)
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
 
-WAY_FAMILIES: dict[str, Family] = {family.name: family for family in way_families.FAMILIES}
+WAY_FAMILIES = _table(
+    Family("way-anywhere", ways.anywhere, layout=WAYS),
+    Family("way-tunnelling", ways.tunnelling, layout=WAYS),
+    Family("way-uniform", ways.uniform, layout=WAYS),
+    Family("way-tower", ways.tower, layout=WAYS),
+    Family("way-across", ways.across, layout=WAYS),
+    Family("way-grazing", touching_ways.grazing, layout=WAYS),
+    Family("way-near-graze", touching_ways.near_graze, layout=WAYS),
+    Family("way-ring", touching_ways.ring, layout=WAYS),
+    Family("way-end", touching_ways.at_an_end, layout=WAYS),
+    Family("way-begun-in-contact", ways.begun_in_contact, layout=WAYS),
+    Family("way-still", ways.still, layout=WAYS),
+    Family("way-along-a-line", ways.along_a_line, layout=WAYS),
+    Family("way-vertical", ways.vertical, layout=WAYS),
+    Family("way-horizontal", ways.horizontal, layout=WAYS),
+    Family("way-long", ways.very_long, layout=WAYS),
+    Family("way-short", ways.very_short, layout=WAYS),
+    Family("way-stiff", ways.stiff, layout=WAYS),
+    Family("way-small-integers", ways.small_integers, layout=WAYS),
+    Family("tilted-way-uniform", ways.tilted_uniform, layout=WAYS, tilted=True),
+    Family("tilted-way-end", touching_ways.tilted_end, layout=WAYS, tilted=True),
+    Family("tilted-way-ring", touching_ways.tilted_ring, layout=WAYS, tilted=True),
+    Family("tilted-way-small-integers", ways.tilted_integers, layout=WAYS, tilted=True),
+)
 """Those of ways between two positions: rows as geometry.rows.WAYS has them, upright or tilted."""
 
-_ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}
+ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}
+"""All of them, in the order in which they are listed."""
 
 EXTREME = "extreme"
 """The pattern that asks for every extreme family."""
@@ -72,7 +144,7 @@ def select(patterns: Sequence[str] = (), *, tilted: bool = False, layout: Layout
     """
     known = {
         name: family
-        for name, family in _ALL.items()
+        for name, family in ALL.items()
         if (tilted or not family.tilted) and layout in (None, family.layout)
     }
     if not patterns:
@@ -100,7 +172,7 @@ def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:
 
 def family_of(name: str) -> Family:
     """The family of exactly this name, one for given sizes (razor@2.0,…) too. Raises InputError where there is none."""
-    family = family_at(name) if MARK in name else _ALL.get(name)
+    family = family_at(name) if MARK in name else ALL.get(name)
     if family is None:
         raise InputError(f"there is no family {name!r}; {_advice(name)}")
     return family
@@ -133,19 +205,9 @@ def parse_case_id(text: str) -> CaseId:
     return CaseId(family, seed, index)
 
 
-def row_of(text: str) -> Pair | TiltedPair:
-    """The pair that a case id names. Raises InputError as parse_case_id does, and where it names a way."""
-    case = parse_case_id(text)
-    if case.family.layout is not PAIRS:
-        raise InputError(f"case {text!r} is a way between two positions, not one position")
-    number, place = divmod(case.index, BLOCK)
-    row = case.family.block(case.seed, number)[place].tolist()
-    return TiltedPair.from_row(row) if case.family.tilted else Pair.from_row(row)
-
-
 def _asks_for(pattern: str, family: Family) -> bool:
     return family.extreme if pattern == EXTREME else fnmatchcase(family.name, pattern)
 
 
 def _advice(name: str) -> str:
-    return suggestion(name, [*_ALL, EXTREME])
+    return suggestion(name, [*ALL, EXTREME])

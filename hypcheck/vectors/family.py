@@ -1,4 +1,4 @@
-"""A family of cases: its purpose, its generator of rows, and the labelled and proved cases of its file.
+"""A family of cases: its generator of rows, its description, and the labelled and proved cases of its file.
 
 The rows of a generator depend on nothing but (name, version, seed, index).
 """
@@ -8,17 +8,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
+from importlib import resources
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import PAIRS, Layout, Positions, Rows
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.draw import Draw, Maker
+
+MARK = "@"
+"""In the name of a family for given sizes, what stands before the sizes."""
 
 BLOCK = 1024
 """Rows with a random stream of their own, so that any block can be made alone and in any order."""
@@ -28,14 +34,12 @@ TOGETHER = 16
 
 
 @dataclass(frozen=True, kw_only=True)
-class FamilyDescription:
-    """The description of a family, where it is made and in its file.
+class Metadata:
+    """What a file says of its family: the name, the version of its generator, and the command that made the file.
 
-    `name`: kebab-case; `version`: of the generator, raised by every change of its output, since both are part of the
-    case ids. `title`, `source` (where the idea comes from, or how the rows are made) and `purpose` (what a wrong
-    program does here) are for people, as are `game` and `drone`: what a wrong answer here means to either. `regimes`:
-    which hyperboloids it visits, by a = α/b and c = γ/d. `extreme`: lengths near the end of a float format, so the
-    family is taken only when it is asked for.
+    `title`, `source` (where the idea comes from, or how the rows are made) and `purpose` (what a wrong program does
+    here) are for people, as are `game` and `drone`: what a wrong answer here means to either. `regimes`: which
+    hyperboloids it visits, by a = α/b and c = γ/d. `extreme`: as in Family.
     """
 
     name: str
@@ -46,23 +50,49 @@ class FamilyDescription:
     game: str
     drone: str
     regimes: str
-    extreme: bool = False
+    extreme: bool
+    made_by: str
 
 
-@dataclass(frozen=True, kw_only=True)
-class Family(FamilyDescription):
-    """One trap, and a generator of rows that lead into it.
+@cache
+def descriptions() -> dict[str, dict[str, str]]:
+    """The texts of descriptions.toml by name."""
+    text = resources.files("hypcheck.vectors").joinpath("descriptions.toml").read_text(encoding="utf-8")
+    return toml.parsed(text, "descriptions.toml")
 
+
+def described(name: str, made_by: str, *, version: int = 1, extreme: bool = False) -> Metadata:
+    """What a file of that name says, with the texts of descriptions.toml; one for given sizes has those of its trap."""
+    texts = {"regimes": "all four", **descriptions()[name.partition(MARK)[0]]}
+    return Metadata(name=name, version=version, extreme=extreme, made_by=made_by, **texts)
+
+
+Row = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Family:
+    """One trap, and a generator of rows that lead into it; descriptions.toml says what it is for.
+
+    `name`: kebab-case; `version`: of the generator, raised by every change of its output, since both are part of the
+    case ids. `extreme`: lengths near the end of a float format, so the family is taken only when it is asked for.
     `by_place`: the generator works place by place, so that it can make several blocks at one go. `movement`: so many
     consecutive rows follow one object from moment to moment; 1 where none do. `layout` says what rows are about, a
     position or a way. `tilted`: they have three numbers more, the axis of the spheroid behind the others.
     """
 
+    name: str
     make: Maker = field(repr=False)
+    version: int = 1
+    extreme: bool = False
     by_place: bool = False
     movement: int = 1
     tilted: bool = False
     layout: Layout = PAIRS
+
+    def described(self, made_by: str) -> Metadata:
+        """What a file of the family says of it, if that command made it."""
+        return described(self.name, made_by, version=self.version, extreme=self.extreme)
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -83,6 +113,11 @@ class Family(FamilyDescription):
             begin, end = max(start, first * BLOCK), min(stop, last * BLOCK)
             columns[:, begin - start : end - start] = made[:, begin - first * BLOCK : end - first * BLOCK]
         return columns
+
+    def row(self, seed: int, index: int) -> Row:
+        """Row `index` of the seed."""
+        number, place = divmod(index, BLOCK)
+        return tuple(self.block(seed, number)[place].tolist())
 
     def _blocks(self, seed: int, first: int, last: int) -> Rows:
         if last == first + 1:
@@ -109,7 +144,6 @@ TILTED_SCHEMA = "1.1.0"
 WAY_SCHEMA = "1.2.0"
 """The version of the schemas of files about ways; a reader refuses any other than these three."""
 
-Row = tuple[float, ...]
 Offset = tuple[Fraction, Fraction, Fraction]
 
 
@@ -154,13 +188,6 @@ class Vector:
     def pair(self) -> Pair:
         """The row as a query."""
         return Pair.from_row(self.row)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Metadata(FamilyDescription):
-    """What a file says of its family: its story, and the command that made the file."""
-
-    made_by: str
 
 
 @dataclass(frozen=True, slots=True)

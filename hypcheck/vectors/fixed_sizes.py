@@ -11,7 +11,6 @@ import re
 import struct
 import sys
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
@@ -24,11 +23,10 @@ from hypcheck.truth import exact
 from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.draw import Draw, ldexp, stepped, turns
-from hypcheck.vectors.family import Family
+from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
 from hypcheck.vectors.tilted import families as tilted_families
 
-MARK = "@"
 OPEN = 2.0
 """Where the centre may be anywhere, rows lie within so many waist radii of the axis and heights γ of the waist."""
 
@@ -38,14 +36,8 @@ FARTHEST = 2.0**1000
 _SPAN = re.compile(r"([xyz])=([^:]+):([^:]+)")
 
 
-@dataclass(frozen=True, slots=True)
-class _Trap:
-    """A generator of rows for fixed sizes, and what is said of its family."""
-
-    name: str
-    title: str
-    purpose: str
-    make: Callable[[FixedSizes, Draw, int], Rows]
+Trap = Callable[[FixedSizes, Draw, int], Rows]
+"""A generator of rows for fixed sizes."""
 
 
 def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
@@ -53,43 +45,33 @@ def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
     return tuple(_family(trap, setting) for setting in settings for trap in _traps(setting))
 
 
-def _traps(setting: FixedSizes) -> tuple[_Trap, ...]:
+def _traps(setting: FixedSizes) -> dict[str, Trap]:
     return TRAPS if setting.axis is None else LEANING_TRAPS
 
 
 def family_at(name: str) -> Family:
     """The family that such a name names; raises InputError saying what is wrong with it."""
     trap, _, text = name.partition(MARK)
-    known = {each.name: each for each in (*TRAPS, *LEANING_TRAPS)}
+    known = (*TRAPS, *LEANING_TRAPS)
     if trap not in known:
         raise InputError(f"there is no family {trap!r} for fixed sizes; there are {', '.join(known)}")
     setting = _parsed_sizes(text, name)
-    if known[trap] not in _traps(setting):
-        with_axis = "an axis" if known[trap] in LEANING_TRAPS else "no axis"
+    if trap not in _traps(setting):
+        with_axis = "an axis" if trap in LEANING_TRAPS else "no axis"
         raise InputError(f"{name!r} names no family: {trap} takes {with_axis}")
-    return _family(known[trap], setting)
+    return _family(trap, setting)
 
 
-def _family(trap: _Trap, setting: FixedSizes) -> Family:
+def _family(trap: str, setting: FixedSizes) -> Family:
     _require_room(setting)
-    return Family(
-        name=f"{trap.name}{MARK}{_sizes_text(setting)}",
-        version=1,
-        title=trap.title,
-        source="made for the sizes of one scene",
-        purpose=trap.purpose,
-        game="a kernel made for one level is wrong where that level is played",
-        drone="a kernel made for one mission is wrong on it",
-        regimes="that of the sizes",
-        make=partial(_made, trap, setting),
-        tilted=setting.axis is not None,
-    )
+    make = partial(_made, _traps(setting)[trap], setting)
+    return Family(f"{trap}{MARK}{_sizes_text(setting)}", make, tilted=setting.axis is not None)
 
 
-def _made(trap: _Trap, setting: FixedSizes, draw: Draw, n: int) -> Rows:
+def _made(trap: Trap, setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """The trap's rows; where sizes are so far apart that its formulas leave float64, `_rows` puts finite centres."""
     with np.errstate(all="ignore"):
-        return trap.make(setting, draw, n)
+        return trap(setting, draw, n)
 
 
 def _require_room(setting: FixedSizes) -> None:
@@ -262,14 +244,15 @@ def _float_at(ordinal: int) -> float:
     return float(struct.unpack(">d", ordinal.to_bytes(8, "big"))[0])
 
 
-TRAPS = (
-    _Trap("box", "anywhere in the region", "the everyday case, each stage in its share", _box),
-    _Trap("beside", "one radius off the surface, or nearly", "the boundary itself, from 1 to 2⁻⁵³ off it", _beside),
-    _Trap("razor", "a few floats before and behind contact", "the last digit decides", _razor),
-    _Trap("ring-about", "clear, with Δ next to 0", "an invisible wall far from the surface", _ring),
-    _Trap("zeros", "c1 or c2 is 0, or nearly", "a coefficient's sign is no help", _zeros),
-    _Trap("axes", "on the axis, in the plane of the waist, or far out", "zeros, and squares that are far apart", _axes),
-)
+TRAPS: dict[str, Trap] = {
+    "box": _box,
+    "beside": _beside,
+    "razor": _razor,
+    "ring-about": _ring,
+    "zeros": _zeros,
+    "axes": _axes,
+}
+"""What an upright spheroid is asked; descriptions.toml says what for."""
 
 
 def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted_families.Vectors:
@@ -346,12 +329,10 @@ def _leaning_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     return _held(setting, rows)
 
 
-LEANING_TRAPS = (
-    _Trap("leaning-box", "anywhere in the region", "the everyday case, each stage in its share", _leaning_box),
-    _Trap(
-        "leaning-beside", "one radius off the surface", "the boundary itself, from 1 to 2⁻⁵³ off it", _leaning_beside
-    ),
-    _Trap("leaning-razor", "a few floats before and behind contact", "the last digit decides", _leaning_razor),
-    _Trap("leaning-zeros", "coordinates that are 0, and far out", "where poles and double roots lie", _leaning_zeros),
-)
+LEANING_TRAPS: dict[str, Trap] = {
+    "leaning-box": _leaning_box,
+    "leaning-beside": _leaning_beside,
+    "leaning-razor": _leaning_razor,
+    "leaning-zeros": _leaning_zeros,
+}
 """What a spheroid that leans is asked."""

@@ -11,7 +11,7 @@ import os
 import re
 import struct
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +21,8 @@ from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.tables.streams import writing
 from hypcheck.vectors import cancellation
 from hypcheck.vectors import frozen as refusals
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES, case_id, parse_case_id
-from hypcheck.vectors.family import BLOCK, CaseFile, Family, FamilyDescription, LabelledCase, Metadata, Row
+from hypcheck.vectors.families import ALL, WAY_FAMILIES, case_id, parse_case_id
+from hypcheck.vectors.family import CaseFile, Family, LabelledCase, Row, described
 from hypcheck.vectors.file_types import FileType, type_of_rows
 from hypcheck.vectors.frozen import AnyVector, InvalidRowFile, invalid_rows_text, read_invalid_rows
 from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows
@@ -98,9 +98,7 @@ WAY_COUNTS = {name: 40 if family.tilted else 108 for name, family in WAY_FAMILIE
 
 _NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)
 
-NAMES = (*COUNTS, cancellation.NAME, *TILTED_COUNTS, *WAY_COUNTS, *refusals.INVALID_METADATA)
-
-_FAMILIES = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}
+NAMES = (*COUNTS, cancellation.NAME, *TILTED_COUNTS, *WAY_COUNTS, *refusals.INVALID_CONTENTS)
 
 Progress = Callable[[str], object]
 
@@ -126,7 +124,7 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
 
 
 def _text(name: str, path: Path) -> str:
-    if name in refusals.INVALID_METADATA:
+    if name in refusals.INVALID_CONTENTS:
         invalid = frozen_invalid_rows(read_invalid_rows(str(path)) if path.exists() else None, name)
         _require_no_faults(faults_of_invalid_rows(invalid))
         return invalid_rows_text(invalid)
@@ -137,7 +135,7 @@ def _text(name: str, path: Path) -> str:
 
 
 def _type_of(name: str) -> FileType[Any]:
-    family = _FAMILIES.get(name)
+    family = ALL.get(name)
     return type_of_rows() if family is None else type_of_rows(family.layout, tilted=family.tilted)
 
 
@@ -146,12 +144,11 @@ def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
 
     Labels of positions of upright spheroids are made quickly: all of them are made anew.
     """
-    kind, made_by = _type_of(name), f"hypcheck cases freeze {name}"
-    head = cancellation.METADATA if name == cancellation.NAME else metadata_of(_FAMILIES[name], made_by)
+    kind = _type_of(name)
     old = before.cases if before else ()
     cases = extended(name, _named(old), [tuple(row) for row in planned(name).tolist()])
     kept = () if kind is type_of_rows() else old
-    return kind.assembled(head, (*kept, *kind.labelled(cases[len(kept) :])))
+    return kind.assembled(refusals.head_of(name), (*kept, *kind.labelled(cases[len(kept) :])))
 
 
 def _named(cases: Iterable[LabelledCase]) -> list[tuple[str, Row]]:
@@ -163,13 +160,7 @@ def planned(name: str) -> Rows:
     if name == cancellation.NAME:
         return cancellation.worst_rows()
     (count,) = (counts[name] for counts in (COUNTS, TILTED_COUNTS, WAY_COUNTS) if name in counts)
-    return _FAMILIES[name].rows(SEED, count)
-
-
-def metadata_of(family: Family, made_by: str) -> Metadata:
-    """What a file says of a family."""
-    described = {each.name: getattr(family, each.name) for each in fields(FamilyDescription)}
-    return Metadata(**described, made_by=made_by)
+    return ALL[name].rows(SEED, count)
 
 
 def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:
@@ -194,8 +185,7 @@ def _next_number(ids: Iterable[str]) -> int:
 def generated_case(name: str) -> AnyVector:
     """The generated case of that id, labelled and proved. Raises InputError where there is none."""
     case = parse_case_id(name)
-    block, place = divmod(case.index, BLOCK)
-    row = tuple(case.family.block(case.seed, block)[place].tolist())
+    row = case.family.row(case.seed, case.index)
     kind = type_of_rows(case.family.layout, tilted=case.family.tilted)
     found: list[AnyVector] = kind.labelled([(case_id(case.family, case.seed, case.index), row)])
     return found[0]
@@ -204,7 +194,7 @@ def generated_case(name: str) -> AnyVector:
 def generated_text(family: Family, seed: int, count: int) -> str:
     """A vector file of the first rows of a family's seed, with generated ids."""
     named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
-    head = metadata_of(family, f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
+    head = family.described(f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
     kind = type_of_rows(family.layout, tilted=family.tilted)
     return kind.text(kind.assembled(head, kind.labelled(named)))
 
@@ -272,25 +262,10 @@ def _found_before(path: str, made_by: str, *, tilted: bool, layout: Layout) -> C
     """The file that is there, an empty one if there is none. Raises InputError if its rows are others."""
     kind = type_of_rows(layout, tilted=tilted)
     if not Path(path).exists():
-        return kind.assembled(_found_metadata(made_by), ())
+        return kind.assembled(described("found", made_by), ())
     before = kind.read(path)
     width = len(layout.tilted if tilted else layout.upright)
     if before.cases and len(before.cases[0].row) != width:
         numbers = len(before.cases[0].row)
         raise InputError(f"{path} has rows of {numbers} numbers; it must have rows of {width}, to add these")
     return before
-
-
-def _found_metadata(made_by: str) -> Metadata:
-    return Metadata(
-        name="found",
-        version=1,
-        title="rows that an implementation answered wrongly",
-        source="own; the strata of hypcheck's vectors, and local search from there",
-        purpose="an implementation was wrong here; it should stay right once it is corrected",
-        game="as wrong as the game that uses the implementation",
-        drone="as wrong as the drone that uses the implementation",
-        regimes="those of the wrong answers",
-        extreme=False,
-        made_by=made_by,
-    )

@@ -1,7 +1,7 @@
 """The frozen vectors that travel with the package: a file of certified cases for each family, and invalid rows.
 
 Files are read when they are asked for. Ids are for ever: a row keeps the id it was given, whatever becomes of the
-generator that made it. The files of INVALID_METADATA have rows that are no valid query, each with the columns
+generator that made it. The files of INVALID_CONTENTS have rows that are no valid query, each with the columns
 that are at fault. Loads numpy, neither sympy nor mpmath.
 """
 
@@ -25,8 +25,8 @@ from hypcheck.messages import suggestion
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, read_document
 from hypcheck.vectors import cancellation
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.family import Metadata, Row, Vector, VectorFile
+from hypcheck.vectors.families import ALL, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.family import Metadata, Row, Vector, VectorFile, described
 from hypcheck.vectors.format import (
     COLUMNS_OF,
     INVALID,
@@ -50,55 +50,13 @@ WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME = "way-invalid", "tilted-way-invalid"
 EXPECTED = "refused"
 
 
-def _to_be_refused(name: str, title: str, **described: str) -> Metadata:
-    made_by = f"hypcheck cases freeze {name}"
-    return Metadata(name=name, version=1, title=title, **described, regimes="none", extreme=False, made_by=made_by)
-
-
-_INVALID = _to_be_refused(
-    INVALID_NAME,
-    "rows that must be refused",
-    source="semi-axes that are 0, negative, infinite or NaN, centres that are infinite or NaN, alone and together",
-    purpose="squares hide a sign, comparisons with NaN are false, and 0/0 reads as contact: a bad row gets an answer",
-    game="a corrupted object collides with everything, or with nothing",
-    drone="a sensor's NaN is answered as clear",
+INVALID_CONTENTS = dict(
+    zip((INVALID_NAME, TILTED_INVALID_NAME, WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME), REFUSALS, strict=True)
 )
-_TILTED_INVALID = _to_be_refused(
-    TILTED_INVALID_NAME,
-    "rows of tilted spheroids that must be refused",
-    source="axes that are 0, infinite or NaN, alone and beside bad sizes and centres",
-    purpose="an axis of 0 has no direction, and normalising it gives NaN, which compares as contact",
-    game="an object whose orientation was never set collides with everything, or with nothing",
-    drone="a failed attitude estimate is answered as clear",
-)
-_WAY_INVALID = _to_be_refused(
-    WAY_INVALID_NAME,
-    "rows that are no ways and must be refused",
-    source="semi-axes that are 0, negative, infinite or NaN, ends that are infinite or NaN, alone and together",
-    purpose="a step from infinity, or to NaN, is NaN: no time compares, and a bad row is answered as clear",
-    game="an object that was lost in one frame goes through everything in the next",
-    drone="a leg to a waypoint that was never set is answered as clear",
-)
-_TILTED_WAY_INVALID = _to_be_refused(
-    TILTED_WAY_INVALID_NAME,
-    "rows that are no ways of tilted spheroids and must be refused",
-    source="axes that are 0, infinite or NaN, alone and beside bad sizes and ends",
-    purpose="an axis of 0 has no direction, and normalising it gives NaN, which compares as clear all along",
-    game="an object whose orientation was never set goes through everything",
-    drone="a leg flown with a failed attitude estimate is answered as clear",
-)
-INVALID_METADATA = {
-    INVALID_NAME: _INVALID,
-    TILTED_INVALID_NAME: _TILTED_INVALID,
-    WAY_INVALID_NAME: _WAY_INVALID,
-    TILTED_WAY_INVALID_NAME: _TILTED_WAY_INVALID,
-}
-"""What the files of rows without an answer say at their heads."""
+"""The files of rows without an answer by name, and the content of each."""
 
 INVALID_NAMES = {PAIRS: (INVALID_NAME, TILTED_INVALID_NAME), WAYS: (WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME)}
 """The names of these files by layout, of upright spheroids and of tilted ones."""
-
-_CONTENTS = dict(zip(INVALID_METADATA, REFUSALS, strict=True))
 
 CASE_FIELDS = ("id", "row", "bits", "expected", "columns")
 
@@ -169,6 +127,12 @@ def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
     return np.asarray(bits, dtype=np.uint64).reshape(len(bits), -1).view(np.float64)
 
 
+def head_of(name: str) -> Metadata:
+    """What the frozen file of that name says of its family."""
+    family, made_by = ALL.get(name), f"hypcheck cases freeze {name}"
+    return family.described(made_by) if family else described(name, made_by)
+
+
 def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
     """The columns of these names whose values are not allowed; all three of an axis without a direction."""
     found = [name for name, value in zip(names, row, strict=True) if trouble_with(name, value) is not None]
@@ -180,12 +144,12 @@ def invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
     """The file of that name, made anew."""
     layout = next(each for each, names in INVALID_NAMES.items() if name in names)
     unlike = dict.fromkeys((_bad_rows if name == INVALID_NAMES[layout][0] else _bad_tilted_rows)(layout))
-    content = _CONTENTS[name]
+    content = INVALID_CONTENTS[name]
     cases = []
     for number, bits in enumerate(unlike):
         row = tuple(rows_from_bits([bits])[0].tolist())
         cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row, COLUMNS_OF[content])))
-    return InvalidRowFile(INVALID_METADATA[name], tuple(cases), content)
+    return InvalidRowFile(head_of(name), tuple(cases), content)
 
 
 def _bad_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
@@ -325,13 +289,16 @@ def _checked_bits(place: JsonPlace, name: str, value: Any, word: Any) -> int:  #
 
 
 NAMES = (*FAMILIES, cancellation.NAME)
-"""The files of upright spheroids with answers; INVALID_METADATA names those of rows without."""
+"""The files of upright spheroids with answers; INVALID_CONTENTS names those of rows without."""
 
 TILTED_NAMES = tuple(TILTED_FAMILIES)
 """Those of tilted spheroids."""
 
 WAY_NAMES = tuple(WAY_FAMILIES)
 """Those of ways; the rows of names that begin with tilted have an axis."""
+
+ALL_NAMES = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *INVALID_CONTENTS)
+"""Those of all files."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -352,9 +319,8 @@ def folder() -> Path:
 
 def path_of(name: str) -> Path:
     """The file of that name. Raises InputError where there is none of that name."""
-    known = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *INVALID_METADATA)
-    if name not in known:
-        raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, known)}")
+    if name not in ALL_NAMES:
+        raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, ALL_NAMES)}")
     return folder() / f"{name}.json"
 
 
@@ -394,7 +360,7 @@ def load_any(name: str) -> VectorsFile:
 
 
 def _require_answers(name: str) -> None:
-    if name in INVALID_METADATA:
+    if name in INVALID_CONTENTS:
         raise InputError(f"the rows of {name!r} have no answers; they must be refused")
 
 

@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.vectors.draw import Draw, Maker, ldexp, stepped, to_bits, turns
-from hypcheck.vectors.family import Family
 
 UNITS = (-6, 4)
 """b and d lie in [2⁻⁶, 2⁴) unless a family has a reason: centimetres to the size of a house, in metres."""
@@ -202,106 +201,6 @@ def symmetric_images(draw: Draw, n: int) -> Rows:
     return rows
 
 
-RANDOM_FAMILIES = (
-    Family(
-        name="uniform",
-        version=1,
-        title="ordinary sizes in every regime, centres all around the surface",
-        source="the four regimes of α/b against 1 and (γ/d)² against α/b in turn",
-        purpose="nothing special: whoever fails here has a plain error, or assumes a regime without saying so",
-        game="objects of ordinary sizes pass through each other",
-        drone="obstacles of ordinary sizes are missed or imagined",
-        regimes="all four",
-        make=uniform,
-        by_place=True,
-    ),
-    Family(
-        name="far-centers",
-        version=1,
-        title="centres far up the surface",
-        source="2⁴ to 2²⁷ radii from the origin, within 2.5 radii of the surface",
-        purpose="P and Q are huge and nearly cancel in c1 and c2; a far origin is how large worlds are built",
-        game="collisions get rough far from the world's origin",
-        drone="in coordinates of a distant base the wall moves by metres",
-        regimes="all four",
-        make=far_centers,
-        by_place=True,
-    ),
-    Family(
-        name="giant-spheroids",
-        version=1,
-        title="spheroids much larger than the waist",
-        source="a and c in [2⁻¹⁶, 2⁻²)",
-        purpose="A and B vanish beside 1, P and Q, and with them what tells the sheet from a cone",
-        game="a large creature passes through a thin post",
-        drone="a guy wire's marker is lost beside the drone's own size",
-        regimes="a < 1, c² on both sides of a",
-        make=giant_spheroids,
-        by_place=True,
-    ),
-    Family(
-        name="tiny-spheroids",
-        version=1,
-        title="spheroids much smaller than the hyperboloid",
-        source="a and c in [2¹⁰, 2²⁰)",
-        purpose="Δ has degree 12 in the lengths: float32 overflows, and what is left of it cancels",
-        game="bullets and insects pass walls, or stop in mid-air",
-        drone="a small drone in a large tower is refused everywhere by an autopilot that computes in float32",
-        regimes="a > 1, c² on both sides of a",
-        make=tiny_spheroids,
-        by_place=True,
-    ),
-    Family(
-        name="float32-exact",
-        version=1,
-        title="rows that float32 holds exactly",
-        source="every number has at most 24 significant bits, and is normal in float32 or 0",
-        purpose="reading the row costs a float32 program nothing here, so every error is its own",
-        game="a shader or an engine's float32 core gives another answer than its editor",
-        drone="a float32 autopilot gives another answer than the planner on the ground",
-        regimes="all four",
-        make=exact_in(24, 2.0**-126),
-        by_place=True,
-    ),
-    Family(
-        name="float16-exact",
-        version=1,
-        title="rows that float16 holds exactly",
-        source="every number has at most 11 significant bits, and is normal in float16 or 0",
-        purpose="reading the row costs a float16 program nothing here; short numbers also make clean examples",
-        game="half-precision culling drops what is in sight",
-        drone="an accelerator's half-precision filter drops an obstacle",
-        regimes="all four",
-        make=exact_in(11, 2.0**-14),
-        by_place=True,
-    ),
-    Family(
-        name="small-integers",
-        version=2,
-        title="small whole numbers, many of them equal",
-        source="α and γ to 12, b and d to 4, coordinates to 14; 4 consecutive rows have the same numbers; 0 and −0.0",
-        purpose="tangencies, double roots and vanishing coefficients occur by themselves, as in hand-written tests",
-        game="on a grid of tiles an exact touch is common, and blocks or frees a whole corridor",
-        drone="waypoints on a metre grid touch the keep-out volume exactly",
-        regimes="all four",
-        make=small_integers,
-        by_place=True,
-    ),
-    Family(
-        name="symmetric-images",
-        version=1,
-        title="sixteen images of one pair, near contact",
-        source="16 consecutive rows: x and y swapped, signs turned, −0.0 for 0, both groups of lengths in other units",
-        purpose="all sixteen are one question and must get one answer; rounding may differ from image to image",
-        game="a wall is solid from the east and open from the west",
-        drone="the same approach is safe on one heading and refused on another",
-        regimes="all four",
-        make=symmetric_images,
-        by_place=True,
-    ),
-)
-
-
 TURN = 2 * len(COLUMNS)
 """Consecutive rows of one pair: as it is, α changed, α as it was but for an ulp, γ changed, and so on."""
 
@@ -318,18 +217,3 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
     changed_before = column < turn // 2
     ulp_up = stepped(row, np.ones(row.shape, dtype=np.int64))
     return np.where(changed_now, row * factor[:, None], np.where(changed_before, ulp_up, row))
-
-
-CHANGE_FAMILIES = (
-    Family(
-        name="one-number-changed",
-        version=1,
-        title="one number changed from row to row",
-        source=f"{TURN} consecutive rows are one pair near contact, each unlike the one before in one number",
-        purpose="what is kept from the row before, sizes or an answer, must be dropped whichever of the seven changes",
-        game="a creature that grows is still tested at the size it was born with",
-        drone="a payload is attached, and the test goes on with the drone's old height",
-        regimes="all four",
-        make=one_number_changed,
-    ),
-)

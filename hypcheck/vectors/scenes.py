@@ -6,7 +6,6 @@ import numpy as np
 
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.vectors.draw import Draw, circle_at
-from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, beside, offsets, stack
 
 TOWER = (2.0, 17.8)
@@ -114,68 +113,3 @@ def flight(draw: Draw, n: int) -> Rows:
         x, y, z = (np.where(valid, after, before) for after, before in zip(to, (x, y, z), strict=True))
         ahead, aside = np.where(valid, ahead, -sense * aside), np.where(valid, aside, sense * ahead)
     return _in_tower(n, BODY, *asked.reshape(3, -1)[:, :n])
-
-
-SCENE_FAMILIES = (
-    Family(
-        name="forest-type-1",
-        version=1,
-        title="a walker among trees wider than herself",
-        source="the paper, section 3.1 and Figure 1: α/b ≥ 1 and (γ/d)² ≥ α/b",
-        purpose="the everyday case of a video game; every procedure ought to have it right",
-        game="the player walks through a tree, or is stopped by the air beside it",
-        drone="the same test keeps a delivery drone clear of trunks and pylons",
-        regimes="a in [1, 6], c² > a",
-        make=forest_type_1,
-        by_place=True,
-    ),
-    Family(
-        name="forest-type-2",
-        version=1,
-        title="a walker among trees narrower than herself",
-        source="the paper, section 3.1 and Figure 1: α/b < 1 and (γ/d)² ≥ α/b",
-        purpose="two negative roots no longer mean inside; a spheroid can stick in the throat of a thin hyperboloid",
-        game="the player walks through a sapling",
-        drone="a mast thinner than the drone is not seen",
-        regimes="a in [0.2, 1), c² > a",
-        make=forest_type_2,
-        by_place=True,
-    ),
-    Family(
-        name="tower-body",
-        version=1,
-        title="a quadcopter in and about a cooling tower",
-        source="the paper, section 4: α = 2, γ = 17.8, b = 0.25, d = 0.15; uniform in |x|, |y| ≤ 4, |z| ≤ 17.8",
-        purpose="the everyday case of an inspection flight; also what speed is measured on",
-        game="a flyer meets an invisible wall in the middle of a tower, or leaves through its shell",
-        drone="the drone strikes the shell it inspects, or hangs back from a free path",
-        regimes="a = 8, c² > a",
-        make=tower_body,
-        by_place=True,
-    ),
-    Family(
-        name="tower-rotors",
-        version=1,
-        title="the four rotors of a quadcopter near a cooling tower's wall",
-        source="the paper, equations (15) to (21): b = 0.1, d = 0.05; rotors at 0.135 from the body's centre",
-        purpose="the children of a bounding volume hierarchy: asked when the body is in contact, so near the wall",
-        game="a rotor clips through the shell, or sparks in free air",
-        drone="a blade strikes the shell while the test says that only the bounding volume touches",
-        regimes="a = 20, c² > a",
-        make=tower_rotors,
-        by_place=True,
-    ),
-    Family(
-        name="flight",
-        version=1,
-        title="positions asked for along random flights",
-        source="the paper, section 4, random trajectories inside the tower; 32 consecutive rows are one flight",
-        purpose="coherent queries: what a cache or a warm start of the last answer has to survive",
-        game="an answer carried over from the frame before lets a fast flyer pass the wall",
-        drone="a step longer than the clearance left is accepted because the last one was",
-        regimes="a = 8, c² > a",
-        make=flight,
-        by_place=True,
-        movement=FLIGHT_STEPS,
-    ),
-)

@@ -56,7 +56,7 @@ def list_lines() -> Iterator[str]:
 
 
 def _load(name: str) -> VectorsFile | InvalidRowFile:
-    return frozen.load_invalid_rows(name) if name in frozen.INVALID_METADATA else frozen.load_any(name)
+    return frozen.load_invalid_rows(name) if name in frozen.INVALID_CONTENTS else frozen.load_any(name)
 
 
 def family_lines(name: str) -> Iterator[str]:
@@ -150,7 +150,7 @@ def vector_of(name: str) -> AnyVector:
 def invalid_row_of(name: str) -> InvalidRow:
     """The row to be refused that has that id. Raises InputError where there is none."""
     family = _family_of(name)
-    for case in frozen.load_invalid_rows(family).cases if family in frozen.INVALID_METADATA else ():
+    for case in frozen.load_invalid_rows(family).cases if family in frozen.INVALID_CONTENTS else ():
         if case.id == name:
             return case
     raise InputError(f"there is no case {name!r}; {_hint(family)}")
@@ -163,7 +163,7 @@ def show(name: str, *, as_json: bool) -> Iterator[str]:
             yield from frozen.path_of(name).read_text(encoding="utf-8").splitlines()
         else:
             yield from family_lines(name)
-    elif _family_of(name) in frozen.INVALID_METADATA:
+    elif _family_of(name) in frozen.INVALID_CONTENTS:
         bad, columns = invalid_row_of(name), frozen.load_invalid_rows(_family_of(name)).columns
         yield from (frozen.invalid_row_text(bad),) if as_json else invalid_row_lines(bad, columns)
     else:

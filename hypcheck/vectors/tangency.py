@@ -22,7 +22,6 @@ from hypcheck.vectors.double_roots import (
     turned,
 )
 from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, stepped, turns
-from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import beside_surface, centred, sizes
 
 ULPS = 40
@@ -132,7 +131,7 @@ def degenerate_neighbourhood(draw: Draw, n: int) -> Rows:
     return ulps_away(draw, degenerate_crossing(draw, n))
 
 
-def on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
+def centres_on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """The centre on the surface: r/α and z/γ are hypotenuse/leg and other leg/leg of one triple."""
     leg, other, hypotenuse = triples(draw, n, 12)
     x, y, turn = turned(draw, n)
@@ -144,75 +143,7 @@ def on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
     )
 
 
-TANGENT_FAMILIES = (
-    Family(
-        name="tangent",
-        version=1,
-        title="exactly tangent, in every way there is",
-        source="double roots of g placed at will: at a point from inside and outside, along a circle, "
-        "at two points, osculating",
-        purpose="Δ is 0 exactly, and tangency is contact: the answer every float formula gets by luck",
-        game="a character at rest against a wall flickers between free and stuck",
-        drone="the limit of the keep-out volume itself counts as clear",
-        regimes="all four",
-        make=tangent,
-    ),
-    Family(
-        name="near-tangent-outside",
-        version=1,
-        title="just clear of the outside, or just not",
-        source="exact exterior tangencies moved by 1, 2, 4 … 2⁴⁰ ulp, or along the normal by 1e-15 to 1e-3 radii",
-        purpose="measures how near to contact a program can still tell; backward errors show here first",
-        game="sliding along a trunk stutters, or sinks into it",
-        drone="a planned clearance of a millimetre is none",
-        regimes="all four",
-        make=near_tangent(outer=True),
-    ),
-    Family(
-        name="near-tangent-inside",
-        version=1,
-        title="just clear of the inside, or just not",
-        source="exact interior tangencies moved by 1, 2, 4 … 2⁴⁰ ulp, or along the normal by 1e-15 to 1e-3 radii",
-        purpose="measures how near to contact a program can still tell from within, where two negative roots meet",
-        game="a flyer hugging the shell from inside leaves it",
-        drone="an inspection drone's last millimetre to the shell is answered by chance",
-        regimes="all four",
-        make=near_tangent(outer=False),
-    ),
-    Family(
-        name="degenerate-crossing",
-        version=1,
-        title="double roots that are no tangency",
-        source="docs/mathematics.md, root patterns: curves with a node, an isolated point or a cusp",
-        purpose="Δ = 0 and a real double root, yet the surfaces cross: reading tangency off Δ alone is wrong",
-        game="an overlap is taken for a touch, and pushed out the wrong way",
-        drone="a collision is logged as a graze",
-        regimes="a < 1 or c² < a",
-        make=degenerate_crossing,
-    ),
-    Family(
-        name="degenerate-neighbourhood",
-        version=1,
-        title="beside double roots that are no tangency",
-        source="rows of the family degenerate-crossing with one length moved by 1, 2, 4 … 2⁴⁰ ulp",
-        purpose="Δ changes its sign here but the answer does not: Δ > 0 with three roots of one sign is contact",
-        game="a deep overlap reads as clear on one side of nowhere",
-        drone="a collision in progress is accepted as a valid movement",
-        regimes="a < 1 or c² < a",
-        make=degenerate_neighbourhood,
-    ),
-    Family(
-        name="on-surface",
-        version=1,
-        title="centres exactly on the surface",
-        source="rational points of the hyperboloid from Pythagorean triples",
-        purpose="the distance is 0 and so is the nearest-point multiplier: code that divides by either breaks",
-        game="a spawn point on the surface makes an object explode or vanish",
-        drone="a waypoint marked on the shell itself is answered with NaN",
-        regimes="all four",
-        make=exact_maker(on_surface),
-    ),
-)
+on_surface = exact_maker(centres_on_surface)
 
 
 RUNGS = 2 * (ULPS + 1)
@@ -267,22 +198,6 @@ def ladder(draw: Draw, n: int) -> Rows:
     return rows
 
 
-LADDER_FAMILIES = (
-    Family(
-        name="tangent-ladder",
-        version=1,
-        title="1, 2, 4 … 2⁴⁰ ulp beside exactly tangent, both ways",
-        source=f"exact tangencies from outside and inside in turn, one length moved; {RUNGS} consecutive rows "
-        "are one tangency",
-        purpose="the answer must change once, between the two sides, and where it does not tells a program's ulps",
-        game="a wall's surface has a grain: sliding along it, the answer flickers",
-        drone="how near to the keep-out volume the test can be trusted, in ulps of a coordinate",
-        regimes="all four",
-        make=ladder,
-    ),
-)
-
-
 def ring_anywhere(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """The ring for any rational a and c."""
     return double_roots.waist_roots(draw, n, ring=True)
@@ -320,40 +235,3 @@ def osculation(draw: Draw, n: int) -> Rows:
     bound = beside_surface(a, c, height, 1 + hair)
     here = turns(n, True, False)
     return centred(draw, sizes(draw, a, c), np.where(here, free[0], bound[0]), np.where(here, free[1], bound[1]))
-
-
-RING_FAMILIES = (
-    Family(
-        name="ring",
-        version=1,
-        title="clear, with Δ = 0",
-        source="z = 0 and r² = (c² + 1)(a² + c²)/c² with c² > a: the paper's Propositions 3 and 5 call it contact",
-        purpose="g has a double root that is no tangency, far from the surface: Procedure 1 refuses a valid movement",
-        game="an invisible wall rings the trunk at some distance, just where the ground is level with its waist",
-        drone="a level approach is refused in free air, a metre or more from the tower",
-        regimes="c² > a",
-        make=ring,
-    ),
-    Family(
-        name="ring-neighbourhood",
-        version=1,
-        title="clear, with Δ next to 0",
-        source="10⁻¹² to 10⁻² radii from the ring, in the waist's plane or beside it; the tower's ratios among them",
-        purpose="rounding gives the ring a thickness: in float32 it is up to a tenth of a radius",
-        game="the invisible wall is thick enough to be met every day",
-        drone="the refused region is as wide as the drone's own position noise",
-        regimes="c² > a",
-        make=ring_neighbourhood,
-    ),
-    Family(
-        name="osculation",
-        version=1,
-        title="a sphere that fits the groove",
-        source="c² = a (1 ± 2⁻⁵⁰ … 2⁻³), centres near r = a + 1 and z = 0",
-        purpose="three roots meet at c², so rounding in the coefficients is magnified by its cube root",
-        game="a ball resting in a groove of its own curvature jitters",
-        drone="docking at a saddle that fits the drone is where the distance is least certain",
-        regimes="c² on both sides of a, within 1/8",
-        make=osculation,
-    ),
-)

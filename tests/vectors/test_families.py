@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import invalid
-from hypcheck.vectors.families import FAMILIES, case_id, is_extreme, parse_case_id, row_of, select
+from hypcheck.vectors.families import FAMILIES, case_id, is_extreme, parse_case_id, select
 from hypcheck.vectors.family import BLOCK, TOGETHER, Family
 
 try:
@@ -192,7 +191,7 @@ def test_a_case_id_names_its_row(index: int) -> None:
     assert text == f"symmetric-images/{family.version}/9/{index}"
     case = parse_case_id(text)
     assert (case.family, case.seed, case.index) == (family, 9, index)
-    assert row_of(text) == Pair.from_row(family.rows(9, index + 1)[index].tolist())
+    assert family.row(9, index) == tuple(family.rows(9, index + 1)[index].tolist())
 
 
 @pytest.mark.parametrize(
@@ -210,7 +209,7 @@ def test_a_case_id_names_its_row(index: int) -> None:
 )
 def test_a_wrong_case_id_is_refused(text: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        row_of(text)
+        parse_case_id(text)
 
 
 @pytest.mark.parametrize(("seed", "count"), [(-1, 3), (0, -3)])

@@ -60,7 +60,7 @@ def test_edge_for_fixed_sizes_is_found_in_at_most_65_exact_decisions(sizes, monk
         assert len(asked) <= 65
 
 
-@pytest.mark.parametrize("trap", [trap.name for trap in fixed_sizes.TRAPS])
+@pytest.mark.parametrize("trap", fixed_sizes.TRAPS)
 @pytest.mark.parametrize(
     "sizes",
     [

@@ -13,7 +13,6 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import TILTED_COLUMNS, Position
 from hypcheck.truth.tilted.batch import invalid, positions
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.families import (
     FAMILIES,
     TILTED_FAMILIES,
@@ -21,7 +20,6 @@ from hypcheck.vectors.families import (
     family_of,
     is_extreme,
     parse_case_id,
-    row_of,
     select,
 )
 from hypcheck.vectors.family import BLOCK
@@ -100,8 +98,9 @@ def test_select_takes_tilted_families_only_if_tilt_is_requested():
 def test_the_id_of_a_tilted_case_names_its_row():
     family = TILTED_FAMILIES["tilted-uniform"]
     text = case_id(family, 9, BLOCK + 3)
-    assert parse_case_id(text).family is family_of("tilted-uniform") is family
-    assert row_of(text) == TiltedPair.from_row(family.rows(9, BLOCK + 4)[-1].tolist())
+    case = parse_case_id(text)
+    assert case.family is family_of("tilted-uniform") is family
+    assert family.row(case.seed, case.index) == tuple(family.rows(9, BLOCK + 4)[-1].tolist())
 
 
 @every_family

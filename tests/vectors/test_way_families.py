@@ -14,7 +14,7 @@ from hypcheck.geometry.rows import WAYS, invalid
 from hypcheck.truth.passage_error import hits_at_size
 from hypcheck.vectors.double_roots import gather
 from hypcheck.vectors.draw import Draw
-from hypcheck.vectors.families import WAY_FAMILIES, case_id, family_of, parse_case_id, row_of, select
+from hypcheck.vectors.families import WAY_FAMILIES, case_id, family_of, parse_case_id, select
 from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.ways import coincidences
 
@@ -98,8 +98,7 @@ def test_select_takes_families_of_ways_only_if_ways_are_requested():
         select(["way-ring"])
 
 
-def test_the_id_of_a_way_names_its_family_and_no_pair():
+def test_the_id_of_a_way_names_its_family_and_row():
     text = case_id(WAY_FAMILIES["way-ring"], 9, 3)
     assert parse_case_id(text).family is family_of("way-ring")
-    with pytest.raises(InputError, match="is a way between two positions"):
-        row_of(text)
+    assert parse_case_id(text).family.row(9, 3) == tuple(WAY_FAMILIES["way-ring"].rows(9, 4)[3].tolist())

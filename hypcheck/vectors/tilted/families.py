@@ -10,10 +10,8 @@ import numpy as np
 
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.vectors.draw import Draw, circle_at, in_turn, ldexp, turns
-from hypcheck.vectors.family import Family
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, heights, offsets, sizes
 from hypcheck.vectors.scenes import BODY, TOWER
-from hypcheck.vectors.tilted import coincidences
 
 Vectors = tuple[Floats, Floats, Floats]
 """x, y, z, each (n,)."""
@@ -122,6 +120,9 @@ def at_the_waist(draw: Draw, n: int) -> Rows:
     return rows
 
 
+symmetric = in_turn(in_meridian_plane, horizontal, through_the_centre, at_the_waist)
+
+
 def spheres(draw: Draw, n: int) -> Rows:
     """b = d: the axis means nothing."""
     size, height = _ordinary(draw, n)
@@ -177,202 +178,3 @@ def whole_domain(draw: Draw, n: int) -> Rows:
     unit = np.where(turns(n, True, False), draw.integers(n, -1064, -1000), draw.integers(n, 900, 1008))
     rows[:, :7] = ldexp(rows[:, :7], unit[:, None])
     return np.concatenate([np.maximum(rows[:, :4], 5e-324), rows[:, 4:]], axis=1) + 0.0
-
-
-TILTED_FAMILIES = (
-    Family(
-        name="tilted-uniform",
-        version=1,
-        title="ordinary sizes, axes in every direction, centres all around the surface",
-        source="the four regimes of α/b against 1 and (γ/d)² against α/b in turn, directions uniform on the sphere",
-        purpose="nothing special: a program that fails here has a plain error, or takes the spheroid for upright",
-        game="anything that leans collides with air, or with nothing",
-        drone="a pitching drone is answered as one that hovers",
-        regimes="all four",
-        make=uniform,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-tower",
-        version=1,
-        title="the paper's quadcopter, pitching beside the wall of its tower",
-        source="section 3.2 of the paper speaks of pitch and does not model it; axes up to 45° from the vertical",
-        purpose="the answer of the upright spheroid is wrong for some percent of these rows",
-        game="a vehicle that banks clips the wall that it seemed to miss",
-        drone="leaning into the movement brings a rotor into the wall",
-        regimes="α ≥ b and (γ/d)² ≥ α/b, the tower's",
-        make=tower,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-near-contact",
-        version=1,
-        title="from 2⁻⁵² to 2⁻⁴ radii off contact, axes in every direction",
-        source="centres beside a point of the surface along M⁻¹ times the normal, where that point touches",
-        purpose="measures how near to contact a program can still tell; eigenvectors lose digits here first",
-        game="sliding along a wall on a slope stutters, or sinks into it",
-        drone="a planned clearance of a millimetre is none",
-        regimes="all four",
-        make=near_contact,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-tangent",
-        version=1,
-        title="exactly tangent, from inside and outside",
-        source="rational rotations, Pythagorean triples for normal, axis and sizes: every number exact",
-        purpose="f has a rational double root, and tangency is contact: a float answers it by luck",
-        game="a leaning character at rest against a wall flickers between free and stuck",
-        drone="the limit of the keep-out volume itself counts as clear",
-        regimes="α > b and α < b",
-        make=coincidences.tangent,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-near-tangent",
-        version=1,
-        title="exact tangencies with one number moved by 1, 2, 4 … 2⁴⁰ ulp",
-        source="tilted-tangent, one of the sizes, of the centre or of the axis moved",
-        purpose="the last digits of each of the ten numbers decide",
-        game="contact depends on where in the world the level is built",
-        drone="an axis rounded to single precision changes the answer",
-        regimes="α > b and α < b",
-        make=coincidences.near_tangent,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-crossing",
-        version=1,
-        title="a double root of f, but the surfaces cross",
-        source="the construction of tilted-tangent, where the spheroid crosses the surface in its point of contact",
-        purpose="a discriminant of 0 is not tangency: the double root may lie outside (λ₋, λ₊)",
-        game="a ball pressed into a groove counts as resting on it",
-        drone="a crossing taken for the limit of clearance",
-        regimes="α > b and α < b",
-        make=coincidences.crossing,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-symmetric",
-        version=1,
-        title="axis horizontal, through the centre, or in the meridian plane; or the centre in the waist's plane",
-        source="near contact, or uniform in the waist's plane",
-        purpose="the quartic has a root at a pole, a component of the eigenbasis vanishes, a quotient is 0/0",
-        game="a log that lies on the ground is not hit",
-        drone="flying straight at the tower, pitching, is the ordinary case",
-        regimes="all four",
-        make=in_turn(in_meridian_plane, horizontal, through_the_centre, at_the_waist),
-        tilted=True,
-    ),
-    Family(
-        name="tilted-sphere",
-        version=1,
-        title="a sphere with any axis: the axis means nothing",
-        source="b = d, near contact, axes in every direction",
-        purpose="the answer is that of the seven numbers; a program that divides by 1/d² − 1/b² fails",
-        game="a ball that spins changes its place",
-        drone="a round body's answer depends on its heading",
-        regimes="all four",
-        make=spheres,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-upright",
-        version=1,
-        title="axis (0, 0, s), of any length and either sign: upright",
-        source="near contact, s from ±2⁻⁶⁰ to ±2⁶⁰",
-        purpose="the answer is that of the seven numbers; a program that divides by the horizontal part fails",
-        game="an object placed upright in the editor is lost",
-        drone="hovering fails, pitching works",
-        regimes="all four",
-        make=upright,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-slight",
-        version=1,
-        title="off the vertical or off the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹",
-        source="near contact, such axes",
-        purpose="the difference to the upright or horizontal answer is all that is asked; squares underflow",
-        game="an object upright but for a rounding flickers",
-        drone="the hovering drone's noise in pitch decides",
-        regimes="all four",
-        make=slight,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-twins",
-        version=1,
-        title="the nearest point is not unique: two touch at once, or are as near as each other",
-        source="pairs of points of contact, found by a search of small integers; the centre at the origin with α = b; "
-        "centre and axis in one plane near the origin; the first two moved by ulps",
-        purpose="an iteration converges to a saddle between the two, or to neither",
-        game="a barrel jams in a throat without touching",
-        drone="descending into the tower, both sides are near at once",
-        regimes="all four",
-        make=coincidences.twins,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-ring",
-        version=1,
-        title="the ring, tilted: f has a double root at a pole, though nothing touches",
-        source="small integers found by a search, with rational eigenvalues and the centre on an axis of symmetry; "
-        "turned, scaled, three of four moved by ulps",
-        purpose="the discriminant is 0 or changes its sign in free air",
-        game="an invisible wall around the pillar",
-        drone="an evasive manoeuvre where nothing is",
-        regimes="α > b and α < b",
-        make=coincidences.ring,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-stiff",
-        version=1,
-        title="ratios of sizes up to 10⁸, near contact, axes in every direction",
-        source="a = α/b, c = γ/d and b/d log-uniform",
-        purpose="the 2×2 eigenproblem loses half of its digits before anything else is computed",
-        game="a spear misses the pillar that it pierces",
-        drone="a wire is not seen by a body in pitch",
-        regimes="all four",
-        make=stiff,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-axis-length",
-        version=1,
-        title="near contact, axes as short and as long as float64 allows",
-        source="tilted-near-contact, the axis times 2⁻¹⁰⁷³ to 2¹⁰²³",
-        purpose="the length of the axis means nothing, but its square underflows or overflows",
-        game="an axis computed from a cross product of small edges is lost",
-        drone="a quaternion that is not normalised is refused or misread",
-        regimes="all four",
-        make=any_length,
-        tilted=True,
-    ),
-    Family(
-        name="tilted-small-integers",
-        version=1,
-        title="whole numbers as a person types them",
-        source="sizes from 1 to 6, centres from −12 to 12, axes from −2 to 2",
-        purpose="tangencies, rings, symmetric axes and centres on the surface abound",
-        game="the first try of a user fails",
-        drone="the first test of an integrator fails",
-        regimes="all four",
-        make=small_integers,
-        tilted=True,
-    ),
-    Family(
-        name="extreme-tilted",
-        version=1,
-        title="all lengths at the ends of float64, axes in every direction",
-        source="ordinary pairs times 2⁻¹⁰⁶⁴ … 2⁻¹⁰⁰⁰ or 2⁹⁰⁰ … 2¹⁰⁰⁸",
-        purpose="squares underflow and overflow; the answer does not change but for the rounding of subnormals",
-        game="a scale factor that ran away is not seen",
-        drone="units mixed up by powers of ten give an answer all the same",
-        regimes="all four",
-        extreme=True,
-        make=whole_domain,
-        tilted=True,
-    ),
-)

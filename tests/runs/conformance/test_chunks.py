@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hypcheck.geometry.pair import Pair
 from hypcheck.runs import cases as chunks
 from hypcheck.runs import judge
 from hypcheck.runs.cases import CHUNK_ROWS, EXPONENTS_OF, CaseChunk, cases_of_chunk, first_unfrozen, searched_chunks
 from hypcheck.truth import float_filter
 from hypcheck.vectors import frozen as vectors
-from hypcheck.vectors.families import FAMILIES, row_of
+from hypcheck.vectors.families import FAMILIES, parse_case_id
 
 
 @pytest.mark.parametrize("name", FAMILIES)
@@ -51,7 +50,8 @@ def test_case_id_leads_to_the_case_that_it_names(chunk):
         name = chunk.name(index)
         assert chunk.find(name) == index
         if chunk.seed is not None:
-            assert row_of(name) == Pair.from_row(made.rows[index].tolist())
+            case = parse_case_id(name)
+            assert case.family.row(case.seed, case.index) == tuple(made.rows[index].tolist())
     assert chunk.find(f"{chunk.family}/1/1/{chunk.stop}") is None
     assert chunk.find(f"other/1/{chunk.seed}/{chunk.start}") is None
     assert chunk.find("ring-0999") is None

@@ -95,7 +95,7 @@ def test_rows_of_a_frozen_file_are_the_first_rows_of_its_family_without_duplicat
     assert rows == earlier + [row for row in wanted if row not in set(earlier)]
     assert len(set(rows)) == len(rows)
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(rows))]
-    assert file.head == freezing.metadata_of(FAMILIES[name], f"hypcheck cases freeze {name}")
+    assert file.head == FAMILIES[name].described(f"hypcheck cases freeze {name}")
 
 
 @pytest.mark.parametrize("name", FULLY_COMPARED)

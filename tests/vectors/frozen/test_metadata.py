@@ -7,9 +7,8 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.vectors import frozen
+from hypcheck.vectors import family, fixed_sizes, frozen
 from hypcheck.vectors.examining import wrong_description, wrong_meanings
-from hypcheck.vectors.families import FAMILIES
 from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
 from hypcheck.vectors.format import vectors_text
 from hypcheck.vectors.frozen import invalid_rows_text
@@ -46,9 +45,7 @@ def test_wrong_description_in_the_metadata_of_a_family_is_a_fault(tmp_path, caps
 
 def test_wrong_description_in_the_metadata_of_invalid_rows_is_a_fault(tmp_path, capsys):
     text = invalid_rows_text(frozen.load_invalid_rows())
-    code, lines = checked(
-        tmp_path, capsys, text.replace(frozen.INVALID_METADATA["invalid"].drone, "a bad row is answered")
-    )
+    code, lines = checked(tmp_path, capsys, text.replace(frozen.head_of("invalid").drone, "a bad row is answered"))
     assert (code, lines[0][:39]) == (1, 'line 3: family.drone is "a bad row is a')
 
 
@@ -70,7 +67,7 @@ def test_descriptions_of_unknown_families_are_not_compared(tmp_path, capsys, cha
 
 def test_descriptions_of_earlier_versions_are_not_compared():
     head = replace(frozen.load("ring").head, title="another")
-    right = FAMILIES["ring"].title
+    right = frozen.head_of("ring").title
     assert list(wrong_description(head)) == [f'family.title is "another"; of ring it is "{right}"']
     assert list(wrong_description(replace(head, version=0))) == []
 
@@ -79,6 +76,13 @@ def test_messages_quote_the_beginning_of_a_long_value(tmp_path, capsys):
     code, (said, _) = checked(tmp_path, capsys, TEXT.replace("exactly tangent", "nearly" * 10_000, 1))
     assert code == 1
     assert len(said) < 400
+
+
+def test_every_family_and_file_has_a_description_and_every_description_is_used():
+    traps = (*fixed_sizes.TRAPS, *fixed_sizes.LEANING_TRAPS)
+    assert sorted(family.descriptions()) == sorted([*frozen.ALL_NAMES, *traps, "found"])
+    for name in family.descriptions():
+        assert all(vars(family.described(name, "a command", extreme=True)).values())
 
 
 def test_descriptions_in_the_shipped_files_are_right():
@@ -94,5 +98,5 @@ def test_descriptions_in_the_shipped_files_are_right():
         ways = frozen.load_ways(name)
         assert ways.head.name == name
         assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, WAY_FLAGS)] == []
-    for name in frozen.INVALID_METADATA:
+    for name in frozen.INVALID_CONTENTS:
         assert list(wrong_description(frozen.load_invalid_rows(name).head)) == []

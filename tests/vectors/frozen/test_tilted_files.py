@@ -52,7 +52,7 @@ def test_rows_of_a_tilted_file_are_the_first_rows_of_its_family_without_duplicat
     wanted = list(dict.fromkeys(bits(TILTED_FAMILIES[name].rows(freezing.SEED, freezing.TILTED_COUNTS[name]))))
     assert bits(file.rows) == wanted
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(wanted))]
-    assert file.head == freezing.metadata_of(TILTED_FAMILIES[name], f"hypcheck cases freeze {name}")
+    assert file.head == TILTED_FAMILIES[name].described(f"hypcheck cases freeze {name}")
     assert tilted_vectors_text(file) == text_of(name)
     assert frozen.frozen_rows(name).rows.shape == (len(wanted), 10)
 

@@ -65,7 +65,7 @@ def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplica
         assert found[place] not in wanted
         found[place] = found[len(wanted) + outdated.index(place)]
     assert found == wanted + [wanted[place] for place in outdated]
-    assert file.head == freezing.metadata_of(WAY_FAMILIES[name], f"hypcheck cases freeze {name}")
+    assert file.head == WAY_FAMILIES[name].described(f"hypcheck cases freeze {name}")
     assert ways_text(file) == text_of(name)
     assert frozen.frozen_rows(name).positions.tolist() == file.hits.tolist()
     assert not invalid(file.rows, WAYS).any()
