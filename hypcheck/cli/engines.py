@@ -13,10 +13,20 @@ from hypcheck.errors import InputError
 from hypcheck.messages import counted
 
 if TYPE_CHECKING:
-    from hypcheck.engines.table import Engine
+    from hypcheck.engines.engine import Engine
+
+
+def _cache_folder() -> Path:
+    from hypcheck.engines.engine import cache_folder
+
+    return cache_folder()
+
 
 _CACHE = click.option(
-    "--cache", type=click.Path(path_type=Path), help="Where engines are installed.  [default: the user's cache]"
+    "--cache",
+    type=click.Path(path_type=Path),
+    default=_cache_folder,
+    help="Where engines are installed.  [default: the user's cache]",
 )
 
 
@@ -29,19 +39,12 @@ def engines() -> None:
     """
 
 
-def _folder(cache: Path | None) -> Path:
-    from hypcheck.engines.install import cache_folder
-
-    return cache or cache_folder()
-
-
-def _installed(names: tuple[str, ...], cache: Path | None) -> list[Engine]:
+def _installed(names: tuple[str, ...], cache: Path) -> list[Engine]:
     """The engines of these names, or all that are installed. Raises InputError where one is not, or none is."""
-    from hypcheck.engines.install import is_installed
-    from hypcheck.engines.table import engines_of
+    from hypcheck.engines.engine import engines_of, is_installed
 
-    found = [engine for engine in engines_of(names) if names or is_installed(engine, _folder(cache))]
-    missing = [engine.name for engine in found if not is_installed(engine, _folder(cache))]
+    found = [engine for engine in engines_of(names) if names or is_installed(engine, cache)]
+    missing = [engine.name for engine in found if not is_installed(engine, cache)]
     if missing or not found:
         what = f"{missing[0]} is not installed" if missing else "no engine is installed"
         raise InputError(f"{what}; type: hypcheck engines install {missing[0] if missing else 'NAME'}")
@@ -50,31 +53,29 @@ def _installed(names: tuple[str, ...], cache: Path | None) -> list[Engine]:
 
 @engines.command("list", short_help="Show the engines, their versions, and which are installed.")
 @_CACHE
-def list_(cache: Path | None) -> None:
+def list_(cache: Path) -> None:
     """Show each engine: its name and version, what stands for a spheroid, and whether it is installed."""
-    from hypcheck.engines.install import is_installed, missing_tool
-    from hypcheck.engines.table import ENGINES
+    from hypcheck.engines.engine import ENGINES, is_installed, missing_tool
 
-    folder = _folder(cache)
     for engine in ENGINES.values():
-        state = "installed" if is_installed(engine, folder) else missing_tool(engine) or "not installed"
+        state = "installed" if is_installed(engine, cache) else missing_tool(engine) or "not installed"
         click.echo(f"{engine.name:<14} {engine.version:<10} {engine.body:<12} {state}")
 
 
 @engines.command(short_help="Install engines, each in an environment of its own.")
 @click.argument("names", nargs=-1, required=True, metavar="NAME...")
 @_CACHE
-def install(names: tuple[str, ...], cache: Path | None) -> None:
+def install(names: tuple[str, ...], cache: Path) -> None:
     """Install these engines at their pinned versions with pip, npm or cargo.
 
     The environment of hypcheck stays as it is. A program that is missing, such as node or cargo, is named and not
     installed.
     """
-    from hypcheck.engines.install import install as install_one
-    from hypcheck.engines.table import engines_of
+    from hypcheck.engines.engine import engines_of
+    from hypcheck.engines.engine import install as install_one
 
     for engine in engines_of(names):
-        install_one(engine, _folder(cache))
+        install_one(engine, cache)
         click.echo(f"installed {engine.name} {engine.version}")
 
 
@@ -82,23 +83,22 @@ def install(names: tuple[str, ...], cache: Path | None) -> None:
 @click.argument("names", nargs=-1, metavar="[NAME]...")
 @click.option("--out", type=OutputPath(), default=Path("reports/engines"), show_default=True)
 @_CACHE
-def verify(names: tuple[str, ...], out: Path, cache: Path | None) -> None:
+def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
     """Ask engines about rows at certified distances from contact; all that are installed, without a NAME.
 
     Writes into --out for each engine its record, a badge, and for its worst errors files that show them without
     hypcheck; and README.md, the page of all that was ever measured into --out.
     """
-    from hypcheck.engines.findings import read_findings
+    from hypcheck.engines.findings import read_findings, write_findings
+    from hypcheck.engines.measure import record_of, write_record
     from hypcheck.engines.reduce import findings_of
     from hypcheck.engines.report import write_page
-    from hypcheck.engines.reproduce import write_findings
-    from hypcheck.engines.run import record_of, write_record
 
     for engine in _installed(names, cache):
-        record = record_of(engine, _folder(cache), lambda text: click.echo(text, err=True))
+        record = record_of(engine, cache, lambda text: click.echo(text, err=True))
         write_record(out, record)
         others = [each for each in read_findings(out) if each.engine != engine.name]
-        found = list(findings_of(record, _folder(cache)))
+        found = list(findings_of(record, cache))
         write_findings(out, [*others, *found])
         write_page(out)
         click.echo(f"measured {engine.name} {engine.version}: {counted(len(found), 'finding')}")
@@ -110,20 +110,20 @@ def verify(names: tuple[str, ...], out: Path, cache: Path | None) -> None:
 @click.option("--triangles", type=IntegerOption(100, 1_000_000), default=5000, show_default=True)
 @_CACHE
 @click.pass_context
-def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: int, cache: Path | None) -> None:
+def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: int, cache: Path) -> None:
     """Compare engines on the rows of `hypcheck bench --quick`, on the paper's tower as a mesh of so many triangles.
 
     Their errors against their run times stand in its plot beside those of every other method.
     """
     from hypcheck.cli.bench import bench as compare
-    from hypcheck.engines.install import command
+    from hypcheck.engines.engine import command
+    from hypcheck.engines.measure import spec_of
     from hypcheck.engines.placing import FAMILIES
-    from hypcheck.engines.run import spec_of
     from hypcheck.engines.scene import surface_mesh, write_scene
 
-    scene = _folder(cache) / "scenes" / f"body-{triangles}"
+    scene = cache / "scenes" / f"body-{triangles}"
     sizes = FAMILIES["body"].sizes
     write_scene(scene, sizes, surface_mesh(sizes, triangles))
-    specs = [spec_of(command(engine, _folder(cache), scene.absolute())) for engine in _installed(names, cache)]
+    specs = [spec_of(command(engine, cache, scene.absolute())) for engine in _installed(names, cache)]
     with compare.make_context("bench", ["--quick", "--out", str(out), *specs], parent=context) as made:
         compare.invoke(made)

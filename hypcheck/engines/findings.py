@@ -12,35 +12,39 @@ bodies are apart, or minus the depth by which a move along n separates them at m
 
 `proved` decides all of that in rationals, where a root is compared by squares. For an engine that is given a hull
 only what holds for every body inside the spheroid is claimed.
+
+A finding has two files that need the engine alone: a reproduction, and a picture of the section through the bodies.
+Each engine's folder has a template, reproduction.*.txt: it makes both bodies and asks the engine. What it is asked and
+how it ends (1 while the engine is wrong) is the same for all engines of a language and stands here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import shutil
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import sqrt
 from pathlib import Path
+from string import Template
 
 import msgspec
 import numpy as np
 from msgspec import Struct
 
-from hypcheck.geometry.rows import Floats
-
-Kind = str
-KINDS = ("false contact", "missed contact", "too near", "too far")
+from hypcheck.engines.engine import ENGINES, FOLDER, Engine
 
 
 class Finding(Struct):
     """An engine's answer about the spheroid b, d about the origin and a triangle.
 
-    `reported` is the signed distance that is wrong, or None where its word contact or clear is. `error_mm` is proved,
-    in millimetres at the 2 m tower; `direction` and `shares` are the certificate.
+    `kind` is "false contact", "missed contact", "too near" or "too far". `reported` is the signed distance that is
+    wrong, or None where its word contact or clear is. `error_mm` is proved, in millimetres at the 2 m tower;
+    `direction` and `shares` are the certificate.
     """
 
     engine: str
     version: str
-    kind: Kind
+    kind: str
     b: float
     d: float
     corners: list[list[float]]
@@ -61,67 +65,18 @@ def read_findings(folder: Path) -> list[Finding]:
     return msgspec.json.decode(path.read_bytes(), type=list[Finding]) if path.is_file() else []
 
 
-def lower_bounds(corners: Floats, b: float, d: float, direction: Floats) -> Floats:
-    """s(n) for directions (m, 3), in floats."""
-    half = np.sqrt((direction * direction * [b * b, b * b, d * d]).sum(axis=-1))
-    return np.asarray(((corners @ direction.T).min(axis=0) - half) / np.linalg.norm(direction, axis=-1))
-
-
-def best_direction(corners: Floats, b: float, d: float) -> Floats:
-    """A direction n with nearly the greatest s(n), which is the signed distance: many are drawn, the best refined."""
-    rng = np.random.default_rng(1)
-    scale = np.array([b, b, d])
-    ways = rng.normal(size=(2000, 3))
-    near = nearest_point(corners / scale)
-    if near @ near > 0:
-        ways[0] = near / scale
-    best, spread = ways[np.argmax(lower_bounds(corners, b, d, ways))], 0.5
-    best = best / np.linalg.norm(best)
-    while spread > 1e-12:
-        tries = best + spread * rng.normal(size=(200, 3))
-        tries = np.vstack([best, tries / np.linalg.norm(tries, axis=1, keepdims=True)])
-        best, spread = tries[np.argmax(lower_bounds(corners, b, d, tries))], spread * 0.7
-    return np.asarray(best)
-
-
-def nearest_point(corners: Floats) -> Floats:
-    """The point of a triangle nearest to the origin."""
-    return np.asarray(nearest_shares(corners) @ corners)
-
-
-def nearest_shares(corners: Floats) -> Floats:
-    """The shares of the corners in that point."""
-    edges = corners[1:] - corners[0]
-    gram = edges @ edges.T
-    if np.linalg.det(gram) > 0:
-        s, t = np.linalg.solve(gram, -edges @ corners[0])
-        if s >= 0 and t >= 0 and s + t <= 1:
-            return np.array([1 - s - t, s, t])
-    found = []
-    for i, j in ((0, 1), (1, 2), (2, 0)):
-        edge = corners[j] - corners[i]
-        share = float(np.clip(-(corners[i] @ edge) / (edge @ edge), 0.0, 1.0)) if edge @ edge > 0 else 0.0
-        shares = np.zeros(3)
-        shares[i], shares[j] = 1 - share, share
-        found.append(shares)
-    return np.asarray(min(found, key=lambda each: float(np.linalg.norm(each @ corners))))
-
-
 def proved(finding: Finding) -> bool:
     """Whether the certificate proves at least nine tenths of the error, in rationals."""
     error = Fraction(finding.error_mm) * 9 / 10 / Fraction(finding.millimetres)
     if finding.kind in {"false contact", "too near"}:
         return _direction_proves(finding, error)
-    squares, shares = _squares(finding), [Fraction(each) for each in finding.shares]
+    squares, shares, point = _squares(finding), _exactly(finding.shares), _shared_point(finding)
     if sum(shares) != 1 or min(shares) < 0:
         return False
-    point = [_dot(shares, [Fraction(corner[k]) for corner in finding.corners]) for k in range(3)]
-    if (
-        finding.kind == "missed contact"
-    ):  # inside the spheroid that is smaller by a factor of 1 − error / least semi-axis
+    if finding.kind == "missed contact":  # inside the spheroid smaller by a factor of 1 − error / least semi-axis
         factor = 1 - error / Fraction(min(finding.b, finding.d))
         return _inside(point, squares) <= factor * factor
-    way = [Fraction(each) for each in finding.direction]
+    way = _exactly(finding.direction)
     above = Fraction(sqrt(_dot(squares, [each * each for each in way])) * (1 + 1e-12))  # more than h
     foot = [square * each / above for square, each in zip(squares, way, strict=True)]
     bound = Fraction(finding.reported or 0.0) - error
@@ -131,15 +86,30 @@ def proved(finding: Finding) -> bool:
 
 def _direction_proves(finding: Finding, error: Fraction) -> bool:
     """Whether s(n) is at least the error, or greater by that than what the engine reported."""
-    way = [Fraction(each) for each in finding.direction]
-    least = min(_dot(way, [Fraction(each) for each in corner]) for corner in finding.corners)
+    least, half2, length2 = _along(finding)
     bound = error + (Fraction(finding.reported or 0.0) if finding.kind == "too near" else 0)
-    half2, root2 = _dot(_squares(finding), [each * each for each in way]), bound * bound * _dot(way, way)
+    root2 = bound * bound * length2
     return _at_least_roots(least, half2, root2) if bound >= 0 else _root_and(least, root2, half2)
 
 
+def _along(finding: Finding) -> tuple[Fraction, Fraction, Fraction]:
+    """Along the direction n: the least n·v of the corners v, and the squares of h(n) and of |n|."""
+    way = _exactly(finding.direction)
+    least = min(_dot(way, _exactly(corner)) for corner in finding.corners)
+    return least, _dot(_squares(finding), [each * each for each in way]), _dot(way, way)
+
+
+def _shared_point(finding: Finding) -> list[Fraction]:
+    """The point of the triangle with the shares of the corners."""
+    return [_dot(_exactly(finding.shares), _exactly(column)) for column in zip(*finding.corners, strict=True)]
+
+
 def _squares(finding: Finding) -> list[Fraction]:
-    return [Fraction(finding.b) ** 2, Fraction(finding.b) ** 2, Fraction(finding.d) ** 2]
+    return [each * each for each in _exactly([finding.b, finding.b, finding.d])]
+
+
+def _exactly(numbers: Iterable[float]) -> list[Fraction]:
+    return [Fraction(each) for each in numbers]
 
 
 def _dot(first: Sequence[Fraction], second: Sequence[Fraction]) -> Fraction:
@@ -163,3 +133,129 @@ def _root_and(value: Fraction, first: Fraction, second: Fraction) -> bool:
     if value < 0:
         return rest <= 0 and rest * rest >= 4 * value * value * second
     return rest <= 0 or rest * rest <= 4 * value * value * first
+
+
+_PYTHON = """print("contact:", contact, " distance:", distance)
+sys.exit({wrong})
+"""
+_JAVASCRIPT = """console.log('contact:', contact, ' distance:', distance);
+process.exit(Number({wrong}));
+"""
+_RUST = """    println!("contact: {{contact}}  distance: {{distance}}");
+    std::process::exit(i32::from({wrong}));
+}}
+"""
+_ENDS = {".py": ("# ", _PYTHON, "not "), ".mjs": ("// ", _JAVASCRIPT, "!"), ".rs": ("// ", _RUST, "!")}
+"""By the ending of a file: what begins a comment, the last lines, and how a language says not."""
+
+_INSTALLS = {
+    "pip": "pip install {package}=={version}",
+    "npm": "npm install {package}@{version}",
+    "cargo": 'a package with parry = {{ package = "{package}", version = "={version}" }} below [dependencies]',
+}
+
+
+def _template_of(engine: Engine) -> Path:
+    """The engine's template, reproduction.ENDING.txt."""
+    folder = FOLDER / Path(engine.files[1 if engine.manager == "cargo" else 0]).parent
+    return next(folder.glob("reproduction.*.txt"))
+
+
+def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
+    """Write the findings' files anew, and findings.json; the findings with the names of their files."""
+    shutil.rmtree(folder / "findings", ignore_errors=True)
+    (folder / "findings").mkdir(parents=True)
+    named = []
+    for found in findings:
+        stem = f"findings/{found.engine}-{found.kind.replace(' ', '-')}"
+        file, picture = stem + Path(_template_of(ENGINES[found.engine]).stem).suffix, stem + ".svg"
+        (folder / file).write_text(reproduction(found), encoding="utf-8")
+        (folder / picture).write_text(drawing(found), encoding="utf-8")
+        named.append(msgspec.structs.replace(found, file=file, picture=picture))
+    (folder / "findings" / "findings.json").write_bytes(msgspec.json.format(msgspec.json.encode(named)) + b"\n")
+    return named
+
+
+def reproduction(found: Finding) -> str:
+    """The text of a reproduction."""
+    engine = ENGINES[found.engine]
+    path = _template_of(engine)
+    comment, end, negated = _ENDS[Path(path.stem).suffix]
+    install = _INSTALLS[engine.manager].format(package=engine.package, version=engine.version)
+    lines = [
+        f"{found.engine} {found.version} says {found.said}. Exact: {found.proved} (at a tower of 2 m).",
+        *_proof(found),
+    ]
+    head = "".join(f"{comment}{line}\n" for line in [*lines, f"Needs: {install}. Ends with 1 while it is wrong."])
+    values = {"b": repr(found.b), "d": repr(found.d), "corners": repr(found.corners)}
+    body = Template(path.read_text(encoding="utf-8")).substitute(values)
+    return head + body + end.format(wrong=_wrong(found, negated))
+
+
+def _wrong(found: Finding, negated: str) -> str:
+    """The condition that the engine is wrong, in all languages alike but for the word not."""
+    if found.kind in {"false contact", "missed contact"}:
+        return "contact" if found.kind == "false contact" else f"{negated}contact"
+    sign, error = (1, "<") if found.kind == "too near" else (-1, ">")
+    return f"distance {error} {(found.reported or 0.0) + sign * 0.9 * found.error_mm / found.millimetres!r}"
+
+
+def _proof(found: Finding) -> list[str]:
+    """The certificate in words."""
+    n = f"n = ({', '.join(map(repr, found.direction))})"
+    if found.kind in {"false contact", "too near"}:
+        least, half2, length2 = _along(found)
+        return [
+            f"Certificate: with {n}, every corner v of the triangle has n·v >= {float(least):.17g}, and every",
+            f"point x of the spheroid has n·x <= sqrt(b²(nx² + ny²) + d² nz²) = {sqrt(half2):.17g};",
+            f"|n| = {sqrt(length2):.17g}.",
+        ]
+    shares = ", ".join(map(repr, found.shares))
+    point = _shared_point(found)
+    where = ", ".join(f"{float(each):.17g}" for each in point)
+    first = f"Certificate: the point p = ({where}) of the triangle, which has the"
+    if found.kind == "missed contact":
+        inside = float(_inside(point, _squares(found)))
+        return [first, f"shares {shares} of the corners, has (x² + y²)/b² + z²/d² = {inside:.17g} < 1."]
+    return [
+        first,
+        f"shares {shares} of the corners, is so near to the spheroid's point S n/sqrt(n·S n), S = diag(b², b², d²),",
+        f"{n}.",
+    ]
+
+
+def drawing(found: Finding) -> str:
+    """An SVG of the section by the plane through the spheroid's axis and the certificate's direction, or point."""
+    corners = np.array(found.corners)
+    toward = np.array(found.direction) if found.kind != "missed contact" else np.array(found.shares) @ corners
+    level = np.array([toward[0], toward[1], 0.0])
+    level = level / np.linalg.norm(level) if np.linalg.norm(level) > 0 else np.array([1.0, 0.0, 0.0])
+    across = np.cross([0.0, 0.0, 1.0], level)
+    cut = _section(corners @ across, np.stack([corners @ level, corners[:, 2]], axis=1))
+    zoom = 100.0 / max(found.b, found.d)
+    (u0, v0), (u1, v1) = (cut * zoom).tolist()
+    scale = found.millimetres
+    return "\n".join(
+        [
+            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-150 -150 300 330" font-size="10">',
+            '<rect x="-150" y="-150" width="300" height="330" fill="white"/>',
+            f'<ellipse rx="{found.b * zoom:.2f}" ry="{found.d * zoom:.2f}" fill="#cfe3f5" stroke="#1f6fb2"/>',
+            f'<line x1="{u0:.2f}" y1="{-v0:.2f}" x2="{u1:.2f}" y2="{-v1:.2f}" stroke="#b2361f" stroke-width="2"/>',
+            f'<text x="-145" y="-135">{found.engine} {found.version}: {found.said}</text>',
+            f'<text x="-145" y="160">exact: {found.proved}</text>',
+            f'<text x="-145" y="174">b = {found.b * scale:g} mm, d = {found.d * scale:g} mm; red: the triangle</text>',
+            "</svg>",
+            "",
+        ]
+    )
+
+
+def _section(beside: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Where a triangle meets the plane of the picture: the ends (2, 2) of its section, or of its nearest edge."""
+    ends = []
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        if (beside[i] < 0) != (beside[j] < 0):
+            share = beside[i] / (beside[i] - beside[j])
+            ends.append(points[i] + share * (points[j] - points[i]))
+    near = np.argsort(np.abs(beside))[:2]
+    return np.array(ends[:2] if len(ends) >= 2 else points[near])

@@ -1,28 +1,46 @@
-"""One engine asked about one family on one mesh: what it got wrong, by how much, and what its mesh explains of it.
+"""The record of engines: each asked about each family on each mesh; one file an engine, from which all else is made.
 
-Lengths are millimetres at the tower of 2 m. An answer is *wrong* if it is not that of the surface; its error is the
-row's certified distance from contact (placing.py). It is the engine's *own* error if it is not that of its own mesh
-either, decided exactly (scene.py), whether or not the surface happens to agree; its size is then the distance of the
-body from that mesh, at least. An engine that is given a hull may answer for any body between the spheroid and the
-ball that the hull holds for certain: what lies between is explained by the hull.
+It says what an engine got wrong, by how much, and what its mesh explains of it. Lengths are millimetres at the tower
+of 2 m. An answer is *wrong* if it is not that of the surface; its error is the row's certified distance from contact
+(placing.py). It is the engine's *own* error if it is not that of its own mesh either, decided exactly (scene.py),
+whether or not the surface happens to agree; its size is then the distance of the body from that mesh, at least. An
+engine that is given a hull may answer for any body between the spheroid and the ball that the hull holds for certain:
+what lies between is explained by the hull.
 """
 
 from __future__ import annotations
 
+import platform
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import floor, isfinite, log10, nan
+from functools import cache
+from json import dumps
+from math import floor, log10, nan
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
+import msgspec
 import numpy as np
 from msgspec import Struct
 
-from hypcheck.engines.placing import Placed
-from hypcheck.engines.scene import HULL, SurfaceMesh
-from hypcheck.engines.table import Engine
+from hypcheck.engines.engine import Engine, command
+from hypcheck.engines.placing import FAMILIES, Placed, drawn, placed
+from hypcheck.engines.scene import HULL, TRIANGLES, SurfaceMesh, distances, rows_near, surface_mesh, write_scene
+from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.implementations.implementation import Implementation
-from hypcheck.implementations.session import Outcome, TimingError
+from hypcheck.implementations.implementation import Implementation, open_implementation
+from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
+from hypcheck.messages import escaped
+from hypcheck.version import VERSION
+
+SCHEMA = "1.0.0"
+
+EACH = 8
+"""Clear rows and contacts of each decade of gaps."""
+
+_LIMITS = Limits(startup_timeout=120.0, timeout=60.0, restarts=3)
+
 
 TIMED_ROWS = 64
 
@@ -204,5 +222,88 @@ def _microseconds(asked: Implementation, rows: Rows) -> float | None:
         tries = [asked.time(some, 1) for _ in range(3)]
     except TimingError:
         return None
-    found = min(each for each in tries if each is not None) / len(some) / 1000.0
-    return found if isfinite(found) else None
+    return min(each for each in tries if each is not None) / len(some) / 1000.0
+
+
+class EngineRecord(Struct):
+    """What one engine did: the record's file NAME.json. `skipped` are families that it cannot be asked, and why."""
+
+    schema: str
+    hypcheck: str
+    machine: str
+    name: str
+    version: str
+    measured: list[Measured]
+    skipped: dict[str, str]
+
+
+@cache
+def _placed(family: str, each: int) -> Placed:
+    return placed(FAMILIES[family], each)
+
+
+@cache
+def _mesh(family: str, each: int, triangles: int) -> tuple[SurfaceMesh, Floats, tuple[Rows, Floats]]:
+    """A family's mesh, how far its rows are from it, and half as many rows beside the mesh."""
+    mesh = surface_mesh(FAMILIES[family].sizes, triangles)
+    spot, gap = drawn(FAMILIES[family], each // 2, seed=2)
+    return mesh, distances(_placed(family, each).rows, mesh), rows_near(spot, gap, mesh)
+
+
+def spec_of(words: Sequence[str]) -> str:
+    """The SPEC of a command."""
+    return f"command:{dumps(list(words))}"
+
+
+def record_of(
+    engine: Engine,
+    cache_folder: Path,
+    progress: Callable[[str], None] = lambda _: None,
+    *,
+    each: int = EACH,
+    meshes: Sequence[int] = TRIANGLES,
+    families: Sequence[str] = tuple(FAMILIES),
+) -> EngineRecord:
+    """Ask an installed engine everything. Raises InputError where it is not installed."""
+    machine = f"{platform.system()} {platform.machine()}"
+    found = EngineRecord(SCHEMA, VERSION, machine, engine.name, engine.version, [], {})
+    for name in families:
+        if FAMILIES[name].leans and not engine.tilts:
+            found.skipped[name] = "no spheroid leans"
+            continue
+        for triangles in meshes:
+            progress(f"{engine.name}: {name}, about {triangles} triangles")
+            try:
+                found.measured.append(_asked(engine, cache_folder, name, each, triangles))
+            except StartError as error:
+                found.skipped[name] = escaped(str(error).rpartition("stderr: ")[2], 200)
+                break
+    return found
+
+
+def _asked(engine: Engine, cache_folder: Path, name: str, each: int, triangles: int) -> Measured:
+    mesh, apart, beside = _mesh(name, each, triangles)
+    with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
+        scene = Path(folder, "scene")
+        write_scene(scene, FAMILIES[name].sizes, mesh)
+        words = command(engine, cache_folder, scene)
+        with open_implementation(spec_of(words), _LIMITS) as asked:
+            return measure(engine, words, asked, _placed(name, each), mesh, apart, beside)
+
+
+def write_record(folder: Path, record: EngineRecord) -> None:
+    """Write NAME.json."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"{record.name}.json").write_bytes(msgspec.json.format(msgspec.json.encode(record)) + b"\n")
+
+
+def read_records(folder: Path) -> list[EngineRecord]:
+    """The records in a folder. Raises InputError for a file that is none."""
+    return [_read(path) for path in sorted(folder.glob("*.json")) if not path.name.endswith(".badge.json")]
+
+
+def _read(path: Path) -> EngineRecord:
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=EngineRecord)
+    except msgspec.MsgspecError as error:
+        raise InputError(f"{path} is no record of an engine: {error}") from None

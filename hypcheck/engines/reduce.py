@@ -16,13 +16,11 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from hypcheck.engines.findings import Finding, best_direction, lower_bounds, nearest_point, nearest_shares, proved
-from hypcheck.engines.install import command
-from hypcheck.engines.measure import Measured
+from hypcheck.engines.engine import ENGINES, Engine, command
+from hypcheck.engines.findings import Finding, proved
+from hypcheck.engines.measure import EngineRecord, Measured
 from hypcheck.engines.placing import FAMILIES
-from hypcheck.engines.run import EngineRecord
 from hypcheck.engines.scene import TRIANGLES, SurfaceMesh, seen_from, surface_mesh, to_triangles, write_scene
-from hypcheck.engines.table import ENGINES, Engine
 from hypcheck.geometry.rows import Floats
 
 MOST_TRIED = 3
@@ -229,3 +227,49 @@ def _words(kind: str, said: Said, error: float, scale: float) -> tuple[str, str]
 
 def _length(millimetres: float) -> str:
     return f"{millimetres:.3g} mm apart" if millimetres > 0 else f"{-millimetres:.3g} mm deep"
+
+
+def lower_bounds(corners: Floats, b: float, d: float, direction: Floats) -> Floats:
+    """s(n) for directions (m, 3), in floats."""
+    half = np.sqrt((direction * direction * [b * b, b * b, d * d]).sum(axis=-1))
+    return np.asarray(((corners @ direction.T).min(axis=0) - half) / np.linalg.norm(direction, axis=-1))
+
+
+def best_direction(corners: Floats, b: float, d: float) -> Floats:
+    """A direction n with nearly the greatest s(n), which is the signed distance: many are drawn, the best refined."""
+    rng = np.random.default_rng(1)
+    scale = np.array([b, b, d])
+    ways = rng.normal(size=(2000, 3))
+    near = nearest_point(corners / scale)
+    if near @ near > 0:
+        ways[0] = near / scale
+    best, spread = ways[np.argmax(lower_bounds(corners, b, d, ways))], 0.5
+    best = best / np.linalg.norm(best)
+    while spread > 1e-12:
+        tries = best + spread * rng.normal(size=(200, 3))
+        tries = np.vstack([best, tries / np.linalg.norm(tries, axis=1, keepdims=True)])
+        best, spread = tries[np.argmax(lower_bounds(corners, b, d, tries))], spread * 0.7
+    return np.asarray(best)
+
+
+def nearest_point(corners: Floats) -> Floats:
+    """The point of a triangle nearest to the origin."""
+    return np.asarray(nearest_shares(corners) @ corners)
+
+
+def nearest_shares(corners: Floats) -> Floats:
+    """The shares of the corners in that point."""
+    edges = corners[1:] - corners[0]
+    gram = edges @ edges.T
+    if np.linalg.det(gram) > 0:
+        s, t = np.linalg.solve(gram, -edges @ corners[0])
+        if s >= 0 and t >= 0 and s + t <= 1:
+            return np.array([1 - s - t, s, t])
+    found = []
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        edge = corners[j] - corners[i]
+        share = float(np.clip(-(corners[i] @ edge) / (edge @ edge), 0.0, 1.0)) if edge @ edge > 0 else 0.0
+        shares = np.zeros(3)
+        shares[i], shares[j] = 1 - share, share
+        found.append(shares)
+    return np.asarray(min(found, key=lambda each: float(np.linalg.norm(each @ corners))))

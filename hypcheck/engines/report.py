@@ -7,11 +7,10 @@ from collections.abc import Iterable, Sequence
 from json import dumps
 from pathlib import Path
 
+from hypcheck.engines.engine import ENGINES
 from hypcheck.engines.findings import Finding, read_findings
-from hypcheck.engines.measure import Measured, Reported
+from hypcheck.engines.measure import EngineRecord, Measured, Reported, read_records
 from hypcheck.engines.placing import FAMILIES
-from hypcheck.engines.run import EngineRecord, read_records
-from hypcheck.engines.table import ENGINES
 
 READING = """## How to read this
 
@@ -58,22 +57,22 @@ def _head(records: Sequence[EngineRecord]) -> str:
 
 
 def _matrix(records: Sequence[EngineRecord]) -> str:
-    names = list(FAMILIES)
+    exact = {each.family: each.mesh_worst_mm for each in records[0].measured}
+    rows = [["*an exact answer about the mesh*", *(f"{_mm(exact.get(name))} / 0" for name in FAMILIES)]]
+    for record in records:
+        cells = [_cell([each for each in record.measured if each.family == name]) for name in FAMILIES]
+        anchor = f"{record.name}-{record.version}".replace(".", "")
+        rows.append([f"[{record.name}](#{anchor}) {record.version}", *cells])
     lines = [
         "## Worst error in millimetres",
         "",
         "*on the finest mesh, against the surface* / *own, on any mesh*; – was not asked.",
         "",
-        _row(["engine", *names]),
-        _row(["---"] * (len(names) + 1)),
+        *_table(["engine", *FAMILIES], rows),
+        "",
+        *(f"- *{name}*: {family.text}" for name, family in FAMILIES.items()),
+        "",
     ]
-    if records:
-        exact = {each.family: each.mesh_worst_mm for each in records[0].measured}
-        lines.append(_row(["*an exact answer about the mesh*", *(f"{_mm(exact.get(name))} / 0" for name in names)]))
-    for record in records:
-        cells = [_cell([each for each in record.measured if each.family == name]) for name in names]
-        lines.append(_row([f"[{record.name}](#{_anchor(record)}) {record.version}", *cells]))
-    lines += ["", *(f"- *{name}*: {family.text}" for name, family in FAMILIES.items()), ""]
     return "\n".join(lines)
 
 
@@ -87,49 +86,49 @@ def _cell(measured: Sequence[Measured]) -> str:
 
 
 def _found(findings: Sequence[Finding]) -> str:
+    rows = [
+        [
+            each.engine,
+            each.said,
+            each.proved,
+            _mm(each.error_mm),
+            f"[{each.file}]({each.file}), [picture]({each.picture})",
+        ]
+        for each in findings
+    ]
     lines = [
         "## Findings",
         "",
         "One spheroid and one triangle each, so that no mesh explains it, with a certificate to be checked by hand.",
         "Each file needs the engine alone, and ends with 1 while the engine is wrong.",
         "",
-        _row(["engine", "what it says", "what is proved", "wrong by, mm", "file"]),
-        _row(["---"] * 5),
+        *_table(["engine", "what it says", "what is proved", "wrong by, mm", "file"], rows),
+        "",
     ]
-    lines += [
-        _row(
-            [
-                each.engine,
-                each.said,
-                each.proved,
-                _mm(each.error_mm),
-                f"[{each.file}]({each.file}), [picture]({each.picture})",
-            ]
-        )
-        for each in findings
-    ]
-    return "\n".join([*lines, ""])
+    return "\n".join(lines)
 
 
 def _by_distance(records: Sequence[EngineRecord]) -> str:
     """False contacts and false clears by distance from contact, of all families on the finest meshes."""
-    lines = [
-        "## Wrong answers by distance from contact",
-        "",
-        "*false contacts* + *false clears* of all families on the finest mesh, each of how many rows.",
-        "",
-    ]
     powers = sorted(
         {each.least_mm for record in records for one in _finest(record) for each in one.decades}, reverse=True
     )
-    lines += [_row(["engine", *(f"{power:.0e} mm" for power in powers)]), _row(["---"] * (len(powers) + 1))]
+    rows = []
     for record in records:
         sums: dict[float, list[int]] = defaultdict(lambda: [0, 0, 0, 0])
         for each in (decade for one in _finest(record) for decade in one.decades):
             values = (each.false_contacts, each.clear, each.false_clears, each.contacts)
             sums[each.least_mm] = [old + new for old, new in zip(sums[each.least_mm], values, strict=True)]
-        lines.append(_row([record.name, *("{}/{} + {}/{}".format(*sums[power]) for power in powers)]))
-    return "\n".join([*lines, ""])
+        rows.append([record.name, *("{}/{} + {}/{}".format(*sums[power]) for power in powers)])
+    lines = [
+        "## Wrong answers by distance from contact",
+        "",
+        "*false contacts* + *false clears* of all families on the finest mesh, each of how many rows.",
+        "",
+        *_table(["engine", *(f"{power:.0e} mm" for power in powers)], rows),
+        "",
+    ]
+    return "\n".join(lines)
 
 
 def _finest(record: EngineRecord) -> list[Measured]:
@@ -146,44 +145,33 @@ def _of_engine(record: EngineRecord) -> str:
         f"A spheroid is the engine's {engine.body}, a ball {ball}. Reported distances are compared with the surface's.",
         f"Record: [{record.name}.json]({record.name}.json).",
         "",
-        _row(
-            [
-                "family",
-                "triangles",
-                "false contacts",
-                "false clears",
-                "worst",
-                "own wrong",
-                "own worst",
-                "lost",
-                "clear: distance",
-                "contact: depth",
-                "µs",
-            ]
+        *_table(
+            ["family", "triangles", "false contacts", "false clears", "worst", "own wrong", "own worst", "lost",
+             "clear: distance", "contact: depth", "µs"],
+            map(_measured_row, record.measured),
         ),
-        _row(["---"] * 11),
+        "",
+        *(f"Not asked: {name}, as no spheroid leans." for name in record.skipped),
+        "",
+    ]  # fmt: skip
+    return "\n".join(lines)
+
+
+def _measured_row(each: Measured) -> list[str]:
+    clear, contact = sum(one.clear for one in each.decades), sum(one.contacts for one in each.decades)
+    return [
+        each.family,
+        str(each.triangles),
+        f"{each.false_contacts} of {clear}",
+        f"{each.false_clears} of {contact}",
+        _mm(each.worst_mm),
+        f"{each.own} of {each.own_rows}",
+        _mm(each.own_worst_mm),
+        ", ".join(f"{count} {name}" for name, count in each.faults.items()) or "0",
+        _shown(each.distance),
+        _shown(each.penetration),
+        "–" if each.microseconds is None else f"{each.microseconds:.3g}",
     ]
-    for each in record.measured:
-        clear, contact = sum(one.clear for one in each.decades), sum(one.contacts for one in each.decades)
-        lines.append(
-            _row(
-                [
-                    each.family,
-                    str(each.triangles),
-                    f"{each.false_contacts} of {clear}",
-                    f"{each.false_clears} of {contact}",
-                    _mm(each.worst_mm),
-                    f"{each.own} of {each.own_rows}",
-                    _mm(each.own_worst_mm),
-                    ", ".join(f"{count} {name}" for name, count in each.faults.items()) or "0",
-                    _shown(each.distance),
-                    _shown(each.penetration),
-                    "–" if each.microseconds is None else f"{each.microseconds:.3g}",
-                ]
-            )
-        )
-    lines += ["", *(f"Not asked: {name}, as no spheroid leans." for name in record.skipped)]
-    return "\n".join([*lines, ""])
 
 
 def _shown(reported: Reported) -> str:
@@ -208,9 +196,6 @@ def _mm(value: float | None) -> str:
     return "–" if value is None else "0" if value == 0 else f"{value:.2g}"
 
 
-def _anchor(record: EngineRecord) -> str:
-    return f"{record.name}-{record.version}".replace(".", "")
-
-
-def _row(cells: Iterable[str]) -> str:
-    return f"| {' | '.join(cells)} |"
+def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """The lines of a table in Markdown."""
+    return [f"| {' | '.join(cells)} |" for cells in (header, ["---"] * len(header), *rows)]

@@ -89,11 +89,11 @@ def _off(vertices: Vertices, triangles: Triangles) -> str:
 
 def distances(rows: Rows, mesh: SurfaceMesh) -> Floats:
     """The distances (n,) of the centres of rows (n, 10) from a mesh, each in radii of its own spheroid."""
-    return np.array([nearest(row, mesh)[0] for row in rows])
+    return np.array([_distance(row, mesh) for row in rows])
 
 
-def nearest(row: Floats, mesh: SurfaceMesh) -> tuple[float, int]:
-    """The distance of a row's centre from the mesh, in spheroid radii, and the triangle that is as near.
+def _distance(row: Floats, mesh: SurfaceMesh) -> float:
+    """The distance of a row's centre from the mesh, in spheroid radii.
 
     Some triangle's middle is `reach` radii away; so what is nearest is no farther, which is reach times the longer
     semi-axis at most, and its triangle's middle is no farther than that and the triangle's own size.
@@ -102,8 +102,7 @@ def nearest(row: Floats, mesh: SurfaceMesh) -> tuple[float, int]:
     away = np.linalg.norm(mesh.middles - row[4:7], axis=1)
     near = np.flatnonzero(away <= 1.001 * (reach * max(row[2], row[3]) + mesh.radii))
     squares = to_triangles(seen_from(row, mesh.vertices[mesh.triangles[near]].reshape(-1, 3)).reshape(-1, 3, 3))
-    least = int(squares.argmin())
-    return float(np.sqrt(squares[least])), int(near[least])
+    return float(np.sqrt(squares.min()))
 
 
 def rows_near(spot: Spot, gap: Floats, mesh: SurfaceMesh) -> tuple[Rows, Floats]:

@@ -6,12 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hypcheck.engines.install import cache_folder, command, is_installed
-from hypcheck.engines.measure import own_errors, reported_distances
+from hypcheck.engines.engine import ENGINES, cache_folder, command, is_installed
+from hypcheck.engines.measure import own_errors, reported_distances, spec_of
 from hypcheck.engines.placing import FAMILIES, placed
-from hypcheck.engines.run import spec_of
 from hypcheck.engines.scene import SurfaceMesh, distances, surface_mesh, write_scene
-from hypcheck.engines.table import ENGINES
 from hypcheck.implementations.implementation import open_implementation
 
 BESIDE = Path(sys.prefix, "engines")  # where `make` installs what continuous integration tests

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.engines import install as installing
+from hypcheck.engines import engine as installing
 from hypcheck.engines import measure as measuring
-from hypcheck.engines import run as running
+from hypcheck.engines.engine import ENGINES
+from hypcheck.engines.measure import read_records, record_of, write_record
 from hypcheck.engines.placing import FAMILIES, placed
 from hypcheck.engines.report import write_page
-from hypcheck.engines.run import read_records, record_of, write_record
-from hypcheck.engines.table import ENGINES
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.implementations.session import StartError, TimingError
 from tests.engines.test_adapters import CACHE
@@ -130,7 +129,7 @@ def test_record_of_an_engine_skips_families_that_it_cannot_answer_with_the_reaso
         raise StartError("the program ended; stderr: no memory")
 
     asked = []
-    monkeypatch.setattr(running, "_asked", refused)
+    monkeypatch.setattr(measuring, "_asked", refused)
     found = record_of(ENGINES["cannon-es"], tmp_path, families=("leaning", "ball"), meshes=(500, 5000))
     assert found.skipped == {"leaning": "no spheroid leans", "ball": "no memory"}
     assert asked == ["ball"]

@@ -8,13 +8,12 @@ import pytest
 from msgspec.structs import replace
 
 from hypcheck.engines import reduce
+from hypcheck.engines.engine import ENGINES
 from hypcheck.engines.findings import proved
-from hypcheck.engines.measure import Measured, Reported
+from hypcheck.engines.measure import EngineRecord, Measured, Reported
 from hypcheck.engines.placing import FAMILIES, drawn
-from hypcheck.engines.reduce import Asker, Said, findings_of
-from hypcheck.engines.run import EngineRecord
+from hypcheck.engines.reduce import Asker, Said, best_direction, findings_of, lower_bounds, nearest_shares
 from hypcheck.engines.scene import rows_near, surface_mesh, to_triangles
-from hypcheck.engines.table import ENGINES
 
 BALL = FAMILIES["ball"]
 PLANTED = 0.01
@@ -179,3 +178,12 @@ def test_distances_in_a_finding_are_worded_as_apart_or_deep():
     assert reduce._words("too near", Said(False, 0.002), 0.001, 1000.0) == ("2 mm apart", "3 mm apart at least")
     assert reduce._words("too far", Said(False, 0.002), 0.001, 1000.0) == ("2 mm apart", "1 mm apart at most")
     assert reduce._words("too near", Said(True, -0.002), 0.001, 1000.0) == ("2 mm deep", "1 mm deep at most")
+
+
+def test_best_direction_proves_the_signed_distance_of_a_triangle_from_a_ball():
+    rng = np.random.default_rng(5)
+    for corners in rng.normal((0.0, 0.0, 2.0), size=(20, 3, 3)):
+        way = best_direction(corners, 0.5, 0.5)
+        point = nearest_shares(corners) @ corners
+        found = lower_bounds(corners, 0.5, 0.5, way[np.newaxis])[0]
+        assert found == pytest.approx(np.linalg.norm(point) - 0.5, abs=1e-9)

@@ -1,5 +1,5 @@
 # mujoco 4.0.0 says contact. Exact: clear by 0.00045 mm (at a tower of 2 m).
-# Certificate: with n = (-0.165987, 0.984549, -0.055782), every corner v of the triangle has n·v >= 0.24975140346908573, and every
+# Certificate: with n = (-0.165987, 0.984549, -0.055782), every corner v of the triangle has n·v >= 0.2497514034690857, and every
 # point x of the spheroid has n·x <= sqrt(b²(nx² + ny²) + d² nz²) = 0.24975095156458363;
 # |n| = 1.0000000245469998.
 # Needs: pip install mujoco==4.0.0. Ends with 1 while it is wrong.

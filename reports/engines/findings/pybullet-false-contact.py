@@ -1,5 +1,5 @@
 # pybullet 3.2.7 says contact. Exact: clear by 1.9 mm (at a tower of 2 m).
-# Certificate: with n = (0.24, 0.97, 0.07), every corner v of the triangle has n·v >= 0.0068652343749999959, and every
+# Certificate: with n = (0.24, 0.97, 0.07), every corner v of the triangle has n·v >= 0.0068652343749999976, and every
 # point x of the spheroid has n·x <= sqrt(b²(nx² + ny²) + d² nz²) = 0.0050006599564457492;
 # |n| = 1.0016985574512922.
 # Needs: pip install pybullet==3.2.7. Ends with 1 while it is wrong.

@@ -1,5 +1,5 @@
 # python-fcl 0.7.0.11 says 1.35e+03 mm deep. Exact: 4.96 mm deep at most (at a tower of 2 m).
-# Certificate: with n = (-0.53, 0.85, 0.04), every corner v of the triangle has n·v >= -0.003012695312500006, and every
+# Certificate: with n = (-0.53, 0.85, 0.04), every corner v of the triangle has n·v >= -0.0030126953125000004, and every
 # point x of the spheroid has n·x <= sqrt(b²(nx² + ny²) + d² nz²) = 0.0050099301392334808;
 # |n| = 1.0024968827881711.
 # Needs: pip install python-fcl==0.7.0.11. Ends with 1 while it is wrong.
