@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, BinaryIO, TextIO
+from typing import Any, BinaryIO
 
 from msgspec import UNSET
 
@@ -189,12 +189,12 @@ class Recorder:
 
     def __init__(
         self,
-        stream: TextIO | GrowingFile,
+        file: GrowingFile,
         options: Mapping[str, Any],
         provenance: Provenance | None = None,
         carried: Sequence[RecordLine] = (),
     ) -> None:
-        self._stream = stream
+        self._file = file
         self._started = datetime.now(timezone.utc)
         self._began = time.monotonic()  # the wall clock may be set during the run
         self._lines = [line for line in carried if not isinstance(line, ProgressLine)]
@@ -203,10 +203,7 @@ class Recorder:
         self._ending: tuple[FooterLine, ...] = ()
         self._check = 0
         self._header = header(options, self._started, provenance)
-        if isinstance(stream, GrowingFile):
-            self._renew()
-        else:
-            self._write(self._header)
+        self._renew()
 
     @property
     def goes_on(self) -> bool:
@@ -229,10 +226,9 @@ class Recorder:
         self._lines.append(line)
 
     def keep(self, progress: ProgressLine) -> None:
-        """Put a line of progress after the recorded lines, in place of the previous one; only in a GrowingFile."""
-        if isinstance(self._stream, GrowingFile):
-            self._progress, self._place = progress, len(self._lines)
-            self._renew()
+        """Put a line of progress after the recorded lines, in place of the previous one."""
+        self._progress, self._place = progress, len(self._lines)
+        self._renew()
 
     def close(self, exit_code: int) -> Record:
         """Write the footer; returns the record as it would be read back."""
@@ -248,31 +244,24 @@ class Recorder:
 
     def settle(self, path: Path) -> None:
         """Move the file to its final place; if it was removed during the run, it is written again."""
-        if isinstance(self._stream, GrowingFile):
-            if not self._stream.is_there:
-                self._renew()
-            self._stream.move(path)
+        if not self._file.is_there:
+            self._renew()
+        self._file.move(path)
 
     def _write(self, line: RecordLine) -> None:
         with interrupts_deferred():
             data, self._check = sealed(as_json(line), self._check)
-            if isinstance(self._stream, GrowingFile):
-                self._stream.write(data)
-            else:
-                self._stream.write(data.decode())
-                self._stream.flush()
+            self._file.write(data)
 
     def _renew(self) -> None:
         """Write all lines again."""
-        if not isinstance(self._stream, GrowingFile):
-            raise TypeError("only a file can be renewed")
         progress = [] if self._progress is None else [self._progress]
         data, check = b"", 0
         for line in (self._header, *self._lines[: self._place], *progress, *self._lines[self._place :], *self._ending):
             text, check = sealed(as_json(line), check)
             data += text
         with interrupts_deferred():
-            self._stream.renew(data)
+            self._file.renew(data)
             self._check = check
 
 

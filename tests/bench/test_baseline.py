@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -19,6 +17,7 @@ from hypcheck.record.fields import decoded
 from hypcheck.record.lines import DriftLine
 from hypcheck.record.measurements import NoiseLine, SpeedLine
 from tests.report import bench_lines
+from tests.support.records import GrowingText
 
 KEY = ("mine", "uniform", "batch")
 
@@ -120,12 +119,12 @@ def test_baseline_without_the_gated_methods_is_refused():
 
 
 def recorded(path, lines=(), **options):
-    stream = io.StringIO()
+    stream = GrowingText()
     recorder = Recorder(stream, {"command": "bench", "reference": REFERENCE, "quick": True, **options})
     for line in lines:
         recorder.add(line)
     recorder.close(0)
-    path.write_text(stream.getvalue(), encoding="utf-8")
+    path.write_text(stream.text, encoding="utf-8")
     return BenchPlan(quick=True, baseline=path)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import stat
@@ -19,6 +18,7 @@ from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Recorder
 from hypcheck.vectors.families import FAMILIES, select
+from tests.support.records import GrowingText
 
 TIMED_ALONE = ("table-2-reciprocal-float64", "procedure-1-repaired-float64")
 """Compiled for the claims about costs, and compared with numpy there (test_costs.py)."""
@@ -102,9 +102,9 @@ def test_bench_without_a_c_compiler_keeps_the_other_methods_and_records_what_is_
     monkeypatch.setattr(
         c_library, "compiler_here", lambda: (_ for _ in ()).throw(UnavailableError("no C compiler is found"))
     )
-    stream = io.StringIO()
+    stream = GrowingText()
     plan = BenchPlan(methods=("table-2-float64*",), folder=tmp_path)
     found = plan_with_needs(plan, Recorder(stream, {}))
     assert list(contenders(found)) == ["table-2-float64"]
-    absent = json.loads(stream.getvalue().splitlines()[-1])
+    absent = json.loads(stream.text.splitlines()[-1])
     assert (absent["type"], absent["what"], absent["reason"]) == ("absent", "C compiler", "no C compiler is found")

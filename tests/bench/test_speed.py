@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-
 import pytest
 from msgspec import UNSET, structs
 
@@ -18,6 +16,7 @@ from hypcheck.record import Recorder
 from hypcheck.record.fields import decoded
 from hypcheck.record.measurements import SpeedLine, UnmeasuredLine
 from tests.report import bench_lines
+from tests.support.records import GrowingText
 
 WHERE = ("uniform", "single")
 
@@ -68,7 +67,7 @@ def test_a_speed_that_only_one_run_has_makes_the_comparison_inconclusive(tmp_pat
     plan = BenchPlan(methods=("fast-numpy",), baseline=tmp_path)
     for now, inconclusive in ((before, 0), (after, 1)):
         outcome = RunOutcome()
-        recorder = Recorder(io.StringIO(), plan.options)
+        recorder = Recorder(GrowingText(), plan.options)
         state = run._Run(plan, recorder, outcome, contenders(plan), baseline=speeds_of(before), speeds=now)
         run._compare(state, lambda steps: None)
         assert outcome.codes == ({Exit.INCONCLUSIVE} if inconclusive else set())

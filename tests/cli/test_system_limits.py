@@ -14,6 +14,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError, SystemLimitError, limit_reached
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.record import Recorder
+from tests.support.records import GrowingText
 from tests.tools.miniatures import LIMITS, command, function, rows, truth
 
 LIMITED = """
@@ -82,7 +83,7 @@ def test_only_errors_about_limits_become_system_limit_errors():
     assert limit_reached(InputError("")) is None
 
 
-def test_durations_in_a_record_do_not_change_if_the_system_clock_is_set_back(monkeypatch, tmp_path):
+def test_durations_in_a_record_do_not_change_if_the_system_clock_is_set_back(monkeypatch):
     class Set:
         """A clock that somebody sets back by a day whenever it is looked at."""
 
@@ -97,6 +98,5 @@ def test_durations_in_a_record_do_not_change_if_the_system_clock_is_set_back(mon
 
     real = writer.datetime
     monkeypatch.setattr(writer, "datetime", Set)
-    with (tmp_path / "record.jsonl").open("w") as stream:
-        record = Recorder(stream, {}).close(0)
+    record = Recorder(GrowingText(), {}).close(0)
     assert 0 <= record.footer.seconds < 60

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import math
 import tracemalloc
@@ -16,7 +15,7 @@ from hypcheck.record.fields import FARTHEST, decoded
 from hypcheck.record.lines import DriftLine, FooterLine, GroupLine, HeaderLine, ImplementationLine
 from hypcheck.record.progress import SavedTally
 from hypcheck.record.reader import recorded_cases
-from tests.support.records import resealed
+from tests.support.records import GrowingText, resealed
 
 HEADER = {
     "type": "header",
@@ -57,12 +56,12 @@ SAMPLE = {
 
 
 def written(path, close=True):
-    stream = io.StringIO()
+    stream = GrowingText()
     recorder = Recorder(stream, {"seed": 3})
     domain = {"regimes": [], "ratio": [0.1, math.inf], "magnitude": None, "settings": [SETTING]}
     recorder.add(decoded({**SAMPLE, "used": {**SAMPLE["used"], "domain": domain}}, ImplementationLine))
     record = recorder.close(0) if close else None
-    path.write_text(stream.getvalue(), encoding="utf-8")
+    path.write_text(stream.text, encoding="utf-8")
     return record
 
 
@@ -139,10 +138,10 @@ def test_windows_line_ends_do_not_change_a_record(path):
 
 
 def test_lone_surrogates_and_control_characters_in_a_record_are_read_back(path):
-    stream = io.StringIO()
+    stream = GrowingText()
     recorder = Recorder(stream, {})
     recorder.add(DriftLine(sentence="a lone surrogate \udc80, a line \u2028 and \x00"))
-    path.write_text(stream.getvalue(), encoding="utf-8")
+    path.write_text(stream.text, encoding="utf-8")
     assert read(path).of(DriftLine)[0].sentence == "a lone surrogate \udc80, a line \u2028 and \x00"
 
 

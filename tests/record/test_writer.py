@@ -16,6 +16,7 @@ from hypcheck.record.fields import Unsigned, decoded
 from hypcheck.record.lines import DriftLine, NotStartedLine
 from hypcheck.record.writer import FolderInUseError, GrowingFile, Recorder, folder_locked
 from tests.record.test_removed import PROGRESS
+from tests.support.records import GrowingText
 
 
 def test_folder_is_used_without_a_lock_on_systems_without_file_locks(monkeypatch, tmp_path):
@@ -61,14 +62,14 @@ def test_a_recorder_that_resumes_keeps_the_carried_lines_and_puts_the_progress_b
 def test_a_record_can_be_resumed_once_it_has_one_implementation_or_progress():
     not_started = NotStartedLine(spec="python:mine:f", name="mine", trouble="no such module")
     for carried, goes_on in (([], False), ([DriftLine(sentence="it moved")], False), ([not_started], True)):
-        assert Recorder(io.StringIO(), {}, carried=carried).goes_on is goes_on
-    assert Recorder(io.StringIO(), {}, carried=[PROGRESS]).goes_on
+        assert Recorder(GrowingText(), {}, carried=carried).goes_on is goes_on
+    assert Recorder(GrowingText(), {}, carried=[PROGRESS]).goes_on
 
 
 def test_the_footer_holds_the_seconds_since_the_recorder_was_made(monkeypatch):
     now = 1000.0
     monkeypatch.setattr(time, "monotonic", lambda: now)
-    recorder = Recorder(io.StringIO(), {})
+    recorder = Recorder(GrowingText(), {})
     now = 1002.5
     assert recorder.close(0).footer.seconds == 2.5
 

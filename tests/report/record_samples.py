@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import io
 import json
 
 from hypothesis import strategies as st
 
 from hypcheck.record import Record, Recorder, RecordLine, plain
 from hypcheck.record.reader import line_of
+from tests.support.records import GrowingText
 
 FOREIGN = st.lists(
     st.one_of(
@@ -202,12 +202,12 @@ def record(body=None, exit_code=0, options=None) -> Record:
 
 
 def text_and_record(body=None, exit_code=0, options=None):
-    stream = io.StringIO()
+    stream = GrowingText()
     recorder = Recorder(stream, {"seed": 1, "tolerance": 8.0} if options is None else options)
     for line in lines() if body is None else body:
         recorder.add(line if isinstance(line, RecordLine) else line_of(plain(line)))
     made = recorder.close(0 if exit_code is None else exit_code)
-    text = stream.getvalue()
+    text = stream.text
     if exit_code is None:
         made = Record(made.header, made.lines, None)
         text = text[: text.rstrip("\n").rindex("\n") + 1]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 from dataclasses import fields, replace
 from importlib import resources
@@ -24,7 +23,7 @@ from hypcheck.runs.findings import SelfCheckPlan
 from hypcheck.runs.self_check import TimedMethod, timing_line
 from hypcheck.vectors.families import FAMILIES
 from tests.report import bench_lines, record_samples
-from tests.support.records import violations
+from tests.support.records import GrowingText, violations
 from tests.tools.published_schemas import PUBLISHED
 
 
@@ -105,13 +104,13 @@ def test_record_line_of_an_implementation_that_did_not_start_has_only_its_error(
 def really_recorded():
     """A small run of the oracles, the formulas, the methods and the map, without the slow derivation and timing."""
     plan = SelfCheckPlan(("ring", "tower-body"), count=6, roots=8, meshes=8, exact_formulas=6, workers=1)
-    stream = io.StringIO()
+    stream = GrowingText()
     recorder, outcome = Recorder(stream, self_check.options(plan)), RunOutcome()
     for stage in self_check.stages(plan, recorder, outcome):
         if stage.title not in ("derivation", "timing"):
             stage.run(lambda steps: None)
     recorder.close(outcome.exit_code)
-    return stream.getvalue()
+    return stream.text
 
 
 @pytest.mark.slow

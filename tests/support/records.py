@@ -2,12 +2,30 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from jsonschema import Draft202012Validator
 from jsonschema.validators import extend
 
 from hypcheck.record.integrity import sealed
+from hypcheck.record.writer import GrowingFile
+
+
+class GrowingText(GrowingFile):
+    """A growing file in memory, its content as `text`."""
+
+    def __init__(self):
+        super().__init__(Path("record.jsonl"))
+        self.text = ""
+
+    def write(self, data):
+        """Add to the end."""
+        self.text += data.decode()
+
+    def renew(self, data):
+        """Replace the whole content."""
+        self.text = data.decode()
 
 
 def resealed(lines):

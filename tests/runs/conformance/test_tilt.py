@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from fractions import Fraction
 
 import numpy as np
@@ -30,6 +29,7 @@ from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.runs import leaning
+from tests.support.records import GrowingText
 from tests.support.tilted_fractions import exact_position
 
 pytestmark = [pytest.mark.usefixtures("text_reports"), pytest.mark.slow]
@@ -115,7 +115,7 @@ def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_wit
 def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(tmp_path):
     steps, more = [], []
     plan = ConformancePlan(("python:tests.runs.leaning:exact",), ("ring", "tilted-ring"), count=3)
-    run_conformance(plan, Recorder(io.StringIO(), {}), RunOutcome(), steps.append, expect=more.append)
+    run_conformance(plan, Recorder(GrowingText(), {}), RunOutcome(), steps.append, expect=more.append)
     assert more == [sum(len(frozen.load_invalid_rows(name).cases) for name in frozen.INVALID_NAMES[PAIRS])]
     assert sum(steps) == planned_size(plan) + sum(more)
 

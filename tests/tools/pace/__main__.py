@@ -21,6 +21,7 @@ from hypcheck.record import Recorder
 from hypcheck.runs.conformance import run_conformance
 from hypcheck.runs.plan import ConformancePlan
 from hypcheck.runs.retest import PARTS
+from tests.support.records import GrowingText
 
 FAMILY = "tower-body"
 SPREAD = 0.15
@@ -103,7 +104,7 @@ def _timed(spec: str, count: int, workers: int | None) -> Pace:
     plan = ConformancePlan((spec,), families=(FAMILY,), count=count, workers=workers)
     begun = time.perf_counter()
     run_conformance(
-        plan, Recorder(io.StringIO(), {}), RunOutcome(), lambda rows: marks.append((time.perf_counter(), rows))
+        plan, Recorder(GrowingText(), {}), RunOutcome(), lambda rows: marks.append((time.perf_counter(), rows))
     )
     asking = plan.pool_workers or 1
     first = 1 if asking == 1 else 2 * asking
