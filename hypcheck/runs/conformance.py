@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -21,12 +21,12 @@ from hypcheck.runs.consistency import require_all_tallied
 from hypcheck.runs.diagnosis import UNEXPLAINED, causes_of
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
 from hypcheck.runs.judge import UNANSWERED, Status
-from hypcheck.runs.known_failures import KnownFailure, no_longer_failing
+from hypcheck.runs.known_failures import no_longer_failing
 from hypcheck.runs.plan import ConformancePlan, known_failures_of, planned_cases, planned_size, rules_of, steps_of
 from hypcheck.runs.results import CasesResult, JudgingRules, merged_result
 from hypcheck.runs.resume import ProgressWriter, recorded_description
 from hypcheck.runs.retest import result_without_retest
-from hypcheck.runs.schedule import ImplementationOpener, RetestStep, RunState, Step, TaskExecution, perform_steps
+from hypcheck.runs.schedule import ImplementationOpener, RetestStep, RunState, TaskExecution, perform_steps
 from hypcheck.runs.tally import Tally
 from hypcheck.vectors import frozen
 
@@ -49,17 +49,13 @@ def run_conformance(
     `advance` is not called for either. An interrupted run records the finished part. Raises NothingJudgedError if no
     case at all was judged, which proves nothing.
     """
-    known, cases = known_failures_of(plan), planned_size(plan)
+    known_failures_of(plan)  # a file that cannot be read is refused before anything is asked
+    cases = planned_size(plan)
     keep_freed_memory()
     with _cluster_client(plan.cluster) if plan.cluster else nullcontext() as client:
         for number in range(recorder.concluded, len(plan.specs)):
             try:
-                with _implementation_run(plan, number, known, recorder, state, client) as run:
-                    expect(run.cases - cases)
-                    for step, after in perform_steps(run.steps, run.execution, run.state):
-                        run.state = after
-                        advance(0 if isinstance(step, RetestStep) else len(step))
-                        run.progress.offer(after)
+                _run_implementation(plan, number, recorder, state, client, advance, expect)
             except StartError as error:
                 spec = plan.specs[number]
                 recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
@@ -78,52 +74,42 @@ def _cluster_client(address: str) -> AbstractContextManager[Client]:
     return cluster_client(address)
 
 
-@dataclass
-class _ImplementationRun:
-    """The run of one implementation: its cases and steps, what performs them, its progress writer, its state so far."""
-
-    cases: int
-    steps: Iterable[Step]
-    execution: TaskExecution
-    progress: ProgressWriter
-    state: RunState
-
-
-@contextmanager
-def _implementation_run(
+def _run_implementation(
     plan: ConformancePlan,
     number: int,
-    known: tuple[KnownFailure, ...],
     recorder: Recorder,
     resumed: RunState | None,
     client: Client | None,
-) -> Iterator[_ImplementationRun]:
-    """The run of the implementation with this number, whose lines are recorded at the end.
+    advance: Advance,
+    expect: Advance,
+) -> None:
+    """Ask and judge the implementation with this number, and record the lines about it at the end.
 
     If the run is interrupted, its progress is recorded too. Raises StartError if the implementation does not start.
     """
-    opener = plan.opener(number)
+    opener, size = plan.opener(number), planned_size(plan)
     with opener.open() as implementation:
         used = implementation.description
-        rules = rules_of(plan, used, known)
+        rules, planned = rules_of(plan, used), planned_cases(plan, used)
         lines = ImplementationLines(plan, opener.spec, implementation.declared, used, rules)
-        progress = ProgressWriter(recorder, number, implementation.declared, planned_size(plan))
-        state = resumed or RunState(implementation.allowance)
+        progress = ProgressWriter(recorder, number, implementation.declared, size)
+        state = begun = resumed or RunState(implementation.allowance)
         steps = steps_of(plan, used)
-        planned = planned_cases(plan, used.domain, refuses=used.refuses, tilt=used.tilt, layout=used.asked.layout)
+        expect(sum(planned.values()) - size)
         with _task_execution(implementation, opener, plan, rules, client) as execution:
-            run = _ImplementationRun(sum(planned.values()), steps, execution, progress, state)
             try:
-                yield run
+                for step, state in perform_steps(steps, execution, begun):
+                    advance(0 if isinstance(step, RetestStep) else len(step))
+                    progress.offer(state)
             except StartError:
                 raise
             except BaseException:
                 with interrupts_deferred(), suppress(OSError):  # of a full disk: the progress before stays
-                    progress.keep(run.state)
-                lines.add(run.state, recorder, finished=False)
+                    progress.keep(state)
+                lines.add(state, recorder, finished=False)
                 raise
-        require_all_tallied(run.state.total.tallies, planned)
-        lines.add(run.state, recorder, finished=True)
+        require_all_tallied(state.total.tallies, planned)
+        lines.add(state, recorder, finished=True)
 
 
 def _task_execution(

@@ -15,7 +15,7 @@ import numpy as np
 
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.description import QUESTIONS
+from hypcheck.implementations.description import QUESTIONS, Description
 from hypcheck.implementations.implementation import MAX_FAULTS
 from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
@@ -59,9 +59,10 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     if len(tallied) < len(groups):
         raise ValueError("a family has two lines")
     fixed_sizes = {family: plan.count for family in tallied if MARK in family and not plan.filtered}
-    layout = QUESTIONS[whole.used.question].layout
-    refuses = frozen.INVALID_NAMES[layout][0] in tallied
-    planned = planned_cases(plan, refuses=refuses, tilt=whole.used.tilt is True, layout=layout)
+    question = whole.used.question
+    refuses = frozen.INVALID_NAMES[QUESTIONS[question].layout][0] in tallied
+    used = Description(whole.used.name, question=question, refuses=refuses, tilt=whole.used.tilt is True)
+    planned = planned_cases(plan, used)
     trouble = _difference(tallied, planned | fixed_sizes)
     for line in groups:
         trouble = trouble or _of_sums(line.family, _Sums.of_line(line)) or _of_failing(line, plan)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, Layout
+from hypcheck.geometry.rows import PAIRS
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
@@ -95,44 +95,37 @@ def check_cluster_address(address: str) -> None:
         raise InputError(f"--cluster is {address!r}; it must be {right}")
 
 
-def planned_cases(
-    plan: ConformancePlan,
-    domain: Domain | None = None,
-    *,
-    refuses: bool = False,
-    tilt: bool = False,
-    layout: Layout = PAIRS,
-) -> dict[str, int]:
-    """The number of cases of each family for one implementation, skipped cases included.
+def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
+    """The number of cases of each family for an implementation with this description, skipped cases included.
 
-    A domain with fixed sizes has families of its own. An implementation that `refuses` is asked the invalid rows too,
-    one that takes `tilt` the families of tilted spheroids; one whose rows have another layout is asked the families of
-    that. Raises InputError naming a family that does not exist.
+    A domain with fixed sizes has families of its own. An implementation that refuses invalid rows is asked these too.
+    Raises InputError naming a family that does not exist.
     """
-    listed = _families_with_known_failures(plan)
-    cases = {family.name: _cases_of(plan, family, listed) for family in chosen_families(plan, tilt=tilt, layout=layout)}
-    if not plan.filtered and layout is PAIRS:
-        cases |= {chunk.family: len(chunk) for chunk in searched_chunks()}
-        settings = domain.settings if domain is not None else ()
-        of_sizes = fixed_sizes.families_for(settings)
-        cases |= {family.name: _generated(plan, family, listed) for family in of_sizes}
-    cases |= {each.family: len(each) for each in invalid_rows(refuses=refuses, tilt=tilt, layout=layout)}
+    families, chunks = chosen_families(plan, used), list[CaseChunk | InvalidRows](invalid_rows(used))
+    if _asks_everything(plan, used):
+        families, chunks = (*families, *fixed_sizes.families_for(used.domain.settings)), [*searched_chunks(), *chunks]
+    cases = _cases_of(plan, families) | {chunk.family: len(chunk) for chunk in chunks}
     return {family: number for family, number in cases.items() if number}
 
 
-def invalid_rows(*, refuses: bool, tilt: bool, layout: Layout = PAIRS) -> tuple[InvalidRows, ...]:
-    """The invalid rows of its layout that an implementation is asked: with an axis too if it takes `tilt`."""
-    names = frozen.INVALID_NAMES[layout][: 1 + tilt]
-    return tuple(map(InvalidRows, names)) if refuses else ()
+def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
+    """Whether cases of other families are asked too: those that a search found, and those of fixed sizes."""
+    return not plan.filtered and used.asked.layout is PAIRS
 
 
-def chosen_families(plan: ConformancePlan, *, tilt: bool = False, layout: Layout = PAIRS) -> tuple[Family, ...]:
-    """The families of the plan whose rows have that layout, those of tilted spheroids only if it takes `tilt`.
+def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
+    """The invalid rows that an implementation is asked: with an axis too if it takes tilt; none unless it refuses."""
+    names = frozen.INVALID_NAMES[used.asked.layout][: 1 + used.tilt]
+    return tuple(map(InvalidRows, names)) if used.refuses else ()
 
-    Raises InputError naming one that does not exist.
+
+def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, ...]:
+    """The families of the plan that an implementation with this description answers about.
+
+    Their rows have its layout, and an axis only if it takes tilt. Raises InputError naming one that does not exist.
     """
     named = select(plan.families, tilted=True, layout=None)
-    return tuple(family for family in named if (tilt or not family.tilted) and family.layout is layout)
+    return tuple(each for each in named if (used.tilt or not each.tilted) and each.layout is used.asked.layout)
 
 
 def planned_size(plan: ConformancePlan) -> int:
@@ -141,19 +134,20 @@ def planned_size(plan: ConformancePlan) -> int:
     It is that of one that answers about upright spheroids, or, if families were chosen, about all of these. Others have
     more or fewer, which is known once they have described themselves.
     """
-    if not plan.filtered:
-        return sum(planned_cases(plan).values())
-    chosen, listed = select(plan.families, tilted=True, layout=None), _families_with_known_failures(plan)
-    return sum(_cases_of(plan, family, listed) for family in chosen)
+    if plan.filtered:
+        return sum(_cases_of(plan, select(plan.families, tilted=True, layout=None)).values())
+    return sum(planned_cases(plan, Description("")).values())
 
 
-def _cases_of(plan: ConformancePlan, family: Family, listed: frozenset[str]) -> int:
-    return frozen_count(family.name) + _generated(plan, family, listed)
+def _cases_of(plan: ConformancePlan, families: Iterable[Family]) -> dict[str, int]:
+    """The number of frozen vectors and of generated rows of each family, fresh ones included."""
+    listed = _families_with_known_failures(plan)
+    return {each.name: frozen_count(each.name) + plan.count * len(_seeds(plan, each, listed)) for each in families}
 
 
-def _generated(plan: ConformancePlan, family: Family, listed: frozenset[str]) -> int:
-    """Generated rows of a family, fresh ones included."""
-    return plan.count * (1 + (plan.fresh is not None and family.name not in listed))
+def _seeds(plan: ConformancePlan, family: Family, listed: frozenset[str]) -> tuple[int, ...]:
+    """The seed of a family's generated rows, and that of its fresh ones if it has any."""
+    return (plan.seed,) if plan.fresh is None or family.name in listed else (plan.seed, plan.fresh)
 
 
 def _families_with_known_failures(plan: ConformancePlan) -> frozenset[str]:
@@ -175,9 +169,8 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
     Raises InputError if the plan names only families that the implementation is not about: those of tilted spheroids
     where it takes none, or those of the other layout.
     """
-    layout = used.asked.layout
-    families = chosen_families(plan, tilt=used.tilt, layout=layout)
-    if not families and not chosen_families(plan, tilt=True, layout=layout):
+    families = chosen_families(plan, used)
+    if not families and not chosen_families(plan, replace(used, tilt=True)):
         raise InputError(
             f"{', '.join(plan.families)}: none of these families has cases for the question {used.question!r}"
         )
@@ -186,29 +179,27 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
             f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "
             'description must say "tilt": true'
         )
-    return steps_of_chunks(
-        _chunks(plan, families, used.domain), invalid_rows(refuses=used.refuses, tilt=used.tilt, layout=layout)
-    )
+    return steps_of_chunks(_chunks(plan, families, used), invalid_rows(used))
 
 
-def rules_of(plan: ConformancePlan, used: Description, known: tuple[KnownFailure, ...]) -> JudgingRules:
-    """How an implementation with this description is judged."""
-    return JudgingRules(Criterion(used.question, used.precision, plan.tolerance), used.domain, known, plan.seed)
+def rules_of(plan: ConformancePlan, used: Description) -> JudgingRules:
+    """How an implementation with this description is judged. Raises InputError as known_failures_of does."""
+    criterion = Criterion(used.question, used.precision, plan.tolerance)
+    return JudgingRules(criterion, used.domain, known_failures_of(plan), plan.seed)
 
 
-def _chunks(plan: ConformancePlan, families: tuple[Family, ...], domain: Domain) -> Iterator[CaseChunk]:
+def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Description) -> Iterator[CaseChunk]:
     """The chunks of a run; a domain with fixed sizes has families of its own."""
+    yield from _chunks_of(plan, families)
+    if _asks_everything(plan, used):
+        yield from searched_chunks()
+        yield from _chunks_of(plan, fixed_sizes.families_for(used.domain.settings))
+
+
+def _chunks_of(plan: ConformancePlan, families: Iterable[Family]) -> Iterator[CaseChunk]:
     listed = _families_with_known_failures(plan)
-
-    def generated(family: Family) -> Iterator[CaseChunk]:
-        yield from family_chunks(family, plan.seed, plan.count)
-        if plan.fresh is not None and family.name not in listed:
-            yield from fresh_chunks(family, plan.fresh, plan.count)
-
     for family in families:
-        yield from generated(family)
-    if plan.filtered or any(family.layout is not PAIRS for family in families):
-        return
-    yield from searched_chunks()
-    for family in fixed_sizes.families_for(domain.settings):
-        yield from generated(family)
+        seed, *fresh = _seeds(plan, family, listed)
+        yield from family_chunks(family, seed, plan.count)
+        for each in fresh:
+            yield from fresh_chunks(family, each, plan.count)

@@ -43,7 +43,7 @@ from hypcheck.runs.consistency import require_lines, require_state
 from hypcheck.runs.diagnosis import Diagnosis, Explained
 from hypcheck.runs.fingerprint import code_fingerprint
 from hypcheck.runs.judge import Mistake, Status, WrongCase
-from hypcheck.runs.plan import ConformancePlan, known_failures_of, rules_of, steps_of
+from hypcheck.runs.plan import ConformancePlan, rules_of, steps_of
 from hypcheck.runs.results import CasesResult, PendingRetest
 from hypcheck.runs.schedule import RunState
 from hypcheck.runs.tally import Histogram, Tally, UnansweredCase, WorstCase
@@ -164,7 +164,7 @@ def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> Res
         _require_same(before.get(key), now.get(key), f"the {key} that {plan.specs[begun.number]} declares", file)
     with _contradictions_of(file):
         state = restored_state(begun.state)
-        require_state(state, steps_of(plan, used), plan, rules_of(plan, used, known_failures_of(plan)))
+        require_state(state, steps_of(plan, used), plan, rules_of(plan, used))
     return ResumedRun((*carried, begun), state)
 
 

@@ -11,6 +11,7 @@ import pytest
 
 from hypcheck.cli import verify
 from hypcheck.cli.main import main
+from hypcheck.implementations.description import Description
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.cases import FRESH_SEEDS
 from hypcheck.runs.plan import ConformancePlan, planned_cases, planned_size
@@ -69,6 +70,6 @@ def test_family_with_a_known_failure_gets_no_fresh_rows(tmp_path):
     known.write_text("".join(f'[[known_failure]]\n{entry}\nreason = "x"\n' for entry in entries))
     usual = ConformancePlan(("builtin:fast",), ("ring", "axis", "uniform"), count=7, known_failures=known)
     fresh = ConformancePlan(("builtin:fast",), ("ring", "axis", "uniform"), count=7, known_failures=known, fresh=SEED)
-    before, after = planned_cases(usual), planned_cases(fresh)
+    before, after = (planned_cases(plan, Description("any")) for plan in (usual, fresh))
     assert {name: after[name] - before[name] for name in after} == {"ring": 0, "axis": 0, "uniform": 7}
     assert planned_size(fresh) == planned_size(usual) + 7

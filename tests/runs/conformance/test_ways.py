@@ -9,6 +9,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.rows import WAYS
+from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
@@ -121,7 +122,7 @@ def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(tmp_path
 
 def test_invalid_ways_are_chosen_by_declared_refuses_and_tilt():
     def chosen(**said):
-        return [each.family for each in invalid_rows(**said, layout=WAYS)]
+        return [each.family for each in invalid_rows(Description("any", question="passage", **said))]
 
     assert chosen(refuses=True, tilt=True) == ["way-invalid", "tilted-way-invalid"]
     assert chosen(refuses=True, tilt=False) == ["way-invalid"]

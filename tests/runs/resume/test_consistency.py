@@ -10,6 +10,7 @@ import pytest
 from msgspec import structs
 
 from hypcheck.cli.main import main
+from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Limits
 from hypcheck.record import read
 from hypcheck.record.fields import as_json, decoded
@@ -45,7 +46,7 @@ def plan_of(spec, **options):
 def every_state(plan):
     """Each state of a run of a plan, with the description and the rules that it was judged by."""
     with plan.opener(0).open() as it:
-        rules = rules_of(plan, it.description, KNOWN)
+        rules = replace(rules_of(plan, it.description), known=KNOWN)
         with execution_here(it, rules) as performing:
             for _, state in perform_steps(steps_of(plan, it.description), performing, RunState(it.allowance)):
                 yield it.description, rules, state
@@ -74,7 +75,7 @@ def test_every_saved_state_of_a_run_passes_the_consistency_check(plan):
     for used, rules, state in every_state(plan):
         check(plan, used, rules, as_json(saved_state(state)))
         kinds |= {name for tally in state.total.tallies.values() for name in tally.counts}
-    require_all_tallied(state.total.tallies, planned_cases(plan, used.domain, refuses=used.refuses, tilt=used.tilt))
+    require_all_tallied(state.total.tallies, planned_cases(plan, used))
     assert kinds - {"right"}
 
 
@@ -140,7 +141,7 @@ def test_edited_progress_line_is_refused_with_the_reason(edit, said):
 
 
 def test_finished_run_without_all_its_cases_ends_with_70():
-    cases = planned_cases(plan_of("builtin:fast"))
+    cases = planned_cases(plan_of("builtin:fast"), Description("fast"))
     whole = {family: Tally(number, {"right": number}) for family, number in cases.items()}
     require_all_tallied(whole, cases)
     for tallies in ({}, {**whole, "ring": Tally(9, {"right": 9})}, {**whole, "more": Tally(1, {"right": 1})}):
