@@ -92,7 +92,7 @@ def answer(pair: Pair | TiltedPair) -> Answer | TiltedAnswer:
     A pair with an axis that is an upright one all the same is answered as that.
     """
     if isinstance(pair, TiltedPair):
-        return _upright_answer(pair.upright) if pair.upright is not None else _tilted_answer(pair)
+        return _upright_answer(pair.upright) if pair.upright is not None else tilted_answer(pair)
     return _upright_answer(pair)
 
 
@@ -102,13 +102,19 @@ def _upright_answer(pair: Pair) -> Answer:
     decision = exact.decide(pair.lengths)
     measured = nearest(pair)
     require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
+    return Answer(pair, decision, measured.clearance, proved(pair, decision))
+
+
+def proved(pair: Pair, decision: Decision) -> Certificate:
+    """The checked proof of a decision about an upright pair. Raises DisagreementError if it does not hold."""
     certificate = prove(pair, decision)
     if certificate.position is not decision.position or not check_certificate(pair, certificate):
         raise _unproved(pair)
-    return Answer(pair, decision, measured.clearance, certificate)
+    return certificate
 
 
-def _tilted_answer(pair: TiltedPair) -> TiltedAnswer:
+def tilted_answer(pair: TiltedPair) -> TiltedAnswer:
+    """The answer about a pair whose axis leans. Raises DisagreementError as answer() does."""
     decision = tilted_exact.decide(pair.lengths)
     clearance = measured_clearance(pair, decision)
     certificate = tilted_prove.prove(pair, decision)

@@ -298,7 +298,6 @@ def replay(
     **limits: Any,  # noqa: ANN401 - those of with_limits
 ) -> None:
     """Replay, and print the result."""
-    from hypcheck.geometry.rows import WAYS
     from hypcheck.implementations.description import parse_domain
     from hypcheck.implementations.implementation import open_implementation
     from hypcheck.runs.intermediates import require_formula
@@ -306,7 +305,6 @@ def replay(
     from hypcheck.runs.replay import case_of
     from hypcheck.runs.replay import replay as run
     from hypcheck.runs.replay_results import replay_as_json, replay_lines
-    from hypcheck.runs.way_replay import replay_way, way_replay_as_json, way_replay_lines
 
     asked = case_of(case)
     require_formula(formula)
@@ -317,14 +315,7 @@ def replay(
         print_isolation(spec, bounds)
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
-        if used.asked.layout is WAYS:
-            way = replay_way(asked, implementation, criterion)
-            judgement = way.judgement
-            lines = [way_replay_as_json(way)] if as_json else way_replay_lines(way)
-        else:
-            done = run(asked, implementation, criterion, formula)
-            judgement = done.judgement
-            lines = [replay_as_json(done)] if as_json else replay_lines(done)
-    for line in lines:
+        done = run(asked, implementation, criterion, formula)
+    for line in [replay_as_json(done)] if as_json else replay_lines(done):
         click.echo(printable(line))
-    context.exit(Exit.HELD if judgement.passes else Exit.WRONG)
+    context.exit(Exit.HELD if done.judgement.passes else Exit.WRONG)

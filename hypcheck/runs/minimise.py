@@ -20,7 +20,7 @@ from hypcheck.runs.hunt import HuntFinding, HuntTarget, measured_finding
 from hypcheck.runs.hunt_place import place_of_row
 from hypcheck.runs.hunt_search import MOVERS, border_factors, columns_of
 from hypcheck.runs.judge import Status, WrongCase
-from hypcheck.runs.replay import ReplayCase
+from hypcheck.runs.replay import ReplayCase, of_question
 from hypcheck.runs.score import Score
 from hypcheck.runs.tally import STATUSES
 from hypcheck.truth.tilted.pair import pair_of
@@ -260,15 +260,11 @@ def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
 
 def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
     """The row of a case; of a spheroid that stands upright after all, without its axis."""
-    used, layout = target.implementation.description, target.layout
-    of_layout = case.layout in (None, layout) and len(case.row) in (len(layout.upright), len(layout.tilted))
-    if not of_layout:
-        this = "a position" if layout is WAYS else "a way between two positions"
-        raise InputError(f"{case.name} is {this}, and {used.name} answers {used.question!r}")
-    trouble = trouble_with_row(case.row, layout.upright)
+    case = of_question(case, target.implementation.description)
+    trouble = trouble_with_row(case.row, target.layout.upright)
     if trouble is not None:
-        raise InputError(trouble if case.layout is None else f"{case.name}: {trouble}")
-    return tuple(np.add(case.row, 0.0).tolist()) if layout is WAYS else pair_of(case.row).row
+        raise InputError(f"{case.name}: {trouble}")
+    return tuple(np.add(case.row, 0.0).tolist()) if case.layout is WAYS else pair_of(case.row).row
 
 
 def _start(run: Minimised, row: Row) -> HuntFinding:

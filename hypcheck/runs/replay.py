@@ -1,18 +1,18 @@
-"""A replay: one case and one implementation; the truth, the answer, its backward error, and where its formula errs.
+"""A replay: one case and one implementation; the truth, the answer, how wrong it is, and where its formula errs.
 
-CASE on the command line is the id of a case, seven numbers, or a case that a record has kept.
+CASE on the command line is the id of a case, the numbers of a position or a way, or a case that a record has kept.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from hypcheck.answer import DisagreementError, TiltedAnswer, answer
+from hypcheck.answer import proved, tilted_answer
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import (
     AXIS,
@@ -26,7 +26,7 @@ from hypcheck.geometry.pair import (
     Position,
     trouble_with_row,
 )
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Layout, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Layout
 from hypcheck.implementations.description import Description, representable
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.spec import begins_as_spec
@@ -37,14 +37,16 @@ from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, Asked, Cause, Standing
 from hypcheck.runs.intermediates import AskedImplementation, FormulaChoice, choose_formula
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.runs.judges import judge_of
+from hypcheck.runs.passages import HIT, passage_of, radii_off
 from hypcheck.runs.score import Score, score, status_of
 from hypcheck.runs.tally import STATUSES
 from hypcheck.tables.numbers import number_of_text
 from hypcheck.truth import backward_error, exact
-from hypcheck.truth.certificate import Certificate, check_certificate
+from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.prove import prove
+from hypcheck.truth.swept import Passage
 from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors import frozen
@@ -162,7 +164,8 @@ class ReplayJudgement:
     """The status of the case. `answer` is None if there was none; `reason` then says why, or explains the status.
 
     `mistake`, `error` (the backward error) and `error_u` (the same in units u) describe a wrong answer, tolerated or
-    not; otherwise they are None, 0 and 0.
+    not; otherwise they are None, 0 and 0. `time` is that of a way's first contact, if the answer has one, and `radii`
+    how far off it is in spheroid radii of the way.
     """
 
     status: Status
@@ -171,6 +174,8 @@ class ReplayJudgement:
     mistake: Mistake | None = None
     error: float = 0.0
     error_u: float = 0.0
+    time: float | None = None
+    radii: float = 0.0
 
     @property
     def passes(self) -> bool:
@@ -180,9 +185,10 @@ class ReplayJudgement:
 
 @dataclass(frozen=True, slots=True)
 class Replay:
-    """The result of a replay; `truth` and `choice` are None for an invalid row.
+    """The result of a replay; `truth` is None for an invalid row, and `choice` where no formula takes the row.
 
-    `causes` are those about places that explain a wrong answer about an upright spheroid.
+    `skipped` says why a conformance run would not ask the row. `causes` are those about places that explain a wrong
+    answer about an upright spheroid.
     """
 
     case: ReplayCase
@@ -190,45 +196,52 @@ class Replay:
     declared: Description
     used: Description
     criterion: Criterion
-    truth: ProvedTruth | None
+    truth: ProvedTruth | Passage | None
     judgement: ReplayJudgement
-    skipped: str | None
-    choice: FormulaChoice | None
+    skipped: str | None = None
+    choice: FormulaChoice | None = None
     causes: tuple[Cause, ...] = ()
 
 
 def replay(case: ReplayCase, implementation: Implementation, criterion: Criterion, formula: str | None) -> Replay:
-    """Ask, judge and compare. Raises InputError if the row is invalid and the implementation refuses no rows.
+    """Ask, judge and compare. Raises InputError if the row is not of the question, or no formula takes it.
 
+    An invalid row is asked if it is one of the frozen ones, and the implementation promises to refuse such rows.
     Raises DisagreementError if the proof of the truth does not hold.
     """
     declared, used = implementation.declared, implementation.description
-    if case.layout is WAYS or len(case.row) > len(TILTED_COLUMNS):
-        raise InputError(f"{case.name} is a way between two positions; {used.name} answers {used.question!r}")
-    if case.layout is None and (trouble := trouble_with_row(case.row)) is not None:
-        raise InputError(trouble)
-    rows = np.array([case.row])
-    known = (case, str(implementation.spec), declared, used, criterion)
-    if rows.shape[1] > len(COLUMNS) and not used.tilt:
+    case = of_question(case, used)
+    if len(case.row) != len(used.asked.layout.upright) and not used.tilt:
         raise InputError(
             f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
             "true"
         )
+    known = (case, str(implementation.spec), declared, used, criterion)
     if case.at_fault:
-        return Replay(*known, None, refused(case, implementation), None, None)
-    truth = truth_of(pair_of(case.row))
-    judgement = _judged(implementation, rows, truth, criterion)
+        return Replay(*known, None, _refused(case, implementation))
+    truth = passage_of(case.row) if case.layout is WAYS else truth_of(pair_of(case.row))
+    judgement = _judged(implementation, case.row, truth, criterion)
     choice, causes = None, tuple[Cause, ...]()
-    if isinstance(truth.pair, Pair):
+    if isinstance(truth, ProvedTruth) and isinstance(truth.pair, Pair):
         causes = _causes(truth, judgement, criterion)
         answered = None if judgement.answer == CANNOT_SAY else judgement.answer
         subject = AskedImplementation(implementation.spec, declared, used, answered)
         choice = choose_formula(subject, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
-        raise InputError(
-            f"--formula is {formula!r}, but {case.name} is about a tilted spheroid, which no formula takes"
-        )
+        about = "a way" if case.layout is WAYS else "a tilted spheroid"
+        raise InputError(f"--formula is {formula!r}, but {case.name} is about {about}, which no formula takes")
     return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice, causes)
+
+
+def of_question(case: ReplayCase, used: Description) -> ReplayCase:
+    """The case with the layout of the question. Raises InputError if it is of another, or a given row is invalid."""
+    layout = used.asked.layout
+    if case.layout not in (None, layout) or len(case.row) not in (len(layout.upright), len(layout.tilted)):
+        this = "a position" if layout is WAYS else "a way between two positions"
+        raise InputError(f"{case.name} is {this}, and {used.name} answers {used.question!r}")
+    if case.layout is None and (trouble := trouble_with_row(case.row, layout.upright)) is not None:
+        raise InputError(trouble)
+    return replace(case, layout=layout)
 
 
 def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion) -> tuple[Cause, ...]:
@@ -247,22 +260,15 @@ def truth_of(pair: Pair | TiltedPair) -> ProvedTruth:
     if isinstance(pair, TiltedPair):
         return _tilted_truth_of(pair)
     decision = exact.decide(pair.lengths)
-    certificate = prove(pair, decision)
-    if certificate.position is not decision.position or not check_certificate(pair, certificate):
-        raise DisagreementError(
-            f"the proof found for {pair} does not hold; please report this, it is a fault of hypcheck"
-        )
     others = _others(decision.position)
     flips = {position: backward_error.backward_error(pair.lengths, decision, position) for position in others}
-    return ProvedTruth(pair, decision, certificate, flips)
+    return ProvedTruth(pair, decision, proved(pair, decision), flips)
 
 
 def _tilted_truth_of(pair: TiltedPair) -> ProvedTruth:
     from hypcheck.truth.tilted.backward_error import quick_bracket  # noqa: PLC0415 - loads mpmath
 
-    told = answer(pair)
-    if not isinstance(told, TiltedAnswer):
-        raise TypeError("a pair that is upright is decided as that")
+    told = tilted_answer(pair)
     brackets = {other: quick_bracket(pair.row, told.decision, other) for other in _others(told.decision.position)}
     flips = {other: (each.lower, each.upper) for other, each in brackets.items()}
     return ProvedTruth(pair, told.decision, told.certificate, flips)
@@ -272,47 +278,55 @@ def _others(position: Position) -> Iterator[Position]:
     return (other for other in Position if other is not position)
 
 
-def _judged(implementation: Implementation, rows: Rows, truth: ProvedTruth, criterion: Criterion) -> ReplayJudgement:
+def _judged(
+    implementation: Implementation, row: Row, truth: ProvedTruth | Passage, criterion: Criterion
+) -> ReplayJudgement:
     """The judged answer to the row alone; NONDETERMINISTIC if the answer changes in a batch of many copies."""
-    positions = np.array([truth.decision.position], dtype=np.int8)
-    scored = score(rows, positions, implementation.classify(rows, batch=1), criterion)
-    alone, answer = _alone(scored, truth), int(scored.answers[0])
+    rows = np.array([row])
+    right = np.array([truth.decision.position if isinstance(truth, ProvedTruth) else truth.hit], dtype=np.int8)
+    scored = score(rows, right, implementation.classify(rows, batch=1), criterion)
+    alone = _alone(scored, truth)
     if alone.answer is None:
         return alone
     again = implementation.classify(np.repeat(rows, REPEATED_ROWS, axis=0), batch=REPEATED_ROWS)
-    changed = np.flatnonzero(~again.answered | (again.answers != answer))
+    changed = np.flatnonzero(~again.answered | (again.answers != alone.answer))
     if not len(changed):
         return alone
     place = int(changed[0])
     otherwise = again.reasons.get(place, f"it answers {int(again.answers[place])}")
     reason = (
-        f"answers {answer} when asked alone; asked {REPEATED_ROWS} times at once, at place {place + 1}: {otherwise}"
+        f"answers {alone.answer} when asked alone; asked {REPEATED_ROWS} times at once, at place {place + 1}: "
+        f"{otherwise}"
     )
-    return ReplayJudgement(Status.NONDETERMINISTIC, answer, reason, alone.mistake, alone.error, alone.error_u)
+    return replace(alone, status=Status.NONDETERMINISTIC, reason=reason)
 
 
-def _alone(scored: Score, truth: ProvedTruth) -> ReplayJudgement:
+def _alone(scored: Score, truth: ProvedTruth | Passage) -> ReplayJudgement:
     """The judgement of the one row of a score."""
     status, answer = STATUSES[scored.status[0]], int(scored.answers[0])
     if not scored.answered[0]:
         return ReplayJudgement(status, None, scored.reasons.get(0, ""))
+    found = ReplayJudgement(status, answer)
+    if scored.times is not None and answer == HIT:
+        row, time = tuple(scored.rows[0].tolist()), float(scored.times[0])
+        found = replace(found, time=time, radii=radii_off(row, time) if scored.truth[0] == HIT else 0.0)
     for case in scored.judged():
-        error = _error(case, truth, scored.criterion.question)
+        error = _error(case, truth, scored.criterion)
         in_units = judge.in_units(error, scored.criterion.unit)
-        return ReplayJudgement(case.status, answer, mistake=case.mistake, error=error, error_u=in_units)
-    return ReplayJudgement(status, answer)
+        found = replace(found, status=case.status, mistake=case.mistake, error=error, error_u=in_units)
+    return found
 
 
-def _error(case: WrongCase, truth: ProvedTruth, question: str) -> float:
-    """The backward error; of a tilted spheroid the end that says what the status says, as `flips` shows it."""
-    ends = [truth.flips[target] for target in judge.right_positions(Position(case.truth), case.answer, question)]
-    pairs = [each for each in ends if isinstance(each, tuple)]
-    if not pairs:
-        return judge.measured(case, question)
-    return min(low if case.status is Status.WRONG else high for low, high in pairs)
+def _error(case: WrongCase, truth: ProvedTruth | Passage, criterion: Criterion) -> float:
+    """How wrong an answer is; of a tilted spheroid the end that says what the status says, as `flips` shows it."""
+    if isinstance(truth, ProvedTruth) and isinstance(truth.pair, TiltedPair):
+        targets = judge.right_positions(Position(case.truth), case.answer, criterion.question)
+        ends = [each for target in targets if isinstance(each := truth.flips[target], tuple)]
+        return min(low if case.status is Status.WRONG else high for low, high in ends)
+    return judge_of(criterion.question).measured(case, criterion)
 
 
-def refused(case: ReplayCase, implementation: Implementation) -> ReplayJudgement:
+def _refused(case: ReplayCase, implementation: Implementation) -> ReplayJudgement:
     """The judgement of an invalid row. Raises InputError if the implementation does not promise to refuse such rows."""
     used = implementation.description
     if not used.refuses:
@@ -334,5 +348,6 @@ def _skipped(case: ReplayCase, used: Description, criterion: Criterion) -> str |
     rows = np.array([case.row])
     if not representable(rows, criterion.precision)[0]:
         return f"a number of the row is neither zero nor normal in {criterion.precision}"
-    asked = used.domain.holds(rows, extreme=is_extreme(case.name))[0]
+    with np.errstate(all="ignore"):
+        asked = used.domain.holds(rows, extreme=is_extreme(case.name), layout=used.asked.layout)[0]
     return None if asked else "the row lies outside the implementation's domain"

@@ -8,21 +8,32 @@ from fractions import Fraction
 from typing import Any
 
 from hypcheck.answer import kind_as_text, proof_as_json, proof_lines
-from hypcheck.geometry.pair import REFUSED, Pair, Position, columns_of
-from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.geometry.pair import REFUSED, Pair, Position
+from hypcheck.geometry.rows import CANNOT_SAY, WAYS
 from hypcheck.implementations.description import Description
 from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
-from hypcheck.runs.replay import ProvedTruth, Replay, ReplayCase, ReplayJudgement
+from hypcheck.runs.passages import LABELS, way_in_radii
+from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement, Row
 from hypcheck.tables.numbers import hex_of
+from hypcheck.truth import passage_error
+from hypcheck.truth.swept import Passage
 
 DIGITS = 17
 """Digits of the numbers in the JSON table of values. They are texts, because exact ones need not fit float64."""
 
 
 def replay_as_json(done: Replay) -> str:
-    """The object on one line; numbers that JSON cannot express are the strings "inf", "-inf" and "nan"."""
+    """The object on one line; numbers that JSON cannot express are the strings "inf", "-inf" and "nan".
+
+    Of a way it has the time of the answer in place of causes and values of a formula.
+    """
+    judgement = done.judgement
+    more: dict[str, Any] = {"time": judgement.time, "radii_off": judgement.radii}
+    if done.case.layout is not WAYS:
+        causes = [_cause_json(each) for each in done.causes]
+        more = {"causes": causes, "values": None if done.choice is None else _choice_json(done.choice)}
     return json.dumps(
         plain(
             {
@@ -34,10 +45,9 @@ def replay_as_json(done: Replay) -> str:
                 "declared": _claims_json(done.declared),
                 "used": _claims_json(done.used),
                 "tolerance_u": float(done.criterion.tolerance),
-                **_judgement_json(done.judgement),
+                **_judgement_json(judgement),
                 "skipped": done.skipped,
-                "causes": [_cause_json(each) for each in done.causes],
-                "values": None if done.choice is None else _choice_json(done.choice),
+                **more,
             }
         ),
         allow_nan=False,
@@ -48,7 +58,15 @@ def _cause_json(cause: Cause) -> dict[str, Any]:
     return {"cause": cause.name, "sentence": cause.sentence, "remedy": cause.remedy, "claim": cause.claim or None}
 
 
-def _truth_json(truth: ProvedTruth) -> dict[str, Any]:
+def _truth_json(truth: ProvedTruth | Passage) -> dict[str, Any]:
+    if isinstance(truth, Passage):
+        return {
+            "hit": truth.hit,
+            "first": [truth.first_lower, truth.first_upper] if truth.hit else None,
+            "grazes": truth.grazes,
+            "start": truth.start.label,
+            "end": truth.end.label,
+        }
     decision = truth.decision
     return {
         "position": int(decision.position),
@@ -109,38 +127,45 @@ _FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
 
 def replay_lines(done: Replay) -> Iterator[str]:
     """The whole replay, line by line."""
-    yield from case_head(done.case, columns_of(done.case.row))
+    case = done.case
+    yield from _titled("case", case.name)
+    for name, value in zip(done.used.asked.layout.columns(len(case.row)), case.row, strict=True):
+        yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
     if done.truth is None:
-        columns = " and ".join(done.case.at_fault)
-        yield from titled("truth", f"invalid row ({columns}), which must be refused with {REFUSED}")
+        yield from _titled(
+            "truth", f"invalid row ({' and '.join(case.at_fault)}), which must be refused with {REFUSED}"
+        )
+    elif isinstance(done.truth, Passage):
+        yield from _way_lines(done.truth, case.row)
     else:
         yield from _truth_lines(done.truth)
     yield ""
     yield from _judgement_lines(done)
     for cause in done.causes:
         yield from _cause_lines(cause)
-    if done.choice is not None and done.truth is not None:
+    if done.choice is not None and isinstance(done.truth, ProvedTruth):
         yield ""
         yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
 
 
-def case_head(case: ReplayCase, names: Sequence[str]) -> Iterator[str]:
-    """The name of a case and its numbers, which have these names."""
-    yield from titled("case", case.name)
-    for name, value in zip(names, case.row, strict=True):
-        yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
+def _way_lines(truth: Passage, row: Row) -> Iterator[str]:
+    yield from _titled("length", f"{way_in_radii(row):.6g} spheroid radii")
+    yield from _titled("truth", LABELS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else ""))
+    yield from _titled("ends", f"{truth.start.label} at the start, {truth.end.label} at the end")
+    if truth.hit:
+        yield from _titled("first", f"contact between the times {truth.first_lower!r} and {truth.first_upper!r}")
 
 
 def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
     decision = truth.decision
-    yield from titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
+    yield from _titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
     if truth.kind is not None:
-        yield from titled("kind", kind_as_text(truth.kind))
+        yield from _titled("kind", kind_as_text(truth.kind))
     if isinstance(truth.pair, Pair):
-        yield from titled("regime", _regime(truth.pair))
+        yield from _titled("regime", _regime(truth.pair))
     for position, distance in truth.flips.items():
-        yield from titled("flips", f"to {position.label} {_change(distance)}")
-    yield from titled("proof", *proof_lines(truth.pair, truth.certificate))
+        yield from _titled("flips", f"to {position.label} {_change(distance)}")
+    yield from _titled("proof", *proof_lines(truth.pair, truth.certificate))
 
 
 def _regime(pair: Pair) -> str:
@@ -155,49 +180,58 @@ def _regime(pair: Pair) -> str:
 
 def _cause_lines(cause: Cause) -> Iterator[str]:
     """Why the answer is wrong, the paper's claim that is the reason with the ledger's verdict, and the right line."""
-    yield from titled("cause", cause.sentence)
+    yield from _titled("cause", cause.sentence)
     if cause.claim:
         from hypcheck.paper.ledger.book import statement  # noqa: PLC0415 - loads sympy
 
         entry = statement(cause.claim)
-        yield from titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
-    yield from titled("fix", cause.remedy)
+        yield from _titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
+    yield from _titled("fix", cause.remedy)
 
 
 def _judgement_lines(done: Replay) -> Iterator[str]:
-    used, declared = done.used, done.declared
-    yield from titled("asked", f"{used.name} ({done.spec}): {_claim_lines(used)}")
+    used, declared, judgement = done.used, done.declared, done.judgement
+    yield from _titled("asked", f"{used.name} ({done.spec}): {_claim_lines(used)}")
     if _claim_lines(declared) != _claim_lines(used):
-        yield from titled("declared", _claim_lines(declared))
-    if done.judgement.answer is not None:
-        yield from titled("answer", answer_said(done.judgement.answer, done.criterion.question))
-    yield from titled("judged", _judged(done.judgement, float(done.criterion.tolerance)))
+        yield from _titled("declared", _claim_lines(declared))
+    if judgement.answer is not None:
+        time = "" if judgement.time is None else f", first at {judgement.time!r}"
+        yield from _titled("answer", answer_said(judgement.answer, done.criterion.question) + time)
+    said = (judgement.status.value, _mistake(done), judgement.reason)
+    yield from _titled("judged", "; ".join(part for part in said if part))
     if done.skipped is not None:
-        yield from titled("note", f"verify skips this case: {done.skipped}")
+        yield from _titled("note", f"verify skips this case: {done.skipped}")
 
 
 def _claim_lines(description: Description) -> str:
     return f"{description.question}, {description.precision}"
 
 
-def _judged(judgement: ReplayJudgement, tolerance: float) -> str:
-    parts = [judgement.status.value]
-    if judgement.mistake is not None:
-        parts.append(
-            f"a {judgement.mistake.value} with backward error {judgement.error:.4g}, {judgement.error_u:.4g} u"
-            f" (tolerated: {tolerance:g} u)"
+def _mistake(done: Replay) -> str:
+    """How wrong an answer is; of one about a way by the size, or by the way between its time and the first contact."""
+    judgement, criterion = done.judgement, done.criterion
+    if judgement.mistake is None:
+        return ""
+    if judgement.radii:
+        return f"{judgement.mistake.value} by {judgement.radii:.4g} spheroid radii of the way"
+    if isinstance(done.truth, Passage):
+        tolerated = passage_error.tolerance(done.case.row, criterion.tolerance, criterion.unit)
+        return (
+            f"a {judgement.mistake.value}: b and d would have to change by {judgement.error:.4g} of themselves "
+            f"(tolerated: {float(tolerated):.4g})"
         )
-    if judgement.reason:
-        parts.append(judgement.reason)
-    return "; ".join(parts)
+    return (
+        f"a {judgement.mistake.value} with backward error {judgement.error:.4g}, {judgement.error_u:.4g} u "
+        f"(tolerated: {float(criterion.tolerance):g} u)"
+    )
 
 
 def answer_said(answer: int, question: str) -> str:
     """An answer to a question, as its number and in words."""
-    if answer == CANNOT_SAY:
-        return f"{answer}, cannot say"
-    if answer == REFUSED:
-        return f"{answer}, refused"
+    if answer in (CANNOT_SAY, REFUSED):
+        return f"{answer}, {'refused' if answer == REFUSED else 'cannot say'}"
+    if question == "passage":
+        return f"{answer}, {LABELS[answer]}"
     if question == "position":
         return f"{answer:+d}, {Position(answer).label}" if answer else f"0, {Position(0).label}"
     return f"{answer}, {'' if answer else 'not '}{question}"
@@ -206,16 +240,16 @@ def answer_said(answer: int, question: str) -> str:
 def _choice_lines(choice: FormulaChoice, truth: Position, asked: str) -> Iterator[str]:
     compared = choice.comparison
     if compared is None:
-        yield from titled("values", f"none: {choice.why}")
+        yield from _titled("values", f"none: {choice.why}")
         return
     formula = compared.formula
     other = () if choice.own else (f"these are not the values of {asked} itself, whose steps cannot be shown",)
-    yield from titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}", *other)
+    yield from _titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}", *other)
     yield ""
     yield from _table(compared)
     yield ""
     about = () if choice.own else (f"about {formula.name}, not about {asked}:",)
-    yield from titled("finding", *about, *finding(compared, truth))
+    yield from _titled("finding", *about, *finding(compared, truth))
 
 
 def _table(compared: FormulaComparison) -> Iterator[str]:
@@ -276,7 +310,7 @@ def _change(distance: float | tuple[float, float]) -> str:
     return f"if each number may change by a relative {distance:.4g}"
 
 
-def titled(title: str, *lines: str) -> Iterator[str]:
+def _titled(title: str, *lines: str) -> Iterator[str]:
     """The lines, the title before the first."""
     for index, line in enumerate(lines):
         yield f"{'' if index else title:{_LABEL}}{line}"

@@ -38,6 +38,7 @@ def test_replay_in_json_names_the_mistake_and_its_size(capsys):
     told = json.loads(said.out)
     assert code == 0
     assert (told["status"], told["mistake"], told["truth"]["grazes"]) == ("tolerated", "false-clear", True)
+    assert told["used"] == {"name": "passage-sampled-4", "question": "passage", "precision": "float64"}
     assert told["truth"]["first"][0] <= 0.5 <= told["truth"]["first"][1]
 
 
@@ -65,12 +66,12 @@ def test_replay_calls_an_answer_to_an_invalid_way_wrong_unless_it_is_refused(cap
     ("case", "spec", "sentence"),
     [
         ("way-invalid-0003", "builtin:passage-exact", "is an invalid row (alpha), and passage-exact does not declare"),
-        ("way-invalid-0003", "builtin:fast", "way-invalid-0003 is a way between two positions; fast answers"),
-        ("2,5,1,1,3,0,0", "builtin:passage-exact", "the given row is no way between two positions, and passage-exact"),
-        ("way-tunnelling/1/1/3", "builtin:fast", "is a way between two positions; fast answers 'position'"),
-        ("ring/1/42/7", "builtin:passage-exact", "ring/1/42/7 is no way between two positions"),
+        ("way-invalid-0003", "builtin:fast", "way-invalid-0003 is a way between two positions, and fast answers"),
+        ("2,5,1,1,3,0,0", "builtin:passage-exact", "the given row is a position, and passage-exact"),
+        ("way-tunnelling/1/1/3", "builtin:fast", "is a way between two positions, and fast answers 'position'"),
+        ("ring/1/42/7", "builtin:passage-exact", "ring/1/42/7 is a position, and passage-exact answers 'passage'"),
         ("1,2,1,1,4,0,0,0,0,inf", "builtin:passage-exact", "is 'inf'; it must be finite"),
-        ("1,2,1,1,4,0,0,0,0,0,0,0,1", "builtin:passage-exact", "has an axis, but passage-exact takes none; its"),
+        ("1,2,1,1,4,0,0,0,0,0,0,0,1", "builtin:passage-exact", "has an axis, but passage-exact takes only upright"),
     ],
 )
 def test_replay_refuses_a_case_that_does_not_match_the_question_about_ways_in_one_sentence(
@@ -79,3 +80,9 @@ def test_replay_refuses_a_case_that_does_not_match_the_question_about_ways_in_on
     code, said = replayed(capsys, case, spec)
     assert code == 2
     assert sentence in said.err
+
+
+def test_replay_refuses_a_formula_for_a_way(capsys):
+    code, said = replayed(capsys, THROUGH, "builtin:passage-exact", "--formula", "table-2")
+    assert code == 2
+    assert "--formula is 'table-2', but the given row is about a way, which no formula takes" in said.err
