@@ -14,7 +14,7 @@ from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, answers
 from hypcheck.derivation.proofs import proofs_of, prove
 from hypcheck.geometry.pair import COLUMNS, Position
-from hypcheck.paper.ledger import entry
+from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.points import Point, facts, facts_in_order
 from hypcheck.paper.ledger.procedures import quadcopters
 from hypcheck.truth import exact
@@ -32,13 +32,13 @@ def test_the_proof_chain_of_repaired_procedure_1_holds():
 
 
 def test_repaired_procedure_1_answers_rightly_on_every_pair_of_the_space_in_its_regime():
-    asked = [each for each in facts_in_order() if entry.tall(each)]
+    asked = [each for each in facts_in_order() if statements.tall(each)]
     assert len(asked) > 5000
     wrong = 0
     for each in asked:
         row = dict(zip(COLUMNS, each.point.pair.row, strict=True))
-        assert answers(REPAIRED["procedure-1-repaired"], EXACT, row) == entry.exterior(each), each.point
-        wrong += answers(FORMULAS["table-2"], EXACT, row) != entry.exterior(each)
+        assert answers(REPAIRED["procedure-1-repaired"], EXACT, row) == statements.exterior(each), each.point
+        wrong += answers(FORMULAS["table-2"], EXACT, row) != statements.exterior(each)
     assert wrong > 10  # the ring
 
 
@@ -52,22 +52,22 @@ def quadcopter_says(formula, each):
 def test_repaired_procedure_2a_on_the_axis_accepts_if_all_four_rotors_are_interior():
     """All four rotors stand alike to the hyperboloid then: one unit sphere at r says it."""
     for each in facts_in_order():
-        if entry.wide(each) and each.point.r**2 >= 2:
+        if statements.wide(each) and each.point.r**2 >= 2:
             point = each.point
             inputs = {"alpha": point.a, "gamma": point.c, "b_s": 1, "d_s": 1, "x": 0, "y": 0, "z": point.z}
             found = answers(REPAIRED["procedure-2a-repaired"], EXACT, {**inputs, "l": point.r, "cosine": 1, "sine": 0})
-            assert bool(found) == entry.interior(each), point
+            assert bool(found) == statements.interior(each), point
 
 
 def test_repaired_procedure_2b_accepts_interior_hulls_and_rotors_that_the_printed_one_refuses():
     """At hulls whose farthest rotor is interior, and at hulls that are; all with a zero coefficient, some others."""
     differ = 0
     for place, hull in enumerate(facts_in_order()):
-        if not entry.wide(hull) or (hull.c1 and hull.c2 and place % 25):
+        if not statements.wide(hull) or (hull.c1 and hull.c2 and place % 25):
             continue
         for each in quadcopters(hull)[:1]:
             rotors = exact.position(each.farthest.pair.lengths) is Position.INTERIOR
-            if entry.interior(hull) or rotors:
+            if statements.interior(hull) or rotors:
                 assert quadcopter_says(REPAIRED["procedure-2b-repaired"], each), hull.point
                 differ += not each.answer
     assert differ > 10

@@ -14,7 +14,7 @@ from hypcheck.derivation.chain_book import chains
 from hypcheck.errors import Exit
 from hypcheck.paper.derive import selection
 from hypcheck.paper.derive.selection import entries_of
-from hypcheck.paper.ledger import entries
+from hypcheck.paper.ledger.book import entries
 
 
 def told(capsys, *arguments):

@@ -8,8 +8,9 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Position
-from hypcheck.paper.ledger import entries, leaning
-from hypcheck.paper.ledger.leaning import first_change
+from hypcheck.paper.ledger import points
+from hypcheck.paper.ledger.book import entries
+from hypcheck.paper.ledger.points import first_change
 from hypcheck.truth.tilted.pair import TiltedPair
 from tests.support.tilted_fractions import exact_position
 
@@ -47,7 +48,7 @@ def test_pitch_witness_with_a_proof_of_another_position_does_not_hold(evidence):
 
 
 def test_pitch_witness_search_without_a_result_returns_the_number_of_tried_pairs(monkeypatch):
-    monkeypatch.setattr(leaning, "LARGEST", 2)
+    monkeypatch.setattr(points, "LARGEST", 2)
     search = first_change(Position.CONTACT, Position.EXTERIOR, "never")
     assert search.found is None
     assert search.tried > 0

@@ -11,10 +11,11 @@ import pytest
 
 import hypcheck
 from hypcheck.geometry.pair import Position
-from hypcheck.paper.ledger import entries
-from hypcheck.paper.ledger import entry as say
+from hypcheck.paper.ledger import statements as say
+from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.points import Point, counterexample, facts
-from hypcheck.paper.ledger.procedures import PROCEDURE_2A, Quadcopter, program_says, quadcopters, refused_though_inside
+from hypcheck.paper.ledger.procedures import Quadcopter, program_says, quadcopters, refused_though_inside
+from hypcheck.paper.ledger.statements import PROCEDURE_2A
 
 
 @cache

@@ -11,7 +11,7 @@ import sympy
 
 from hypcheck.derivation.root_chains import PATTERNS
 from hypcheck.geometry.pair import Position
-from hypcheck.paper.ledger import entry
+from hypcheck.paper.ledger import statements as say
 from hypcheck.paper.ledger.points import (
     Point,
     PointWitness,
@@ -79,7 +79,7 @@ def pattern_of(each):
         crowded = g.count_roots(-sympy.oo, -A) == 2
     else:
         crowded = g.count_roots(0, B) < 2
-    signs = (sign, each.c2 < 0 and each.c1 > 0, crowded, entry.ring(each))
+    signs = (sign, each.c2 < 0 and each.c1 > 0, crowded, say.ring(each))
     (found,) = (p for p in PATTERNS if (p.delta, p.all_positive, p.crowded, p.ring) == signs)
     return found
 
@@ -128,10 +128,10 @@ def test_search_points_of_each_stratum_have_the_property_that_its_name_says():
 @pytest.mark.parametrize(
     ("statement", "expected"),
     [
-        (entry.PROPOSITION_3_1, (1, 2, Fraction(5, 2), 0)),
-        (entry.PROPOSITION_5_2, (7, 7, 10, 0)),
-        (entry.ALL_POSITIVE, (1, 1, 1, 0)),
-        (entry.PROPOSITION_5_1_WITH_C1, (3, 1, 1, 0)),
+        (say.PROPOSITION_3_1, (1, 2, Fraction(5, 2), 0)),
+        (say.PROPOSITION_5_2, (7, 7, 10, 0)),
+        (say.ALL_POSITIVE, (1, 1, 1, 0)),
+        (say.PROPOSITION_5_1_WITH_C1, (3, 1, 1, 0)),
     ],
 )
 def test_the_witness_of_a_false_statement_is_its_simplest_counterexample(statement, expected):
@@ -147,31 +147,30 @@ def beyond_B(each):
 
 def outside(each, *, ring=True):
     """The rule of all sizes for exterior, with the ring or without it."""
-    return (each.delta > 0 and entry.three_positive(each) and not beyond_B(each)) or (ring and entry.ring(each))
+    return (each.delta > 0 and say.three_positive(each) and not beyond_B(each)) or (ring and say.ring(each))
 
 
 def two_negative(each):
-    return each.delta > 0 and not entry.three_positive(each)
+    return each.delta > 0 and not say.three_positive(each)
 
 
 MISTAKES = {
-    "without the ring": lambda each: entry.exterior(each) == outside(each, ring=False),
+    "without the ring": lambda each: say.exterior(each) == outside(each, ring=False),
     "the ring with A = B²": lambda each: (
-        entry.exterior(each) == (outside(each) or (each.Q == 0 and each.slope_at_B == 0 and each.A == each.B**2))
+        say.exterior(each) == (outside(each) or (each.Q == 0 and each.slope_at_B == 0 and each.A == each.B**2))
     ),
     "c2 ≥ −3B alone": lambda each: (
-        entry.exterior(each)
-        == ((each.delta > 0 and entry.three_positive(each) and each.c2 >= -3 * each.B) or entry.ring(each))
+        say.exterior(each)
+        == ((each.delta > 0 and say.three_positive(each) and each.c2 >= -3 * each.B) or say.ring(each))
     ),
     "g'(B) ≤ 0 alone": lambda each: (
-        entry.exterior(each)
-        == ((each.delta > 0 and entry.three_positive(each) and each.slope_at_B <= 0) or entry.ring(each))
+        say.exterior(each) == ((each.delta > 0 and say.three_positive(each) and each.slope_at_B <= 0) or say.ring(each))
     ),
-    "c2 < 3A alone": lambda each: entry.interior(each) == (two_negative(each) and each.c2 < 3 * each.A),
-    "g'(−A) > 0 alone": lambda each: entry.interior(each) == (two_negative(each) and each.slope_at_minus_A > 0),
+    "c2 < 3A alone": lambda each: say.interior(each) == (two_negative(each) and each.c2 < 3 * each.A),
+    "g'(−A) > 0 alone": lambda each: say.interior(each) == (two_negative(each) and each.slope_at_minus_A > 0),
     "Δ ≥ 0": lambda each: (
-        entry.interior(each)
-        == (each.delta >= 0 and not entry.three_positive(each) and each.c2 < 3 * each.A and each.slope_at_minus_A > 0)
+        say.interior(each)
+        == (each.delta >= 0 and not say.three_positive(each) and each.c2 < 3 * each.A and each.slope_at_minus_A > 0)
     ),
 }
 
@@ -185,7 +184,7 @@ def test_search_space_has_a_counterexample_to_every_known_wrong_rule_for_all_siz
 
 
 def test_repaired_propositions_have_counterexamples_outside_their_regime():
-    for statement in (entry.REPAIRED_3, entry.REPAIRED_5):
+    for statement in (say.REPAIRED_3, say.REPAIRED_5):
         found = counterexample(Statement(statement.text, lambda _: True, statement.says)).found
         assert found is not None
         assert not statement.where(found)
@@ -194,12 +193,12 @@ def test_repaired_propositions_have_counterexamples_outside_their_regime():
 def test_counterexample_search_counts_the_points_that_it_tried():
     assert first_point(lambda _: False).tried == len(everything())
     assert first_point(lambda _: True).tried == 1
-    tall = first_point(lambda _: False, entry.tall).tried
+    tall = first_point(lambda _: False, say.tall).tried
     assert 0 < tall < len(everything())
 
 
 def test_a_witness_with_a_wrong_position_or_certificate_does_not_hold():
-    found = counterexample(entry.PROPOSITION_3_1).found
+    found = counterexample(say.PROPOSITION_3_1).found
     right = witness(found, "the ring")
     assert right.holds
     for position in (Position.INTERIOR, Position.CONTACT):

@@ -15,9 +15,10 @@ from hypcheck.derivation.links import printed
 from hypcheck.derivation.pencil import symbol
 from hypcheck.derivation.printed_equations import check, printed_claims
 from hypcheck.geometry.pair import Position
-from hypcheck.paper.ledger import entries, procedures, propositions
-from hypcheck.paper.ledger import entry as statements
-from hypcheck.paper.ledger.book import REASONS, coverage, sentences
+from hypcheck.paper.ledger import checks, statements
+from hypcheck.paper.ledger import entry as entry_module
+from hypcheck.paper.ledger.book import REASONS, coverage, entries, equation, sentences, statement
+from hypcheck.paper.ledger.counts import BENCH
 from hypcheck.paper.ledger.entry import (
     DEFINITION,
     FALSE,
@@ -32,7 +33,6 @@ from hypcheck.paper.ledger.entry import (
     with_counterexample,
     without_counterexample,
 )
-from hypcheck.paper.ledger.equations import BENCH, equation
 from hypcheck.paper.ledger.points import Point, Statement, facts, facts_in_order
 
 NUMBERS = [*map(str, range(1, 22)), "A.1", "A.2a", "A.2b", "A.3", "A.4", "A.5", "A.6", "22", "23"]
@@ -140,8 +140,8 @@ FALSE_STATEMENTS = [
     statements.ALL_POSITIVE,
     statements.PROPOSITION_5_1,
     statements.PROPOSITION_5_2,
-    procedures.PROCEDURE_2A,
-    procedures.CONTACT_MEANS_NOT_POSITIVE,
+    statements.PROCEDURE_2A,
+    statements.CONTACT_MEANS_NOT_POSITIVE,
 ]
 TRUE_STATEMENTS = [
     statements.REMARK_4,
@@ -149,7 +149,7 @@ TRUE_STATEMENTS = [
     statements.REPAIRED_3,
     statements.REPAIRED_5,
     statements.ALL_SIZES,
-    procedures.CONTACT_IF_TALL,
+    statements.CONTACT_IF_TALL,
 ]
 
 
@@ -198,11 +198,10 @@ def test_altered_equation_of_the_paper_loses_its_verdict(number):
 
 
 def test_a_wrong_equation_that_chains_rest_on_makes_them_fail(monkeypatch):
-    from hypcheck.paper.ledger import propositions
-
     assert all(part.holds for part in printed("10"))
-    monkeypatch.setattr(propositions, "printed", lambda number: (replace(printed(number)[0], left=symbol("x0")),))
-    assert not all(entry.confirmed for entry in propositions.propositions())
+    assert statement("Theorem 1").confirmed
+    monkeypatch.setattr(entry_module, "printed", lambda number: (replace(printed(number)[0], left=symbol("x0")),))
+    assert not statement("Theorem 1").confirmed
 
 
 def test_corrections_of_false_statements_are_the_repaired_ones():
@@ -227,7 +226,7 @@ def test_the_printed_proposition_5_is_true_where_b_exceeds_a_plus_1_and_false_wh
 
 
 @pytest.mark.parametrize(
-    ("case", "clear"), [(propositions.REMARK_4, Position.INTERIOR), (propositions.REMARK_6, Position.EXTERIOR)]
+    ("case", "clear"), [(checks.REMARK_4, Position.INTERIOR), (checks.REMARK_6, Position.EXTERIOR)]
 )
 def test_irrational_pairs_with_the_same_cubic_have_the_positions_of_their_float64_roundings(case, clear):
     """Their lengths are irrational; the exact position of lengths rounded to float64 is that of the pair itself."""
@@ -251,7 +250,7 @@ def test_what_the_ledger_says_of_bench_is_what_its_reference_report_says():
     """Verdicts of claims as words, false contacts rounded to whole percents."""
     report = (Path(__file__).parents[2] / "reports/reference/bench/README.md").read_text(encoding="utf-8")
     claims = dict(re.findall(r"(?m)^- Section ([^\n]*)\n((?:  - .*\n)+)", report))
-    for key, opening in (("operations", "3.1: in Table 2"), ("roots", "3.1: coefficients"), ("hull first", "4: Δ")):
+    for key, opening in (("operations", "3.1: in Table 2"), ("roots", "3.1: coefficients"), ("hull_first", "4: Δ")):
         (found,) = (verdicts for title, verdicts in claims.items() if title.startswith(opening))
         told = re.findall(r"\*\*(.*?)\*\*.*? in (numpy|C)", found)
         assert len(told) == 2

@@ -18,8 +18,8 @@ from hypcheck.errors import InputError
 from hypcheck.kernel.printing import coq
 from hypcheck.kernel.printing.coq import proof_of
 from hypcheck.kernel.programs import certified
-from hypcheck.paper.ledger import propositions
-from hypcheck.paper.ledger.book import COQ
+from hypcheck.paper.ledger import checks
+from hypcheck.paper.ledger.book import claims
 from hypcheck.proofs import build
 from hypcheck.proofs.build import CONTROL, WEAKENED, accepted
 from hypcheck.truth.kinds import Kind
@@ -72,16 +72,17 @@ def test_coq_accepts_the_checker_and_refuses_it_if_the_ring_counts_as_a_tangency
     assert not accepted(ring)
 
 
-@pytest.mark.parametrize("claim", COQ)
-def test_theorems_that_the_ledger_names_are_in_the_coq_sources(claim):
-    for theorem in COQ[claim]:
+def test_theorems_that_the_ledger_names_are_in_the_coq_sources():
+    theorems = [line.removeprefix("coq: ") for each in claims().values() for line in each.evidence if "coq: " in line]
+    assert len(theorems) >= 20
+    for theorem in theorems:
         assert build.proves(*theorem.split(".")), theorem
 
 
 def test_derive_fails_when_a_row_of_the_root_patterns_is_missing(monkeypatch):
     for kind in Kind:
-        monkeypatch.setattr(propositions, "PATTERNS", {**PATTERNS, kind: PATTERNS[kind][1:]})
-        patterns, coq = propositions._table_of_patterns()
+        monkeypatch.setattr(checks, "PATTERNS", {**PATTERNS, kind: PATTERNS[kind][1:]})
+        patterns, coq = checks.listed_patterns(), checks.patterns_in_coq()
         assert not patterns.holds
         assert not coq.holds
         assert PATTERNS[kind][0] in patterns.text
@@ -90,8 +91,8 @@ def test_derive_fails_when_a_row_of_the_root_patterns_is_missing(monkeypatch):
 def test_derive_fails_when_two_kinds_exchange_their_root_patterns(monkeypatch):
     moved = {**PATTERNS, Kind.EXTERIOR_RING: PATTERNS[Kind.EXTERIOR_TANGENT_TWO_POINTS]}
     moved[Kind.EXTERIOR_TANGENT_TWO_POINTS] = PATTERNS[Kind.EXTERIOR_RING]
-    monkeypatch.setattr(propositions, "PATTERNS", moved)
-    patterns, coq = propositions._table_of_patterns()
+    monkeypatch.setattr(checks, "PATTERNS", moved)
+    patterns, coq = checks.listed_patterns(), checks.patterns_in_coq()
     assert patterns.holds
     assert not coq.holds
 

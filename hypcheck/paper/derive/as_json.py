@@ -16,8 +16,7 @@ from hypcheck.derivation.program import Operations
 from hypcheck.paper.derive.latex import formula
 from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
-from hypcheck.paper.ledger.leaning import LeaningWitness
-from hypcheck.paper.ledger.points import PointWitness
+from hypcheck.paper.ledger.points import LeaningWitness, PointWitness
 from hypcheck.version import VERSION
 
 SCHEMA = "1.3.0"

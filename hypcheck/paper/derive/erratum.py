@@ -14,7 +14,7 @@ from pathlib import Path
 
 from hypcheck.paper.derive.latex import formula, sentence
 from hypcheck.paper.derive.selection import Selection
-from hypcheck.paper.ledger import entries
+from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.entry import LedgerEntry
 from hypcheck.paper.ledger.points import PointFacts
 from hypcheck.paper.tower_flights import PRINTED

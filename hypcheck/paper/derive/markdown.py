@@ -19,8 +19,8 @@ from hypcheck.paper.derive.selection import (
     details,
     verdict,
 )
-from hypcheck.paper.ledger import entries as whole_ledger
 from hypcheck.paper.ledger.book import coverage, sentences
+from hypcheck.paper.ledger.book import entries as whole_ledger
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, LedgerEntry
 
 _INTRODUCTION = """# The paper, claim by claim

@@ -10,15 +10,13 @@ import textwrap
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cached_property
 
 from hypcheck.derivation.chain_book import chains
 from hypcheck.derivation.formulas import Cost, costs
 from hypcheck.derivation.links import Chain
 from hypcheck.derivation.walk import walk
-from hypcheck.errors import InputError
-from hypcheck.paper.ledger import entries
+from hypcheck.paper.ledger.book import entries, entries_of
 from hypcheck.paper.ledger.entry import LedgerEntry
 
 
@@ -66,39 +64,9 @@ class Selection:
         return (*shown, *(entry.number for entry in self.entries if not entry.confirmed))
 
 
-def entries_of(claim: str) -> tuple[LedgerEntry, ...]:
-    """The entries of one number; "Proposition 3" has several. Raises InputError where there is none."""
-    asked = _plain(claim)
-    found = tuple(entry for entry in entries() if _is_of(_plain(entry.number), asked))
-    if not found:
-        raise InputError(f"there is no claim {claim!r} in the ledger; {_advice(asked)}")
-    return found
-
-
 def _with_needs(name: str) -> tuple[str, ...]:
     """A chain's name, where there is one, and the names of those that it needs."""
     return (name, *(each for needed in chains()[name].needs for each in _with_needs(needed))) if name else ()
-
-
-def _plain(number: str) -> str:
-    """A claim's number without what people leave out or write otherwise: "(12)", "eq. 12" and "12" are one."""
-    bare = re.sub(r"[()§]", " ", number.lower()).strip()
-    bare = re.sub(r"^(equation|eq\.?|appendix)\s*(?=[\da])", "", bare)
-    bare = re.sub(r"^prop(\.|\s)\s*", "proposition ", bare)
-    return " ".join(bare.split())
-
-
-def _is_of(number: str, asked: str) -> bool:
-    """Whether a number is the one asked for or one of its parts: "proposition 3" has "proposition 3.1"."""
-    return number == asked or bool(asked and re.match(re.escape(asked) + r"[.,:]\s?", number))
-
-
-def _advice(asked: str) -> str:
-    numbers = {_plain(entry.number): entry.number for entry in entries()}
-    near = get_close_matches(asked, numbers, n=1)
-    if near:
-        return f"did you mean {numbers[near[0]]!r}?"
-    return "give an equation's number such as 12, or Proposition 3, Remark 4, Table 2, A.2b"
 
 
 CHECKED, FAILS = "checked", "FAILS"

@@ -1,27 +1,22 @@
-"""An entry of the ledger and its evidence, and the paper's statements about pairs as conditions on a point.
-
-An entry says what became of one claim of the paper, and what the verdict rests on. The statements about pairs are
-those of the paper, as printed and as repaired.
-"""
+"""An entry of the ledger and its evidence: what became of one claim of the paper, and what the verdict rests on."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from hypcheck.derivation.chain_book import chains, proved
-from hypcheck.derivation.decisions import decisions
 from hypcheck.derivation.formulas import Formula
-from hypcheck.derivation.links import known
+from hypcheck.derivation.links import known, printed
 from hypcheck.derivation.proofs import proofs_of
-from hypcheck.geometry.pair import Position
-from hypcheck.paper.ledger.leaning import LeaningWitness
 from hypcheck.paper.ledger.points import (
     Condition,
+    LeaningWitness,
     PointFacts,
-    PointSearch,
     PointWitness,
+    Search,
     Statement,
     counterexample,
     witness,
@@ -65,8 +60,7 @@ class LedgerEntry:
     `number` is how the paper numbers it, `section` where it stands there, `statement` what it says in a few words.
     `verdict` is one of VERDICTS; `why` one line; `follows` what it means for someone who uses it. `correction` is the
     statement put right, where something is wrong and can be; `printed` a formula's own text; `grounds` finds what the
-    verdict rests on. `coq` names the theorems that say the same, "File.theorem" of hypcheck/proofs.
-    `harmless` says where a false statement does no harm.
+    verdict rests on. `harmless` says where a false statement does no harm.
     """
 
     number: str
@@ -78,13 +72,12 @@ class LedgerEntry:
     grounds: Callable[[], tuple[Evidence, ...]] = tuple
     correction: str = ""
     printed: str = ""
-    coq: tuple[str, ...] = ()
     harmless: str = ""
 
     @cached_property
     def evidence(self) -> tuple[Evidence, ...]:
         """What the verdict rests on, looked for when it is asked for."""
-        return (*self.grounds(), *map(by_coq, self.coq))
+        return self.grounds()
 
     @property
     def proved_by(self) -> tuple[str, ...]:
@@ -116,6 +109,17 @@ def by_chain(name: str) -> Evidence:
 def by_identity(text: str) -> Evidence:
     """That one of the derivation's own identities holds, by its sentence."""
     return Evidence("identity", text, known(text).holds)
+
+
+def by_printed(text: str) -> Evidence:
+    """That the displayed formulas whose numbers the text names hold as printed: "(7) and (8) hold"."""
+    parts = (part for number in re.findall(r"\((\d+)\)", text) for part in printed(number))
+    return Evidence("identity", text, all(part.holds for part in parts))
+
+
+def by_reading(text: str) -> Evidence:
+    """That two places of the paper's text were compared by reading."""
+    return Evidence("text", text, holds=True)
 
 
 def by_coq(theorem: str) -> Evidence:
@@ -152,7 +156,7 @@ def with_counterexample(*statements: Statement) -> Evidence:
     return _found([(search, f"contradicts “{statement.text}”") for statement, search in searches])
 
 
-def _found(searches: list[tuple[PointSearch, str]]) -> Evidence:
+def _found(searches: list[tuple[Search[PointFacts], str]]) -> Evidence:
     witnesses = tuple(witness(search.found, shows) for search, shows in searches if search.found is not None)
     tried = [search.tried for search, _ in searches]
     holds = len(witnesses) == len(searches) > 0 and all(each.holds for each in witnesses)
@@ -163,135 +167,5 @@ def _found(searches: list[tuple[PointSearch, str]]) -> Evidence:
 def described(facts: PointFacts) -> str:
     """A point, its position and its numbers: "a = 1, c = 2, C = (5/2, 0, 0): exterior, Δ = 0, c2 = −33/4, c1 = 18"."""
     point = facts.point
-    return _minus(
-        f"a = {point.a}, c = {point.c}, C = ({point.r}, 0, {point.z}): {facts.position.label}, Δ = {facts.delta}, c2 = "
-        f"{facts.c2}, c1 = {facts.c1}"
-    )
-
-
-def _minus(text: str) -> str:
-    return text.replace("-", "−")
-
-
-def tall(facts: PointFacts) -> bool:
-    """(γ/d)² ≥ α/b, the regime of Proposition 3."""
-    return facts.B >= facts.point.a
-
-
-def wide(facts: PointFacts) -> bool:
-    """α/b ≥ 1, the regime of Proposition 5 and of Procedures 2.a and 2.b."""
-    return facts.point.a >= 1
-
-
-def very_tall(facts: PointFacts) -> bool:
-    """(γ/d)² > (α/b)² + 1, where c2 < 0 for every centre."""
-    return facts.B > facts.A + 1
-
-
-def off_the_waist(facts: PointFacts) -> bool:
-    """z0 ≠ 0, where there is no ring."""
-    return facts.Q != 0
-
-
-def exterior(facts: PointFacts) -> bool:
-    """Whether the spheroid is exterior."""
-    return facts.position is Position.EXTERIOR
-
-
-def interior(facts: PointFacts) -> bool:
-    """Whether the spheroid is interior."""
-    return facts.position is Position.INTERIOR
-
-
-def contact(facts: PointFacts) -> bool:
-    """Whether there is contact."""
-    return facts.position is Position.CONTACT
-
-
-def three_positive(facts: PointFacts) -> bool:
-    """The sign pattern that Proposition 3 asks for beside Δ > 0."""
-    return facts.c2 < 0 and facts.c1 > 0
-
-
-def printed_interior(facts: PointFacts) -> bool:
-    """The sign pattern that Proposition 5 asks for beside Δ > 0."""
-    return (facts.c2 > 0 and facts.c1 != 0) or (facts.c2 < 0 and facts.c1 < 0)
-
-
-def ring(facts: PointFacts) -> bool:
-    """The exterior positions with Δ = 0: Q = 0, g'(B) = 0 and A < B²."""
-    return facts.Q == 0 and facts.slope_at_B == 0 and facts.A < facts.B**2
-
-
-def rule_of_all_sizes(facts: PointFacts) -> int:
-    """The position by the rule that the program "coefficients" is proved to decide by."""
-    (decision,) = decisions("coefficients")
-    numbers = (facts.delta, facts.c1, facts.c2, facts.A, facts.B, facts.Q, facts.slope_at_B, facts.slope_at_minus_A)
-    return decision.rule(*numbers)
-
-
-PROPOSITION_3_1 = Statement(
-    "exterior ⟺ Δ > 0, c2 < 0 and c1 > 0",
-    tall,
-    lambda facts: exterior(facts) == (facts.delta > 0 and three_positive(facts)),
-)
-PROPOSITION_3_2 = Statement("Δ ≤ 0 ⟹ contact", tall, lambda facts: facts.delta > 0 or contact(facts))
-THREE_POSITIVE_ROOTS = Statement(
-    "exterior ⟺ g has three different positive roots",
-    tall,
-    lambda facts: exterior(facts) == (facts.delta > 0 and facts.negative_roots == 0),
-)
-ALL_POSITIVE = Statement(
-    "c2 < 0 and c1 > 0 ⟺ all real roots of g are positive",
-    tall,
-    lambda facts: three_positive(facts) == (facts.negative_roots == 0),
-)
-REMARK_4 = Statement(
-    "two different negative roots ⟹ contact or interior",
-    tall,
-    lambda facts: not (facts.delta > 0 and facts.negative_roots == 2) or not exterior(facts),
-)
-
-
-def _proposition_5_1(text: str, zero: Callable[[PointFacts], bool]) -> Statement:
-    """The printed statement, tried on the pairs where one of the coefficients is 0."""
-    return Statement(
-        text,
-        lambda facts: facts.point.a > 1 and zero(facts),
-        lambda facts: interior(facts) == (facts.delta > 0 and printed_interior(facts)),
-    )
-
-
-_5_1 = "interior ⟺ Δ > 0 and [c2 > 0, c1 ≠ 0] or [c2 < 0, c1 < 0]"
-PROPOSITION_5_1 = _proposition_5_1(_5_1, lambda _: True)
-PROPOSITION_5_1_WITH_C2 = _proposition_5_1(f"{_5_1}, for c2 = 0", lambda facts: facts.c2 == 0)
-PROPOSITION_5_1_WITH_C1 = _proposition_5_1(f"{_5_1}, for c1 = 0", lambda facts: facts.c1 == 0)
-PROPOSITION_5_2 = Statement(
-    "Δ ≤ 0 ⟹ contact", lambda facts: facts.point.a > 1, lambda facts: facts.delta > 0 or contact(facts)
-)
-REMARK_6 = Statement(
-    "three different positive roots ⟹ contact or exterior",
-    wide,
-    lambda facts: not (facts.delta > 0 and facts.negative_roots == 0) or not interior(facts),
-)
-REPAIRED_3 = Statement(
-    "exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring; Δ ≤ 0 ⟹ contact or the ring",
-    tall,
-    lambda facts: (
-        exterior(facts) == ((facts.delta > 0 and three_positive(facts)) or ring(facts))
-        and (facts.delta > 0 or contact(facts) or ring(facts))
-    ),
-)
-REPAIRED_5 = Statement(
-    "interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0); Δ ≤ 0 ⟹ contact or the ring",
-    wide,
-    lambda facts: (
-        interior(facts) == (facts.delta > 0 and not three_positive(facts))
-        and (facts.delta > 0 or contact(facts) or ring(facts))
-    ),
-)
-ALL_SIZES = Statement(
-    "the position is that of the coefficient rule for all sizes",
-    lambda _: True,
-    lambda facts: rule_of_all_sizes(facts) == facts.position,
-)
+    text = f"a = {point.a}, c = {point.c}, C = ({point.r}, 0, {point.z}): {facts.position.label}, Δ = {facts.delta}, "
+    return f"{text}c2 = {facts.c2}, c1 = {facts.c1}".replace("-", "−")

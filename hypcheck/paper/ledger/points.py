@@ -6,6 +6,8 @@ is 0: there statements fail. Each thin set is a stratum: its points come from th
 the number that puts them there, and are kept where that number is rational. The space is finite and has an order, the
 simplest point first. So a search that finds a counterexample finds the least one, and one that finds none has tried
 every point. What is found gets a certificate.
+
+The last part searches for the simplest pairs whose answer is another once the spheroid's axis is not vertical.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from fractions import Fraction
 from functools import cache
 from itertools import pairwise, product
 from math import gcd, isqrt, lcm
+from typing import Generic, TypeVar
 
 import sympy
 
@@ -26,6 +29,10 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.certificate import check_certificate as check_tilted
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.truth.tilted.prove import prove as prove_tilted
 
 Rational = Callable[..., Fraction]
 
@@ -281,29 +288,100 @@ class PointWitness:
         return claimed and check_certificate(self.facts.point.pair, self.certificate)
 
 
-@dataclass(frozen=True, slots=True)
-class PointSearch:
+Found = TypeVar("Found")
+
+
+@dataclass(frozen=True)
+class Search(Generic[Found]):
     """What came of a search: how many points of the regime were tried, and the first that was looked for, if any."""
 
     tried: int
-    found: PointFacts | None
+    found: Found | None
 
 
-def counterexample(statement: Statement) -> PointSearch:
+def counterexample(statement: Statement) -> Search[PointFacts]:
     """The simplest point of the space at which the statement is false."""
     return first_point(lambda facts: statement.where(facts) and not statement.says(facts), statement.where)
 
 
-def first_point(wanted: Condition, where: Condition = lambda _: True) -> PointSearch:
+def first_point(wanted: Condition, where: Condition = lambda _: True) -> Search[PointFacts]:
     """The simplest point that is wanted; `tried` counts the points up to there for which `where` holds."""
     tried = 0
     for facts in facts_in_order():
         tried += where(facts)
         if wanted(facts):
-            return PointSearch(tried, facts)
-    return PointSearch(tried, None)
+            return Search(tried, facts)
+    return Search(tried, None)
 
 
 def witness(facts: PointFacts, shows: str) -> PointWitness:
     """The point with a certificate of its position."""
     return PointWitness(facts, prove(facts.point.pair), shows)
+
+
+LARGEST = 6
+"""Sizes and coordinates of the pairs that are tried are whole numbers up to this one."""
+
+AXES = tuple(
+    (float(x), 0.0, float(z))
+    for total in range(2, 8)
+    for x, z in ((sign * x, total - x) for x in range(1, total) for sign in (1, -1))
+    if abs(x) <= z and gcd(x, z) == 1
+)
+"""Axes that lean by 45 degrees at most, towards the hyperboloid's axis or away from it, the simplest first."""
+
+
+@dataclass(frozen=True, slots=True)
+class LeaningWitness:
+    """A pair with the certificates of two positions: as it leans, and upright; `shows` says what it shows."""
+
+    pair: TiltedPair
+    certificate: Certificate
+    vertical: Certificate
+    shows: str
+
+    @property
+    def upright(self) -> Pair:
+        """The same pair with a vertical axis."""
+        return Pair(*self.pair.row[:7])
+
+    @property
+    def holds(self) -> bool:
+        """Whether both certificates prove their positions, by rational arithmetic of their own, and these differ."""
+        differ = self.certificate.position is not self.vertical.position
+        proved = check_tilted(self.pair, self.certificate)
+        return differ and proved and check_certificate(self.upright, self.vertical)
+
+    @property
+    def text(self) -> str:
+        """The pair and its positions: "α = 2, γ = 1, b = 2, d = 1, C = (1, 0, 2): interior; with the axis …"."""
+        alpha, gamma, b, d, *center = (f"{each:g}" for each in self.pair.row[:7])
+        axis = ", ".join(f"{each:g}" for each in self.pair.axis)
+        said = (
+            f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)}): {self.vertical.position.label} "
+            f"upright, {self.certificate.position.label} with the axis ({axis})"
+        )
+        return said.replace("-", "−")
+
+
+def first_change(before: Position, after: Position, shows: str) -> Search[LeaningWitness]:
+    """The simplest pair that is `before` upright and `after` as it leans, both proved."""
+    tried = 0
+    for numbers in _pairs():
+        vertical = Pair.from_row(numbers)
+        if exact.position(vertical.lengths) is not before:
+            continue
+        for axis in AXES:
+            tried += 1
+            pair = TiltedPair.from_row((*numbers, *axis))
+            if tilted_exact.position(pair.lengths) is after:
+                return Search(tried, LeaningWitness(pair, prove_tilted(pair), prove(vertical), shows))
+    return Search(tried, None)
+
+
+def _pairs() -> Iterator[tuple[float, ...]]:
+    """Sizes and centres (x, 0, z) with α ≥ b, the regime of Procedures 2.a and 2.b, and b > d, as a quadcopter has."""
+    sizes = range(1, LARGEST + 1)
+    whole = (each for each in product(sizes, repeat=6) if each[0] >= each[2] > each[3])
+    for alpha, gamma, b, d, x, z in sorted(whole, key=lambda each: (sum(each), max(each), each)):
+        yield (*map(float, (alpha, gamma, b, d, x)), 0.0, float(z))

@@ -1,0 +1,290 @@
+"""The checks that claims.toml names: small identities, the table of root patterns, pairs with one cubic, and counts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from itertools import chain
+
+import sympy
+
+from hypcheck.derivation import pencil
+from hypcheck.derivation.links import known
+from hypcheck.derivation.pencil import read, symbol
+from hypcheck.derivation.printed_equations import check, equality, printed_claims
+from hypcheck.geometry.pair import Position
+from hypcheck.paper.ledger.counts import (
+    columns_fall,
+    directions_of_rotors,
+    discriminant_falls_at_each_height,
+    discriminant_near_the_wall,
+    divisions_of_table_2,
+    equal_steps,
+    first_row_falls,
+    functions_of_a_sweep,
+    greatest_share,
+    operations_of_roots,
+    operations_of_the_sizes,
+    rows_fall,
+    second_row_read_as_a_quarter,
+    share_of_discriminants,
+)
+from hypcheck.paper.ledger.entry import Evidence, by_printed, with_counterexample
+from hypcheck.paper.ledger.points import (
+    PointFacts,
+    Rational,
+    SquaredRatios,
+    Statement,
+    coefficients,
+    first_change,
+    rational,
+    with_c2,
+)
+from hypcheck.paper.ledger.procedures import refused_for_a_zero_coefficient, refused_though_the_hull_is_in_contact
+from hypcheck.paper.ledger.statements import rule_of_all_sizes
+from hypcheck.proofs.build import pattern_table
+from hypcheck.truth.kinds import Kind
+from hypcheck.truth.roots import PATTERNS, RootPlace, admissible, pattern_of
+
+
+def _same(text: str, left: sympy.Expr, right: sympy.Expr) -> Evidence:
+    return Evidence("identity", text, sympy.simplify(left - right) == 0)
+
+
+def discriminant_and_coefficients() -> Evidence:
+    """That (13) is the discriminant and (14) the coefficients."""
+    product = known("Δ is the product of the squared differences of the roots")
+    return Evidence("identity", product.text, product.holds and by_printed("(13) and (14)").holds)
+
+
+def listed_patterns() -> Evidence:
+    """That the typed table of root patterns has the patterns that signs allow, each once."""
+    listed = sorted(chain.from_iterable(PATTERNS.values()))
+    allowed = sorted(admissible())
+    wrong = sorted(set(listed) ^ set(allowed)) or (["a pattern twice"] if listed != allowed else [])
+    text = f"{len(listed)} patterns are listed, the {len(allowed)} that can occur"
+    return Evidence("exhaustive", f"the table is wrong in {', '.join(wrong)}" if wrong else text, not wrong)
+
+
+def patterns_in_coq() -> Evidence:
+    """That Coq's table of root patterns is the typed one."""
+    ours = {(kind.value, _meaning(kind), pattern) for kind, patterns in PATTERNS.items() for pattern in patterns}
+    coqs = [
+        (kind, meaning, pattern_of((_PLACES[place], count) for place, count in roots))
+        for kind, meaning, roots in pattern_table()
+    ]
+    return Evidence("coq", "proofs/RootPatterns.v has the same rows", len(coqs) == len(ours) and set(coqs) == ours)
+
+
+_PLACES = {
+    "Below": RootPlace.BELOW,
+    "AtMinusA": RootPlace.AT_MINUS_A,
+    "Inner": RootPlace.INNER,
+    "Outer": RootPlace.OUTER,
+    "AtB": RootPlace.AT_B,
+    "Above": RootPlace.ABOVE,
+}
+
+
+def _meaning(kind: Kind) -> str:
+    """What Coq calls the position of a kind."""
+    side = {Position.EXTERIOR: "Outside", Position.INTERIOR: "Inside"}
+    if kind.limit_of is not None:
+        return f"Touches{side[kind.limit_of]}"
+    return f"Clear{side[kind.position]}" if kind.position in side else "Crosses"
+
+
+REMARK_4 = (
+    (SquaredRatios("1", "3", "9/32", "175/32"), SquaredRatios("2/5", "15/2", "147/1580", "44/79")),
+    ("-3/4", "-1/2", "8"),
+)
+REMARK_6 = (
+    (SquaredRatios("12/5", "5/2", "1683/245", "3/98"), SquaredRatios("12", "1/2", "91/5", "3/10")),
+    ("1", "2", "3"),
+)
+"""Two pairs each, the first in the clear and the second in contact, and the roots of the g that both have."""
+
+
+def same_cubic_of_interior_and_contact() -> Evidence:
+    """That no function of g tells an interior pair from one in contact (Remark 4)."""
+    return _same_cubic(REMARK_4, Position.INTERIOR, lambda pair: pair.B**2 >= pair.A)
+
+
+def same_cubic_of_exterior_and_contact() -> Evidence:
+    """That no function of g tells an exterior pair from one in contact (Remark 6)."""
+    return _same_cubic(REMARK_6, Position.EXTERIOR, lambda pair: pair.A >= 1)
+
+
+def _same_cubic(
+    case: tuple[tuple[SquaredRatios, SquaredRatios], tuple[str, str, str]],
+    clear: Position,
+    regime: Callable[[SquaredRatios], bool],
+) -> Evidence:
+    """Two pairs of a regime with the same g, one in the clear and one in contact: no function of g tells which."""
+    pairs, roots = case
+    first, second, third = map(Fraction, roots)
+    expected = (-(first + second + third), first * second + first * third + second * third, -first * second * third)
+    holds = all(regime(pair) and coefficients(pair) == expected for pair in pairs)
+    positions = tuple(_position_by_roots(first, second, pair) for pair in pairs)
+    told = "; ".join(f"{pair}: {position.label}" for pair, position in zip(pairs, positions, strict=True))
+    text = f"g = (λ − {first})(λ − {second})(λ − {third}) for {told}".replace("− -", "+ ").replace("-", "−")
+    return Evidence("identity", text, holds and positions == (clear, Position.CONTACT))
+
+
+def _position_by_roots(low: Fraction, high: Fraction, pair: SquaredRatios) -> Position:
+    """The position of a pair whose g has these two least roots: g > 0 between them, and above the third.
+
+    The third is at least B, so only these matter (docs/mathematics.md, "The rule that needs no hypothesis").
+    """
+    if max(low, Fraction(0)) < min(high, pair.B):
+        return Position.EXTERIOR
+    return Position.INTERIOR if max(low, -pair.A) < min(high, Fraction(0)) else Position.CONTACT
+
+
+@cache
+def _c2_of_12() -> Rational:
+    """The coefficient of λ² that (12) prints, in a, c, x_c, y_c and z_c."""
+    (claim,) = (claim for claim in printed_claims() if claim.number == "12")
+    ((right, _),) = claim.pairs
+    letters = (pencil.SMALL_A, pencil.SMALL_C, pencil.XC, pencil.YC, pencil.ZC)
+    return rational(letters, sympy.Poly(right, pencil.LAMBDA).coeff_monomial(pencil.LAMBDA**2))
+
+
+def _position_by_12(facts: PointFacts) -> int:
+    point = facts.point
+    return rule_of_all_sizes(with_c2(facts, _c2_of_12()(point.a, point.c, point.r, 0, point.z)))
+
+
+_POSITION_BY_12 = Statement(
+    "the cubic that (12) prints tells the position",
+    lambda _: True,
+    lambda facts: _position_by_12(facts) == facts.position,
+)
+
+
+def misled_by_12() -> Evidence:
+    """A pair about which the cubic as printed says something wrong."""
+    found = with_counterexample(_POSITION_BY_12)
+    said = ", ".join(Position(_position_by_12(each.facts)).label for each in found.witnesses)
+    return replace(found, text=f"{found.text}; by (12) as printed {said}") if said else found
+
+
+def regime_of_section_4() -> Evidence:
+    """That a alone is meant where section 4 has the regime of Proposition 5 as (a/b) ≥ 1: by (12), a is α/b already."""
+    meaning = read("α/b")
+    checked = check((equality("Section 4", "regime = a/b", a=meaning, regime=meaning),))
+    printed_as = read("a/b").subs(pencil.SMALL_A, meaning) == read("α/b²")
+    right = checked.verdict == "misprint" and checked.correction == "regime = a" and printed_as
+    return Evidence("identity", checked.finding, bool(right))
+
+
+def roots_of_f() -> Evidence:
+    """That f has one root more than the cubic g."""
+    factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
+    degree = sympy.degree(pencil.cubic().g, pencil.LAMBDA)
+    return Evidence("identity", factor.text, factor.holds and degree == 3)
+
+
+def scaling_of_the_spheroid() -> Evidence:
+    """That the scaling makes the spheroid's matrix the unit matrix, and is symmetric."""
+    b, d = sympy.symbols("b d", positive=True)
+    scaling, matrix = sympy.diag(1 / b, 1 / b, 1 / d), sympy.diag(1 / b**2, 1 / b**2, 1 / d**2)
+    unit = scaling.inv() * matrix * scaling.inv() == sympy.eye(3)
+    return Evidence("identity", "A⁻¹·E·A⁻¹ = I", bool(unit and scaling == scaling.T))
+
+
+def mirrored_cubic() -> Evidence:
+    """That g(−λ) is what the proof of Proposition 3 says."""
+    cubic, at = pencil.cubic(), pencil.LAMBDA
+    mirrored = -(at**3) + cubic.c2 * at**2 - cubic.c1 * at + cubic.c0
+    return _same("g(−λ)", sympy.expand(cubic.g.subs(at, -at)), sympy.expand(mirrored))
+
+
+def constant_of_the_cubic() -> Evidence:
+    """That c0 is −AB, and so is below 0."""
+    return _same("c0 = −AB", sympy.expand(pencil.cubic().c0), -pencil.A * pencil.B)
+
+
+_ANGLE = sympy.Symbol("g", real=True)
+_COSINE, _SINE = sympy.cos(_ANGLE), sympy.sin(_ANGLE)
+
+
+def squares_of_t1_and_t2() -> Evidence:
+    """That T1² + T2² of equation (15) is 2."""
+    return _same("T1² + T2² = 2", (_COSINE - _SINE) ** 2 + (_COSINE + _SINE) ** 2, sympy.Integer(2))
+
+
+def radius_at_a_height() -> Evidence:
+    """That the hyperboloid is wider the farther from its waist, so that its shape is not similar at all heights."""
+    alpha, gamma, z = map(symbol, ("α", "γ", "z0"))
+    radius = alpha * sympy.sqrt(1 + z**2 / gamma**2)
+    return _same("R² − α² = α²·z²/γ²", radius**2 - alpha**2, (alpha * z / gamma) ** 2)
+
+
+def probabilities() -> Evidence:
+    """That the probabilities of the rules of flight add up to 1."""
+    return Evidence("count", "0.25 + 0.25 + 0.5 = 1", 0.25 + 0.25 + 0.5 == 1)
+
+
+_SEMI_AXES = sympy.symbols("b d", positive=True)
+_PLACE = sympy.symbols("x y z", real=True)
+
+
+def spheroid_after_a_turn() -> Evidence:
+    """That a turn about the axis leaves the spheroid as it is."""
+    (b, d), (x, y, z) = _SEMI_AXES, _PLACE
+    turned = ((x * _COSINE - y * _SINE) ** 2 + (x * _SINE + y * _COSINE) ** 2) / b**2 + z**2 / d**2
+    return _same("(x² + y²)/b² + z²/d² after a turn", turned, (x**2 + y**2) / b**2 + z**2 / d**2)
+
+
+def _mixed_term() -> sympy.Expr:
+    """The coefficient of x·z in the equation of a spheroid that is tilted."""
+    (b, d), (x, y, z) = _SEMI_AXES, _PLACE
+    ahead, up = x * _COSINE - z * _SINE, x * _SINE + z * _COSINE
+    return sympy.expand(ahead**2 / b**2 + y**2 / b**2 + up**2 / d**2).coeff(x, 1).coeff(z, 1)
+
+
+def tilted_spheroid() -> Evidence:
+    """That pitch brings a term x·z, which no equation (4) has."""
+    b, d = _SEMI_AXES
+    return _same("the coefficient of x·z", _mixed_term(), sympy.sin(2 * _ANGLE) * (1 / d**2 - 1 / b**2))
+
+
+def tilted_spheroid_is_another() -> Evidence:
+    """That this term does not vanish."""
+    return Evidence("identity", "it is not 0", sympy.simplify(_mixed_term()) != 0)
+
+
+def changed_by_leaning() -> Evidence:
+    """Simplest pairs in the regime of Procedures 2.a and 2.b whose position is another once they lean."""
+    searches = (
+        first_change(
+            Position.INTERIOR, Position.CONTACT, "dangerous: the upright body is clear, the one that leans is not"
+        ),
+        first_change(
+            Position.CONTACT, Position.INTERIOR, "needless: the upright body is refused, the one that leans is clear"
+        ),
+    )
+    found = tuple(search.found for search in searches if search.found is not None)
+    text = (
+        "; ".join(each.text for each in found) or f"nothing found among {sum(each.tried for each in searches):,} pairs"
+    )
+    return Evidence("search", text, len(found) == len(searches) and all(each.holds for each in found), leaning=found)
+
+
+CHECKS: dict[str, Callable[[], Evidence]] = {
+    each.__name__: each
+    for each in (
+        discriminant_and_coefficients, listed_patterns, patterns_in_coq, same_cubic_of_interior_and_contact,
+        same_cubic_of_exterior_and_contact, misled_by_12, regime_of_section_4, roots_of_f, scaling_of_the_spheroid,
+        mirrored_cubic, constant_of_the_cubic, squares_of_t1_and_t2, radius_at_a_height, probabilities,
+        spheroid_after_a_turn, tilted_spheroid, tilted_spheroid_is_another, changed_by_leaning, divisions_of_table_2,
+        operations_of_the_sizes, functions_of_a_sweep, operations_of_roots, directions_of_rotors,
+        share_of_discriminants, discriminant_near_the_wall, discriminant_falls_at_each_height, greatest_share,
+        first_row_falls, rows_fall, columns_fall, equal_steps, second_row_read_as_a_quarter,
+        refused_for_a_zero_coefficient, refused_though_the_hull_is_in_contact,
+    )
+}  # fmt: skip
+"""By the names that claims.toml has."""

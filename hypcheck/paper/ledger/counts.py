@@ -1,0 +1,189 @@
+"""What the ledger counts: operations of programs, the printed figures of Table 5, and the numbers in its sentences.
+
+Costs that can be counted are counted from the programs; others are not judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+
+from hypcheck.derivation.formulas import (
+    FORMULAS,
+    ROOTS_TRIGONOMETRIC,
+    cost_of,
+    costs,
+    discriminant_share,
+    loop_as_printed,
+)
+from hypcheck.paper.ledger.entry import Evidence
+from hypcheck.paper.ledger.points import SquaredRatios, discriminant
+from hypcheck.paper.tower_flights import PRINTED, SPEEDS, TIMES
+
+_TABLE_2, _COSINES = cost_of(FORMULAS["table-2"]), cost_of(ROOTS_TRIGONOMETRIC)
+
+
+def divisions_of_table_2() -> Evidence:
+    """That its loop does divide."""
+    count = _TABLE_2.query.divisions
+    text = f"{count} divisions a query, {_TABLE_2.by_fixed} of them by a number that the sizes fix"
+    return Evidence("count", text, count > 0 and _TABLE_2.by_fixed == count)
+
+
+def operations_of_the_sizes() -> Evidence:
+    """That more could leave the loop of Table 2 than what it prints before it."""
+    scene, left = _TABLE_2.scene.rounded, loop_as_printed().rounded - _TABLE_2.query.rounded
+    return Evidence("count", f"{scene} operations depend on the sizes alone", 0 < left < scene)
+
+
+def functions_of_a_sweep() -> Evidence:
+    """That roots can be found without a cosine."""
+    (sweep,) = (cost.query.functions for cost in costs() if cost.name == "roots-sweep")
+    cosines = _COSINES.query.functions
+    return Evidence(
+        "count", f"{sweep} functions in a sweep that finds roots, {cosines} by cosines", sweep == 0 < cosines
+    )
+
+
+def operations_of_roots() -> Evidence:
+    """That Table 2 takes fewer operations than the roots by cosines, and no cosine."""
+    coefficients, roots = _TABLE_2.query, _COSINES.query
+    fewer = coefficients.rounded < roots.rounded and coefficients.functions == 0
+    return Evidence("count", f"{coefficients.rounded} < {roots.rounded}", fewer)
+
+
+def directions_of_rotors() -> Evidence:
+    """That one cosine and one sine serve all rotors."""
+    formula = FORMULAS["procedure-2a"]
+    angles, cost = [name for name in formula.program.inputs if name in {"cosine", "sine"}], cost_of(formula)
+    text = f"{len(angles)} inputs tell the direction of four rotors, and no step takes a cosine"
+    return Evidence("count", text, len(angles) == 2 and cost.scene.functions + cost.query.functions == 0)
+
+
+def share_of_discriminants() -> Evidence:
+    """That more than half of Procedure 2.a's operations are those of discriminants: one half is our own threshold."""
+    share, whole = discriminant_share()
+    return Evidence("count", f"{share} of {whole} is more than half", 2 * share > whole)
+
+
+TOWER = ("64", "126736/9")
+"""A = (2/0.25)² and B = (17.8/0.15)² of the paper's body in its tower."""
+
+ON_THE_AXIS = SquaredRatios(*TOWER, "0", "0")
+NEAR_THE_WALL = SquaredRatios(*TOWER, "33884041/390625", "126736/9")
+"""z = 17.8 m, where the wall is 2.8284 m from the axis, and 2.3284 m from it: P = (2.3284/0.25)²."""
+
+
+def discriminant_near_the_wall() -> Evidence:
+    """That Δ is not least near the wall."""
+    greater = 0 < discriminant(ON_THE_AXIS) < discriminant(NEAR_THE_WALL)
+    return Evidence("count", "the greater Δ is the one nearer to the wall", greater)
+
+
+def discriminant_falls_at_each_height() -> Evidence:
+    """That at one height Δ falls towards the wall."""
+    text = "at each of 7 heights from 0 to 17.8 m Δ falls at each of the steps of 6 cm from the axis to Δ ≤ 0"
+    return Evidence("count", text, all(_falls(height) for height in range(7)))
+
+
+def _falls(height: int) -> bool:
+    """Whether Δ falls along a radius at height/6 of γ until it is not above 0, in steps of b/4."""
+    Q = str(Fraction(126736 * height**2, 9 * 36))
+    values = [discriminant(SquaredRatios(*TOWER, str(Fraction(step**2, 16)), Q)) for step in range(48)]
+    end = next(place for place, value in enumerate(values) if value <= 0)
+    return end > 20 and _falling(values[: end + 1])
+
+
+def _falling(values: Iterable[Fraction | float]) -> bool:
+    return all(one > two for one, two in pairwise(values))
+
+
+def greatest_share() -> Evidence:
+    """That all printed figures of Table 5 are below 14 %."""
+    most = max(map(max, PRINTED))
+    return Evidence("count", f"{most} < 14", most < 14)
+
+
+_FALL = 100 * (1 - PRINTED[0][-1] / PRINTED[0][0])
+"""By how many percent the printed figures fall from the first to the last speed, for t = 0.1."""
+
+
+def first_row_falls() -> Evidence:
+    """That the values for t = 0.1 depend on the speed."""
+    return Evidence("count", f"falls at each of 5 steps, by {_FALL:.1f} % in all", _falling(PRINTED[0]) and _FALL > 10)
+
+
+def rows_fall() -> Evidence:
+    """That all rows of Table 5 fall as the speed rises."""
+    return Evidence("count", "15 falls of 15", all(map(_falling, PRINTED)))
+
+
+def columns_fall() -> Evidence:
+    """That all columns of Table 5 fall as the response time rises."""
+    return Evidence("count", "12 falls of 12", all(map(_falling, zip(*PRINTED, strict=True))))
+
+
+def _figure(time: float, speed: int) -> float:
+    return PRINTED[TIMES.index(time)][SPEEDS.index(speed)]
+
+
+_EQUAL_STEPS = tuple(
+    (_figure(*one), _figure(*other), one[0] * one[1], other[0] * other[1])
+    for one, other in (((0.1, 10), (0.2, 5)), ((0.3, 6), (0.2, 9)))
+)
+"""Two printed figures each whose flights have steps of one length, and the two lengths."""
+
+_SAID_OF_STEPS = ", ".join(f"{one:.2f} against {other:.2f} at v·t = {step:g}" for one, other, step, _ in _EQUAL_STEPS)
+
+
+def equal_steps() -> Evidence:
+    """That equal steps have unequal figures."""
+    apart = all(abs(one - other) > 0.6 and abs(here - there) < 1e-9 for one, other, here, there in _EQUAL_STEPS)
+    return Evidence("count", f"{_SAID_OF_STEPS}: more than 7 standard errors of a difference", apart)
+
+
+def second_row_read_as_a_quarter() -> Evidence:
+    """That equal steps have equal figures if t = 0.2 is a misprint for 0.25."""
+    near = abs(_figure(0.3, 5) - _figure(0.2, 6)) < 0.02
+    return Evidence("count", "t = 0.25 brings the two figures of v·t = 1.5 to within 0.02", near)
+
+
+BENCH = {
+    "operations": "does not hold in numpy, and does not hold in C",
+    "roots": "holds in numpy, and holds in C",
+    "hull_first": "does not hold in numpy, 8,192 positions at a time, and holds in C, one position a call",
+    "spheres": "22 % of a sphere's answers are false contacts uniformly around the tower, 26 % along flights",
+    "cylinders": "1 % of a cylinder's are, and 2 % along flights",
+}
+"""What the reference run of `hypcheck bench` says (reports/reference/bench); a test holds it against that report."""
+
+
+@cache
+def figures() -> dict[str, str]:
+    """The numbers that sentences of claims.toml have in braces."""
+    share, whole = discriminant_share()
+    numbers = {
+        "query": _TABLE_2.query.rounded,
+        "divisions": _TABLE_2.query.divisions,
+        "scene_divisions": _TABLE_2.scene.divisions,
+        "loop": loop_as_printed().rounded,
+        "could_leave": loop_as_printed().rounded - _TABLE_2.query.rounded,
+        "cosines": _COSINES.query.functions,
+        "by_cosines": _COSINES.query.rounded,
+        "of_discriminants": share,
+        "of_procedure_2a": whole,
+        "delta_on_the_axis": round(discriminant(ON_THE_AXIS) / 10**18),
+        "delta_near_the_wall": round(discriminant(NEAR_THE_WALL) / 10**18),
+        "greatest_share": max(map(max, PRINTED)),
+        "first_share": PRINTED[0][0],
+        "last_share": PRINTED[0][-1],
+        "fall": f"{_FALL:.1f}",
+        "equal_steps": _SAID_OF_STEPS,
+        "second_row_anew": f"{_figure(0.2, 6):.4f}",
+        "third_row": f"{_figure(0.3, 5):.4f}",
+    }
+    return {name: str(number) for name, number in numbers.items()} | {
+        f"bench_{name}": said for name, said in BENCH.items()
+    }

@@ -1,0 +1,186 @@
+"""The paper's statements about pairs, as printed and as repaired, and the conditions that they are made of.
+
+claims.toml names them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from hypcheck.derivation.decisions import decisions
+from hypcheck.derivation.evaluation import EXACT
+from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.geometry.pair import Position
+from hypcheck.paper.ledger.points import Condition, PointFacts, Statement
+
+
+def tall(facts: PointFacts) -> bool:
+    """(γ/d)² ≥ α/b, the regime of Proposition 3."""
+    return facts.B >= facts.point.a
+
+
+def wide(facts: PointFacts) -> bool:
+    """α/b ≥ 1, the regime of Proposition 5 and of Procedures 2.a and 2.b."""
+    return facts.point.a >= 1
+
+
+def very_tall(facts: PointFacts) -> bool:
+    """(γ/d)² > (α/b)² + 1, where c2 < 0 for every centre."""
+    return facts.B > facts.A + 1
+
+
+def off_the_waist(facts: PointFacts) -> bool:
+    """z0 ≠ 0, where there is no ring."""
+    return facts.Q != 0
+
+
+def three_real_roots(facts: PointFacts) -> bool:
+    """Δ > 0: three different real roots."""
+    return facts.delta > 0
+
+
+def exterior(facts: PointFacts) -> bool:
+    """Whether the spheroid is exterior."""
+    return facts.position is Position.EXTERIOR
+
+
+def interior(facts: PointFacts) -> bool:
+    """Whether the spheroid is interior."""
+    return facts.position is Position.INTERIOR
+
+
+def contact(facts: PointFacts) -> bool:
+    """Whether there is contact."""
+    return facts.position is Position.CONTACT
+
+
+def not_exterior(facts: PointFacts) -> bool:
+    """Whether the spheroid is interior or in contact, as it is wherever its centre is inside the hyperboloid."""
+    return not exterior(facts)
+
+
+def inside_a_tall_one(facts: PointFacts) -> bool:
+    """Whether the spheroid is not exterior to a hyperboloid of the regime of Proposition 3, as in the paper's tower."""
+    return tall(facts) and not exterior(facts)
+
+
+def three_positive(facts: PointFacts) -> bool:
+    """The sign pattern that Proposition 3 asks for beside Δ > 0."""
+    return facts.c2 < 0 and facts.c1 > 0
+
+
+def printed_interior(facts: PointFacts) -> bool:
+    """The sign pattern that Proposition 5 asks for beside Δ > 0."""
+    return (facts.c2 > 0 and facts.c1 != 0) or (facts.c2 < 0 and facts.c1 < 0)
+
+
+def ring(facts: PointFacts) -> bool:
+    """The exterior positions with Δ = 0: Q = 0, g'(B) = 0 and A < B²."""
+    return facts.Q == 0 and facts.slope_at_B == 0 and facts.A < facts.B**2
+
+
+def rule_of_all_sizes(facts: PointFacts) -> int:
+    """The position by the rule that the program "coefficients" is proved to decide by."""
+    (decision,) = decisions("coefficients")
+    numbers = (facts.delta, facts.c1, facts.c2, facts.A, facts.B, facts.Q, facts.slope_at_B, facts.slope_at_minus_A)
+    return decision.rule(*numbers)
+
+
+PROPOSITION_3_1 = Statement(
+    "exterior ⟺ Δ > 0, c2 < 0 and c1 > 0",
+    tall,
+    lambda facts: exterior(facts) == (facts.delta > 0 and three_positive(facts)),
+)
+PROPOSITION_3_2 = Statement("Δ ≤ 0 ⟹ contact", tall, lambda facts: facts.delta > 0 or contact(facts))
+THREE_POSITIVE_ROOTS = Statement(
+    "exterior ⟺ g has three different positive roots",
+    tall,
+    lambda facts: exterior(facts) == (facts.delta > 0 and facts.negative_roots == 0),
+)
+ALL_POSITIVE = Statement(
+    "c2 < 0 and c1 > 0 ⟺ all real roots of g are positive",
+    tall,
+    lambda facts: three_positive(facts) == (facts.negative_roots == 0),
+)
+REMARK_4 = Statement(
+    "two different negative roots ⟹ contact or interior",
+    tall,
+    lambda facts: not (facts.delta > 0 and facts.negative_roots == 2) or not exterior(facts),
+)
+
+
+def _proposition_5_1(text: str, zero: Callable[[PointFacts], bool]) -> Statement:
+    """The printed statement, tried on the pairs where one of the coefficients is 0."""
+    return Statement(
+        text,
+        lambda facts: facts.point.a > 1 and zero(facts),
+        lambda facts: interior(facts) == (facts.delta > 0 and printed_interior(facts)),
+    )
+
+
+_5_1 = "interior ⟺ Δ > 0 and [c2 > 0, c1 ≠ 0] or [c2 < 0, c1 < 0]"
+PROPOSITION_5_1 = _proposition_5_1(_5_1, lambda _: True)
+PROPOSITION_5_1_WITH_C2 = _proposition_5_1(f"{_5_1}, for c2 = 0", lambda facts: facts.c2 == 0)
+PROPOSITION_5_1_WITH_C1 = _proposition_5_1(f"{_5_1}, for c1 = 0", lambda facts: facts.c1 == 0)
+PROPOSITION_5_2 = Statement(
+    "Δ ≤ 0 ⟹ contact", lambda facts: facts.point.a > 1, lambda facts: facts.delta > 0 or contact(facts)
+)
+REMARK_6 = Statement(
+    "three different positive roots ⟹ contact or exterior",
+    wide,
+    lambda facts: not (facts.delta > 0 and facts.negative_roots == 0) or not interior(facts),
+)
+REPAIRED_3 = Statement(
+    "exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring; Δ ≤ 0 ⟹ contact or the ring",
+    tall,
+    lambda facts: (
+        exterior(facts) == ((facts.delta > 0 and three_positive(facts)) or ring(facts))
+        and (facts.delta > 0 or contact(facts) or ring(facts))
+    ),
+)
+REPAIRED_5 = Statement(
+    "interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0); Δ ≤ 0 ⟹ contact or the ring",
+    wide,
+    lambda facts: (
+        interior(facts) == (facts.delta > 0 and not three_positive(facts))
+        and (facts.delta > 0 or contact(facts) or ring(facts))
+    ),
+)
+ALL_SIZES = Statement(
+    "the position is that of the coefficient rule for all sizes",
+    lambda _: True,
+    lambda facts: rule_of_all_sizes(facts) == facts.position,
+)
+
+
+def _valid(where: Condition, text: str) -> Statement:
+    """Procedure 1 and Table 2 are proved to decide as Proposition 3.1 says; the program is asked about a witness."""
+    return Statement(f"{text} a movement is valid ⟺ the spheroid is exterior", where, PROPOSITION_3_1.says)
+
+
+VALID_BY_PROCEDURE_1 = _valid(tall, "by Procedure 1")
+VALID_BY_TABLE_2 = _valid(tall, "by Table 2")
+VALID_IF_WIDE = _valid(lambda facts: tall(facts) and facts.point.a >= 1, "for α/b ≥ 1")
+VALID_IF_NARROW = _valid(lambda facts: tall(facts) and facts.point.a < 1, "for α/b < 1")
+
+
+def _procedure_2a_says(facts: PointFacts) -> bool:
+    """The answer to a quadcopter on the axis, whose four rotors all stand to the hyperboloid as this point does."""
+    point = facts.point
+    inputs = {"alpha": point.a, "gamma": point.c, "b_s": 1, "d_s": 1, "x": 0, "y": 0, "z": point.z, "l": point.r}
+    return bool(answers(FORMULAS["procedure-2a"], EXACT, {**inputs, "cosine": 1, "sine": 0}))
+
+
+PROCEDURE_2A = Statement(
+    "Procedure 2.a calls a movement valid ⟺ all four rotors are interior (here disjoint, on arms of length r about the "
+    "axis)",
+    lambda facts: wide(facts) and facts.point.r**2 >= 2,  # neighbours are √2 r apart, and 2 at least
+    lambda facts: _procedure_2a_says(facts) == interior(facts),
+)
+CONTACT_MEANS_NOT_POSITIVE = Statement("contact ⟹ Δ ≤ 0", wide, lambda facts: facts.delta <= 0 or not contact(facts))
+CONTACT_IF_TALL = Statement(
+    "for (γ/d)² ≥ α/b: contact ⟹ Δ ≤ 0",
+    lambda facts: wide(facts) and tall(facts),
+    CONTACT_MEANS_NOT_POSITIVE.says,
+)
+CLEAR_IS_POSITIVE = Statement("interior or exterior ⟺ Δ > 0", wide, lambda facts: contact(facts) == (facts.delta <= 0))
