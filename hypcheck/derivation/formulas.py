@@ -17,13 +17,13 @@ ROOTS_TRIGONOMETRIC and SWEEP compute the roots of g. They are counted beside th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 from typing import Any
 
-from hypcheck.derivation.evaluation import Arithmetic, outputs
+from hypcheck.derivation.evaluation import Arithmetic, Evaluator
 from hypcheck.derivation.listings import (
     CENTRE,
     DUAL,
@@ -81,8 +81,13 @@ def answers(formula: Formula, arithmetic: Arithmetic, inputs: Mapping[str, Any])
 
     `inputs` maps the program's inputs to numbers or arrays. Raises ValueError where one that matters is missing.
     """
-    (answer,) = outputs(formula.program, arithmetic, inputs, (formula.answer,))
-    return arithmetic.integers(answer)
+    return answering(formula, arithmetic)(inputs)
+
+
+def answering(formula: Formula, arithmetic: Arithmetic) -> Callable[[Mapping[str, Any]], Any]:
+    """The function of the inputs that gives the formula's answers; for a formula that is asked many times."""
+    evaluate = Evaluator(formula.program, arithmetic, (formula.answer,))
+    return lambda inputs: arithmetic.integers(*evaluate(inputs))
 
 
 _PRINTED_AND_DERIVED = (

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from hypcheck import toml
 from hypcheck.derivation.evaluation import EXACT
-from hypcheck.derivation.formulas import FORMULAS, Formula, answers
+from hypcheck.derivation.formulas import FORMULAS, Formula, answering
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.implementations.description import EVERYWHERE, claimed
@@ -111,7 +111,8 @@ def mathematical_findings(formula: Formula, batch: FamilyBatch, plan: SelfCheckP
     The lines have no reason yet. `asked` counts all rows inside or outside the regimes.
     """
     head = batch.head(plan.exact_formulas)
-    given = [int(answers(formula, EXACT, dict(zip(COLUMNS, row, strict=True)))) for row in head.rows.tolist()]
+    answer = answering(formula, EXACT)
+    given = [answer(dict(zip(COLUMNS, row, strict=True))) for row in head.rows.tolist()]
     inside = replace(EVERYWHERE, regimes=formula.regimes).holds(head.rows)
     wrong: dict[tuple[bool, str], list[int]] = {}
     for place in np.flatnonzero(judge.is_wrong(head.positions, np.array(given), formula.question)).tolist():

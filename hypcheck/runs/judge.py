@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -143,18 +144,15 @@ def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criteri
 
 def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:
     """The wrong answers at these indices of a batch, judged in order."""
-    guess, proved = -10, _proved_ends(rows, answers, wrong, criterion)
+    proved = _proved_ends(rows, answers, wrong, criterion)
     for index in wrong.tolist():
         row, answer = rows[index].tolist(), int(answers[index])
         if index in proved:
             truth, least = proved[index]
             mistake = mistake_of(truth, answer, criterion.question)
             yield WrongCase(index, tuple(row), truth, answer, mistake, Status.WRONG, math.log2(least), least=least)
-            continue
-        case = _judged(index, row, answer, criterion, guess)
-        yield case
-        if math.isfinite(case.exponent):
-            guess = int(case.exponent)  # neighbours in a family have similar errors
+        else:
+            yield _judged(index, row, answer, criterion)
 
 
 def measured(case: WrongCase, question: str) -> float:
@@ -192,11 +190,9 @@ def error_of(row: Sequence[float], answer: int, question: str) -> float:
     Of a tilted spheroid, a number that it is proved not to exceed.
     """
     lengths = _lengths(row)
-    if isinstance(lengths, TiltedLengths):
-        return ends_of(row, answer, question)[1]
-    truth = exact.decide(lengths)
-    targets = right_positions(truth.position, answer, question)
-    return min(backward_error.backward_error(lengths, truth, target) for target in targets)
+    return (
+        ends_of(row, answer, question)[1] if isinstance(lengths, TiltedLengths) else _error(lengths, answer, question)
+    )
 
 
 def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
@@ -223,16 +219,9 @@ def flip_exponents(rows: Rows) -> NDArray[np.float64]:
     if rows.shape[1] > len(COLUMNS):
         return np.array([_exponent_of_ten(row) for row in rows.tolist()])
     octaves = backward_error.distance_exponents(rows, float_filter.positions(rows))
-    guess = -10
     for index in np.flatnonzero(np.isnan(octaves)):
         lengths = Pair.from_row(rows[index].tolist()).lengths
-        truth = exact.decide(lengths)
-        targets = right_positions(truth.position, 0, truth.position.name.lower())
-        octaves[index] = min(
-            backward_error.backward_error_exponent(lengths, truth, target, guess) for target in targets
-        )
-        if math.isfinite(octaves[index]):
-            guess = int(octaves[index])
+        octaves[index] = _exponent(lengths, 0, exact.decide(lengths).position.name.lower())
     return octaves
 
 
@@ -272,10 +261,29 @@ def _exponent_of_ten(row: list[float]) -> float:
     return math.floor(math.log2(distance)) if distance else -math.inf
 
 
-def _judged(index: int, row: list[float], answer: int, criterion: Criterion, guess: int) -> WrongCase:
+KEPT = 4096
+"""So many errors of upright spheroids are kept: methods that are judged on the same rows often err alike."""
+
+
+@lru_cache(KEPT)
+def _error(lengths: Lengths, answer: int, question: str) -> float:
+    truth = exact.decide(lengths)
+    targets = right_positions(truth.position, answer, question)
+    return min(backward_error.backward_error(lengths, truth, target) for target in targets)
+
+
+@lru_cache(KEPT)
+def _exponent(lengths: Lengths, answer: int, question: str) -> float:
+    """floor(log2) of the same."""
+    truth = exact.decide(lengths)
+    targets = right_positions(truth.position, answer, question)
+    return min(backward_error.backward_error_exponent(lengths, truth, target) for target in targets)
+
+
+def _judged(index: int, row: list[float], answer: int, criterion: Criterion) -> WrongCase:
     lengths = _lengths(row)
     position, status, exponent = (
-        _status_of_upright(lengths, answer, criterion, guess)
+        _status_of_upright(lengths, answer, criterion)
         if isinstance(lengths, Lengths)
         else _status_of_tilted(lengths, row, answer, criterion)
     )
@@ -291,15 +299,13 @@ def _lengths(row: Sequence[float]) -> Lengths | TiltedLengths:
     return lengths.upright or lengths
 
 
-def _status_of_upright(
-    lengths: Lengths, answer: int, criterion: Criterion, guess: int
-) -> tuple[Position, Status, float]:
+def _status_of_upright(lengths: Lengths, answer: int, criterion: Criterion) -> tuple[Position, Status, float]:
     """The truth, whether a wrong answer is within the tolerance, and floor(log2) of its backward error."""
     truth = exact.decide(lengths)
     targets = right_positions(truth.position, answer, criterion.question)
     within = tolerated(lengths, truth, targets, criterion)
-    exponent = min(backward_error.backward_error_exponent(lengths, truth, target, guess) for target in targets)
-    return truth.position, Status.TOLERATED if within else Status.WRONG, exponent
+    status = Status.TOLERATED if within else Status.WRONG
+    return truth.position, status, _exponent(lengths, answer, criterion.question)
 
 
 def _status_of_tilted(

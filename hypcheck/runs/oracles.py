@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.derivation.evaluation import EXACT
-from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.derivation.formulas import FORMULAS, answering
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Rows
 from hypcheck.record.fields import row_fields
@@ -252,15 +252,16 @@ def ask_oracle(task: OracleTask) -> tuple[list[Opinion], float]:
         return list(oracle.ask_tilted(task.rows)), time.perf_counter() - started
     opinions = list(oracle.ask(task.rows))
     if task.oracle == "roots":
+        rule = answering(FORMULAS["coefficients"], EXACT)
         opinions = [
-            _unless_rule_differs(row, opinion) for row, opinion in zip(task.rows.tolist(), opinions, strict=True)
+            _unless_rule_differs(opinion, rule(dict(zip(COLUMNS, row, strict=True))))
+            for row, opinion in zip(task.rows.tolist(), opinions, strict=True)
         ]
     return opinions, time.perf_counter() - started
 
 
-def _unless_rule_differs(row: list[float], opinion: Opinion) -> Opinion:
+def _unless_rule_differs(opinion: Opinion, rule: int) -> Opinion:
     """The opinion, unless the coefficient rule in exact rationals reads another position from the coefficients."""
-    rule = answers(FORMULAS["coefficients"], EXACT, dict(zip(COLUMNS, Pair.from_row(row).row, strict=True)))
     if opinion.position == rule:
         return opinion
     return Opinion(opinion.position, opinion.tangent, opinion.kind, f"coefficient rule says {Position(rule).label}")

@@ -10,14 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
 
 from hypcheck.bench.timing import Samples, TimingEntry, clocked, measure
-from hypcheck.derivation.printed_equations import EquationCheck, check_equations
-from hypcheck.derivation.proofs import Proof, prove_formulas
 from hypcheck.errors import Exit, RunOutcome
 from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations.alternatives import numpy_roots
@@ -32,6 +30,10 @@ from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batch_of, batches
 from hypcheck.runs.judge import Status
 from hypcheck.runs.oracles import ORACLES, OracleTally, OracleTask
 from hypcheck.vectors.families import FAMILIES
+
+if TYPE_CHECKING:
+    from hypcheck.derivation.printed_equations import EquationCheck
+    from hypcheck.derivation.proofs import Proof
 
 WORKLOAD = "tower-body"
 TIMED_ROWS = 100_000
@@ -157,11 +159,19 @@ def performed(task: Task) -> Any:  # noqa: ANN401 - of each task another type
     """The equations and proofs, a family's lines, or an oracle's opinions with their seconds."""
     match task:
         case DerivationTask():
-            return check_equations(), prove_formulas()
+            return derivation()
         case FamilyTask():
             return _family_lines(batch_of(FAMILIES[task.family], task.plan), task.plan)
         case OracleTask():
             return oracles.ask_oracle(task)
+
+
+def derivation() -> tuple[Sequence[EquationCheck], Sequence[Proof]]:
+    """The checked equations of the paper, and the proofs of the formulas."""
+    from hypcheck.derivation.printed_equations import check_equations  # noqa: PLC0415 - loads sympy, in one process
+    from hypcheck.derivation.proofs import prove_formulas  # noqa: PLC0415 - as above
+
+    return check_equations(), prove_formulas()
 
 
 def _family_lines(batch: FamilyBatch, plan: SelfCheckPlan) -> FamilyLines:

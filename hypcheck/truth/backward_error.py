@@ -74,8 +74,8 @@ def backward_error(lengths: Lengths, truth: Decision, answer: Position, digits: 
     return float(high) or math.ulp(0.0)  # a distance below the least float64 is still not 0
 
 
-def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position, guess: int = -10) -> float:
-    """floor(log2) of the backward error: −inf for 0, inf for inf; cheap where `guess` is near.
+def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position) -> float:
+    """floor(log2) of the backward error: −inf for 0, inf for inf.
 
     The exponent k returned has 2^k ≤ backward error ≤ 2^(k+1): exact decisions at both ends say so.
     """
@@ -88,7 +88,7 @@ def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position,
         # At 2^0 the sizes vanish; every flip but the one excluded above happens before.
         return exponent >= 0 or makes_right(lengths, truth.position, answer, Fraction(2) ** exponent)
 
-    step, low = 1, min(guess, -1)
+    step, low = 1, -10
     while reached(low):  # terminates: the distance is not 0
         low -= step
         step *= 2

@@ -115,13 +115,10 @@ def _worst(rows: Rows, search: CancellationSearch, before: Sequence[Found]) -> l
 
 def _highest_exponent_first(wrong: Mapping[int, tuple[Row, Position]]) -> list[int]:
     """Up to EXAMINED of the places, by the octave of the backward error, then in order."""
-    guess = -10
     octaves = []
     for place, (row, excuse) in wrong.items():
         lengths = Pair.from_row(row).lengths
-        octave = backward_error.backward_error_exponent(lengths, exact.decide(lengths), excuse, guess)
-        octaves.append((-octave, place))
-        guess = int(octave) if abs(octave) != float("inf") else guess
+        octaves.append((-backward_error.backward_error_exponent(lengths, exact.decide(lengths), excuse), place))
     return [place for _, place in sorted(octaves)[:EXAMINED]]
 
 

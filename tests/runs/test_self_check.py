@@ -41,16 +41,14 @@ def derived(tmp_path_factory):
     """The derivation, made once for all tests here, because it is the same in every run."""
 
     def make(folder):
-        (folder / "derived").write_bytes(pickle.dumps((self_check.check_equations(), self_check.prove_formulas())))
+        (folder / "derived").write_bytes(pickle.dumps(self_check.derivation()))
 
     made = made_once(tmp_path_factory, "derivation", make) / "derived"
     return pickle.loads(made.read_bytes())  # noqa: S301 - it was written a moment ago
 
 
 def shorten(monkeypatch, derived):
-    equations, proofs = derived
-    monkeypatch.setattr(self_check, "check_equations", lambda: equations)
-    monkeypatch.setattr(self_check, "prove_formulas", lambda: proofs)
+    monkeypatch.setattr(self_check, "derivation", lambda: derived)
     monkeypatch.setattr(self_check, "TIMING_ROUNDS", 1)
     monkeypatch.setattr(self_check, "TIMED_ROWS", 10)
 
@@ -138,8 +136,9 @@ def test_unknown_finding_ends_the_run_with_1(tmp_path, monkeypatch):
 
 
 def test_formula_without_a_valid_proof_ends_the_run_with_6(tmp_path, monkeypatch):
-    right = self_check.prove_formulas()
-    monkeypatch.setattr(self_check, "prove_formulas", lambda: (replace(right[0], holds=False), *right[1:]))
+    equations, right = self_check.derivation()
+    proofs = (replace(right[0], holds=False), *right[1:])
+    monkeypatch.setattr(self_check, "derivation", lambda: (equations, proofs))
     ended(tmp_path, *UNMESHED)
     assert exit_code(tmp_path) == 6
 

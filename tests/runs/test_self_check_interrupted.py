@@ -18,8 +18,7 @@ import sys
 sys.modules.update(matplotlib=None, jinja2=None)
 from hypcheck.derivation.proofs import Proof
 from hypcheck.runs import self_check
-self_check.check_equations = tuple
-self_check.prove_formulas = lambda: (Proof("hessian", "delta", True, "as if it had been proved"),)
+self_check.derivation = lambda: ((), (Proof("hessian", "delta", True, "as if it had been proved"),))
 from hypcheck.cli.main import process
 process()
 """

@@ -104,11 +104,11 @@ def _remembered(rows: Rows) -> Any:
     return _octaves[key]
 
 
-def _judged_before(index: int, row: list[float], answer: int, criterion: Criterion, guess: int) -> judge.WrongCase:
+def _judged_before(index: int, row: list[float], answer: int, criterion: Criterion) -> judge.WrongCase:
     """What a wrong answer to a row is judged to be, kept from run to run: many answer the same row in the same way."""
     key = tuple(row), answer, criterion
     if key not in _cases:
-        _cases[key] = _judged(index, row, answer, criterion, guess)
+        _cases[key] = _judged(index, row, answer, criterion)
     return replace(_cases[key], index=index, row=tuple(row))
 
 
