@@ -32,7 +32,7 @@ from hypcheck.geometry.rows import Floats, Indices, Integers, Mask, Positions, R
 from hypcheck.kernel import clearance_points as points
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.classify import kernel, required
-from hypcheck.kernel.numpy_tilted import leaning
+from hypcheck.kernel.numpy_kernel import leaning
 
 CHUNK = 1 << 14
 GUESS = 2.0**-32

@@ -11,7 +11,7 @@ height ζ and of the radius ρ. Hence |ρ* − ρ| ≤ √(Γ A/τ) and |ζ* −
 the other coordinate follows: A ζ/(B ρ) is its slope, and ζ*² = B (ρ*²/A − 1). In C the
 roundings are 38 for 16, as quotients are shared. _ROUNDED = 64u holds each coordinate.
 
-**Leaning touches.** The multiplier is that of the kernel's second stage (numpy_tilted.py), the point X solves a linear
+**Leaning touches.** The multiplier is that of the kernel's second stage (numpy_kernel.py), the point X solves a linear
 system. With G = M + λD ≥ μ, r = G X − M C and n = D X there is a point of the hyperboloid within |h|/|n| of X where
 |h| max|D| < |n|² (h changes its sign on the way along n), and X − G⁻¹r is where |X − C|² + λ h is least. So the exact
 place is within |r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ). Elimination shows μ: where G − shift has positive pivots in floats,
@@ -35,7 +35,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
-from hypcheck.kernel import numpy_tilted
+from hypcheck.kernel import numpy_kernel
 
 TURNS = 12
 GAP_TURNS = 12
@@ -179,7 +179,7 @@ def leaning_touches(rows: Rows) -> Touches:
     alpha, gamma, b, d = np.ascontiguousarray(rows[:, :4].T)
     unit, centre = _unit(rows[:, 7:]), rows[:, 4:7] / b[:, None]
     stretch = (b / d) ** 2 - 1
-    at = np.concatenate([numpy_tilted.multipliers(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK)])
+    at = np.concatenate([numpy_kernel.multipliers(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK)])
     form = np.stack([(b / alpha) ** 2, (b / alpha) ** 2, -((b / gamma) ** 2)], axis=1)
     outer = stretch[:, None, None] * (unit[:, :, None] * unit[:, None, :])
     own = centre + (stretch * (unit * centre).sum(axis=1))[:, None] * unit

@@ -4,17 +4,20 @@ half planes of the scene     printed/chunks.py plane and parallel_lines, in sing
                              many rows, two_lines; scene_lines.py makes their constants
 discriminant and its bound   printed/chunks.py certified
 integers                     integers.py
-rows whose axis leans        numpy_tilted.py
+
+Rows of ten whose axis leans have a stage in floats, printed/tilted.py, about a multiplier that proves nothing: any is
+safe, a good one leaves fewer rows to the integers of tilted_integers.py.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Axis, Pair, Sizes
+from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Axis, Pair, Position, Sizes
 from hypcheck.geometry.rows import (
     CANNOT_SAY,
     WAYS,
@@ -27,12 +30,13 @@ from hypcheck.geometry.rows import (
     invalid,
     tilted_rows,
 )
-from hypcheck.kernel import integers, numpy_tilted, scene_lines
+from hypcheck.kernel import integers, scene_lines, tilted_integers
 from hypcheck.kernel.choice import POSITION_OF, Question
-from hypcheck.kernel.printed import chunks
+from hypcheck.kernel.printed import chunks, tilted
 from hypcheck.kernel.programs.certified import CONSTANTS
 from hypcheck.kernel.programs.lines import CAP
 from hypcheck.kernel.programs.lines import FLOAT32_CAP as CAP_OF_SINGLES
+from hypcheck.kernel.programs.tilted import CONSTANTS as TILTED_CONSTANTS
 from hypcheck.kernel.scene_lines import SceneLines
 
 CHUNK = 8192
@@ -46,6 +50,12 @@ LINES_FROM = 1 << 14
 
 TOO_MANY_LEFT = LINES_CHUNK // 100
 """Of a chunk, by one line a side: then it is two."""
+
+TILTED_CHUNK = 2048
+"""Rows at a time that lean: some ninety buffers of a chunk stay in the cache."""
+
+_TURNS, _SETTLED = 8, 1e-6
+"""Newton's turns at most, and the relative change with which it ends: as in core/parts/platform.h."""
 
 
 Number = TypeVar("Number", np.float32, np.float64)
@@ -65,14 +75,16 @@ def positions(rows: Rows) -> Positions:
 
 def _positions_of_ten(rows: Rows) -> Positions:
     result = np.empty(len(rows), dtype=np.int8)
-    leaning = numpy_tilted.leaning(rows)
-    if leaning.any():
-        result[leaning] = numpy_tilted.positions(rows[leaning])
-    if not leaning.all():
-        upright = rows[~leaning]
+    lean = leaning(rows)
+    those = np.flatnonzero(lean)
+    for start in range(0, len(those), TILTED_CHUNK):
+        part = those[start : start + TILTED_CHUNK]
+        result[part] = _positions_leaning(rows[part])
+    if not lean.all():
+        upright = rows[~lean]
         found = positions(upright[:, : len(COLUMNS)])
         found[invalid(upright)] = REFUSED
-        result[~leaning] = found
+        result[~lean] = found
     return result
 
 
@@ -205,6 +217,7 @@ def _by_two_lines(
 
 
 def _filled_in(exterior: Mask, interior: Mask, decided: Mask, result: Positions) -> Indices:
+    """Fill in what floats decide of a chunk, and return the places of the rest; `decided` is changed."""
     np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result)
     return np.flatnonzero(np.logical_not(decided, out=decided))
 
@@ -215,11 +228,81 @@ def _certified(rows: Rows, buffers: Buffers[np.float64], result: Positions) -> N
     with np.errstate(all="ignore"):
         numbers, truths = buffers.of(len(rows))
         exterior, interior, decided = chunks.certified(alpha, gamma, b, d, x, y, z, CONSTANTS, numbers, truths)
-    np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result)
-    if decided.all():
-        return
-    rest = np.flatnonzero(~decided)
-    refused = invalid(rows[rest])
-    result[rest[refused]] = REFUSED
-    for place in rest[~refused]:
-        result[place] = integers.position(Pair.from_row(rows[place].tolist()).lengths)
+    rest = _filled_in(exterior, interior, decided, result)
+    _by_integers(rows, rest, result, lambda row: integers.position(Pair.from_row(row).lengths))
+
+
+def _by_integers(rows: Rows, places: Indices, result: Positions, position: Callable[[list[float]], Position]) -> None:
+    """Fill in the positions at the places that floats leave, 127 for invalid rows."""
+    if len(places):
+        refused = invalid(rows[places])
+        result[places[refused]] = REFUSED
+        for place in places[~refused]:
+            result[place] = position(rows[place].tolist())
+
+
+def leaning(rows: Rows) -> Mask:
+    """A mask (n,) of the rows of ten that are neither upright nor of a sphere."""
+    return np.asarray((rows[:, 7:9] != 0).any(axis=1) & (rows[:, 2] != rows[:, 3]))
+
+
+def _positions_leaning(rows: Rows) -> Positions:
+    """The positions of a chunk of rows of ten that lean, 127 for invalid ones."""
+    result = np.empty(len(rows), dtype=np.int8)
+    with np.errstate(all="ignore"):
+        row = _columns_of_ten(rows)
+        numbers = list(np.empty((tilted.TILTED_BUFFERS[0], len(rows))))
+        truths = list(np.empty((tilted.TILTED_BUFFERS[1], len(rows)), dtype=np.bool_))
+        found = tilted.tilted(*row, _multiplier(row), TILTED_CONSTANTS, numbers, truths)
+    _by_integers(rows, _filled_in(*found, result), result, tilted_integers.position)
+    return result
+
+
+def multipliers(rows: Rows) -> Floats:
+    """Near the multiplier, in squares of b, where the dual function of each row (n, 10) is greatest: a hint, (n,)."""
+    return _multiplier(_columns_of_ten(rows))
+
+
+TenColumns = tuple[Floats, Floats, Floats, Floats, Floats, Floats, Floats, Floats, Floats, Floats]
+
+
+def _columns_of_ten(rows: Rows) -> TenColumns:
+    """The columns, (n,) each, with scaled axes."""
+    alpha, gamma, b, d, x, y, z, *axis = np.ascontiguousarray(rows.T)
+    return alpha, gamma, b, d, x, y, z, *_scaled(np.stack(axis))
+
+
+def _scaled(axes: Floats) -> tuple[Floats, Floats, Floats]:
+    """Axes of any length, (3, n), with the largest number in [1/2, 1): times a power of two, NaN where not exact."""
+    exponents = np.frexp(np.abs(axes).max(axis=0))[1]
+    scaled = np.ldexp(axes, -exponents)
+    scaled[:, (np.ldexp(scaled, exponents) != axes).any(axis=0)] = np.nan
+    vx, vy, vz = scaled
+    return vx, vy, vz
+
+
+def _multiplier(row: TenColumns) -> Floats:
+    """Near the multipliers where the dual functions are greatest: core/parts/tilted_level.h says how."""
+    form = tilted.tilted_form(*row, list(np.empty((tilted.TILTED_FORM_BUFFERS[0], len(row[0])))))
+    p, s, t, k0, k1, m, radius, height, cross_squared, level = form
+    P1 = np.fmax(cross_squared / level, 0)  # 0/0 is 0: the axis leans by less than 2⁻⁵⁰⁰
+    root = np.sqrt(k1 * k1 + 4 * k0 * t)
+    larger = 0.5 * (np.abs(k1) + root)
+    one_pole, other_pole, rising = larger / t, k0 / larger, k1 >= 0
+    B, A2 = np.where(rising, one_pole, other_pole), np.where(rising, other_pole, one_pole)
+    G, m_plane = s * (radius - P1) - p * height, m - t * P1
+    a1, a2, b = p * P1, A2 * np.abs(G + A2 * m_plane) / root, B * np.abs(B * m_plane - G) / root
+    least, greatest = -0.999 * np.minimum(p, A2), 0.999 * B
+    found: Floats = np.zeros_like(p)
+    for _ in range(_TURNS):
+        i1, i2, i3 = 1 / (p + found), 1 / (A2 + found), 1 / (B - found)
+        S1, S2, T3 = a1 * i1 * i1, a2 * i2 * i2, b * i3 * i3
+        S, T = S1 + S2, 1 + T3
+        root_S, root_T = np.sqrt(S), np.sqrt(T)
+        slope = (S1 * i1 + S2 * i2) * T * root_T + T3 * i3 * S * root_S
+        moved = np.fmin(np.fmax(found + (root_S - root_T) * S * T / slope, least), greatest)
+        settled = np.abs(moved - found) <= _SETTLED * np.abs(moved)
+        found = moved
+        if settled.all():
+            break
+    return found

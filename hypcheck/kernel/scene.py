@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, trouble_with_axis
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, as_columns, as_numbers
-from hypcheck.kernel import scene_nearest, scene_ways
+from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.choice import POSITION_OF
 from hypcheck.kernel.scene_index import (
     Bodies,
@@ -31,11 +31,14 @@ from hypcheck.kernel.scene_index import (
     grid_of,
     in_reach,
     levels_of,
+    near_ways,
     reaches,
 )
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     Body,
+    all_parts_are_clear,
+    hits_beside,
     is_within_height,
     position_beside,
     position_leaning,
@@ -43,7 +46,7 @@ from hypcheck.kernel.scene_pairs import (
     positions_leaning,
     within_height,
 )
-from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, Span, leans
+from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
 from hypcheck.scene.reading import parse_scene, read_scene
 
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
@@ -152,16 +155,15 @@ class Scene:
         """
         self._require_upright("a way is decided")
         starts, ends, headings = _ways(start, end, heading)
-        low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
-        with np.errstate(all="ignore"):
-            query, body = self._near_ways(starts, ends, low, high)
         bodies, mover = self._bodies, self.model.mover
+        query, body = near_ways(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
         axis = mover.axis if mover.axis != FREE and leans(mover.axis) else None
-        hits = scene_ways.hits_beside(bodies, body, mover, axis, starts[query], ends[query])
+        hits = hits_beside(bodies, body, mover, axis, starts[query], ends[query])
         for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
             way = query[pair]
             here, there = (self._places_of_parts(each[way].tolist(), float(headings[way])) for each in (starts, ends))
-            hits[pair] = not scene_ways.all_parts_are_clear(bodies, int(body[pair]), mover, here, there)
+            hits[pair] = not all_parts_are_clear(bodies, int(body[pair]), mover, here, there)
+        low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
         result = np.where(self._levels.meet_each(low, high), 0, CANNOT_SAY).astype(np.int8)
         result[query[hits]] = 1
         return result
@@ -178,31 +180,6 @@ class Scene:
         for name, values in zip(CENTER, columns, strict=True):
             _require_finite(name, values)
         return scene_nearest.nearest(self._bodies, self.model.mover, np.stack(columns, axis=1))
-
-    def _near_ways(self, starts: Floats, ends: Floats, low: Floats, high: Floats) -> tuple[Indices, Indices]:
-        """Which hyperboloids have to be asked about which ways, whose heights are between two."""
-        bodies, mover, region = self._bodies, self.model.mover, self.model.region.z
-        pieces = scene_ways.pieces_of(self._grid, starts, ends)
-        if region is not None:  # beyond it the grid promises nothing
-            pieces[(low < region.low) | (high > region.high)] = 0
-        found = []
-        for some in scene_ways.in_batches(self._grid, pieces):
-            query, body = scene_ways.near_ways(self._grid, starts[some], ends[some], pieces[some])
-            found.append(self._passed(starts, ends, query + some.start, body, self._reaches[body]))
-        for way in np.flatnonzero(pieces == 0).tolist():
-            far = reaches(bodies, mover, Span(float(low[way]), float(high[way])))
-            found.append(self._passed(starts, ends, np.full(len(far), way), np.arange(len(far)), far))
-        query, body = (np.concatenate(each) for each in zip(*found, strict=True))
-        keep = (high[query] >= bodies.heights[body, 0]) & (low[query] <= bodies.heights[body, 1])
-        pairs = np.unique(query[keep] * len(bodies.tall) + body[keep])
-        return pairs // len(bodies.tall), pairs % len(bodies.tall)
-
-    def _passed(
-        self, starts: Floats, ends: Floats, query: Indices, body: Indices, far: Floats
-    ) -> tuple[Indices, Indices]:
-        """The pairs whose way comes as near as the hyperboloid reaches."""
-        keep = np.flatnonzero(scene_ways.passed(starts, ends, query, self._bodies.origins[body], far))
-        return query[keep], body[keep]
 
     def _require_upright(self, what: str) -> None:
         if self.model.mover.axis == FREE:

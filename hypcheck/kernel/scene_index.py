@@ -14,6 +14,12 @@ Each cell of the grid has the hyperboloids that can be touched from within it. C
 hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection"): a hyperboloid that falls into a place
 from elsewhere is asked in vain, and none is left out. A hyperboloid that reaches over too many cells, or has no end, is
 kept aside and always asked: one tower among many trees.
+
+**Straight ways.** A way is cut into pieces no longer than a cell of the grid, and the hyperboloids of all cells that
+the box of a piece overlaps are candidates. Those whose axis the way passes beyond their reach are left out. Floats
+carry both: a piece's end is off by three roundings of both ends' coordinates; the distance from an axis at any time in
+[0, 1] is not below the least distance, and the one that is taken is off by 4u of all coordinates. PAD, 2⁻⁴⁵ of their
+sum, is far more than either; LEAST_OF_WAYS covers what underflows.
 """
 
 from __future__ import annotations
@@ -23,13 +29,14 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from math import floor, inf
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.rows import Floats, Indices, Mask
+from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.scene.model import Hyperboloid, Mover, Span, leans
 
 
@@ -251,3 +258,90 @@ def _hashed(column: Indices, row: Indices, size: int) -> Indices:
 def _packed(numbers: Indices) -> array[int]:
     """The numbers as an array that Python indexes without making numpy's scalars of them."""
     return array("i", numbers.astype(np.intc).tobytes())
+
+
+PAD = 2.0**-45
+LEAST_OF_WAYS, LONGEST_SQUARE = 2.0**-200, 2.0**200
+"""Squares of lengths from the one on do not underflow; ways whose square is above the other are near everything."""
+
+MOST_PIECES = 256
+"""A way of more pieces is looked up alone, among all hyperboloids."""
+
+AT_A_TIME = 1 << 15
+"""Pieces whose hyperboloids are looked up together, so that arrays stay in the cache."""
+
+
+def near_ways(
+    bodies: Bodies, mover: Mover, region: Span | None, grid: PlaneGrid, reach: Floats, starts: Rows, ends: Rows
+) -> tuple[Indices, Indices]:
+    """The hyperboloids that have to be asked about ways (n, 3): sorted pairs of a way's number and a hyperboloid's.
+
+    `grid` and `reach` are those of the bodies for centres in this span of z.
+    """
+    low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
+    found = []
+
+    def take(way: Indices, body: Indices, far: Floats) -> None:
+        keep = np.flatnonzero(passed(starts, ends, way, bodies.origins[body], far))
+        found.append((way[keep], body[keep]))
+
+    with np.errstate(all="ignore"):
+        pieces = _pieces_of(grid, starts, ends)
+        if region is not None:  # beyond it the grid promises nothing
+            pieces[(low < region.low) | (high > region.high)] = 0
+        for some in in_batches(grid, pieces):
+            way, body = _beside_pieces(grid, starts[some], ends[some], pieces[some])
+            take(way + some.start, body, reach[body])
+        for alone in np.flatnonzero(pieces == 0).tolist():
+            far = reaches(bodies, mover, Span(float(low[alone]), float(high[alone])))
+            take(np.full(len(far), alone), np.arange(len(far)), far)
+    way, body = (np.concatenate(each) for each in zip(*found, strict=True))
+    keep = (high[way] >= bodies.heights[body, 0]) & (low[way] <= bodies.heights[body, 1])
+    pairs = np.unique(way[keep] * len(bodies.tall) + body[keep])
+    return pairs // len(bodies.tall), pairs % len(bodies.tall)
+
+
+def _pieces_of(grid: PlaneGrid, starts: Rows, ends: Rows) -> Indices:
+    """How many pieces each way, (n, 3), is cut into; 0 for one that is to be looked up alone."""
+    change = np.abs(ends - starts)
+    pieces = np.ceil(np.maximum(change[:, 0], change[:, 1]) / grid.side)
+    return np.where(pieces <= MOST_PIECES, np.maximum(pieces, 1), 0).astype(np.int64)
+
+
+def in_batches(grid: PlaneGrid, pieces: Indices) -> list[slice]:
+    """Consecutive ways, of these numbers of pieces, that are few enough to be looked up together."""
+    batch = np.cumsum(pieces + len(grid.everywhere)) // AT_A_TIME
+    bounds = [0, *(np.flatnonzero(np.diff(batch)) + 1).tolist(), len(pieces)]
+    return [slice(first, last) for first, last in pairwise(bounds)]
+
+
+def _beside_pieces(grid: PlaneGrid, starts: Rows, ends: Rows, pieces: Indices) -> tuple[Indices, Indices]:
+    """The hyperboloids that may be near ways (n, 3) with pieces: pairs of a way's number and a hyperboloid's."""
+    cut = np.flatnonzero(pieces)
+    way = np.repeat(cut, pieces[cut])
+    here, there = starts[way, :2], ends[way, :2]
+    pad = PAD * (np.abs(here) + np.abs(there))
+    if len(way) > len(cut):
+        number = np.arange(len(way)) - np.repeat(np.cumsum(pieces[cut]) - pieces[cut], pieces[cut])
+        change, parts = there - here, pieces[way][:, None]
+        here, there = here + change * (number[:, None] / parts), here + change * ((number[:, None] + 1) / parts)
+    piece, body = grid.near_boxes(np.minimum(here, there) - pad, np.maximum(here, there) + pad)
+    always = np.array(grid.everywhere, np.int64)
+    return (
+        np.concatenate([way[piece], np.repeat(cut, len(always))]),
+        np.concatenate([body, np.tile(always, len(cut))]),
+    )
+
+
+def passed(starts: Rows, ends: Rows, query: Indices, origins: Rows, reaches: Floats) -> Mask:
+    """Whether a way, `query` (m,) of those (n, 3), comes as near to an axis, at (m, 3), as the hyperboloid reaches."""
+    x, y, x_end, y_end = starts[query, 0], starts[query, 1], ends[query, 0], ends[query, 1]
+    u, v = origins[:, 0], origins[:, 1]
+    pad = PAD * sum(map(np.abs, (x, y, x_end, y_end, u, v)), start=0.0) + LEAST_OF_WAYS
+    across, along = x_end - x, y_end - y
+    u, v = u - x, v - y
+    length = across * across + along * along
+    time = (across * u + along * v) / length
+    time = np.where(time > 0, np.minimum(time, 1.0), 0.0)
+    u, v, most = u - time * across, v - time * along, reaches * OUTWARD + pad
+    return np.asarray(~((u * u + v * v > most * most) & (length < LONGEST_SQUARE)))

@@ -1,4 +1,4 @@
-"""One mover beside one hyperboloid, both in the scene's coordinates: exact positions, upright or leaning.
+"""One mover beside one hyperboloid, both in the scene's coordinates: exact positions, and contact on straight ways.
 
 A centre seen from another is x − x₀, and that is no float64 as a rule. Its rounding error, though, is one, and is known
 (TwoSum): where it is 0 the difference is exact and the fast path answers.
@@ -18,6 +18,12 @@ movers are nowhere near: with h and ϱ, the centre's height along w and its dist
 the ball of radius r = max(b, d) and is exterior where ϱ − r > ρ(|h| + r), interior where ϱ + r < ρ(|h| − r), with ρ the
 surface's radius. In floats h and ϱ are formed from w/|w| and the centres with six roundings to a term, all on sums of
 at most six terms: 64 u Σ|C| bounds what they are wrong by; ρ takes five roundings on positive terms.
+
+**Straight ways.** The kernel's answer about ways (core/parts/ways.h) is asked twice: about a spheroid that is larger,
+and about one that is smaller, by what the rounding of the difference of two centres may be in radii, as where the mover
+alone leans. The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the
+exact differences by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about ways is
+known. So is a way that may hit, and leaves the modelled height: of it the part at that height counts.
 """
 
 from __future__ import annotations
@@ -33,9 +39,12 @@ from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import Lengths, Position, to_integers
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel import integers
-from hypcheck.kernel.classify import classify
+from hypcheck.kernel.classify import classify, kernel
 from hypcheck.kernel.scalar import position
+from hypcheck.kernel.scene_index import Bodies
 from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
+from hypcheck.scene.model import Mover, Point
+from hypcheck.truth.swept import Passage, passage
 
 
 def positions_beside(sizes: Rows, centres: Rows, origins: Rows) -> Positions:
@@ -308,3 +317,72 @@ def is_within_height(
 
 def _signed_square(value: Fraction) -> Fraction:
     return value * abs(value)
+
+
+def hits_beside(bodies: Bodies, body: Indices, mover: Mover, axis: Point | None, starts: Rows, ends: Rows) -> Mask:
+    """Which ways of a mover have contact with their hyperboloid, where it is modelled, (n,); `axis` where it leans.
+
+    `starts` and `ends`, (n, 3), are in the scene's coordinates; each way is at some time at a modelled height.
+    """
+    origins, shapes = bodies.origins[body], bodies.shapes[body]
+    low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
+    leaves = (low < bodies.heights[body, 0]) | (high > bodies.heights[body, 1])
+    radii, leaning = (mover.b, mover.d), np.empty((len(body), 0))
+    if axis is not None:
+        leaning = np.broadcast_to(axis, (len(body), 3))
+    with np.errstate(all="ignore"):
+        (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
+        lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
+        stretch = np.where(lost == 0, 0.0, lost / min(radii) * (1 + MARGIN) + ROUNDED)
+        larger, smaller = np.outer(1 + stretch, radii), np.outer(1 - stretch, radii)
+        fits = lost < GREATEST  # NaN where a difference overflows
+        fits &= (smaller > LEAST).all(axis=1) & (larger < GREATEST).all(axis=1)
+    hits = np.zeros(len(body), np.bool_)
+    open_ways = ~fits
+    asked = np.flatnonzero(fits)
+    said = kernel().answer_ways(np.concatenate([shapes, larger, start, end, leaning], axis=1)[asked])[0]
+    asked = asked[said != 0]
+    said = kernel().answer_ways(np.concatenate([shapes, smaller, start, end, leaning], axis=1)[asked])[0]
+    hits[asked] = said == 1
+    open_ways[asked] = (said != 1) | leaves[asked]
+    for index in np.flatnonzero(open_ways).tolist():
+        sizes = (*shapes[index].tolist(), mover.b, mover.d)
+        ends_of = (starts[index].tolist(), ends[index].tolist())
+        hits[index] = exact_way(sizes, *ends_of, origins[index].tolist(), bodies.spans[body[index]].tolist(), axis).hit
+    return hits
+
+
+def exact_way(
+    sizes: Sequence[float],
+    start: Sequence[float],
+    end: Sequence[float],
+    origin: Sequence[float],
+    span: Sequence[float],
+    axis: Point | None,
+) -> Passage:
+    """What happens on the part of a way that is within the span of heights above the origin; there is such a part."""
+    here, there = (
+        [Fraction(each) - Fraction(centre) for each, centre in zip(point, origin, strict=True)]
+        for point in (start, end)
+    )
+    change = [after - before for before, after in zip(here, there, strict=True)]
+    first, last = Fraction(0), Fraction(1)
+    if change[2]:
+        at = [None if abs(height) == inf else (Fraction(height) - here[2]) / change[2] for height in span]
+        enters, leaves = at if change[2] > 0 else reversed(at)
+        first = first if enters is None else max(first, enters)
+        last = last if leaves is None else min(last, leaves)
+    centres = [[before + time * by for before, by in zip(here, change, strict=True)] for time in (first, last)]
+    return passage(sizes, centres[0], centres[1], axis)
+
+
+def all_parts_are_clear(
+    bodies: Bodies, index: int, mover: Mover, start: Sequence[Sequence[float]], end: Sequence[Sequence[float]]
+) -> bool:
+    """Whether the mover's parts, each on the way between its own places, stay clear on one and the same side."""
+    found: set[Position] = set()
+    shape, origin, span = (each[index].tolist() for each in (bodies.shapes, bodies.origins, bodies.spans))
+    for part, here, there in zip(mover.parts, start, end, strict=True):
+        way = exact_way((*shape, part.b, part.d), here, there, origin, span, None)
+        found.add(Position.CONTACT if way.hit else way.start)
+    return len(found) == 1 and Position.CONTACT not in found

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import clearance_points, numpy_tilted
+from hypcheck.kernel import clearance_points, numpy_kernel
 from hypcheck.truth.nearest_exact import nearest as nearest_of
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
@@ -103,7 +103,7 @@ def test_the_multiplier_of_the_numpy_kernel_maximises_phi_or_is_next_to_a_pole()
     """It turns Newton's method; towards a pole it stops a thousandth before."""
     rows = np.concatenate([LEANING, stretched(LEANING)])
     inner = 0
-    for row, at in zip(rows.tolist(), map(Fraction, numpy_tilted.multipliers(rows)), strict=True):
+    for row, at in zip(rows.tolist(), map(Fraction, numpy_kernel.multipliers(rows)), strict=True):
         before, here, beyond = (phi(row, at * (1 + way * Fraction(1, 10**4))) for way in (-1, 0, 1))
         assert here is not None
         if beyond is not None and beyond < here:
@@ -191,9 +191,9 @@ def nearest_off(row, point):
 def test_the_error_of_a_leaning_touch_holds_for_a_multiplier_that_is_wrong(monkeypatch, wrong):
     rows = np.concatenate([LEANING, stretched(LEANING)])
     near = clearance_points.leaning_touches(rows)
-    true = numpy_tilted.multipliers
+    true = numpy_kernel.multipliers
     monkeypatch.setattr(clearance_points, "POLISHED", 0)
-    monkeypatch.setattr(numpy_tilted, "multipliers", lambda rows: true(rows) * (1 + wrong))
+    monkeypatch.setattr(numpy_kernel, "multipliers", lambda rows: true(rows) * (1 + wrong))
     found = clearance_points.leaning_touches(rows)
     off = np.linalg.norm(found.point - near.point, axis=1)
     assert (off <= found.error + near.error).all()

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import integers, numpy_tilted, tilted_integers
+from hypcheck.kernel import integers, numpy_kernel, tilted_integers
 from hypcheck.truth import exact
 from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
@@ -89,4 +89,4 @@ def test_leaning_is_true_for_rows_whose_axis_leans_except_balls():
     row = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
     rows = [[*row, *axis] for axis in ((0, 0, 1), (1, 0, 0), (0, -1, 5), (1, 1, 1), (1, 0, 1))]
     rows.append([*row[:3], 3.0, *row[4:], 1.0, 0.0, 0.0])
-    assert numpy_tilted.leaning(np.array(rows)).tolist() == [False, True, True, True, True, False]
+    assert numpy_kernel.leaning(np.array(rows)).tolist() == [False, True, True, True, True, False]

@@ -21,8 +21,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel.emission.dialects import Dialect, Statements
 from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_asked
 from hypcheck.kernel.specialise.first_stages import CENTRE
-from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch
-from hypcheck.kernel.specialise.leaning_search import LeaningSearch
+from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, LeaningSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.scene.model import Span
 

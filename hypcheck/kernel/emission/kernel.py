@@ -1,7 +1,8 @@
 """A kernel from a plan, in one of the languages: a template, its constants, its description, and printed statements.
 
 In a template ${name} in a line becomes its text; alone on a line, its lines, indented as the mark was. The description
-is what a kernel says of itself: a text of JSON, or an object of its language, a line for each setting.
+is what a kernel says of itself: a text of JSON, or an object of its language, a line for each setting. The search for a
+spheroid that leans is in double-double: its programs are printed as calls of functions that its template has.
 """
 
 from __future__ import annotations
@@ -9,18 +10,18 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from importlib import resources
 from typing import Any
 
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission import leaning
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_function
 from hypcheck.kernel.emission.plan_text import comment_text, header
-from hypcheck.kernel.specialise import last_stages
-from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DualSearch
-from hypcheck.kernel.specialise.leaning_search import LeaningSearch
+from hypcheck.kernel.printing.languages import Spelling, statements
+from hypcheck.kernel.specialise import last_stages, leaning
+from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, LeaningSearch
 from hypcheck.kernel.specialise.plan import ScenePlan
 from hypcheck.messages import escaped
 from hypcheck.scene.model import FREE
@@ -198,7 +199,7 @@ def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
     found = []
     for place, search in _searched(plan):
         if isinstance(search, LeaningSearch):
-            found.append(leaning.table(search, place, dialect))
+            found.append(_frame(search, place, dialect))
         else:
             values = ((name, dialect.literal(search.constants[name], plan.format.name)) for name in SETTING)
             fields = ",\n    ".join(dialect.say("field", name=name, value=value) for name, value in values)
@@ -225,7 +226,7 @@ def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
     if not isinstance(searches[0], LeaningSearch):
         return search_text(plan, dialect)
     names = ["leaning", "free"] if searches[0].free else ["leaning"]
-    parts = leaning.parts(dialect)
+    parts = _leaning_parts(dialect)
     return "".join(filled(template(f"{name}.{dialect.extension}.tmpl"), parts) for name in names) + "\n"
 
 
@@ -252,3 +253,85 @@ def search_text(plan: ScenePlan, dialect: Dialect) -> str:
         "geometric_steps": str(GEOMETRIC_STEPS),
     }
     return filled(template(f"search.{dialect.extension}.tmpl"), parts) + "\n"
+
+
+_CALLS = {
+    "add": "dd_add({0}, {1})",
+    "sub": "dd_sub({0}, {1})",
+    "mul": "dd_mul({0}, {1})",
+    "div": "dd_div({0}, {1})",
+    "neg": "dd_neg({0})",
+    "abs": "dd_abs({0})",
+    "sqrt": "dd_sqrt({0})",
+    "gt": "{0}.hi > {1}.hi",
+    "lt": "{0}.hi < {1}.hi",
+    "select": "{0} ? {1} : {2}",
+}
+
+
+_C = Spelling(_CALLS, "dd", "int", "const {type} {name} = {value};", "whole({}.0)".format)
+_PARTS = {"gt": "{0}[0] > {1}[0]", "lt": "{0}[0] < {1}[0]"}
+
+_DOUBLE_DOUBLE = {
+    "c": _C,
+    "cpp": replace(_C, boolean="bool"),
+    "rust": replace(
+        _C,
+        operations={**_CALLS, "select": "if {0} {{ {1} }} else {{ {2} }}"},
+        number="Dd",
+        boolean="bool",
+        declaration="let {name}: {type} = {value};",
+    ),
+    "javascript": replace(_C, operations={**_CALLS, **_PARTS}, declaration="const {name} = {value};"),
+    "python": replace(
+        _C, operations={**_CALLS, **_PARTS, "select": "{1} if {0} else {2}"}, declaration="{name} = {value}"
+    ),
+}
+"""How each language writes a program in double-double: calls of functions that its template has."""
+
+_PAIRS = {"c": "{{{0}, {1}}}", "cpp": "{{{0}, {1}}}", "rust": "Dd {{ hi: {0}, lo: {1} }}", "python": "({0}, {1})"}
+
+
+def _frame(of: LeaningSearch, place: int, dialect: Dialect) -> str:
+    """The constants of a setting: its frame, or what a free axis' frame is made of."""
+    fields = [(name, _pair(value, dialect)) for name, value in of.constants.items()]
+    fields += [(name, dialect.literal(value, "float64")) for name, value in (("most", of.most), ("omega", of.omega))]
+    values = ",\n    ".join(dialect.say("field", name=name, value=value) for name, value in fields)
+    return dialect.say("sizes" if of.free else "frame", place=place, values=f"\n    {values},\n")
+
+
+def _pair(value: DoubleDouble, dialect: Dialect) -> str:
+    high, low = (dialect.literal(part, "float64") for part in value)
+    return _PAIRS.get(dialect.name, "[{0}, {1}]").format(high, low)
+
+
+def _leaning_parts(dialect: Dialect) -> dict[str, str]:
+    """What the marks of the templates leaning.* and free.* stand for."""
+
+    def doubles(program: Program, *wanted: str) -> str:
+        return "\n".join(dialect.statements(program, wanted, "float64"))
+
+    def double_doubles(program: Program, *wanted: str) -> str:
+        return "\n".join(statements(program, wanted, _DOUBLE_DOUBLE[dialect.name]))
+
+    return {
+        "components": double_doubles(leaning.COMPONENTS, "c1", "c2", "c3"),
+        "lambda": double_doubles(leaning.LAMBDA, "lambda_"),
+        "phi": double_doubles(leaning.PHI, "phi", "to_a1", "to_a2", "to_b"),
+        "place": doubles(leaning.PLACE, "to_a1", "to_a2", "to_b"),
+        "falls": doubles(leaning.falls(), "past"),
+        "decision": doubles(leaning.DECISION, "clear", "contact"),
+        "frame": double_doubles(leaning.FRAME, *leaning.FRAME_NAMES),
+        "constants": "\n".join(
+            dialect.say("constant", number=dialect.number_of("float64"), name=name, value=repr(value))
+            for name, value in leaning.DECISION_CONSTANTS.items()
+        ),
+        "start": repr(leaning.START),
+        "steps": str(leaning.GEOMETRIC_STEPS + leaning.ARITHMETIC_STEPS),
+        "geometric_steps": str(leaning.GEOMETRIC_STEPS),
+        "rows": ", ".join(leaning.ROWS),
+        "frame_names": ", ".join(leaning.FRAME_NAMES),
+        "size_names": ", ".join(leaning.SIZE_NAMES),
+        "frame_fields": "\n".join(f"{name}: Dd," for name in leaning.FRAME_NAMES),
+        "size_fields": "\n".join(f"{name}: Dd," for name in leaning.SIZE_NAMES),
+    }

@@ -24,8 +24,14 @@ from hypcheck.kernel.specialise.first_stages import (
     lines_for,
     thresholds,
 )
-from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, discriminant, search
-from hypcheck.kernel.specialise.leaning_search import LeaningSearch, leaning_search
+from hypcheck.kernel.specialise.last_stages import (
+    Discriminant,
+    DualSearch,
+    LeaningSearch,
+    discriminant,
+    leaning_search,
+    search,
+)
 from hypcheck.kernel.specialise.settings import (
     REACH,
     ScaledSetting,

@@ -17,8 +17,8 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description, described_by_json, domain_of
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import description, emitted
+from hypcheck.kernel.specialise.last_stages import leaning_search
 from hypcheck.kernel.specialise.leaning import FRAME_NAMES
-from hypcheck.kernel.specialise.leaning_search import leaning_search
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
