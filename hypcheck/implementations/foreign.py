@@ -41,12 +41,15 @@ import numpy as np
 
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations.frames import Call, GivenAnswers, IntegerAnswers
-from hypcheck.implementations.leftovers import ContractError
 from hypcheck.implementations.spec import is_file
 
 
 class LoadError(Exception):
     """Foreign code that cannot be loaded; the text is a sentence about it."""
+
+
+class ContractError(Exception):
+    """Foreign code that did not keep the contract of a call; the text is a sentence about it."""
 
 
 class ForeignCode(Protocol):
@@ -62,11 +65,7 @@ class ForeignCode(Protocol):
         """Answers to rows, by that call."""
         ...
 
-    def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows with the same sizes and axis, by the entry for many centres."""
-        ...
-
-    def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         ...
 
@@ -121,14 +120,8 @@ class PythonFunction:
         """Answers to rows; raises ContractError if the function returns no array of n integers, or no times beside."""
         return _given(self._function(rows), len(rows), call)
 
-    def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """Raises ContractError, because a Python function has no entry for scenes."""
-        raise ContractError(f"a Python function has no entry for scenes, and was asked for one with {len(rows)} rows")
-
-    def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
-        if by_scene:
-            self.classify_scene(rows)
         function, result = self._function, None
         start = time.perf_counter_ns()
         for _ in range(repeat):

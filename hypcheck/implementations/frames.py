@@ -81,14 +81,28 @@ class GivenAnswers(NamedTuple):
 
 
 class Call(NamedTuple):
-    """The function of foreign code that is called, the columns of its rows, and whether it gives times."""
+    """The function of foreign code that is called, and the columns of its rows.
+
+    `times` says that it gives times, `scene` that the entry for many centres is called, whose rows have the same sizes
+    and axis.
+    """
 
     entry: str
     layout: Layout
     times: bool = False
+    scene: bool = False
+
+    def entry_name(self, *, tilt: bool) -> str:
+        """The one of ENTRIES that is called, with an axis or without."""
+        return f"hypcheck_{self.entry}{'_tilted' if tilt else ''}{'_scene' if self.scene else ''}"
 
 
-CALLS = (Call("classify", PAIRS), Call("passage", WAYS), Call("passage", WAYS, times=True))
+CALLS = (
+    Call("classify", PAIRS),
+    Call("classify", PAIRS, scene=True),
+    Call("passage", WAYS),
+    Call("passage", WAYS, times=True),
+)
 
 REQUEST = struct.Struct("=4sIIIQQ")
 """The kind of request, the place of its call in CALLS, the numbers of a row, the number of rows, the repetitions, and a
@@ -103,7 +117,7 @@ Without the mark, bytes that foreign code writes into the pipe would look like a
 the next question. The first reply, which has no request, has the mark 0.
 """
 
-CLASSIFY, CLASSIFY_SCENE, TIME, TIME_SCENE, TIME_EACH = b"clas", b"scen", b"time", b"tims", b"each"
+CLASSIFY, TIME, TIME_EACH = b"clas", b"time", b"each"
 READY, ANSWERS, TIMED, ERROR, PROTOCOL = b"here", b"answ", b"took", b"erro", b"prot"
 
 ENTRIES = (
@@ -115,12 +129,6 @@ ENTRIES = (
     "hypcheck_passage_tilted",
 )
 """The functions of a library: of rows, of rows with an axis, of one scene, and of ways; READY says which it exports."""
-
-
-def entry_name(entry: str = "classify", *, tilt: bool, scene: bool = False) -> str:
-    """The one of ENTRIES that is called: of that name, with an axis or without, of rows or of one scene."""
-    return f"hypcheck_{entry}{'_tilted' if tilt else ''}{'_scene' if scene else ''}"
-
 
 TIMES = struct.Struct("=qq")
 """Nanoseconds and the sum of the answers."""

@@ -1,33 +1,33 @@
 """A shared library with a C ABI, in the worker: its entries, and the guarded memory that they are given.
 
-The functions that a library exports are in foreign.py.
+The functions that a library exports are in foreign.py. Its arguments stand in memory between pages that nothing can be
+read from or written to. An array stands at the one end or at the other in turn, so that a library that reaches one byte
+too far, before or behind, ends there. What is given to be read is read-only. On a system without mprotect the memory is
+ordinary.
 """
 
 from __future__ import annotations
 
 import ctypes
 import json
+import mmap
 import os
+import sys
 import time
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import PAIRS, Rows
-from hypcheck.implementations.frames import CALLS, ENTRIES, UNWRITTEN, Call, GivenAnswers, IntegerAnswers, entry_name
-from hypcheck.implementations.guarded import GuardedMemory
-from hypcheck.implementations.leftovers import ContractError
+from hypcheck.implementations.foreign import ContractError, LoadError
+from hypcheck.implementations.frames import ENTRIES, UNWRITTEN, Call, GivenAnswers
 from hypcheck.messages import counted
 
 try:
     from hypcheck.implementations import _calls
-except ImportError:  # not compiled: ctypes makes the calls
+except ImportError:  # not compiled: ctypes makes the calls, and a fault is not named
     _calls = None  # type: ignore[assignment]
-
-
-from hypcheck.implementations.foreign import LoadError
 
 _FENCE = 64
 _HINTS = (
@@ -50,30 +50,25 @@ class Library:
     def classify(self, rows: Rows, call: Call) -> GivenAnswers:
         """Answers to rows; raises ContractError if it writes outside the memory for answers and times."""
         room = _AnswerRoom(self._memory, rows, call)
-        self._entry(rows, call)(len(rows), rows.ctypes.data, *room.words)
+        self._entry(rows, call)(*self._words(rows, call, room))
         return room.written()
 
-    def classify_scene(self, rows: Rows) -> IntegerAnswers:
-        """Answers to rows that share sizes and axis; raises ContractError if it writes outside the positions."""
-        room = _AnswerRoom(self._memory, rows)
-        parts = self._memory.scene(rows)
-        self._entry(rows, scene=True)(*_scene_words(parts, len(rows)), *room.words)
-        return room.written().integers
-
-    def seconds(self, rows: Rows, repeat: int, call: Call, *, by_scene: bool) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
-        room, n = _AnswerRoom(self._memory, rows, call), len(rows)
-        if by_scene:
-            parts = self._memory.scene(rows)  # kept alive, because the pointers do not do that
-            words: tuple[int | None, ...] = (*_scene_words(parts, n), *room.words)
-        else:
-            words = (n, rows.ctypes.data, *room.words)
-        function = self._entry(rows, call, scene=by_scene)
+        room = _AnswerRoom(self._memory, rows, call)
+        function, words = self._entry(rows, call), self._words(rows, call, room)
         start = time.perf_counter_ns()
         for _ in range(repeat):
             function(*words)
         took = time.perf_counter_ns() - start
         return took, room.total()
+
+    def _words(self, rows: Rows, call: Call, room: _AnswerRoom) -> tuple[int | None, ...]:
+        """The arguments of a call."""
+        if not call.scene:
+            return len(rows), rows.ctypes.data, *room.words
+        *fixed, x, y, z = self._memory.scene(rows)
+        return *fixed, len(rows), x, y, z, *room.words
 
     def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
@@ -84,7 +79,7 @@ class Library:
         room, n = _AnswerRoom(self._memory, rows, call), len(rows)
         if _calls is None or call.layout is not PAIRS:  # it calls functions of three arguments
             return self._seconds_by_ctypes(rows, repeat, call, room)
-        address = ctypes.cast(self._entry(rows), ctypes.c_void_p).value or 0 if n else 0
+        address = ctypes.cast(self._entry(rows, call), ctypes.c_void_p).value or 0 if n else 0
         words = (address, rows.ctypes.data, rows.shape[1], room.answers.ctypes.data, max(1, n), repeat)
         start = time.perf_counter_ns()
         _calls.each(*words)
@@ -102,14 +97,81 @@ class Library:
         took = time.perf_counter_ns() - start
         return took, room.total()
 
-    def _entry(self, rows: Rows, call: Call = CALLS[0], *, scene: bool = False) -> Any:  # noqa: ANN401 - ctypes' own is private
-        return self._entries[entry_name(call.entry, tilt=call.layout.lean(rows), scene=scene)]
+    def _entry(self, rows: Rows, call: Call) -> Any:  # noqa: ANN401 - ctypes' own is private
+        return self._entries[call.entry_name(tilt=call.layout.lean(rows))]
 
 
-def _scene_words(parts: Sequence[NDArray[np.float64]], n: int) -> tuple[int, ...]:
-    """The addresses of the parts of a scene, and n before those of x, y, z."""
-    *fixed, x, y, z = (part.ctypes.data for part in parts)
-    return (*fixed, n, x, y, z)
+_PAGE = mmap.PAGESIZE
+_NONE, _READ, _WRITE = 0, 1, 2
+"""PROT_NONE, PROT_READ, PROT_WRITE of sys/mman.h, the same on Linux and macOS."""
+
+
+def _libc() -> ctypes.CDLL | None:
+    if sys.platform == "win32":
+        return None
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.mprotect.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int)
+    return libc
+
+
+class GuardedMemory:
+    """Room for one array, which grows as it is needed. `what` names it in a message, such as "the rows".
+
+    `turn` counts the places, and may begin with any number, so that two processes begin with others.
+    """
+
+    def __init__(self, what: str, turn: int = 0) -> None:
+        self._what, self._turn = what, turn
+        self._libc = _libc()
+        self._size = 0
+        self._readable_only = False
+        self.bytes: NDArray[np.uint8] = np.empty(0, dtype=np.uint8)
+        """All bytes between the two guard pages."""
+        self._grow(_PAGE)
+
+    def _grow(self, size: int) -> None:
+        pages = -(-max(size, 1) // _PAGE)
+        pages = max(pages, 2 * self._size // _PAGE)
+        size = (pages + 2) * _PAGE
+        private = {} if sys.platform == "win32" else {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS}
+        whole = np.frombuffer(mmap.mmap(-1, size, **private), dtype=np.uint8)
+        self._size, self._readable_only = pages * _PAGE, False
+        self.bytes = whole[_PAGE : _PAGE + self._size]
+        begin = self.bytes.ctypes.data
+        end = begin + self._size
+        if self._libc is None:
+            return
+        for start, where in ((begin - _PAGE, "before"), (end, "behind")):
+            self._libc.mprotect(start, _PAGE, _NONE)
+            if _calls:
+                _calls.watch(start, start + _PAGE, f"it reached {where} {self._what}")
+        if _calls:
+            _calls.watch(begin, end, f"it wrote into {self._what}, which are read-only")
+
+    def place(self, size: int, step: int = 8) -> slice:
+        """The place among `bytes` of an array of that many, which may be written; it begins a multiple of `step` on.
+
+        It is the last place, or near the first, so that its address modulo 64 varies: code that depends on that fails
+        the tests.
+        """
+        self._turn += 1
+        shift = self._turn // 2 * step % 64
+        if size + shift > self._size:
+            self._grow(size + shift)
+        if self._readable_only:
+            self._protect(_READ | _WRITE)
+            self._readable_only = False
+        start = self._size - size if self._turn % 2 else shift
+        return slice(start, start + size)
+
+    def read_only(self) -> None:
+        """Let nothing be written to it until the next place()."""
+        self._protect(_READ)
+        self._readable_only = True
+
+    def _protect(self, how: int) -> None:
+        if self._libc is not None and self._size:
+            self._libc.mprotect(self.bytes.ctypes.data, self._size, how)
 
 
 class _Memory:
@@ -120,8 +182,8 @@ class _Memory:
         parts = ("the sizes", "the axis", "the x", "the y", "the z")
         self._parts = {name: GuardedMemory(name, 3 + 3 * place) for place, name in enumerate(parts)}
 
-    def scene(self, rows: Rows) -> Sequence[NDArray[np.float64]]:
-        """Sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
+    def scene(self, rows: Rows) -> list[int]:
+        """The addresses of sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
         x, y, z = rows[:, 4:7].T
         given = {"the sizes": rows[0, :4], "the axis": rows[0, 7:], "the x": x, "the y": y, "the z": z}
         if not PAIRS.lean(rows):
@@ -129,12 +191,12 @@ class _Memory:
         return [self._placed(self._parts[name], part) for name, part in given.items()]
 
     @staticmethod
-    def _placed(memory: GuardedMemory, part: NDArray[np.float64]) -> NDArray[np.float64]:
-        place = memory.place(8 * part.size)
+    def _placed(memory: GuardedMemory, part: NDArray[np.float64]) -> int:
+        place = memory.place(8 * part.size)  # which may replace the bytes
         placed = memory.bytes[place].view(np.float64)
         placed[...] = part
         memory.read_only()
-        return placed
+        return placed.ctypes.data
 
 
 class _AnswerRoom:
@@ -143,7 +205,7 @@ class _AnswerRoom:
     `words` are the arguments of the call behind the rows.
     """
 
-    def __init__(self, memory: _Memory, rows: Rows, call: Call = CALLS[0]) -> None:
+    def __init__(self, memory: _Memory, rows: Rows, call: Call) -> None:
         self._call = call
         self._answers = _Fenced(memory.answers, len(rows), np.dtype(np.int8))
         self._times = _Fenced(memory.times, len(rows), np.dtype(np.float64)) if call.times else None

@@ -34,10 +34,7 @@ program removes it until hypcheck and numpy are loaded. `hypcheck` is the one th
 
 WORKER_MODULES = (
     *("__init__", "errors", "messages", "geometry/__init__", "geometry/pair", "geometry/rows"),
-    *(
-        f"implementations/{name}"
-        for name in ("__init__", "foreign", "frames", "guarded", "leftovers", "library", "spec", "worker")
-    ),
+    *(f"implementations/{name}" for name in ("__init__", "foreign", "frames", "library", "spec", "worker")),
 )
 """What the worker imports of this package: nothing that could answer a question, or tell an answer."""
 
@@ -106,14 +103,14 @@ class WorkerSession:
             raise StartError(str(error)) from None
         tilt, asked = self.description.tilt, self.description.asked
         self._call = Call(asked.entry, asked.layout, self.description.times)
-        self.scene = frames.entry_name(asked.entry, tilt=tilt, scene=True) in entries
-        if spec.kind == "library" and frames.entry_name(asked.entry, tilt=tilt) not in entries:
-            raise StartError(_lacking(spec.words[0], self.description))
+        self.scene = self._call._replace(scene=True).entry_name(tilt=tilt) in entries
+        if spec.kind == "library" and self._call.entry_name(tilt=tilt) not in entries:
+            raise StartError(_lacking(spec.words[0], self.description, self._call))
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
         """An integer for each row, and times if the description says so."""
-        asked = frames.CLASSIFY_SCENE if by_scene else frames.CLASSIFY
-        width, body = self._ask(asked, rows, 1, frames.ANSWERS)
+        call = self._call._replace(scene=by_scene)
+        width, body = self._ask(frames.CLASSIFY, call, rows, 1, frames.ANSWERS)
         n, times = len(rows), self._call.times
         if len(body) != (width + 8 * times) * n:
             raise _broken(f"{counted(len(body), 'byte')} of answers to {counted(n, 'row')}")
@@ -122,18 +119,17 @@ class WorkerSession:
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int]:
         """Nanoseconds for `repeat` times the rows, and the sum of the answers; `each` makes a call for each row."""
-        asked = frames.TIME_EACH if each else frames.TIME_SCENE if by_scene else frames.TIME
-        _, body = self._ask(asked, rows, repeat, frames.TIMED)
+        call = self._call._replace(scene=by_scene and not each)
+        _, body = self._ask(frames.TIME_EACH if each else frames.TIME, call, rows, repeat, frames.TIMED)
         if len(body) != frames.TIMES.size:
             raise _broken(f"{counted(len(body), 'byte')} of times")
         nanoseconds, total = frames.TIMES.unpack(body)
         return nanoseconds, total
 
-    def _ask(self, asked: bytes, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
+    def _ask(self, asked: bytes, call: Call, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
         self._process.mark()
         mark = secrets.randbits(64)
-        call = frames.CALLS.index(self._call)
-        head = frames.REQUEST.pack(asked, call, rows.shape[1], len(rows), repeat, mark)
+        head = frames.REQUEST.pack(asked, frames.CALLS.index(call), rows.shape[1], len(rows), repeat, mark)
         self._process.send((head, frames.row_bytes(rows)))
         what, width, body = self._reply(self._limits.timeout, mark)
         if what == expected:
@@ -180,10 +176,9 @@ class WorkerSession:
         self._process.kill()
 
 
-def _lacking(path: str, described: Description) -> str:
+def _lacking(path: str, described: Description, call: Call) -> str:
     """That a library lacks the function that is to be called."""
-    asked = described.asked
-    name = frames.entry_name(asked.entry, tilt=described.tilt)
+    asked, name = described.asked, call.entry_name(tilt=described.tilt)
     rows = f"rows{len(asked.layout.tilted)}" if described.tilt else "rows"
     reasons = [f'"question": "{asked.name}"'] if asked.layout is not PAIRS else []
     reasons += ['"tilt": true'] if described.tilt else []

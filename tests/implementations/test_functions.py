@@ -12,8 +12,8 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.implementations.description import Domain
 from hypcheck.implementations.implementation import open_implementation
-from hypcheck.implementations.leftovers import Leftovers, mode_in_use
 from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
+from hypcheck.implementations.worker import Leftovers, mode_in_use
 from tests.tools.miniatures import HERE, LIMITS, QUICK, UNLUCKY, command, function, only_unlucky, rows, truth
 
 FAULTS = {

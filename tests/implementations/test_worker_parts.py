@@ -9,15 +9,14 @@ import sys
 import numpy as np
 import pytest
 
-from hypcheck.implementations import leftovers
-from hypcheck.implementations.foreign import LoadError, PythonFunction, error_text
+from hypcheck.implementations import worker
+from hypcheck.implementations.foreign import ContractError, LoadError, PythonFunction, error_text
 from hypcheck.implementations.frames import CALLS
-from hypcheck.implementations.leftovers import ContractError
 from hypcheck.implementations.protocol import TextReply, TimeReply
 from hypcheck.implementations.session import FaultError
 
 ROWS = np.zeros((3, 10))
-POSITION, _, TIMED = CALLS
+POSITION, *_, TIMED = CALLS
 
 
 @pytest.fixture
@@ -90,32 +89,26 @@ def test_a_function_may_return_times_of_any_type_and_too_large_answers_stay_inva
     assert given.integers.tolist() == [1, 0, 2**63 - 1]
 
 
-def test_timing_a_function_by_scene_raises_an_error(loaded):
-    function = loaded("def f(rows): ...")
-    with pytest.raises(ContractError, match="has no entry for scenes, and was asked for one with 3 rows"):
-        function.seconds(ROWS, 1, POSITION, by_scene=True)
-
-
 HANDLERS = bytes(8 * 65)
 
 
 def test_every_change_that_a_library_leaves_in_the_process_is_named():
-    before = leftovers._State("/before", "C", HANDLERS, 3, ((1, 1), (1, 2)))
+    before = worker._State("/before", "C", HANDLERS, 3, ((1, 1), (1, 2)))
     changed = bytearray(HANDLERS)
     changed[8 * signal.SIGSEGV] = changed[8 * 64] = 1
-    now = leftovers._State("/now", "de", bytes(changed), 4, ((1, 1), (1, 3)))
-    assert list(leftovers._changes(before, now)) == [
+    now = worker._State("/now", "de", bytes(changed), 4, ((1, 1), (1, 3)))
+    assert list(worker._changes(before, now)) == [
         "the working directory, which is '/now' now",
         "the locale, which is 'de' now",
         "the handler of SIGSEGV, SIGRTMAX",
         "the open descriptors",
         "the files behind the standard descriptors",
     ]
-    assert list(leftovers._changes(before, before)) == []
+    assert list(worker._changes(before, before)) == []
 
 
 def test_a_changed_handler_of_an_unnamed_signal_is_reported_by_its_number():
-    assert (leftovers._name(int(signal.SIGINT)), leftovers._name(63)) == ("SIGINT", "signal 63")
+    assert (worker._name(int(signal.SIGINT)), worker._name(63)) == ("SIGINT", "signal 63")
 
 
 @pytest.mark.parametrize(
@@ -127,7 +120,7 @@ def test_a_changed_handler_of_an_unnamed_signal_is_reported_by_its_number():
     ],
 )
 def test_a_changed_floating_point_control_word_is_reported_by_its_bits(before, now, said):
-    assert leftovers._control_change(before, now) == said
+    assert worker._control_change(before, now) == said
 
 
 def test_a_reply_with_a_missing_time_or_checksum_breaks_the_protocol():

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 
-from hypcheck.implementations.leftovers import mode_in_use
+from hypcheck.implementations.worker import mode_in_use
 
 TO_NEAREST = "to nearest"
 DIRECTED = ("upward", "downward", "towards zero")
