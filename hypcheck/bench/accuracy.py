@@ -28,7 +28,7 @@ from hypcheck.bench.workloads import WORKLOADS, Workload, workloads_of
 from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.method import Answers
-from hypcheck.implementations.questions import Answered
+from hypcheck.implementations.session import Answered
 from hypcheck.implementations.ways import least_distances
 from hypcheck.processes import one_each, perform
 from hypcheck.record.fields import Unsigned, row_fields

@@ -228,7 +228,6 @@ class BuiltinSession:
     max_batch = LARGEST
     scene = False
     evidence = ""
-    stderr: tuple[str, ...] = ()
 
     def __init__(self, name: str) -> None:
         self.method = builtin(name)

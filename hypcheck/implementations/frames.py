@@ -28,40 +28,30 @@ def quoted(data: bytes | bytearray, width: int = 80) -> str:
 
 
 class OutputTail:
-    """The end of a stream of bytes, however long the stream."""
+    """The end of a stream of bytes since a mark, however long the stream."""
 
     def __init__(self) -> None:
         self._bytes = bytearray()
-        self._fresh = 0
 
     def add(self, data: bytes) -> None:
         """Append data, and drop the oldest bytes."""
         self._bytes += data
-        self._fresh += len(data)
         if len(self._bytes) > 2 * KEPT:
             del self._bytes[:-KEPT]
 
     def mark(self) -> None:
-        """Begin what `recent` returns."""
-        self._fresh = 0
+        """Forget what was added."""
+        self._bytes.clear()
 
     def lines(self) -> tuple[str, ...]:
-        """All lines that are kept, safe to print."""
-        return _lines(self._bytes[-KEPT:])
-
-    def recent(self) -> tuple[str, ...]:
-        """The lines since the mark, as far as they are kept."""
-        return _lines(self._bytes[-min(self._fresh, KEPT) :]) if self._fresh else ()
+        """The lines since the mark that are kept, safe to print."""
+        shown = (escaped(line, WIDTH) for line in self._bytes[-KEPT:].decode("utf-8", "replace").splitlines())
+        return tuple(line for line in shown if line)
 
 
 def stderr_excerpt(lines: Sequence[str]) -> str:
     """The last lines of standard error as the end of a sentence; empty if there are none."""
     return f"; stderr: {escaped(' | '.join(lines[-LINES:]), WIDTH)}" if lines else ""
-
-
-def _lines(data: bytearray) -> tuple[str, ...]:
-    shown = (escaped(line, WIDTH) for line in data.decode("utf-8", "replace").splitlines())
-    return tuple(line for line in shown if line)
 
 
 LARGEST = 65_536

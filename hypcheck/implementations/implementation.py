@@ -1,4 +1,7 @@
-"""An implementation under test in any language: opened from a SPEC, asked about rows, timed, restarted."""
+"""An implementation under test in any language: opened from a SPEC, asked about rows, timed, restarted.
+
+A fault costs only the row that causes it, which is found by asking smaller parts of a question.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +16,10 @@ from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, with_axis
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.frames import LARGEST
 from hypcheck.implementations.protocol import CommandSession
-from hypcheck.implementations.questions import AllowedAnswers, Answered, RowQuestions
 from hypcheck.implementations.session import (
     Allowance,
+    AllowedAnswers,
+    Answered,
     FaultError,
     GivenUpError,
     Limits,
@@ -82,11 +86,6 @@ class Implementation:
             self._supervisor.kill()
 
     @property
-    def max_batch(self) -> int:
-        """The most rows of one question."""
-        return self._supervisor.max_batch
-
-    @property
     def max_rows(self) -> int | None:
         """The most rows of a family that it answers in reasonable time; None if that is not known."""
         return self._supervisor.max_rows
@@ -109,16 +108,6 @@ class Implementation:
     def allow(self, allowance: Allowance) -> None:
         """Replace the allowance."""
         self._supervisor.left = allowance
-
-    @property
-    def restarts(self) -> int:
-        """The restarts after faults so far."""
-        return self._limits.restarts - self._supervisor.left.restarts
-
-    @property
-    def stderr(self) -> tuple[str, ...]:
-        """The last lines that the running process wrote on standard error, safe to print."""
-        return self._supervisor.stderr
 
     def use_fresh_process(self) -> None:
         """Continue in a fresh process, which does not count as a restart."""
@@ -223,6 +212,97 @@ class Implementation:
         fixed = np.delete(rows, (4, 5, 6), axis=1)
         if by_scene and len(rows) and (fixed != fixed[0]).any():
             raise InputError(f"{self.spec} cannot be asked by scene about rows of several sizes")
+
+
+ALONE = 4096
+"""Rows that are asked one by one to find the one that ends the process; more rows are first asked in such parts.
+
+Thus the search costs at most two more processes, and one for each further such row. Rows that end no process are found
+by halving.
+"""
+
+
+class RowQuestions:
+    """The rows of one call of classify, and their answers so far."""
+
+    def __init__(self, rows: Rows, supervisor: Supervisor, allowed_answers: AllowedAnswers, *, by_scene: bool) -> None:
+        n = len(rows)
+        self._rows = rows
+        self._supervisor = supervisor
+        self._allowed = allowed_answers
+        self._by_scene = by_scene
+        times = np.full(n, np.nan) if allowed_answers.times else None
+        self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {}, times)
+
+    def ask(self, start: int, stop: int) -> None:
+        """Ask rows [start, stop), together if possible; raises GivenUpError if the implementation is given up."""
+        try:
+            self._question(start, stop)
+        except FaultError as fault:
+            self._search(start, stop, fault, self._supervisor.note_fault(fault))
+
+    def leave(self, reason: str) -> None:
+        """Set the reason of all rows that were not asked."""
+        left = np.flatnonzero(self.result.status == Outcome.NOT_RUN)
+        self.result.reasons.update(dict.fromkeys(left.tolist(), reason))
+
+    def _question(self, start: int, stop: int) -> None:
+        rows = self._rows[start:stop]
+        given = self._supervisor.session().classify(rows, by_scene=self._by_scene)
+        self._supervisor.note_answer()
+        answers, times = given
+        understood = self._allowed.understood(given, rows)
+        self.result.answers[start:stop] = np.where(understood, answers, CANNOT_SAY)
+        self.result.status[start:stop] = Outcome.ANSWERED
+        if self.result.times is not None and times is not None:
+            self.result.times[start:stop] = np.where(understood & (answers == 1), times, np.nan)
+        for index in np.flatnonzero(~understood).tolist():
+            time = None if times is None else float(times[index])
+            self._mark(start + index, Outcome.PROTOCOL, self._allowed.trouble_with(int(answers[index]), time))
+
+    def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
+        """Find the rows at fault by asking parts, and parts of the parts that fail.
+
+        Only the rows at fault are charged, because the cost of the search depends on how many rows were asked at once.
+        """
+        if stop - start == 1:
+            self._charge(start, fault, reason)
+            return
+        among = f"in a question of {stop - start} rows"
+        found, restarts = False, self._supervisor.left.restarts
+        size = _part(stop - start, fatal=fault.fatal)
+        for first in range(start, stop, size):
+            last = min(first + size, stop)
+            try:
+                self._question(first, last)
+            except FaultError as part:
+                found = True
+                self._search(first, last, part, self._supervisor.note_fault(part))
+            except GivenUpError:
+                if not found:
+                    unknown = f"{among}, and it could not be asked further to find which: {reason}"
+                    self._mark(first, fault.outcome, unknown)
+                raise
+        if not found:
+            self._charge(start, fault, f"{among} from this one on, though not in smaller ones: {reason}")
+        elif fault.fatal and self._supervisor.left.restarts == restarts:  # its parts failed, but ended no process
+            self._supervisor.charge_fault(fault, reason)
+
+    def _charge(self, index: int, fault: FaultError, reason: str) -> None:
+        self._mark(index, fault.outcome, reason)
+        self._supervisor.charge_fault(fault, reason)
+
+    def _mark(self, index: int, outcome: Outcome, reason: str) -> None:
+        self.result.answers[index] = CANNOT_SAY
+        self.result.status[index] = outcome
+        self.result.reasons[index] = reason
+
+
+def _part(n: int, *, fatal: bool) -> int:
+    """The size of the parts of n rows that failed: halves; if failing ends the process, ALONE rows, then one."""
+    if not fatal:
+        return (n + 1) // 2
+    return ALONE if n > ALONE else 1
 
 
 class Crashed:

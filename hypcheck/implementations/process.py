@@ -22,7 +22,8 @@ from itertools import chain
 from typing import IO, cast
 
 from hypcheck.errors import limit_reached, system_reason
-from hypcheck.implementations.frames import OutputTail
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.frames import OutputTail, stderr_excerpt
 from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.isolation.launch import IsolationError, Launched
@@ -210,18 +211,13 @@ class Process:
         return FaultError(Outcome.CRASH, _end_of(code), fatal=True)
 
     def mark(self) -> None:
-        """Begin a question, and what `recent` returns."""
+        """Begin a question, and what `stderr` returns."""
         self._tail.mark()
         self.sent = 0
 
     @property
-    def recent(self) -> tuple[str, ...]:
-        """The last lines of its standard error since the mark, safe to print."""
-        return self._tail.recent()
-
-    @property
     def stderr(self) -> tuple[str, ...]:
-        """The last lines of its standard error, safe to print."""
+        """The last lines of its standard error since the mark, safe to print."""
         return self._tail.lines()
 
     def goodbye(self) -> None:
@@ -267,6 +263,41 @@ class Process:
             if not data:
                 return
             self._tail.add(data)
+
+
+class ProcessSession:
+    """What all sessions of a program have in common. Raises StartError.
+
+    `revealed` is as in Process. A subclass says how the program describes itself, and asks it.
+    """
+
+    max_rows: int | None = None
+
+    def __init__(self, words: Sequence[str], limits: Limits, revealed: Sequence[str] = ()) -> None:
+        self._limits = limits
+        self._process = Process(words, limits, revealed)
+        try:
+            self.description = self._meet()
+        except BaseException:
+            self._process.kill()
+            raise
+
+    def _meet(self) -> Description:
+        """The description of the program, which has just started; raises StartError."""
+        raise NotImplementedError
+
+    @property
+    def evidence(self) -> str:
+        """Its output on standard error since the last question, as the end of a sentence."""
+        return stderr_excerpt(self._process.stderr)
+
+    def close(self) -> None:
+        """End the program by ending its input."""
+        self._process.goodbye()
+
+    def kill(self) -> None:
+        """Kill it now."""
+        self._process.kill()
 
 
 def _widen(pipe: int) -> None:

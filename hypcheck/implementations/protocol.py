@@ -28,8 +28,8 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
-from hypcheck.implementations.frames import LARGEST, WIDTH, GivenAnswers, integers, quoted, row_bytes, stderr_excerpt
-from hypcheck.implementations.process import Process
+from hypcheck.implementations.frames import LARGEST, WIDTH, GivenAnswers, integers, quoted, row_bytes
+from hypcheck.implementations.process import ProcessSession
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.messages import escaped
 
@@ -217,23 +217,16 @@ _STALL = 4
 short or missing, and the program is not slow."""
 
 
-class CommandSession:
+class CommandSession(ProcessSession):
     """A session of a program that speaks the protocol. Raises StartError."""
 
-    max_rows: int | None = None
     scene = False
 
     def __init__(self, words: Sequence[str], limits: Limits) -> None:
-        self._limits = limits
+        super().__init__(words, limits)
         self._sequence = 0
         self._known: Rows | None = None
         """A row that this process has answered, for a question that it can answer again."""
-        self._process = Process(words, limits)
-        try:
-            self.description = self._meet()
-        except BaseException:
-            self._process.kill()
-            raise
         self.max_batch = LARGEST if self.description.binary else LARGEST_TEXT
 
     def _meet(self) -> Description:
@@ -377,24 +370,6 @@ class CommandSession:
     def _reply(self, n: int) -> BinaryReply | TextReply:
         kind = BinaryReply if self.description.binary else TextReply
         return kind(self._sequence, n, times=self.description.times)
-
-    @property
-    def evidence(self) -> str:
-        """Its output on standard error since the last question, as the end of a sentence."""
-        return stderr_excerpt(self._process.recent)
-
-    @property
-    def stderr(self) -> tuple[str, ...]:
-        """The last lines of its standard error, safe to print."""
-        return self._process.stderr
-
-    def close(self) -> None:
-        """End the program by ending its input."""
-        self._process.goodbye()
-
-    def kill(self) -> None:
-        """Kill it now."""
-        self._process.kill()
 
 
 def _check_order(incoming: bytearray, length: int, reply: Reply, second: Reply) -> None:

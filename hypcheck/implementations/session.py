@@ -1,4 +1,4 @@
-"""Sessions of an implementation: their interface and limits, faults, and the supervisor that restarts them.
+"""Sessions of an implementation: interface, limits, answers and faults, and the supervisor that restarts them.
 
 A session is one run of an implementation, usually in a process of its own. A fault is a question without an answer. A
 fault that ends the process costs a restart; the supervisor starts sessions until the allowance is used up.
@@ -12,10 +12,14 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hypcheck.errors import Exit, HypcheckError, InputError
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import REFUSED
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Mask, Rows, invalid
 from hypcheck.implementations.description import Description
-from hypcheck.implementations.frames import GivenAnswers
+from hypcheck.implementations.frames import UNWRITTEN, GivenAnswers
 from hypcheck.isolation.launch import Isolation
 
 
@@ -115,11 +119,6 @@ class Session(Protocol):
         """Its output on standard error since the last question, as the end of a sentence."""
         ...
 
-    @property
-    def stderr(self) -> tuple[str, ...]:
-        """The last lines of its standard error, safe to print."""
-        ...
-
     def close(self) -> None:
         """End the program."""
         ...
@@ -127,6 +126,76 @@ class Session(Protocol):
     def kill(self) -> None:
         """End it now."""
         ...
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """The answers to n rows: `answers` int8 (n,), CANNOT_SAY for rows without one; `status` int8 (n,), an Outcome each.
+
+    `reasons` has a sentence, safe to print, for every row whose status is not ANSWERED. `times` (n,) are those of the
+    answers 1, and NaN elsewhere; None if the implementation gives none.
+    """
+
+    answers: NDArray[np.int8]
+    status: NDArray[np.int8]
+    reasons: dict[int, str]
+    times: Floats | None = None
+
+    @classmethod
+    def of(cls, answers: NDArray[np.int8], times: Floats | None = None) -> Answered:
+        """These answers, one for every row."""
+        return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {}, times)
+
+    @property
+    def answered(self) -> NDArray[np.bool_]:
+        """A mask (n,) of the rows that have an answer."""
+        return np.asarray(self.status == Outcome.ANSWERED)
+
+    @property
+    def outcomes(self) -> frozenset[Outcome]:
+        """All ways in which rows ended."""
+        if not self.reasons:
+            return frozenset({Outcome.ANSWERED}) if len(self.status) else frozenset()
+        return frozenset(map(Outcome, np.unique(self.status).tolist()))
+
+    def count(self, outcome: Outcome) -> int:
+        """The number of rows with this outcome."""
+        return int(np.count_nonzero(self.status == outcome))
+
+
+class AllowedAnswers:
+    """The allowed answers of an implementation: those to its question, CANNOT_SAY, and REFUSED if it refuses rows."""
+
+    def __init__(self, description: Description) -> None:
+        self._refuses = description.refuses
+        self._layout = description.asked.layout
+        self.times = description.times
+        self.answers = description.asked.answers
+        self._usable = np.zeros(256, dtype=np.bool_)
+        self._usable[[answer % 256 for answer in (*self.answers, CANNOT_SAY, *[REFUSED] * self._refuses)]] = True
+
+    def understood(self, given: GivenAnswers, rows: Rows) -> Mask:
+        """A mask (n,) of the allowed answers. REFUSED is allowed for invalid rows only; a time is from 0 to 1."""
+        answers, times = given
+        short = answers.astype(np.int8, copy=False)
+        usable = self._usable.take(short.view(np.uint8))
+        if answers.dtype != np.int8:
+            usable &= short == answers
+        if self._refuses:
+            refused = np.flatnonzero(short == REFUSED)
+            usable[refused] &= invalid(rows[refused], self._layout)
+        if times is not None:
+            usable &= (short != 1) | ((times >= 0) & (times <= 1))
+        return np.asarray(usable)
+
+    def trouble_with(self, answer: int, time: float | None = None) -> str:
+        """Why an answer with this time is not allowed."""
+        if answer == 1 and time is not None:
+            return f"it answered 1 with the time {time!r}; it must be a number from 0 to 1"
+        if answer == REFUSED and self._refuses:
+            return f"it answered {REFUSED}, which refuses the row, but the row is valid"
+        hint = ", the value of positions that a library did not write" if answer == UNWRITTEN else ""
+        return f"it answered {answer}{hint}; it must be one of {', '.join(map(str, self.answers))} or {CANNOT_SAY}"
 
 
 class GivenUpError(Exception):
@@ -246,11 +315,6 @@ class Supervisor:
         else:
             were = "row before was" if self._most.faults == 1 else "rows before were"
             self._end(f"not asked: {self._most.faults:,} {were} at fault; the last: {reason}")
-
-    @property
-    def stderr(self) -> tuple[str, ...]:
-        """The last lines that the running process wrote on standard error, safe to print."""
-        return self._session.stderr if self._session else ()
 
     def close(self) -> None:
         """Let the process end. The next question starts another, which does not count as a restart."""

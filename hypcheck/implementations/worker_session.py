@@ -16,7 +16,7 @@ from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
 from hypcheck.implementations.frames import WIDTH, Call, GivenAnswers, quoted, stderr_excerpt
-from hypcheck.implementations.process import Process
+from hypcheck.implementations.process import ProcessSession
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.implementations.spec import Spec
 from hypcheck.messages import counted, escaped
@@ -61,26 +61,21 @@ _OURS = (
 _LANGUAGES = {"python": "python", "library": ""}
 
 
-class WorkerSession:
+class WorkerSession(ProcessSession):
     """A Python function or a shared library in a process of its own. Addresses vary with `run`, its number."""
 
     max_batch = frames.LARGEST
-    max_rows: int | None = None
 
     def __init__(self, spec: Spec, limits: Limits, run: int) -> None:
-        self._limits = limits
+        self._spec = spec
         folder = str(Path(__file__).resolve().parents[2])
         if not sys.executable:
             raise StartError("this Python does not know the path of its program, which runs the worker")
         words = (sys.executable, "-c", _PROGRAM, folder, str(3 * run), spec.kind, *spec.words)
-        self._process = Process(words, limits, worker_files())
-        try:
-            self._meet(spec)
-        except BaseException:
-            self._process.kill()
-            raise
+        super().__init__(words, limits, worker_files())
 
-    def _meet(self, spec: Spec) -> None:
+    def _meet(self) -> Description:
+        spec = self._spec
         try:
             what, _, body = self._reply(self._limits.startup_timeout)
         except FaultError as fault:
@@ -98,14 +93,15 @@ class WorkerSession:
         name = os.path.basename(spec.words[0]) + "".join(f":{word}" for word in spec.words[1:])
         defaults = Description(name=name, language=_LANGUAGES[spec.kind], binary=True, time=True)
         try:
-            self.description = described_by_json(described or b"{}", defaults)
+            description = described_by_json(described or b"{}", defaults)
         except InputError as error:
             raise StartError(str(error)) from None
-        tilt, asked = self.description.tilt, self.description.asked
-        self._call = Call(asked.entry, asked.layout, self.description.times)
+        tilt, asked = description.tilt, description.asked
+        self._call = Call(asked.entry, asked.layout, description.times)
         self.scene = self._call._replace(scene=True).entry_name(tilt=tilt) in entries
         if spec.kind == "library" and self._call.entry_name(tilt=tilt) not in entries:
-            raise StartError(_lacking(spec.words[0], self.description, self._call))
+            raise StartError(_lacking(spec.words[0], description, self._call))
+        return description
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
         """An integer for each row, and times if the description says so."""
@@ -160,20 +156,7 @@ class WorkerSession:
     @property
     def evidence(self) -> str:
         """The output of the foreign code since the last question, as the end of a sentence."""
-        return stderr_excerpt([line for line in self._process.recent if not any(part in line for part in _OURS)])
-
-    @property
-    def stderr(self) -> tuple[str, ...]:
-        """The last lines of its output, safe to print."""
-        return self._process.stderr
-
-    def close(self) -> None:
-        """End the program."""
-        self._process.goodbye()
-
-    def kill(self) -> None:
-        """End it now."""
-        self._process.kill()
+        return stderr_excerpt([line for line in self._process.stderr if not any(part in line for part in _OURS)])
 
 
 def _lacking(path: str, described: Description, call: Call) -> str:

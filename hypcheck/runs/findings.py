@@ -25,7 +25,7 @@ from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.implementations.description import EVERYWHERE, claimed
 from hypcheck.implementations.method import Method
-from hypcheck.implementations.questions import Answered
+from hypcheck.implementations.session import Answered
 from hypcheck.record.lines import FindingLine, GroupLine, MapLine
 from hypcheck.runs import judge, tally
 from hypcheck.runs.diagnosis import CasePlace

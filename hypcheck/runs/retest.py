@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions, Rows, with_axis
 from hypcheck.implementations.implementation import Crashed, Implementation
-from hypcheck.implementations.questions import Answered
-from hypcheck.implementations.session import Outcome
+from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.record.lines import Retest
 from hypcheck.runs.cases import ChunkCases, cases_of_chunks
 from hypcheck.runs.judge import Criterion, Status

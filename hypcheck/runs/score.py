@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows
-from hypcheck.implementations.questions import Answered
-from hypcheck.implementations.session import Outcome
+from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.runs import tally
 from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import DANGEROUS, Criterion, Mistake, Status, WrongCase

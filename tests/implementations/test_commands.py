@@ -11,7 +11,19 @@ import pytest
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.protocol import row_text
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError, TimingError
-from tests.tools.miniatures import LIMITS, QUICK, UNLUCKY, command, compiled, only_unlucky, rows, signs, truth
+from tests.tools.miniatures import (
+    LIMITS,
+    QUICK,
+    UNLUCKY,
+    command,
+    compiled,
+    only_unlucky,
+    restarts_of,
+    rows,
+    signs,
+    stderr_of,
+    truth,
+)
 
 HANGS = ("silent", "short", "drips", "loops")
 FAULTS = {
@@ -68,13 +80,13 @@ def test_a_correct_command_answers_batches_of_every_size_rightly(form):
     some = rows(5000)
     expected = truth(some)
     with open_implementation(command("right", form), LIMITS) as it:
-        assert it.max_batch == (4096 if form == "text" else 65536)
+        assert it._supervisor.max_batch == (4096 if form == "text" else 65536)
         for n, batch in ((50, 1), (5000, 77), (5000, 100_000), (5000, None)):
             answered = it.classify(some[:n], batch=batch)
             assert answered.answered.all()
             assert answered.answers.tolist() == expected[:n].tolist()
         assert it.classify(some[:0]).answers.shape == (0,)
-        assert it.restarts == 0
+        assert restarts_of(it) == 0
 
 
 def test_row_text_writes_numbers_that_read_back_to_the_bit():
@@ -90,9 +102,9 @@ def test_a_command_that_floods_standard_error_is_answered_and_its_last_lines_are
     with open_implementation(command("floods_stderr"), LIMITS) as it:
         answered = it.classify(some)
         assert answered.answers.tolist() == truth(some).tolist()
-        assert it.stderr[-1] == r"\x1b[31mwarning �\x00"
-        assert all(line.isprintable() for line in it.stderr)
-        assert sum(map(len, it.stderr)) < 50_000
+        assert stderr_of(it)[-1] == r"\x1b[31mwarning �\x00"
+        assert all(line.isprintable() for line in stderr_of(it))
+        assert sum(map(len, stderr_of(it))) < 50_000
 
 
 def test_a_slow_reply_of_a_command_is_not_mistaken_for_a_missing_one():
@@ -110,7 +122,7 @@ def test_a_command_that_keeps_answering_does_not_time_out(words):
         began = time.monotonic()
         answered = it.classify(some)
         assert time.monotonic() - began > 2 * QUICK.timeout
-        assert it.restarts == 0
+        assert restarts_of(it) == 0
     assert answered.answers.tolist() == truth(some).tolist()
 
 
@@ -135,7 +147,7 @@ def test_a_command_may_answer_cannot_say():
 def test_a_command_that_never_writes_a_number_is_given_up_after_all_restarts():
     with open_implementation(command("without_number"), LIMITS) as it:
         answered = it.classify(rows())
-        assert it.restarts == LIMITS.restarts
+        assert restarts_of(it) == LIMITS.restarts
     assert answered.count(Outcome.PROTOCOL) == LIMITS.restarts + 1
     assert answered.count(Outcome.NOT_RUN) == len(rows()) - LIMITS.restarts - 1
     assert re.search("not asked: 6 restarts are used up; the last process: it wrote '-?1'", answered.reasons[39])
@@ -146,7 +158,7 @@ def test_a_command_that_never_answers_is_given_up_after_three_timeouts():
     """One of all rows, and one each of the first two."""
     with open_implementation(command("hangs"), QUICK) as it:
         answered = it.classify(rows())
-        assert it.restarts == 2
+        assert restarts_of(it) == 2
     assert answered.status.tolist() == [Outcome.TIMEOUT] * 2 + [Outcome.NOT_RUN] * 38
     assert answered.reasons[39].startswith(
         "not asked: it hung on 3 questions in a row and never answered any; the last: no reply within 0.7 s"
@@ -204,7 +216,7 @@ def test_a_command_whose_state_changes_its_answers_is_not_restarted_to_repair_th
         assert it.classify(some).answers.tolist() == (-truth(some)).tolist()
         it.use_fresh_process()
         assert it.classify(some).answers.tolist() == truth(some).tolist()
-        assert it.restarts == 0
+        assert restarts_of(it) == 0
 
 
 def test_answers_that_depend_on_the_batch_size_reach_the_caller_unchanged():

@@ -14,7 +14,19 @@ from hypcheck.implementations.description import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
 from hypcheck.implementations.worker import Leftovers, mode_in_use
-from tests.tools.miniatures import HERE, LIMITS, QUICK, UNLUCKY, command, function, only_unlucky, rows, truth
+from tests.tools.miniatures import (
+    HERE,
+    LIMITS,
+    QUICK,
+    UNLUCKY,
+    command,
+    function,
+    only_unlucky,
+    restarts_of,
+    rows,
+    stderr_of,
+    truth,
+)
 
 FAULTS = {
     "answers_256": (Outcome.PROTOCOL, "answered 256; it must be one of -1, 0, 1 or 2"),
@@ -35,7 +47,7 @@ def test_a_fault_of_a_function_fails_only_its_own_row_with_the_reason(name):
         reason = only_unlucky(it.classify(some), outcome, truth(some))
         assert re.search(sentence, reason), reason
         assert it.classify(rows(lucky=True)).answered.all()
-        assert it.restarts == (1 if outcome in {Outcome.CRASH, Outcome.TIMEOUT} else 0)
+        assert restarts_of(it) == (1 if outcome in {Outcome.CRASH, Outcome.TIMEOUT} else 0)
 
 
 @pytest.mark.parametrize(
@@ -51,7 +63,7 @@ def test_a_fault_of_a_function_fails_only_its_own_row_with_the_reason(name):
 def test_a_function_that_does_not_return_one_integer_per_row_breaks_the_protocol(name, sentence):
     with open_implementation(function(name), LIMITS) as it:
         answered = it.classify(rows())
-        assert it.restarts == 0
+        assert restarts_of(it) == 0
     assert answered.count(Outcome.PROTOCOL) == 40
     assert all(re.search(sentence, answered.reasons[index]) for index in range(40))
 
@@ -75,10 +87,10 @@ def test_the_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, sp
     for batch in (16, 100, 900):
         with open_implementation(spec, replace(LIMITS, restarts=3)) as it:
             answered = it.classify(some, batch=batch)
-            found.append((answered.status.tolist(), answered.answers.tolist(), it.restarts))
+            found.append((answered.status.tolist(), answered.answers.tolist(), restarts_of(it)))
     assert found[0] == found[1] == found[2]
     assert np.flatnonzero(answered.status != Outcome.ANSWERED).tolist() == [7, 50, 130, *range(500, 900)]
-    assert it.restarts == restarts
+    assert restarts_of(it) == restarts
 
 
 @pytest.mark.parametrize("name", ["right", "prints", "list_of_integers", "imports_us"])
@@ -112,7 +124,7 @@ def test_times_that_a_function_writes_into_the_pipe_of_its_worker_are_refused():
 def test_output_that_a_function_prints_is_kept_as_its_standard_error():
     with open_implementation(function("prints"), LIMITS) as it:
         it.classify(rows())
-        assert it.stderr[-2:] == ("computing", r"�\x00 from C")
+        assert stderr_of(it)[-2:] == ("computing", r"�\x00 from C")
 
 
 def test_a_module_in_a_python_spec_is_found_from_the_working_directory(tmp_path, monkeypatch):
@@ -196,7 +208,7 @@ def test_a_slow_function_gets_smaller_batches_and_no_timeout():
     """All 260 rows at once would take 1.3 s."""
     with open_implementation(function("slow"), QUICK) as it:
         assert it.classify(rows(260)).answered.all()
-        assert it.restarts == 0
+        assert restarts_of(it) == 0
 
 
 @pytest.mark.parametrize(
@@ -255,7 +267,7 @@ def test_a_function_answers_half_a_million_rows_in_their_order(tmp_path):
     some = rows(1 << 19)
     with open_implementation(f"python:{tmp_path / 'sign.py'}:f") as it:
         assert it.classify(some).answers.tolist() == np.sign(some[:, 4]).tolist()
-        assert it.proven_batch == it.max_batch
+        assert it.proven_batch == it._supervisor.max_batch
 
 
 def test_a_change_of_the_rounding_mode_by_a_call_is_found_and_undone():

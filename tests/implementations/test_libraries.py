@@ -16,7 +16,7 @@ from hypcheck.implementations import library as libraries
 from hypcheck.implementations.frames import CALLS
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome, StartError
-from tests.tools.miniatures import LIMITS, compiled, only_unlucky, rows, signs
+from tests.tools.miniatures import LIMITS, compiled, only_unlucky, rows, signs, stderr_of
 
 SHARED = ("-shared", "-fPIC")
 FAULTS = {
@@ -76,7 +76,7 @@ def test_output_that_a_library_prints_is_kept_as_standard_error_and_not_read_as_
     library = compiled("faulty", tmp_path / "faulty.so", *SHARED, "-DFAULT=PRINTS")
     with open_implementation(f"library:{library}", LIMITS) as it:
         assert it.classify(rows()).answers.tolist() == signs(rows()).tolist()
-        assert it.stderr == ("7 1", "1")
+        assert stderr_of(it) == ("7 1", "1")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")

@@ -20,7 +20,7 @@ from hypcheck.implementations.spec import parse_spec
 from hypcheck.kernel.classify import classify
 from hypcheck.messages import escaped
 from hypcheck.runs import judge
-from tests.tools.miniatures import rows
+from tests.tools.miniatures import restarts_of, rows
 
 WORDS = [
     ("builtin:fast", ("fast",)),
@@ -113,7 +113,7 @@ def test_a_built_in_method_has_the_interface_of_an_implementation():
         assert it.classify(some, batch=7).answers.tolist() == answered.answers.tolist()
         assert (it.description.name, it.description.precision) == ("fast", "float64")
         assert it.description.domain == builtin("fast").domain
-        assert (it.max_rows, it.scene, it.restarts, it.stderr) == (None, False, 0, ())
+        assert (it.max_rows, it.scene, restarts_of(it)) == (None, False, 0)
     with pytest.raises(InputError, match="there is no built-in method 'slow'"):
         open_implementation("builtin:slow")
 
@@ -237,7 +237,7 @@ def test_output_tail_gives_the_lines_since_the_mark():
     tail = OutputTail()
     tail.add(b"old\n")
     tail.mark()
-    assert stderr_excerpt(tail.recent()) == ""
+    assert stderr_excerpt(tail.lines()) == ""
     tail.add(b"a\nb\x1b\n\nc\nd")
-    assert stderr_excerpt(tail.recent()) == r"; stderr: b\x1b | c | d"
-    assert tail.lines() == ("old", "a", r"b\x1b", "c", "d")
+    assert tail.lines() == ("a", r"b\x1b", "c", "d")
+    assert stderr_excerpt(tail.lines()) == r"; stderr: b\x1b | c | d"

@@ -7,7 +7,7 @@ from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.description import EVERYWHERE
-from hypcheck.implementations.questions import Answered
+from hypcheck.implementations.session import Answered
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import PLACES, SILENT, Asked, Standing
 from hypcheck.runs.diagnosis import CAUSES, Diagnosis, causes_of, diagnose, merged

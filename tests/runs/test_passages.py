@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.implementations.questions import Answered
+from hypcheck.implementations.session import Answered
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.passages import passage_of, radii_off, way_in_radii

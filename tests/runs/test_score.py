@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.questions import Answered
-from hypcheck.implementations.session import Outcome
+from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import as_slice, score
 from hypcheck.runs.tally import STATUSES, UnansweredCase

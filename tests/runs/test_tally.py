@@ -12,8 +12,7 @@ import pytest
 from msgspec import UNSET
 
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS
-from hypcheck.implementations.questions import Answered
-from hypcheck.implementations.session import Outcome
+from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.score import score

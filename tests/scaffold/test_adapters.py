@@ -21,6 +21,7 @@ from hypcheck.implementations.session import Limits
 from hypcheck.scaffold.project import LANGUAGES, Language, Project
 from hypcheck.vectors.families import FAMILIES
 from tests.support.without_drawing import COMMAND
+from tests.tools.miniatures import restarts_of
 
 TOOLS = {
     "c": ("cc",),
@@ -173,7 +174,7 @@ def test_generated_adapter_answers_exactly_as_table_2(built, spec, rows, expecte
             answered = it.classify(rows[some], batch=batch)
             assert answered.answered.all(), answered.reasons
             assert np.flatnonzero(answered.answers != expected[some]).tolist() == []
-        assert it.restarts == 0
+        assert restarts_of(it) == 0
 
 
 def test_generated_adapter_answers_a_batch_of_the_largest_size(built, spec):

@@ -12,7 +12,7 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import PAIRS
 from hypcheck.implementations.description import Description, Domain
-from hypcheck.implementations.questions import Answered
+from hypcheck.implementations.session import Answered
 from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json, decoded, numbers_of
 from hypcheck.record.lines import GroupLine, ImplementationLine

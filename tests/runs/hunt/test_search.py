@@ -13,8 +13,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY, FixedSizes
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.implementation import open_implementation
-from hypcheck.implementations.questions import Answered
-from hypcheck.implementations.session import Outcome
+from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.runs import hunt as hunting
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt import Hunt, HuntPlan, target_of

@@ -28,7 +28,7 @@ class Pipe:
     def __init__(self, data: bytes, random: Random) -> None:
         self.incoming = bytearray()
         self.sending, self.sent = False, 0
-        self.recent = self.stderr = ()
+        self.stderr = ()
         self._parts, self._random = data.split(seeds.SEPARATOR)[::-1], random
         self._said = self._parts.pop()
 
@@ -82,9 +82,9 @@ def _command(data: bytes, random: Random) -> CommandSession:
 
 def _worker(data: bytes, random: Random) -> WorkerSession:
     session = object.__new__(WorkerSession)
-    session._limits = LIMITS
+    session._limits, session._spec = LIMITS, SPEC
     session._process = Pipe(data, random)
-    session._meet(SPEC)
+    session.description = session._meet()
     return session
 
 

@@ -20,8 +20,8 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.implementations.questions import Answered
-from hypcheck.implementations.session import Limits, Outcome
+from hypcheck.implementations.implementation import Implementation
+from hypcheck.implementations.session import Answered, Limits, Outcome
 from hypcheck.truth import exact
 
 HERE = Path(__file__).parent
@@ -85,6 +85,16 @@ def only_unlucky(answered: Answered, outcome: Outcome, expected) -> str:
 
 
 needs_proc = pytest.mark.skipif(not Path("/proc/self/environ").exists(), reason="no /proc to see all processes in")
+
+
+def restarts_of(it: Implementation) -> int:
+    """The restarts after faults so far."""
+    return it._limits.restarts - it.allowance.restarts
+
+
+def stderr_of(it: Implementation) -> tuple[str, ...]:
+    """The last lines that it wrote on standard error since the last question."""
+    return it._supervisor.session()._process.stderr
 
 
 def living(token: str) -> list[str]:
