@@ -71,7 +71,7 @@ schemas: $(VENV)/ready-dev ## the published schemas of what is written anew, fro
 	$(BIN)/python -m tests.tools.published_schemas
 
 figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; docs/figures.md
-	$(BIN)/python -m tests.tools.paper_figures
+	$(BIN)/python -m tests.tools.figures
 
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; tests/tools/mutants/README.md
 	$(BIN)/python -m tests.tools.mutants --out tests/tools/mutants/README.md

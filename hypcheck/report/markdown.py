@@ -61,11 +61,6 @@ def table_lines(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Ite
     return [*(f"| {' | '.join(cells)} |" for cells in (head, rule, *rows)), ""]
 
 
-def paragraph_lines(*sentences: str) -> list[str]:
-    """A paragraph and an empty line."""
-    return [" ".join(sentences), ""]
-
-
 def render(record: Record, context: ReportContext | None = None) -> bytes:
     """The report in UTF-8; it refers to the pictures among the files beside it."""
     beside = context.beside if context else ()

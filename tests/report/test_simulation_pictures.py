@@ -12,7 +12,7 @@ import pytest
 
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.tower import TowerPlan, simulate_tower
-from hypcheck.report.plots import forest_walk, tower
+from hypcheck.report.plots.simulations import TRUNKS, forest_plots, tower_plots
 from hypcheck.report.plots.style import colour, styled
 from hypcheck.report.plots.svg import standalone
 from hypcheck.scene.reading import read_scene
@@ -32,20 +32,20 @@ def walked(steps, seed=3):
 
 
 RESULTS = {
-    "tower": lambda: (tower, flown()),
-    "tower leaning": lambda: (tower, flown(pitch=35.0)),
-    "tower without a table": lambda: (tower, flown(runs=0)),
-    "simplest": lambda: (tower, flown(read_scene("tower-simplest"), runs=0)),
-    "forest": lambda: (forest_walk, walked(1500)),
-    "forest without phantoms": lambda: (forest_walk, walked(15)),
+    "tower": lambda: (tower_plots, flown()),
+    "tower leaning": lambda: (tower_plots, flown(pitch=35.0)),
+    "tower without a table": lambda: (tower_plots, flown(runs=0)),
+    "simplest": lambda: (tower_plots, flown(read_scene("tower-simplest"), runs=0)),
+    "forest": lambda: (forest_plots, walked(1500)),
+    "forest without phantoms": lambda: (forest_plots, walked(15)),
 }
 
 
 @pytest.mark.parametrize("name", RESULTS)
 def test_simulation_picture_axes_have_units_and_nothing_overlaps(name):
-    module, result = RESULTS[name]()
+    plots, result = RESULTS[name]()
     with styled():
-        for plot in module.plots(result):
+        for plot in plots(result):
             plot.figure.canvas.draw()
             flat = [axes for axes in plot.figure.axes if axes.name != "3d"]
             boxes = [axes.get_tightbbox() for axes in plot.figure.axes if axes.name != "3d"]
@@ -61,9 +61,9 @@ def test_simulation_picture_axes_have_units_and_nothing_overlaps(name):
 
 
 def test_same_simulation_result_gives_the_same_picture_file():
-    for module, result in (RESULTS["tower without a table"](), RESULTS["forest without phantoms"]()):
+    for plots, result in (RESULTS["tower without a table"](), RESULTS["forest without phantoms"]()):
         with styled():
-            files = [standalone(next(module.plots(result))) for _ in range(2)]
+            files = [standalone(next(plots(result))) for _ in range(2)]
         assert files[0] == files[1]
         ElementTree.fromstring(files[0])  # noqa: S314 - just written
         assert b"<desc" in files[0]
@@ -72,7 +72,7 @@ def test_same_simulation_result_gives_the_same_picture_file():
 def test_flights_of_the_tower_are_drawn_at_their_positions():
     result = flown(runs=0)
     with styled():
-        (plot,) = tower.plots(result)
+        (plot,) = tower_plots(result)
     above, along, solid = sorted(plot.figure.axes, key=lambda axes: axes.name == "3d")
     for place, path in enumerate(result["flights"]["paths"]):
         positions = np.array(path["positions"])
@@ -91,7 +91,7 @@ def test_flights_of_the_tower_are_drawn_at_their_positions():
 def test_table_5_is_drawn_over_the_length_of_a_step():
     table = flown()["table_5"]
     with styled():
-        _, plot = tower.plots(flown())
+        _, plot = tower_plots(flown())
     (axes,) = plot.figure.axes
     lines = {line.get_label(): line for line in axes.lines}
     printed = lines["printed, t = 0.2 s"]
@@ -106,7 +106,7 @@ def test_table_5_is_drawn_over_the_length_of_a_step():
 def test_shares_of_wrong_answers_by_pitch_are_drawn_over_the_length_of_a_step():
     result = flown(pitch=35.0)
     with styled():
-        *_, plot = tower.plots(result)
+        *_, plot = tower_plots(result)
     assert plot.name == "tower-pitch"
     section, shares = plot.figure.axes
     needless, dangerous = shares.lines
@@ -127,7 +127,7 @@ def test_shares_of_wrong_answers_by_pitch_are_drawn_over_the_length_of_a_step():
 def test_every_stop_of_the_walk_is_drawn_with_the_ring_of_its_tree():
     result = walked(1500)
     with styled():
-        plot, _ = forest_walk.plots(result)
+        plot, _ = forest_plots(result)
     above, wall = plot.figure.axes
     drawn = {each.get_label(): each.get_offsets() for each in above.collections}
     for kind, label in (("contact", "rightly refused"), ("phantom", "stopped by a phantom")):
@@ -149,20 +149,20 @@ def test_trunk_colours_of_kinds_of_trees_differ_in_lightness():
     """Whoever sees no colours still tells them apart."""
     from matplotlib.colors import to_rgb
 
-    light = [np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour(paint))) for _, paint in forest_walk.TRUNKS.values()]
+    light = [np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour(paint))) for _, paint in TRUNKS.values()]
     assert abs(light[0] - light[1]) > 0.25
 
 
 @pytest.mark.parametrize("name", ["tower-flights", "forest-walk", "forest-space"])
 def test_first_contacts_of_simulated_ways_are_marked_at_their_place(name):
     contact = {"start": [0.0, 1.0, 2.0], "end": [1.0, 1.0, 0.0], "first_lower": 0.25, "first_upper": 0.25}
-    module, result = (tower, flown(runs=0)) if name.startswith("tower") else (forest_walk, walked(15))
+    plots, result = (tower_plots, flown(runs=0)) if name.startswith("tower") else (forest_plots, walked(15))
     if name.startswith("tower"):
         result = {**result, "flights": {**result["flights"], "ways": {"contacts": [contact]}}}
     else:
         result = {**result, "ways": {"contacts": [contact]}}
     with styled():
-        plot = next(plot for plot in module.plots(result) if plot.name == name)
+        plot = next(plot for plot in plots(result) if plot.name == name)
     marked = [line for axes in plot.figure.axes for line in axes.lines if "first contact" in str(line.get_label())]
     assert marked
     for line in marked:

@@ -1,12 +1,13 @@
 """Error against run time: how near to contact a method is reliable, its cost, and the front that no other method beats.
 
-Names stand beside points if they cover neither each other nor a point; the other points have only tooltips.
+Of methods for ways, the share of missed and of false contacts stands in place of the distance. Names stand beside
+points if they cover neither each other nor a point; the other points have only tooltips.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -19,9 +20,29 @@ from matplotlib.transforms import Bbox
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report.measured import BATCH, TIERS, MeasuredMethod, lost, measured_methods, principal, workloads
+from hypcheck.report.measured import (
+    BATCH,
+    TIERS,
+    WayTotal,
+    lost,
+    measured_methods,
+    principal,
+    way_totals,
+    workloads,
+)
 from hypcheck.report.messages import figure
-from hypcheck.report.plots.style import DASHES, MARKERS, WIDTH, colour, decades, log_axis, new_figure, power_of_ten
+from hypcheck.report.plots.style import (
+    DASHES,
+    MARKERS,
+    WIDTH,
+    Mark,
+    colour,
+    decades,
+    draw_marks,
+    log_axis,
+    new_figure,
+    power_of_ten,
+)
 from hypcheck.report.plots.svg import Plot
 
 _PLACES = (
@@ -54,11 +75,14 @@ _BETWEEN = 1.5
 """Points kept free on each side of a name."""
 
 
+Coordinates = tuple[float, float]
+
+
 def place_labels(
     axes: Axes,
-    points: Sequence[tuple[float, float]],
+    points: Sequence[Coordinates],
     names: Sequence[str | None],
-    lines: Sequence[tuple[tuple[float, float], tuple[float, float]]] = (),
+    lines: Sequence[tuple[Coordinates, Coordinates]] = (),
     important: int | None = None,
 ) -> None:
     """Write the name of each point (None: no name), the most important first. The axes' limits must be set before.
@@ -111,11 +135,68 @@ def _within(box: Any, outer: Any) -> bool:  # noqa: ANN401 - matplotlib's boxes
     return bool(box.x0 >= outer.x0 and box.x1 <= outer.x1 and box.y0 >= outer.y0 and box.y1 <= outer.y1)
 
 
-Coordinates = tuple[float, float]
-
-
 ENOUGH = 3000
 """The number of right answers that shows, at 95 %, that at most 1 in 1000 is wrong."""
+
+
+@dataclass(frozen=True, slots=True)
+class MethodMark:
+    """The mark of a method; `shown`: enough answers were judged."""
+
+    name: str
+    tier: str
+    exact: bool
+    mark: Mark
+    shown: bool = True
+
+
+def _draw_methods(axes: Axes, name: str, found: Sequence[MethodMark]) -> dict[str, list[str]]:
+    """Draw the marks, the fastest tier on top, with a ring about those of exact methods. Returns the tooltips."""
+    exact = [each.mark for each in found if each.exact]
+    axes.plot([mark.x for mark in exact], [mark.y for mark in exact], **RING)
+    tips: dict[str, list[str]] = {}
+    for number, tier in reversed(list(enumerate(TIERS))):
+        for shown in (True, False):
+            mine = [each.mark for each in found if (each.tier, each.shown) == (tier, shown)]
+            tips |= draw_marks(axes, f"{name}-{number}-{shown}", mine, **_mark_style(number, shown=shown))
+    return tips
+
+
+def _mark_style(number: int, *, shown: bool) -> dict[str, Any]:
+    """The mark of a tier, by its number; hollow if too few answers were judged to show 1 wrong in 1000."""
+    own = colour(f"series-{number + 1}")
+    face = own if shown else colour("surface")
+    return {"marker": MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
+
+
+RING: dict[str, Any] = {
+    "marker": "o",
+    "markersize": 10.5,
+    "markerfacecolor": "none",
+    "markeredgecolor": colour("ink"),
+    "markeredgewidth": 0.9,
+    "linestyle": "none",
+}
+"""Around the mark of a method that promises never to be wrong."""
+
+
+def _legend(drawn: Figure, found: Sequence[MethodMark], *others: Line2D) -> None:
+    """The tiers above the axes; below them the other entries, the ring and the hollow marks."""
+    handles = [
+        Line2D([], [], linestyle="none", label=tier, **_mark_style(number, shown=True))
+        for number, tier in enumerate(TIERS)
+        if any(each.tier == tier for each in found)
+    ]
+    drawn.legend(handles=handles, loc="outside upper left", ncols=5, handlelength=1.2)
+    below = [*others]
+    if any(each.exact for each in found):
+        below.append(Line2D([], [], label="ringed: promises never to be wrong", **RING))
+    if not all(each.shown for each in found):
+        soft: dict[str, Any] = {"markeredgecolor": colour("soft"), "markerfacecolor": colour("surface")}
+        few = f"hollow: under {ENOUGH:,} answers judged, too few to show 1 in 1000"
+        below.append(Line2D([], [], linestyle="none", marker="o", markersize=6, label=few, **soft))
+    if below:
+        drawn.legend(handles=below, loc="outside lower left")
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,30 +215,26 @@ class ParetoPoint:
         """Whether enough answers were judged to show 1 wrong in 1000 (3/n ≤ 1/1000)."""
         return self.asked >= ENOUGH
 
-
-def points(record: Record, workload: str) -> list[ParetoPoint]:
-    """The methods that were judged and timed on the workload."""
-    return [
-        ParetoPoint(each.name, each.tier, time, float(accuracy.reliable_above), accuracy.asked, each.exact)
-        for each, time in _timed(record, workload)
-        if (accuracy := each.accuracy.get(workload))
-    ]
-
-
-def worst_points(record: Record, workload: str) -> list[ParetoPoint]:
-    """The same methods with the errors of all workloads; the times are those of this one."""
-    return [
-        ParetoPoint(each.name, each.tier, time, each.reliable_above, each.asked, each.exact)
-        for each, time in _timed(record, workload)
-        if workload in each.accuracy
-    ]
+    @property
+    def tip(self) -> str:
+        """The tooltip of its mark."""
+        reliable = {0.0: "none wrong", math.inf: "reliable at no distance"}.get(
+            self.reliable_above, f"at most 1 in 1000 wrong above {figure(self.reliable_above)}"
+        )
+        return f"{self.name}, {figure(self.time_ns)} ns, {reliable} (of {self.asked:,})"
 
 
-def _timed(record: Record, workload: str) -> Iterator[tuple[MeasuredMethod, float]]:
+def points(record: Record, workload: str, *, everywhere: bool = False) -> list[ParetoPoint]:
+    """The methods that were judged and timed on the workload; `everywhere`: with the errors of all workloads."""
+    found = []
     for each in measured_methods(record):
-        speed = each.speed.get((workload, BATCH))
-        if speed is not None and not lost(speed):
-            yield each, float(speed.median_ns)
+        speed, here = each.speed.get((workload, BATCH)), each.accuracy.get(workload)
+        if speed is None or lost(speed) or here is None:
+            continue
+        errors = each if everywhere else here
+        reliable_above, time_ns = float(errors.reliable_above), float(speed.median_ns)
+        found.append(ParetoPoint(each.name, each.tier, time_ns, reliable_above, errors.asked, each.exact))
+    return found
 
 
 def front(found: Sequence[ParetoPoint]) -> list[ParetoPoint]:
@@ -180,9 +257,15 @@ def pareto_plots(record: Record) -> Iterator[Plot]:
 
 
 def front_plots(record: Record) -> Iterator[Plot]:
-    """Two plots with names where there is room: the workload near contact, and the worst of all workloads."""
+    """Two plots with names where there is room: the workload near contact, and the worst of all workloads.
+
+    Of a benchmark of ways: missed contacts, and false contacts.
+    """
+    if way_totals(record):
+        yield from _way_plots(record)
+        return
     known, name = workloads(record), principal(record)
-    near, everywhere = points(record, name), worst_points(record, name)
+    near, everywhere = points(record, name), points(record, name, everywhere=True)
     if near:
         where = str(known[name].title)
         yield _plot("front-near", where.capitalize(), near, 400, timed=where)
@@ -198,66 +281,23 @@ def _plot(name: str, title: str, found: Sequence[ParetoPoint], height: float = 3
     steps = _steps(best, heights, axes.get_xlim()[1])
     for (x0, y0), (x1, y1) in steps:
         axes.plot((x0, x1), (y0, y1), color=colour("soft"), linewidth=1.2, linestyle=DASHES[1], zorder=1.5)
-    tips = _marks(axes, found, heights, name)
-    _legend(drawn, found)
+    marks = [
+        MethodMark(
+            each.name, each.tier, each.exact, Mark(each.time_ns, heights[each.reliable_above], each.tip), each.shown
+        )
+        for each in found
+    ]
+    tips = _draw_methods(axes, name, marks)
+    _legend(drawn, marks, Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label=_UNBEATEN))
     important = sorted(found, key=lambda point: (point not in best, point.time_ns))
     names = [escaped(point.name, 28) if timed or point in best else None for point in important]
     places = [(point.time_ns, heights[point.reliable_above]) for point in important]
     place_labels(axes, places, names, steps, len(best))
-    said = f"The front, from the fastest: {'; '.join(_tip(point) for point in best)}."
+    said = f"The front, from the fastest: {'; '.join(point.tip for point in best)}."
     return Plot(name, title, said, drawn, tips)
 
 
-def _marks(axes: Axes, found: Sequence[ParetoPoint], heights: dict[float, float], name: str) -> dict[str, list[str]]:
-    tips: dict[str, list[str]] = {}
-    exact = [point for point in found if point.exact]
-    axes.plot([point.time_ns for point in exact], [heights[point.reliable_above] for point in exact], **RING)
-    for number, tier in reversed(list(enumerate(TIERS))):  # the fastest on top
-        for shown in (True, False):
-            mine = [point for point in found if (point.tier, point.shown) == (tier, shown)]
-            if mine:
-                gid = f"{name}-{number}-{shown}"
-                xs, ys = [point.time_ns for point in mine], [heights[point.reliable_above] for point in mine]
-                axes.plot(xs, ys, gid=gid, linestyle="none", **mark_style(number, shown=shown))
-                tips[gid] = [_tip(point) for point in mine]
-    return tips
-
-
-def mark_style(number: int, *, shown: bool) -> dict[str, Any]:
-    """The mark of a tier, by its number; hollow if too few answers were judged to show 1 wrong in 1000."""
-    own = colour(f"series-{number + 1}")
-    face = own if shown else colour("surface")
-    return {"marker": MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
-
-
-RING: dict[str, Any] = {
-    "marker": "o",
-    "markersize": 10.5,
-    "markerfacecolor": "none",
-    "markeredgecolor": colour("ink"),
-    "markeredgewidth": 0.9,
-    "linestyle": "none",
-}
-"""Around the mark of a method that promises never to be wrong."""
-
-
-def _legend(drawn: Figure, found: Sequence[ParetoPoint]) -> None:
-    tiers = {point.tier for point in found}
-    handles = [
-        Line2D([], [], linestyle="none", label=tier, **mark_style(number, shown=True))
-        for number, tier in enumerate(TIERS)
-        if tier in tiers
-    ]
-    drawn.legend(handles=handles, loc="outside upper left", ncols=5, handlelength=1.2)
-    best = Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label="no method is faster and more reliable")
-    below = [best]
-    if any(point.exact for point in found):
-        below.append(Line2D([], [], label="ringed: promises never to be wrong", **RING))
-    if not all(point.shown for point in found):
-        soft: dict[str, Any] = {"markeredgecolor": colour("soft"), "markerfacecolor": colour("surface")}
-        few = f"hollow: under {ENOUGH:,} answers judged, too few to show 1 in 1000"
-        below.append(Line2D([], [], linestyle="none", marker="o", markersize=6, label=few, **soft))
-    drawn.legend(handles=below, loc="outside lower left")
+_UNBEATEN = "no method is faster and more reliable"
 
 
 def _axes(axes: Axes, found: Sequence[ParetoPoint], timed: str) -> dict[float, float]:
@@ -298,8 +338,45 @@ def _steps(
     return [*steps, (last, (end, last[1]))]
 
 
-def _tip(point: ParetoPoint) -> str:
-    reliable = {0.0: "none wrong", math.inf: "reliable at no distance"}.get(
-        point.reliable_above, f"at most 1 in 1000 wrong above {figure(point.reliable_above)}"
-    )
-    return f"{point.name}, {figure(point.time_ns)} ns, {reliable} (of {point.asked:,})"
+HEIGHT = 345
+_ABOVE = 1.12
+"""The axis of shares goes so much beyond the largest, and a part of that below 0, so that marks are whole."""
+
+_LEAST = 0.01
+"""The axis of shares goes at least to 1 %."""
+
+
+def _way_plots(record: Record) -> Iterator[Plot]:
+    """Missed contacts, then false contacts, of all workloads together; the time is that of the principal one."""
+    found = [(each, each.time_ns / 1000) for each in way_totals(record) if each.time_ns is not None]
+    if found:
+        where = str(workloads(record)[principal(record)].title)
+        yield _way_plot("front-missed", "Missed contacts", found, where, lambda each: each.missed)
+        yield _way_plot("front-false", "False contacts", found, where, lambda each: each.false)
+
+
+def _way_plot(
+    name: str, title: str, found: Sequence[tuple[WayTotal, float]], where: str, mistakes: Callable[[WayTotal], int]
+) -> Plot:
+    """A plot of the share of these mistakes against microseconds."""
+    drawn = new_figure(WIDTH, HEIGHT)
+    axes = drawn.subplots()
+    marks = []
+    for each, time in found:
+        share = each.share(mistakes(each))
+        tip = f"{each.name}, {figure(time)} µs, {figure(100 * share)} % of {each.asked:,}"
+        marks.append(MethodMark(each.name, each.tier, each.exact, Mark(time, share, tip)))
+    most = max(_LEAST, *(each.mark.y for each in marks))
+    times = [each.mark.x for each in marks]
+    log_axis(axes, "x", min(times) / 2, max(times) * 3)
+    axes.set_ylim(-(_ABOVE - 1) * most, _ABOVE * most)
+    axes.yaxis.set_major_formatter(lambda value, _: f"{100 * value:g} %" if value >= 0 else "")
+    axes.set_xlabel(f"time of a way in a batch, {escaped(where, 40)} (µs)")
+    axes.set_ylabel(f"ways with a {title.lower().removesuffix('s')}")
+    tips = _draw_methods(axes, name, marks)
+    _legend(drawn, marks)
+    by_need = sorted(marks, key=lambda each: (each.mark.y, each.mark.x))
+    names = [escaped(each.name.removeprefix("passage-"), 28) for each in by_need]
+    place_labels(axes, [each.mark[:2] for each in by_need], names)
+    said = f"{title}, of all ways that a method was asked: {'; '.join(each.mark.tip for each in by_need)}."
+    return Plot(name, title, said, drawn, tips)

@@ -8,26 +8,9 @@ from typing import Any
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
-from hypcheck.report.measured import way_totals
-from hypcheck.report.plots import (
-    curves,
-    forest_walk,
-    half_plane,
-    heat,
-    missed_contacts,
-    pareto,
-    times,
-    tower,
-    worst_way,
-)
+from hypcheck.report.plots import curves, half_plane, heat, pareto, simulations, times, worst_way
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import Plot, inline, standalone, together
-
-
-def _front_plots(record: Record) -> Iterator[Plot]:
-    """What methods cost and get wrong: of a benchmark of ways, missed and false contacts; else errors by distance."""
-    yield from missed_contacts.plots(record) if way_totals(record) else pareto.front_plots(record)
-
 
 PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
     "map": half_plane.map_plots,
@@ -38,7 +21,7 @@ PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
     "errors": curves.error_plots,
     "other-errors": curves.other_error_plots,
     "pareto": pareto.pareto_plots,
-    "front": _front_plots,
+    "front": pareto.front_plots,
     "speeds": times.speed_plots,
     "stability": heat.stability_plots,
     "places": half_plane.place_plots,
@@ -94,6 +77,6 @@ def render_map(record: Record) -> bytes:
 
 def simulation_pictures(result: dict[str, Any]) -> dict[str, bytes]:
     """The pictures of a simulation's result by their names, each as a file."""
-    draw = {"forest": forest_walk.plots, "tower": tower.plots}[result["simulation"]]
+    draw = {"forest": simulations.forest_plots, "tower": simulations.tower_plots}[result["simulation"]]
     with styled():
         return {plot.name: standalone(plot) for plot in draw(result)}

@@ -7,7 +7,7 @@ screen. Each curve has its own marker and dashes besides its colour.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -86,6 +86,16 @@ class CurveStyle(NamedTuple):
     marker: str
     dashes: Any
 
+    @property
+    def line(self) -> dict[str, Any]:
+        """The look of its line, as arguments of matplotlib."""
+        return {"color": self.colour, "linestyle": self.dashes}
+
+    @property
+    def marks(self) -> dict[str, Any]:
+        """The look of its marks without a line, as arguments of matplotlib."""
+        return {"color": self.colour, "marker": self.marker, "linestyle": "none"}
+
 
 def colour(role: str) -> str:
     """The colour that stands for a role while a plot is drawn (svg.py makes it a class)."""
@@ -104,10 +114,25 @@ def curve_style(place: int) -> CurveStyle:
 def legend_handles(names: Iterable[str], longest: int = 48) -> list[Line2D]:
     """The entries of a legend for curves with these names, in order."""
     looks = [(curve_style(place), escaped(name, longest)) for place, name in enumerate(names)]
-    return [
-        Line2D([], [], color=look.colour, linestyle=look.dashes, marker=look.marker, label=label)
-        for look, label in looks
-    ]
+    return [Line2D([], [], **look.line, marker=look.marker, label=label) for look, label in looks]
+
+
+class Mark(NamedTuple):
+    """A place of a plot and the tooltip of its mark; `limit`: it is only an upper limit."""
+
+    x: float
+    y: float
+    tip: str
+    limit: bool = False
+
+
+def draw_marks(axes: Axes, gid: str, marks: Sequence[Mark], **look: Any) -> dict[str, list[str]]:  # noqa: ANN401
+    """Draw marks of one look without a line. Returns their tooltips by the gid; nothing if there are no marks."""
+    if not marks:
+        return {}
+    xs, ys = [mark.x for mark in marks], [mark.y for mark in marks]
+    axes.plot(xs, ys, gid=gid, **{**look, "linestyle": "none"})
+    return {gid: [mark.tip for mark in marks]}
 
 
 @contextmanager
@@ -185,37 +210,3 @@ def log_axis(axes: Axes, name: str, low: float, high: float, most: int = 7) -> N
     axis = getattr(axes, f"{name}axis")
     axis.set_ticks([value for value, _ in marks], [label for _, label in marks])
     axis.set_ticks([], minor=True)
-
-
-def in_space(axes: Any) -> None:  # noqa: ANN401 - axes in space, of a class that matplotlib does not type
-    """Make walls transparent, for light and dark ground, and move numbers away from the axes."""
-    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
-        axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
-    axes.tick_params(labelsize=9, pad=1)
-    axes.tick_params(axis="z", pad=7)
-    axes.zaxis.labelpad = 9
-
-
-def mark_contacts(axes: Iterable[Any], ways: dict[str, Any] | None) -> None:
-    """Mark the mover's centre at first contacts on the way, in axes of the plane or in space; none if not asked."""
-    points = [
-        [here + contact["first_upper"] * (there - here) for here, there in zip(*_ends(contact), strict=True)]
-        for contact in (ways["contacts"] if ways else [])
-    ]
-    if not points:
-        return
-    columns = list(zip(*points, strict=True))
-    for each in axes:
-        each.plot(
-            *columns[: 3 if each.name == "3d" else 2],
-            linestyle="none",
-            marker="P",
-            markersize=7,
-            color=colour("series-4"),
-            label="first contact on the way",
-            zorder=5,
-        )
-
-
-def _ends(contact: dict[str, Any]) -> tuple[list[float], list[float]]:
-    return contact["start"], contact["end"]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from hypcheck.messages import escaped
@@ -18,8 +19,10 @@ from hypcheck.report.plots.style import (
     MARKERS,
     NONE_WRONG,
     WIDTH,
+    Mark,
     colour,
     curve_style,
+    draw_marks,
     legend_handles,
     log_axis,
     new_figure,
@@ -74,11 +77,11 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
     for number, tier in enumerate(TIERS):
         mine = [(place, row) for place, row in enumerate(rows) if row.tier == tier]
         if mine:
-            own, gid = colour(f"series-{number + 1}"), f"{name}-{number}"
+            own = colour(f"series-{number + 1}")
             axes.hlines([at for at, _ in mine], [row.low for _, row in mine], [row.high for _, row in mine], color=own)
-            look: dict[str, Any] = {"color": own, "marker": MARKERS[number], "linestyle": "none", "markersize": 5}
-            axes.plot([row.ratio for _, row in mine], [at for at, _ in mine], gid=gid, label=tier, **look)
-            tips[gid] = [_speed_tip(row) for _, row in mine]
+            marks = [Mark(row.ratio, at, _speed_tip(row)) for at, row in mine]
+            look: dict[str, Any] = {"color": own, "marker": MARKERS[number], "markersize": 5, "label": tier}
+            tips |= draw_marks(axes, f"{name}-{number}", marks, **look)
     axes.set_yticks(range(len(rows)), [escaped(row.name, 26) for row in rows])
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.tick_params(axis="y", length=0, labelsize=9)
@@ -90,6 +93,18 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
 
 def _speed_tip(row: SpeedRow) -> str:
     return f"{row.name}: {figure(row.ratio)} ({figure(row.low)} to {figure(row.high)}), {figure(row.median_ns)} ns"
+
+
+def _draw_curves(axes: Axes, name: str, curves: Mapping[str, Sequence[Mark]]) -> dict[str, list[str]]:
+    """Draw a line with marks for each name. Returns the tooltips of the marks."""
+    tips: dict[str, list[str]] = {}
+    for place, marks in enumerate(curves.values()):
+        how = curve_style(place)
+        axes.plot([mark.x for mark in marks], [mark.y for mark in marks], **how.line)
+        tips |= draw_marks(axes, f"{name}-{place}", [mark for mark in marks if not mark.limit], **how.marks)
+        limits = [mark for mark in marks if mark.limit]
+        tips |= draw_marks(axes, f"{name}-{place}-limit", limits, color=how.colour, **LIMIT)
+    return tips
 
 
 CONVERGENCE_QUANTITIES = (
@@ -110,52 +125,41 @@ def convergence_plots(record: Record) -> Iterator[Plot]:
             yield _convergence_plot(what, label, methods)
 
 
-def _value(line: ConvergenceLine, what: str) -> float:
-    """What is drawn; of no wrong answer among n the upper limit 3/n."""
+def _convergence_mark(line: ConvergenceLine, what: str) -> Mark:
+    """What is drawn of a line; of no wrong answer among n the upper limit 3/n."""
+    tip = (
+        f"{line.method}, {line.triangles:,} triangles: {line.wrong:,} of {line.asked:,} wrong,"
+        f" deviation {figure(line.deviation)} radii, query {figure(line.query_ns)} ns,"
+        f" build {figure(line.build_ns)} ns"
+    )
     if what == "wrong":
-        return float(line.wrong or min(3, line.asked)) / float(max(1, line.asked))
-    return float(getattr(line, what if what == "deviation" else f"{what}_ns"))
+        share = (line.wrong or min(3, line.asked)) / max(1, line.asked)
+        return Mark(line.triangles, share, tip, limit=not line.wrong)
+    return Mark(line.triangles, getattr(line, what if what == "deviation" else f"{what}_ns"), tip)
 
 
-def _convergence_plot(what: str, label: str, methods: dict[str, list[ConvergenceLine]]) -> Plot:
+def _convergence_plot(what: str, label: str, methods: Mapping[str, Sequence[ConvergenceLine]]) -> Plot:
     drawn = new_figure(WIDTH, 250 + 15 * len(methods))
     axes = drawn.subplots()
-    values = [value for lines in methods.values() for line in lines if (value := _value(line, what)) > 0] or [1.0]
-    triangles = [line.triangles for lines in methods.values() for line in lines]
+    curves = {name: [_convergence_mark(line, what) for line in lines] for name, lines in methods.items()}
+    shown = {name: [mark for mark in marks if mark.y > 0] for name, marks in curves.items()}
+    values = [mark.y for marks in shown.values() for mark in marks] or [1.0]
+    triangles = [mark.x for marks in curves.values() for mark in marks]
     log_axis(axes, "x", min(triangles) / 1.5, max(triangles) * 1.5)
     log_axis(axes, "y", min(values) / 1.8, max(values) * 1.8)
     axes.set(xlabel="triangles", ylabel=label)
-    tips: dict[str, list[str]] = {}
-    for place, (name, lines) in enumerate(methods.items()):
-        how, shown = curve_style(place), [line for line in lines if _value(line, what) > 0]
-        axes.plot(*_xy(shown, what), color=how.colour, linestyle=how.dashes)
-        for none in (False, True):
-            mine = [line for line in shown if (what == "wrong" and not line.wrong) == none]
-            if mine:
-                gid = f"convergence-{what}-{place}-{none}"
-                marks: dict[str, Any] = dict(LIMIT) if none else {"marker": how.marker}
-                axes.plot(*_xy(mine, what), gid=gid, linestyle="none", color=how.colour, **marks)
-                tips[gid] = [_convergence_tip(name, line) for line in mine]
+    tips = _draw_curves(axes, f"convergence-{what}", shown)
     handles = legend_handles(methods)
     if what == "wrong":
         handles.append(Line2D([], [], label=NONE_WRONG, color=colour("soft"), linestyle="none", **LIMIT))
     drawn.legend(handles=handles, loc="outside lower left")
-    said = "; ".join(_convergence_tip(name, lines[-1]) for name, lines in methods.items())
-    return Plot(
-        f"convergence-{what}", label, f"{label} against the number of triangles. At the most: {said}.", drawn, tips
-    )
+    said = f"{label} against the number of triangles. At the most: {_last_tips(curves)}."
+    return Plot(f"convergence-{what}", label, said, drawn, tips)
 
 
-def _xy(lines: Sequence[ConvergenceLine], what: str) -> tuple[list[int], list[float]]:
-    return [line.triangles for line in lines], [_value(line, what) for line in lines]
-
-
-def _convergence_tip(name: str, line: ConvergenceLine) -> str:
-    return (
-        f"{name}, {line.triangles:,} triangles: {line.wrong:,} of {line.asked:,} wrong,"
-        f" deviation {figure(line.deviation)} radii, query {figure(line.query_ns)} ns,"
-        f" build {figure(line.build_ns)} ns"
-    )
+def _last_tips(curves: Mapping[str, Sequence[Mark]]) -> str:
+    """The tooltips of the last marks."""
+    return "; ".join(marks[-1].tip for marks in curves.values() if marks)
 
 
 BOUNDING_QUANTITIES = (
@@ -167,76 +171,58 @@ BOUNDING_QUANTITIES = (
 
 def bounding_plots(record: Record) -> Iterator[Plot]:
     """A plot for each quantity, a curve for each shape and workload."""
-    shapes = {f"{line.shape}, {line.workload}": line for line in record.of(BoundingLine) if line.overlap}
+    lines = [line for line in record.of(BoundingLine) if line.overlap]
     for what, label in BOUNDING_QUANTITIES:
-        if any(_bounding_points(line, what) for line in shapes.values()):
-            yield _bounding_plot(what, label, shapes)
+        curves = {f"{line.shape}, {line.workload}": _bounding_marks(line, what) for line in lines}
+        if any(curves.values()):
+            yield _bounding_plot(what, label, curves)
 
 
-def _bounding_points(line: BoundingLine, what: str) -> list[tuple[float, float, str]]:
-    """d/b, what is drawn, and a tooltip; rows that have it."""
+def _bounding_marks(line: BoundingLine, what: str) -> list[Mark]:
+    """What is drawn over d/b, of the rows that have it."""
     found = []
     for ratio, asked, contacts, excess in line.overlap:
         value = excess if what == "excess" else contacts / asked if asked else None
         if value is not None and asked:
             known = "" if excess is None else f", median excess clearance {figure(excess)} radii"
             tip = f"{line.shape}, d/b {figure(ratio)}: {contacts:,.0f} of {asked:,.0f} false contacts{known}"
-            found.append((float(ratio), float(value), tip))
+            found.append(Mark(float(ratio), float(value), tip))
     return sorted(found)
 
 
-def _bounding_plot(what: str, label: str, shapes: dict[str, BoundingLine]) -> Plot:
-    drawn = new_figure(WIDTH, 240 + 15 * len(shapes))
+def _bounding_plot(what: str, label: str, curves: Mapping[str, Sequence[Mark]]) -> Plot:
+    drawn = new_figure(WIDTH, 240 + 15 * len(curves))
     axes = drawn.subplots()
-    curves = {name: _bounding_points(line, what) for name, line in shapes.items()}
-    ratios = [ratio for points in curves.values() for ratio, _, _ in points]
+    marks = [mark for each in curves.values() for mark in each]
+    ratios = [mark.x for mark in marks]
     log_axis(axes, "x", min(*ratios, 0.5) / 1.3, max(*ratios, 2.0) * 1.3)
     axes.axvline(1, color=colour("soft"), linewidth=0.8)
     axes.set(xlabel="d/b, half height by radius of the spheroid (1: a sphere)", ylabel=label)
-    tips = {}
-    for place, points in enumerate(curves.values()):
-        how = curve_style(place)
-        style = {"color": how.colour, "linestyle": how.dashes}
-        if points:
-            xs, ys = [ratio for ratio, _, _ in points], [value for _, value, _ in points]
-            axes.plot(xs, ys, **style)
-            axes.plot(xs, ys, gid=f"bounding-{what}-{place}", color=how.colour, marker=how.marker, linestyle="none")
-            tips[f"bounding-{what}-{place}"] = [tip for _, _, tip in points]
-    axes.set_ylim(bottom=min(0.0, *(value for points in curves.values() for _, value, _ in points)))
+    tips = _draw_curves(axes, f"bounding-{what}", curves)
+    axes.set_ylim(bottom=min(0.0, *(mark.y for mark in marks)))
     drawn.legend(handles=legend_handles(curves), loc="outside lower left")
-    said = f"{label} against d/b. {'; '.join(points[-1][2] for points in curves.values() if points)}."
-    return Plot(f"bounding-{what}", label, said, drawn, tips)
+    return Plot(f"bounding-{what}", label, f"{label} against d/b. {_last_tips(curves)}.", drawn, tips)
 
 
 def forest_plots(record: Record) -> Iterator[Plot]:
     """One plot, a curve for each that was asked."""
-    methods: dict[str, list[ForestLine]] = {}
+    curves: dict[str, list[Mark]] = {}
     for line in sorted(record.of(ForestLine), key=lambda line: line.trees):
-        methods.setdefault(line.method, []).append(line)
-    if not methods:
+        tip = (
+            f"{line.method}, {line.trees:,} trees: {figure(line.step_ns)} ns a step, built in {figure(line.build_s)} s,"
+            f" {line.wrong:,} of {line.asked:,} wrong"
+        )
+        curves.setdefault(line.method, []).append(Mark(line.trees, line.step_ns, tip))
+    if not curves:
         return
-    drawn = new_figure(WIDTH, 250 + 15 * len(methods))
+    drawn = new_figure(WIDTH, 250 + 15 * len(curves))
     axes = drawn.subplots()
-    times = [line.step_ns for lines in methods.values() for line in lines]
-    trees = [line.trees for lines in methods.values() for line in lines]
+    trees, times, _, _ = zip(*(mark for marks in curves.values() for mark in marks), strict=True)
     log_axis(axes, "x", min(trees) / 1.5, max(trees) * 1.5)
     log_axis(axes, "y", min(times) / 2, max(times) * 2)
     axes.set(xlabel="trees", ylabel="time of a step (ns)")
-    tips: dict[str, list[str]] = {}
-    for place, (name, lines) in enumerate(methods.items()):
-        how, gid = curve_style(place), f"forest-{place}"
-        xs, ys = [line.trees for line in lines], [line.step_ns for line in lines]
-        axes.plot(xs, ys, color=how.colour, linestyle=how.dashes)
-        axes.plot(xs, ys, gid=gid, color=how.colour, linestyle="none", marker=how.marker)
-        tips[gid] = [_forest_tip(name, line) for line in lines]
-    drawn.legend(handles=legend_handles(methods), loc="outside lower left")
-    said = "; ".join(_forest_tip(name, lines[-1]) for name, lines in methods.items())
+    tips = _draw_curves(axes, "forest", curves)
+    drawn.legend(handles=legend_handles(curves), loc="outside lower left")
     title = "time of a step against the number of trees"
-    yield Plot("forest", title, f"{title.capitalize()}. In the largest forest: {said}.", drawn, tips)
-
-
-def _forest_tip(name: str, line: ForestLine) -> str:
-    return (
-        f"{name}, {line.trees:,} trees: {figure(line.step_ns)} ns a step, built in {figure(line.build_s)} s,"
-        f" {line.wrong:,} of {line.asked:,} wrong"
-    )
+    said = f"{title.capitalize()}. In the largest forest: {_last_tips(curves)}."
+    yield Plot("forest", title, said, drawn, tips)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from hypcheck.geometry.rows import PAIRS
-from hypcheck.report.markdown import code_span, escape_text, paragraph_lines, table_lines
+from hypcheck.report.markdown import code_span, escape_text, table_lines
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import TILTED_FAMILIES
 from tests.tools.mutants.collection import Mutant, imported, sentence
@@ -20,6 +20,11 @@ WAYS = ("passages",)
 """Modules about ways, which have families of their own: few, and named in the module's table."""
 
 HEAD = ("implementation", "what it does", "options", "must be", "was", "cases", "families", "most of them in")
+
+
+def paragraph_lines(*sentences: str) -> list[str]:
+    """A paragraph and an empty line."""
+    return [" ".join(sentences), ""]
 
 
 def render(results: Sequence[Result]) -> str:

@@ -1,6 +1,6 @@
 """The pictures of docs/figures.md, redrawn from simulations, and the README's of the two bodies.
 
-`python -m tests.tools.paper_figures` (`make figures`) writes them.
+`python -m tests.tools.figures` (`make figures`) writes them.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ import numpy as np
 
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.tower import TowerPlan, simulate_tower
-from hypcheck.report.plots import bodies, forest_walk, paper_figures
+from hypcheck.report.plots.simulations import flights, forest_plots
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import standalone
-from hypcheck.report.plots.tower import flights
 from hypcheck.scene.reading import read_scene
+from tests.tools.figures import bodies, paper
 
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+DOCS = Path(__file__).resolve().parents[3] / "docs"
 DRAWN_WITH = DOCS / "figures" / "drawn-with.txt"
 SEED = 3
 
@@ -35,10 +35,7 @@ def pictures() -> dict[str, bytes]:
     walked = simulate_forest(ForestPlan(read_scene("forest"), SEED, None, continuous=True))
     flown = simulate_tower(TowerPlan(read_scene("tower"), 1, 5.0, 0.2, 0, continuous=False), None, lambda _: None)
     with styled():
-        drawn = {
-            plot.name: plot
-            for plot in (*forest_walk.plots(walked), flights(flown), *paper_figures.plots(walked, flown))
-        }
+        drawn = {plot.name: plot for plot in (*forest_plots(walked), flights(flown), *paper.plots(walked, flown))}
         return {
             f"{'figures' if name.startswith('figure') else 'simulate'}/{name}.svg": standalone(plot)
             for name, plot in drawn.items()

@@ -9,9 +9,9 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.report.plots import bodies, paper_figures
 from tests.support.fractions_truth import exact_position
-from tests.tools.paper_figures import BODIES, DOCS, DRAWN_WITH, bodies_picture, pictures, versions
+from tests.tools.figures import bodies, paper
+from tests.tools.figures.__main__ import BODIES, DOCS, DRAWN_WITH, bodies_picture, pictures, versions
 
 PAGE = (DOCS / "figures.md").read_text(encoding="utf-8")
 
@@ -73,8 +73,8 @@ def test_each_picture_of_the_paper_page_has_a_title_and_a_description():
 
 def test_drawn_overlap_of_two_discs_is_a_lens_or_empty():
     apart = 0.1415 * math.sqrt(2)
-    assert paper_figures._lens((0, 0), (apart, 0), 0.1) == []
-    lens = paper_figures._lens((0, 0), (0.19, 0), 0.1)
+    assert paper._lens((0, 0), (apart, 0), 0.1) == []
+    lens = paper._lens((0, 0), (0.19, 0), 0.1)
     assert all(math.hypot(x, y) <= 0.1 + 1e-12 and math.hypot(x - 0.19, y) <= 0.1 + 1e-12 for x, y in lens)
     assert min(x for x, _ in lens) == pytest.approx(0.09)
     assert max(x for x, _ in lens) == pytest.approx(0.1)

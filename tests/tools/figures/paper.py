@@ -1,4 +1,7 @@
-"""The paper's Figures 1 to 3 redrawn from the results of the two simulations; Figure 4 is in tower.py."""
+"""The paper's Figures 1 to 3 redrawn from the results of the two simulations.
+
+Figure 4 is the picture of flights that `hypcheck simulate tower` draws.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +13,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Patch
 
-from hypcheck.report.plots.forest_walk import TRUNKS
-from hypcheck.report.plots.style import colour, in_space, new_figure
+from hypcheck.report.plots.simulations import TRUNKS, axes_in_space
+from hypcheck.report.plots.style import colour, new_figure
 from hypcheck.report.plots.svg import Plot
 
 SIGHT = 4.2
@@ -34,10 +37,8 @@ def plots(forest: dict[str, Any], tower: dict[str, Any]) -> Iterator[Plot]:
 def _walker(forest: dict[str, Any]) -> Plot:
     figure = new_figure(560, 360)
     whole: Any = figure.subfigures()
-    axes: Any = whole.add_axes((-0.12, -0.02, 1.18, 1.16), projection="3d")
-    axes.patch.set_visible(False)
+    axes: Any = axes_in_space(whole, (-0.12, -0.02, 1.18, 1.16), 16, -60)
     axes.computed_zorder = False
-    axes.view_init(elev=16, azim=-60)
     at = _busiest(forest)
     near = [tree for tree in forest["trees"] if math.dist(tree["center"][:2], at[:2]) < SIGHT]
     nearness = sorted(near, key=lambda tree: tree["center"][0] * math.cos(1.05) - tree["center"][1] * math.sin(1.05))
@@ -48,8 +49,6 @@ def _walker(forest: dict[str, Any]) -> Plot:
     _person(axes, at, forest["walker"]["d"])
     axes.set(xlim=(at[0] - 4, at[0] + 4), ylim=(at[1] - 4, at[1] + 4), zlim=(low, high))
     axes.set_box_aspect((8, 8, high - low), zoom=1.08)
-    axes.set(xlabel="x (m)", ylabel="y (m)", zlabel="z (m)")
-    in_space(axes)
     handles = [Patch(facecolor=colour(paint), edgecolor=colour("ink"), label=label) for label, paint in TRUNKS.values()]
     handles.append(Patch(facecolor="none", edgecolor=colour("contact"), label="her spheroid"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
@@ -84,17 +83,13 @@ def _towers(assumptions: dict[str, Any]) -> Plot:
             ("touristic tower (sizes are ours)", touristic, TOURISTIC["height"], None),
         )
     ):
-        axes: Any = whole.add_axes((0.5 * place - 0.02, -0.04, 0.54, 1.08), projection="3d")
-        axes.patch.set_visible(False)
-        axes.view_init(elev=12, azim=-60)
+        axes: Any = axes_in_space(whole, (0.5 * place - 0.02, -0.04, 0.54, 1.08), 12, -60)
         solid = _hyperboloid(tower, span[0], span[1])
         inside = [(radius * 0.92, height) for radius, height in solid]
         _revolved(axes, inside, (0, 0), colour("share-0"), alpha=1.0)
         _wires(axes, solid)
         widest = max(radius for radius, _ in solid)
         axes.set_box_aspect((1, 1, 2.2) if scale else (2 * widest, 2 * widest, span[1] - span[0]), zoom=0.95)
-        axes.set(xlabel="x (m)", ylabel="y (m)", zlabel="z (m)")
-        in_space(axes)
         axes.set_xticks([-int(widest), 0, int(widest)])
         axes.set_yticks([-int(widest), 0, int(widest)])
         figure.text(0.25 + 0.5 * place, 0.975, title, ha="center", va="top")
@@ -109,17 +104,13 @@ def _towers(assumptions: dict[str, Any]) -> Plot:
 def _quadcopter(assumptions: dict[str, Any]) -> Plot:
     figure = new_figure(760, 400)
     halves: Any = figure.subfigures(1, 2, width_ratios=[1, 1.15])
-    axes: Any = halves[0].add_axes((0.0, 0.06, 0.86, 0.92), projection="3d")
-    axes.patch.set_visible(False)
-    axes.view_init(elev=24, azim=-50)
+    axes: Any = axes_in_space(halves[0], (0.0, 0.06, 0.86, 0.92), 24, -50)
     b, d, small_b, small_d, arm = (assumptions[name] for name in ("b", "d", "b_s", "d_s", "l"))
     for x, y in _rotors(arm):
         _spheroid(axes, (x, y, 0.0), small_b, small_d, colour("series-3"), solid=True)
         axes.plot([0, x], [0, y], [0, 0], color=colour("ink"), linewidth=1.6)
     _spheroid(axes, (0.0, 0.0, 0.0), b, d, colour("contact"))
     axes.set_box_aspect((2 * b, 2 * b, 2 * d), zoom=0.95)
-    axes.set(xlabel="x (m)", ylabel="y (m)", zlabel="z (m)")
-    in_space(axes)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_ticks([-0.2, 0.0, 0.2] if axis is not axes.zaxis else [-0.1, 0.0, 0.1])
     halves[0].text(0.44, 0.9, f"in space, to scale, l = {arm:g} m", ha="center", va="top")
@@ -184,7 +175,7 @@ def _hyperboloid(body: dict[str, Any], low: float, high: float) -> list[tuple[fl
     return [(body["alpha"] * math.hypot(1, (height - middle) / body["gamma"]), height) for height in heights]
 
 
-def _revolved(axes: Any, profile: list[tuple[float, float]], centre: Any, paint: str, alpha: float) -> None:  # noqa: ANN401
+def _revolved(axes: Any, profile: list[tuple[float, float]], centre: Any, paint: str, alpha: float) -> None:
     radius, height = (np.array(column)[:, None] for column in zip(*profile, strict=True))
     angle = np.linspace(0, 2 * np.pi, 33)[None, :]
     surface = axes.plot_surface(
@@ -198,7 +189,7 @@ def _revolved(axes: Any, profile: list[tuple[float, float]], centre: Any, paint:
     surface.set_rasterized(True)
 
 
-def _wires(axes: Any, profile: list[tuple[float, float]]) -> None:  # noqa: ANN401 - axes in space
+def _wires(axes: Any, profile: list[tuple[float, float]]) -> None:
     radius, height = (np.array(column)[:, None] for column in zip(*profile, strict=True))
     angle = np.linspace(0, 2 * np.pi, 25)[None, :]
     axes.plot_wireframe(
@@ -212,7 +203,7 @@ def _wires(axes: Any, profile: list[tuple[float, float]]) -> None:  # noqa: ANN4
     )
 
 
-def _spheroid(axes: Any, centre: Any, b: float, d: float, paint: str, *, solid: bool = False) -> None:  # noqa: ANN401
+def _spheroid(axes: Any, centre: Any, b: float, d: float, paint: str, *, solid: bool = False) -> None:
     up, angle = np.meshgrid(np.linspace(-np.pi / 2, np.pi / 2, 13), np.linspace(0, 2 * np.pi, 25), indexing="ij")
     x, y = centre[0] + b * np.cos(up) * np.cos(angle), centre[1] + b * np.cos(up) * np.sin(angle)
     z = centre[2] + d * np.sin(up)
@@ -222,7 +213,7 @@ def _spheroid(axes: Any, centre: Any, b: float, d: float, paint: str, *, solid: 
         axes.plot_wireframe(x, y, z, color=paint, linewidth=0.6, zorder=5)
 
 
-def _person(axes: Any, at: list[float], d: float) -> None:  # noqa: ANN401 - axes in space
+def _person(axes: Any, at: list[float], d: float) -> None:
     """A figure of lines in her spheroid: it says who the spheroid stands for."""
     x, y, z = at
     ink = {"color": colour("ink"), "linewidth": 2, "zorder": 4}
