@@ -126,15 +126,6 @@ def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)  # noqa: S603 - fixed names
 
 
-def up_to_date() -> bool:
-    """Whether the build folder has what these sources, as they are now, were compiled to."""
-    try:
-        same = all((BUILT / f"{name}.v").read_text(encoding="utf-8") == source(name) for name in FILES)
-    except OSError:
-        return False
-    return same and CHECKER.is_file() and shutil.which("coqc") is not None
-
-
 def refusal(folder: Path, name: str) -> str:
     """What Coq says against a file in a folder, or nothing where it accepts it."""
     command = ["coqc", "-q", "-R", ".", "Hypcheck", f"{name}.v"]

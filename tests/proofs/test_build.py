@@ -13,6 +13,7 @@ from hypcheck.errors import Exit, InputError
 from hypcheck.proofs import build
 from hypcheck.proofs.__main__ import main
 from hypcheck.proofs.build import CONTROL, Weakened
+from tests.proofs.state import up_to_date
 
 REAL_NUMBERS = """\
 Axioms:
@@ -57,15 +58,15 @@ def test_missing_libraries_of_ocaml_and_coq_are_named_where_the_programs_are_the
 
 
 def test_coq_build_is_up_to_date_only_if_it_holds_the_current_sources_and_the_checker(tools, monkeypatch):
-    assert not build.up_to_date()
+    assert not up_to_date()
     build.BUILT.mkdir()
     for name in build.FILES:
         (build.BUILT / f"{name}.v").write_text(build.source(name), encoding="utf-8")
-    assert not build.up_to_date()
+    assert not up_to_date()
     build.CHECKER.touch()
-    assert build.up_to_date()
+    assert up_to_date()
     monkeypatch.setattr(shutil, "which", lambda program: None)
-    assert not build.up_to_date()
+    assert not up_to_date()
     monkeypatch.undo()
 
 
@@ -75,7 +76,7 @@ def test_coq_build_is_not_up_to_date_after_a_source_has_changed(tools):
         (build.BUILT / f"{name}.v").write_text(build.source(name), encoding="utf-8")
     build.CHECKER.touch()
     (build.BUILT / "Rule.v").write_text("older", encoding="utf-8")
-    assert not build.up_to_date()
+    assert not up_to_date()
 
 
 def test_a_file_is_compiled_in_the_build_folder_and_its_statements_and_lines_are_counted(tools, monkeypatch):

@@ -26,6 +26,7 @@ from hypcheck.truth.kinds import Kind
 from hypcheck.truth.roots import PATTERNS
 from hypcheck.vectors import frozen
 from tests.proofs.agreement import disagreements
+from tests.proofs.state import up_to_date
 
 ALWAYS_CLEAR = """
 name = "far away"
@@ -41,7 +42,7 @@ y = [0.0, 1.0]
 z = [0.0, 1.0]
 """
 
-compiled = pytest.mark.skipif(not build.up_to_date(), reason="`make prove` has not been run here since the last change")
+compiled = pytest.mark.skipif(not up_to_date(), reason="`make prove` has not been run here since the last change")
 
 
 def test_every_coq_file_is_compiled_and_leaves_nothing_unproved():
