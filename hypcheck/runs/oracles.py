@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from hypcheck.derivation.formulas import FORMULAS, answering
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Rows
 from hypcheck.record.fields import row_fields
-from hypcheck.record.lines import DisagreementPart
+from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan
 from hypcheck.truth import certificate, exact, mesh, nearest, nearest_exact, prove, roots
 from hypcheck.truth.mesh import MeshOutcome
@@ -54,109 +55,96 @@ class Oracle:
     `ask_tilted` maps rows (n, 10) of tilted spheroids to n opinions.
     """
 
-    name: str
-    title: str
     ask: Callable[[Rows], Sequence[Opinion]]
     ask_tilted: Callable[[Rows], Sequence[Opinion]]
     available: Callable[[], str | None] = lambda: None
 
 
-def ask_exact(rows: Rows) -> list[Opinion]:
+def _each(opinion_of: Callable[[list[float]], Opinion]) -> Callable[[Rows], list[Opinion]]:
+    """Asks about one row at a time."""
+    return lambda rows: [opinion_of(row) for row in rows.tolist()]
+
+
+_REFUSED = Opinion(None, stage="certificate refused")
+
+
+def _exact(row: list[float]) -> Opinion:
     """The exact decision with a checked certificate; a decision without a valid proof counts as undecided."""
-    opinions = []
-    for row in rows.tolist():
-        pair = Pair.from_row(row)
-        decision = exact.decide(pair.lengths)
-        found = prove.prove(pair, decision)
-        proved = found.position is decision.position and certificate.check_certificate(pair, found)
-        opinions.append(_if_proved(decision.position, decision.tangent, decision.kind.value, proved=proved))
-    return opinions
+    pair = Pair.from_row(row)
+    decision = exact.decide(pair.lengths)
+    found = prove.prove(pair, decision)
+    proved = found.position is decision.position and certificate.check_certificate(pair, found)
+    return Opinion(decision.position, decision.tangent, decision.kind.value, "proved") if proved else _REFUSED
 
 
-def _if_proved(position: Position, tangent: bool, kind: str | None, *, proved: bool) -> Opinion:
-    return Opinion(position, tangent, kind, "proved") if proved else Opinion(None, stage="certificate refused")
+def _exact_tilted(row: list[float]) -> Opinion:
+    """As _exact, of a tilted spheroid."""
+    pair = TiltedPair.from_row(row)
+    decision = tilted_exact.decide(pair.lengths)
+    found = tilted_prove.prove(pair, decision)
+    proved = found.position is decision.position and tilted_certificate.check_certificate(pair, found)
+    return Opinion(decision.position, decision.tangent, None, "proved") if proved else _REFUSED
 
 
-def ask_nearest(rows: Rows) -> list[Opinion]:
+def _nearest(rows: Rows) -> list[Opinion]:
     """The sign of the clearance to the nearest point: floats with a bound, then more digits until the bound decides."""
     found = nearest.positions(np.ascontiguousarray(rows))
-    return [
-        Opinion(Position(position), tangent, None, nearest_exact.STAGES[stage])
-        for position, tangent, stage in zip(
-            found.position.tolist(), found.tangent.tolist(), found.stage.tolist(), strict=True
-        )
-    ]
+    values = zip(found.position.tolist(), found.tangent.tolist(), found.stage.tolist(), strict=True)
+    return [Opinion(Position(each), tangent, None, nearest_exact.STAGES[stage]) for each, tangent, stage in values]
 
 
-def ask_roots(rows: Rows) -> list[Opinion]:
-    """The pattern of the roots of g, after [10]."""
-    reports = [roots.classify_by_roots(Pair.from_row(row)) for row in rows.tolist()]
-    return [
-        Opinion(
-            report.position,
-            report.tangent,
-            report.kind.value,
-            "signs suffice" if report.literal is not None else "signs are ambiguous",
-        )
-        for report in reports
-    ]
-
-
-def ask_mesh(rows: Rows) -> list[Opinion]:
-    """FCL's distance to two meshes with the hyperboloid between them; undecided inside its band."""
-    verdicts = [mesh.verdict(Pair.from_row(row)) for row in rows.tolist()]
-    return [
-        Opinion(
-            Position.CONTACT if found.outcome is MeshOutcome.CONTACT else found.position,
-            stage=found.outcome.name.lower(),
-        )
-        for found in verdicts
-    ]
-
-
-def ask_exact_tilted(rows: Rows) -> list[Opinion]:
-    """As ask_exact, of tilted spheroids."""
-    opinions = []
-    for row in rows.tolist():
-        pair = TiltedPair.from_row(row)
-        decision = tilted_exact.decide(pair.lengths)
-        found = tilted_prove.prove(pair, decision)
-        proved = found.position is decision.position and tilted_certificate.check_certificate(pair, found)
-        opinions.append(_if_proved(decision.position, decision.tangent, None, proved=proved))
-    return opinions
-
-
-def ask_nearest_tilted(rows: Rows) -> list[Opinion]:
+def _nearest_tilted(row: list[float]) -> Opinion:
     """The sign of the clearance to the nearest point, in intervals of more and more bits until they decide."""
-    found = [tilted_nearest.nearest(TiltedPair.from_row(row)) for row in rows.tolist()]
-    return [Opinion(each.position, each.tangent, None, f"{each.bits} bits") for each in found]
+    found = tilted_nearest.nearest(TiltedPair.from_row(row))
+    return Opinion(found.position, found.tangent, None, f"{found.bits} bits")
 
 
-def ask_roots_tilted(rows: Rows) -> list[Opinion]:
+def _roots(row: list[float]) -> Opinion:
+    """The pattern of the roots of g, after [10], re-derived, since its text was not consulted.
+
+    The coefficient rule in exact rationals must read the same position from the coefficients.
+    """
+    pair = Pair.from_row(row)
+    found = roots.classify_by_roots(pair)
+    rule = _coefficient_rule()(dict(zip(COLUMNS, row, strict=True)))
+    stage = "signs suffice" if found.literal is not None else "signs are ambiguous"
+    if found.position != rule:
+        stage = f"{_RULE} says {Position(rule).label}"
+    return Opinion(found.position, found.tangent, found.kind.value, stage)
+
+
+_RULE = "coefficient rule"
+
+
+@cache
+def _coefficient_rule() -> Callable[[Mapping[str, float]], int]:
+    return answering(FORMULAS["coefficients"], EXACT)
+
+
+def _roots_tilted(row: list[float]) -> Opinion:
     """The pattern of the roots of the quartic det(S + λH) beside its poles."""
-    reports = [tilted_roots.classify_tilted_by_roots(TiltedPair.from_row(row)) for row in rows.tolist()]
-    return [Opinion(report.position, report.tangent, None, "root pattern") for report in reports]
+    found = tilted_roots.classify_tilted_by_roots(TiltedPair.from_row(row))
+    return Opinion(found.position, found.tangent, None, "root pattern")
 
 
-def ask_mesh_tilted(rows: Rows) -> list[Opinion]:
+def _mesh(row: list[float]) -> Opinion:
+    """FCL's distance to two meshes with the hyperboloid between them; undecided inside its band."""
+    found = mesh.verdict(Pair.from_row(row))
+    position = Position.CONTACT if found.outcome is MeshOutcome.CONTACT else found.position
+    return Opinion(position, stage=found.outcome.name.lower())
+
+
+def _mesh_tilted(row: list[float]) -> Opinion:
     """FCL's distance to meshes of lines of the hyperboloid, the spheroid being the unit ball; undecided in its band."""
-    found = [tilted_mesh.position(TiltedPair.from_row(row)) for row in rows.tolist()]
-    return [Opinion(each, stage="undecided" if each is None else "clear" if each else "contact") for each in found]
+    found = tilted_mesh.position(TiltedPair.from_row(row))
+    return Opinion(found, stage="undecided" if found is None else "clear" if found else "contact")
 
 
 ORACLES = {
-    oracle.name: oracle
-    for oracle in (
-        Oracle("exact", "exact decision in integers, with a checked certificate", ask_exact, ask_exact_tilted),
-        Oracle("nearest", "nearest point of the hyperboloid", ask_nearest, ask_nearest_tilted),
-        Oracle(
-            "roots",
-            "root patterns after [10], re-derived; its text was not consulted",
-            ask_roots,
-            ask_roots_tilted,
-        ),
-        Oracle("mesh", "FCL on two one-sided meshes", ask_mesh, ask_mesh_tilted, mesh.availability),
-    )
+    "exact": Oracle(_each(_exact), _each(_exact_tilted)),
+    "nearest": Oracle(_nearest, _each(_nearest_tilted)),
+    "roots": Oracle(_each(_roots), _each(_roots_tilted)),
+    "mesh": Oracle(_each(_mesh), _each(_mesh_tilted), mesh.availability),
 }
 
 
@@ -166,25 +154,11 @@ CHUNK = 100
 
 @dataclass(frozen=True, slots=True)
 class OracleTask:
-    """Rows of one family for one oracle; `start` is the place of the first in its family."""
+    """Rows of one family for one oracle; `batch` is the number of the family's batch."""
 
     oracle: str
     batch: int
-    start: int
     rows: Rows
-
-
-@dataclass(frozen=True, slots=True)
-class OracleTally:
-    """The answers of one oracle about one family: counts, deciding stages, seconds, and disagreements by case."""
-
-    oracle: str
-    family: str
-    asked: int
-    undecided: int
-    stages: dict[str, int]
-    seconds: float
-    disagreements: tuple[DisagreementPart, ...]
 
 
 @dataclass(frozen=True)
@@ -237,7 +211,7 @@ def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[Batch]) -> list[Orac
     }
     order = [name for name in ("mesh", "roots", "exact", "nearest") if name in plan.oracles]
     return [
-        OracleTask(oracle, place, start, batch.rows[start : min(start + CHUNK, shares[oracle])])
+        OracleTask(oracle, place, batch.rows[start : min(start + CHUNK, shares[oracle])])
         for oracle in order
         for place, batch in enumerate(all_batches)
         for start in range(0, min(len(batch.rows), shares[oracle]), CHUNK)
@@ -246,43 +220,39 @@ def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[Batch]) -> list[Orac
 
 def ask_oracle(task: OracleTask) -> tuple[list[Opinion], float]:
     """The oracle's opinions about a task's rows, and the seconds they took."""
-    started = time.perf_counter()
-    oracle = ORACLES[task.oracle]
-    if task.rows.shape[1] > len(COLUMNS):
-        return list(oracle.ask_tilted(task.rows)), time.perf_counter() - started
-    opinions = list(oracle.ask(task.rows))
-    if task.oracle == "roots":
-        rule = answering(FORMULAS["coefficients"], EXACT)
-        opinions = [
-            _unless_rule_differs(opinion, rule(dict(zip(COLUMNS, row, strict=True))))
-            for row, opinion in zip(task.rows.tolist(), opinions, strict=True)
-        ]
-    return opinions, time.perf_counter() - started
+    started, oracle = time.perf_counter(), ORACLES[task.oracle]
+    opinions = (oracle.ask if task.rows.shape[1] == len(COLUMNS) else oracle.ask_tilted)(task.rows)
+    return list(opinions), time.perf_counter() - started
 
 
-def _unless_rule_differs(opinion: Opinion, rule: int) -> Opinion:
-    """The opinion, unless the coefficient rule in exact rationals reads another position from the coefficients."""
-    if opinion.position == rule:
-        return opinion
-    return Opinion(opinion.position, opinion.tangent, opinion.kind, f"coefficient rule says {Position(rule).label}")
-
-
-def compare_with_exact(task: OracleTask, opinions: Sequence[Opinion], batch: Batch, seconds: float) -> OracleTally:
-    """The tally of a task's opinions against the exact decisions."""
-    disagreements = tuple(
+def oracle_line(oracle: str, batch: Batch, opinions: Sequence[Opinion], seconds: float) -> OracleLine:
+    """The record's line about an oracle's opinions on the first cases of a family, beside the exact decisions."""
+    differences = [_difference(batch, index, opinion) for index, opinion in enumerate(opinions)]
+    disagreements = [
         DisagreementPart(
-            oracle=task.oracle,
-            case=batch.name(task.start + index),
-            **row_fields(task.rows[index].tolist()),
+            oracle=oracle,
+            case=batch.name(index),
+            **row_fields(batch.rows[index].tolist()),
             exact=words[0],
             opinion=words[1],
         )
-        for index, opinion in enumerate(opinions)
-        if (words := _difference(batch, task.start + index, opinion)) is not None
+        for index, words in enumerate(differences)
+        if words is not None
+    ]
+    return OracleLine(
+        oracle=oracle,
+        family=batch.family.name,
+        asked=len(opinions),
+        undecided=sum(opinion.position is None for opinion in opinions),
+        stages=dict(sorted(Counter(opinion.stage for opinion in opinions).items())),
+        seconds=seconds,
+        disagreeing=len(disagreements),
+        disagreements=sorted(disagreements, key=lambda each: each.case)[:DISAGREEMENTS_KEPT],
     )
-    undecided = sum(opinion.position is None for opinion in opinions)
-    stages = dict(Counter(opinion.stage for opinion in opinions))
-    return OracleTally(task.oracle, batch.family.name, len(opinions), undecided, stages, seconds, disagreements)
+
+
+DISAGREEMENTS_KEPT = 20
+"""The record keeps so many disagreements of one oracle on one family."""
 
 
 def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] | None:
@@ -290,33 +260,10 @@ def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] |
     decision = batch.decisions[index]
     kind = decision.kind.value if isinstance(decision, exact.Decision) else None
     said = f"{decision.position.label}, tangent: {decision.tangent}{'' if kind is None else f', {kind}'}"
-    if opinion.stage.startswith("coefficient rule") or opinion.stage == "certificate refused":
+    if opinion.stage.startswith(_RULE) or opinion == _REFUSED:
         return said, opinion.stage
     if opinion.position is None:
         return None
     same = opinion.position is decision.position
     same &= opinion.tangent in (None, decision.tangent) and opinion.kind in (None, kind)
     return None if same else (said, f"{opinion.position.label}, tangent: {opinion.tangent}, {opinion.kind}")
-
-
-def merged_tallies(tallies: Sequence[OracleTally]) -> list[OracleTally]:
-    """One tally for each oracle and family; the order of the parts does not matter."""
-    parts: dict[tuple[str, str], list[OracleTally]] = {}
-    for tally in tallies:
-        parts.setdefault((tally.oracle, tally.family), []).append(tally)
-    return [_sum(parts[key]) for key in sorted(parts)]
-
-
-def _sum(parts: Sequence[OracleTally]) -> OracleTally:
-    stages: Counter[str] = Counter()
-    for part in parts:
-        stages.update(part.stages)
-    return OracleTally(
-        parts[0].oracle,
-        parts[0].family,
-        sum(part.asked for part in parts),
-        sum(part.undecided for part in parts),
-        dict(sorted(stages.items())),
-        sum(part.seconds for part in parts),
-        tuple(sorted((case for part in parts for case in part.disagreements), key=lambda each: each.case)),
-    )

@@ -6,10 +6,12 @@ else running, it times the fast path beside the plain formula, general-purpose r
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -24,11 +26,11 @@ from hypcheck.implementations.meshes import naive_fcl
 from hypcheck.implementations.method import Answers, Method
 from hypcheck.processes import Advance, Stage, in_order
 from hypcheck.record import Recorder, lines
-from hypcheck.record.lines import FindingLine, GroupLine, TimingLine
+from hypcheck.record.lines import FindingLine, GroupLine, OracleLine, TimingLine
 from hypcheck.runs import findings, judge, oracles
 from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batch_of, batches
 from hypcheck.runs.judge import Status
-from hypcheck.runs.oracles import ORACLES, OracleTally, OracleTask
+from hypcheck.runs.oracles import ORACLES, Opinion, OracleTask
 from hypcheck.vectors.families import FAMILIES
 
 if TYPE_CHECKING:
@@ -126,44 +128,14 @@ TIMING_ROUNDS = 9
 MESH = "mesh"
 """The oracle that needs FCL; without it FCL is not loaded."""
 
-DISAGREEMENTS_KEPT = 20
-"""The record keeps so many disagreements of one oracle on one family."""
+
+OracleOnBatch = tuple[str, int]
+"""The name of an oracle, and the number of a batch that it is asked."""
 
 
-@dataclass(frozen=True, slots=True)
-class DerivationTask:
-    """The paper's equations and the proofs of the formulas."""
-
-
-@dataclass(frozen=True, slots=True)
-class FamilyTask:
-    """One family, by its name: its cases for the formulas in exact rationals and for the methods in floats."""
-
-    family: str
-    plan: SelfCheckPlan
-
-
-Task = DerivationTask | FamilyTask | OracleTask
-"""A unit of work that a process does without anything else from the run."""
-
-
-@dataclass(frozen=True, slots=True)
-class FamilyLines:
-    """The errors of the formulas on one family, and the tallies of the methods."""
-
-    findings: list[FindingLine]
-    groups: list[GroupLine]
-
-
-def performed(task: Task) -> Any:  # noqa: ANN401 - of each task another type
-    """The equations and proofs, a family's lines, or an oracle's opinions with their seconds."""
-    match task:
-        case DerivationTask():
-            return derivation()
-        case FamilyTask():
-            return _family_lines(batch_of(FAMILIES[task.family], task.plan), task.plan)
-        case OracleTask():
-            return oracles.ask_oracle(task)
+def _done(task: Callable[[], object]) -> Any:  # noqa: ANN401 - of each task another type
+    """The result of a task, a unit of work that a process does without anything else from the run."""
+    return task()
 
 
 def derivation() -> tuple[Sequence[EquationCheck], Sequence[Proof]]:
@@ -174,7 +146,9 @@ def derivation() -> tuple[Sequence[EquationCheck], Sequence[Proof]]:
     return check_equations(), prove_formulas()
 
 
-def _family_lines(batch: FamilyBatch, plan: SelfCheckPlan) -> FamilyLines:
+def _family_lines(family: str, plan: SelfCheckPlan) -> tuple[list[FindingLine], list[GroupLine]]:
+    """The errors of the formulas in exact rationals on a family's cases, and the tallies of the methods in floats."""
+    batch = batch_of(FAMILIES[family], plan)
     found = [
         finding
         for formula in findings.exact_formulas()
@@ -182,7 +156,7 @@ def _family_lines(batch: FamilyBatch, plan: SelfCheckPlan) -> FamilyLines:
     ]
     head = batch.head(plan.judged)
     exponents = judge.flip_exponents(head.rows)
-    return FamilyLines(found, [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)])
+    return found, [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)]
 
 
 def methods_of(plan: SelfCheckPlan) -> tuple[Method, ...]:
@@ -211,13 +185,13 @@ class _SelfCheck:
     def stages(self) -> tuple[Stage, ...]:
         """The stages of the run in order; the record says which oracles are not available."""
         asked: tuple[oracles.Batch, ...] = (*self.batches, *oracles.tilted_batches(self.plan))
-        tasks: list[Task] = [
-            DerivationTask(),
-            *(FamilyTask(batch.family.name, self.plan) for batch in self.batches),
-            *oracles.oracle_tasks(self._with_available_oracles(), asked),
-        ]
+        questions = oracles.oracle_tasks(self._with_available_oracles(), asked)
         return (
-            Stage("deriving, asking, judging", len(tasks), lambda advance: self._perform(tasks, asked, advance)),
+            Stage(
+                "deriving, asking, judging",
+                1 + len(self.batches) + len(questions),
+                lambda advance: self._perform(questions, asked, advance),
+            ),
             Stage("map", 2, self._draw),
             Stage("timing", TIMING_ROUNDS, self._time),
         )
@@ -229,22 +203,30 @@ class _SelfCheck:
                 self.recorder.add(lines.UnavailableLine(oracle=name, reason=reason))
         return replace(self.plan, oracles=tuple(name for name, reason in reasons.items() if reason is None))
 
-    def _perform(self, tasks: Sequence[Task], asked: Sequence[oracles.Batch], advance: Advance) -> None:
-        """Do all tasks, in processes where the plan has several workers, and record what they find, in their order."""
+    def _perform(self, questions: Sequence[OracleTask], asked: Sequence[oracles.Batch], advance: Advance) -> None:
+        """Derive, judge and ask, in processes where the plan has several workers; record the results in that order."""
+        tasks: list[Callable[[], object]] = [
+            derivation,
+            *(partial(_family_lines, batch.family.name, self.plan) for batch in self.batches),
+            *(partial(oracles.ask_oracle, question) for question in questions),
+        ]
         found: list[FindingLine] = []
-        tallies: list[OracleTally] = []
-        with closing(in_order(performed, tasks, self.plan.workers, 0, ahead=len(tasks))) as results:
-            for task, result in zip(tasks, results, strict=True):
-                match task:
-                    case DerivationTask():
-                        self._record_derivation(*result)
-                    case FamilyTask():
-                        found += self._record_family(result)
-                    case OracleTask():
-                        tallies.append(oracles.compare_with_exact(task, result[0], asked[task.batch], result[1]))
+        opinions, seconds = defaultdict[OracleOnBatch, list[Opinion]](list), defaultdict[OracleOnBatch, float](float)
+        with closing(in_order(_done, tasks, self.plan.workers, 0, ahead=len(tasks))) as results:
+            self._record_derivation(*next(results))
+            advance(1)
+            for lines_of_family in islice(results, len(self.batches)):
+                found += self._record_family(*lines_of_family)
+                advance(1)
+            for question, (some, took) in zip(questions, results, strict=True):
+                opinions[question.oracle, question.batch] += some
+                seconds[question.oracle, question.batch] += took
                 advance(1)
         self._record_drift(found)
-        self._record_oracles(tallies)
+        self._record_oracles(
+            oracles.oracle_line(oracle, asked[batch], some, seconds[oracle, batch])
+            for (oracle, batch), some in opinions.items()
+        )
 
     def _record_derivation(self, equations: Sequence[EquationCheck], proofs: Sequence[Proof]) -> None:
         for equation in equations:
@@ -254,13 +236,13 @@ class _SelfCheck:
             if not proof.holds:
                 self.outcome.codes.add(Exit.ORACLES_DISAGREE)
 
-    def _record_family(self, made: FamilyLines) -> list[FindingLine]:
-        """Record a family's lines; its findings with the reasons of those that are known."""
+    def _record_family(self, findings_here: list[FindingLine], groups: list[GroupLine]) -> list[FindingLine]:
+        """Record a family's lines; returns its findings with the reasons of those that are known."""
         known = findings.known_findings()
-        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, known)) for each in made.findings]
-        for line in (*found, *made.groups):
+        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, known)) for each in findings_here]
+        for line in (*found, *groups):
             self.recorder.add(line)
-        if any(line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value} for line in made.groups):
+        if any(line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value} for line in groups):
             self.outcome.codes.add(Exit.WRONG)
         return found
 
@@ -269,22 +251,11 @@ class _SelfCheck:
             self.recorder.add(lines.DriftLine(sentence=sentence))
             self.outcome.codes.add(Exit.WRONG)
 
-    def _record_oracles(self, tallies: Sequence[OracleTally]) -> None:
-        for tally in oracles.merged_tallies(tallies):
-            if tally.disagreements:
+    def _record_oracles(self, found: Iterable[OracleLine]) -> None:
+        for line in sorted(found, key=lambda each: (each.oracle, each.family)):
+            self.recorder.add(line)
+            if line.disagreeing:
                 self.outcome.codes.add(Exit.ORACLES_DISAGREE)
-            self.recorder.add(
-                lines.OracleLine(
-                    oracle=tally.oracle,
-                    family=tally.family,
-                    asked=tally.asked,
-                    undecided=tally.undecided,
-                    stages=dict(tally.stages),
-                    seconds=tally.seconds,
-                    disagreeing=len(tally.disagreements),
-                    disagreements=list(tally.disagreements[:DISAGREEMENTS_KEPT]),
-                )
-            )
 
     def _draw(self, advance: Advance) -> None:
         for panel in findings.tower_panels():

@@ -11,6 +11,8 @@ import pytest
 from click.testing import CliRunner
 
 from hypcheck.cli.verify import verify
+from hypcheck.derivation import printed_equations
+from hypcheck.derivation import proofs as derivation_proofs
 from hypcheck.geometry.pair import Position
 from hypcheck.implementations import builtin
 from hypcheck.record import read
@@ -48,7 +50,9 @@ def derived(tmp_path_factory):
 
 
 def shorten(monkeypatch, derived):
-    monkeypatch.setattr(self_check, "derivation", lambda: derived)
+    equations, proofs = derived
+    monkeypatch.setattr(printed_equations, "check_equations", lambda: equations)
+    monkeypatch.setattr(derivation_proofs, "prove_formulas", lambda: proofs)
     monkeypatch.setattr(self_check, "TIMING_ROUNDS", 1)
     monkeypatch.setattr(self_check, "TIMED_ROWS", 10)
 
@@ -136,9 +140,8 @@ def test_unknown_finding_ends_the_run_with_1(tmp_path, monkeypatch):
 
 
 def test_formula_without_a_valid_proof_ends_the_run_with_6(tmp_path, monkeypatch):
-    equations, right = self_check.derivation()
-    proofs = (replace(right[0], holds=False), *right[1:])
-    monkeypatch.setattr(self_check, "derivation", lambda: (equations, proofs))
+    _, right = self_check.derivation()
+    monkeypatch.setattr(derivation_proofs, "prove_formulas", lambda: (replace(right[0], holds=False), *right[1:]))
     ended(tmp_path, *UNMESHED)
     assert exit_code(tmp_path) == 6
 
