@@ -93,27 +93,24 @@ Limits = tuple[Unsigned, Unsigned] | None
 """The least and the greatest; None: not declared."""
 
 Span = tuple[Extended, Extended] | None
-Row = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=7, max_length=7)]
+_Finite = Annotated[str, Meta(pattern=f"^{_HEX}$")]
+_Any = Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")]
+_SEVEN, _THREE = Meta(min_length=7, max_length=7), Meta(min_length=3, max_length=3)
+
+Row = Annotated[tuple[_Finite, ...], _SEVEN]
 """α, γ, b, d, x, y, z as hexadecimal floats, which read back exactly."""
 
-InvalidRow = Annotated[
-    tuple[Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")], ...], Meta(min_length=7, max_length=7)
-]
-"""Like a row, but NaN and infinities are allowed: rows that must be refused."""
-
-Centre = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=3, max_length=3)]
+Centre = Annotated[tuple[_Finite, ...], _THREE]
 """x, y, z of the end of a way, which stands beside a row whose centre is its start."""
 
-InvalidCentre = Annotated[
-    tuple[Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")], ...], Meta(min_length=3, max_length=3)
-]
-
-Axis = Annotated[tuple[Annotated[str, Meta(pattern=f"^{_HEX}$")], ...], Meta(min_length=3, max_length=3)]
+Axis = Annotated[tuple[_Finite, ...], _THREE]
 """axis_x, axis_y, axis_z of a row of ten numbers, which stands beside the row of its other seven."""
 
-InvalidAxis = Annotated[
-    tuple[Annotated[str, Meta(pattern=f"^({_HEX}|-?inf|nan)$")], ...], Meta(min_length=3, max_length=3)
-]
+InvalidRow = Annotated[tuple[_Any, ...], _SEVEN]
+"""Like a row, but NaN and infinities are allowed: rows that must be refused."""
+
+InvalidCentre = Annotated[tuple[_Any, ...], _THREE]
+InvalidAxis = Annotated[tuple[_Any, ...], _THREE]
 
 Bin = Annotated[list[int], Meta(min_length=4, max_length=4)]
 """The two numbers of a bin, its cases, and how many of them did not end as right."""

@@ -20,8 +20,6 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from msgspec import UNSET
-
 from hypcheck.errors import InputError, system_reason
 from hypcheck.processes import interrupts_deferred
 from hypcheck.record.fields import RecordLine, as_json, plain
@@ -267,7 +265,7 @@ class Recorder:
 
 def header(options: Mapping[str, Any], started: datetime, provenance: Provenance | None = None) -> HeaderLine:
     """The first line: versions, machine, options and provenance of the run."""
-    known = provenance or Provenance()
+    known = {} if provenance is None else vars(provenance)
     return HeaderLine(
         schema=SCHEMA,
         hypcheck=VERSION,
@@ -281,10 +279,7 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
             cores=os.cpu_count(),
         ),
         options=plain(options),
-        files=UNSET if known.files is None else dict(known.files),
-        program=UNSET if known.program is None else known.program,
-        settings=UNSET if known.settings is None else known.settings,
-        isolation=UNSET if known.isolation is None else known.isolation,
+        **{name: value for name, value in known.items() if value is not None},
     )
 
 

@@ -217,7 +217,7 @@ class ImplementationLines:
                 claim=each.cause.claim if each.cause else "",
                 cases=each.cases,
                 families=dict(each.families),
-                worst=tally.worst_line(worst, self.rules.criterion, self.used.asked.layout),
+                worst=tally.worst_line(worst, self.rules.criterion),
             )
 
     def _troubles(self, total: CasesResult, groups: Sequence[GroupLine]) -> Iterator[str]:

@@ -66,7 +66,7 @@ class HuntTarget:
     @property
     def layout(self) -> Layout:
         """The columns of its rows."""
-        return self.judge.layout
+        return self.criterion.layout
 
     def claimed(self, rows: Rows) -> Indices:
         """The indices of the rows that the implementation claims to answer."""
@@ -128,7 +128,7 @@ class HuntFindings:
 
     def add(self, cases: Iterable[WrongCase], source: str) -> None:
         """Add judged cases that one stratum or one search found."""
-        layout = judge_of(self.criterion.question).layout
+        layout = self.criterion.layout
         for case in cases:
             place = place_of_row(case.row, layout)
             key = (case.mistake, case.truth, place.kind)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position
-from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Layout, Positions, Rows
 from hypcheck.implementations.description import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
 from hypcheck.truth import backward_error, exact, float_filter
 from hypcheck.truth.exact import Decision
@@ -96,6 +96,11 @@ class Criterion:
     def unit(self) -> Fraction:
         """The unit u of the precision."""
         return UNIT_ROUNDOFF[self.precision]
+
+    @property
+    def layout(self) -> Layout:
+        """The columns of the rows that the question is about."""
+        return QUESTIONS[self.question].layout
 
 
 @dataclass(frozen=True, slots=True)

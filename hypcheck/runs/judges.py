@@ -23,9 +23,6 @@ from hypcheck.runs.passages import PassageJudge
 class Judge(Protocol):
     """How the answers to a question are judged. Answers are allowed ones or CANNOT_SAY, which is never wrong."""
 
-    layout: Layout
-    """The columns of the rows."""
-
     def truth(self, rows: Rows) -> Positions:
         """What is true about valid rows, int8 (n,): positions, or hits."""
         ...
@@ -61,8 +58,6 @@ class Judge(Protocol):
 
 class PositionJudge:
     """How answers about one position are judged: judge.py, for one of its questions."""
-
-    layout = PAIRS
 
     def __init__(self, question: str) -> None:
         self._question = question

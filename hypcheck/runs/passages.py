@@ -47,8 +47,6 @@ def _window(row: Row, change: Fraction) -> tuple[Fraction | None, Fraction | Non
 class PassageJudge:
     """How answers to the question passage are judged."""
 
-    layout = WAYS
-
     def truth(self, rows: Rows) -> Positions:
         """1 for contact on the way, 0 for none: int8 (n,)."""
         return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)

@@ -146,7 +146,7 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
         rules.domain,
         rules.criterion.precision,
         extreme=is_extreme(chunk.family),
-        layout=judge_of(rules.criterion.question).layout,
+        layout=rules.criterion.layout,
     )
     indices = inside[: implementation.max_rows]
     rows = made.rows if len(indices) == len(made.rows) else made.rows[indices]

@@ -133,7 +133,7 @@ def _sample(some: tuple[PendingRetest, ...], criterion: Criterion) -> _Sample:
     both = tuple(zip(made, some, strict=True))
     return _Sample(
         made,
-        _stacked([part.rows[each.indices] for part, each in both], judge_of(criterion.question).layout),
+        _stacked([part.rows[each.indices] for part, each in both], criterion.layout),
         np.concatenate([part.positions[each.indices] for part, each in both]),
         _first_answers(some),
         np.concatenate([_moments(each) for each in some]),

@@ -17,7 +17,6 @@ from msgspec import UNSET, UnsetType
 from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import Layout, Mask, Rows
-from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import lines
 from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.lines import GroupLine
@@ -241,7 +240,6 @@ def group_line(
     failing: list[str] | UnsetType = UNSET,
 ) -> GroupLine:
     """The record's line; for an implementation under test with its SPEC and the statuses that fail the run."""
-    layout = QUESTIONS[criterion.question].layout
     return GroupLine(
         method=method,
         spec=spec,
@@ -256,8 +254,8 @@ def group_line(
         octaves={key: dict(sorted(tallied.exponents[key].items())) for key in sorted(tallied.exponents, key=float)},
         size_bins=tallied.size_bins.as_lists(),
         place_bins=tallied.place_bins.as_lists(),
-        worst=[worst_line(case, criterion, layout) for case in tallied.worst],
-        faults=UNSET if failing is UNSET else _unanswered_lines(tallied, layout),
+        worst=[worst_line(case, criterion) for case in tallied.worst],
+        faults=UNSET if failing is UNSET else _unanswered_lines(tallied, criterion.layout),
         failing=failing,
     )
 
@@ -308,11 +306,11 @@ def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, .
     return tuple(kept)
 
 
-def worst_line(case: WorstCase, criterion: Criterion, layout: Layout) -> lines.WrongAnswer:
+def worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
     """A wrong or tolerated answer as the record has it."""
     return lines.WrongAnswer(
         case=case.case,
-        **row_fields(case.row, layout),
+        **row_fields(case.row, criterion.layout),
         truth=case.truth,
         answer=case.answer,
         mistake=case.mistake,

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from msgspec import UNSET
 
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS
+from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import Criterion
@@ -199,9 +199,9 @@ def test_line_of_a_worst_answer_has_the_time_of_a_way_and_bounds_of_its_first_co
     """A ball of radius 1/2 comes along the x axis from 5 to 1 and meets the throat of radius 1 at 3/2: at 7/8."""
     way = (1.0, 4.0, 0.5, 0.5, 5.0, 0.0, 0.0, 1.0, 0.0, 0.0)
     case = WorstCase((1, 0), "mine/0", way, 1, 1, "late", "wrong", 0.25, time=0.9375)
-    found = tally.worst_line(case, Criterion("passage", tolerance=Fraction(0)), WAYS)
+    found = tally.worst_line(case, Criterion("passage", tolerance=Fraction(0)))
     assert (found.case, found.mistake, found.time, found.backward_error) == ("mine/0", "late", 0.9375, 0.25)
     assert found.first[0] <= 0.875 <= found.first[1] < found.first[0] + 1e-9
     still = WorstCase((1, 1), "mine/1", way[:7], 1, 0, "false-contact", "wrong", 0.25)
-    found = tally.worst_line(still, CRITERION, PAIRS)
+    found = tally.worst_line(still, CRITERION)
     assert (found.case, found.row[4], found.time, found.first) == ("mine/1", (5.0).hex(), UNSET, UNSET)
