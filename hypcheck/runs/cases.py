@@ -21,7 +21,7 @@ from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judges import truth_of
 from hypcheck.vectors import families
 from hypcheck.vectors import frozen as vectors
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id
+from hypcheck.vectors.families import FAMILIES, case_id
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.tilted.format import TiltedVector
 
@@ -191,13 +191,13 @@ def fresh_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
 
 def frozen_count(name: str) -> int:
     """The number of frozen vectors of a family."""
-    return len(frozen_vectors(name).rows) if name in (*vectors.NAMES, *vectors.TILTED_NAMES, *vectors.WAY_NAMES) else 0
+    return len(frozen_vectors(name).rows) if name in vectors.ALL_NAMES else 0
 
 
 def searched_chunks() -> Iterator[CaseChunk]:
     """The frozen vectors that no family generates: the worst cancellations, which a search found."""
     for name in vectors.NAMES:
-        if name not in FAMILIES and name not in TILTED_FAMILIES:
+        if name not in FAMILIES:
             known = len(frozen_vectors(name).rows)
             yield CaseChunk(name, None, 0, known, min(known, EXPONENTS_OF))
 

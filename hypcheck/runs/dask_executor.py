@@ -23,12 +23,11 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from distributed import KilledWorker, Worker, WorkerPlugin, get_worker
 
-from hypcheck.errors import HypcheckError, InputError, system_reason
-from hypcheck.implementations.description import Description
+from hypcheck.errors import InputError, system_reason
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import Allowance
 from hypcheck.runs.cluster import CLOSE, CONNECT, OTHER_FILES, call_with_timeout
-from hypcheck.runs.executors import keep_freed_memory, require_same_description
+from hypcheck.runs.executors import keep_freed_memory
 from hypcheck.runs.fingerprint import (
     ShippedFile,
     code_fingerprint,
@@ -70,7 +69,8 @@ def execution_on_cluster(
     """
     name = f"hypcheck-{uuid.uuid4().hex}"
     files, module = files_to_ship(opener.spec), module_sha256(opener.spec)
-    job = ClusterJob(name, opener, rules, implementation.declared, files, module, code_fingerprint())
+    opener = replace(opener, declared=implementation.declared)
+    job = ClusterJob(name, opener, rules, files, module, code_fingerprint())
     workers = max(1, sum(client.nthreads().values()))
     with DaskExecutor(client) as executor:
         try:
@@ -189,14 +189,13 @@ class DaskExecutor(Executor):
 class ClusterJob:
     """What every worker gets once: a name for the run, what to open, and how to judge.
 
-    `declared` is the description that the implementation must declare. `files` are the files that its SPEC names,
-    `module` is the sha256 of its Python module, `fingerprint` that of hypcheck's own files.
+    `files` are the files that its SPEC names, `module` is the sha256 of its Python module, `fingerprint` that of
+    hypcheck's own files.
     """
 
     name: str
     opener: ImplementationOpener
     rules: JudgingRules
-    declared: Description
     files: tuple[ShippedFile, ...]
     module: str
     fingerprint: str
@@ -251,26 +250,17 @@ class _OpenedImplementation:
             implementation = self._idle.pop()[1] if self._idle else None
             opener = self._opener = self._opener or self._opener_here()
         if implementation is None:
-            implementation = self._open(opener)
+            implementation = opener.open()
         try:
             done = perform_task(task, implementation, self._job.rules, allowance)
-        except BaseException as error:
-            implementation.__exit__(type(error), error, None)
+        except BaseException:
+            implementation.kill()
             raise
         with self._lock:
             self._idle.append((time.monotonic(), implementation))
         if self._over.is_set():
             self.close()
         return done
-
-    def _open(self, opener: ImplementationOpener) -> Implementation:
-        implementation = opener.open()
-        try:
-            require_same_description(implementation, self._job.declared)
-        except HypcheckError as error:
-            implementation.__exit__(type(error), error, None)
-            raise
-        return implementation
 
     def _opener_here(self) -> ImplementationOpener:
         job = self._job

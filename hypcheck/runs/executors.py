@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
 from contextlib import AbstractContextManager, contextmanager, suppress
 from contextvars import ContextVar
+from dataclasses import replace
 from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
@@ -21,9 +22,8 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 
 from hypcheck.errors import HypcheckError, limit_reached
-from hypcheck.implementations.description import Description
 from hypcheck.implementations.implementation import Implementation
-from hypcheck.implementations.session import Allowance, StartError
+from hypcheck.implementations.session import Allowance
 from hypcheck.processes import end_with_parent, interrupts_held
 from hypcheck.runs.cases import FrozenVectors, keep_loaded, loaded_vectors
 from hypcheck.runs.fingerprint import code_fingerprint
@@ -243,7 +243,8 @@ def execution_in_pool(
 
     A task raises StartError if the implementation describes itself otherwise there than here.
     """
-    setup = partial(_opened, opener, rules, implementation.declared, code_fingerprint(), dict(loaded_vectors()))
+    opener = replace(opener, declared=implementation.declared)
+    setup = partial(_opened, opener, rules, code_fingerprint(), dict(loaded_vectors()))
     with WorkerPool(workers, setup) as executor:
         yield TaskExecution(
             executor, _perform_opened, workers, implementation.allowance, implementation.max_rows, rules
@@ -256,30 +257,19 @@ _OPENED: ContextVar[tuple[Implementation, JudgingRules]] = ContextVar("opened")
 
 @contextmanager
 def _opened(
-    opener: ImplementationOpener,
-    rules: JudgingRules,
-    declared: Description,
-    fingerprint: str,
-    frozen: dict[str, FrozenVectors],
+    opener: ImplementationOpener, rules: JudgingRules, fingerprint: str, frozen: dict[str, FrozenVectors]
 ) -> Iterator[None]:
     keep_freed_memory()
     keep_loaded(frozen)
     if code_fingerprint() != fingerprint:
         raise WorkersLostError("hypcheck's own files were changed while an implementation was asked")
     with opener.open() as implementation:
-        require_same_description(implementation, declared)
         _OPENED.set((implementation, rules))
         yield
 
 
 def _perform_opened(task: Task, allowance: Allowance) -> TaskResult:
     return perform_task(task, *_OPENED.get(), allowance)
-
-
-def require_same_description(implementation: Implementation, declared: Description) -> None:
-    """Raise StartError if the implementation declares another description than before."""
-    if implementation.declared != declared:
-        raise StartError(f"{implementation.spec} declares another description in each process")
 
 
 def keep_freed_memory() -> None:

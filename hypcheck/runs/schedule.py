@@ -15,9 +15,9 @@ from dataclasses import dataclass, field, replace
 from itertools import islice, takewhile
 
 from hypcheck.errors import Exit, HypcheckError
-from hypcheck.implementations.description import Domain
+from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.implementation import Crashed, Implementation, open_implementation
-from hypcheck.implementations.session import Allowance, Limits
+from hypcheck.implementations.session import Allowance, Limits, StartError
 from hypcheck.runs.cases import CHUNK_ROWS, CaseChunk
 from hypcheck.runs.results import (
     CasesResult,
@@ -35,19 +35,30 @@ Task = CaseChunk | RetestTask | InvalidRows
 
 @dataclass(frozen=True, slots=True)
 class ImplementationOpener:
-    """How an implementation is opened: its SPEC, its limits, and values that replace what it declares."""
+    """How an implementation is opened: its SPEC, its limits, and values that replace what it declares.
+
+    `declared` is what it must declare, if it was opened before in another process.
+    """
 
     spec: str
     limits: Limits
     precision: str | None = None
     question: str | None = None
     domain: Domain | None = None
+    declared: Description | None = None
 
     def open(self) -> Implementation:
-        """The running implementation. Raises InputError and StartError as open_implementation does."""
-        return open_implementation(
+        """The running implementation. Raises InputError and StartError as open_implementation does.
+
+        It also raises StartError if the implementation declares another description than before.
+        """
+        implementation = open_implementation(
             self.spec, self.limits, precision=self.precision, question=self.question, domain=self.domain
         )
+        if self.declared not in (None, implementation.declared):
+            implementation.kill()
+            raise StartError(f"{implementation.spec} declares another description in each process")
+        return implementation
 
 
 @dataclass(frozen=True)
