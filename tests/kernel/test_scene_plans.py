@@ -12,6 +12,7 @@ from hypcheck.cli.main import main
 from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines, printed_operations
+from hypcheck.kernel.specialise.first_stages import Thresholds
 from hypcheck.kernel.specialise.plan import _corner, _decided, plan_of
 from hypcheck.kernel.specialise.settings import centres, settings_of
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
@@ -72,9 +73,8 @@ def test_a_setting_has_a_height_limit_only_if_the_region_extends_beyond_it():
 
 def test_a_plan_for_one_constant_height_has_only_thresholds():
     (stages,) = plan_of(scene(z=Span(0.0, 0.0))).settings
-    assert stages.thresholds is not None
-    assert stages.lines == ()
-    assert stages.search is None
+    assert isinstance(stages.last, Thresholds)
+    assert (stages.lines, stages.discriminant) == ((), None)
 
 
 def test_a_plan_for_a_one_sided_question_has_lines_of_that_side_only():

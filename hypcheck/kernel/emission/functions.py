@@ -11,16 +11,17 @@ over a region, nearly every block is open, and along a path hardly any.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from math import isfinite
 
 import numpy as np
 
+from hypcheck.derivation.program import Program, needed
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel.emission.dialects import Dialect, Statements
+from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_asked
-from hypcheck.kernel.specialise.first_stages import CENTRE
+from hypcheck.kernel.specialise.first_stages import CENTRE, Thresholds
 from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, LeaningSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.scene.model import Span
@@ -33,28 +34,20 @@ def answer(position: Position, question: str) -> int:
     return int(position) if question == "position" else int(position is Position[question.upper()])
 
 
-def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> str:
-    """The function of the setting at this place, from the first line to the last."""
+def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect, *, shared: bool = False) -> str:
+    """The function of the setting at this place, from the first line to the last.
+
+    Where settings share it, it is also given their numbers, c, and which setting it is, s, and says nothing of one.
+    """
     parts = list(_Body(plan, stages, place, dialect).lines())
     read = set(re.findall(r"\w+", "\n".join(parts)))
-    given = ("x", "y", "z", "axis") if plan.free else ("x", "y", "z")
+    given = ("x", "y", "z", *(("axis",) if plan.free else ()), *(("c", "s") if shared else ()))
     unused = (dialect.say("unused", name=name) for name in given if name not in read)
     lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
-    heads = [dialect.say("note", text=line) for line in notes(plan, stages)]
+    heads = [] if shared else [dialect.say("note", text=line) for line in notes(plan, stages)]
     indented = [f"{INDENT}{line}" if line else "" for line in (*heads, *lines)]
     axis = dialect.axis["axis"] if plan.free else ""
     begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name), axis=axis)
-    return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
-
-
-def shape_lines(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> str:
-    """The same for settings that share a function, which is also given their numbers, c, and which setting it is, s."""
-    parts = list(_Body(plan, stages, place, dialect).lines())
-    read = set(re.findall(r"\w+", "\n".join(parts)))
-    unused = (dialect.say("unused", name=name) for name in ("x", "y", "z", "c", "s") if name not in read)
-    lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
-    indented = [f"{INDENT}{line}" if line else "" for line in lines]
-    begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name))
     return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
 
 
@@ -75,7 +68,41 @@ def beyond_threshold(position: Position, threshold: str) -> str:
     return f"R {'>' if position is Position.EXTERIOR else '<'} {threshold}"
 
 
-class _Body(Statements):
+class _Statements:
+    """A setting's stages, written in one language and number format for the plan's question."""
+
+    def __init__(self, plan: ScenePlan, stages: Stages, dialect: Dialect) -> None:
+        self._question, self._precision = plan.question, plan.format.name
+        self._stages, self._dialect = stages, dialect
+        self._number = dialect.number_of(self._precision)
+
+    def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
+        """What the stages are asked with, out of x, y and z, and the constants that this takes."""
+        program, constants = self._stages.entry, self._stages.entry_constants
+        read = {name for step in needed(program, wanted) for name in step.reads}
+        yield from self._constants({name: value for name, value in constants.items() if name in read})
+        yield from self._printed(program, wanted)
+
+    def _constants(self, constants: Mapping[str, float]) -> Iterator[str]:
+        for name, value in constants.items():
+            yield self._say("constant", name=name, value=self._literal(value))
+
+    def _printed(self, program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
+        return self._dialect.statements(program, wanted, self._precision)
+
+    def _literal(self, value: float) -> str:
+        return self._dialect.literal(value, self._precision)
+
+    def _side(self) -> Iterator[str]:
+        """The step `outside`: on which side the centre is."""
+        yield from self._constants(self._stages.centre)
+        yield from self._printed(CENTRE, ("outside",))
+
+    def _say(self, phrase: str, **words: object) -> str:
+        return self._dialect.say(phrase, **{"number": self._number, **words})
+
+
+class _Body(_Statements):
     """The statements of one function."""
 
     def __init__(self, plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> None:
@@ -88,12 +115,12 @@ class _Body(Statements):
             yield self._note("beyond the modelled height")
             for beyond in beyond_height(stages.setting.cut, self._precision, self._literal):
                 yield self._say("return if", condition=beyond, value=CANNOT_SAY)
-        if stages.always is not None:
-            yield self._say("return", value=answer(stages.always, self._question))
-        elif stages.thresholds is not None:
+        if isinstance(stages.last, Position):
+            yield self._say("return", value=answer(stages.last, self._question))
+        elif isinstance(stages.last, Thresholds):
             yield from self._thresholds()
         else:
-            yield from self._stages_in_turn()
+            yield from self._stages_in_turn(stages.last)
 
     def _thresholds(self) -> Iterator[str]:
         asked = thresholds_asked(self._stages, self._question)
@@ -103,10 +130,9 @@ class _Body(Statements):
             yield self._return_if(beyond_threshold(position, self._literal(threshold)), position)
         yield self._say("return", value=answer(Position.CONTACT, self._question))
 
-    def _stages_in_turn(self) -> Iterator[str]:
+    def _stages_in_turn(self, search: DualSearch | LeaningSearch) -> Iterator[str]:
         stages = self._stages
-        searches = isinstance(stages.search, DualSearch)
-        yield from self._entry(("R", "zz", "height") if searches else ("R", "zz"))
+        yield from self._entry(("R", "zz", "height") if isinstance(search, DualSearch) else ("R", "zz"))
         for line in stages.lines:
             yield ""
             yield self._note(f"lambda = {float(line.multiplier)!r} proves {line.side.name.lower()} beyond this line")
@@ -114,22 +140,16 @@ class _Body(Statements):
             yield from self._printed(line.program, (line.holds,))
             yield self._return_if(line.holds, line.side)
         yield ""
-        yield from self._too_far()
+        yield self._note("so far out, or no number, that something overflows")
+        yield self._say("return if", condition=self._say("not", value=f"({self._within(search)})"), value=CANNOT_SAY)
         if needs_side(stages, self._question):
             yield ""
             yield from self._centre()
         if stages.discriminant is not None:
             yield ""
-            yield from self._discriminant()
-        if stages.search is not None:
-            yield ""
-            yield from self._searched()
-
-    def _too_far(self) -> Iterator[str]:
-        last = self._stages.search
-        if last is not None:
-            yield self._note("so far out, or no number, that something overflows")
-            yield self._say("return if", condition=self._say("not", value=f"({self._within(last)})"), value=CANNOT_SAY)
+            yield from self._discriminant(stages.discriminant)
+        yield ""
+        yield from self._searched(search)
 
     def _within(self, stage: Discriminant | DualSearch | LeaningSearch) -> str:
         widest, highest = self._literal(stage.widest), self._literal(stage.highest)
@@ -137,15 +157,12 @@ class _Body(Statements):
 
     def _centre(self) -> Iterator[str]:
         yield self._note("the side of the centre")
-        yield from self._constants(self._stages.centre)
-        yield from self._printed(CENTRE, ("outside",))
+        yield from self._side()
         if self._question in ONE_SIDED:
             never = "outside" if self._question == "interior" else self._say("not", value="outside")
             yield self._say("return if", condition=never, value=0)
 
-    def _discriminant(self) -> Iterator[str]:
-        delta = self._stages.discriminant
-        assert delta is not None  # noqa: S101 - the caller has looked
+    def _discriminant(self, delta: Discriminant) -> Iterator[str]:
         yield self._note("the sign of three times the discriminant, where it is certain")
         yield from self._constants(delta.constants)
         yield from self._printed(delta.program, ("delta_3",))
@@ -166,8 +183,7 @@ class _Body(Statements):
             return self._say("select", condition="outside", left="1", right="-1")
         return "0" if self._question == "contact" else "1"
 
-    def _searched(self) -> Iterator[str]:
-        search = self._stages.search
+    def _searched(self, search: DualSearch | LeaningSearch) -> Iterator[str]:
         if isinstance(search, LeaningSearch):
             found = self._say("free search" if search.free else "fixed search", place=self._place)
         else:
@@ -247,7 +263,7 @@ def _indented(text: str) -> str:
     return "\n".join(f"                {line}" if line else "" for line in text.splitlines())
 
 
-class _Batch(Statements):
+class _Batch(_Statements):
     """The bodies of the two loops of one setting."""
 
     def code(self, value: int) -> str:
@@ -257,10 +273,10 @@ class _Batch(Statements):
     def first(self) -> Iterator[str]:
         """Everything that costs a few operations; what it leaves is OPEN."""
         stages, choices, rest = self._stages, self._beyond_height(), OPEN
-        yield from self._centre_read(("x", "y", "z"))
-        if stages.always is not None:
-            rest = answer(stages.always, self._question)
-        elif stages.thresholds is not None:
+        yield from self._centre_read()
+        if isinstance(stages.last, Position):
+            rest = answer(stages.last, self._question)
+        elif isinstance(stages.last, Thresholds):
             if thresholds_asked(stages, self._question):
                 yield from self._entry(("R",))
             choices += self._thresholds()
@@ -272,9 +288,8 @@ class _Batch(Statements):
                 yield from self._printed(line.program, (line.holds,))
                 choices.append((line.holds, answer(line.side, self._question)))
             if self._question in ONE_SIDED:
-                if stages.search is not None:
-                    widest, highest = self._literal(stages.search.widest), self._literal(stages.search.highest)
-                    choices.append((f"!((R <= {widest}) & (zz <= {highest}))", CANNOT_SAY))
+                widest, highest = self._literal(stages.last.widest), self._literal(stages.last.highest)
+                choices.append((f"!((R <= {widest}) & (zz <= {highest}))", CANNOT_SAY))
                 yield from self._side()
                 choices.append(("outside" if self._question == "interior" else "!outside", 0))
         yield f"code[i] = {self._chosen(choices, self.code(rest))};"
@@ -285,7 +300,7 @@ class _Batch(Statements):
         if delta is None:
             return
         yield f"const {self._number} before = code[i];"
-        yield from self._centre_read(("x", "y", "z"))
+        yield from self._centre_read()
         yield from self._entry(("R", "zz"))
         clear = self.code(0)
         if self._question != "contact" and delta.clear_where_positive:
@@ -310,10 +325,10 @@ class _Batch(Statements):
     def _truth(self) -> str:
         return "bool" if self._dialect.name == "cpp" else "int"
 
-    def _centre_read(self, names: tuple[str, ...]) -> Iterator[str]:
-        for name in names:
+    def _centre_read(self) -> Iterator[str]:
+        for name in "xyz":
             yield f"const {self._number} {name} = ({self._number}){name}s[i];"
-        yield " ".join(f"(void){name};" for name in names)
+        yield "(void)x; (void)y; (void)z;"
 
     def _beyond_height(self) -> list[tuple[str, int]]:
         cut = self._stages.setting.cut
@@ -331,7 +346,3 @@ class _Batch(Statements):
         for condition, value in reversed(choices):
             text = f"({condition}) ? {self.code(value)} : ({text})"
         return text
-
-    def _side(self) -> Iterator[str]:
-        yield from self._constants(self._stages.centre)
-        yield from self._printed(CENTRE, ("outside",))

@@ -22,7 +22,8 @@ from hypcheck.kernel.emission.plan_text import comment_text, header
 from hypcheck.kernel.printing.languages import Spelling, statements
 from hypcheck.kernel.specialise import last_stages, leaning
 from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, LeaningSearch
-from hypcheck.kernel.specialise.plan import ScenePlan
+from hypcheck.kernel.specialise.plan import ScenePlan, Stages
+from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import escaped
 from hypcheck.scene.model import FREE
 from hypcheck.version import VERSION
@@ -123,8 +124,6 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
 
     Its exported functions are `prefix`_classify, `prefix`_classify_scene and `prefix`_describe.
     """
-    if language not in DIALECTS:
-        raise InputError(f"the language is {language!r}; it must be one of {', '.join(DIALECTS)}")
     require_prefix(prefix, language)
     dialect = DIALECTS[language]
     number = dialect.number_of(plan.format.name)
@@ -164,19 +163,20 @@ def description(plan: ScenePlan, language: str) -> dict[str, Any]:
     }
 
 
-def _domain(setting: Any) -> dict[str, Any]:  # noqa: ANN401
+def _domain(setting: Setting) -> dict[str, Any]:
     spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
     axis = {} if setting.axis is None else {"axis": setting.axis if setting.axis == FREE else list(setting.axis)}
     return {"sizes": list(setting.sizes), **spans, **axis}
 
 
-def _numbered(plan: ScenePlan) -> list[tuple[int, Any]]:
+def _numbered(plan: ScenePlan) -> list[tuple[int, Stages]]:
     return list(enumerate(plan.settings, start=1))
 
 
 def _searched(plan: ScenePlan) -> list[tuple[int, DualSearch | LeaningSearch]]:
     """The searches of the settings that have one, with the settings' numbers."""
-    return [(place, stages.search) for place, stages in _numbered(plan) if stages.search is not None]
+    ends = ((place, stages.last) for place, stages in _numbered(plan))
+    return [(place, last) for place, last in ends if isinstance(last, DualSearch | LeaningSearch)]
 
 
 def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:

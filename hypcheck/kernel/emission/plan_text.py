@@ -20,7 +20,8 @@ from hypcheck.derivation.program import Operations, Step, count, hoist, needed
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel.specialise import leaning
-from hypcheck.kernel.specialise.first_stages import AXIAL, CENTRE, RADIAL
+from hypcheck.kernel.specialise.first_stages import AXIAL, CENTRE, RADIAL, Thresholds
+from hypcheck.kernel.specialise.last_stages import DualSearch, LeaningSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import counted, escaped
@@ -30,12 +31,12 @@ from hypcheck.version import VERSION
 
 def thresholds_asked(stages: Stages, question: str) -> tuple[tuple[Position, float], ...]:
     """The thresholds that the question needs: exterior above the first one, interior below the other."""
-    found = stages.thresholds
-    if found is None:
+    if not isinstance(stages.last, Thresholds):
         return ()
-    outer, inner = (Position.EXTERIOR, found.outer), (Position.INTERIOR, found.inner)
-    sides = [outer] if inner[1] is None else [outer, (inner[0], inner[1])]
-    return tuple(side for side in sides if question not in ONE_SIDED or side[0] is Position[question.upper()])
+    found = [(Position.EXTERIOR, stages.last.outer)]
+    if stages.last.inner is not None:
+        found.append((Position.INTERIOR, stages.last.inner))
+    return tuple(side for side in found if question not in ONE_SIDED or side[0] is Position[question.upper()])
 
 
 def needs_side(stages: Stages, question: str) -> bool:
@@ -47,16 +48,14 @@ def needs_side(stages: Stages, question: str) -> bool:
 
 def operations_before(stages: Stages, question: str) -> Operations:
     """The operations of all stages before the search, each of which a centre may have to pass."""
-    if stages.always is not None:
+    if isinstance(stages.last, Position):
         return Operations()
     asked = thresholds_asked(stages, question)
-    if stages.thresholds is not None:
+    if isinstance(stages.last, Thresholds):
         return replace(count(needed(stages.entry, ("R",)) if asked else ()), comparisons=len(asked))
-    steps, comparisons = list(stages.entry.steps), 0
+    steps, comparisons = list(stages.entry.steps), 2  # neither R nor zz overflows
     for line in stages.lines:
         steps += line.program.steps
-    if stages.search is not None:
-        comparisons += 2  # neither R nor zz overflows
     if needs_side(stages, question):
         steps += CENTRE.steps
     if stages.discriminant is not None:
@@ -203,13 +202,11 @@ def region(setting: Setting) -> str:
 
 def outside(stages: Stages) -> str:
     """What an answer about a centre outside the region is worth, in a sentence."""
-    if stages.always is not None:
+    last = stages.last
+    if isinstance(last, Position):
         return "Outside it the answer is worth nothing: the centre is not looked at."
-    if stages.thresholds is not None:
+    if isinstance(last, Thresholds):
         return "At any other height the answer is worth nothing: z is not looked at."
-    last = stages.search
-    if last is None:
-        raise AssertionError("stages end with all of one answer, thresholds or a search")
     radial, axial = (float(stages.entry_constants.get(name, 1.0)) for name in (RADIAL, AXIAL))
     across, up = (last.widest / 2) ** 0.5 / radial, last.highest**0.5 / axial
     return (
@@ -223,10 +220,10 @@ def _span(span: Span) -> str:
 
 
 def _cost(stages: Stages, question: str) -> str:
-    if stages.always is not None:
+    if isinstance(stages.last, Position):
         return "Nothing is computed: all of the region has one answer."
     shares = ", ".join(f"{name} {share:.1%}" for name, share in stages.shares.items() if share)
-    most = "at most before the search" if stages.search is not None else "in all"
+    most = "at most before the search" if stages.searches else "in all"
     operations = operations_text(operations_before(stages, question))
     return f"{operations} {most}. Decided by: {shares} (of centres spread evenly)."
 
@@ -317,7 +314,7 @@ def _alike(plan: ScenePlan) -> Iterator[list[Numbered]]:
 
 def _reason(why: str, stages: Stages) -> str:
     """Why something is left out; where the height is fixed, without telling which it is."""
-    return why if stages.thresholds is None else why.replace(repr(stages.thresholds.height), "fixed")
+    return why.replace(repr(stages.last.height), "fixed") if isinstance(stages.last, Thresholds) else why
 
 
 def _group_lines(group: Sequence[Numbered], question: str) -> Iterator[str]:
@@ -335,13 +332,13 @@ def _group_lines(group: Sequence[Numbered], question: str) -> Iterator[str]:
     for omission in first.omitted:
         yield f"     {omission.what}: {_reason(omission.why, first) if len(group) > 1 else omission.why}"
     average = sum(_average(stages, question) for _, stages in group) / len(group)
-    most = " before a search" if first.search is not None else ""
+    most = " before a search" if first.searches else ""
     yield f"   costs {operations_text(operations_before(first, question))}{most}; {average:.1f} that round on average"
 
 
 def _steps(stages: Stages, question: str) -> Iterator[str]:
-    if stages.always is not None:
-        yield f"asks nothing: the whole region is {stages.always.name.lower()}"
+    if isinstance(stages.last, Position):
+        yield f"asks nothing: the whole region is {stages.last.name.lower()}"
     for position, threshold in thresholds_asked(stages, question):
         side = ">" if position is Position.EXTERIOR else "<"
         yield f"R = x² + y² {side} {threshold:.17g} is {position.name.lower()}"
@@ -353,14 +350,14 @@ def _steps(stages: Stages, question: str) -> Iterator[str]:
     if stages.discriminant is not None:
         tells = "contact or clear" if stages.discriminant.clear_where_positive else "contact"
         yield f"the discriminant: beyond ±{stages.discriminant.bound:.3g} its sign is certain and tells {tells}"
-    if stages.search is not None:
+    if isinstance(stages.last, DualSearch | LeaningSearch):
         doubled = "" if stages.setting.axis is None else ", in double-double"
-        yield f"the dual function at its maximum, found by {stages.search.steps} halvings{doubled}"
+        yield f"the dual function at its maximum, found by {stages.last.steps} halvings{doubled}"
 
 
 def _average(stages: Stages, question: str) -> float:
     """Rounded operations a centre of the sample, the search left aside."""
-    if stages.search is None:
+    if not stages.searches:
         return operations_before(stages, question).rounded
     average = float(_of(stages.entry.steps) + sum(_of(line.program.steps) for line in stages.lines))
     left = 1.0 if question in ONE_SIDED else stages.shares.get("discriminant", 0.0) + stages.shares.get("search", 0.0)
@@ -376,18 +373,18 @@ def _of(steps: tuple[Step, ...]) -> int:
 
 
 def _setting_as_json(stages: Stages, question: str) -> dict[str, Any]:
-    setting = stages.setting
+    setting, last = stages.setting, stages.last
     spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
     return {
         "sizes": list(setting.sizes),
         **({} if setting.axis is None else {"axis": setting.axis if setting.axis == FREE else list(setting.axis)}),
         "spans": spans,
         "uses": list(setting.uses),
-        "always": None if stages.always is None else int(stages.always),
-        "thresholds": None if stages.thresholds is None else asdict(stages.thresholds),
+        "always": int(last) if isinstance(last, Position) else None,
+        "thresholds": asdict(last) if isinstance(last, Thresholds) else None,
         "lines": [{"side": int(line.side), "multiplier": str(line.multiplier)} for line in stages.lines],
         "discriminant": None if stages.discriminant is None else {"bound": stages.discriminant.bound},
-        "search": stages.search is not None,
+        "search": stages.searches,
         "shares": stages.shares,
         "omitted": [asdict(omission) for omission in stages.omitted],
         "operations": asdict(operations_before(stages, question)),

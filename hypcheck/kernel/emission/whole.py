@@ -22,9 +22,9 @@ from sys import float_info
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.choice import NUMBER_OF
+from hypcheck.kernel.choice import NUMBER_OF, POSITION_OF
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
-from hypcheck.kernel.emission.functions import shape_lines
+from hypcheck.kernel.emission.functions import setting_function
 from hypcheck.kernel.emission.kernel import (
     PREFIX,
     SETTING,
@@ -43,6 +43,9 @@ from hypcheck.scene.model import SceneModel
 
 MOST_SETTINGS = 20_000
 """As many as a scene file has hyperboloids."""
+
+NO_POSITION = 9
+"""Stands for the position that answers yes, where the question is the position itself and nothing is compared."""
 
 _NUMBER_IN_NOTE = re.compile(r"^lambda = \S+ proves")
 
@@ -152,7 +155,7 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
     """The text of the kernel of a scene, whose plan is whole_plan's. Raises InputError."""
     require_prefix(prefix, language)
     dialect = DIALECTS[language]
-    searched = any(isinstance(stages.search, DualSearch) for stages in plan.settings)
+    searched = any(isinstance(stages.last, DualSearch) for stages in plan.settings)
     shapes = _shapes(plan, dialect)
     parts = {
         "header": whole_header(plan, scene, command, dialect.comment),
@@ -164,12 +167,12 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
         "shapes": ("\n\n\n" if language == "python" else "\n\n").join(shapes.texts),
         "cases": "\n".join(_TABLES[language]["case"].format(place=place) for place in range(len(shapes.texts))),
         "settings": str(len(plan.settings)),
-        "hyperboloids": str(_count(scene, plan)),
+        "hyperboloids": str(len(_used(scene, plan))),
         "parts": str(len(scene.mover.parts)),
         "columns": str(1 + len(scene.mover.parts)),
         "region": _region(scene, language),
         "question": str(NUMBER_OF[scene.question]),
-        "yes": str({"position": 9, "exterior": 1, "interior": -1, "contact": 0}[scene.question]),
+        "yes": str(POSITION_OF.get(scene.question, NO_POSITION)),
         "of_parts": _of_parts(scene, language, dialect.number_of(plan.format.name)),
         "constants": ", ".join(f"constants_{place}" for place in range(len(shapes.texts))) + ",",
         "description": description_in_language(description(plan, language), language),
@@ -245,11 +248,11 @@ def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
     phrases = {**dialect.phrases, **_SHAPE[dialect.name]}
     for stages in plan.settings:
         recording = _Recording(**{**vars(dialect), "phrases": phrases})
-        key = shape_lines(plan, stages, 0, recording)
+        key = setting_function(plan, stages, 0, recording, shared=True)
         place = known.setdefault(key, len(known))
         if place == len(found.texts):
             again = _Recording(**{**vars(dialect), "phrases": phrases})
-            found.texts.append(shape_lines(plan, stages, place, again))
+            found.texts.append(setting_function(plan, stages, place, again, shared=True))
             found.rows.append([])
         found.shape.append(place)
         found.row.append(len(found.rows[place]))
@@ -269,14 +272,10 @@ def _used(scene: SceneModel, plan: ScenePlan) -> list[tuple[int, list[int]]]:
     return found
 
 
-def _count(scene: SceneModel, plan: ScenePlan) -> int:
-    return len(_used(scene, plan))
-
-
 def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, searched: bool, dialect: Dialect) -> list[str]:
     say, precision = _TABLES[dialect.name], plan.format.name
     number, index = dialect.number_of(precision), _WHOLE_NUMBERS.get(dialect.name, "int")
-    wide = {"rust": "f64"}.get(dialect.name, "double")
+    wide = dialect.number_of("float64")
 
     def table(name: str, rows: Sequence[Sequence[float]], kind: str, own: bool = False) -> str:
         texts = [", ".join(dialect.literal(v, precision) if own else repr(v) for v in row) for row in rows]
@@ -314,7 +313,7 @@ def _searches(plan: ScenePlan, dialect: Dialect) -> str:
         shape = _SEARCH_ROW.get(dialect.name, _TABLES[dialect.name]["row"])
         return f"    {shape.format(values=values)},"
 
-    body = "\n".join(row(stages.search) for stages in plan.settings)
+    body = "\n".join(row(stages.last) for stages in plan.settings)
     return _TABLES[dialect.name]["searches"].format(rows=len(plan.settings), body=body)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal
 
@@ -81,25 +81,30 @@ class Omission:
 
 @dataclass(frozen=True)
 class Stages:
-    """A setting's way to an answer: `always`, or `thresholds`, or lines, discriminant and search in that order.
+    """A setting's way to an answer: `entry`, then lines, the centre's side and the discriminant, then what is `last`.
 
     `entry` leads from x, y, z to R, zz and height with `entry_constants`; `centre` holds the constants of the side,
-    whose test follows the lines where the question is one-sided. `shares` says how many of the sample's centres each
-    stage decided. `bound_u` is the backward error that an answer can have, in units u.
+    whose test follows the lines where the question is one-sided. `last` is a search, which answers all that is left;
+    without the stages between it is thresholds, where the height is fixed, or the position that the whole region has.
+    `shares` says how many of the sample's centres each stage decided. `bound_u` is the backward error that an answer
+    can have, in units u.
     """
 
     setting: Setting
     entry: Program
     entry_constants: dict[str, float]
-    always: Position | None
-    thresholds: Thresholds | None
-    lines: tuple[ProvedLine, ...]
-    centre: dict[str, float]
-    discriminant: Discriminant | None
-    search: DualSearch | LeaningSearch | None
+    last: Position | Thresholds | DualSearch | LeaningSearch
     shares: dict[str, float]
     omitted: tuple[Omission, ...]
     bound_u: Fraction
+    lines: tuple[ProvedLine, ...] = ()
+    centre: dict[str, float] = field(default_factory=dict)
+    discriminant: Discriminant | None = None
+
+    @property
+    def searches(self) -> bool:
+        """Whether the last stage is a search."""
+        return isinstance(self.last, DualSearch | LeaningSearch)
 
 
 @dataclass(frozen=True)
@@ -159,52 +164,40 @@ def _within(setting: Setting, question: str, form: FloatFormat) -> Stages:
 
 def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
     scale = scaled(setting.sizes, form)
-    first, constants = entry(scale)
     position = position_of_box(setting)
     if position is not None:
-        return _without_tests(setting, first, constants, position)
-    if setting.axis is not None:
-        return _leaning_stages(setting, setting.axis, question, form)
+        return _without_tests(setting, scale, position)
     height = setting.box.z
-    if height is not None and height.fixed:
-        found = thresholds(setting.sizes, height.low, scale, form)
-        return _at_one_height(setting, first, constants, found, question)
-    R, zz = _sample(setting, first, constants, form)
-    lines, by_lines = _lines(question, scale, form, R, zz)
-    sides = centre_constants(scale, form)
-    by_lines = by_lines | _by_centre(question, sides, form, R, zz)
-    corner = _corner(setting)
-    delta = discriminant(scale, form, first, constants, corner)
-    left = np.flatnonzero(~by_lines)
-    by_delta = _decided(delta, form, R[left], zz[left]) if delta is not None else np.zeros(len(left), dtype=bool)
-    if delta is not None and by_delta.sum() < USEFUL * len(left):
-        delta, by_delta = None, np.zeros(len(left), dtype=bool)
-    shares = _shares(by_lines, by_delta)
-    bound = last_stages.backward_bound()
-    omitted = _omissions(setting, question, delta, constants)
-    last = search(scale, form, _corner(setting, AFAR))
-    return Stages(setting, first, constants, None, None, lines, sides, delta, last, shares, omitted, bound)
+    if setting.axis is None and height is not None and height.fixed:
+        return _at_one_height(setting, scale, thresholds(setting.sizes, height.low, scale, form), question)
+    return _in_turn(setting, question, form)
 
 
-def _leaning_stages(setting: Setting, axis: Point | Literal["free"], question: str, form: FloatFormat) -> Stages:
-    """The stages of a spheroid that leans: lines of the ball about it, the discriminant of that in it, the search."""
-    last = leaning_search(setting.sizes, None if axis == FREE else axis)
-    inner, outer = (scaled(sizes, form) for sizes in setting.balls)
+def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
+    """The lines of the ball about a spheroid that leans, the discriminant of the ball in it, the search; or its own."""
+    axis = setting.axis
+    lean = None if axis is None else leaning_search(setting.sizes, None if axis == FREE else axis)
+    inner, outer = (scaled(sizes, form) for sizes in setting.inner_and_outer)
     first, constants = entry(outer)
     R, zz = _sample(setting, first, constants, form)
     lines, by_lines = _lines(question, outer, form, R, zz)
     sides = centre_constants(outer, form)
     by_lines = by_lines | _by_centre(question, sides, form, R, zz)
-    delta = discriminant(inner, form, first, constants, _corner(setting))
-    delta = None if delta is None else replace(delta, clear_where_positive=False)
     left = np.flatnonzero(~by_lines)
-    by_delta = _decided(delta, form, R[left], zz[left]) if delta is not None else np.zeros(len(left), dtype=bool)
-    if delta is not None and by_delta.sum() < USEFUL_LEANING * len(left):
+    delta = discriminant(inner, form, first, constants, _corner(setting))
+    if delta is not None and lean is not None:
+        delta = replace(delta, clear_where_positive=False)
+    by_delta = np.zeros(len(left), dtype=bool) if delta is None else _decided(delta, form, R[left], zz[left])
+    if by_delta.sum() < (USEFUL if lean is None else USEFUL_LEANING) * len(left):
         delta, by_delta = None, np.zeros(len(left), dtype=bool)
+    if lean is None:
+        bound = last_stages.backward_bound()
+    else:
+        bound = first_stages.CENTRE_BOUND if question in ONE_SIDED else leaning.BOUND_U
+    last = search(outer, form, _corner(setting, AFAR)) if lean is None else lean
+    omitted = _omissions(setting, question, delta, constants)
     shares = _shares(by_lines, by_delta)
-    omitted = _leaning_omissions(setting, question, delta)
-    bound = first_stages.CENTRE_BOUND if question in ONE_SIDED else leaning.BOUND_U
-    return Stages(setting, first, constants, None, None, lines, sides, delta, last, shares, omitted, bound)
+    return Stages(setting, first, constants, last, shares, omitted, bound, lines, sides, delta)
 
 
 def _sample(setting: Setting, first: Program, constants: dict[str, float], form: FloatFormat) -> tuple[Floats, Floats]:
@@ -265,19 +258,16 @@ def _most(span: Span) -> Fraction:
     return max(abs(Fraction(span.low)), abs(Fraction(span.high)))
 
 
-def _without_tests(setting: Setting, first: Program, constants: dict[str, float], position: Position) -> Stages:
+def _without_tests(setting: Setting, scale: ScaledSetting, position: Position) -> Stages:
     name = position.name.lower()
     why = (
         f"the least favourable corner of the region is {name}, decided exactly, and {name} positions are monotone in "
         "each coordinate (docs/mathematics.md)"
     )
-    omitted = (Omission("every test", why),)
-    return Stages(setting, first, constants, position, None, (), {}, None, None, {"always": 1.0}, omitted, Fraction(0))
+    return Stages(setting, *entry(scale), position, {"always": 1.0}, (Omission("every test", why),), Fraction(0))
 
 
-def _at_one_height(
-    setting: Setting, first: Program, constants: dict[str, float], found: Thresholds, question: str
-) -> Stages:
+def _at_one_height(setting: Setting, scale: ScaledSetting, found: Thresholds, question: str) -> Stages:
     omitted = [
         Omission(
             "the coefficients, the discriminant and every term in z",
@@ -287,10 +277,8 @@ def _at_one_height(
     if found.inner is None and question != "exterior":
         omitted.append(Omission("the interior threshold", "at this height not even a centre on the axis is interior"))
     omitted += _one_sided(question)
-    return Stages(
-        setting, first, constants, None, found, (), {}, None, None, {"thresholds": 1.0}, tuple(omitted),
-        first_stages.BACKWARD_BOUND,
-    )  # fmt: skip
+    bound = first_stages.BACKWARD_BOUND
+    return Stages(setting, *entry(scale), found, {"thresholds": 1.0}, tuple(omitted), bound)
 
 
 def _one_sided(question: str) -> list[Omission]:
@@ -305,43 +293,33 @@ def _one_sided(question: str) -> list[Omission]:
     ]
 
 
-def _leaning_omissions(setting: Setting, question: str, delta: Discriminant | None) -> tuple[Omission, ...]:
-    found = [
-        Omission(
-            "the axis, in lines and discriminant",
-            "what the smallest ball about the spheroid is clear of, so is the spheroid; what the largest ball in it "
-            "touches, it touches too",
-        ),
-        *_one_sided(question),
-    ]
-    if delta is None:
-        found.append(Omission("the discriminant of the largest ball", "it decides too little of this region"))
-    if setting.cut is None and setting.box.z is not None:
-        found.append(Omission("the test of height", "the region ends before the hyperboloids do"))
-    return tuple(found)
+_SIZES_ALONE = Omission(
+    "the divisions and the products of sizes alone",
+    "the sizes are fixed: each is rounded once, from its exact value, when the kernel is made",
+)
+_AXIS = Omission(
+    "the axis, in lines and discriminant",
+    "what the smallest ball about the spheroid is clear of, so is the spheroid; what the largest ball in it "
+    "touches, it touches too",
+)
+_DISCRIMINANT = Omission(
+    "the discriminant",
+    "of degree 12 in the lengths, it decides too little of this region in this format, "
+    "or leaves it; the dual form, of degree 2, does not",
+)
+_DISCRIMINANT_OF_BALL = Omission("the discriminant of the largest ball", "it decides too little of this region")
 
 
 def _omissions(
     setting: Setting, question: str, delta: Discriminant | None, constants: dict[str, float]
 ) -> tuple[Omission, ...]:
-    found = [
-        Omission(
-            "the divisions and the products of sizes alone",
-            "the sizes are fixed: each is rounded once, from its exact value, when the kernel is made",
-        ),
-        *_one_sided(question),
-    ]
+    upright = setting.axis is None
+    found = [_SIZES_ALONE if upright else _AXIS, *_one_sided(question)]
     if delta is None:
-        found.append(
-            Omission(
-                "the discriminant",
-                "of degree 12 in the lengths, it decides too little of this region in this format, "
-                "or leaves it; the dual form, of degree 2, does not",
-            )
-        )
-    elif not delta.clear_where_positive:
+        found.append(_DISCRIMINANT if upright else _DISCRIMINANT_OF_BALL)
+    elif upright and not delta.clear_where_positive:
         found.append(Omission("clear where Δ > 0", "a < 1 or c² < a: Δ > 0 does not mean clear there"))
-    if not constants:
+    if upright and not constants:
         found.append(Omission("scaling of lengths", "the semi-axes are ordinary: no square leaves the format"))
     if setting.cut is None and setting.box.z is not None:
         found.append(Omission("the test of height", "the region ends before the hyperboloids do"))

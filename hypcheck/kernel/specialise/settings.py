@@ -55,8 +55,10 @@ class Setting:
     axis: Point | Literal["free"] | None = None
 
     @property
-    def balls(self) -> tuple[Sizes, Sizes]:
-        """The sizes with the largest ball in the spheroid for it, and with the smallest ball about it."""
+    def inner_and_outer(self) -> tuple[Sizes, Sizes]:
+        """The sizes; of a spheroid that leans, with the largest ball in it for it, and with the smallest about it."""
+        if self.axis is None:
+            return self.sizes, self.sizes
         alpha, gamma, b, d = self.sizes
         return (alpha, gamma, min(b, d), min(b, d)), (alpha, gamma, max(b, d), max(b, d))
 
@@ -106,8 +108,7 @@ def position_of_box(setting: Setting) -> Position | None:
 
 
 def _at(setting: Setting, centre: tuple[float, float, float]) -> Position:
-    sizes = setting.sizes if setting.axis is None else setting.balls[1]
-    return integers.position(Pair.from_row((*sizes, *centre)).lengths)
+    return integers.position(Pair.from_row((*setting.inner_and_outer[1], *centre)).lengths)
 
 
 def _least(span: Span | None) -> float:

@@ -124,7 +124,7 @@ def test_a_kernel_for_any_axis_answers_cannot_say_without_a_direction_where_ever
     skip_without(language)
     nowhere = SceneModel("an elm", "position", TREES[1:], Mover(0.3, 0.9, axis=FREE), Region(x=Span(90.0, 99.0)))
     nowhere = replace(nowhere, region=replace(nowhere.region, z=Span(-1.0, 1.0)))
-    assert [stages.always for stages in plan_of(nowhere).settings] == [Position.EXTERIOR]
+    assert [stages.last for stages in plan_of(nowhere).settings] == [Position.EXTERIOR]
     places = [
         (tower(FREE), [2.0, 17.8, 0.25, 0.15], ((0.0, -1), (9.0, 1))),
         (nowhere, [0.14, 10, 0.3, 0.9], ((95, 1),)),

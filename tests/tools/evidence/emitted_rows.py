@@ -69,7 +69,7 @@ def _parts(stages: Stages, axis: tuple[float, ...], single: bool) -> Iterator[tu
     yield np.full(2 * BLOCK, 0.0), np.full(2 * BLOCK, 0.0), np.linspace(-1e-3 * d, 1e-3 * d, 2 * BLOCK)
     yield 50 * (alpha + b) * (1 + random.random(2 * BLOCK)), np.zeros(2 * BLOCK), np.zeros(2 * BLOCK)
     yield from _odd(_tangent(stages, axis, _TURNS[0], np.zeros(1), 1)[0], gamma)
-    if isinstance(stages.search, LeaningSearch):
+    if isinstance(stages.last, LeaningSearch):
         yield from _planes(stages, axis, random)
 
 
@@ -93,7 +93,7 @@ def _around(
 def _limits(stages: Stages) -> Iterator[Floats]:
     """Coordinates whose squares are at the limits of a stage, a few roundings beside them, and far beyond."""
     factors = np.concatenate([1 + np.arange(-4, 5) * 2.0**-52, [0.25, 0.9, 1.1, 3.0, 1e3]])
-    for stage in (stages.discriminant, stages.search):
+    for stage in (stages.discriminant, stages.last):
         for square, unit in () if stage is None else ((stage.widest, RADIAL), (stage.highest, AXIAL)):
             with np.errstate(over="ignore"):
                 yield square**0.5 / stages.entry_constants.get(unit, 1.0) * factors
@@ -134,7 +134,7 @@ def _odd(x: float, gamma: float) -> Iterator[tuple[Floats, ...]]:
 
 def _planes(stages: Stages, axis: tuple[float, ...], random: np.random.Generator) -> Iterator[tuple[Floats, ...]]:
     """Centres in the planes of the frame, where one component is 0 but for its error: x and y are given, z is found."""
-    (alpha, gamma, b, _), search = stages.setting.sizes, stages.search
+    (alpha, gamma, b, _), search = stages.setting.sizes, stages.last
     assert isinstance(search, LeaningSearch)
     level = np.array(axis[:2]) if any(axis[:2]) else np.array([1.0, 0.0])
     for power in range(-6, 12):
@@ -166,7 +166,7 @@ def ask_limits(plan: ScenePlan, stages: Stages, ask: Callable[[Rows], np.ndarray
     Beyond the modelled height nothing can be said. Elsewhere an answer is within the bound, or none where the last
     stage cannot decide: so far out that something overflows, or between the bounds of double-double.
     """
-    if stages.search is None:
+    if not stages.searches:
         return
     for rows in limit_rows(stages, plan.format.name == "float32"):
         found = ask(rows)
@@ -180,7 +180,7 @@ def _judge(plan: ScenePlan, stages: Stages, rows: Rows, found: np.ndarray) -> No
             beyond = (rows[:, 6] < cut.low) | (rows[:, 6] > cut.high)
         assert (found[beyond] == CANNOT_SAY).all() or plan.format.name != "float64"
         numbers &= ~beyond
-    leans = isinstance(stages.search, LeaningSearch)
+    leans = isinstance(stages.last, LeaningSearch)
     near = (np.abs(rows[:, 4:7]) < 1e6 * max(stages.setting.sizes)).all(axis=1)
     assert not (found[near & numbers] == CANNOT_SAY).any() or leans
     kept = numbers & (found != CANNOT_SAY)

@@ -32,7 +32,7 @@ FORMAT = PLANS["tower float64"].format
 def test_every_centre_whose_maximum_is_nearer_to_a_pole_is_beyond_a_line(name):
     """In P and Q, 2⁻¹⁸ apart at least: more than the roundings of float32 and the lines' own margin together."""
     plan, slack = PLANS[name], 1 + Fraction(1, 2**18)
-    asked = [stages for stages in plan.settings if stages.search is not None]
+    asked = [stages for stages in plan.settings if stages.searches]
     assert asked
     for stages in asked:
         of = scaled(stages.setting.sizes, plan.format)
