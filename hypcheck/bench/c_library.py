@@ -1,4 +1,4 @@
-"""Compiling the methods in C with the compiler of this machine, and calling them."""
+"""C that is compiled with the compiler of this machine: the methods, and what the compiled kernel is timed beside."""
 
 from __future__ import annotations
 
@@ -6,26 +6,42 @@ import ctypes
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from time import perf_counter_ns
+from time import thread_time_ns
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.c_source import FAST, CBody, Ready, dual, of_formula, source, trigonometric
+from hypcheck.bench.c_source import (
+    FAST,
+    WORDS,
+    CMethod,
+    baselines_source,
+    dual,
+    of_formula,
+    source,
+    trigonometric,
+)
 from hypcheck.bench.contender import EmptyCall, PreparedWork
-from hypcheck.bench.timing import Clocked
+from hypcheck.bench.timing import Clocked, clocked, clocked_in_c
 from hypcheck.bench.workloads import scene_of
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import UnavailableError
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import Columns, Positions, Rows
 from hypcheck.implementations.method import RECIPROCAL, Answers
 from hypcheck.implementations.procedures import CRAFT, MOVING, CraftPath
 from hypcheck.kernel import core
+from hypcheck.kernel.choice import choice
+from hypcheck.kernel.choice import compiled as compiled_kernel
+from hypcheck.kernel.compiled_kernel import in_parts
+from hypcheck.vectors.scenes import BODY, TOWER
 
 FLAGS = ("-O3", "-march=native", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
 """No flag changes a result: no fast-math, no contraction. The last two let gcc vectorise comparisons."""
@@ -34,6 +50,7 @@ LISTED = ("table-2", "coefficients", "hessian", "shared", "local-maximum")
 FORMATS = ("float32", "float64")
 
 _SECONDS = 120
+_INCLUDE = f"-I{core.__path__[0]}"
 
 
 @dataclass(frozen=True)
@@ -51,7 +68,7 @@ allow FMA."""
 
 
 @cache
-def bodies() -> tuple[CBody | Ready, ...]:
+def bodies() -> tuple[CMethod, ...]:
     """Every method in C; its place in the driver's table is its place here plus one."""
     listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
     roots = [trigonometric(format_name) for format_name in FORMATS]
@@ -67,38 +84,37 @@ def place_of(name: str) -> int:
 
 
 def compiled(folder: Path) -> tuple[Path, Compiler]:
-    """The library, made in a folder. Raises UnavailableError if no compiler can make it."""
+    """The library of the methods, made in a folder. Raises UnavailableError if no compiler can make it."""
     code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
     code.write_text(source(bodies()), encoding="ascii")
     with ThreadPoolExecutor(1) as beside:
         kernel = beside.submit(_kernel, folder)
         compiler = compile_c(code, methods, "-c")
-    done = run_compiler([compiler.program, "-shared", str(methods), kernel.result(), "-o", str(library), "-lm"])
-    if done.returncode != 0:
-        raise UnavailableError(f"{compiler.program} does not link {library.name}: {_first_line(done)}")
+    words = [compiler.program, "-shared", str(methods), kernel.result(), "-o", str(library), "-lm"]
+    _require(run_compiler(words), f"link {library.name}")
     return library, compiler
 
 
 def compile_c(code: Path, target: Path, how: str = "-shared") -> Compiler:
     """Compile a C file to a library, or as `how` says. Raises UnavailableError without a compiler."""
     program = compiler_here()
-    trouble = ""
+    tried = []
     for flags in (FLAGS, tuple(flag for flag in FLAGS if flag != "-march=native")):  # not every target has this flag
-        words = [program, *flags, f"-I{core.__path__[0]}", how, str(code), "-o", str(target), "-lm"]
-        done = run_compiler(words)
-        if done.returncode == 0:
-            return Compiler(program, _version(program), flags)
-        trouble = trouble or _first_line(done)
-    raise UnavailableError(f"{program} does not compile {code.name}: {trouble}")
+        tried.append(run_compiler([program, *flags, _INCLUDE, how, str(code), "-o", str(target), "-lm"]))
+        if tried[-1].returncode == 0:
+            break
+    else:
+        _require(tried[0], f"compile {code.name}")
+    version = run_compiler([program, "--version"]).stdout.splitlines() or [""]
+    return Compiler(program, version[0], flags)
 
 
 def _kernel(folder: Path) -> str:
     """The object file of the fast path."""
     program, code, target = compiler_here(), folder / "fast.c", folder / "fast.o"
     code.write_text('#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n', encoding="ascii")
-    done = run_compiler([program, *KERNEL_FLAGS, f"-I{core.__path__[0]}", "-c", str(code), "-o", str(target)])
-    if done.returncode != 0:
-        raise UnavailableError(f"{program} does not compile the fast path: {_first_line(done)}")
+    done = run_compiler([program, *KERNEL_FLAGS, _INCLUDE, "-c", str(code), "-o", str(target)])
+    _require(done, "compile the fast path")
     return str(target)
 
 
@@ -120,23 +136,38 @@ def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
         raise UnavailableError(f"{words[0]} cannot be run: {error}") from None
 
 
-def _first_line(done: subprocess.CompletedProcess[str]) -> str:
-    return (done.stderr.strip().splitlines() or ["it says nothing"])[0]
+def _require(done: subprocess.CompletedProcess[str], what: str) -> None:
+    """Raise UnavailableError if the compiler did not do `what`."""
+    if done.returncode != 0:
+        said = (done.stderr.strip().splitlines() or ["it says nothing"])[0]
+        raise UnavailableError(f"{done.args[0]} does not {what}: {said}")
 
 
-def _version(program: str) -> str:
-    return (run_compiler([program, "--version"]).stdout.splitlines() or [""])[0]
+_SIZE, _POINTER = ctypes.c_size_t, ctypes.c_void_p
+_FUNCTIONS: Mapping[str, tuple[Any, tuple[Any, ...]]] = MappingProxyType(
+    {
+        "bench_rows": (None, (_SIZE, _SIZE, _SIZE, _POINTER, _POINTER)),
+        "bench_single": (None, (_SIZE, _SIZE, _SIZE, _POINTER, _POINTER)),
+        "bench_scene": (None, (_SIZE, _SIZE, _POINTER, _SIZE, *[_POINTER] * 4)),
+        "bench_bodies": (None, (_SIZE, _SIZE, _POINTER, _SIZE, *[_POINTER] * 6)),
+        "read_only": (ctypes.c_uint64, (_SIZE, *[_POINTER] * 3)),
+        "read_over_and_over": (None, (_SIZE, _SIZE, *[_POINTER] * 3)),
+        "products": (ctypes.c_uint32, (_SIZE, _POINTER, _POINTER)),
+        "rows_over_and_over": (None, (_POINTER, _SIZE, _SIZE, _POINTER, _POINTER)),
+        "over_and_over": (None, (_POINTER, _SIZE, _POINTER, _SIZE, *[_POINTER] * 4)),
+        "plain": (None, (_POINTER, _SIZE, *[_POINTER] * 4)),
+    }
+)
+"""The result and the arguments of each function in C, of whichever library has it."""
 
 
 @cache
 def _loaded(library: Path) -> ctypes.CDLL:
     loaded = ctypes.CDLL(str(library))
-    pointer, size = ctypes.c_void_p, ctypes.c_size_t
-    loaded.bench_rows.argtypes = loaded.bench_single.argtypes = (size, size, size, pointer, pointer)
-    loaded.bench_scene.argtypes = (size, size, pointer, size, pointer, pointer, pointer, pointer)
-    loaded.bench_bodies.argtypes = (size, size, pointer, size, *[pointer] * 6)
-    for function in (loaded.bench_rows, loaded.bench_single, loaded.bench_scene, loaded.bench_bodies):
-        function.restype = None
+    for name, (result, arguments) in _FUNCTIONS.items():
+        if hasattr(loaded, name):
+            function = getattr(loaded, name)
+            function.restype, function.argtypes = result, arguments
     return loaded
 
 
@@ -216,14 +247,97 @@ def _prepared(count: int, call: Callable[[int], object], found: Answers) -> Prep
         call(1)
         return found
 
-    return PreparedWork(count, _clocked(call, found), answers)
+    return PreparedWork(count, clocked_in_c(call, found), answers)
 
 
-def _clocked(call: Callable[[int], object], found: Answers) -> Clocked:
-    def run(repeat: int) -> tuple[int, int]:
-        found.fill(0)  # so that answers of an earlier call cannot count for these
-        started = perf_counter_ns()
-        call(repeat)
-        return perf_counter_ns() - started, int(found.sum(dtype=np.int64))
+BASELINE_FLAGS = ("-O3", "-std=c99", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
 
-    return run
+LEVEL_FLAGS = {
+    "avx512": (("-march=native", "-mprefer-vector-width=512"), ("-march=native", "-mprefer-vector-width=256")),
+    "avx2": (("-mavx2", "-mfma", "-mbmi2"),),
+    "sse2": ((),),
+    "neon": ((),),
+    "plain": ((),),
+}
+"""For each level of the kernel the flags for each width of vectors."""
+
+TOWER_SIZES: Sizes = (*TOWER, *BODY)
+"""α, γ, b, d of the scene in which the kernel is timed, the paper's cooling tower."""
+
+_SIZES = np.array(TOWER_SIZES)
+
+
+@dataclass(frozen=True)
+class CBaseline:
+    """What the compiled kernel is timed beside, as a compiled library; with the flags of the compiler.
+
+    It reads columns (x, y, z), each (n,), or asks about them in the scene of TOWER_SIZES; `out` (n,) takes answers.
+    Callers keep the arrays: pointers alone would not.
+    """
+
+    library: ctypes.CDLL
+    flags: tuple[str, ...]
+
+    def read(self, columns: Columns, threads: int = 1, clock: Callable[[], int] = thread_time_ns) -> Clocked:
+        """Read the columns, in threads that share them as the kernel does; one thread is timed by its own time."""
+
+        def part(start: int, stop: int) -> int:
+            return int(self.library.read_only(stop - start, *_pointers(column[start:] for column in columns))) & 0xFFFF
+
+        return clocked(lambda: np.array([in_parts(part, len(columns[0]), threads)]), clock)
+
+    def reading(self, columns: Columns) -> Callable[[int], None]:
+        """Reads the columns so many times in one call, during which other Python threads can run."""
+        function, pointers = self.library.read_over_and_over, _pointers(columns)
+        return lambda times: function(times, len(columns[0]), *pointers)
+
+    def product(self) -> Clocked:
+        """Multiply two long integers, half of the product: what exact decisions are made of."""
+        numbers = np.random.Generator(np.random.PCG64(1)).integers(1 << 31, 1 << 32, (2, WORDS), dtype=np.uint32)
+        no_answers = np.zeros(0, dtype=np.int8)
+        return clocked_in_c(lambda times: self.library.products(times, *_pointers(numbers)), no_answers, thread_time_ns)
+
+    def of_rows(self, rows: Rows, out: Positions) -> Callable[[int], None]:
+        """Asks the compiled kernel about rows so many times in one call."""
+        ask = ctypes.cast(ctypes.CDLL(str(compiled_kernel().__file__)).hypcheck_ask, _POINTER)
+        function, pointers = self.library.rows_over_and_over, _pointers((rows, out))
+        return lambda times: function(ask, times, len(rows), *pointers)
+
+    def of_scene(self, columns: Columns, out: Positions) -> Callable[[int], None]:
+        """Asks the compiled kernel so many times in one call, during which other Python threads can run."""
+        ask = ctypes.cast(ctypes.CDLL(str(compiled_kernel().__file__)).hypcheck_ask_scene, _POINTER)
+        function, pointers = self.library.over_and_over, _pointers((*columns, out))
+        return lambda times: function(ask, times, _SIZES.ctypes.data, len(out), *pointers)
+
+    def plain(self, columns: Columns, out: Positions) -> Clocked:
+        """The plain formula in one thread; the sum is that of its answers."""
+        function, pointers = self.library.plain, _pointers((*columns, out))
+
+        def work() -> Positions:
+            function(_SIZES.ctypes.data, len(out), *pointers)
+            return out
+
+        return clocked(work, thread_time_ns)
+
+
+def _pointers(arrays: Iterable[NDArray[Any]]) -> list[int]:
+    return [array.ctypes.data for array in arrays]
+
+
+@cache
+def c_baselines(folder: Path, level: str | None = None) -> list[CBaseline]:
+    """One library for each width of vectors of the level, by default the kernel's; they are compiled once.
+
+    Raises UnavailableError if there is no compiler.
+    """
+    program, code = compiler_here(), folder / "baselines.c"
+    code.write_text(baselines_source(), encoding="ascii")
+    found = []
+    for number, flags in enumerate(LEVEL_FLAGS[level or str(choice().level)]):
+        library = folder / f"baselines-{number}.so"
+        words = [program, *BASELINE_FLAGS, *flags, "-shared", str(code), "-o", str(library), "-lm"]
+        if run_compiler(words).returncode == 0:
+            found.append(CBaseline(_loaded(library), flags))
+    if not found:
+        raise UnavailableError(f"{program} does not compile the baselines in C")
+    return found

@@ -3,12 +3,12 @@
 Each method is two functions, for rows and for the centres of one scene, in a table. A driver calls them through the
 table as often as asked, so that neither Python nor an optimiser affects the timing. The roots and the search of the
 dual form are written here, because they are no straight-line programs. A procedure answers one position a call, as a
-craft asks before it moves.
+craft asks before it moves. A second file has what the compiled kernel is timed beside.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from hypcheck.derivation.formulas import FORMULAS, Formula
@@ -140,31 +140,19 @@ LEAST = {"float": "FLT_MIN", "double": "DBL_MIN", "long double": "LDBL_MIN"}
 
 
 @dataclass(frozen=True)
-class CBody:
-    """The C code before the loop over centres and in it, and the expression of the answer."""
-
-    name: str
-    number: str
-    before: tuple[str, ...]
-    inside: tuple[str, ...]
-    answer: str
-
-
-def source(bodies: Iterable[CBody | Ready]) -> str:
-    """The whole file; the table begins with a method that does nothing."""
-    listed = list(bodies)
-    rows = ", ".join(f"{identifier(each.name)}_rows" for each in listed)
-    scenes = ", ".join(f"{identifier(each.name)}_scene" for each in listed)
-    functions = "\n".join(each.code if isinstance(each, Ready) else _functions(each) for each in listed)
-    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}{procedures_source()}"
-
-
-@dataclass(frozen=True)
-class Ready:
-    """A method whose two functions, NAME_rows and NAME_scene, exist already."""
+class CMethod:
+    """A method's name, and the code of its two functions: identifier(NAME) with _rows and _scene appended."""
 
     name: str
     code: str
+
+
+def source(methods: Sequence[CMethod]) -> str:
+    """The whole file; the table begins with a method that does nothing."""
+    rows = ", ".join(f"{identifier(each.name)}_rows" for each in methods)
+    scenes = ", ".join(f"{identifier(each.name)}_scene" for each in methods)
+    functions = "\n".join(each.code for each in methods)
+    return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}{procedures_source()}"
 
 
 def identifier(name: str) -> str:
@@ -172,12 +160,12 @@ def identifier(name: str) -> str:
     return name.replace("-", "_").replace(".", "_")
 
 
-def of_formula(formula: Formula, format_name: str) -> CBody:
+def of_formula(formula: Formula, format_name: str) -> CMethod:
     """A formula as it is printed; steps that depend on sizes only come before the loop."""
     number = NUMBERS[format_name]
     outside, inside = parts(formula)
     known = tuple(step.name for step in outside.steps)
-    return CBody(
+    return _method(
         f"{formula.name}-{format_name}",
         number,
         c_statements(outside, known, number=number),
@@ -186,14 +174,14 @@ def of_formula(formula: Formula, format_name: str) -> CBody:
     )
 
 
-def trigonometric(format_name: str) -> CBody:
+def trigonometric(format_name: str) -> CMethod:
     """The roots of g by the trigonometric form, only if Δ > 0; they decide as in implementations/alternatives.py."""
     number = NUMBERS[format_name]
     outside, inside = parts(_CUBIC)
     known = tuple(step.name for step in outside.steps)
     wanted = tuple(name for name in ("c0", "c1", "c2", "delta") if name not in known)
     end = C_SUFFIXES[number]
-    return CBody(
+    return _method(
         f"trigonometric-{format_name}",
         number,
         c_statements(outside, known, number=number),
@@ -202,12 +190,12 @@ def trigonometric(format_name: str) -> CBody:
     )
 
 
-def dual(format_name: str) -> CBody:
+def dual(format_name: str) -> CMethod:
     """The dual form: the search of implementations/alternatives.py, step by step, then the rest of the program."""
     number = NUMBERS[format_name]
     program = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
     search = _SEARCH.format(N=number, f=C_SUFFIXES[number], digits=DIGITS[number], least=LEAST[number])
-    return CBody(
+    return _method(
         f"dual-{format_name}",
         number,
         (),
@@ -216,7 +204,7 @@ def dual(format_name: str) -> CBody:
     )
 
 
-FAST = Ready(
+FAST = CMethod(
     "fast",
     """
 static void fast_rows(size_t n, const double *restrict rows, int8_t *restrict out)
@@ -240,39 +228,43 @@ _TABLE_2 = FORMULAS["table-2"]
 _CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, "delta", "Table 2")
 
 
-def _functions(body: CBody) -> str:
-    name, number = identifier(body.name), body.number
+def _method(name: str, number: str, before: Sequence[str], inside: Sequence[str], answer: str) -> CMethod:
+    """A method from its statements before the loop over centres and in it, and the expression of the answer.
+
+    `number` is the C type of its numbers.
+    """
+    called, within = identifier(name), _indented(inside, 8)
     taken = "\n".join(f"        const {number} {each} = ({number})row[{place}];" for place, each in enumerate(COLUMNS))
     sizes = "\n".join(f"    const {number} {each} = ({number})sizes[{place}];" for place, each in enumerate(SIZES))
     centre = "\n".join(f"        const {number} {each} = ({number}){each}s[i];" for each in ("x", "y", "z"))
-    before, inside = _indented(body.before, 4), _indented(body.inside, 8)
-    return f"""
-static void {name}_rows(size_t n, const double *restrict rows, int8_t *restrict out)
+    code = f"""
+static void {called}_rows(size_t n, const double *restrict rows, int8_t *restrict out)
 {{
     for (size_t i = 0; i < n; i++) {{
         const double *const row = rows + 7 * i;
 {taken}
-{_indented(body.before, 8)}
-{inside}
-        out[i] = (int8_t)({body.answer});
+{_indented(before, 8)}
+{within}
+        out[i] = (int8_t)({answer});
     }}
 }}
 
-static void {name}_scene(const double *restrict sizes, size_t n, const double *restrict xs,
+static void {called}_scene(const double *restrict sizes, size_t n, const double *restrict xs,
                          const double *restrict ys, const double *restrict zs, int8_t *restrict out)
 {{
 {sizes}
-{before}
+{_indented(before, 4)}
     for (size_t i = 0; i < n; i++) {{
 {centre}
-{inside}
-        out[i] = (int8_t)({body.answer});
+{within}
+        out[i] = (int8_t)({answer});
     }}
 }}
 """
+    return CMethod(name, code)
 
 
-def _indented(lines: Iterable[str], depth: int) -> str:
+def _indented(lines: Sequence[str], depth: int) -> str:
     return "\n".join(" " * depth + line for line in lines)
 
 
@@ -361,3 +353,87 @@ const {N} size = near_zero ? high : pole - high, lambda_ = within ? -size : size
 const {N} to_pole = near_zero ? pole - high : high, to_other = other + (near_zero ? high : pole - high);
 const {N} A_plus_lambda = within ? to_pole : to_other, B_minus_lambda = within ? to_other : to_pole;
 """
+
+
+WORDS = 40
+"""32-bit words of the integers whose product measures exact decisions. 1280 bits have room for the discriminant of a
+row: it is of degree 24 in numbers of 53 bits that are alike in magnitude."""
+
+_BASELINES = (
+    f"""\
+#define WORDS {WORDS}
+"""
+    """\
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+uint64_t read_only(size_t n, const uint64_t *restrict x, const uint64_t *restrict y, const uint64_t *restrict z)
+{
+    uint64_t mixed = 0;
+    for (size_t i = 0; i < n; i++)
+        mixed ^= x[i] ^ y[i] ^ z[i];
+    return mixed;
+}
+
+void read_over_and_over(size_t times, size_t n, const uint64_t *x, const uint64_t *y, const uint64_t *z)
+{
+    static volatile uint64_t seen;
+    while (times--)
+        seen = read_only(n, x, y, z);
+}
+
+/* The lower half of what two integers of WORDS words multiply to, column by column, over and over. */
+uint32_t products(size_t times, const uint32_t *left, const uint32_t *right)
+{
+    uint32_t result[WORDS], sum = 0;
+    while (times--) {
+        memset(result, 0, sizeof result);
+        for (size_t i = 0; i < WORDS; i++) {
+            uint64_t carry = 0;
+            for (size_t k = 0; i + k < WORDS; k++) {
+                carry += (uint64_t)(left[i] ^ (uint32_t)times) * right[k] + result[i + k];
+                result[i + k] = (uint32_t)carry;
+                carry >>= 32;
+            }
+        }
+        sum ^= result[WORDS - 1];
+    }
+    return sum;
+}
+
+typedef size_t (*by_rows)(int, size_t, const double *, int8_t *);
+
+void rows_over_and_over(by_rows ask, size_t times, size_t n, const double *rows, int8_t *out)
+{
+    while (times--)
+        ask(0, n, rows, out);
+}
+
+typedef size_t (*kernel)(int, const double *, size_t, const double *, const double *, const double *, int8_t *);
+
+void over_and_over(kernel ask, size_t times, const double *sizes, size_t n, const double *x, const double *y,
+                   const double *z, int8_t *out)
+{
+    while (times--)
+        ask(0, sizes, n, x, y, z, out);
+}
+"""
+)
+
+_PLAIN = """
+void plain(const double *restrict sizes, size_t n, const double *restrict xs, const double *restrict ys,
+           const double *restrict zs, int8_t *restrict out)
+{
+    table_2_float64_scene(sizes, n, xs, ys, zs, out);
+}
+"""
+
+
+def baselines_source() -> str:
+    """What the compiled kernel is timed beside: reading its rows, long products, and Table 2, which certifies nothing.
+
+    Other functions ask the kernel over and over.
+    """
+    return _BASELINES + of_formula(_TABLE_2, "float64").code + _PLAIN

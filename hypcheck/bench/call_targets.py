@@ -8,24 +8,28 @@ plain formula in plain Python, which proves nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from time import thread_time_ns
+from timeit import Timer
 
 import numpy as np
 
 import hypcheck
-from hypcheck.bench.compiled_targets import TOWER_SIZES, c_baselines, uniform_columns
+from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
+from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
 from hypcheck.bench.timing import (
     Clocked,
     KernelTarget,
+    Samples,
     TimingEntry,
+    clocked_in_c,
     measured_samples,
     rate_text,
     thread_clocked,
 )
-from hypcheck.geometry.rows import Columns, Positions
+from hypcheck.geometry.rows import Floats
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import extension
 from hypcheck.kernel.scalar import exact_position
@@ -75,31 +79,27 @@ def _batch_targets(count: int) -> dict[str, KernelTarget]:
 def batches(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """Batches that stay in the cache."""
     for count in BATCHES:
-        yield from _batch(folder, count, 3 * rounds)
+        yield from batch(folder, count, 3 * rounds)
 
 
-def large_batches(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """A batch from memory; what the first touch of a new array costs there is said beside it."""
-    yield from _batch(folder, MANY, rounds, with_rows=False)
-
-
-def _batch(folder: Path, count: int, rounds: int, *, with_rows: bool = True) -> Iterator[KernelLine]:
+def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
+    """A batch; what the first touch of a new array costs is said beside it. MANY rows, from memory, by scene alone."""
     columns, out = uniform_columns(count), np.zeros(count, dtype=np.int8)
-    library, sizes = c_baselines(folder, str(choice().level))[0], np.array(TOWER_SIZES)
-    most = {"threads": 1} if count == MANY else {}
-    scene = partial(hypcheck.classify_scene, TOWER_SIZES, *columns)
+    library, large = c_baselines(folder)[0], count == MANY
+    scene = partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1 if large else None)
+    take, new = partial(extension().take, TOWER_SIZES, *columns, out), partial(np.empty, count, np.dtype(np.int8))
     entries = [
-        TimingEntry("in C", count, _in_c(library.of_scene(sizes, *columns, out), out)),
-        TimingEntry("fresh", count, thread_clocked(partial(scene, **most))),
-        TimingEntry("in place", count, thread_clocked(partial(scene, out, **most))),
-        TimingEntry("array", 1, _repeated(partial(np.empty, count, np.dtype(np.int8)))),
-        TimingEntry("empty", 1, _repeated(partial(extension().take, TOWER_SIZES, *columns, out))),
-        TimingEntry("first touch", count, _repeated(partial(_touched, count))),
+        TimingEntry("in C", count, clocked_in_c(library.of_scene(columns, out), out, thread_time_ns)),
+        TimingEntry("fresh", count, thread_clocked(scene)),
+        TimingEntry("in place", count, thread_clocked(partial(scene, out))),
+        TimingEntry("array", 1, _statement("new()", new=new)),
+        TimingEntry("empty", 1, _statement("take()", take=take)),
+        TimingEntry("first touch", count, _statement("new().fill(1)", new=new)),
     ]
-    if with_rows:
-        rows = np.column_stack([*(np.full(count, size) for size in TOWER_SIZES), *columns])
+    if not large:
+        rows = tower_rows(columns)
         entries += [
-            TimingEntry("rows in C", count, _in_c(library.of_rows(rows, out), out)),
+            TimingEntry("rows in C", count, clocked_in_c(library.of_rows(rows, out), out, thread_time_ns)),
             TimingEntry("rows", count, thread_clocked(partial(hypcheck.classify, rows))),
             TimingEntry("rows in place", count, thread_clocked(partial(hypcheck.classify, rows, out=out))),
         ]
@@ -117,80 +117,39 @@ def _batch(folder: Path, count: int, rounds: int, *, with_rows: bool = True) -> 
             yield target.line([(in_c + (empty + array) / count) / mine for mine, in_c, empty, array in each], says)
 
 
-def _touched(count: int) -> None:
-    """A new array whose memory is written once: what a call without out= cannot do without."""
-    np.empty(count, dtype=np.int8).fill(1)
-
-
-def _in_c(work: Callable[[int], None], out: Positions) -> Clocked:
-    def run(repeat: int) -> tuple[int, int]:
-        started = thread_time_ns()
-        work(repeat)
-        return thread_time_ns() - started, int(out.sum(dtype=np.int64))
-
-    return run
-
-
-def _repeated(call: Callable[[], object]) -> Clocked:
-    def run(repeat: int) -> tuple[int, int]:
-        started = thread_time_ns()
-        for _ in range(repeat):
-            call()
-        return thread_time_ns() - started, 0
-
-    return run
-
-
 def ten_centres(rounds: int) -> Iterator[KernelLine]:
     """A batch so small that its cost is that of a call."""
-    x, y, z = uniform_columns(TEN)
     out = np.empty(TEN, dtype=np.int8)
-    take, nothing = extension().take, extension().nothing
+    names = dict(zip(("sizes", "x", "y", "z"), (TOWER_SIZES, *uniform_columns(TEN)), strict=True))
+    take, ask = extension().take, hypcheck.classify_scene
     entries = [
-        TimingEntry("loop", 1, _scene_loop(None, x, y, z)),
-        TimingEntry("nothing", 1, _scene_loop(nothing, x, y, z)),
-        TimingEntry("take", 1, _scene_loop(take, x, y, z, None)),
-        TimingEntry("take out", 1, _scene_loop(take, x, y, z, out)),
-        TimingEntry("fresh", 1, _scene_loop(hypcheck.classify_scene, x, y, z)),
-        TimingEntry("in place", 1, _scene_loop(hypcheck.classify_scene, x, y, z, out)),
+        TimingEntry("loop", 1, _statement("pass")),
+        TimingEntry("nothing", 1, _statement("ask(sizes, x, y, z)", ask=extension().nothing, **names)),
+        TimingEntry("take", 1, _statement("ask(sizes, x, y, z, out)", ask=take, out=None, **names)),
+        TimingEntry("take out", 1, _statement("ask(sizes, x, y, z, out)", ask=take, out=out, **names)),
+        TimingEntry("fresh", 1, _statement("ask(sizes, x, y, z)", ask=ask, **names)),
+        TimingEntry("in place", 1, _statement("ask(sizes, x, y, z, out)", ask=ask, out=out, **names)),
     ]
-    found = measured_samples(entries, 3 * rounds)
-    net = {name: _net(each.samples_ns, found["loop"].samples_ns) for name, each in found.items() if name != "loop"}
+    net = _without_loop(measured_samples(entries, 3 * rounds))
     for target, name, least in ((TEN_CENTRES, "fresh", "take"), (TEN_IN_PLACE, "in place", "take out")):
         says = (
             f"{np.median(net[name]):.3g} ns; an empty call that takes the arrays {np.median(net[least]):.3g} ns, one "
             f"that does not look at them {np.median(net['nothing']):.3g} ns: {LOOP}"
         )
-        yield target.line(_ratios(net[name], net[least]), says)
+        yield target.line((net[name] / net[least]).tolist(), says)
 
 
-def _scene_loop(function: Callable[..., object] | None, x: object, y: object, z: object, *out: object) -> Clocked:
-    """Calls with the sizes and these arrays, CALLS at a time."""
-
-    def run(repeat: int) -> tuple[int, int]:
-        sizes, times = TOWER_SIZES, repeat
-        started = thread_time_ns()
-        if function is None:
-            for _ in range(times):
-                pass
-        elif out:
-            (into,) = out
-            for _ in range(times):
-                function(sizes, x, y, z, into)
-        else:
-            for _ in range(times):
-                function(sizes, x, y, z)
-        return thread_time_ns() - started, 0
-
-    return run
+def _statement(text: str, **names: object) -> Clocked:
+    """A statement in Python with these names, as often as asked; it has no sum."""
+    bound = "; ".join(f"{name} = values[{name!r}]" for name in names)
+    timer = Timer(text, bound or "pass", thread_time_ns, {"values": names})
+    return lambda repeat: (int(timer.timeit(repeat)), 0)
 
 
-def _net(samples: Sequence[float], empty: Sequence[float]) -> list[float]:
-    return [mine - loop for mine, loop in zip(samples, empty, strict=True)]
-
-
-def _ratios(mine: Sequence[float], other: Sequence[float]) -> list[float]:
-    return [one / two for one, two in zip(mine, other, strict=True)]
+def _without_loop(found: Mapping[str, Samples]) -> dict[str, Floats]:
+    """The samples, without the time of the empty loop in the same round."""
+    loop = np.array(found["loop"].samples_ns)
+    return {name: np.array(each.samples_ns) - loop for name, each in found.items()}
 
 
 def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float) -> int:
@@ -209,35 +168,16 @@ def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float,
 
 def one_call(rounds: int) -> Iterator[KernelLine]:
     """One pair at a time, from a loop in Python whose own time is subtracted."""
-    rows = list(zip(*(column.tolist() for column in _columns()), strict=True))
-    work: dict[str, Callable[..., object] | None] = {"loop": None, "plain": exact_position, "textbook": textbook}
+    rows = [tuple(row) for row in tower_rows(uniform_columns(CALLS)).tolist()]
+    each = "for alpha, gamma, b, d, x, y, z in rows:"
+    ask = f"{each} ask(alpha, gamma, b, d, x, y, z)"
+    asked: dict[str, object] = {"plain": exact_position, "textbook": textbook}
     if choice().kernel == "compiled":
-        work |= {"position": hypcheck.position, "nothing": extension().nothing}
-    found = measured_samples([TimingEntry(name, CALLS, _loop(each, rows)) for name, each in work.items()], 3 * rounds)
-    net = {name: _net(each.samples_ns, found["loop"].samples_ns) for name, each in found.items() if name != "loop"}
+        asked |= {"position": hypcheck.position, "nothing": extension().nothing}
+    entries = [TimingEntry("loop", CALLS, _statement(f"{each} pass", rows=rows))]
+    entries += [TimingEntry(name, CALLS, _statement(ask, rows=rows, ask=each)) for name, each in asked.items()]
+    net = _without_loop(measured_samples(entries, 3 * rounds))
     for target, name, least in ((ONE_CALL, "position", "nothing"), (PLAIN_CALL, "plain", "textbook")):
         if name in net:
             says = f"{np.median(net[name]):.3g} ns, {least} {np.median(net[least]):.3g} ns: {LOOP}"
-            yield target.line(_ratios(net[name], net[least]), says)
-
-
-def _columns() -> Columns | Sequence[np.ndarray]:
-    return [*(np.full(CALLS, size) for size in TOWER_SIZES), *uniform_columns(CALLS)]
-
-
-def _loop(function: Callable[..., object] | None, rows: Sequence[tuple[float, ...]]) -> Clocked:
-    def run(repeat: int) -> tuple[int, int]:
-        started = thread_time_ns()
-        if function is None:
-            for _ in range(repeat):
-                for alpha, gamma, b, d, x, y, z in rows:  # noqa: B007 - what the others do besides calling
-                    pass
-        else:
-            for _ in range(repeat):
-                for alpha, gamma, b, d, x, y, z in rows:
-                    function(alpha, gamma, b, d, x, y, z)
-        took = thread_time_ns() - started
-        answers = () if function is None else (function(*row) for row in rows)
-        return took, sum(each for each in answers if isinstance(each, int))
-
-    return run
+            yield target.line((net[name] / net[least]).tolist(), says)

@@ -5,26 +5,26 @@ tower. The plain formula, and a loop that only reads the rows, are compiled when
 set of the kernel. The plain formula is Table 2 as the programs print it, with what depends on sizes alone before
 the loop, and contraction allowed. It only answers whether the pair is exterior, and certifies nothing. It is compiled
 for each width of vectors, and the fastest counts.
+
+Spheroids that lean are asked about in the same scene, with axes in all directions, as one calls it from Python, with
+one thread: beside the upright ones, and beside numpy.linalg.eigh.
 """
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from statistics import median
-from time import thread_time_ns
+from time import perf_counter_ns, thread_time_ns
 
 import numpy as np
-from numpy.typing import NDArray
 
+import hypcheck
 from hypcheck.bench.accuracy import forget_peak, peak
-from hypcheck.bench.c_library import compiler_here, run_compiler
-from hypcheck.bench.c_source import of_formula
+from hypcheck.bench.c_library import TOWER_SIZES, CBaseline, c_baselines
+from hypcheck.bench.c_source import WORDS
 from hypcheck.bench.timing import (
-    Clocked,
     KernelTarget,
     Samples,
     TimingEntry,
@@ -35,18 +35,14 @@ from hypcheck.bench.timing import (
     times_as_fast,
     times_as_long,
 )
-from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.errors import UnavailableError
-from hypcheck.geometry.pair import SIZES, Sizes
-from hypcheck.geometry.rows import Columns, Floats, Positions, Rows
-from hypcheck.kernel.choice import choice, compiled
+from hypcheck.geometry.rows import Columns, Floats, Positions, Rows, tilted_rows
+from hypcheck.implementations.alternatives import by_eigenvectors
+from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import fill_scene, in_parts
 from hypcheck.record.measurements import KernelLine
 from hypcheck.vectors.families import FAMILIES
 from hypcheck.vectors.random_pairs import beside_surface
-from hypcheck.vectors.scenes import BODY, TOWER
 
-TOWER_SIZES: Sizes = (*TOWER, *BODY)
 SEED = 1
 DISTINCT = 1_000_000
 """The number of different rows. A longer array repeats them, because to draw ten million takes longer than to measure
@@ -72,200 +68,12 @@ def touching_columns(count: int) -> Columns:
     return radius * b * np.cos(turn), radius * b * np.sin(turn), level * d
 
 
-FLAGS = ("-O3", "-std=c99", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
-
-LEVEL_FLAGS = {
-    "avx512": (("-march=native", "-mprefer-vector-width=512"), ("-march=native", "-mprefer-vector-width=256")),
-    "avx2": (("-mavx2", "-mfma", "-mbmi2"),),
-    "sse2": ((),),
-    "neon": ((),),
-    "plain": ((),),
-}
+def tower_rows(columns: Columns) -> Rows:
+    """The rows (n, 7) of these centres in the scene of TOWER_SIZES."""
+    return np.column_stack([*(np.full(len(columns[0]), size) for size in TOWER_SIZES), *columns])
 
 
-WORDS = 40
-"""32-bit words of the integers whose product measures exact decisions. 1280 bits have room for the discriminant of a
-row: it is of degree 24 in numbers of 53 bits that are alike in magnitude."""
-
-_HEAD = (
-    f"""\
-#define WORDS {WORDS}
-"""
-    """\
-#include <math.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-uint64_t read_only(size_t n, const uint64_t *restrict x, const uint64_t *restrict y, const uint64_t *restrict z)
-{
-    uint64_t mixed = 0;
-    for (size_t i = 0; i < n; i++)
-        mixed ^= x[i] ^ y[i] ^ z[i];
-    return mixed;
-}
-
-void read_over_and_over(size_t times, size_t n, const uint64_t *x, const uint64_t *y, const uint64_t *z)
-{
-    static volatile uint64_t seen;
-    while (times--)
-        seen = read_only(n, x, y, z);
-}
-
-/* The lower half of what two integers of WORDS words multiply to, column by column, over and over. */
-uint32_t products(size_t times, const uint32_t *left, const uint32_t *right)
-{
-    uint32_t result[WORDS], sum = 0;
-    while (times--) {
-        memset(result, 0, sizeof result);
-        for (size_t i = 0; i < WORDS; i++) {
-            uint64_t carry = 0;
-            for (size_t k = 0; i + k < WORDS; k++) {
-                carry += (uint64_t)(left[i] ^ (uint32_t)times) * right[k] + result[i + k];
-                result[i + k] = (uint32_t)carry;
-                carry >>= 32;
-            }
-        }
-        sum ^= result[WORDS - 1];
-    }
-    return sum;
-}
-
-typedef size_t (*by_rows)(int, size_t, const double *, int8_t *);
-
-void rows_over_and_over(by_rows ask, size_t times, size_t n, const double *rows, int8_t *out)
-{
-    while (times--)
-        ask(0, n, rows, out);
-}
-
-typedef size_t (*kernel)(int, const double *, size_t, const double *, const double *, const double *, int8_t *);
-
-void over_and_over(kernel ask, size_t times, const double *sizes, size_t n, const double *x, const double *y,
-                   const double *z, int8_t *out)
-{
-    while (times--)
-        ask(0, sizes, n, x, y, z, out);
-}
-
-void plain(const double *restrict sizes, size_t n, const double *restrict xs, const double *restrict ys,
-           const double *restrict zs, int8_t *restrict out)
-{
-"""
-)
-
-
-@dataclass(frozen=True)
-class CBaseline:
-    """A compiled library, and its flags."""
-
-    library: ctypes.CDLL
-    flags: tuple[str, ...]
-
-    def read_only(self, x: Floats, y: Floats, z: Floats) -> Clocked:
-        """Read the columns, in one thread."""
-        function, pointers = self.library.read_only, [column.ctypes.data for column in (x, y, z)]
-        function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
-        return _clocked(lambda: int(function(len(x), *pointers)) & 0xFFFF)
-
-    def read_by_the_clock(self, x: Floats, y: Floats, z: Floats, threads: int) -> Clocked:
-        """Read the columns in threads that share them as the kernel does, by the wall clock."""
-        function = self.library.read_only
-        function.restype, function.argtypes = ctypes.c_uint64, (ctypes.c_size_t, *[ctypes.c_void_p] * 3)
-
-        def part(start: int, stop: int) -> int:
-            return int(function(stop - start, *(column[start:].ctypes.data for column in (x, y, z)))) & 0xFFFF
-
-        return clocked(lambda: np.array([in_parts(part, len(x), threads)]))
-
-    def product(self) -> Clocked:
-        """Multiply two long integers, half of the product: what exact decisions are made of."""
-        function = self.library.products
-        function.restype, function.argtypes = ctypes.c_uint32, (ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p)
-        numbers = np.random.Generator(np.random.PCG64(SEED)).integers(1 << 31, 1 << 32, (2, WORDS), dtype=np.uint32)
-
-        def run(repeat: int) -> tuple[int, int]:
-            started = thread_time_ns()
-            function(repeat, numbers[0].ctypes.data, numbers[1].ctypes.data)
-            return thread_time_ns() - started, 0
-
-        return run
-
-    def reading(self, x: Floats, y: Floats, z: Floats) -> Callable[[int], None]:
-        """Reads the columns so many times in one call, during which other Python threads can run."""
-        function = self.library.read_over_and_over
-        function.restype, function.argtypes = None, (ctypes.c_size_t, ctypes.c_size_t, *[ctypes.c_void_p] * 3)
-        pointers = [column.ctypes.data for column in (x, y, z)]
-        return lambda times: function(times, len(x), *pointers)
-
-    def of_rows(self, rows: Rows, out: NDArray[np.int8]) -> Callable[[int], None]:
-        """Asks the compiled kernel about rows so many times in one call."""
-        ask = ctypes.cast(ctypes.CDLL(str(compiled().__file__)).hypcheck_ask, ctypes.c_void_p)
-        function = self.library.rows_over_and_over
-        function.restype = None
-        function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_size_t, *[ctypes.c_void_p] * 2)
-        pointers = [rows.ctypes.data, out.ctypes.data]
-        return lambda times: function(ask, times, len(rows), *pointers)
-
-    def of_scene(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8]) -> Callable[[int], None]:
-        """Asks the compiled kernel so many times in one call, during which other Python threads can run."""
-        ask = ctypes.cast(ctypes.CDLL(str(compiled().__file__)).hypcheck_ask_scene, ctypes.c_void_p)
-        function = self.library.over_and_over
-        function.restype = None
-        function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 4)
-        pointers = [column.ctypes.data for column in (x, y, z, out)]
-        return lambda times: function(ask, times, sizes.ctypes.data, len(x), *pointers)
-
-    def plain(self, sizes: Floats, x: Floats, y: Floats, z: Floats, out: NDArray[np.int8]) -> Clocked:
-        """The plain formula in one thread; the sum is that of its answers."""
-        function = self.library.plain
-        function.restype = None
-        function.argtypes = (ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 4)
-        pointers = [column.ctypes.data for column in (x, y, z, out)]
-        return _clocked(lambda: function(sizes.ctypes.data, len(x), *pointers), lambda: int(np.count_nonzero(out)))
-
-
-def c_baselines(folder: Path, level: str) -> list[CBaseline]:
-    """One library for each width of vectors of the level. Raises UnavailableError if there is no compiler."""
-    program, code = compiler_here(), folder / "baselines.c"
-    code.write_text(baseline_source(), encoding="ascii")
-    found = []
-    for number, flags in enumerate(LEVEL_FLAGS[level]):
-        library = folder / f"baselines-{number}.so"
-        done = run_compiler([program, *FLAGS, *flags, "-shared", str(code), "-o", str(library), "-lm"])
-        if done.returncode == 0:
-            found.append(CBaseline(ctypes.CDLL(str(library)), flags))
-    if not found:
-        raise UnavailableError(f"{program} does not compile the baselines in C")
-    return found
-
-
-def baseline_source() -> str:
-    """The C source of both."""
-    body = of_formula(FORMULAS["table-2"], "float64")
-    sizes = "".join(f"    const double {name} = sizes[{place}];\n" for place, name in enumerate(SIZES))
-    centre = "".join(f"        const double {name} = {name}s[i];\n" for name in ("x", "y", "z"))
-    before = "".join(f"    {line}\n" for line in body.before)
-    inside = "".join(f"        {line}\n" for line in body.inside)
-    loop = (
-        f"    for (size_t i = 0; i < n; i++) {{\n{centre}{inside}        out[i] = (int8_t){body.answer};\n    }}\n}}\n"
-    )
-    return _HEAD + sizes + before + loop
-
-
-def _clocked(call: Callable[[], object], checksum: Callable[[], int] | None = None) -> Clocked:
-    def run(repeat: int) -> tuple[int, int]:
-        result: object = 0
-        started = thread_time_ns()
-        for _ in range(repeat):
-            result = call()
-        took = thread_time_ns() - started
-        return took, checksum() if checksum is not None else int(result)  # type: ignore[call-overload]
-
-    return run
-
-
-MANY, CACHED, WORST = 10_000_000, 100_000, 20_000
+MANY, CACHED, FEW, WORST = 10_000_000, 100_000, 20_000, 20_000
 AGAIN = 200
 PART, PARTS, LEAST_PARTS = 1_000_000, 8, 100
 
@@ -296,20 +104,20 @@ STREAMED = KernelTarget(
 def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """Ten million rows: reading them, the plain formula, and the kernel on one thread and on two."""
     columns, out = uniform_columns(MANY), np.zeros(MANY, dtype=np.int8)
-    libraries = c_baselines(folder, str(choice().level))
+    libraries = c_baselines(folder)
+    read = libraries[0].read
     entries = [
-        TimingEntry("read", MANY, libraries[0].read_only(*columns)),
+        TimingEntry("read", MANY, read(columns)),
         *_plain(libraries, columns, out),
         TimingEntry("one", MANY, thread_clocked(lambda: _answered(columns, out))),
         TimingEntry("one by the clock", MANY, clocked(lambda: _answered(columns, out))),
         TimingEntry("two by the clock", MANY, clocked(lambda: _answered(columns, out, threads=2))),
-        TimingEntry("read by the clock", MANY, libraries[0].read_by_the_clock(*columns, threads=1)),
-        TimingEntry("read on two by the clock", MANY, libraries[0].read_by_the_clock(*columns, threads=2)),
+        TimingEntry("read by the clock", MANY, read(columns, threads=1, clock=perf_counter_ns)),
+        TimingEntry("read on two by the clock", MANY, read(columns, threads=2, clock=perf_counter_ns)),
     ]
     found = measured_samples(entries, rounds)
     one, plain = found["one"], _fastest(found)
-    level = choice().level
-    beside = f"{rate_text(one)} on {level}"
+    beside = f"{rate_text(one)} on {choice().level}"
     yield CEILING.line(
         times_as_fast(one, found["read"]), f"{beside}; reading x, y and z alone: {rate_text(found['read'])}"
     )
@@ -331,7 +139,7 @@ def _gain(one: Samples, two: Samples, read: Samples, read_on_two: Samples) -> tu
 def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """A hundred thousand rows, which stay in the cache."""
     columns, out = uniform_columns(CACHED), np.zeros(CACHED, dtype=np.int8)
-    libraries = c_baselines(folder, str(choice().level))
+    libraries = c_baselines(folder)
     one = TimingEntry("one", CACHED, thread_clocked(lambda: _answered(columns, out)))
     found = measured_samples([*_plain(libraries, columns, out), one], 3 * rounds)
     plain = _fastest(found)
@@ -342,27 +150,24 @@ def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
 def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """Two threads whose rows stay in the cache, so that memory does not limit them."""
     columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
-    library = c_baselines(folder, str(choice().level))[0]
+    library = c_baselines(folder)[0]
+    works: dict[str, Part] = {
+        "ask": lambda part, found: library.of_scene(part, found)(AGAIN),
+        "read": lambda part, _found: library.reading(part)(AGAIN),
+    }
     entries = [
         TimingEntry(
             f"{name}, {threads}", threads * CACHED * AGAIN, clocked(partial(_on_threads, work, columns, out, threads))
         )
         for threads in (1, 2)
-        for name, work in (("ask", partial(_over_and_over, library)), ("read", partial(_read_over_and_over, library)))
+        for name, work in works.items()
     ]
     found = measured_samples(entries, 3 * rounds)
     yield CACHED_THREADS.line(*_gain(*(found[name] for name in ("ask, 1", "ask, 2", "read, 1", "read, 2"))))
 
 
 Part = Callable[[Columns, Positions], None]
-
-
-def _over_and_over(library: CBaseline, columns: Columns, out: Positions) -> None:
-    library.of_scene(np.array(TOWER_SIZES), *columns, out)(AGAIN)
-
-
-def _read_over_and_over(library: CBaseline, columns: Columns, _out: Positions) -> None:
-    library.reading(*columns)(AGAIN)
+"""Work of one thread on its part of the columns and answers."""
 
 
 def _on_threads(work: Part, columns: Columns, out: Positions, threads: int) -> Positions:
@@ -382,12 +187,87 @@ def near_contact(folder: Path, rounds: int) -> Iterator[KernelLine]:
     columns, out = touching_columns(WORST), np.zeros(WORST, dtype=np.int8)
     entries = [
         TimingEntry("touching", WORST, thread_clocked(lambda: _answered(columns, out))),
-        TimingEntry("product", 1, c_baselines(folder, str(choice().level))[0].product()),
+        TimingEntry("product", 1, c_baselines(folder)[0].product()),
     ]
     found = measured_samples(entries, rounds)
     touching, product = found["touching"], found["product"]
     says = f"{rate_text(touching)}; fixed point decides nearly all of them; a product: {product.median_ns:.3g} ns"
     yield TOUCHING.line(times_as_long(touching, product), says)
+
+
+SLOW_FAMILIES = (
+    "tangent",
+    "osculation",
+    "ring",
+    "ring-neighbourhood",
+    "near-axis",
+    "degenerate-crossing",
+    "small-integers",
+)
+EACH, SAME, KEPT, TURNS, NEIGHBOURS = 120, 64, 8, 6, 6
+"""The families that floats leave, and how they are searched: slow rows are moved a little, and kept if slower."""
+
+SLOWEST = KernelTarget(
+    "slowest row", "the slowest row that a search finds, to the median row within 1e-15 of contact", 16.0, at_most=True
+)
+"""Lengths of a scene have up to 96 bits: that is 16 times the 70 products of limbs that fixed point takes."""
+
+
+def slowest_row(rounds: int) -> Iterator[KernelLine]:
+    """Search, then measure the row that was found beside rows near contact."""
+    row = found_row()
+    near = tower_rows(touching_columns(EACH))
+    usual = [float(np.median([cost(each) for each in near])) for _ in range(rounds)]
+    slow = [cost(row) for _ in range(rounds)]
+    numbers = ", ".join(repr(float(value)) for value in row)
+    says = f"{np.median(slow):.4g} ns: {numbers}; the median row near contact: {np.median(usual):.4g} ns"
+    yield SLOWEST.line([a / b for a, b in zip(slow, usual, strict=True)], says)
+
+
+def found_row() -> Rows:
+    """The slowest row of the families, and of what came of the slowest ones; the same rows are tried each time."""
+    random = np.random.Generator(np.random.PCG64(SEED))
+    rows = _of_a_scene(np.concatenate([FAMILIES[name].rows(SEED, EACH) for name in SLOW_FAMILIES]))
+    kept = _slowest(rows)
+    for _ in range(TURNS):
+        kept = _slowest(_of_a_scene(np.concatenate([kept, *(_moved(random, kept) for _ in range(NEIGHBOURS))])))
+    return np.asarray(kept[0])
+
+
+def cost(row: Rows) -> float:
+    """Nanoseconds of the row, SAME times in a call: the least of three, since what disturbs a call makes it longer."""
+    rows, out = np.tile(row, (SAME, 1)), np.zeros(SAME, dtype=np.int8)
+    took = []
+    for _ in range(3):
+        started = thread_time_ns()
+        hypcheck.classify(rows, out=out, threads=1)
+        took.append(thread_time_ns() - started)
+    return min(took) / SAME
+
+
+def _slowest(rows: Rows) -> Rows:
+    order = np.argsort([-cost(row) for row in rows], kind="stable")
+    return np.asarray(rows[order[:KEPT]])
+
+
+def _of_a_scene(rows: Rows) -> Rows:
+    """The rows whose sizes, and coordinates but 0, are within the magnitudes of a scene."""
+    sizes = np.abs(rows)
+    inside = (sizes >= 2.0**-30) & (sizes <= 2.0**30)
+    inside[:, 4:] |= rows[:, 4:] == 0
+    return np.asarray(rows[inside.all(axis=1)])
+
+
+def _moved(random: np.random.Generator, rows: Rows) -> Rows:
+    """Each row with one number moved by some ulps, or by a power of two if it is a coordinate."""
+    moved = rows.copy()
+    for row in moved:
+        place = int(random.integers(0, 7))
+        if place >= 4 and random.integers(0, 2):
+            row[place] *= 2.0 ** -int(random.integers(0, 25))
+        else:
+            row[place] += int(random.integers(-4, 5)) * np.spacing(row[place])
+    return moved
 
 
 def streamed(folder: Path, most: int, rounds: int) -> Iterator[KernelLine]:
@@ -398,7 +278,7 @@ def streamed(folder: Path, most: int, rounds: int) -> Iterator[KernelLine]:
     columns, out = uniform_columns(PARTS * PART), np.zeros(PART, dtype=np.int8)
     slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]
     parts = [(columns[0][each], columns[1][each], columns[2][each]) for each in slices]
-    library = c_baselines(folder, str(choice().level))[0]
+    library = c_baselines(folder)[0]
     _of_stream(library, PARTS, parts, out)
     before = forget_peak()
     totals = [10**k for k in range(4) if PART * 10**k <= most]
@@ -417,7 +297,7 @@ def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Po
         asked = read = 0
         for k in range(start, start + total):
             other, these = parts[(k + len(parts) // 2) % len(parts)], parts[k % len(parts)]
-            read_other = library.reading(*other)
+            read_other = library.reading(other)
             began = thread_time_ns()
             read_other(1)
             between = thread_time_ns()
@@ -428,11 +308,7 @@ def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Po
 
 
 def _plain(libraries: list[CBaseline], columns: Columns, out: Positions) -> list[TimingEntry]:
-    sizes = np.array(TOWER_SIZES)
-    return [
-        TimingEntry(" ".join(each.flags) or "no flags", len(out), each.plain(sizes, *columns, out))
-        for each in libraries
-    ]
+    return [TimingEntry(" ".join(each.flags) or "no flags", len(out), each.plain(columns, out)) for each in libraries]
 
 
 def _fastest(found: dict[str, Samples]) -> Samples:
@@ -443,3 +319,94 @@ def _fastest(found: dict[str, Samples]) -> Samples:
 def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
     fill_scene(TOWER_SIZES, columns, out, "position", threads)
     return out
+
+
+AXIS = (0.3, 0.1, 0.9)
+
+ONE_AXIS = KernelTarget(
+    "one orientation", "classify_scene with an axis, of the speed of the upright one; 1e7 rows", 0.5
+)
+ONE_AXIS_CACHED = KernelTarget(
+    "one orientation, in cache", "classify_scene with an axis, of the speed of the upright one; 1e5 rows", 0.5
+)
+AXIS_ALONG_Z = KernelTarget(
+    "axis along z",
+    "classify of rows (n, 10) with the axis 0, 0, 1, of the speed per byte of rows (n, 7); 1e5 rows",
+    0.9,
+)
+EIGH = KernelTarget(
+    "numpy.linalg.eigh",
+    "classify of rows (n, 10) with an axis each, against the dual function in numpy; 1e5 rows",
+    30.0,
+)
+LEANING_TOUCHING = KernelTarget(
+    "near contact, leaning",
+    f"a leaning row within 1e-15 of contact, in products of integers of {32 * WORDS} bits",
+    12.0,
+    at_most=True,
+)
+_TURNS = 30
+"""Bisections of numpy's version: enough away from contact, and fewer than it would need there."""
+
+
+def axes(count: int) -> Floats:
+    """Axes in all directions, (n, 3)."""
+    return np.random.Generator(np.random.PCG64(SEED)).normal(size=(count, 3))
+
+
+def touching_rows(count: int) -> Rows:
+    """Rows of the tower's body leaning in all directions, within about 1e-15 radii of contact: (n, 10)."""
+    random = np.random.Generator(np.random.PCG64(SEED))
+    alpha, gamma, b, d = TOWER_SIZES
+    turn, height = 2 * np.pi * random.random(count), (2 * random.random(count) - 1) * gamma
+    radius = alpha * np.sqrt(1 + (height / gamma) ** 2)
+    point = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
+    normal = point * [alpha**-2, alpha**-2, -(gamma**-2)]
+    axis = axes(count)
+    along = (axis * normal).sum(axis=1, keepdims=True) / (axis * axis).sum(axis=1, keepdims=True) * axis
+    way = b * b * (normal - along) + d * d * along
+    side = np.where(random.random(count) < 0.5, -1.0, 1.0) * (1 + (2 * random.random(count) - 1) * 1e-15)
+    centre = point + (side / np.sqrt((way * normal).sum(axis=1)))[:, None] * way
+    return tilted_rows(TOWER_SIZES, (centre[:, 0], centre[:, 1], centre[:, 2]), (*axis.T,))
+
+
+def one_orientation(rounds: int) -> Iterator[KernelLine]:
+    """A scene with an axis beside the same one without."""
+    for target, count, more in ((ONE_AXIS, MANY, 1), (ONE_AXIS_CACHED, CACHED, 3)):
+        ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
+        entries = [
+            TimingEntry("upright", count, thread_clocked(ask)),
+            TimingEntry("leaning", count, thread_clocked(partial(ask, axis=AXIS))),
+        ]
+        found = measured_samples(entries, more * rounds)
+        says = f"{rate_text(found['leaning'])}; upright: {rate_text(found['upright'])}"
+        yield target.line(times_as_fast(found["leaning"], found["upright"]), says)
+
+
+def axis_along_z(rounds: int) -> Iterator[KernelLine]:
+    """Rows of ten that are upright beside the same rows of seven."""
+    ten = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (0.0, 0.0, 1.0))
+    seven = np.ascontiguousarray(ten[:, :7])
+    entries = [
+        TimingEntry(name, CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1)))
+        for name, rows in (("seven", seven), ("ten", ten))
+    ]
+    found = measured_samples(entries, 3 * rounds)
+    ratios = [each * ten.shape[1] / seven.shape[1] for each in times_as_fast(found["ten"], found["seven"])]
+    yield AXIS_ALONG_Z.line(ratios, f"{rate_text(found['ten'])}; rows of seven: {rate_text(found['seven'])}")
+
+
+def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
+    """Rows with an axis each, beside numpy; and rows near contact, beside what integers cost."""
+    rows = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (*axes(CACHED).T,))
+    entries = [
+        TimingEntry("rows", CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1))),
+        TimingEntry("eigh", FEW, thread_clocked(partial(by_eigenvectors, rows[:FEW], _TURNS))),
+        TimingEntry("touching", WORST, thread_clocked(partial(hypcheck.classify, touching_rows(WORST), threads=1))),
+        TimingEntry("product", 1, c_baselines(folder)[0].product()),
+    ]
+    found = measured_samples(entries, rounds)
+    says = f"{rate_text(found['rows'])}; numpy: {rate_text(found['eigh'])}"
+    yield EIGH.line(times_as_fast(found["rows"], found["eigh"]), says)
+    says = f"{rate_text(found['touching'])}; a product: {found['product'].median_ns:.3g} ns"
+    yield LEANING_TOUCHING.line(times_as_long(found["touching"], found["product"]), says)

@@ -237,7 +237,7 @@ def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:
         for name, (clear, _) in made.items()
     }
     entries = [TimingEntry(name, STEPS, clocked_calls(clear, centres)) for name, (clear, _) in made.items()]
-    *_, (_, samples) = measure(entries, rounds)
+    samples = measure(entries, rounds)
     ours = samples[0]
     for each in samples:
         built_s = made[each.name][1]

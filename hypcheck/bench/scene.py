@@ -179,7 +179,7 @@ def _kernel_saving(stages: Stages, kernel: SceneKernel, printed: InC) -> KernelS
         TimingEntry("kernel, one by one", len(rows), clocked(kernel.single(rows))),
         TimingEntry("printed, one by one", len(rows), printed.single(rows).run),
     ]
-    *_, (_, samples) = measure(entries, KERNEL_ROUNDS)
+    samples = measure(entries, KERNEL_ROUNDS)
     return KernelSaving(stages, len(rows), KernelTimes.of(*samples[:2]), KernelTimes.of(*samples[2:]))
 
 
@@ -262,7 +262,7 @@ def _scene_line(plan: ScenePlan, methods: Path, folder: Path, rounds: int) -> Sc
 
 def _times(asked: Mapping[str, Clocked], count: int, rounds: int) -> SceneTimes:
     """Nanoseconds for a row of each, and the kernel's time relative to the others'."""
-    *_, (_, samples) = measure([TimingEntry(name, count, run) for name, run in asked.items()], rounds)
+    samples = measure([TimingEntry(name, count, run) for name, run in asked.items()], rounds)
     own, *others = samples
     found: dict[str, Any] = {f"{each.name}_ns": each.median_ns for each in samples}
     for other in others:

@@ -184,5 +184,5 @@ def _rounds(session: MeasuringSession, here: _MeasuredTogether, todo: Mapping[st
     first = session.number * len(entries) // max(1, session.plan.processes)
     shortest = session.plan.amounts.sample_s
     rounds = BUILDS if where[1] == "build" else session.plan.rounds
-    *_, (_, samples) = measure(entries, rounds, shortest, first)
+    samples = measure(entries, rounds, shortest, first)
     return {each.name: each for each in samples}

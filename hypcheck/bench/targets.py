@@ -18,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets, slow_rows, tilted_targets
-from hypcheck.bench.compiled_targets import TOWER_SIZES, uniform_columns
+from hypcheck.bench import call_targets, compiled_targets
+from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
+from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
 from hypcheck.bench.timing import (
     Clocked,
     KernelTarget,
@@ -136,8 +137,7 @@ def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
     if choice().kernel == "numpy":
         del work["kernel"]
     else:
-        library = compiled_targets.c_baselines(folder, str(choice().level))[0]
-        entries.append(TimingEntry("reading", MANY, library.read_only(*columns), loops=1))
+        entries.append(TimingEntry("reading", MANY, c_baselines(folder)[0].read(columns), loops=1))
     entries += [TimingEntry(name, MANY, thread_clocked(call), loops=1) for name, call in work.items()]
     found = measured_samples(entries, rounds)
     for target in TARGETS:
@@ -172,7 +172,7 @@ def large_pages() -> str:
 def against_others(rounds: int) -> Iterator[KernelLine]:
     """numpy.roots and FCL for each row, beside a hundred thousand rows of the kernel."""
     columns = uniform_columns(100_000)
-    rows = np.column_stack([*(np.full(FEW, size) for size in TOWER_SIZES), *(column[:FEW] for column in columns)])
+    rows = tower_rows(columns)[:FEW]
     entries = [
         TimingEntry(
             "kernel", 100_000, thread_clocked(partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1))
@@ -202,15 +202,15 @@ def _queries(mesh: SceneMesh, rows: Rows) -> Clocked:
 ROUNDS, QUICK_ROUNDS, AGAIN = 15, 7, 2
 STREAM, QUICK_STREAM = 1_000_000_000, 100_000_000
 
-Group = Callable[[Path, bool], Iterable[KernelLine]]
+Group = Callable[[], Iterable[KernelLine]]
 
 
 def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> None:
     """Measure every target and add its line; a quick run has fewer rounds and streams a tenth of the rows."""
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
-        for group in _groups():
+        for group in _groups(Path(folder), quick=quick):
             try:
-                for line in _lines(group, Path(folder), quick):
+                for line in _lines(group):
                     recorder.add(line)
             except UnavailableError as error:
                 recorder.add(AbsentLine(what="C compiler", reason=str(error)))
@@ -221,45 +221,46 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
         recorder.add(AbsentLine(what=FCL.title, reason=trouble))
 
 
-def _lines(group: Group, folder: Path, quick: bool) -> list[KernelLine]:
+def _lines(group: Group) -> list[KernelLine]:
     """The group's lines. What misses its target is measured again: only what misses each time is slow.
 
     The interval tells how rounds differ, and not that another program had the memory's attention in all of them.
     """
-    lines = list(group(folder, quick))
+    lines = list(group())
     for _ in range(AGAIN):
         if all(line.met for line in lines):
             break
-        anew = {line.name: line for line in group(folder, quick)}
+        anew = {line.name: line for line in group()}
         lines = [line if line.met else anew[line.name] for line in lines]
     return lines
 
 
 def steps() -> int:
     """The number of times that `run` advances."""
-    return len(list(_groups()))
+    return len(_groups(Path(), quick=True))
 
 
-def _groups() -> Iterator[Group]:
-    if choice().kernel == "compiled":
-        yield lambda folder, quick: compiled_targets.from_memory(folder, _rounds(quick))
-        yield lambda folder, quick: compiled_targets.in_cache(folder, _rounds(quick))
-        yield lambda folder, quick: compiled_targets.threads_in_cache(folder, _rounds(quick))
-        yield lambda folder, quick: compiled_targets.near_contact(folder, _rounds(quick))
-        yield lambda _folder, quick: slow_rows.slowest_row(_rounds(quick))
-        yield lambda _folder, quick: tilted_targets.one_orientation(_rounds(quick))
-        yield lambda _folder, quick: tilted_targets.axis_along_z(_rounds(quick))
-        yield lambda folder, quick: tilted_targets.an_axis_each(folder, _rounds(quick))
-        yield lambda folder, quick: compiled_targets.streamed(
-            folder, QUICK_STREAM if quick else STREAM, 3 if quick else 5
-        )
-        yield lambda folder, quick: call_targets.batches(folder, _rounds(quick))
-        yield lambda folder, quick: call_targets.large_batches(folder, _rounds(quick))
-        yield lambda _folder, quick: call_targets.ten_centres(_rounds(quick))
-    yield lambda folder, quick: against_numpy(folder, 3 if quick else 9)
-    yield lambda _folder, quick: against_others(_rounds(quick))
-    yield lambda _folder, quick: call_targets.one_call(_rounds(quick))
-
-
-def _rounds(quick: bool) -> int:
-    return QUICK_ROUNDS if quick else ROUNDS
+def _groups(folder: Path, *, quick: bool) -> list[Group]:
+    rounds, stream, streams = (QUICK_ROUNDS, QUICK_STREAM, 3) if quick else (ROUNDS, STREAM, 5)
+    anywhere: list[Group] = [
+        partial(against_numpy, folder, 3 if quick else 9),
+        partial(against_others, rounds),
+        partial(call_targets.one_call, rounds),
+    ]
+    if choice().kernel != "compiled":
+        return anywhere
+    return [
+        partial(compiled_targets.from_memory, folder, rounds),
+        partial(compiled_targets.in_cache, folder, rounds),
+        partial(compiled_targets.threads_in_cache, folder, rounds),
+        partial(compiled_targets.near_contact, folder, rounds),
+        partial(compiled_targets.slowest_row, rounds),
+        partial(compiled_targets.one_orientation, rounds),
+        partial(compiled_targets.axis_along_z, rounds),
+        partial(compiled_targets.an_axis_each, folder, rounds),
+        partial(compiled_targets.streamed, folder, stream, streams),
+        partial(call_targets.batches, folder, rounds),
+        partial(call_targets.batch, folder, call_targets.MANY, rounds),
+        partial(call_targets.ten_centres, rounds),
+        *anywhere,
+    ]

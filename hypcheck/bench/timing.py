@@ -116,10 +116,28 @@ def clocked_calls(
     return run
 
 
+def clocked_in_c(
+    call: Callable[[int], object], answers: NDArray[np.int8], clock: Callable[[], int] = time.perf_counter_ns
+) -> Clocked:
+    """Work that `call` itself repeats as often as asked; the sum is that of `answers`, which it writes."""
+
+    def run(repeat: int) -> tuple[int, int]:
+        answers.fill(0)  # so that answers of an earlier call cannot count for these
+        started = clock()
+        call(repeat)
+        return clock() - started, int(answers.sum(dtype=np.int64))
+
+    return run
+
+
 def measure(
-    entries: Sequence[TimingEntry], rounds: int, shortest_s: float = SHORTEST_S, first: int = 0
-) -> Iterator[tuple[int, tuple[Samples, ...]]]:
-    """Rounds of all entries: after each round its number, and after the last the samples.
+    entries: Sequence[TimingEntry],
+    rounds: int,
+    shortest_s: float = SHORTEST_S,
+    first: int = 0,
+    advance: Callable[[int], object] = lambda _: None,
+) -> list[Samples]:
+    """The samples of all entries, in rounds that run each entry once; `advance` takes note of each round.
 
     `first` is the entry that starts the first round.
     """
@@ -129,7 +147,8 @@ def measure(
             for step in range(len(entries)):
                 place = (first + turn + step) % len(entries)
                 _sample(entries[place], measured[place])
-            yield turn + 1, tuple(measured) if turn + 1 == rounds else ()
+            advance(1)
+    return measured
 
 
 def _calibrated(entry: TimingEntry, shortest_s: float) -> Samples:
@@ -303,8 +322,8 @@ def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
 
 
 def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, Samples]:
-    """The samples of all entries by name, in rounds that run each entry once."""
-    *_, (_, samples) = measure(entries, rounds)
+    """The samples of all entries by name. Raises AssertionError for one that was refused."""
+    samples = measure(entries, rounds)
     for each in samples:
         if each.refused is not None:
             raise AssertionError(f"{each.name}: {each.refused}")

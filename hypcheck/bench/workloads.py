@@ -7,10 +7,11 @@ point is not unique are in none of them, because there the estimated error, whic
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from math import radians, tan
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from hypcheck.scene.model import FREE, SceneModel, leans
 from hypcheck.scene.reading import read_scene
 from hypcheck.vectors import frozen
 from hypcheck.vectors.draw import Draw, in_turn
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES, family_of
+from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES, family_of
 from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, centred
 from hypcheck.vectors.scenes import BODY, ROTOR, TOWER
@@ -77,15 +78,39 @@ def scene_of(rows: Rows, layout: Layout = PAIRS) -> tuple[float, float, float, f
     return alpha, gamma, b, d
 
 
-def near_contact(seed: int, count: int) -> Rows:
-    """Centres near contact, in the scenes of NEAR_SCENES in turn."""
-    scenes, numbers = np.array(NEAR_SCENES), range(-(-count // BLOCK))
-    turns = ((number * BLOCK + np.arange(BLOCK)) % len(scenes) for number in numbers)
-    blocks = [
-        near(Draw("bench-near-contact", 1, seed, number), Sizes(*scenes[turn].T), NEAR_GAPS)
-        for number, turn in zip(numbers, turns, strict=True)
-    ]
-    return np.concatenate([np.empty((0, 7)), *blocks])[:count]
+_Block = Callable[[Draw, int, int], Rows]
+"""Rows of a block: from its random numbers, its size, and the number of rows before it."""
+
+
+def _in_blocks(make: _Block, width: int, *stream: str) -> _Rows:
+    """Blocks with a random stream each, so that a shorter call gives the beginning of a longer one."""
+
+    def rows(seed: int, count: int) -> Rows:
+        numbers = range(-(-count // BLOCK))
+        blocks = [make(Draw(*stream, 1, seed, number), BLOCK, number * BLOCK) for number in numbers]
+        return np.ascontiguousarray(np.concatenate([np.empty((0, width)), *blocks])[:count])
+
+    return rows
+
+
+def _families(*names: str) -> _Block:
+    """Rows of several families with one layout in turn."""
+    make = in_turn(*(family_of(name).make for name in names))
+    return lambda draw, n, _before: make(draw, n)
+
+
+def _in_turn(stream: str, *names: str) -> _Rows:
+    """The same, from random numbers of that name."""
+    return _in_blocks(_families(*names), len(family_of(names[0]).columns), stream, *names)
+
+
+def _in_cycle(values: Sequence[Any], n: int, before: int) -> Floats:
+    """The values of `n` rows that take these values, or tuples, in turn, after so many rows before."""
+    return np.array(values)[(before + np.arange(n)) % len(values)]
+
+
+def _near_contact(draw: Draw, n: int, before: int) -> Rows:
+    return near(draw, Sizes(*_in_cycle(NEAR_SCENES, n, before).T), NEAR_GAPS)
 
 
 def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
@@ -99,64 +124,53 @@ def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
     return centred(draw, size, *beside_surface(size.a, size.c, height, side * (1 + gap)))
 
 
-def _in_turn(stream: str, names: tuple[str, ...]) -> _Rows:
-    """Rows of several families with one layout in turn, from random numbers of that name."""
-    families = [family_of(name) for name in names]
-    make, width = in_turn(*(family.make for family in families)), len(families[0].columns)
-
-    def rows(seed: int, count: int) -> Rows:
-        blocks = [make(Draw(stream, *names, 1, seed, number), BLOCK) for number in range(-(-count // BLOCK))]
-        return np.concatenate([np.empty((0, width)), *blocks])[:count]
-
-    return rows
+def _by_name(*workloads: Workload) -> dict[str, Workload]:
+    return {workload.name: workload for workload in workloads}
 
 
-WORKLOADS = {
-    workload.name: workload
-    for workload in (
-        Workload(
-            "uniform",
-            "uniform around the tower",
-            "A quadcopter's body, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m about the paper's cooling tower.",
-            FAMILIES["tower-body"].rows,
-        ),
-        Workload(
-            "flight",
-            "along random flights",
-            "Positions asked for along the paper's random flights in the tower, 32 consecutive rows a flight, so that "
-            "neighbours resemble each other.",
-            FAMILIES["flight"].rows,
-        ),
-        Workload(
-            "near-contact",
-            "near contact",
-            "Six pairs of bodies in turn, at distances from touching that are log-uniform from 1e-17 to 0.5 spheroid "
-            "radii, apart and overlapping, outside and inside; sizes differ from row to row.",
-            near_contact,
-        ),
-        Workload(
-            "ring",
-            "on the ring and next to it",
-            "Half clear positions where Δ = 0 exactly, half within 1e-12 to 1e-2 radii of such (docs/mathematics.md).",
-            _in_turn("bench", ("ring", "ring-neighbourhood")),
-            timed=False,
-        ),
-        Workload(
-            "zero-coefficient",
-            "where c1 or c2 is 0",
-            "Positions at which one of the coefficients vanishes exactly, which the paper's Proposition 5 forgets.",
-            FAMILIES["coefficient-zero"].rows,
-            timed=False,
-        ),
-        Workload(
-            "ladder",
-            "a ladder of ulps beside tangency",
-            "Exact tangencies of many sizes with one length moved by 1, 2, 4 … 2⁴⁰ ulp, both ways.",
-            FAMILIES["tangent-ladder"].rows,
-            timed=False,
-        ),
-    )
-}
+WORKLOADS = _by_name(
+    Workload(
+        "uniform",
+        "uniform around the tower",
+        "A quadcopter's body, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m about the paper's cooling tower.",
+        FAMILIES["tower-body"].rows,
+    ),
+    Workload(
+        "flight",
+        "along random flights",
+        "Positions asked for along the paper's random flights in the tower, 32 consecutive rows a flight, so that "
+        "neighbours resemble each other.",
+        FAMILIES["flight"].rows,
+    ),
+    Workload(
+        "near-contact",
+        "near contact",
+        "Six pairs of bodies in turn, at distances from touching that are log-uniform from 1e-17 to 0.5 spheroid "
+        "radii, apart and overlapping, outside and inside; sizes differ from row to row.",
+        _in_blocks(_near_contact, 7, "bench-near-contact"),
+    ),
+    Workload(
+        "ring",
+        "on the ring and next to it",
+        "Half clear positions where Δ = 0 exactly, half within 1e-12 to 1e-2 radii of such (docs/mathematics.md).",
+        _in_turn("bench", "ring", "ring-neighbourhood"),
+        timed=False,
+    ),
+    Workload(
+        "zero-coefficient",
+        "where c1 or c2 is 0",
+        "Positions at which one of the coefficients vanishes exactly, which the paper's Proposition 5 forgets.",
+        FAMILIES["coefficient-zero"].rows,
+        timed=False,
+    ),
+    Workload(
+        "ladder",
+        "a ladder of ulps beside tangency",
+        "Exact tangencies of many sizes with one length moved by 1, 2, 4 … 2⁴⁰ ulp, both ways.",
+        FAMILIES["tangent-ladder"].rows,
+        timed=False,
+    ),
+)
 """Those of upright spheroids, by name, in the order of the record."""
 
 WAY_SHARE = 6
@@ -179,46 +193,43 @@ def _way_workload(name: str, title: str, text: str, rows: _Rows, *, timed: bool 
     return Workload(name, title, text, rows, timed, WAY_SHARE, WAYS)
 
 
-WAY_WORKLOADS = {
-    workload.name: workload
-    for workload in (
-        _way_workload(
-            "tower",
-            "down through the tower's waist",
-            "A quadcopter's body straight down through the waist of the paper's cooling tower and out, about as near "
-            "to the wall as it may come (the family way-tower).",
-            _in_turn("bench-ways", ("way-tower",)),
-            timed=True,
-        ),
-        _way_workload(
-            "anywhere",
-            "anywhere about the waist",
-            "Both ends uniform in a box about the waist; sizes differ from row to row (the family way-anywhere).",
-            _in_turn("bench-ways", ("way-anywhere",)),
-            timed=True,
-        ),
-        _way_workload(
-            "tunnelling",
-            "steps that are too long",
-            "Straight through a wall, through the whole waist, past the surface from far away: both ends are mostly "
-            "clear and contact is between (the families way-tunnelling, way-across and way-long).",
-            _in_turn("bench-ways", ("way-tunnelling", "way-across", "way-long")),
-        ),
-        _way_workload(
-            "grazing",
-            "grazing or nearly so",
-            "Tangent at one instant or at an end, or by 2⁻⁵⁰ to 2⁻³ of the size from it (the families way-near-graze, "
-            "way-grazing and way-end).",
-            _in_turn("bench-ways", ("way-near-graze", "way-grazing", "way-end")),
-        ),
-        _way_workload(
-            "frozen",
-            "the frozen ways",
-            "The certified vectors of ways of upright spheroids, all 18 families in turn (cases/way-*.json).",
-            _frozen_ways,
-        ),
-    )
-}
+WAY_WORKLOADS = _by_name(
+    _way_workload(
+        "tower",
+        "down through the tower's waist",
+        "A quadcopter's body straight down through the waist of the paper's cooling tower and out, about as near "
+        "to the wall as it may come (the family way-tower).",
+        _in_turn("bench-ways", "way-tower"),
+        timed=True,
+    ),
+    _way_workload(
+        "anywhere",
+        "anywhere about the waist",
+        "Both ends uniform in a box about the waist; sizes differ from row to row (the family way-anywhere).",
+        _in_turn("bench-ways", "way-anywhere"),
+        timed=True,
+    ),
+    _way_workload(
+        "tunnelling",
+        "steps that are too long",
+        "Straight through a wall, through the whole waist, past the surface from far away: both ends are mostly "
+        "clear and contact is between (the families way-tunnelling, way-across and way-long).",
+        _in_turn("bench-ways", "way-tunnelling", "way-across", "way-long"),
+    ),
+    _way_workload(
+        "grazing",
+        "grazing or nearly so",
+        "Tangent at one instant or at an end, or by 2⁻⁵⁰ to 2⁻³ of the size from it (the families way-near-graze, "
+        "way-grazing and way-end).",
+        _in_turn("bench-ways", "way-near-graze", "way-grazing", "way-end"),
+    ),
+    _way_workload(
+        "frozen",
+        "the frozen ways",
+        "The certified vectors of ways of upright spheroids, all 18 families in turn (cases/way-*.json).",
+        _frozen_ways,
+    ),
+)
 """Those of ways, by name, in the order of the record."""
 
 PITCH = 20.0
@@ -226,20 +237,6 @@ PITCH = 20.0
 
 TILTED_SHARE = 4
 """To estimate a row's distance to another position takes ten milliseconds: a quarter of the rows is judged."""
-
-_TiltedBlock = Callable[[Draw, int, int], Rows]
-"""Rows of a block: from its random numbers, its size, and the number of rows before it."""
-
-
-def _tilted_rows(name: str, make: _TiltedBlock) -> _Rows:
-    """Blocks with a random stream each, so that a shorter call gives the beginning of a longer one."""
-
-    def rows(seed: int, count: int) -> Rows:
-        numbers = range(-(-count // BLOCK))
-        blocks = [make(Draw("bench-tilted", name, 1, seed, number), BLOCK, number * BLOCK) for number in numbers]
-        return np.ascontiguousarray(np.concatenate([np.empty((0, 10)), *blocks])[:count])
-
-    return rows
 
 
 def _one_axis(draw: Draw, n: int, _before: int) -> Rows:
@@ -263,74 +260,58 @@ def _in_the_box(draw: Draw, n: int) -> Vectors:
 
 
 def _tilted_near_contact(draw: Draw, n: int, before: int) -> Rows:
-    scenes = np.array(NEAR_SCENES)
-    return _tilted_near(draw, Sizes(*scenes[(before + np.arange(n)) % len(scenes)].T), anywhere(draw, n))
+    return _tilted_near(draw, _in_cycle(NEAR_SCENES, n, before), anywhere(draw, n))
 
 
-def _tilted_near(draw: Draw, size: Sizes, axis: Vectors) -> Rows:
+def _tilted_near(draw: Draw, sizes: Floats, axis: Vectors) -> Rows:
     """Centres at one radius from a point of the surface, plus or minus m 2^e with e in NEAR_GAPS, on either side."""
-    n = len(size.b)
+    n = len(sizes)
     height = draw.signs(n) * draw.unit(n)
     gap = draw.signs(n) * draw.log_uniform(n, *NEAR_GAPS)
-    return beside(draw, size, height, axis, draw.signs(n) * (1 + gap))
+    return beside(draw, Sizes(*sizes.T), height, axis, draw.signs(n) * (1 + gap))
 
 
-def _tilted_in_turn(*names: str) -> _TiltedBlock:
-    families = [family for name in names for family in (TILTED_FAMILIES[name],)]
-
-    def make(draw: Draw, n: int, _before: int) -> Rows:
-        rows = np.empty((n, 10))
-        for turn, family in enumerate(families):
-            rows[turn :: len(families)] = family.make(draw, len(range(turn, n, len(families))))
-        return rows
-
-    return make
+def _tilted_workload(name: str, title: str, text: str, make: _Block, *, timed: bool = True) -> Workload:
+    return Workload(name, title, text, _in_blocks(make, 10, "bench-tilted", name), timed, TILTED_SHARE)
 
 
-def _tilted_workload(name: str, title: str, text: str, make: _TiltedBlock, *, timed: bool = True) -> Workload:
-    return Workload(name, title, text, _tilted_rows(name, make), timed, TILTED_SHARE)
-
-
-TILTED_WORKLOADS = {
-    workload.name: workload
-    for workload in (
-        _tilted_workload(
-            "one-axis",
-            "leaning one way around the tower",
-            f"A quadcopter's body that leans by {PITCH:g}° along x, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m "
-            "about the paper's cooling tower.",
-            _one_axis,
-        ),
-        _tilted_workload(
-            "an-axis-each",
-            "an axis each around the tower",
-            "The same body in the same box; each row leans to any side, by up to 45°.",
-            _an_axis_each,
-        ),
-        _tilted_workload(
-            "near-contact",
-            "near contact",
-            "Six pairs of bodies in turn, axes in all directions, at distances from touching that are log-uniform from "
-            "1e-17 to 0.5 spheroid radii, apart and overlapping, outside and inside.",
-            _tilted_near_contact,
-        ),
-        _tilted_workload(
-            "all-sizes",
-            "near contact, of all sizes",
-            "From 2⁻⁵² to 2⁻⁴ radii off contact, sizes of all four regimes (the family tilted-near-contact).",
-            _tilted_in_turn("tilted-near-contact"),
-            timed=False,
-        ),
-        _tilted_workload(
-            "stiff",
-            "of very different sizes",
-            "Near contact with ratios of sizes up to 1e8, and axes that almost stand or lie (the families tilted-stiff "
-            "and tilted-slight).",
-            _tilted_in_turn("tilted-stiff", "tilted-slight"),
-            timed=False,
-        ),
-    )
-}
+TILTED_WORKLOADS = _by_name(
+    _tilted_workload(
+        "one-axis",
+        "leaning one way around the tower",
+        f"A quadcopter's body that leans by {PITCH:g}° along x, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m "
+        "about the paper's cooling tower.",
+        _one_axis,
+    ),
+    _tilted_workload(
+        "an-axis-each",
+        "an axis each around the tower",
+        "The same body in the same box; each row leans to any side, by up to 45°.",
+        _an_axis_each,
+    ),
+    _tilted_workload(
+        "near-contact",
+        "near contact",
+        "Six pairs of bodies in turn, axes in all directions, at distances from touching that are log-uniform from "
+        "1e-17 to 0.5 spheroid radii, apart and overlapping, outside and inside.",
+        _tilted_near_contact,
+    ),
+    _tilted_workload(
+        "all-sizes",
+        "near contact, of all sizes",
+        "From 2⁻⁵² to 2⁻⁴ radii off contact, sizes of all four regimes (the family tilted-near-contact).",
+        _families("tilted-near-contact"),
+        timed=False,
+    ),
+    _tilted_workload(
+        "stiff",
+        "of very different sizes",
+        "Near contact with ratios of sizes up to 1e8, and axes that almost stand or lie (the families tilted-stiff "
+        "and tilted-slight).",
+        _families("tilted-stiff", "tilted-slight"),
+        timed=False,
+    ),
+)
 """Those of spheroids that lean, by name, in the order of the record."""
 
 
@@ -357,7 +338,7 @@ def scene_workloads(name: str) -> dict[str, Workload]:
         raise InputError(f"the scene {scene.name!r} is not measured: no hyperboloid's height meets its region")
     region, near = partial(_in_region, scene, settings), partial(_near_in_scene, scene, settings)
     axis = "an axis each, in all directions" if scene.mover.axis == FREE else "the mover's axis"
-    known = (
+    return _by_name(
         _tilted_workload(
             "region", f"in the scene {scene.name}", f"Centres uniform in the scene's region, {axis}.", region
         ),
@@ -369,7 +350,6 @@ def scene_workloads(name: str) -> dict[str, Workload]:
             near,
         ),
     )
-    return {each.name: each for each in known}
 
 
 def _axes_of(scene: SceneModel, draw: Draw, n: int) -> Vectors:
@@ -379,14 +359,9 @@ def _axes_of(scene: SceneModel, draw: Draw, n: int) -> Vectors:
     return x, y, z
 
 
-def _sizes_in_turn(settings: tuple[Setting, ...], n: int, before: int) -> Floats:
-    """α, γ, b, d of the settings in turn, (n, 4)."""
-    return np.array([each.sizes for each in settings])[(before + np.arange(n)) % len(settings)]
-
-
 def _in_region(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
-    sizes = _sizes_in_turn(settings, n, before)
-    ends = np.array([_ends(each) for each in settings])[(before + np.arange(n)) % len(settings)]
+    sizes = _in_cycle([each.sizes for each in settings], n, before)
+    ends = _in_cycle([_ends(each) for each in settings], n, before)
     centre = [low + (high - low) * draw.unit(n) for low, high in np.transpose(ends, (1, 2, 0))]
     return np.column_stack([sizes, *centre, *_axes_of(scene, draw, n)]) + 0.0
 
@@ -402,7 +377,7 @@ def _ends(setting: Setting) -> list[tuple[float, float]]:
 
 
 def _near_in_scene(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
-    return _tilted_near(draw, Sizes(*_sizes_in_turn(settings, n, before).T), _axes_of(scene, draw, n))
+    return _tilted_near(draw, _in_cycle([each.sizes for each in settings], n, before), _axes_of(scene, draw, n))
 
 
 def workloads_of(plan: BenchPlan) -> dict[str, Workload]:

@@ -264,10 +264,9 @@ class _SelfCheck:
 
     def _time(self, advance: Advance) -> None:
         rows, methods = timed_rows(self.plan.seed), timed_methods(meshes=MESH in self.plan.oracles)
-        for _, timings in measure([each.entry(rows) for each in methods], TIMING_ROUNDS):
-            advance(1)
-            for method, timing in zip(methods, timings, strict=False):
-                self.recorder.add(timing_line(method, timing))
+        timings = measure([each.entry(rows) for each in methods], TIMING_ROUNDS, advance=advance)
+        for method, timing in zip(methods, timings, strict=True):
+            self.recorder.add(timing_line(method, timing))
 
 
 def options(plan: SelfCheckPlan) -> Mapping[str, Any]:

@@ -10,7 +10,7 @@ from subprocess import CompletedProcess
 
 import pytest
 
-from hypcheck.bench import c_library, compiled_targets
+from hypcheck.bench import c_library
 from tests.support.shared_folders import made_once
 
 
@@ -38,8 +38,7 @@ def compiled_once(tmp_path_factory):
         return CompletedProcess(words, 0, "", "")
 
     with pytest.MonkeyPatch.context() as patch:
-        for module in (c_library, compiled_targets):
-            patch.setattr(module, "run_compiler", run_compiler)
+        patch.setattr(c_library, "run_compiler", run_compiler)
         yield
 
 

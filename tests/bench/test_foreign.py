@@ -90,7 +90,7 @@ def test_times_from_a_command_with_a_wrong_checksum_are_refused():
     ready = way.batch(ROWS)
     with pytest.raises(TimingRefusedError, match="timed with the checksum"):
         ready.run(1)
-    *_, (_, (found,)) = measure([TimingEntry("it", ready.rows, ready.run)], 2)
+    (found,) = measure([TimingEntry("it", ready.rows, ready.run)], 2)
     assert "timed with the checksum" in found.refused
     assert found.samples_ns == []
     way.close()

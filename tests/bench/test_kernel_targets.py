@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets, slow_rows, targets, tilted_targets
-from hypcheck.bench.compiled_targets import LEVEL_FLAGS, TOWER_SIZES, c_baselines, touching_columns, uniform_columns
+from hypcheck.bench import c_library, call_targets, compiled_targets, targets
+from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
+from hypcheck.bench.c_source import WORDS
+from hypcheck.bench.compiled_targets import touching_columns, tower_rows, uniform_columns
 from hypcheck.bench.timing import KernelTarget, Samples
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.rows import tilted_rows
@@ -46,10 +48,9 @@ def small(monkeypatch):
     for module, sizes in (
         (
             compiled_targets,
-            {"MANY": 4096, "CACHED": 2048, "WORST": 64, "AGAIN": 2, "PART": 1024, "PARTS": 2, "LEAST_PARTS": 2},
+            {"MANY": 4096, "CACHED": 2048, "FEW": 64, "WORST": 64, "AGAIN": 2},
         ),
-        (tilted_targets, {"MANY": 4096, "CACHED": 2048, "FEW": 64, "WORST": 64}),
-        (slow_rows, {"EACH": 4, "TURNS": 1, "NEIGHBOURS": 1}),
+        (compiled_targets, {"PART": 1024, "PARTS": 2, "LEAST_PARTS": 2, "EACH": 4, "TURNS": 1, "NEIGHBOURS": 1}),
         (targets, {"MANY": 20_000, "FEW": 3, "TRIANGLES": 60, "AGAIN": 0}),
         (call_targets, {"MANY": 20_000, "CALLS": 20, "BATCHES": (1000,)}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
@@ -74,10 +75,10 @@ def test_every_kernel_target_has_a_line_that_fits_the_record_schema(small):
 
 
 def test_kernel_targets_that_need_no_compiler_are_measured_without_one(small, monkeypatch):
-    def missing(*_arguments):
+    def missing():
         raise UnavailableError("no C compiler is found")
 
-    monkeypatch.setattr(compiled_targets, "c_baselines", missing)
+    monkeypatch.setattr(c_library, "compiler_here", missing)
     recorder = Recorder()
     targets.run(recorder, lambda _: None, quick=True)
     said = {line.what for line in recorder.lines if isinstance(line, AbsentLine)}
@@ -98,14 +99,14 @@ def test_kernel_targets_that_need_no_compiler_are_measured_without_one(small, mo
 
 
 def test_the_numpy_baseline_with_eigh_answers_as_the_kernel_away_from_contact():
-    rows = tilted_rows(TOWER_SIZES, uniform_columns(3000), (*tilted_targets.axes(3000).T,))
+    rows = tilted_rows(TOWER_SIZES, uniform_columns(3000), (*compiled_targets.axes(3000).T,))
     found = hypcheck.classify(rows)
     assert (by_eigenvectors(rows, 30) == found).all()
     assert {-1, 0, 1} == set(found.tolist())
 
 
 def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
-    rows = tilted_targets.touching_rows(40)
+    rows = compiled_targets.touching_rows(40)
     clearance = [nearest(TiltedPair.from_row(row)).clearance for row in rows.tolist()]
     assert 0 < max(map(abs, clearance)) < 4e-14
 
@@ -121,33 +122,33 @@ def test_a_kernel_target_is_missed_only_if_the_whole_interval_misses_it():
     assert least.line([2.0], "says").measured == 2.0
 
 
-def test_a_missed_target_is_measured_again_and_passes_if_the_miss_was_by_chance(tmp_path):
+def test_a_missed_target_is_measured_again_and_passes_if_the_miss_was_by_chance():
     target, other = KernelTarget("speed", "", 2.0), KernelTarget("more speed", "", 2.0)
     found = iter([1.0, 3.0, 1.5, 1.0, 2.5, 1.0])
 
-    def group(_folder, _quick):
+    def group():
         return [target.line([next(found)], ""), other.line([next(found)], "")]
 
-    lines = targets._lines(group, tmp_path, quick=True)
+    lines = targets._lines(group)
     assert [(line.measured, line.met) for line in lines] == [(2.5, True), (3.0, True)]
 
-    def slow(_folder, _quick):
+    def slow():
         calls.append(1)
         return [target.line([1.0], "")]
 
     calls = []
-    assert [line.met for line in targets._lines(slow, tmp_path, quick=True)] == [False]
+    assert [line.met for line in targets._lines(slow)] == [False]
     assert len(calls) == 1 + targets.AGAIN
 
 
-def test_kernel_targets_that_are_all_met_are_measured_once(tmp_path):
+def test_kernel_targets_that_are_all_met_are_measured_once():
     target, calls = KernelTarget("speed", "", 2.0), []
 
-    def fast(_folder, _quick):
+    def fast():
         calls.append(1)
         return [target.line([3.0], "")]
 
-    assert [line.met for line in targets._lines(fast, tmp_path, quick=True)] == [True]
+    assert [line.met for line in targets._lines(fast)] == [True]
     assert len(calls) == 1
 
 
@@ -194,13 +195,12 @@ def test_the_plain_c_baseline_answers_as_the_kernel_on_uniform_rows(level, tmp_p
     assert len(found) == len(LEVEL_FLAGS[level])
     for each in found:
         out = np.full(5000, 9, np.int8)
-        took, checksum = each.plain(np.array(TOWER_SIZES), *columns, out)(2)
+        took, checksum = each.plain(columns, out)(2)
         assert (out == exterior).all()
         assert checksum == int(exterior.sum())
         mixed = np.bitwise_xor.reduce(np.concatenate(columns).view(np.uint64))
-        assert each.read_only(*columns)(1)[1] == int(mixed) & 0xFFFF
+        assert each.read(columns)(1)[1] == int(mixed) & 0xFFFF
         assert took > 0
-        assert each.read_by_the_clock(*columns, threads=1)(1)[1] == int(mixed) & 0xFFFF
 
 
 @COMPILER
@@ -208,15 +208,15 @@ def test_the_timed_loop_of_the_kernel_writes_right_answers(tmp_path):
     pytest.importorskip("hypcheck.kernel._compiled")
     columns, out = uniform_columns(5000), np.full(5000, 9, np.int8)
     library = c_baselines(tmp_path, "plain")[0]
-    library.of_scene(np.array(TOWER_SIZES), *columns, out)(3)
+    library.of_scene(columns, out)(3)
     expected = hypcheck.classify_scene(TOWER_SIZES, *columns)
     assert (out == expected).all()
-    rows = np.column_stack([*(np.full(5000, size) for size in TOWER_SIZES), *columns])
+    rows = tower_rows(columns)
     out.fill(9)
     library.of_rows(rows, out)(3)
     assert (out == expected).all()
-    library.reading(*columns)(2)
-    assert library.product()(1000)[0] > 20 * compiled_targets.WORDS  # no compiler leaves the work out
+    library.reading(columns)(2)
+    assert library.product()(1000)[0] > 20 * WORDS  # no compiler leaves the work out
 
 
 def test_the_numpy_baselines_answer_as_the_kernel_on_uniform_rows():
@@ -227,15 +227,13 @@ def test_the_numpy_baselines_answer_as_the_kernel_on_uniform_rows():
 
 
 def test_touching_rows_of_the_upright_targets_are_within_1e_14_of_contact():
-    rows = np.column_stack([*(np.full(400, size) for size in TOWER_SIZES), *touching_columns(400)])
+    rows = tower_rows(touching_columns(400))
     found = np.abs(clearances(rows).clearance)
     assert np.median(found) < 1e-15
     assert found.max() < 1e-14
 
 
 def test_uniform_columns_repeat_their_rows_in_a_long_array():
-    from hypcheck.bench import compiled_targets
-
     x, y, z = compiled_targets.uniform_columns(compiled_targets.DISTINCT + 3)
     assert len(x) == len(y) == len(z) == compiled_targets.DISTINCT + 3
     assert x[-3:].tolist() == x[:3].tolist()

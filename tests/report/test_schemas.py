@@ -135,7 +135,7 @@ def test_record_lines_of_the_derivation_have_the_fields_of_their_classes(kind, t
 def test_a_timing_line_has_the_fields_of_a_timing():
     rows = FAMILIES["tower-body"].rows(1, 8)
     contender = TimedMethod("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
-    *_, (_, (timing,)) = measure([contender.entry(rows)], 2, shortest_s=1e-6)
+    (timing,) = measure([contender.entry(rows)], 2, shortest_s=1e-6)
     line = json.loads(json.dumps(as_json(timing_line(contender, timing))))
     assert violations(line, RECORD, closed=True) == []
 
