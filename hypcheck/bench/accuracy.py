@@ -35,8 +35,7 @@ from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from hypcheck.runs.judges import truth_of
-from hypcheck.runs.passages import passage_of
+from hypcheck.runs.judges import passage_of, truth_of
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
 from hypcheck.truth.passage_error import size_error

@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, WAY_COLUMNS, Lengths, Pair, Position
 from hypcheck.geometry.rows import WAYS, Layout
-from hypcheck.runs.passages import passage_of, way_in_radii
+from hypcheck.runs.judges import passage_of, way_in_radii
 from hypcheck.truth import exact
 from hypcheck.truth.exact import Cubic, Decision
 from hypcheck.truth.kinds import Kind

@@ -11,9 +11,8 @@ import numpy as np
 from hypcheck.messages import counted
 from hypcheck.runs.hunt import FindingCluster, Hunt, HuntFinding, HuntTarget
 from hypcheck.runs.judge import Status
-from hypcheck.runs.judges import judge_of
+from hypcheck.runs.judges import first_contact, judge_of
 from hypcheck.runs.minimise import Minimised
-from hypcheck.runs.passages import first_contact
 from hypcheck.tables.numbers import hex_of
 
 

@@ -1,63 +1,59 @@
 """The judge of each question: what is true about its rows, which answers are wrong, and by how much.
 
 Scores, retests, hunts and reports ask it, and so need not know what a question is about.
+
+Answers about ways are judged by the spheroid's size and by the first contact. A wrong answer is measured by the least
+relative change of b and d together that makes it right (truth/passage_error.py). A time is right from the first contact
+of the spheroid grown by the tolerance to that of the spheroid shrunk by it; a wrong one is measured by the way between
+it and the first contact, in spheroid radii: of an upright spheroid, (Δx² + Δy²)/b² + Δz²/d² is the square of the whole
+way.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from functools import cache
-from typing import Protocol
+from fractions import Fraction
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Indices, Layout, Mask, Positions, Rows
+from hypcheck.geometry.pair import UPRIGHT, Position
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Floats, Indices, Layout, Mask, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
+from hypcheck.implementations.ways import rough_exponents
 from hypcheck.runs import judge
-from hypcheck.runs.judge import Criterion, Mistake, WrongCase
-from hypcheck.runs.passages import PassageJudge
+from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.truth import passage_error
+from hypcheck.truth.swept import Passage
+
+Row = tuple[float, ...]
+
+_REMEMBERED = 1 << 16
+_TOGETHER = 256
+"""Wrong answers whose size errors are estimated at a time."""
+
+CLEAR, HIT = 0, 1
+LABELS = {CLEAR: "clear on the way", HIT: "in contact on the way"}
 
 
-class Judge(Protocol):
-    """How the answers to a question are judged. Answers are allowed ones or CANNOT_SAY, which is never wrong."""
-
-    def truth(self, rows: Rows) -> Positions:
-        """What is true about valid rows, int8 (n,): positions, or hits."""
-        ...
-
-    def is_wrong(
-        self, rows: Rows, truth: Positions, answers: NDArray[np.int8], times: Floats | None, criterion: Criterion
-    ) -> Mask:
-        """A mask (n,) of the wrong answers."""
-        ...
-
-    def judged(
-        self, rows: Rows, answers: NDArray[np.int8], times: Floats | None, wrong: Indices, criterion: Criterion
-    ) -> Iterator[WrongCase]:
-        """The wrong answers at these indices, judged in order."""
-        ...
-
-    def measured(self, case: WrongCase, criterion: Criterion) -> float:
-        """How wrong an answer is, as a number."""
-        ...
-
-    def mistake(self, truth: int, answer: int) -> Mistake:
-        """The kind of mistake that an answer is which is not the truth."""
-        ...
-
-    def truth_in_words(self, truth: int) -> str:
-        """The truth in words."""
-        ...
-
-    def in_words(self, answer: int) -> str:
-        """An answer in words."""
-        ...
+@lru_cache(_REMEMBERED)
+def passage_of(row: Row) -> Passage:
+    """What happens on a way; remembered, since the truth is asked for before and after the answers."""
+    return passage_error.scaled_passage(row)
 
 
-class PositionJudge:
-    """How answers about one position are judged: judge.py, for one of its questions."""
+@lru_cache(_REMEMBERED)
+def _window(row: Row, change: Fraction) -> tuple[Fraction | None, Fraction | None]:
+    return passage_error.time_window(row, change)
+
+
+class Judge:
+    """How the answers to a question are judged: to one about a position, by judge.py.
+
+    Answers are allowed ones or CANNOT_SAY, which is never wrong.
+    """
 
     def __init__(self, question: str) -> None:
         self._question = question
@@ -105,10 +101,113 @@ class PositionJudge:
         return judge.in_words(answer, self._question)
 
 
+class PassageJudge(Judge):
+    """How answers to the question passage are judged."""
+
+    def truth(self, rows: Rows) -> Positions:
+        """1 for contact on the way, 0 for none: int8 (n,)."""
+        return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)
+
+    def is_wrong(
+        self, rows: Rows, truth: Positions, answers: NDArray[np.int8], times: Floats | None, criterion: Criterion
+    ) -> Mask:
+        """A mask (n,) of the wrong answers, and of the right ones with a time that is not."""
+        wrong = np.asarray((answers != truth) & (answers != CANNOT_SAY))
+        if times is not None:
+            for place in np.flatnonzero((answers == HIT) & (truth == HIT)).tolist():
+                wrong[place] = not time_is_right(tuple(rows[place].tolist()), float(times[place]), criterion)
+        return wrong
+
+    def judged(
+        self, rows: Rows, answers: NDArray[np.int8], times: Floats | None, wrong: Indices, criterion: Criterion
+    ) -> Iterator[WrongCase]:
+        """The wrong answers at these indices, judged in order."""
+        for start in range(0, len(wrong), _TOGETHER):
+            part = wrong[start : start + _TOGETHER]
+            some = np.ascontiguousarray(rows[part])
+            for index, each, near in zip(part.tolist(), some.tolist(), rough_exponents(some).tolist(), strict=True):
+                row, answer = tuple(each), int(answers[index])
+                if passage_of(row).hit == bool(answer) and times is not None:
+                    yield _wrong_time(index, row, float(times[index]))
+                else:
+                    yield _wrong_hit(index, row, answer, criterion, near)
+
+    def measured(self, case: WrongCase, criterion: Criterion) -> float:  # noqa: ARG002 - the same in all
+        """The size error of a wrong answer, to 1 %: a lower end unless it is tolerated; of a wrong time, radii."""
+        if case.time is not None:
+            return radii_off(case.row, case.time)
+        error = passage_error.size_error(case.row, bool(case.answer))
+        return error.lower if case.status in (Status.WRONG, Status.EXCUSED) else error.upper
+
+    def mistake(self, truth: int, answer: int) -> Mistake:  # noqa: ARG002 - the answer says it
+        """The kind of mistake of an answer that is wrong about contact."""
+        return Mistake.FALSE_CONTACT if answer == HIT else Mistake.FALSE_CLEAR
+
+    def truth_in_words(self, truth: int) -> str:
+        """The truth in words."""
+        return LABELS[truth]
+
+    def in_words(self, answer: int) -> str:
+        """An answer in words, or its number if it is none."""
+        return LABELS.get(answer, str(answer))
+
+
+def time_is_right(row: Row, time: float, criterion: Criterion) -> bool:
+    """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a way with contact."""
+    found = passage_of(row)
+    if found.first_lower <= time <= found.first_upper:
+        return True
+    change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
+    if not change:
+        return False
+    earliest, latest = _window(row, change)
+    exact = Fraction(time)
+    return earliest is not None and earliest <= exact and (latest is None or exact <= latest)
+
+
+def first_contact(row: Row) -> tuple[float, float]:
+    """Bounds of the time of the first contact."""
+    found = passage_of(row)
+    return found.first_lower, found.first_upper
+
+
+def radii_off(row: Row, time: float) -> float:
+    """The way between a time and the first contact, in spheroid radii."""
+    lower, upper = first_contact(row)
+    return max(lower - time, time - upper, 0.0) * way_in_radii(row)
+
+
+def way_in_radii(row: Row) -> float:
+    """The length of the way in spheroid radii, those along the spheroid's axis and across it each in their own."""
+    b, d = row[2:4]
+    step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
+    largest = max(map(abs, row[len(WAYS.upright) :]), default=0.0)
+    axis = [each / largest for each in row[len(WAYS.upright) :]] or UPRIGHT
+    length = math.hypot(*axis)
+    along = sum(each / length * part for each, part in zip(axis, step, strict=True))
+    across = [part - along * each / length for each, part in zip(axis, step, strict=True)]
+    return math.hypot(*(part / b for part in across), along / d)
+
+
+def _wrong_time(index: int, row: Row, time: float) -> WrongCase:
+    mistake = Mistake.LATE if time > first_contact(row)[1] else Mistake.EARLY
+    off = radii_off(row, time)
+    exponent = math.floor(math.log2(off)) if 0 < off < math.inf else (-math.inf if not off else math.inf)
+    return WrongCase(index, row, HIT, HIT, mistake, Status.WRONG, exponent, time)
+
+
+def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion, near: float) -> WrongCase:
+    change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
+    within = bool(change) and (passage_of(row).grazes or passage_error.is_tolerated(row, bool(answer), change))
+    mistake = Mistake.FALSE_CONTACT if answer else Mistake.FALSE_CLEAR
+    status = Status.TOLERATED if within else Status.WRONG
+    return WrongCase(index, row, 1 - answer, answer, mistake, status, near)
+
+
 @cache
 def judge_of(question: str) -> Judge:
     """The judge of a question, one of QUESTIONS."""
-    return PassageJudge() if QUESTIONS[question].layout is WAYS else PositionJudge(question)
+    return PassageJudge(question) if QUESTIONS[question].layout is WAYS else Judge(question)
 
 
 def truth_of(rows: Rows, layout: Layout) -> Positions:

@@ -37,8 +37,7 @@ from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, Asked, Cause, Standing
 from hypcheck.runs.intermediates import AskedImplementation, FormulaChoice, choose_formula
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
-from hypcheck.runs.judges import judge_of
-from hypcheck.runs.passages import HIT, passage_of, radii_off
+from hypcheck.runs.judges import HIT, judge_of, passage_of, radii_off
 from hypcheck.runs.score import Score, score, status_of
 from hypcheck.runs.tally import STATUSES
 from hypcheck.tables.numbers import number_of_text

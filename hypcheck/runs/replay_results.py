@@ -14,7 +14,7 @@ from hypcheck.implementations.description import Description
 from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
-from hypcheck.runs.passages import LABELS, way_in_radii
+from hypcheck.runs.judges import LABELS, way_in_radii
 from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement, Row
 from hypcheck.tables.numbers import hex_of
 from hypcheck.truth import passage_error

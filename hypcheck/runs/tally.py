@@ -23,8 +23,7 @@ from hypcheck.record.lines import GroupLine
 from hypcheck.runs import diagnosis, judge
 from hypcheck.runs.diagnosis import CasePlace, Diagnosis
 from hypcheck.runs.judge import Criterion, Status, WrongCase
-from hypcheck.runs.judges import judge_of
-from hypcheck.runs.passages import first_contact
+from hypcheck.runs.judges import first_contact, judge_of
 
 Integers = NDArray[np.int64]
 

@@ -13,7 +13,7 @@ from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import SILENT, Answers, Asked, Rule, Standing
 from hypcheck.runs.judge import Criterion
-from hypcheck.runs.passages import passage_of, time_is_right
+from hypcheck.runs.judges import passage_of, time_is_right
 from hypcheck.runs.slips import always, causes_told
 
 

@@ -28,7 +28,7 @@ from hypcheck.report.model import drawn_way, implementations
 from hypcheck.report.plots.half_plane import draw_surface
 from hypcheck.report.plots.style import WIDTH, colour, new_figure
 from hypcheck.report.plots.svg import Plot
-from hypcheck.runs.passages import LABELS, passage_of
+from hypcheck.runs.judges import LABELS, passage_of
 
 BROAD, HEIGHT = 1.6 * WIDTH, 330
 

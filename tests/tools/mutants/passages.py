@@ -12,7 +12,7 @@ import numpy as np
 
 from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
-from hypcheck.runs.passages import passage_of
+from hypcheck.runs.judges import passage_of
 from hypcheck.truth.swept import passage
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 

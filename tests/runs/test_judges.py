@@ -10,8 +10,7 @@ import pytest
 
 from hypcheck.implementations.session import Answered
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from hypcheck.runs.judges import judge_of
-from hypcheck.runs.passages import passage_of, radii_off, way_in_radii
+from hypcheck.runs.judges import judge_of, passage_of, radii_off, way_in_radii
 from hypcheck.runs.score import score
 from hypcheck.vectors.families import WAY_FAMILIES
 from tests.tools.mutants import passages
