@@ -165,7 +165,7 @@ def _hunt_with_bar(run: Hunt) -> None:
     with click.progressbar(length=1000, label="hunt", file=sys.stderr, show_pos=False, show_eta=False) as bar:
 
         def show(run: Hunt) -> None:
-            kinds = len(run.findings.worst_first())
+            kinds = len(run.worst_first())
             bar.label = f"{run.asked:>11,} rows, {kinds:>3} kinds of wrong answers"
             bar.update(int(1000 * run.spent) - bar.pos)
 
@@ -173,11 +173,11 @@ def _hunt_with_bar(run: Hunt) -> None:
 
 
 def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
-    from hypcheck.runs.hunt_results import hunt_lines
+    from hypcheck.runs.hunt import hunt_lines
 
     for line in hunt_lines(run, show):
         click.echo(printable(line))
-    found = run.findings.worst_first()
+    found = run.worst_first()
     if out is not None and found:
         from hypcheck.geometry.pair import UPRIGHT
         from hypcheck.vectors.freezing import keep_rows
@@ -199,7 +199,7 @@ def _exit_code(run: Hunt) -> Exit:
     broken = not run.answered and set(run.unanswered) - {Status.NOT_RUN} == {Status.PROTOCOL}
     if run.answered == run.counts[Status.ABSTAINED.value] and not run.unanswered:
         raise NothingJudgedError("no row was answered: the domain leaves nothing to ask, or every answer was abstained")
-    wrong = bool(run.findings.worst_first() or run.unanswered)
+    wrong = bool(run.worst_first() or run.unanswered)
     return first_that_applies([Exit.NOT_STARTED] * broken + [Exit.WRONG] * wrong)
 
 
@@ -231,8 +231,8 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     """Simplify, and print the result."""
     from hypcheck.answer import answer, answer_as_text
     from hypcheck.geometry.rows import WAYS
-    from hypcheck.runs.hunt_results import minimised_lines
     from hypcheck.runs.minimise import minimise as simplify
+    from hypcheck.runs.minimise import minimised_lines
     from hypcheck.runs.replay import case_of
     from hypcheck.truth.tilted.pair import pair_of
     from hypcheck.vectors.families import is_extreme

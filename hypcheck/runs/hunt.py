@@ -1,11 +1,15 @@
-"""A hunt: its plan, the rows that were asked, and the wrong answers found, grouped by where their rows lie."""
+"""A hunt: its plan, the rows that were asked, the wrong answers found, grouped by where their rows lie, and its report.
+
+hunt_search.py chooses the rows.
+"""
 
 from __future__ import annotations
 
 import math
+import shlex
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -14,12 +18,14 @@ import numpy as np
 from hypcheck.geometry.rows import Indices, Layout, Rows
 from hypcheck.implementations.description import Domain, claimed
 from hypcheck.implementations.implementation import Implementation
+from hypcheck.messages import counted
 from hypcheck.runs import judge
 from hypcheck.runs.hunt_place import RowPlace, place_of_row
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
-from hypcheck.runs.judges import Judge, judge_of
+from hypcheck.runs.judges import Judge, first_contact, judge_of
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUSES, UnansweredCase, counts_of
+from hypcheck.tables.numbers import hex_of
 from hypcheck.vectors.draw import Integers
 
 PIECE = 4096
@@ -105,6 +111,17 @@ class HuntFinding:
     place: RowPlace
     source: str
 
+    @classmethod
+    def of(cls, case: WrongCase, criterion: Criterion, place: RowPlace, source: str) -> HuntFinding:
+        """The finding of a judged case."""
+        error = judge_of(criterion.question).measured(case, criterion)
+        return cls(case, error, judge.in_units(error, criterion.unit), place, source)
+
+    @property
+    def rank(self) -> tuple[bool, float]:
+        """The order of findings: beyond the tolerance or not, then the error."""
+        return self.case.status is Status.WRONG, self.error
+
 
 @dataclass(slots=True)
 class FindingCluster:
@@ -119,72 +136,23 @@ ClusterKey = tuple[Mistake, int, str]
 """The kind of a wrong answer: the mistake, the truth, and the kind of the row's place."""
 
 
-@dataclass(slots=True)
-class HuntFindings:
-    """All clusters of a hunt."""
-
-    criterion: Criterion
-    clusters: dict[ClusterKey, FindingCluster] = field(default_factory=dict)
-
-    def add(self, cases: Iterable[WrongCase], source: str) -> None:
-        """Add judged cases that one stratum or one search found."""
-        layout = self.criterion.layout
-        for case in cases:
-            place = place_of_row(case.row, layout)
-            key = (case.mistake, case.truth, place.kind)
-            cluster = self.clusters.get(key)
-            if cluster is None or _may_be_worse(case, cluster.worst.case):
-                finding = measured_finding(case, self.criterion, place, source)
-                if cluster is None:
-                    cluster = self.clusters[key] = FindingCluster(finding)
-                elif finding_rank(finding) > finding_rank(cluster.worst):
-                    cluster.worst = finding
-            if case.status is Status.WRONG:
-                cluster.beyond += 1
-            else:
-                cluster.tolerated += 1
-
-    def worst_first(self) -> list[FindingCluster]:
-        """The clusters with an answer beyond the tolerance, the worst first."""
-        beyond = [cluster for cluster in self.clusters.values() if cluster.beyond]
-        return sorted(beyond, key=lambda cluster: finding_rank(cluster.worst), reverse=True)
-
-
-def measured_finding(case: WrongCase, criterion: Criterion, place: RowPlace, source: str) -> HuntFinding:
-    """The finding of a judged case."""
-    error = judge_of(criterion.question).measured(case, criterion)
-    return HuntFinding(case, error, judge.in_units(error, criterion.unit), place, source)
-
-
-def finding_rank(finding: HuntFinding) -> tuple[bool, float]:
-    """The order of findings: beyond the tolerance or not, then the backward error."""
-    return finding.case.status is Status.WRONG, finding.error
-
-
-def _may_be_worse(case: WrongCase, worst: WrongCase) -> bool:
-    return (case.status is Status.WRONG, case.exponent) >= (worst.status is Status.WRONG, worst.exponent)
-
-
 @dataclass
 class Hunt:
     """The state of a hunt.
 
-    `counts` are rows by status; a tolerated answer counts as wrong. `unanswered` is the first case of each status
-    without a valid answer. `piece` is the number of rows to ask next. `barren` says that the implementation claimed no
-    row of a whole round of strata.
+    `clusters` are the wrong answers found, by kind. `counts` are rows by status; a tolerated answer counts as wrong.
+    `unanswered` is the first case of each status without a valid answer. `piece` is the number of rows to ask next.
+    `barren` says that the implementation claimed no row of a whole round of strata.
     """
 
     target: HuntTarget
     plan: HuntPlan
-    findings: HuntFindings = field(init=False)
+    clusters: dict[ClusterKey, FindingCluster] = field(default_factory=dict)
     started: float = field(default_factory=time.monotonic)
     counts: Counter[str] = field(default_factory=Counter)
     unanswered: dict[Status, UnansweredCase] = field(default_factory=dict)
     piece: int = math.isqrt(PIECE)
     barren: bool = False
-
-    def __post_init__(self) -> None:
-        self.findings = HuntFindings(self.target.criterion)
 
     @property
     def asked(self) -> int:
@@ -213,40 +181,160 @@ class Hunt:
         """Whether the budget is spent, there is nothing to ask, or the implementation was given up."""
         return self.spent >= 1 or self.barren or Status.NOT_RUN in self.unanswered
 
+    def worst_first(self) -> list[FindingCluster]:
+        """The clusters with an answer beyond the tolerance, the worst first."""
+        beyond = [cluster for cluster in self.clusters.values() if cluster.beyond]
+        return sorted(beyond, key=lambda cluster: cluster.worst.rank, reverse=True)
 
-def ask_rows(run: Hunt, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
-    """The target's wrong answers to the rows that it claims; their `index` is that of the given rows.
+    def add(self, cases: Iterable[WrongCase], source: str) -> None:
+        """Add judged cases that one stratum or one search found."""
+        for case in cases:
+            place = place_of_row(case.row, self.target.layout)
+            key = (case.mistake, case.truth, place.kind)
+            cluster = self.clusters.get(key)
+            if cluster is None or _may_be_worse(case, cluster.worst.case):
+                finding = HuntFinding.of(case, self.target.criterion, place, source)
+                if cluster is None:
+                    cluster = self.clusters[key] = FindingCluster(finding)
+                elif finding.rank > cluster.worst.rank:
+                    cluster.worst = finding
+            if case.status is Status.WRONG:
+                cluster.beyond += 1
+            else:
+                cluster.tolerated += 1
 
-    With `ladders`, (n,) numbers, only the last wrong answer of each number is judged and returned.
-    """
-    places = run.target.claimed(rows)
-    if run.plan.queries is not None:
-        places = places[: run.plan.queries - run.asked]
-    pieces = list(_pieces(run, rows, places))
-    wrong = [part[scored.wrong] for part, scored in pieces]
-    if ladders is not None:
-        last = {int(ladders[place]): place for some in wrong for place in some.tolist()}
-        wrong = [some[np.isin(some, list(last.values()))] for some in wrong]
-    return [
-        replace(case, index=int(part[case.index]))
-        for (part, scored), some in zip(pieces, wrong, strict=True)
-        for case in scored.judged(np.searchsorted(part, some))
+    def ask(self, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
+        """The target's wrong answers to the rows that it claims; their `index` is that of the given rows.
+
+        With `ladders`, (n,) numbers, only the last wrong answer of each number is judged and returned.
+        """
+        places = self.target.claimed(rows)
+        if self.plan.queries is not None:
+            places = places[: self.plan.queries - self.asked]
+        pieces = list(self._pieces(rows, places))
+        wrong = [part[scored.wrong] for part, scored in pieces]
+        if ladders is not None:
+            last = {int(ladders[place]): place for some in wrong for place in some.tolist()}
+            wrong = [some[np.isin(some, list(last.values()))] for some in wrong]
+        return [
+            replace(case, index=int(part[case.index]))
+            for (part, scored), some in zip(pieces, wrong, strict=True)
+            for case in scored.judged(np.searchsorted(part, some))
+        ]
+
+    def _pieces(self, rows: Rows, places: Indices) -> Iterator[tuple[Indices, Score]]:
+        """Ask the rows at these places, some at a time, until the budget is spent."""
+        start = 0
+        while start < len(places) and not self.over:
+            part = places[start : start + self.piece]
+            start += len(part)
+            began = time.monotonic()
+            scored = self.target.ask(rows[part])
+            slow = time.monotonic() - began > PIECE_SECONDS
+            self.piece = max(1, self.piece // 2) if slow else min(PIECE, 2 * self.piece)
+            for index, reason in scored.reasons.items():
+                status = STATUSES[scored.status[index]]
+                if status not in self.unanswered:
+                    row = tuple(scored.rows[index].tolist())
+                    self.unanswered[status] = UnansweredCase((1, self.asked + index), "", row, status.value, reason)
+            self.counts.update(counts_of(scored.status))
+            yield part, scored
+
+
+def _may_be_worse(case: WrongCase, worst: WrongCase) -> bool:
+    return (case.status is Status.WRONG, case.exponent) >= (worst.status is Status.WRONG, worst.exponent)
+
+
+def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
+    """The report of a hunt: at most `most` kinds of wrong answers in full, the worst first."""
+    found = run.worst_first()
+    beyond = sum(cluster.beyond for cluster in found)
+    tolerated = sum(cluster.tolerated for cluster in run.clusters.values())
+    tolerance = float(run.target.criterion.tolerance)
+    wrong, abstained = run.counts[Status.WRONG.value], run.counts[Status.ABSTAINED.value]
+    asked = f"{counted(run.asked, 'row')} asked in {run.seconds:.1f} s, seed {run.plan.seed}"
+    yield f"{name_of_target(run.target)}: {asked}"
+    judged = f"; of those that were judged, {beyond:,} by more than {tolerance:g} u and {tolerated:,} by less"
+    if run.answered:
+        yield f"{_answers(wrong)} wrong{judged if wrong else ''}"
+    else:
+        yield "no row was answered, so no answer was judged"
+    if abstained:
+        yield f'{_answers(abstained)} "cannot say"'
+    if found:
+        yield f"kinds of wrong answers: {len(found)}, the worst first"
+    for number, cluster in enumerate(found[:most], start=1):
+        yield ""
+        yield from _cluster_lines(number, cluster, run.target)
+    if len(found) > most:
+        yield ""
+        more = counted(len(found) - most, "more kind")
+        yield f"and {more}, the worst of them {how_wrong(found[most].worst)}; --show shows more"
+    for status, fault in run.unanswered.items():
+        yield ""
+        yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"
+        if status is not Status.NOT_RUN:
+            yield titled("row", _row(fault.row, run.target))
+
+
+def _answers(number: int) -> str:
+    return f"{counted(number, 'answer')} {'was' if number == 1 else 'were'}"
+
+
+def _cluster_lines(number: int, cluster: FindingCluster, target: HuntTarget) -> Iterator[str]:
+    worst = cluster.worst
+    yield f"{number}. {worst.case.mistake.value}, {how_wrong(worst)}, {worst.place.words}"
+    yield from finding_lines(worst, target)
+    tolerated = f", and {cluster.tolerated:,} within tolerance" if cluster.tolerated else ""
+    times = "once" if cluster.beyond == 1 else f"{cluster.beyond:,} times"
+    yield titled("found", f"{times}{tolerated}; the worst from {worst.source}")
+    yield titled("simplify", _command(target, "minimise", target.spec, decimals(worst.case.row)))
+
+
+def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
+    """A finding: its row, the truth beside the answer, and the command that replays it."""
+    case = finding.case
+    truth, answer = target.judge.truth_in_words(case.truth), target.judge.in_words(case.answer)
+    yield titled("row", _row(case.row, target))
+    yield titled("hex", ",".join(map(hex_of, case.row)))
+    yield titled("truth", f"{truth}; answered: {answer} ({case.mistake.value}, wrong by {how_wrong(finding)})")
+    if case.time is not None:
+        lower, upper = first_contact(case.row)
+        yield titled("time", f"answered: {case.time!r}; first contact between {lower!r} and {upper!r}")
+    yield titled("replay", _command(target, "replay", decimals(case.row), target.spec))
+
+
+def _command(target: HuntTarget, *words: str) -> str:
+    """A command about the target, with the options with which it was opened."""
+    given = [
+        part for name, value in target.options if words[0] != "replay" or name != "--regimes" for part in (name, value)
     ]
+    return shlex.join(("hypcheck", *words, *given))
 
 
-def _pieces(run: Hunt, rows: Rows, places: Indices) -> Iterator[tuple[Indices, Score]]:
-    """Ask the rows at these places, some at a time, until the budget is spent."""
-    start = 0
-    while start < len(places) and not run.over:
-        part = places[start : start + run.piece]
-        start += len(part)
-        began = time.monotonic()
-        scored = run.target.ask(rows[part])
-        run.piece = max(1, run.piece // 2) if time.monotonic() - began > PIECE_SECONDS else min(PIECE, 2 * run.piece)
-        for index, reason in scored.reasons.items():
-            status = STATUSES[scored.status[index]]
-            if status not in run.unanswered:
-                row = tuple(scored.rows[index].tolist())
-                run.unanswered[status] = UnansweredCase((1, run.asked + index), "", row, status.value, reason)
-        run.counts.update(counts_of(scored.status))
-        yield part, scored
+def decimals(row: Sequence[float]) -> str:
+    """A row as the command line reads it back."""
+    return ",".join(repr(value).removesuffix(".0") for value in np.add(row, 0.0).tolist())
+
+
+def _row(row: Sequence[float], target: HuntTarget) -> str:
+    return f"{decimals(row)}  ({', '.join(target.layout.columns(len(row)))})"
+
+
+def how_wrong(finding: HuntFinding) -> str:
+    """The error of a finding: in units u, of a time in spheroid radii of the way."""
+    if finding.case.time is not None:
+        return f"{finding.error:.3g} spheroid radii"
+    if finding.error_u == math.inf:
+        return "inf u (no change of the inputs makes it right)" if finding.error == math.inf else "inf u"
+    return f"{finding.error_u:.3g} u"
+
+
+def name_of_target(target: HuntTarget) -> str:
+    """The implementation, the question and the precision."""
+    return f"{target.implementation.description.name} ({target.criterion.question}, {target.criterion.precision})"
+
+
+def titled(title: str, line: str) -> str:
+    """A line of a finding with its title."""
+    return f"   {title:9} {line}"

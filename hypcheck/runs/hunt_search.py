@@ -11,11 +11,10 @@ Rows are brought to the border of contact by bisection on exact positions. The p
 y together.
 
 Local search goes from a wrong answer to worse ones, as a pattern search with halving steps. The neighbours of a row
-have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface
-(those of a way: hunt_ways.py).
+have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
 Floats mostly fail in a thin layer at the border of contact, which a plain step would leave. Therefore each neighbour is
 asked, and also brought to the border, with a ladder of growing steps away from it: the farthest rung with a wrong
-answer counts.
+answer counts. A way is brought there by the spheroid's size, in which contact is monotone (truth/passage_error.py).
 """
 
 from __future__ import annotations
@@ -30,9 +29,8 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import PAIRS, WAYS, FixedSizes, Floats, Layout, Mask, Positions, Rows, invalid, with_axis
-from hypcheck.runs.hunt import ClusterKey, Hunt, HuntFindings, ask_rows, finding_rank
-from hypcheck.runs.hunt_ways import around_way, size_factors, size_mask
-from hypcheck.runs.judge import exact_positions
+from hypcheck.runs.hunt import ClusterKey, Hunt
+from hypcheck.runs.judges import truth_of
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import Family
@@ -48,6 +46,9 @@ MOVERS: dict[str, tuple[int, ...]] = {
     "d": (3,),
 }
 """The unknowns of a pair with their columns; multiplied by one factor, each can reach the border of contact."""
+
+SIZE = (2, 3)
+"""The columns of b and d, which are the size of the spheroid together."""
 
 REACH = 2.0**12
 """Factors from 1/REACH to REACH are tried."""
@@ -73,13 +74,13 @@ def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
         return np.where(mask, rows * factor[:, None], rows)
 
 
-def border_factors(rows: Rows, mask: Mask, far: Mask) -> Floats:
-    """The factor just before the position changes, (n,); NaN if it does not change within REACH.
+def border_factors(rows: Rows, mask: Mask, far: Mask, layout: Layout = PAIRS) -> Floats:
+    """The factor just before the position changes, or contact on a way begins, (n,); NaN if not within REACH.
 
     Of two changes the one with the greater factor is taken for the rows in `far`.
     """
     low, high = np.full(len(rows), 1 / REACH), np.full(len(rows), REACH)
-    at_low, at_high = _positions(moved(rows, mask, low)), _positions(moved(rows, mask, high))
+    at_low, at_high = _truths(moved(rows, mask, low), layout), _truths(moved(rows, mask, high), layout)
     changes = (at_low != at_high) & (at_low != UNUSABLE) & (at_high != UNUSABLE)
     rows, mask, far = rows[changes], mask[changes], far[changes]
     at_low, at_high = at_low[changes], at_high[changes]
@@ -87,7 +88,7 @@ def border_factors(rows: Rows, mask: Mask, far: Mask) -> Floats:
     below, above = low[changes].view(np.int64), high[changes].view(np.int64)
     while (above - below).max(initial=0) > 1:
         middle = below + (above - below) // 2
-        position = _positions(moved(rows, mask, middle.view(np.float64)))
+        position = _truths(moved(rows, mask, middle.view(np.float64)), layout)
         before = np.where(far, position != at_high, position == at_low)
         below, above = np.where(before, middle, below), np.where(before, above, middle)
     factors = np.full(len(changes), np.nan)
@@ -98,11 +99,11 @@ def border_factors(rows: Rows, mask: Mask, far: Mask) -> Floats:
 UNUSABLE = 3
 
 
-def _positions(rows: Rows) -> Positions:
-    """Exact positions, and UNUSABLE if a length left the range of float64."""
-    usable = ~invalid(rows)
+def _truths(rows: Rows, layout: Layout) -> Positions:
+    """Exact positions, or hits of ways, and UNUSABLE if a length left the range of float64."""
+    usable = ~invalid(rows, layout)
     found = np.full(len(rows), UNUSABLE, dtype=np.int8)
-    found[usable] = exact_positions(rows[usable])
+    found[usable] = truth_of(rows[usable], layout)
     return found
 
 
@@ -227,22 +228,22 @@ Row = tuple[float, ...]
 FIRST_STEP = 0.5
 LAST_STEP = 2.0**-44
 
-_MOVES = [
-    (0,),
-    (1,),
-    (2,),
-    (3,),
-    (4, 5),
-    (6,),
-    (0, 2, 4, 5),  # the radial and the axial unit of length: only the rounding changes
-    (1, 3, 6),
-]
+_WAY_MOVES = [(0,), (1,), (2,), (3,), SIZE, (4, 5), (6,), (7, 8), (9,), (4, 5, 7, 8), (6, 9)]
 
-_TILTED_MOVES = [
-    *((column,) for column in range(10)),
-    (0, 1, 2, 3, 4, 5, 6),  # the unit of length, and that of the axis
-    (7, 8, 9),
-]
+_MOVES: dict[Layout, tuple[list[tuple[int, ...]], list[tuple[int, ...]]]] = {
+    PAIRS: (
+        [(0,), (1,), (2,), (3,), (4, 5), (6,), (0, 2, 4, 5), (1, 3, 6)],
+        [*((column,) for column in range(10)), (0, 1, 2, 3, 4, 5, 6), (7, 8, 9)],
+    ),
+    WAYS: (
+        [*_WAY_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9)],
+        [*_WAY_MOVES, tuple(range(10)), (10,), (11,), (12,), (10, 11, 12)],
+    ),
+}
+"""Columns that are multiplied together, of upright spheroids and of tilted ones.
+
+Where they are all of a unit of length, or an axis, only the rounding changes.
+"""
 
 
 @dataclass(slots=True)
@@ -275,7 +276,7 @@ class Neighbours:
 def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) -> Neighbours:
     """The neighbours of the climbers, rows of this layout."""
     with np.errstate(all="ignore"):  # rows that leave float64 are not valid, and not asked
-        around = [around_way(climber.row, climber.step) if layout is WAYS else _around(climber) for climber in climbers]
+        around = [_around(climber, layout) for climber in climbers]
     if len({part.shape[1] for part in around}) > 1:  # of upright and of tilted spheroids
         around = [with_axis(part, layout) for part in around]
     rows = np.concatenate(around)
@@ -291,27 +292,50 @@ def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) 
     )
 
 
+BROUGHT = 3
+"""Neighbours of a way that are brought to the border at a time: each takes about 60 decisions of a millisecond."""
+
+
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
     """The columns of each row that one factor brings to the border of contact, and that factor; NaN where none does."""
-    if layout is WAYS:
-        return size_mask(rows), size_factors(draw, rows, REACH)
-    mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)], rows.shape[1])
-    return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
+    if layout is PAIRS:
+        mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)], rows.shape[1])
+        return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
+    mask, factors = np.zeros(rows.shape, dtype=np.bool_), np.full(len(rows), np.nan)
+    mask[:, SIZE] = True
+    some = draw.integers(min(BROUGHT, len(rows)), 0, len(rows) - 1)
+    factors[some] = border_factors(rows[some], mask[some], np.zeros(len(some), dtype=np.bool_), WAYS)
+    return mask, factors
 
 
-def _around(climber: Climber) -> Rows:
-    """The row itself, its neighbours one step away, and its images on the four surfaces."""
-    moves = _MOVES if len(climber.row) == len(COLUMNS) else _TILTED_MOVES
-    rows = np.repeat(np.array([climber.row]), 1 + 2 * len(moves) + 4, axis=0)
+def _around(climber: Climber, layout: Layout) -> Rows:
+    """The row itself, its neighbours one step away, and special rows beside it."""
+    row, step = climber.row, climber.step
+    moves = _MOVES[layout][len(row) != len(layout.upright)]
+    rows = np.repeat(np.array([row]), 1 + 2 * len(moves), axis=0)
     for number, columns in enumerate(moves):
-        rows[1 + 2 * number, columns] *= 1 + climber.step
-        rows[2 + 2 * number, columns] /= 1 + climber.step
-    axis, waist, throat, groove = rows[-4:]
-    axis[4:6] = 0
-    waist[6] = 0
+        rows[1 + 2 * number, columns] *= 1 + step
+        rows[2 + 2 * number, columns] /= 1 + step
+    return np.concatenate([rows, _special(row, layout)])
+
+
+def _special(row: Row, layout: Layout) -> Rows:
+    """The images of a row on the four surfaces; of a way those on three, and special ways beside it."""
+    images = np.repeat(np.array([row]), 4 if layout is PAIRS else 7, axis=0)
+    *others, waist, throat, groove = images
     throat[0] = throat[2]
     groove[1] = groove[3] * np.sqrt(groove[0] / groove[2])
-    return rows
+    if layout is PAIRS:
+        (axis,) = others
+        axis[4:6], waist[6] = 0, 0
+        return images
+    back, still, vertical, horizontal = others
+    back[4:7], back[7:10] = row[7:10], row[4:7]
+    still[7:10] = row[4:7]
+    vertical[7:9] = row[4:6]
+    horizontal[9] = row[6]
+    waist[[6, 9]] = 0
+    return images
 
 
 FIRST_LOOK = 128
@@ -360,7 +384,7 @@ def _look(run: Hunt) -> Iterator[None]:
 
 
 def _take(run: Hunt, rows: Rows, source: str) -> None:
-    run.findings.add(ask_rows(run, rows), source)
+    run.add(run.ask(rows), source)
 
 
 def _climb(run: Hunt) -> Iterator[bool]:
@@ -368,25 +392,25 @@ def _climb(run: Hunt) -> Iterator[bool]:
     climbers: dict[ClusterKey, Climber] = {}
     number = 0
     while True:
-        chosen = _climbers(run.findings, climbers)
+        chosen = _climbers(run, climbers)
         if chosen:
             number += 1
             draw = Draw("hunt", run.plan.seed, number)
             around = neighbours(draw, [climbers[key] for key in chosen], run.target.layout)
-            cases = ask_rows(run, around.rows, around.ladders)
+            cases = run.ask(around.rows, around.ladders)
             for place, key in enumerate(chosen):
                 own = [case for case in cases if around.owners[case.index] == place]
-                run.findings.add(own, f"local search from {key[-1]}")
+                run.add(own, f"local search from {key[-1]}")
                 climbers[key].step /= 2
         yield bool(chosen)
 
 
-def _climbers(findings: HuntFindings, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey]:
+def _climbers(run: Hunt, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey]:
     """The climbers to ask next: those with the longest step, then the worst.
 
     A climber is at the worst answer of its cluster. It starts again with the first step when that has become worse.
     """
-    found = sorted(findings.clusters.items(), key=lambda item: finding_rank(item[1].worst), reverse=True)
+    found = sorted(run.clusters.items(), key=lambda item: item[1].worst.rank, reverse=True)
     for key, cluster in found:
         if key not in climbers or cluster.worst.error > climbers[key].error:
             climbers[key] = Climber(cluster.worst.case.row, cluster.worst.error)

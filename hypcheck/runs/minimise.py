@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import lru_cache, partial
+from functools import cache, lru_cache
 from itertools import product
 
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, WAY_COLUMNS, trouble_with_row
+from hypcheck.geometry.pair import COLUMNS, SIZES, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
-from hypcheck.runs.hunt import HuntFinding, HuntTarget, measured_finding
+from hypcheck.messages import counted
+from hypcheck.runs.hunt import (
+    HuntFinding,
+    HuntTarget,
+    decimals,
+    finding_lines,
+    how_wrong,
+    name_of_target,
+    titled,
+)
 from hypcheck.runs.hunt_place import place_of_row
 from hypcheck.runs.hunt_search import MOVERS, border_factors, columns_of
 from hypcheck.runs.judge import Status, WrongCase
@@ -49,7 +57,8 @@ def characters(value: float) -> int:
     return (value < 0) + min(plain, scientific)
 
 
-def complexity(row: Sequence[float]) -> Complexity:
+@lru_cache(maxsize=1 << 17)
+def complexity(row: Row) -> Complexity:
     """Less for a simpler row: the characters of all its numbers, those of the longest, the sum of the sizes."""
     lengths = [characters(value) for value in row]
     return sum(lengths), max(lengths), int(min(sum(map(abs, row)), LARGEST_SUM))
@@ -71,85 +80,19 @@ def rounded(value: float) -> Iterator[float]:
             yield float(f"{float(text) + steps * unit:.{digits - 1}e}")
 
 
-def simplest_below(limit: Complexity) -> Rows:
-    """The rows of small whole numbers and halves, one length of each unit 1, below a complexity; the simplest first."""
-    rows, complexities = _simplest()
-    return rows[: bisect_left(complexities, limit)]
-
-
-@lru_cache(maxsize=1)
-def _simplest() -> tuple[Rows, list[Complexity]]:
+@cache
+def small_pairs() -> tuple[Row, ...]:
+    """Rows of small whole numbers and halves, one length of each unit 1."""
     sizes = [(1.0, 1.0), *((float(size), 1.0) for size in range(2, 7)), *((1.0, float(size)) for size in range(2, 7))]
     far, near = [half / 2 for half in range(17)], [0.0, 0.5, 1.0, 1.5, 2.0, 3.0]
-    rows = simpler_than(
-        (
-            (alpha, gamma, b, d, x, y, z)
-            for (alpha, b), (gamma, d), x, y, z in product(sizes, sizes, far, near, near)
-            if y <= x
-        ),
-        (99, 99, 99),
+    return tuple(
+        (alpha, gamma, b, d, x, y, z)
+        for (alpha, b), (gamma, d), x, y, z in product(sizes, sizes, far, near, near)
+        if y <= x
     )
-    return rows, [complexity(row) for row in rows.tolist()]
 
 
-def _valid(row: Row, layout: Layout) -> bool:
-    width = len(layout.upright)
-    return all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == width or any(row[width:]))
-
-
-Groups = tuple[list[int], ...]
-
-GROUPS: Groups = (RADIAL_COLUMNS, AXIAL_COLUMNS, [7, 8, 9])
-"""Columns whose numbers share a unit; the last are those of an axis."""
-
-WAY_GROUPS: Groups = ([*RADIAL_COLUMNS, 7, 8], [*AXIAL_COLUMNS, 9], [10, 11, 12])
-"""The same of ways."""
-
-_SMALL = tuple(map(float, range(1, 7)))
-
-
-def same_pair(row: Row) -> Iterator[Row]:
-    """The pair in other coordinates: without signs, x and y swapped or turned onto one axis, other units of length."""
-    alpha, gamma, b, d, *center = row
-    x, y, z = map(abs, center)
-    yield (alpha, gamma, b, d, x, y, z)
-    yield (alpha, gamma, b, d, y, x, z)
-    yield (alpha, gamma, b, d, math.hypot(x, y), 0.0, z)
-    yield from _other_units(row, GROUPS[:2])
-
-
-def _other_units(row: Row, groups: Iterable[Sequence[int]]) -> Iterator[Row]:
-    for columns in groups:
-        for unit in _units([row[column] for column in columns]):
-            yield _with(row, {column: row[column] / unit for column in columns})
-
-
-def same_tilted_pair(row: Row) -> Iterator[Row]:
-    """The tilted pair in other coordinates: fewer signs, x and y exchanged, other units of length and of the axis."""
-    alpha, gamma, b, d, x, y, z, *axis = row
-    for turn in (1, -1):
-        mirrored = [turn * each * math.copysign(1.0, place) for each, place in zip(axis, (x, y, z), strict=True)]
-        yield (alpha, gamma, b, d, abs(x), abs(y), abs(z), *mirrored)
-        yield (alpha, gamma, b, d, abs(y), abs(x), abs(z), mirrored[1], mirrored[0], mirrored[2])
-    yield from _other_units(row, (range(len(COLUMNS)), range(len(COLUMNS), len(row))))
-
-
-def same_way(row: Row) -> Iterator[Row]:
-    """The way in other coordinates: fewer signs, x and y swapped, the other way round, other units."""
-    alpha, gamma, b, d, *ends = row[: len(WAY_COLUMNS)]
-    axis = row[len(WAY_COLUMNS) :]
-    turn = [math.copysign(1.0, first or last) for first, last in zip(ends[:3], ends[3:], strict=True)]
-    there, back = [[t * each for t, each in zip(turn, part, strict=True)] for part in (ends[:3], ends[3:])]
-    mirrored = tuple(t * each for t, each in zip(turn, axis, strict=bool(axis)))
-    for first, last in ((there, back), (back, there)):
-        yield (alpha, gamma, b, d, *first, *last, *mirrored)
-        swapped = (first[1], first[0], first[2], last[1], last[0], last[2])
-        yield (alpha, gamma, b, d, *swapped, *(mirrored[1::-1] + mirrored[2:]))
-    whole, across = range(len(WAY_COLUMNS)), range(len(WAY_COLUMNS), len(row))
-    yield from _other_units(row, (whole, across) if axis else WAY_GROUPS[:2])
-
-
-@lru_cache(maxsize=1)
+@cache
 def small_ways() -> tuple[Row, ...]:
     """Ways in the plane y = 0 in small whole numbers, upright."""
     sizes = [(alpha, gamma, 1.0, 1.0) for alpha in (1.0, 2.0, 3.0) for gamma in (1.0, 2.0, 3.0)]
@@ -158,6 +101,45 @@ def small_ways() -> tuple[Row, ...]:
         (*size, x, 0.0, z, float(end_x), 0.0, float(end_z))
         for size, (x, z), (end_x, end_z) in product(sizes, starts, ends)
     )
+
+
+def _valid(row: Row, layout: Layout) -> bool:
+    width = len(layout.upright)
+    return all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == width or any(row[width:]))
+
+
+GROUPS: dict[Layout, tuple[list[int], ...]] = {
+    PAIRS: (RADIAL_COLUMNS, AXIAL_COLUMNS, [7, 8, 9]),
+    WAYS: ([*RADIAL_COLUMNS, 7, 8], [*AXIAL_COLUMNS, 9], [10, 11, 12]),
+}
+"""Columns whose numbers share a unit; the last are those of an axis."""
+
+_SMALL = tuple(map(float, range(1, 7)))
+
+
+def same_query(row: Row, layout: Layout) -> Iterator[Row]:
+    """The row in other coordinates: fewer signs, x and y exchanged, a way the other way round, other units.
+
+    An upright pair is also turned so that y is 0.
+    """
+    width = len(layout.upright)
+    sizes, axis = row[: len(SIZES)], row[width:]
+    ends = [row[start : start + 3] for start in range(len(SIZES), width, 3)]
+    signs = [math.copysign(1.0, next(filter(None, place), 1.0)) for place in zip(*ends, strict=True)]
+    mirrored = [_times(signs, end) for end in ends]
+    for points, turn in product((mirrored, mirrored[::-1]), (1.0, -1.0)):
+        vectors = [*points, *([_times([turn * sign for sign in signs], axis)] if axis else [])]
+        for order in ((0, 1, 2), (1, 0, 2)):
+            yield (*sizes, *(vector[place] for vector in vectors for place in order))
+    if len(row) == len(COLUMNS):
+        yield (*sizes, math.hypot(row[4], row[5]), 0.0, row[6])
+    for columns in (range(width), range(width, len(row))) if axis else GROUPS[layout][:2]:
+        for unit in _units([row[column] for column in columns]):
+            yield _with(row, {column: row[column] / unit for column in columns})
+
+
+def _times(signs: Sequence[float], vector: Sequence[float]) -> list[float]:
+    return [sign * each for sign, each in zip(signs, vector, strict=True)]
 
 
 def _units(lengths: list[float]) -> set[float]:
@@ -173,16 +155,17 @@ def _units(lengths: list[float]) -> set[float]:
     return {unit for unit in units if unit}
 
 
-def one_changed(row: Row, groups: Groups = GROUPS) -> Iterator[Row]:
+def one_changed(row: Row, layout: Layout) -> Iterator[Row]:
     """One number made 0, 1 or shorter, or equal to another of its unit."""
     for column in range(len(row)):
-        for value in {*_simple_values(row, column, groups), *rounded(row[column])}:
+        for value in {*_simple_values(row, column, layout), *rounded(row[column])}:
             yield _with(row, {column: value})
 
 
-def brought_back(row: Row) -> Iterator[Row]:
-    """One number made simple, and another one moved to the border of contact and rounded to ever more digits."""
-    changed = {row, *(_with(row, {column: value}) for column in range(7) for value in _simple_values(row, column))}
+def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
+    """One number of a pair made simple, and another moved to the border of contact and rounded to ever more digits."""
+    simple = ((column, value) for column in range(7) for value in _simple_values(row, column, layout))
+    changed = {row, *(_with(row, {column: value}) for column, value in simple)}
     for alpha, gamma, height in product(_SMALL, _SMALL, {0.0, 1.0, row[6]}):
         changed |= {(alpha, gamma, 1.0, 1.0, radius, 0.0, height) for radius in (0.0, 1.0, alpha + 1)}
     limit = complexity(row)[0]
@@ -201,8 +184,8 @@ def brought_back(row: Row) -> Iterator[Row]:
                 yield _with(each, {lead: value})
 
 
-def _simple_values(row: Row, column: int, groups: Groups = GROUPS) -> set[float]:
-    group = next(columns for columns in groups if column in columns)
+def _simple_values(row: Row, column: int, layout: Layout) -> set[float]:
+    group = next(columns for columns in GROUPS[layout] if column in columns)
     values = {1.0, 2.0, 3.0, *(row[other] for other in group if other != column)}
     values |= {float(math.floor(row[column])), float(math.ceil(row[column]))}
     return values - {0.0} if column < len(SIZES) else values | {0.0}
@@ -219,8 +202,17 @@ MAX_ROWS = 30_000
 """At most so many rows are asked for one step, the simplest ones."""
 
 
-Variants = Callable[[Row, Complexity], Rows]
-"""From a row to the rows below a complexity that could replace it, the simplest first."""
+Variants = Callable[[Row, Layout], Iterable[Row]]
+"""From a row to rows that could replace it."""
+
+_VARIANTS: dict[Layout, tuple[tuple[Variants, ...], tuple[Variants, ...]]] = {
+    PAIRS: ((same_query, one_changed, lambda *_: small_pairs(), brought_back), (same_query, one_changed)),
+    WAYS: ((same_query, one_changed, lambda *_: small_ways()), (same_query, one_changed)),
+}
+"""The variants of upright spheroids and of tilted ones, cheap ones first.
+
+Later ones are tried only if the earlier ones give no simpler row.
+"""
 
 
 @dataclass
@@ -253,7 +245,7 @@ def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
     row = _row_of(target, case)
     run.steps.append(_start(run, row))
     variants = _VARIANTS[target.layout][len(row) > len(target.layout.upright)]
-    while any(_improve(run, ways) for ways in variants):
+    while any(_improve(run, each) for each in variants):
         pass
     return run
 
@@ -282,21 +274,22 @@ def _start(run: Minimised, row: Row) -> HuntFinding:
         raise InputError("the implementation's answer to this row is not wrong; there is nothing to simplify")
     if case.status is not Status.WRONG:
         raise InputError("the implementation's answer to this row is wrong within tolerance; see --tolerance")
-    return measured_finding(case, run.target.criterion, place_of_row(row, layout), "given")
+    return HuntFinding.of(case, run.target.criterion, place_of_row(row, layout), "given")
 
 
-def _improve(run: Minimised, ways: Variants) -> bool:
+def _improve(run: Minimised, variants: Variants) -> bool:
     """Take the simplest of these variants that fails in the same way; False if there is none."""
     row = run.last.case.row
     layout = run.target.layout
-    candidates, piece = ways(row, complexity(row))[:MAX_ROWS], PIECE[layout]
+    candidates = simpler_than(variants(row, layout), complexity(row), layout)[:MAX_ROWS]
+    piece = PIECE[layout]
     for start in range(0, len(candidates), piece):
         rows = candidates[start : start + piece]
         rows = rows[run.target.claimed(rows)]
         for case in _ask(run, rows).judged():
             place = place_of_row(case.row, layout) if _alike(case, run.first.case) else None
             if place is not None and place.cause == run.first.place.cause:
-                run.steps.append(measured_finding(case, run.target.criterion, place, f"step {len(run.steps)}"))
+                run.steps.append(HuntFinding.of(case, run.target.criterion, place, f"step {len(run.steps)}"))
                 return True
     return False
 
@@ -314,23 +307,10 @@ def _ask(run: Minimised, rows: Rows) -> Score:
     return run.target.ask(rows)
 
 
-def _next_to(around: Callable[[Row], Iterable[Row]], layout: Layout = PAIRS) -> Variants:
-    return lambda row, limit: simpler_than(around(row), limit, layout)
-
-
-_UPRIGHT: tuple[Variants, ...] = (
-    _next_to(same_pair),
-    _next_to(one_changed),
-    lambda _, limit: simplest_below(limit),
-    _next_to(brought_back),
-)
-"""Cheap variants first: later ones are tried only if the earlier ones give no simpler row."""
-
-_TILTED: tuple[Variants, ...] = (_next_to(same_tilted_pair), _next_to(one_changed))
-_WAYS: tuple[Variants, ...] = (
-    _next_to(same_way, WAYS),
-    _next_to(partial(one_changed, groups=WAY_GROUPS), WAYS),
-    _next_to(lambda _: small_ways(), WAYS),
-)
-_VARIANTS = {PAIRS: (_UPRIGHT, _TILTED), WAYS: (_WAYS, _WAYS[:2])}
-"""The variants of each layout, of upright spheroids and of tilted ones."""
+def minimised_lines(run: Minimised) -> Iterator[str]:
+    """The report of a minimisation."""
+    steps = len(run.steps) - 1
+    yield f"{name_of_target(run.target)}: {counted(steps, 'step')}, {counted(run.asked, 'row')} asked"
+    yield titled("given", f"{decimals(run.first.case.row)}, {how_wrong(run.first)}")
+    yield titled("where", run.last.place.words)
+    yield from finding_lines(run.last, run.target)

@@ -16,7 +16,7 @@ from hypcheck.implementations.description import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.runs.hunt import target_of
 from hypcheck.runs.judge import Status
-from hypcheck.runs.minimise import characters, complexity, minimise, rounded, simpler_than, simplest_below
+from hypcheck.runs.minimise import characters, complexity, minimise, rounded, simpler_than, small_pairs
 from hypcheck.runs.replay import ReplayCase
 from hypcheck.truth.exact import decide
 from hypcheck.truth.kinds import Kind
@@ -164,14 +164,14 @@ def test_roundings_of_a_value_are_ever_longer_numbers_around_it():
     assert all(abs(value - 2.718281828459045) < 2 for value in values)
 
 
-def test_simplest_rows_are_distinct_and_below_the_limit_of_complexity():
-    rows = [tuple(row) for row in simplest_below((6, 1, 9)).tolist()]
+def test_small_pairs_simpler_than_a_limit_are_distinct_and_sorted_by_complexity():
+    rows = [tuple(row) for row in simpler_than(small_pairs(), (6, 1, 9)).tolist()]
     assert len(set(rows)) == len(rows) > 1000
     complexities = [complexity(row) for row in rows]
     assert complexities == sorted(complexities)
     ring = (1, 1, 2, 1, 3, 1, 0)  # of complexity (6, 1, 9) itself
     assert ring not in rows
-    assert ring in {tuple(row) for row in simplest_below((6, 1, 10)).tolist()}
+    assert ring in {tuple(row) for row in simpler_than(small_pairs(), (6, 1, 10)).tolist()}
 
 
 def test_simpler_than_keeps_each_valid_simpler_row_once():

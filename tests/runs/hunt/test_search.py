@@ -52,7 +52,7 @@ def kinds(run):
     """The worst error in units of each kind of wrong answers beyond tolerance."""
     return {
         (cluster.worst.case.mistake, cluster.worst.case.truth, cluster.worst.place.kind): cluster.worst.error_u
-        for cluster in run.findings.worst_first()
+        for cluster in run.worst_first()
     }
 
 
@@ -83,11 +83,11 @@ def test_hunt_finds_the_errors_of_the_local_maximum_near_a_equal_1_and_c2_equal_
 def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatch):
     ordinary = tuple(each for each in hunt_search.strata() if "near-tangent" in each.name)
     assert len(ordinary) == 2
-    monkeypatch.setattr(hunt_search, "strata", lambda _, tilt: ordinary)
+    monkeypatch.setattr(hunt_search, "strata", lambda *_, **__: ordinary)
     first = hunted("local-maximum-float64", 2 * hunt_search.FIRST_LOOK)
-    assert max((cluster.worst.error_u for cluster in first.findings.clusters.values()), default=0) < 100
+    assert max((cluster.worst.error_u for cluster in first.clusters.values()), default=0) < 100
     grown = hunted("local-maximum-float64", 25_000)
-    worst = grown.findings.worst_first()[0].worst
+    worst = grown.worst_first()[0].worst
     assert worst.error_u > 1e7
     assert worst.source.startswith("local search")
 
@@ -97,22 +97,22 @@ def test_local_search_halves_its_step_until_it_rests_if_it_finds_nothing_worse(m
     ring, steps = np.array([1, 2, 1, 1, 2.5, 0, 0]), []
     block = np.concatenate([[ring], np.tile((2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0), (1000, 1))])
 
-    def watched(draw, climbers):
+    def watched(draw, climbers, layout):
         steps.extend(climber.step for climber in climbers)
-        return neighbours(draw, climbers)
+        return neighbours(draw, climbers, layout)
 
     def answer(rows):
         return np.where((rows == ring).all(axis=1), 0, float_filter.positions(rows))
 
     monkeypatch.setattr(
-        hunt_search, "strata", lambda _, tilt: (hunt_search.HuntStratum("one row", lambda seed, number: block),)
+        hunt_search, "strata", lambda *_, **__: (hunt_search.HuntStratum("one row", lambda seed, number: block),)
     )
     monkeypatch.setattr(hunt_search, "neighbours", watched)
     monkeypatch.setattr(hunt_search, "LAST_STEP", 2.0**-8)
     run = Hunt(target_of("double", Double(answer)), HuntPlan(None))
     hunt_for(run, rounds=30)
     assert steps == [2.0**-power for power in range(1, 9)]
-    (cluster,) = run.findings.worst_first()
+    (cluster,) = run.worst_first()
     assert cluster.worst.case.row == tuple(ring)
 
 
@@ -121,13 +121,13 @@ def test_local_search_restarts_with_the_first_step_at_a_worse_answer(monkeypatch
     clear, crossing = (3.0, 40.0, 1.0, 1.0, 4.125, 1.0, 5.0), (3.0, 40.0, 1.0, 1.0, 3.0, 0.0, 5.0)
     block, stood = np.array([clear, *[crossing] * 1000]), []
 
-    def watched(draw, climbers):
+    def watched(draw, climbers, layout):
         (climber,) = climbers
         stood.append((climber.row, climber.error, climber.step))
-        return neighbours(draw, climbers)
+        return neighbours(draw, climbers, layout)
 
     monkeypatch.setattr(
-        hunt_search, "strata", lambda _, tilt: (hunt_search.HuntStratum("one clear row", lambda seed, number: block),)
+        hunt_search, "strata", lambda *_, **__: (hunt_search.HuntStratum("one clear row", lambda seed, number: block),)
     )
     monkeypatch.setattr(hunt_search, "neighbours", watched)
     monkeypatch.setattr(hunting, "place_of_row", lambda row, layout: RowPlace("anywhere", "anywhere", "any"))
@@ -186,13 +186,13 @@ def test_hunt_neighbours_are_one_step_away_or_on_a_surface_and_their_ladders_lea
 @pytest.mark.parametrize(("spec", "claims"), [("fast", {"tolerance": Fraction(0)}), ("dual-float64", {})])
 def test_hunt_finds_nothing_in_an_exact_implementation(spec, claims):
     run = hunted(spec, 5_000, **claims)
-    assert run.findings.worst_first() == []
+    assert run.worst_first() == []
     assert run.asked == run.answered == 5_000
 
 
 def test_hunt_findings_are_really_wrong_and_sorted_by_error():
     run = hunted("table-2-float32", 3000)
-    found = run.findings.worst_first()
+    found = run.worst_first()
     assert len(found) > 3
     errors = [cluster.worst.error for cluster in found]
     assert errors == sorted(errors, reverse=True)
@@ -208,12 +208,12 @@ def test_hunt_with_a_budget_of_queries_keeps_it_and_is_repeatable():
     def summary(run):
         return [
             (cluster.beyond, cluster.tolerated, cluster.worst.case.row, cluster.worst.error)
-            for cluster in run.findings.worst_first()
+            for cluster in run.worst_first()
         ]
 
     one, two = hunted("shared-float64", 6500), hunted("shared-float64", 6500)
     assert one.asked == two.asked == 6500
-    assert any(cluster.worst.source.startswith("local search") for cluster in one.findings.worst_first())
+    assert any(cluster.worst.source.startswith("local search") for cluster in one.worst_first())
     assert summary(one) == summary(two)
     assert summary(hunted("shared-float64", 3000, seed=2)) != summary(hunted("shared-float64", 3000))
 
@@ -240,14 +240,14 @@ def test_hunt_asks_only_rows_in_the_declared_regimes_and_precision():
 def test_implementation_that_always_answers_contact_has_every_kind_of_false_contact():
     run = Hunt(target_of("double", Double(lambda rows: np.zeros(len(rows)))), HuntPlan(None, 3000))
     run_hunt(run)
-    worst = {(cluster.worst.case.mistake, cluster.worst.case.truth) for cluster in run.findings.worst_first()}
+    worst = {(cluster.worst.case.mistake, cluster.worst.case.truth) for cluster in run.worst_first()}
     assert worst == {(Mistake.FALSE_CONTACT, Position.EXTERIOR), (Mistake.FALSE_CONTACT, Position.INTERIOR)}
 
 
 def test_hunt_ranks_an_answer_with_an_infinite_error_first():
     run = Hunt(target_of("double", Double(lambda rows: np.ones(len(rows)))), HuntPlan(None, 3500))
     run_hunt(run)
-    worst = run.findings.worst_first()[0].worst
+    worst = run.worst_first()[0].worst
     assert worst.error == math.inf
     assert worst.case.row[4:6] == (0, 0)
 
@@ -256,7 +256,7 @@ def test_hunt_counts_cannot_say_as_abstained_and_never_as_wrong():
     run = Hunt(target_of("double", Double(lambda rows: np.full(len(rows), CANNOT_SAY))), HuntPlan(None, 1000))
     run_hunt(run)
     assert (run.asked, run.counts) == (1000, {"abstained": 1000})
-    assert run.findings.clusters == {}
+    assert run.clusters == {}
 
 
 def test_hunt_keeps_the_first_row_of_a_fault_and_ends_if_the_implementation_is_lost():
@@ -281,7 +281,7 @@ def test_hunt_asks_a_kernel_for_one_scene_only_about_its_sizes():
     asked = np.concatenate(double.rows)
     assert ONE_SCENE.holds(asked).all()
     assert len(asked) == 4000
-    assert {cluster.worst.case.mistake for cluster in run.findings.worst_first()} == {Mistake.FALSE_CONTACT}
+    assert {cluster.worst.case.mistake for cluster in run.worst_first()} == {Mistake.FALSE_CONTACT}
 
 
 def test_hunt_finds_errors_near_contact_for_fixed_sizes():
@@ -291,4 +291,4 @@ def test_hunt_finds_errors_near_contact_for_fixed_sizes():
 
     run = Hunt(target_of("double", Double(grown, domain=ONE_SCENE)), HuntPlan(None, 20_000))
     run_hunt(run)
-    assert run.findings.worst_first()
+    assert run.worst_first()

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
+from hypcheck.geometry.rows import PAIRS
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt_place import TILTED, place_of
 from hypcheck.runs.hunt_search import Climber, neighbours
-from hypcheck.runs.minimise import same_tilted_pair
+from hypcheck.runs.minimise import same_query
 from hypcheck.truth.tilted.pair import pair_of
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
@@ -75,7 +76,7 @@ def test_a_tilted_row_is_not_simplified_for_an_implementation_without_tilt(capsy
 def test_the_same_tilted_pair_in_other_coordinates_has_the_same_position():
     for row in TILTED_FAMILIES["tilted-uniform"].rows(4, 6).tolist():
         position = exact_position(row)
-        for other in same_tilted_pair(tuple(row)):
+        for other in same_query(tuple(row), PAIRS):
             if all(math.isclose(abs(a), abs(b), rel_tol=1e-9) for a, b in zip(row, other, strict=True)):
                 assert exact_position(other) == position
 

@@ -14,7 +14,7 @@ from hypcheck.geometry.rows import WAYS, invalid
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt_place import TILTED, WAY, way_place
 from hypcheck.runs.hunt_search import Climber, neighbours
-from hypcheck.runs.minimise import same_way, small_ways
+from hypcheck.runs.minimise import same_query, small_ways
 from hypcheck.truth.passage_error import hits_at_size, scaled_passage
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import WAY_FAMILIES
@@ -33,7 +33,7 @@ def quickly(monkeypatch):
     few = {name: WAY_FAMILIES[name] for name in ("way-tunnelling", "way-still", "tilted-way-uniform")}
     monkeypatch.setattr(hunt_search, "WAY_FAMILIES", few)
     monkeypatch.setattr(hunt_search, "WAYS_TOGETHER", 4)
-    monkeypatch.setattr("hypcheck.runs.hunt_ways.BROUGHT", 1)
+    monkeypatch.setattr(hunt_search, "BROUGHT", 1)
 
 
 def test_a_hunt_finds_wrong_answers_and_late_times_and_keeps_their_ways(quickly, capsys, tmp_path):
@@ -74,7 +74,7 @@ def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_ti
 
 
 def test_neighbours_of_a_way_are_valid_and_brought_to_the_border_of_contact(monkeypatch):
-    monkeypatch.setattr("hypcheck.runs.hunt_ways.BROUGHT", 1)
+    monkeypatch.setattr(hunt_search, "BROUGHT", 1)
     around = neighbours(Draw("test"), [Climber(BESIDE, 1.0, 0.25)], WAYS)
     assert not invalid(around.rows, WAYS).any()
     numbers, counts = np.unique(around.ladders, return_counts=True)
@@ -124,7 +124,7 @@ def test_minimise_refuses_ways_that_it_cannot_simplify_in_one_sentence(words, se
 def test_way_in_other_coordinates_has_the_same_answer():
     for row in [THROUGH, *map(tuple, WAY_FAMILIES["tilted-way-uniform"].rows(4, 2).tolist())]:
         hit = hits_at_size(row)
-        for other in list(same_way(row))[:4]:  # units are rounded
+        for other in list(same_query(row, WAYS))[:8]:  # units are rounded
             assert hits_at_size(other) == hit
     assert len(set(small_ways())) == len(small_ways())
 
