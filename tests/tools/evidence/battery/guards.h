@@ -340,45 +340,6 @@ static void check_ways(void) {
     CHECK(hc_way_root(1, 0, 0) == 2 && hc_way_root(1, -0.249, 0) == 2 && hc_way_root(1, -0.251, 0) < 2);
 }
 
-/* ---- clearances ---- */
-
-static int grows(double b, double d, double factor) {
-    const double sizes[4] = {1, 1, b, d};
-    double grown[2];
-    return hc_grow(sizes, factor, 1, grown);
-}
-
-static int ordinary_with(int place, double value) {
-    double row[7] = {1, 1, 1, 1, 3, 0, 0};
-    row[place] = value;
-    return hc_ordinary(row);
-}
-
-static void check_clearances(void) {
-    const double sizes[4] = {1, 1, 1, 2};
-    double grown[2];
-    int i;
-    CHECK(hc_grow(sizes, 1, 1, grown) && grown[0] == 1 && grown[1] == 2);
-    CHECK(hc_grow(sizes, 1.5, 1, grown) && grown[0] == hc_next(1.5, 1) && grown[1] == hc_next(3, 1));
-    CHECK(hc_grow(sizes, 1.5, -1, grown) && grown[0] == hc_next(1.5, -1) && grown[1] < 3);
-    CHECK(!grows(two(-900), 1, 1) && !grows(1, two(-900), 1) && grows(two(-899), 1, 1) && grows(1, two(-899), 1));
-    CHECK(!grows(two(900), 1, 1) && !grows(1, two(900), 1) && grows(two(899), 1, 1) && grows(1, two(899), 1));
-    CHECK(hc_less_one(1, 0) == 0 && hc_less_one(1, 1) == 0 && hc_less_one(3, 0) < 2 && hc_less_one(3, 1) > 2);
-    CHECK(hc_less_one(0.5, 0) < -0.5 && hc_less_one(0.5, 1) > -0.5 && hc_less_one(DBL_MAX, 1) == DBL_MAX);
-    CHECK(hc_next(1, 1) == 1 + DBL_EPSILON && hc_next(2, -1) < 2);
-    for (i = 0; i < 7; i++) {
-        const double far = HC_greatest;
-        CHECK(!ordinary_with(i, NAN) && !ordinary_with(i, INFINITY) && !ordinary_with(i, two(101)));
-        if (i < 4) CHECK(!ordinary_with(i, two(-101)) && !ordinary_with(i, 0) && !ordinary_with(i, -1));
-        if (i < 2) CHECK(ordinary_with(i, HC_least) && ordinary_with(i, far));
-        if (i >= 4) CHECK(ordinary_with(i, far) && ordinary_with(i, -far) && !ordinary_with(i, -2 * far) && ordinary_with(i, 0));
-    }
-    CHECK(ordinary_with(2, HC_greatest_ratio) && !ordinary_with(2, 2 * HC_greatest_ratio));
-    CHECK(ordinary_with(3, HC_greatest_ratio) && !ordinary_with(3, 2 * HC_greatest_ratio));
-    CHECK(ordinary_with(4, HC_least_offset) && !ordinary_with(4, HC_least_offset / 2) && !ordinary_with(4, -HC_least_offset / 2));
-    CHECK(ordinary_with(4, -HC_least_offset));
-}
-
 /* ---- the public functions: what they say of odd questions ---- */
 
 static int hit_of(double x, double to_x, double alpha, int timed) {
@@ -449,7 +410,6 @@ static void check_guards(void) {
     check_planes();
     check_tilted_tangents();
     check_ways();
-    check_clearances();
     check_passages();
     check_questions();
 }
