@@ -81,29 +81,6 @@ UNIT_ROUNDOFF = {
 PRECISIONS = tuple(UNIT_ROUNDOFF)
 
 
-def shown_value(value: object) -> str:
-    """The value as a message shows it."""
-    return escaped(repr(value), 80)
-
-
-def two_numbers(value: object, where: str) -> tuple[float, float]:
-    """The least and the greatest of a range."""
-    if not isinstance(value, (list, tuple)) or len(value) != 2:
-        raise InputError(f"{where} is {shown_value(value)}; it must be two numbers, the least and the greatest")
-    low, high = (checked_number(each, where) for each in value)
-    return low, high
-
-
-def checked_number(value: object, where: str) -> float:
-    """A number of float64; integers are numbers, truth values are not."""
-    try:
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            return float(value)
-    except OverflowError:
-        pass
-    raise InputError(f"{where} holds {shown_value(value)}; it must be two numbers of float64")
-
-
 REGIMES = ("a>=1", "c2>=a")
 """The hypotheses of the paper: α/b ≥ 1, and (γ/d)² ≥ α/b."""
 
@@ -218,61 +195,6 @@ def _corners(rows: Rows) -> Rows:
     return np.asarray(np.stack([least, greatest])[_CORNERS[:, :columns], np.arange(columns)])
 
 
-def domain_of(value: object, where: str) -> Domain:
-    """The domain in a mapping, or the value if it is a Domain; raises InputError naming key and value."""
-    if isinstance(value, Domain):
-        return value
-    found = object_of(value, where, tuple(_READERS), required=())
-    return Domain(**{key: _READERS[key](each, f"{where}'s {key}") for key, each in found.items()})
-
-
-def _regimes(value: object, where: str) -> tuple[str, ...]:
-    if not isinstance(value, (list, tuple)) or not all(isinstance(each, str) for each in value):
-        raise InputError(f"{where} is {shown_value(value)}; it must be a list of names")
-    return tuple(value)
-
-
-def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
-    if not isinstance(value, (list, tuple)) or not value:
-        raise InputError(
-            f"{where} is {shown_value(value)}; it must be a list of mappings with sizes, and optionally x, y, z, axis"
-        )
-    return tuple(_setting(each, f"{where}[{place}]") for place, each in enumerate(value))
-
-
-def _setting(value: object, where: str) -> FixedSizes:
-    found = object_of(value, where, ("sizes", *CENTER, "axis"), required=("sizes",))
-    sizes = found["sizes"]
-    if not isinstance(sizes, (list, tuple)) or len(sizes) != len(SIZES):
-        raise InputError(f"{where}'s sizes is {shown_value(sizes)}; it must be four numbers, {', '.join(SIZES)}")
-    alpha, gamma, b, d = (checked_number(each, f"{where}'s sizes") for each in sizes)
-    for name, size in zip(SIZES, (alpha, gamma, b, d), strict=True):
-        trouble = trouble_with(name, size)
-        if trouble is not None:
-            raise InputError(f"{where}'s sizes: {trouble}")
-    spans = {key: two_numbers(found[key], f"{where}'s {key}") for key in CENTER if key in found}
-    for key, (low, high) in spans.items():
-        if not low <= high:
-            raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
-    return FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(found.get("axis"), f"{where}'s axis"))
-
-
-def _axis(value: object, where: str) -> tuple[float, float, float] | Literal["free"] | None:
-    if value is None or value == "free":
-        return "free" if value else None
-    if not isinstance(value, (list, tuple)) or len(value) != len(AXIS):
-        raise InputError(f'{where} is {shown_value(value)}; it must be three numbers, or "free"')
-    x, y, z = (checked_number(each, where) for each in value)
-    if not all(map(math.isfinite, (x, y, z))) or not (x or y or z):
-        raise InputError(f"{where} is {shown_value(value)}; it must be three finite numbers, not all of them 0")
-    return x, y, z
-
-
-_READERS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
-    {"regimes": _regimes, "ratio": two_numbers, "magnitude": two_numbers, "settings": _settings}
-)
-
-
 PROTOCOL = 1
 LONGEST = 1 << 16
 """The most bytes of a description."""
@@ -374,9 +296,40 @@ def _json(text: str | bytes, where: str) -> object:
         raise InputError(f"{where} is '{escaped(shown, 80)}'; it must be JSON ({why})") from None
 
 
+def _wrong(value: object, where: str, wanted: str) -> InputError:
+    """The error about a value: `where` it stands, what it is, and what it must be."""
+    return InputError(f"{where} is {_shown(value)}; it must be {wanted}")
+
+
+def _shown(value: object) -> str:
+    return escaped(repr(value), 80)
+
+
+def _checked(holds: Callable[[Any], bool], wanted: str) -> Callable[[object, str], Any]:
+    """A reader of values for which that holds."""
+
+    def read(value: object, where: str) -> object:
+        if not holds(value):
+            raise _wrong(value, where, wanted)
+        return value
+
+    return read
+
+
+def _one_of(choices: Collection[str]) -> Callable[[object, str], str]:
+    return _checked(lambda value: isinstance(value, str) and value in choices, f"one of {', '.join(choices)}")
+
+
+_truth_value = _checked(lambda value: isinstance(value, bool), "true or false")
+_protocol = _checked(lambda value: value == PROTOCOL and not isinstance(value, bool), f"{PROTOCOL}, the only version")
+_names = _checked(
+    lambda value: isinstance(value, list) and all(isinstance(each, str) for each in value), "a list of names"
+)
+
+
 def _text(value: object, where: str) -> str:
     if not isinstance(value, str):
-        raise InputError(f"{where} is {shown_value(value)}; it must be a text")
+        raise _wrong(value, where, "a text")
     return escaped(value, 200)
 
 
@@ -387,25 +340,71 @@ def _name(value: object, where: str) -> str:
     return name
 
 
-def _truth_value(value: object, where: str) -> bool:
-    if not isinstance(value, bool):
-        raise InputError(f"{where} is {shown_value(value)}; it must be true or false")
+def _list(value: object, length: int, where: str, wanted: str) -> list[Any]:
+    if not isinstance(value, list) or len(value) != length:
+        raise _wrong(value, where, wanted)
     return value
 
 
-def _one_of(choices: Collection[str]) -> Callable[[object, str], str]:
-    def check(value: object, where: str) -> str:
-        if not isinstance(value, str) or value not in choices:
-            raise InputError(f"{where} is {shown_value(value)}; it must be one of {', '.join(choices)}")
-        return value
+def _number(value: object, where: str) -> float:
+    """A number of float64; integers are numbers, truth values are not."""
+    try:
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            return float(value)
+    except OverflowError:
+        pass
+    raise InputError(f"{where} holds {_shown(value)}; it must be two numbers of float64")
 
-    return check
+
+def _range(value: object, where: str) -> tuple[float, float]:
+    low, high = _list(value, 2, where, "two numbers, the least and the greatest")
+    return _number(low, where), _number(high, where)
 
 
-def _protocol(value: object, where: str) -> int:
-    if value != PROTOCOL or isinstance(value, bool):
-        raise InputError(f"{where} is {shown_value(value)}; it must be {PROTOCOL}, the only version")
-    return PROTOCOL
+def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
+    if not isinstance(value, list) or not value:
+        raise _wrong(value, where, "a list of mappings with sizes, and optionally x, y, z, axis")
+    return tuple(_setting(each, f"{where}[{place}]") for place, each in enumerate(value))
+
+
+def _setting(value: object, where: str) -> FixedSizes:
+    found = object_of(value, where, ("sizes", *CENTER, "axis"), required=("sizes",))
+    listed = _list(found["sizes"], len(SIZES), f"{where}'s sizes", f"four numbers, {', '.join(SIZES)}")
+    alpha, gamma, b, d = (_number(each, f"{where}'s sizes") for each in listed)
+    for name, size in zip(SIZES, (alpha, gamma, b, d), strict=True):
+        trouble = trouble_with(name, size)
+        if trouble is not None:
+            raise InputError(f"{where}'s sizes: {trouble}")
+    spans = {key: _range(found[key], f"{where}'s {key}") for key in CENTER if key in found}
+    for key, (low, high) in spans.items():
+        if not low <= high:
+            raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
+    return FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(found.get("axis"), f"{where}'s axis"))
+
+
+def _axis(value: object, where: str) -> tuple[float, float, float] | Literal["free"] | None:
+    if value is None or value == "free":
+        return "free" if value else None
+    x, y, z = (_number(each, where) for each in _list(value, len(AXIS), where, 'three numbers, or "free"'))
+    if not all(map(math.isfinite, (x, y, z))) or not (x or y or z):
+        raise _wrong(value, where, "three finite numbers, not all of them 0")
+    return x, y, z
+
+
+_DOMAIN_KEYS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
+    {
+        "regimes": lambda value, where: tuple(_names(value, where)),
+        "ratio": _range,
+        "magnitude": _range,
+        "settings": _settings,
+    }
+)
+
+
+def domain_of(value: object, where: str) -> Domain:
+    """The domain in a mapping; raises InputError naming key and value."""
+    found = object_of(value, where, tuple(_DOMAIN_KEYS), required=())
+    return Domain(**{key: _DOMAIN_KEYS[key](each, f"{where}'s {key}") for key, each in found.items()})
 
 
 _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
@@ -417,10 +416,6 @@ _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
         "precision": _one_of(PRECISIONS),
         "question": _one_of(QUESTIONS),
         "domain": domain_of,
-        "refuses": _truth_value,
-        "binary": _truth_value,
-        "time": _truth_value,
-        "tilt": _truth_value,
-        "times": _truth_value,
+        **dict.fromkeys(("refuses", "binary", "time", "tilt", "times"), _truth_value),
     }
 )

@@ -105,7 +105,6 @@ def test_domain_refuses_invalid_settings(settings, message):
 
 def test_a_domain_with_an_axis_is_refused_in_a_description_without_tilt():
     domain = domain_of({"settings": [{"sizes": SIZES, "axis": "free"}]}, "the domain")
-    assert domain_of(domain, "the domain") is domain
     assert Description(name="mine", domain=domain, tilt=True).domain is domain
     with pytest.raises(InputError, match='the description must say "tilt": true then'):
         Description(name="mine", domain=domain)
