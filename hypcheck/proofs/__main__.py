@@ -12,7 +12,7 @@ import click
 
 from hypcheck.errors import HypcheckError
 from hypcheck.proofs import build
-from hypcheck.proofs.build import CONTROL, WEAKENED, Weakened, accepted
+from hypcheck.proofs.build import CONTROL, Weakened, accepted, weakened
 
 
 @click.command(help=__doc__)
@@ -29,7 +29,7 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int | None) -> None:
             return
         names = (*build.SOUNDNESS, "ExtractedChecker") if soundness else build.FILES
         _prove(names)
-        _refuse([change for change in WEAKENED if change.file in names][:count])
+        _refuse([change for change in weakened() if change.file in names][:count])
         build.build_checker()
         sys.exit(build.run_checker(build.upright_files()))
     except HypcheckError as error:
