@@ -124,7 +124,8 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     if flags["show_scene"]:
         _show(name)
         return
-    from hypcheck.paper.forest import ForestPlan, forest_lines, simulate_forest
+    from hypcheck.paper.forest import ForestPlan, simulate_forest
+    from hypcheck.paper.simulation_text import forest_lines
 
     plan = ForestPlan(_scene(name), seed, steps, flags["continuous"])
     _prepare_folder("forest", out)
@@ -180,7 +181,8 @@ def tower(
     if flags["show_scene"]:
         _show(name)
         return
-    from hypcheck.paper.tower import TowerPlan, simulate_tower, tower_lines
+    from hypcheck.paper.simulation_text import tower_lines
+    from hypcheck.paper.tower import TowerPlan, simulate_tower
     from hypcheck.processes import processes, usable_processors
 
     flown = table is not None or pitch is not None

@@ -1,21 +1,309 @@
-"""`simulate forest`: the walker of the paper's section 3.1 among trees of both types, as JSON and as text."""
+"""`simulate forest`: a walk among trees that obeys Procedure 1 in float32, and the exact verdict on each of its steps.
+
+The walker of the paper's section 3.1 goes among trees of both types, as in a game.
+
+Table 2 takes out of its loop what the sizes alone decide; here that is done once for each tree. It is asked about the
+walker's centre as seen from the tree's: centres are anywhere, and the difference is rounded to float64, like any other
+position that a game hands over. The exact positions are those of the exact differences.
+
+Every step is asked about before it is made, at the position it leads to, of all trees that stand at that height. Steps
+beyond the scene's region are refused without asking. A step is made or refused for the place it leads to: from one free
+place to another it may still brush a trunk, which `steps_in_contact` finds. `phantom_wall` shows an invisible wall
+closely: where Procedure 1 in float32 reports contact about a place where a phantom stood.
+"""
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from hypcheck.derivation.evaluation import loop_body
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Mask
-from hypcheck.messages import counted
-from hypcheck.paper.forest_walk import Trees, Verdicts, WalkSteps, judged, phantom_wall, steps_in_contact, walk
-from hypcheck.paper.quadcopter import require_ordinary
-from hypcheck.scene.model import SceneModel, Walk
-from hypcheck.version import VERSION
+from hypcheck.geometry.pair import Position, Sizes
+from hypcheck.geometry.rows import Columns, Floats, Mask
+from hypcheck.kernel.scene_pairs import positions_beside
+from hypcheck.paper.motion import MOST_CONTACTS, first_contact, stays_on_side
+from hypcheck.paper.quadcopter import any_angle, require_ordinary, turned
+from hypcheck.scene.model import Region, SceneModel, Walk
+from hypcheck.truth.float_filter import lines_for_sizes
+from hypcheck.vectors.draw import Draw, unit_of
+from hypcheck.version import VERSION as HYPCHECK
+
+Places = Floats
+"""Positions of the walker's centre in the scene, (n, 3)."""
+
+
+@dataclass(frozen=True)
+class Trees:
+    """The hyperboloids of a scene as columns (m,), and its mover as the walker."""
+
+    scene: SceneModel
+
+    @cached_property
+    def centers(self) -> Floats:
+        """The trees' centres, (m, 3)."""
+        return np.array([tree.center for tree in self.scene.hyperboloids], dtype=np.float64)
+
+    @cached_property
+    def sizes(self) -> Floats:
+        """α, γ, b, d of each tree and the walker, (m, 4)."""
+        mover = self.scene.mover
+        return np.array([(tree.alpha, tree.gamma, mover.b, mover.d) for tree in self.scene.hyperboloids])
+
+    @cached_property
+    def _heights(self) -> Floats:
+        heights = [tree.height for tree in self.scene.hyperboloids]
+        return np.array([(-np.inf, np.inf) if each is None else (each.low, each.high) for each in heights])
+
+    @cached_property
+    def _lines(self) -> Floats:
+        """K and M of x² + y² > K + M z², a proof of exterior (truth/float_filter.py); inf where λ = α/b proves none."""
+        found = [lines_for_sizes(*map(float, sizes), 0).exterior[:1] for sizes in self.sizes]
+        return np.array([each[0] if each else (np.inf, 0.0) for each in found])
+
+    @cached_property
+    def types(self) -> list[int]:
+        """1 for a trunk at least as wide as the walker, else 2 (the paper's Figure 1)."""
+        return [1 if tree.alpha >= self.scene.mover.b else 2 for tree in self.scene.hyperboloids]
+
+    @cached_property
+    def outside_regime(self) -> list[str]:
+        """The trees that Procedure 1 makes no claim about, by name: (γ/d)² < α/b."""
+        mover = self.scene.mover
+        return [
+            tree.name
+            for tree in self.scene.hyperboloids
+            if (tree.gamma / mover.d) ** 2 * (1 + 2.0**-40) < tree.alpha / mover.b
+        ]
+
+    def ring(self, tree: int, height: float) -> float | None:
+        """The radius about a tree where Δ is 0 for a walker at this height that touches nothing; None: there is none.
+
+        Only a walker whose centre is level with the tree's has one (docs/mathematics.md, "The ring").
+        """
+        alpha, gamma, b, d = map(float, self.sizes[tree])
+        a, c = alpha / b, gamma / d
+        if height != self.centers[tree, 2] or c * c <= a:
+            return None
+        return b * math.sqrt((c * c + 1) * (a * a + c * c)) / c
+
+    def offsets(self, at: Places) -> tuple[Floats, Floats, Floats]:
+        """The walker's centres from each tree's, rounded; (n, m) each."""
+        x, y, z = np.moveaxis(at[:, None, :] - self.centers, 2, 0)
+        return x, y, z
+
+    def modelled(self, at: Places) -> Mask:
+        """Which trees stand at the height of the walker's centre, (n, m)."""
+        level = at[:, None, 2] - self.centers[:, 2]
+        return np.asarray((level >= self._heights[:, 0]) & (level <= self._heights[:, 1]))
+
+    def proved_by_line(self, at: Places) -> Mask:
+        """Which trees one line proves the walker exterior to, (n, m): two products, two sums and a comparison."""
+        x, y, z = self.offsets(at)
+        return np.asarray(x * x + y * y > self._lines[:, 0] + self._lines[:, 1] * (z * z))
+
+    def exterior(self, at: Places) -> Mask:
+        """Which trees the walker is exterior to, exactly, (n, m)."""
+        n, m = len(at), len(self.sizes)
+        found = positions_beside(np.tile(self.sizes, (n, 1)), np.repeat(at, m, axis=0), np.tile(self.centers, (n, 1)))
+        return np.asarray(found.reshape(n, m) == Position.EXTERIOR)
+
+    def gaps(self, at: Places) -> Floats:
+        """The free way between the walker and each trunk at the walker's height, (n, m); for people, not exact."""
+        x, y, z = self.offsets(at)
+        alpha, gamma, b, _ = self.sizes.T
+        return np.asarray(np.hypot(x, y) - alpha * np.hypot(1.0, z / gamma) - b)
+
+
+class Procedure1:
+    """Table 2 as printed, or Procedure 1 put right, in one format, with the trees' sizes taken out of the loop."""
+
+    def __init__(self, trees: Trees, precision: str, *, repaired: bool = False) -> None:
+        columns = dict(zip(("alpha", "gamma", "b", "d"), trees.sizes.T, strict=True))
+        self._trees = trees
+        formula = REPAIRED["procedure-1-repaired"] if repaired else FORMULAS["table-2"]
+        self._body = loop_body(formula.program, float_arithmetic(precision), columns, (formula.answer,))
+
+    def valid(self, at: Places) -> Mask:
+        """Which trees allow the movement, (n, m): whether the walker is taken to be exterior to each."""
+        (answer,) = self._body(dict(zip("xyz", self._trees.offsets(at), strict=True)))
+        return np.asarray(answer)
+
+
+VERSION = 1
+"""Version of the walk, raised whenever it draws other words."""
+
+CHUNK = 256
+"""Steps judged at a time."""
+
+
+@dataclass(frozen=True, slots=True)
+class WalkSteps:
+    """The steps that were tried, in order: from `start` to `end`, (n, 3); `edge` and `refused` say which were not made.
+
+    `refused` are those that Procedure 1 in float32 did not allow.
+    """
+
+    start: Places
+    end: Places
+    edge: Mask
+    refused: Mask
+
+    @property
+    def made(self) -> Mask:
+        """Which steps were made."""
+        return ~(self.edge | self.refused)
+
+
+@dataclass(frozen=True, slots=True)
+class Verdicts:
+    """What is true of the tried steps within the region, for each of them and each tree, (n, m).
+
+    `asked`: the tree stands at that height, so its answer counts; `exterior`: exactly so; `line`: one line proves it.
+    `printed` and `repaired` have by format where Table 2, and Procedure 1 put right, allow the step.
+    """
+
+    asked: Mask
+    exterior: Mask
+    line: Mask
+    printed: dict[str, Mask]
+    repaired: dict[str, Mask]
+
+    def by_all(self, answers: Mask) -> Mask:
+        """Which steps are allowed by the answers of all trees that are asked, (n,)."""
+        return np.asarray((answers | ~self.asked).all(axis=1))
+
+
+def walk(
+    trees: Trees, rules: Walk, region: Region, steps: int, seed: int, advance: Callable[[int], object] = lambda _: None
+) -> WalkSteps:
+    """Try so many steps, telling `advance` of each. Raises InputError where the walk would begin outside the region."""
+    if not bool(_inside(region, np.array([rules.start]))[0]):
+        raise InputError(f"the walk starts at {list(rules.start)}, outside the scene's region")
+    words = Draw("forest-walk", VERSION, seed).words(2 * steps).reshape(steps, 2)
+    shares = unit_of(words[:, 0])
+    wander, recover = (2 * shares - 1) * rules.largest_turn, np.where(words[:, 1] & np.uint64(1) == 0, 1.0, -1.0)
+    turns = any_angle(wander), any_angle(wander + recover * rules.refused_turn)
+    procedure, heading = Procedure1(trees, "float32"), any_angle(np.array(rules.heading))
+    start, end = np.empty((steps, 3)), np.empty((steps, 3))
+    edge, refused = np.zeros(steps, dtype=np.bool_), np.zeros(steps, dtype=np.bool_)
+    here, stopped = np.array(rules.start), False
+    for step in range(steps):
+        cosine, sine = turns[int(stopped)]
+        heading = turned(heading, (cosine[step], sine[step]))
+        start[step], end[step] = here, here + rules.step * np.array([*heading, 0.0])
+        tried = end[step : step + 1]
+        edge[step] = not _inside(region, tried)[0]
+        refused[step] = not edge[step] and not (procedure.valid(tried) | ~trees.modelled(tried)).all()
+        stopped = bool(edge[step] or refused[step])
+        if not stopped:
+            here = end[step]
+        advance(1)
+    return WalkSteps(start, end, edge, refused)
+
+
+def judged(trees: Trees, at: Places) -> Verdicts:
+    """What is true of a walker at these places."""
+    printed, repaired = (
+        {
+            precision: _in_parts(trees, at, Procedure1(trees, precision, repaired=put_right).valid)
+            for precision in ("float32", "float64")
+        }
+        for put_right in (False, True)
+    )
+    asked, exterior, line = (
+        _in_parts(trees, at, ask) for ask in (trees.modelled, trees.exterior, trees.proved_by_line)
+    )
+    return Verdicts(asked, exterior, line, printed, repaired)
+
+
+def _in_parts(trees: Trees, at: Places, ask: Callable[[Places], Mask]) -> Mask:
+    """The answers to a question about many places, CHUNK of them at a time, (n, m)."""
+    none = np.empty((0, len(trees.sizes)), dtype=np.bool_)
+    return np.concatenate([none, *(ask(at[place : place + CHUNK]) for place in range(0, len(at), CHUNK))])
+
+
+def _inside(region: Region, at: Places) -> Mask:
+    inside = np.ones(len(at), dtype=np.bool_)
+    for column, span in zip(at.T, (region.x, region.y, region.z), strict=True):
+        if span is not None:
+            inside &= (column >= span.low) & (column <= span.high)
+    return inside
+
+
+CELLS = 121
+
+
+def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
+    """The answers over a square about a place at its height, as lines of letters from the least y to the greatest.
+
+    e: exterior to every tree, c: not; upper case where float32 says the other. x runs along a line.
+    """
+    steps = np.linspace(-half, half, CELLS)
+    y, x = np.meshgrid(place[1] + steps, place[0] + steps, indexing="ij")
+    at = np.stack([x.ravel(), y.ravel(), np.full(x.size, place[2])], axis=1)
+    ignored, exterior, valid = (
+        _in_parts(trees, at, ask)
+        for ask in (lambda part: ~trees.modelled(part), trees.exterior, Procedure1(trees, "float32").valid)
+    )
+    truth, answer = (exterior | ignored).all(axis=1), (valid | ignored).all(axis=1)
+    letters = np.where(truth, np.where(answer, "e", "E"), np.where(answer, "C", "c")).reshape(CELLS, CELLS)
+    return {
+        "center": place.tolist(),
+        "half": half,
+        "wrong": int(np.count_nonzero(truth != answer)),
+        "points": int(truth.size),
+        "lines": ["".join(line) for line in letters.tolist()],
+    }
+
+
+def steps_in_contact(trees: Trees, steps: WalkSteps) -> dict[str, Any]:
+    """How many of the made steps touch a tree that stands there, decided exactly, and first contacts of some."""
+    start, end = steps.start[steps.made], steps.end[steps.made]
+    here, there = _columns(start), _columns(end)
+    asked, touched = trees.modelled(end), np.zeros((len(end), len(trees.sizes)), dtype=np.bool_)
+    for place, tree in enumerate(trees.scene.hyperboloids):
+        exterior = stays_on_side(Position.EXTERIOR, _four(trees.sizes[place]), here, there, tree.center)
+        touched[:, place] = asked[:, place] & ~exterior
+    touching = np.flatnonzero(touched.any(axis=1))
+    return {
+        "made": len(end),
+        "touching": len(touching),
+        "contacts": [_contact(trees, here, there, step, touched[step]) for step in touching[:MOST_CONTACTS].tolist()],
+    }
+
+
+def _contact(trees: Trees, start: Columns, end: Columns, step: int, touched: Mask) -> dict[str, Any]:
+    """The first contact on a step that touches these trees."""
+    bodies = [(place, trees.scene.hyperboloids[place]) for place in np.flatnonzero(touched).tolist()]
+    (lower, upper), name = min(
+        (first_contact(_four(trees.sizes[place]), start, end, step, tree.center), tree.name) for place, tree in bodies
+    )
+    return {
+        "start": [float(column[step]) for column in start],
+        "end": [float(column[step]) for column in end],
+        "tree": name,
+        "first_lower": lower,
+        "first_upper": upper,
+    }
+
+
+def _columns(places: Places) -> Columns:
+    x, y, z = places.T
+    return x, y, z
+
+
+def _four(sizes: Floats) -> Sizes:
+    alpha, gamma, b, d = map(float, sizes)
+    return alpha, gamma, b, d
+
 
 SCHEMA = "1.1.0"
 
@@ -57,13 +345,13 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
     steps = walk(trees, plan.rules, plan.scene.region, plan.count, plan.seed, advance)
     asked = ~steps.edge
     verdicts = judged(trees, steps.end[asked])
-    free = np.asarray((verdicts.exterior | ~verdicts.asked).all(axis=1))
+    free = verdicts.by_all(verdicts.exterior)
     phantom = np.zeros_like(steps.edge)
     phantom[asked] = free & steps.refused[asked]
     stops = _stops(trees, steps, phantom)
     blocking = {name for stop in stops if stop["kind"] == "phantom" for name in stop["trees"]}
     return {
-        "hypcheck": VERSION,
+        "hypcheck": HYPCHECK,
         "schema": SCHEMA,
         "simulation": "forest",
         "scene": plan.scene.name,
@@ -72,9 +360,16 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
         "trees": _trees(trees, plan.rules, blocking),
         "outside_stated_regime": trees.outside_regime,
         "steps": _steps(steps, phantom, free),
-        "questions": _questions(verdicts),
+        "questions": {
+            "asked": _count(verdicts.asked),
+            "outside_height": _count(~verdicts.asked),
+            "line": _count(verdicts.line & verdicts.asked),
+        },
         "phantoms": _phantoms(verdicts, free),
-        "repaired": _repaired(verdicts),
+        "repaired": {
+            f"{name}_differs": _count(verdicts.by_all(put_right) != verdicts.by_all(verdicts.printed[name]))
+            for name, put_right in verdicts.repaired.items()
+        },
         "ways": steps_in_contact(trees, steps) if plan.continuous else None,
         "path": [list(plan.rules.start), *steps.end[steps.made].tolist()],
         "stops": stops,
@@ -109,46 +404,21 @@ def _steps(steps: WalkSteps, phantom: Mask, free: Mask) -> dict[str, int]:
     }
 
 
-def _questions(verdicts: Verdicts) -> dict[str, int]:
-    return {
-        "asked": _count(verdicts.asked),
-        "outside_height": _count(~verdicts.asked),
-        "line": _count(verdicts.line & verdicts.asked),
-    }
-
-
 def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
-    """Tried steps that lead to a free place and are refused: by Table 2 in each precision, and after the line test."""
-    ignored = ~verdicts.asked
-    return {
-        name: _count(free & ~(allowed | ignored).all(axis=1))
-        for name, allowed in (
-            ("float32", verdicts.single),
-            ("float64", verdicts.double),
-            ("float32_after_line", verdicts.single | verdicts.line),
-            ("float32_repaired", verdicts.repaired_single),
-            ("float64_repaired", verdicts.repaired_double),
-        )
+    """Tried steps that lead to a free place and are refused: by each procedure, and by Table 2 after the line test."""
+    answers = {
+        **verdicts.printed,
+        "float32_after_line": verdicts.printed["float32"] | verdicts.line,
+        **{f"{name}_repaired": allowed for name, allowed in verdicts.repaired.items()},
     }
-
-
-def _repaired(verdicts: Verdicts) -> dict[str, int]:
-    """Tried steps on which Procedure 1 put right and Table 2 differ, in each precision; all trees together."""
-    ignored = ~verdicts.asked
-    return {
-        name: _count((put_right | ignored).all(axis=1) != (printed | ignored).all(axis=1))
-        for name, printed, put_right in (
-            ("float32_differs", verdicts.single, verdicts.repaired_single),
-            ("float64_differs", verdicts.double, verdicts.repaired_double),
-        )
-    }
+    return {name: _count(free & ~verdicts.by_all(allowed)) for name, allowed in answers.items()}
 
 
 def _stops(trees: Trees, steps: WalkSteps, phantom: Mask) -> list[dict[str, Any]]:
     """Every refusal but those at the edge: what refused it, and the free way to the nearest tree that did."""
     refused = np.flatnonzero(steps.refused)
     verdicts, gaps = judged(trees, steps.end[refused]), trees.gaps(steps.end[refused])
-    against = verdicts.asked & ~verdicts.single
+    against = verdicts.asked & ~verdicts.printed["float32"]
     return [
         {
             "kind": "phantom" if phantom[step] else "contact",
@@ -172,72 +442,3 @@ def _wall(trees: Trees, stops: Sequence[dict[str, Any]]) -> dict[str, Any] | Non
 
 def _count(those: Mask) -> int:
     return int(np.count_nonzero(those))
-
-
-WIDTH = 100
-SHOWN = 8
-"""Phantoms that are listed one by one."""
-
-
-def forest_lines(result: dict[str, Any]) -> Iterator[str]:
-    """Line by line."""
-    trees, walker, steps = result["trees"], result["walker"], result["steps"]
-    wide = sum(tree["type"] == 1 for tree in trees)
-    yield (
-        f"{result['scene']}, seed {result['seed']}: {counted(len(trees), 'tree')} ({wide} of type 1, "
-        f"{len(trees) - wide} of type 2), a walker of b = {walker['b']:g}, d = {walker['d']:g}"
-    )
-    yield from _regime_line(result["outside_stated_regime"])
-    yield (
-        f"{counted(steps['tried'], 'step')} of {walker['step']:g} tried by Table 2 in float32: {steps['made']:,} made, "
-        f"{steps['contact']:,} rightly refused,"
-    )
-    yield f"  {steps['phantom']:,} stopped by a phantom, {steps['edge']:,} turned back at the region's edge"
-    if steps["wrongly_allowed"]:
-        lead = "leads" if steps["wrongly_allowed"] == 1 else "lead"
-        yield f"  {steps['wrongly_allowed']:,} of the made ones {lead} into contact"
-    yield from _question_lines(result["questions"])
-    phantoms = result["phantoms"]
-    yield (
-        f"phantoms, contact with nothing: {phantoms['float32']:,} in float32, {phantoms['float64']:,} in float64, "
-        f"{phantoms['float32_after_line']:,} in float32 where the line is asked first"
-    )
-    yield (
-        f"  Procedure 1 put right: {phantoms['float32_repaired']:,} in float32, {phantoms['float64_repaired']:,} in "
-        f"float64; it decides {result['repaired']['float32_differs']:,} and "
-        f"{result['repaired']['float64_differs']:,} steps otherwise"
-    )
-    yield from _stop_lines(result["stops"])
-    if result["ways"] is not None:
-        ways = result["ways"]
-        touching = "1 touches" if ways["touching"] == 1 else f"{ways['touching']:,} touch"
-        yield f"{counted(ways['made'], 'made step')}: {touching} a tree on the way"
-        for contact in ways["contacts"][:SHOWN]:
-            start, end = (", ".join(f"{each:.3f}" for each in contact[name]) for name in ("start", "end"))
-            yield f"  ({start}) to ({end}): {contact['tree']} first at {contact['first_upper']:.3g} of the way"
-
-
-def _regime_line(names: list[str]) -> Iterator[str]:
-    if names:
-        listed = ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
-        text = f"Procedure 1 claims nothing about trees with (gamma/d)^2 < alpha/b: {len(names)}, {listed}"
-        yield from textwrap.wrap(text, WIDTH)
-
-
-def _question_lines(questions: dict[str, int]) -> Iterator[str]:
-    asked, line = questions["asked"], questions["line"]
-    share = f" ({100 * line / asked:.2f} %)" if asked else ""
-    yield f"{counted(asked, 'question')}, one for each step and tree: a line answers {line:,} of them{share} without Δ"
-    outside = questions["outside_height"]
-    if outside:
-        verbs = ("is", "has") if outside == 1 else ("are", "have")
-        yield f"  {outside:,} more {verbs[0]} outside the modelled height and {verbs[1]} no answer"
-
-
-def _stop_lines(stops: list[dict[str, Any]]) -> Iterator[str]:
-    phantoms = [stop for stop in stops if stop["kind"] == "phantom"]
-    for stop in phantoms[:SHOWN]:
-        x, y, z = stop["tried"]
-        yield f"  at ({x:.3f}, {y:.3f}, {z:.3f}), {stop['gap']:.2f} from touching: {', '.join(stop['trees'])}"
-    if len(phantoms) > SHOWN:
-        yield f"  and {len(phantoms) - SHOWN:,} more"

@@ -14,24 +14,34 @@ of themselves. MARGIN covers all of these several times.
 
 A position is valid where the body is interior, or all four rotors are. The rotors lie within the body, so a way is
 valid from beginning to end exactly where no rotor meets contact on it. They are asked only where the body is not clear.
+
+The last part is about a quadcopter that leans, of which Procedure 2.b knows nothing: its body is always upright. A
+quadcopter flies ahead by leaning: its axis makes the angle `degrees` with the vertical, towards where it goes. Its
+rotors lean with it, in the plane through the body's centre perpendicular to the axis. Going up, down or turning in
+place it is upright. The sines and the rotors' places are rounded once, as those of an upright quadcopter are; the
+resulting numbers are decided exactly. A spheroid lies within the ball of its longer semi-axis. Where that ball is
+interior, so is the spheroid, however it leans; only the others are asked with their axes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from math import inf
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position, Sizes
-from hypcheck.geometry.rows import Columns, Floats, Mask
-from hypcheck.kernel.classify import classify_scene
+from hypcheck.geometry.rows import Columns, Floats, Mask, Positions
+from hypcheck.kernel.classify import classify, classify_scene
 from hypcheck.paper.flights import Moves
 from hypcheck.paper.quadcopter import ROTORS, Craft, Direction, Procedures, any_angle, turned
 from hypcheck.truth.swept import passage
 from hypcheck.truth.turning import turning
+from hypcheck.vectors.draw import Draw
 
 MARGIN = 64 * 2.0**-53
 
@@ -158,7 +168,30 @@ class Contact:
 
 
 @dataclass(slots=True)
-class MoveVerdicts:
+class _Verdicts:
+    """Numbers of events, each in a field of its own."""
+
+    def add(self, other: _Verdicts) -> None:
+        """Count what another of the same kind has counted as well."""
+        for each in fields(self):
+            setattr(self, each.name, getattr(self, each.name) + getattr(other, each.name))
+
+    def _count(self, name: str, those: Mask) -> None:
+        setattr(self, name, getattr(self, name) + int(np.count_nonzero(those)))
+
+
+Verdicts = TypeVar("Verdicts", bound=_Verdicts)
+
+
+def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
+    """All counts in one, which is added up in `none`."""
+    for each in several:
+        none.add(each)
+    return none
+
+
+@dataclass(slots=True)
+class MoveVerdicts(_Verdicts):
     """Exact verdicts on the movements of flights.
 
     Of the accepted `vertical` and `horizontal` moves `…_touching` meet contact somewhere on the way, `…_begun` of these
@@ -185,10 +218,9 @@ class MoveVerdicts:
     turns_touching: int = 0
     contacts: tuple[Contact, ...] = ()
 
-    def add(self, other: MoveVerdicts) -> None:
+    def add(self, other: _Verdicts) -> None:
         """Count what another has counted as well."""
-        for each in fields(self):
-            setattr(self, each.name, getattr(self, each.name) + getattr(other, each.name))
+        _Verdicts.add(self, other)  # super() does not know a class that is made anew for its slots
         self.contacts = self.contacts[:MOST_CONTACTS]
 
     def watch(self, craft: Craft, moves: Moves) -> None:
@@ -230,9 +262,6 @@ class MoveVerdicts:
         x, y, z, turn = (np.tile(column, ROTORS) for column in (*at, moves.turn[near]))
         clear = stays_on_side_turning(craft.rotor, craft.arm, (x, y, z), craft.arms(heading), turn)
         self._count("turns_touching", ~_all_four(clear))
-
-    def _count(self, name: str, those: Mask) -> None:
-        setattr(self, name, getattr(self, name) + int(np.count_nonzero(those)))
 
 
 def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
@@ -286,3 +315,129 @@ def _of(point: Columns, those: NDArray[np.int64]) -> Columns:
 
 def _headed(direction: Direction, those: NDArray[np.int64]) -> Direction:
     return direction[0][those], direction[1][those]
+
+
+def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
+    """Which spheroids are interior, exactly, each at a centre and along an axis; (n,)."""
+    alpha, gamma, b, d = sizes
+    longest = max(b, d)
+    inside = np.asarray(classify_scene((alpha, gamma, longest, longest), *at) == Position.INTERIOR)
+    near = np.flatnonzero(~inside)
+    inside[near] = _positions(sizes, _of(at, near), _of(axis, near)) == Position.INTERIOR
+    return inside
+
+
+def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
+    return classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
+
+
+@dataclass(frozen=True, slots=True)
+class Lean:
+    """Quadcopters that lean by an angle with this cosine and sine towards horizontal directions; arrays (n,)."""
+
+    toward: Direction
+    cosine: float
+    sine: float
+
+    @classmethod
+    def by(cls, degrees: float, toward: Direction) -> Lean:
+        """Leaning by so many degrees from the vertical."""
+        cosine, sine = any_angle(np.array(degrees))
+        return cls(toward, float(cosine), float(sine))
+
+    @property
+    def axis(self) -> Columns:
+        """The axes of revolution."""
+        return self.sine * self.toward[0], self.sine * self.toward[1], np.full_like(self.toward[0], self.cosine)
+
+    def tilted(self, along: Floats, aside: Floats) -> Columns:
+        """Horizontal vectors (along, aside) of the upright craft, as they are once it leans: a rotation about its side.
+
+        The part towards the lean, (along, aside)·toward, is shortened by the cosine and goes down by the sine.
+        """
+        ahead, beside = self.toward
+        forward, across = along * ahead + aside * beside, aside * ahead - along * beside
+        shortened = forward * self.cosine
+        return shortened * ahead - across * beside, shortened * beside + across * ahead, -self.sine * forward
+
+    def of(self, those: NDArray[np.int64]) -> Lean:
+        """Some of them."""
+        return Lean(_headed(self.toward, those), self.cosine, self.sine)
+
+
+def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> tuple[Mask, Mask]:
+    """Which positions are valid, the body interior or every rotor, and where the body alone is interior."""
+    body = leaning_interior(craft.sizes, at, lean.axis)
+    valid = body.copy()
+    near = np.flatnonzero(~body)
+    arms = craft.arms(_headed(heading, near))
+    four = lean.of(np.tile(near, ROTORS))
+    ways = four.tilted(craft.arm * arms[0], craft.arm * arms[1])
+    x, y, z = (np.tile(column, ROTORS) + way for column, way in zip(_of(at, near), ways, strict=True))
+    rotors = leaning_interior(craft.rotor, (x, y, z), four.axis)
+    valid[near] = _all_four(rotors)
+    return valid, body
+
+
+@dataclass(slots=True)
+class PitchVerdicts(_Verdicts):
+    """Answers about horizontal moves, each at the move's end, against the exact ones about the craft that leans.
+
+    Of the `moves` that Procedure 2.b was asked about, its answer is `wrong` about so many; it is `dangerous` where it
+    accepts and the craft that leans is not valid. `body_wrong` and `body_dangerous` are the same for the body alone:
+    an upright body is interior where one that leans is not, or the other way round.
+    """
+
+    moves: int = 0
+    wrong: int = 0
+    dangerous: int = 0
+    body_wrong: int = 0
+    body_dangerous: int = 0
+
+    def watch(self, craft: Craft, degrees: float, moves: Moves) -> None:
+        """Count the results of a draw of many flights."""
+        some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning & ~moves.vertical)
+        (x, y, z), heading = _of(moves.end, some), _headed(moves.before, some)
+        way = x - moves.start[0][some], y - moves.start[1][some]
+        back = way[0] * heading[0] + way[1] * heading[1] < 0
+        toward = np.where(back, -heading[0], heading[0]), np.where(back, -heading[1], heading[1])
+        valid, body = valid_leaning(craft, (x, y, z), heading, Lean.by(degrees, toward))
+        upright = np.asarray(classify_scene(craft.sizes, x, y, z) == Position.INTERIOR)
+        accepted = moves.accepted[some]
+        self.moves += len(some)
+        self._count("wrong", accepted != valid)
+        self._count("dangerous", accepted & ~valid)
+        self._count("body_wrong", upright != body)
+        self._count("body_dangerous", upright & ~body)
+
+
+CENTRES = 20_000
+"""How many centres near the wall are asked about."""
+
+VERSION = 1
+"""Version of the centres near the wall, raised whenever they are other ones."""
+
+
+def near_wall(craft: Craft, degrees: float, seed: int) -> dict[str, Any]:
+    """How many positions of the body change near the wall as it leans: anywhere, and along the radius, outwards.
+
+    Heights are uniform over the tower's (from −γ to γ where it has no end), distances from the axis uniform within ±b
+    of the wall's. A change is `dangerous` where the upright body is clear and the one that leans is not.
+    """
+    draw = Draw("tower-pitch", VERSION, seed)
+    alpha, gamma, b, _ = craft.sizes
+    low, high = (-gamma, gamma) if craft.height is None else (craft.height.low, craft.height.high)
+    z = draw.between(CENTRES, low, high)
+    x = alpha * np.sqrt(1 + (z / gamma) ** 2) + draw.between(CENTRES, -b, b)
+    at = (x, np.zeros_like(x), z)
+    upright = classify_scene(craft.sizes, *at)
+    outward = np.ones_like(x), np.zeros_like(x)
+    found: dict[str, Any] = {"centres": CENTRES}
+    for name, toward in (("anywhere", any_angle(draw.between(CENTRES, -180.0, 180.0))), ("outward", outward)):
+        leaning = _positions(craft.sizes, at, Lean.by(degrees, toward).axis)
+        changed = upright != leaning
+        found[name] = {
+            "changed": int(np.count_nonzero(changed)),
+            "dangerous": int(np.count_nonzero(changed & (leaning == Position.CONTACT))),
+        }
+    return found

@@ -1,22 +1,289 @@
-"""`simulate tower`: the quadcopter of the paper's sections 3.2 and 4, its flights and Table 5, as JSON and as text."""
+"""`simulate tower`: the quadcopter of the paper's sections 3.2 and 4, its flights (Figure 4) and Table 5.
+
+The figure has flights of 25 positions and Δ along them; the table stands beside the printed figures. A cell of the
+table is v·t: the way that the quadcopter covers at speed v in its response time t is the step that it moves and looks
+ahead by. Each run of a cell is a flight over the scene's distance; its figure is the mean of the runs' percentages.
+"""
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+
 from hypcheck.errors import InputError
-from hypcheck.messages import counted
-from hypcheck.paper import tower_flights
-from hypcheck.paper.pitch import near_wall, pitch_lines
-from hypcheck.paper.quadcopter import Craft, craft_of, require_valid_start
-from hypcheck.paper.tower_flights import FlightBlock, paths
-from hypcheck.processes import Advance
+from hypcheck.geometry.rows import Columns
+from hypcheck.paper.flights import LANES, VERSION, Moves, Tallies, fly
+from hypcheck.paper.motion import MoveVerdicts, PitchVerdicts, near_wall, total
+from hypcheck.paper.quadcopter import Craft, Procedures, craft_of, require_valid_start
+from hypcheck.processes import Advance, perform
 from hypcheck.scene.model import Flight, SceneModel
-from hypcheck.version import VERSION
+from hypcheck.vectors.draw import Draw
+from hypcheck.version import VERSION as HYPCHECK
+
+FLIGHTS = 3
+POSITIONS = 25
+
+
+def paths(craft: Craft, flight: Flight, step: float, seed: int) -> tuple[list[dict[str, Any]], MoveVerdicts]:
+    """Three flights of 25 positions each, from the tower's centre, as JSON has them; and exact verdicts on their ways.
+
+    Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and how many `executions`, of these
+    `touching` (Δ ≤ 0), of the movements `refused`, and draws to `outside_height`.
+    """
+    tracks: list[list[tuple[float, ...]]] = [[] for _ in range(FLIGHTS)]
+    ways = MoveVerdicts()
+
+    def observe(moves: Moves) -> None:
+        ways.watch(craft, moves)
+        for place, lane in enumerate(moves.lane.tolist()):
+            track = tracks[lane]
+            for point, there in ((moves.start, not track), (moves.end, bool(moves.accepted[place]))):
+                if there:
+                    track.append(tuple(float(column[place]) for column in point))
+
+    draw = Draw("tower-path", VERSION, seed, step)
+    tallies = fly(craft, flight, step, POSITIONS - 1, draw, FLIGHTS, observe)
+    procedures = Procedures(craft)
+    return [
+        {
+            "positions": [list(position) for position in track],
+            "discriminant": procedures.discriminant(_columns(track)).tolist(),
+            "executions": int(tallies.executions[lane]),
+            "touching": int(tallies.touching[lane]),
+            "refused": int(tallies.refused[lane]),
+            "outside_height": int(tallies.redrawn[lane]),
+        }
+        for lane, track in enumerate(tracks)
+    ], ways
+
+
+def _columns(track: list[tuple[float, ...]]) -> Columns:
+    x, y, z = np.array(track).T
+    return x, y, z
+
+
+SPEEDS = (5, 6, 7, 8, 9, 10)
+"""v, metres a second: the columns."""
+
+TIMES = (0.1, 0.2, 0.3)
+"""t, seconds: the rows."""
+
+SECOND_READING = 0.25
+"""The t of the second row, if the one that is printed, 0.2, is a misprint."""
+
+PRINTED = (
+    (13.9532, 13.9029, 13.5640, 13.1907, 12.9477, 12.4708),
+    (11.7990, 10.9387, 10.3449, 9.6364, 8.9626, 8.5885),
+    (10.9574, 10.2549, 9.4475, 8.6942, 7.8514, 7.4627),
+)
+PRINTED_RUNS = 1000
+
+STATEMENT = (
+    "The unstated parameters are not identified by the table: about 40,000 combinations of rules of flight were tried, "
+    "and many fit its 18 figures about as well, so a good fit tells nothing about which rules the authors used."
+)
+
+
+def statement(craft: Craft) -> str:
+    """What has to be said wherever the table is shown; that rotors overlap, or leave the body, where they do."""
+    (_, _, b, _), (_, _, small, _) = craft.sizes, craft.rotor
+    apart, inside = math.sqrt(2.0) * craft.arm >= 2 * small, craft.arm + small <= b
+    if apart and inside:
+        return STATEMENT
+    what = "neighbouring rotors overlap" if not apart else "rotors reach out of the body"
+    room = f"apart and inside the body they need {math.sqrt(2.0) * small:.4g} <= l <= {b - small:.4g}"
+    return f"{STATEMENT} With l = {craft.arm:g} {what}; {room if math.sqrt(2.0) * small <= b - small else 'no l fits'}."
+
+
+MOST_MOVES = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class FlightBlock:
+    """Some runs of a cell, flown together: the `number`-th block, the first `lanes` flights of it."""
+
+    craft: Craft
+    flight: Flight
+    speed: float
+    time: float
+    seed: int
+    number: int
+    lanes: int
+    watched: bool
+    pitch: float | None = None
+
+    @property
+    def moves(self) -> int:
+        """Accepted moves of a run."""
+        return moves_of(self.flight, self.speed * self.time)
+
+
+@dataclass(frozen=True, slots=True)
+class FlightShare:
+    """A figure of the table: the mean percentage and its standard error (None for a single run), and means a run.
+
+    `outside_height`: draws that lead beyond the modelled height, of which nothing is asked.
+    """
+
+    percent: float
+    standard_error: float | None
+    executions: float
+    refused: float
+    outside_height: float
+    ways: MoveVerdicts
+    pitch: PitchVerdicts
+
+
+def moves_of(flight: Flight, step: float) -> int:
+    """How many steps cover the distance; a last one that overshoots by rounding alone is not made.
+
+    Raises InputError where there are more than MOST_MOVES.
+    """
+    moves = flight.distance / step * (1 - 2.0**-40)
+    if moves > MOST_MOVES:
+        raise InputError(
+            f"a run of {flight.distance!r} with steps of {step!r} would take {moves:.3g} moves; "
+            f"it must be {MOST_MOVES:,} at most"
+        )
+    return math.ceil(moves)
+
+
+@dataclass(frozen=True, slots=True)
+class FlownBlock:
+    """What came of a block's runs; `ways` has counts where they were watched, `pitch` where the craft leans."""
+
+    tallies: Tallies
+    ways: MoveVerdicts
+    pitch: PitchVerdicts
+
+
+def fly_block(block: FlightBlock) -> FlownBlock:
+    """The runs of a block, with exact verdicts on their ways where it is `watched`, and on leaning where it has one."""
+    ways, leaning, degrees = MoveVerdicts(), PitchVerdicts(), block.pitch
+
+    def observe(moves: Moves) -> None:
+        if block.watched:
+            ways.watch(block.craft, moves)
+        if degrees is not None:
+            leaning.watch(block.craft, degrees, moves)
+
+    draw = Draw("tower-flight", VERSION, block.seed, float(block.speed), float(block.time), block.number)
+    step = block.speed * block.time
+    tallies = fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe)
+    return FlownBlock(tallies, ways, leaning)
+
+
+def blocks(
+    craft: Craft, flight: Flight, seed: int, runs: int, *, watched: bool, pitch: float | None = None
+) -> dict[tuple[float, float], list[FlightBlock]]:
+    """The blocks of each cell (t, v): those of the table, and of its second row read as 0.25."""
+    return {
+        (time, speed): [
+            FlightBlock(craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), watched, pitch)
+            for number in range(math.ceil(runs / LANES))
+        ]
+        for time in (*TIMES, SECOND_READING)
+        for speed in SPEEDS
+    }
+
+
+def table_5(
+    cells: Mapping[tuple[float, float], Sequence[FlightBlock]], executor: Executor | None, advance: Advance
+) -> dict[tuple[float, float], FlightShare]:
+    """Every cell, flown by the executor's processes; advanced by a block's moves whenever one is done."""
+    tasks = sorted((block for each in cells.values() for block in each), key=lambda block: -block.moves)
+    done = {}
+    for block, result in perform(fly_block, tasks, executor):
+        done[block.time, block.speed, block.number] = result
+        advance(block.moves)
+    return {
+        (time, speed): _cell([done[time, speed, block.number] for block in each])
+        for (time, speed), each in cells.items()
+    }
+
+
+def _cell(results: Sequence[FlownBlock]) -> FlightShare:
+    executions, touching, refused, redrawn = (
+        np.concatenate([getattr(block.tallies, name) for block in results])
+        for name in ("executions", "touching", "refused", "redrawn")
+    )
+    percents = (100.0 * touching / executions).tolist()
+    mean = math.fsum(percents) / len(percents)
+    spread = math.fsum((percent - mean) ** 2 for percent in percents)
+    error = None if len(percents) == 1 else math.sqrt(spread / (len(percents) - 1) / len(percents))
+    return FlightShare(
+        percent=mean,
+        standard_error=error,
+        executions=float(np.mean(executions)),
+        refused=float(np.mean(refused)),
+        outside_height=float(np.mean(redrawn)),
+        ways=total((block.ways for block in results), MoveVerdicts()),
+        pitch=total((block.pitch for block in results), PitchVerdicts()),
+    )
+
+
+def pitch_as_json(cells: Mapping[tuple[float, float], FlightShare]) -> dict[str, Any]:
+    """The counts of each cell (t, v), and all together."""
+    return {
+        "total": asdict(total((cell.pitch for cell in cells.values()), PitchVerdicts())),
+        "cells": [{"t": time, "v": speed, **asdict(cell.pitch)} for (time, speed), cell in cells.items()],
+    }
+
+
+_COLUMNS = "percent", "standard_error"
+_FURTHER_COLUMNS = "difference_in_standard_errors", "executions", "refused", "outside_height"
+
+
+def as_json(cells: Mapping[tuple[float, float], FlightShare], runs: int, said: str, *, watched: bool) -> dict[str, Any]:
+    """The table in rows t and columns v, as docs/simulate.md has it; `said` is what has to be said of it."""
+    rows = [[cells[time, speed] for speed in SPEEDS] for time in (*TIMES, SECOND_READING)]
+    columns: dict[str, list[list[float | None]]] = {
+        name: [[getattr(cell, name) for cell in row] for row in rows]
+        for name in ("percent", "standard_error", "executions", "refused", "outside_height")
+    }
+    columns["difference_in_standard_errors"] = [
+        [_difference(cell, figure, runs) for cell, figure in zip(row, figures, strict=True)]
+        for row, figures in zip(rows, (*PRINTED, PRINTED[1]), strict=True)
+    ]
+    *as_printed, read_anew = rows
+    return {
+        "statement": said,
+        "runs": runs,
+        "v": list(SPEEDS),
+        "t": list(TIMES),
+        **{name: columns[name][:-1] for name in _COLUMNS},
+        "printed": [list(row) for row in PRINTED],
+        **{name: columns[name][:-1] for name in _FURTHER_COLUMNS},
+        "root_mean_square_difference": _root_mean_square(as_printed),
+        "second_row_read_as_0.25": {
+            "t": SECOND_READING,
+            **{name: columns[name][-1] for name in (*_COLUMNS, *_FURTHER_COLUMNS)},
+            "root_mean_square_difference": _root_mean_square([rows[0], read_anew, rows[2]]),
+        },
+        "ways": asdict(total((cell.ways for cell in cells.values()), MoveVerdicts())) if watched else None,
+    }
+
+
+def _difference(cell: FlightShare, figure: float, runs: int) -> float | None:
+    """Ours less theirs over the standard error of that, theirs being as uncertain as 1000 of our runs are."""
+    if not cell.standard_error:
+        return None
+    return (cell.percent - figure) / (cell.standard_error * math.sqrt(1 + runs / PRINTED_RUNS))
+
+
+def _root_mean_square(rows: Sequence[Sequence[FlightShare]]) -> float:
+    squares = [
+        (cell.percent - figure) ** 2
+        for row, figures in zip(rows, PRINTED, strict=True)
+        for cell, figure in zip(row, figures, strict=True)
+    ]
+    return math.sqrt(math.fsum(squares) / len(squares))
+
 
 SCHEMA = "1.2.0"
 
@@ -55,9 +322,7 @@ class TowerPlan:
         """The work of Table 5, by cell; none where it is not asked for. Raises InputError."""
         if not self.runs:
             return {}
-        return tower_flights.blocks(
-            self.craft, self.flight, self.seed, self.runs, watched=self.continuous, pitch=self.pitch
-        )
+        return blocks(self.craft, self.flight, self.seed, self.runs, watched=self.continuous, pitch=self.pitch)
 
 
 def _require_room(scene: SceneModel, flight: Flight) -> None:
@@ -84,14 +349,14 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
     """The result, as schemas/simulate-tower-1.2.0.json has it. Raises InputError."""
     craft, flight, step = plan.craft, plan.flight, plan.speed * plan.time
     tracks, ways = paths(craft, flight, step, plan.seed)
-    blocks = plan.blocks()
-    cells = tower_flights.table_5(blocks, executor, advance)
+    cells, said = table_5(plan.blocks(), executor, advance), statement(craft)
+    pitch = plan.pitch
     return {
-        "hypcheck": VERSION,
+        "hypcheck": HYPCHECK,
         "schema": SCHEMA,
         "simulation": "tower",
         "seed": plan.seed,
-        "statement": tower_flights.statement(craft),
+        "statement": said,
         "assumptions": _assumptions(plan.scene, craft, flight),
         "flights": {
             "speed": plan.speed,
@@ -100,22 +365,21 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
             "paths": tracks,
             "ways": asdict(ways) if plan.continuous else None,
         },
-        "table_5": tower_flights.as_json(cells, plan.runs, tower_flights.statement(craft)) if cells else None,
+        "table_5": as_json(cells, plan.runs, said, watched=plan.continuous) if cells else None,
         "pitch": None
-        if plan.pitch is None
-        else {
-            "degrees": plan.pitch,
-            **tower_flights.pitch_as_json(cells),
-            "near_wall": near_wall(craft, plan.pitch, plan.seed),
-        },
+        if pitch is None
+        else {"degrees": pitch, **pitch_as_json(cells), "near_wall": near_wall(craft, pitch, plan.seed)},
     }
+
+
+_RULES = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "backward", "turn")
 
 
 def _assumptions(scene: SceneModel, craft: Craft, flight: Flight) -> dict[str, Any]:
     """What the scene says: the sizes the paper prints, and all that it leaves open."""
     alpha, gamma, b, d = craft.sizes
     _, _, small_b, small_d = craft.rotor
-    height = None if craft.height is None else [craft.height.low, craft.height.high]
+    height, start = None if craft.height is None else [craft.height.low, craft.height.high], flight.start
     return {
         "scene": scene.name,
         "alpha": alpha,
@@ -127,184 +391,6 @@ def _assumptions(scene: SceneModel, craft: Craft, flight: Flight) -> dict[str, A
         "d_s": small_d,
         "l": craft.arm,
         "g1_from_heading": craft.ahead,
-        "distance": flight.distance,
-        "straight": flight.straight,
-        "vertical": flight.vertical,
-        "largest_turn": flight.largest_turn,
-        "refused_turn": flight.refused_turn,
-        "backward": flight.backward,
-        "turn": flight.turn,
-        "start": {
-            "z": [flight.start.z.low, flight.start.z.high],
-            "radius": flight.start.radius,
-            "margin": flight.start.margin,
-        },
+        **{name: getattr(flight, name) for name in _RULES},
+        "start": {"z": [start.z.low, start.z.high], "radius": start.radius, "margin": start.margin},
     }
-
-
-WIDTH = 100
-SHOWN = 6
-"""First contacts that are listed one by one; the JSON has more."""
-
-
-_TURNS = {
-    "executed": "a turn asks the procedure in place, ignores the answer, and a step ahead follows",
-    "obeyed": "a turn asks the procedure in place, is not made if the answer is no, and else a step ahead follows",
-    "free": "a turn asks nothing",
-}
-
-
-def tower_lines(result: dict[str, Any]) -> Iterator[str]:
-    """Line by line."""
-    yield from _assumed(result["assumptions"], result["seed"])
-    yield ""
-    yield from _flown(result["flights"])
-    table = result["table_5"]
-    if table is not None:
-        yield ""
-        yield from _table(table, result["assumptions"]["distance"])
-        if table["ways"] is not None:
-            yield ""
-            yield "On the ways between the positions of these runs:"
-            yield from _ways(table["ways"])
-    if result["pitch"] is not None:
-        yield ""
-        yield from pitch_lines(result["pitch"])
-    yield ""
-    yield from textwrap.wrap(result["statement"], WIDTH)
-
-
-def _assumed(scene: dict[str, Any], seed: int) -> Iterator[str]:
-    yield f"{scene['scene']}, seed {seed}"
-    yield f"  tower alpha = {scene['alpha']:g}, gamma = {scene['gamma']:g}; {_height(scene['height'])}"
-    yield (
-        f"  body b = {scene['b']:g}, d = {scene['d']:g}; rotors b_s = {scene['b_s']:g}, d_s = {scene['d_s']:g}, "
-        f"l = {scene['l']:g}, g1 = heading {scene['g1_from_heading']:+g} degrees"
-    )
-    turns = 1 - scene["straight"] - scene["vertical"]
-    ahead = "ahead or back, half each" if scene["backward"] else "ahead"
-    yield f"  draws: straight {scene['straight']:g} ({ahead}), up or down {scene['vertical']:g}, turns {turns:g}"
-    yield f"  turns within {scene['largest_turn']:g} degrees: {_TURNS[scene['turn']]}"
-    yield f"  a refused movement turns by {scene['refused_turn']:g} degrees, left or right"
-    yield f"  {_start(scene['start'])}"
-
-
-def _height(span: Sequence[float] | None) -> str:
-    if span is None:
-        return "no end of its height is modelled"
-    return f"its height from {span[0]:g} to {span[1]:g}, beyond which an up or down is drawn again"
-
-
-def _start(start: dict[str, Any]) -> str:
-    radius, margin, (low, high) = start["radius"], start["margin"], start["z"]
-    disc = f"of radius {radius:g}" if margin is None else f"that ends {margin:g} before the wall"
-    at = f"z = {low:g}" if low == high else f"z uniform from {low:g} to {high:g}"
-    return f"flights begin at {at}, uniform over the disc {disc}, heading anywhere"
-
-
-def _flown(flights: dict[str, Any]) -> Iterator[str]:
-    paths = flights["paths"]
-    yield (
-        f"{counted(len(paths), 'flight')} of {counted(len(paths[0]['positions']), 'position')}, "
-        f"steps of {flights['step']:g} ({flights['speed']:g} m/s for {flights['time']:g} s)"
-    )
-    for number, path in enumerate(paths, start=1):
-        least, most = min(path["discriminant"]), max(path["discriminant"])
-        made = len(path["positions"]) - 1
-        yield (
-            f"  {number}: {counted(path['executions'], 'execution')}, of which {made} moves made and "
-            f"{counted(path['refused'], 'attempt')} refused; Δ ≤ 0 in {path['touching']};"
-        )
-        yield (
-            f"     Δ at its positions from {least:.3g} to {most:.3g} (refused attempts lead to none); "
-            f"{counted(path['outside_height'], 'draw')} beyond the height"
-        )
-    if flights["ways"] is not None:
-        yield from _ways(flights["ways"])
-
-
-def _table(table: dict[str, Any], distance: float) -> Iterator[str]:
-    yield f"Table 5: executions with Δ ≤ 0, percent; means of {counted(table['runs'], 'run')} of {distance:g} m"
-    yield "  (± standard error; below: printed, and ours less printed in standard errors of the difference)"
-    yield "       v (m/s)" + "".join(f"{speed:>14}" for speed in table["v"])
-    rows = zip(
-        table["t"],
-        table["percent"],
-        table["standard_error"],
-        table["printed"],
-        table["difference_in_standard_errors"],
-        strict=True,
-    )
-    for row in rows:
-        yield from _row(*row)
-    other = table["second_row_read_as_0.25"]
-    yield "  the second row, if its t is a misprint for 0.25:"
-    difference = other["difference_in_standard_errors"]
-    yield from _row(other["t"], other["percent"], other["standard_error"], table["printed"][1], difference)
-    yield (
-        f"  root mean square difference of the 18 figures: {table['root_mean_square_difference']:.2f} as printed, "
-        f"{other['root_mean_square_difference']:.2f} with t = 0.25 in the second row"
-    )
-    executions, refused, outside = (
-        _between(table[name], other[name]) for name in ("executions", "refused", "outside_height")
-    )
-    yield f"  a run: {executions} executions, {refused} movements refused, {outside} draws outside the modelled height"
-
-
-def _between(rows: Sequence[Sequence[float]], other: Sequence[float]) -> str:
-    values = [value for row in (*rows, other) for value in row]
-    return f"{min(values):,.0f} to {max(values):,.0f}"
-
-
-def _row(
-    time: float,
-    percents: Sequence[float],
-    errors: Sequence[float | None],
-    printed: Sequence[float],
-    differences: Sequence[float | None],
-) -> Iterator[str]:
-    ours = "".join(f"{_with_error(percent, error):>14}" for percent, error in zip(percents, errors, strict=True))
-    yield f"  t = {time:4g} s  {ours}"
-    yield "  printed     " + "".join(f"{figure:>14.4f}" for figure in printed)
-    shown = ("–" if each is None else f"{each:+.1f}" for each in differences)
-    yield "  difference  " + "".join(f"{each:>14}" for each in shown)
-
-
-def _with_error(percent: float, error: float | None) -> str:
-    return f"{percent:.2f}" if error is None else f"{percent:.2f} ± {error:.2f}"
-
-
-def _ways(ways: dict[str, Any]) -> Iterator[str]:
-    for name in ("vertical", "horizontal"):
-        moves, touching, begun = ways[name], ways[f"{name}_touching"], ways[f"{name}_begun"]
-        touch = "touches" if touching == 1 else "touch"
-        yield (
-            f"  {counted(moves, f'accepted {name} move')}: {touching:,} {touch}{_share(touching, moves)}, "
-            f"{begun:,} from their beginning and {touching - begun:,} on the way"
-        )
-    yield from _contacts(ways["contacts"])
-    turns, touching = ways["turns"], ways["turns_touching"]
-    sweep = f"{touching:,} {'sweeps' if touching == 1 else 'sweep'} a rotor through contact{_share(touching, turns)}"
-    yield f"  {counted(turns, 'turn')} in place: {sweep}"
-    yield (
-        "  at the ends of moves the procedure was wrong "
-        + counted(ways["wrongly_accepted"] + ways["wrongly_refused"], "time")
-    )
-    yield (
-        f"  of {counted(ways['asked'], 'move')} asked about, Procedure 2.b put right decides "
-        f"{ways['repaired_2b_differs']:,} otherwise than as printed,"
-    )
-    yield (
-        f"  Procedure 2.a put right {ways['repaired_2a_differs']:,}; 2.a as printed decides "
-        f"{ways['procedure_2a_differs']:,} otherwise than 2.b as printed"
-    )
-
-
-def _contacts(contacts: list[dict[str, Any]]) -> Iterator[str]:
-    for contact in contacts[:SHOWN]:
-        start, end = (", ".join(f"{each:.3f}" for each in contact[name]) for name in ("start", "end"))
-        yield (f"    ({start}) to ({end}): rotor {contact['rotor']} first at {contact['first_upper']:.3g} of the way")
-
-
-def _share(part: int, whole: int) -> str:
-    return f" ({100 * part / whole:.3f} %)" if whole else ""

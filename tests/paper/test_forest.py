@@ -14,8 +14,7 @@ import pytest
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.errors import InputError
-from hypcheck.paper.forest import ForestPlan, simulate_forest
-from hypcheck.paper.forest_walk import Procedure1, Trees, judged, walk
+from hypcheck.paper.forest import ForestPlan, Procedure1, Trees, judged, simulate_forest, walk
 from hypcheck.scene.model import Hyperboloid, Region, Span
 from hypcheck.scene.reading import read_scene
 from hypcheck.truth.swept import passage
@@ -75,7 +74,7 @@ def test_walk_refuses_a_step_only_at_the_region_edge_or_where_table_2_in_float32
     assert steps.refused.any()
     assert steps.edge.any()
     verdicts = judged(TREES, steps.end)
-    allowed = (verdicts.single | ~verdicts.asked).all(axis=1)
+    allowed = verdicts.by_all(verdicts.printed["float32"])
     inside = (abs(steps.end[:, :2]) <= 20).all(axis=1)
     assert steps.edge.tolist() == (~inside).tolist()
     assert steps.refused.tolist() == (inside & ~allowed).tolist()

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.paper import pitch
+from hypcheck.paper import motion
 from hypcheck.paper.flights import Moves
-from hypcheck.paper.pitch import Lean, PitchVerdicts, leaning_interior, near_wall, valid_leaning
+from hypcheck.paper.motion import Lean, PitchVerdicts, leaning_interior, near_wall, valid_leaning
 from hypcheck.paper.quadcopter import any_angle, craft_of
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.scene.reading import read_scene
@@ -113,7 +113,7 @@ def test_craft_leans_backwards_in_a_backward_move(monkeypatch):
         leans.append(lean)
         return valid_leaning(craft, at, heading, lean)
 
-    monkeypatch.setattr(pitch, "valid_leaning", watched)
+    monkeypatch.setattr(motion, "valid_leaning", watched)
     PitchVerdicts().watch(CRAFT, 40.0, moves_at(at, heading, back=back, accepted=np.ones(10, np.bool_)))
     (lean,) = leans
     sign = np.where(back, -1.0, 1.0)
@@ -140,7 +140,7 @@ def test_craft_with_pitch_0_is_judged_as_the_upright_craft():
 
 
 def test_pitch_changes_more_answers_near_the_wall_if_the_craft_leans_outward(monkeypatch):
-    monkeypatch.setattr(pitch, "CENTRES", 150)
+    monkeypatch.setattr(motion, "CENTRES", 150)
     found = near_wall(CRAFT, 45.0, 3)
     assert found["centres"] == 150
     assert found["outward"]["changed"] > found["anywhere"]["changed"] > 0
@@ -148,7 +148,7 @@ def test_pitch_changes_more_answers_near_the_wall_if_the_craft_leans_outward(mon
 
 
 def test_pitch_totals_are_the_sums_over_all_cells_of_the_table(monkeypatch):
-    monkeypatch.setattr(pitch, "CENTRES", 50)
+    monkeypatch.setattr(motion, "CENTRES", 50)
     plan = TowerPlan(SHORT, 7, 5.0, 0.2, 2, continuous=False, pitch=35.0)
     told = simulate_tower(plan, None, lambda _: None)["pitch"]
     assert len(told["cells"]) == 24

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.paper import pitch
+from hypcheck.paper import motion
 from hypcheck.scene.reading import shipped_text
 from tests.support.records import violations
 
@@ -36,7 +36,7 @@ def run(capsys, *arguments):
 
 @pytest.fixture
 def tower(tmp_path, monkeypatch):
-    monkeypatch.setattr(pitch, "CENTRES", 50)
+    monkeypatch.setattr(motion, "CENTRES", 50)
     path = tmp_path / "short.toml"
     path.write_text(SHORT)
     return ("simulate", "tower", "--scene", str(path), "--workers", "1")

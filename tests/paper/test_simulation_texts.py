@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.errors import InputError, UnavailableError
-from hypcheck.paper.forest import SHOWN, ForestPlan, forest_lines, simulate_forest
-from hypcheck.paper.pitch import pitch_lines
-from hypcheck.paper.tower import TowerPlan, simulate_tower, tower_lines
+from hypcheck.paper.forest import ForestPlan, simulate_forest
+from hypcheck.paper.simulation_text import SHOWN, forest_lines, pitch_lines, tower_lines
+from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.report import simulation
 from hypcheck.report.simulation import make_ready, write_simulation
 from hypcheck.scene.reading import read_scene

@@ -10,11 +10,20 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.paper import tower_flights
+from hypcheck.paper import tower as towers
 from hypcheck.paper.flights import LANES
 from hypcheck.paper.quadcopter import Procedures, craft_of
-from hypcheck.paper.tower import TowerPlan, simulate_tower
-from hypcheck.paper.tower_flights import PRINTED, SPEEDS, STATEMENT, TIMES, blocks, fly_block, moves_of
+from hypcheck.paper.tower import (
+    PRINTED,
+    SPEEDS,
+    STATEMENT,
+    TIMES,
+    TowerPlan,
+    blocks,
+    fly_block,
+    moves_of,
+    simulate_tower,
+)
 from hypcheck.processes import processes
 from hypcheck.scene.model import Region, Span, Start
 from hypcheck.scene.reading import read_scene
@@ -107,8 +116,8 @@ def test_the_statement_says_that_the_table_does_not_identify_the_rules():
         "With l = 0.135 neighbouring rotors overlap; apart and inside the body they need 0.1414 <= l <= 0.15."
     )
     fitting = replace(craft_of(SHORT), arm=0.1415)
-    assert tower_flights.statement(fitting) == STATEMENT
-    assert "With l = 0.16 rotors reach out of the body" in tower_flights.statement(replace(fitting, arm=0.16))
+    assert towers.statement(fitting) == STATEMENT
+    assert "With l = 0.16 rotors reach out of the body" in towers.statement(replace(fitting, arm=0.16))
     assert "not identified by the table" in STATEMENT
 
 
@@ -181,4 +190,4 @@ def test_default_scene_fits_table_5_as_closely_as_measured():
     error = percents.std(ddof=1) / math.sqrt(150)
     assert abs(percents.mean() - PRINTED[2][5]) < 0.3 + 4 * error
     assert error < 0.4
-    assert tower_flights.MOST_MOVES > 1000
+    assert towers.MOST_MOVES > 1000

@@ -17,7 +17,7 @@ from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.entry import LedgerEntry
 from hypcheck.paper.ledger.points import PointFacts
-from hypcheck.paper.tower_flights import PRINTED
+from hypcheck.paper.tower import PRINTED
 from hypcheck.tables.streams import writing
 from hypcheck.version import VERSION
 

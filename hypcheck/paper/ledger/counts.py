@@ -20,7 +20,7 @@ from hypcheck.derivation.formulas import (
 )
 from hypcheck.paper.ledger.entry import Evidence
 from hypcheck.paper.ledger.points import SquaredRatios, discriminant
-from hypcheck.paper.tower_flights import PRINTED, SPEEDS, TIMES
+from hypcheck.paper.tower import PRINTED, SPEEDS, TIMES
 
 _TABLE_2, _COSINES = cost_of(FORMULAS["table-2"]), cost_of(ROOTS_TRIGONOMETRIC)
 
