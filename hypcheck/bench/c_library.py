@@ -28,7 +28,7 @@ from hypcheck.bench.c_source import (
     source,
     trigonometric,
 )
-from hypcheck.bench.contender import EmptyCall, PreparedWork
+from hypcheck.bench.contender import EmptyCall, LoadedMethod, PreparedWork
 from hypcheck.bench.timing import Clocked, clocked, clocked_in_c
 from hypcheck.bench.workloads import scene_of
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
@@ -172,61 +172,48 @@ def _loaded(library: Path) -> ctypes.CDLL:
 
 
 @dataclass(frozen=True)
-class InC:
+class InC(LoadedMethod):
     """A method of the library, by its place in the table; place 0 does nothing."""
 
     library: Path
     place: int
-    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """The method's answers, by the entry for rows."""
-        queries = np.ascontiguousarray(rows)
-        found = np.empty(len(queries), dtype=np.int8)
-        _loaded(self.library).bench_rows(self.place, 1, len(queries), queries.ctypes.data, found.ctypes.data)
-        return found
+        return self._by_rows("bench_rows", rows).answers()
 
     def batch(self, rows: Rows) -> PreparedWork:
         """One call, by scene if all rows share their sizes."""
-        found = np.zeros(len(rows), dtype=np.int8)
         sizes = scene_of(rows)
         if sizes is None:
-            return self._by_rows(np.ascontiguousarray(rows), found, _loaded(self.library).bench_rows)
+            return self._by_rows("bench_rows", rows)
+        function, found = _loaded(self.library).bench_scene, np.zeros(len(rows), dtype=np.int8)
         parts: list[NDArray[np.float64]] = [np.array(sizes), *np.ascontiguousarray(rows[:, 4:].T)]
-        function, fixed = _loaded(self.library).bench_scene, [part.ctypes.data for part in parts]
+        fixed = _pointers(parts)
 
         def call(repeat: int) -> object:
             held = parts  # pointers alone would not keep them alive
             return function(self.place, repeat, fixed[0], len(held[1]), *fixed[1:], found.ctypes.data)
 
-        return _prepared(len(rows), call, found)
+        return _prepared(call, found)
 
     def single(self, rows: Rows) -> PreparedWork:
         """A call for each row, in C through the table of functions: the time that a program in C would wait."""
-        part = np.ascontiguousarray(rows)
-        return self._by_rows(part, np.zeros(len(part), dtype=np.int8), _loaded(self.library).bench_single)
-
-    def build(self, rows: Rows) -> None:
-        """Nothing is built."""
+        return self._by_rows("bench_single", rows)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall:
         """A function in C that does nothing."""
         nothing = InC(self.library, 0)
-        return EmptyCall("C", nothing.single(rows) if mode == "single" else nothing._by_one(rows))
+        return EmptyCall("C", nothing.single(rows) if mode == "single" else nothing._by_rows("bench_rows", rows[:1]))
 
-    def close(self) -> None:
-        """Do nothing: the library lives as long as the process."""
+    def _by_rows(self, name: str, rows: Rows) -> PreparedWork:
+        function, queries = getattr(_loaded(self.library), name), np.ascontiguousarray(rows)
+        found = np.zeros(len(queries), dtype=np.int8)
 
-    def _by_one(self, rows: Rows) -> PreparedWork:
-        return self._by_rows(
-            np.ascontiguousarray(rows[:1]), np.zeros(1, dtype=np.int8), _loaded(self.library).bench_rows
-        )
-
-    def _by_rows(self, rows: Rows, found: Answers, function: Callable[..., object]) -> PreparedWork:
         def call(repeat: int) -> object:
-            return function(self.place, repeat, len(rows), rows.ctypes.data, found.ctypes.data)
+            return function(self.place, repeat, len(queries), queries.ctypes.data, found.ctypes.data)
 
-        return _prepared(len(rows), call, found)
+        return _prepared(call, found)
 
 
 def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
@@ -239,15 +226,15 @@ def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
         moving = [column.ctypes.data for column in columns]
         return _loaded(library).bench_bodies(place, repeat, craft.ctypes.data, len(found), *moving, found.ctypes.data)
 
-    return _prepared(len(found), call, found)
+    return _prepared(call, found)
 
 
-def _prepared(count: int, call: Callable[[int], object], found: Answers) -> PreparedWork:
+def _prepared(call: Callable[[int], object], found: Answers) -> PreparedWork:
     def answers() -> Answers:
         call(1)
         return found
 
-    return PreparedWork(count, clocked_in_c(call, found), answers)
+    return PreparedWork(len(found), clocked_in_c(call, found), answers)
 
 
 BASELINE_FLAGS = ("-O3", "-std=c99", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-fPIC")

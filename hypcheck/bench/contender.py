@@ -6,17 +6,19 @@ A method is called in a batch and one row at a time; a mesh is also built.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.bench.timing import Clocked, clocked
 from hypcheck.bench.workloads import scene_of
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
 from hypcheck.implementations.description import QUESTIONS, Domain, claimed
+from hypcheck.implementations.meshes import height_of, rows_by_sizes
 from hypcheck.implementations.method import Answers, ByScene, Method
 
 Answering = Callable[[Rows], Answers]
@@ -44,41 +46,38 @@ class EmptyCall:
     ready: PreparedWork
 
 
-class LoadedMethod(Protocol):
-    """A loaded method. A way of calling that does not exist is None."""
+class LoadedMethod:
+    """A loaded method. A way of calling that does not exist is None.
 
-    @property
-    def trouble(self) -> str:
-        """Why rows have no answer, if a program was at fault; else empty."""
-        ...
+    `trouble` says why rows have no answer, if a program was at fault; else it is empty.
+    """
+
+    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """Its answers, which are judged."""
-        ...
+        raise NotImplementedError
 
     def batch(self, rows: Rows) -> PreparedWork | None:
-        """All rows by one call."""
-        ...
+        """All rows by one call; its arguments are prepared before the timing."""
+        raise NotImplementedError
 
     def single(self, rows: Rows) -> PreparedWork | None:
         """All rows by one call each."""
-        ...
+        raise NotImplementedError
 
     def build(self, rows: Rows) -> PreparedWork | None:
         """The work that is done once before any row of this scene can be answered."""
-        ...
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
         """The call that does nothing, in a mode, whose time is subtracted; None if nothing is."""
-        ...
 
     def close(self) -> None:
         """Release what it holds."""
-        ...
 
 
 @dataclass(frozen=True)
-class InPython:
+class InPython(LoadedMethod):
     """A function of rows in this process; `scene`, if there is one, is asked about rows that share their sizes.
 
     Of rows of ten, which share their axis too, it also gets that.
@@ -86,14 +85,13 @@ class InPython:
 
     function: Answering
     scene: Callable[..., Answers] | None = None
-    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """The function's answers."""
         return self.function(rows)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """One call; its arguments are prepared before the timing."""
+        """One call, of the scene if all rows share their sizes."""
         return _prepared(len(rows), self._work(rows))
 
     def single(self, rows: Rows) -> PreparedWork:
@@ -101,17 +99,11 @@ class InPython:
         parts = [rows[place : place + 1] for place in range(len(rows))]
         return one_by_one(self.function, parts)
 
-    def build(self, rows: Rows) -> None:
-        """Nothing is built."""
-
     def empty(self, rows: Rows, mode: str) -> EmptyCall:
         """A Python function that does nothing."""
         if mode == "batch":
             return EmptyCall("Python", _prepared(1, _nothing))
         return EmptyCall("Python", one_by_one(_nothing_of, [rows[:1]] * len(rows)))
-
-    def close(self) -> None:
-        """Nothing is held."""
 
     def _work(self, rows: Rows) -> Callable[[], Answers]:
         sizes = scene_of(rows)
@@ -124,11 +116,10 @@ class InPython:
 
 
 @dataclass(frozen=True)
-class InScalars:
+class InScalars(LoadedMethod):
     """A function of seven numbers in this process, called for each row."""
 
     function: Callable[..., int]
-    trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
         """The function's answers."""
@@ -143,15 +134,9 @@ class InScalars:
         queries = list(map(tuple, rows.tolist()))
         return _prepared(len(queries), lambda: np.array([self.function(*query) for query in queries], dtype=np.int8))
 
-    def build(self, rows: Rows) -> None:
-        """Nothing is built."""
-
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
         """A function of seven numbers that does nothing."""
         return EmptyCall("Python, with numbers", InScalars(_none_of).single(rows)) if mode == "single" else None
-
-    def close(self) -> None:
-        """Nothing is held."""
 
 
 def _none_of(*_numbers: float) -> int:
@@ -183,6 +168,76 @@ def _nothing() -> Answers:
 
 def _nothing_of(_rows: Rows) -> Answers:
     return _ZERO
+
+
+class BuiltMesh(Protocol):
+    """A scene's mesh in an engine."""
+
+    @property
+    def triangles(self) -> int:
+        """How many it has."""
+        ...
+
+    def answers(self, rows: Rows) -> Answers:
+        """The answers to rows that have its sizes."""
+        ...
+
+
+@dataclass(frozen=True)
+class InEngine(LoadedMethod):
+    """An engine with meshes, each built once and kept: `make` from sizes and height, which `high` finds for rows."""
+
+    make: Callable[[Sizes, float], BuiltMesh]
+    high: Callable[[Sizes, Rows], float] = height_of
+    layout: Layout = PAIRS
+    meshes: dict[tuple[Sizes, float], BuiltMesh] = field(default_factory=dict)
+
+    def answer(self, rows: Rows) -> Answers:
+        """Its answers, scene by scene; missing meshes are built and kept."""
+        found = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
+        for sizes, places in rows_by_sizes(rows):
+            found[places] = self.mesh(sizes, rows[places]).answers(rows[places])
+        return found
+
+    def mesh(self, sizes: Sizes, rows: Rows) -> BuiltMesh:
+        """The mesh of a scene."""
+        key = sizes, self.high(sizes, rows)
+        if key not in self.meshes:
+            self.meshes[key] = self.make(*key)
+        return self.meshes[key]
+
+    def batch(self, rows: Rows) -> PreparedWork:
+        """Every row, with meshes that exist."""
+        work = partial(self._ready(rows), rows)
+        return _prepared(len(rows), work)
+
+    def single(self, rows: Rows) -> PreparedWork:
+        """The same by a call for each row."""
+        return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
+
+    def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
+        sizes = scene_of(rows, self.layout)
+        if sizes is not None:
+            return self.mesh(sizes, rows).answers
+        self.answer(rows)  # builds them
+        return self.answer
+
+    def build(self, rows: Rows) -> PreparedWork | None:
+        """The mesh of a scene, from the vertices to the engine's tree; its answer is the number of its triangles."""
+        sizes = scene_of(rows, self.layout)
+        if sizes is None:
+            return None
+        known = np.array([self.mesh(sizes, rows).triangles])
+        make = partial(self.make, sizes, self.high(sizes, rows))
+        return PreparedWork(1, clocked(lambda: np.array([make().triangles])), lambda: known)
+
+    def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
+        """The empty call of a Python function."""
+        return None if mode == "build" else InPython(self.answer).empty(rows, mode)
+
+    def close(self) -> None:
+        """Release the meshes."""
+        self.meshes.clear()
 
 
 @dataclass(frozen=True)
@@ -230,28 +285,10 @@ def of_method(
     tier: str,
     kind: str,
     *,
-    name: str = "",
     scene: ByScene | None = None,
-    judged: int | None = None,
-    timed: int | None = None,
-    singles: int = 32,
-    accuracy_only: bool = False,
-    note: str = "",
+    **fields: Any,  # noqa: ANN401 - of a contender
 ) -> Contender:
-    """A built-in method as a contender."""
-    return Contender(
-        name=name or method.name,
-        title=method.title,
-        tier=tier,
-        kind=kind,
-        precision=method.precision,
-        question=method.question,
-        domain=method.domain,
-        load=partial(InPython, method.answer, scene),
-        exact=method.exact,
-        judged=judged,
-        timed=timed,
-        singles=singles,
-        accuracy_only=accuracy_only,
-        note=note,
-    )
+    """A built-in method as a contender; `fields` are all that differ from the method's own, and from the defaults."""
+    own = ("name", "title", "precision", "question", "domain", "exact")
+    given: dict[str, Any] = {name: getattr(method, name) for name in own}
+    return Contender(tier=tier, kind=kind, **{"load": partial(InPython, method.answer, scene), **given, **fields})

@@ -1,7 +1,8 @@
 """All contenders by name: numpy and Python, C, meshes of collision engines, and implementations under test.
 
-Methods in C are printed and compiled when bench starts. Runs about spheroids that lean and runs about ways have
-contenders of their own.
+Methods in C are printed and compiled when bench starts. Meshes have 100 to 100,000 triangles, and are built once or for
+each row; a spheroid that leans is asked as the engine's ellipsoid, posed by its axis, against the same mesh. Runs about
+spheroids that lean and runs about ways have contenders of their own.
 """
 
 from __future__ import annotations
@@ -17,8 +18,7 @@ import numpy as np
 from hypcheck.bench import foreign
 from hypcheck.bench.c_library import InC, bodies
 from hypcheck.bench.c_source import FAST
-from hypcheck.bench.contender import Contender, InPython, InScalars, of_method
-from hypcheck.bench.mesh_contenders import COAL_TRIANGLES, ONCE, TRIANGLES, InEngine, built_once, mesh_contenders
+from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars, of_method
 from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_names
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Rows
@@ -32,7 +32,7 @@ from hypcheck.implementations.builtin import (
     passage_methods,
 )
 from hypcheck.implementations.description import EVERYWHERE, Domain
-from hypcheck.implementations.meshes import COAL, FCL
+from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshLibrary, scene_mesh
 from hypcheck.implementations.method import Answers, ByScene, Method, by_scene, on_scene
 from hypcheck.implementations.ways import WAY_SOLVERS, height_of_ways, way_mesh
 from hypcheck.kernel import numpy_kernel
@@ -86,14 +86,19 @@ def _scene_of_formula(name: str, format_name: str) -> ByScene:
 
 def _fast(methods: Methods) -> Iterable[Contender]:
     """The numpy path, the compiled one if it runs here, and one call of hypcheck.position for each row."""
-    found = of_method(methods["fast-numpy"], "numpy", "certified", timed=8192, note=CERTIFIED)
-    yield replace(found, load=partial(InPython, numpy_kernel.positions, numpy_kernel.positions_of_scene))
+    load = partial(InPython, numpy_kernel.positions, numpy_kernel.positions_of_scene)
+    yield of_method(methods["fast-numpy"], "numpy", "certified", load=load, timed=8192, note=CERTIFIED)
     if choice().kernel == "compiled":
-        note = f"{CERTIFIED}; as installed, called from Python, on one thread, {choice().level}"
         # Only a batch: one call at a time is position-python from Python, and fast-c from C.
-        yield of_method(methods["fast"], "C", "certified", scene=fast_scene, note=note, singles=0)
-    by_one = of_method(methods["fast"], "python", "certified", name="position-python", timed=1024, note=CERTIFIED)
-    yield replace(by_one, title="hypcheck.position, one call a row", load=_position, singles=1024)
+        yield of_method(methods["fast"], "C", "certified", scene=fast_scene, note=_as_installed(), singles=0)
+    yield of_method(
+        methods["fast"], "python", "certified", name="position-python", title="hypcheck.position, one call a row",
+        load=_position, timed=1024, singles=1024, note=CERTIFIED,
+    )  # fmt: skip
+
+
+def _as_installed() -> str:
+    return f"{CERTIFIED}; as installed, called from Python, on one thread, {choice().level}"
 
 
 def _position() -> InScalars:
@@ -108,8 +113,8 @@ def _roots(methods: Methods) -> Iterable[Contender]:
         yield of_method(methods[f"trigonometric-{precision}"], "numpy", "roots", scene=scene, note=THIRTEEN)
     yield of_method(methods["numpy-roots"], "python", "roots", judged=2000, timed=96, note="one call a row")
     for name in (name for name in methods if name.startswith("mpmath-roots-")):
-        found = of_method(methods[name], "python", "roots", judged=240, timed=4, note=_UNSAID)
-        yield replace(found, quick=name.endswith(_QUICK_DIGITS))
+        quick = name.endswith(_QUICK_DIGITS)
+        yield of_method(methods[name], "python", "roots", judged=240, timed=4, note=_UNSAID, quick=quick)
 
 
 def _exact(methods: Methods) -> Iterable[Contender]:
@@ -149,15 +154,75 @@ def c_contenders(library: Path | None) -> Iterable[Contender]:
     methods = builtin_methods()
     for place, body in enumerate(bodies(), start=1):
         if body.name in methods:  # a long double that is no more than float64 is left out
-            kind, note = _KINDS.get(_without_format(body.name), ("algebraic", ""))
-            found = of_method(methods[body.name], "C", kind, name=f"{body.name}-c", note=note)
-            if body.name == FAST.name:
-                found = replace(found, title="the fast path, compiled with the others and called from C")
-            yield replace(found, load=partial(InC, library or Path(), place), singles=SINGLES, needs=COMPILER)
+            kind, note = _KINDS.get(body.name.rpartition("-")[0] or body.name, ("algebraic", ""))
+            method, load = methods[body.name], partial(InC, library or Path(), place)
+            title = "the fast path, compiled with the others and called from C" if body is FAST else method.title
+            yield of_method(
+                method, "C", kind, name=f"{body.name}-c", title=title, load=load, singles=SINGLES, needs=COMPILER,
+                note=note,
+            )  # fmt: skip
 
 
-def _without_format(name: str) -> str:
-    return name.rpartition("-")[0] or name
+TRIANGLES = (100, 1_000, 10_000, 100_000)
+COAL_TRIANGLES = (10_000,)
+MOST_SCENES = 8
+"""Workloads with more different sizes are not asked: a mesh for one row is not built once."""
+
+MOST_QUICK = 1_000
+"""Larger meshes belong to full runs."""
+
+ONCE, FOR_EACH = "build once", "build each"
+_TITLES = {
+    "point": "distance from the centre to the scaled mesh",
+    "sphere": "unit sphere against the scaled mesh",
+    "ellipsoid": "ellipsoid against the mesh",
+}
+
+
+def mesh_contenders() -> Iterable[Contender]:
+    """Every pairing with every number of triangles."""
+    for pairing in PAIRINGS:
+        for triangles in TRIANGLES:
+            yield built_once(FCL, pairing, triangles)
+    for pairing in PAIRINGS:
+        for triangles in COAL_TRIANGLES:
+            yield built_once(COAL, pairing, triangles)
+    methods = builtin_methods()
+    for pairing in PAIRINGS:
+        if f"fcl-{pairing}-mesh" in methods:
+            yield of_method(
+                methods[f"fcl-{pairing}-mesh"],
+                "FCL",
+                "mesh",
+                judged=400,
+                timed=8,
+                singles=8,
+                amortised=FOR_EACH,
+                needs=FCL.title,
+                note="the mesh covers the body's surroundings alone, and is built anew for each row",
+                quick=False,
+            )
+
+
+def built_once(engine: MeshLibrary, pairing: str, triangles: int) -> Contender:
+    """A pairing with one mesh of about so many triangles for a scene, or for each of a few scenes."""
+    return Contender(
+        name=f"{engine.name}-{pairing}-{triangles}",
+        title=f"{engine.title}: {_TITLES[pairing]} of the whole surface, about {triangles:,} triangles",
+        tier="FCL",
+        kind="mesh",
+        precision="float64",
+        question="position",
+        domain=Domain(),
+        load=partial(InEngine, partial(scene_mesh, engine, pairing, triangles=triangles)),
+        judged=3000 if triangles < 100_000 else 1200,
+        timed=256,
+        amortised=ONCE,
+        scenes=MOST_SCENES,
+        needs=engine.title,
+        note="the time of a row is without that of building",
+        quick=triangles <= MOST_QUICK,
+    )
 
 
 ELLIPSOID = "ellipsoid"
@@ -167,8 +232,8 @@ ELLIPSOID = "ellipsoid"
 def tilted_contenders() -> Iterable[Contender]:
     """All of them, including the reference."""
     if choice().kernel == "compiled":
-        note = f"{CERTIFIED}; as installed, called from Python, on one thread, {choice().level}"
-        yield _ours("fast", "C", "certified", "the fast path, as installed", fast_positions, fast_scene, note=note)
+        title, note = "the fast path, as installed", _as_installed()
+        yield _ours("fast", "C", "certified", title, fast_positions, fast_scene, note=note)
     yield _ours(
         "fast-numpy", "numpy", "certified", "the fast path in numpy",
         numpy_kernel.positions, numpy_kernel.positions_of_scene, note=CERTIFIED, timed=8192,
@@ -214,9 +279,8 @@ def _ours(
 ) -> Contender:
     """One of our methods; those that promise to be exact are asked everywhere."""
     exact = kind in ("certified", "exact")
-    load = partial(InPython, answer, scene)
-    domain = EVERYWHERE if exact else Domain()
-    return Contender(name, title, tier, kind, "float64", "position", domain, load, exact=exact, **more)
+    method = Method(name, title, answer, domain=EVERYWHERE if exact else Domain(), exact=exact)
+    return of_method(method, tier, kind, scene=scene, **more)
 
 
 def _nearest(rows: Rows) -> Answers:
@@ -246,25 +310,27 @@ def way_contenders() -> Iterable[Contender]:
     for count in SAMPLES:
         yield of_method(methods[f"passage-sampled-{count}"], tier, "sampling", timed=32_768 // count, note=_JUMPS)
     for name, kind in (("passage-advancement", "advancement"), ("passage-capsule", "bounding")):
-        found = of_method(methods[name], "numpy", kind, judged=WAYS_JUDGED, timed=8, singles=0, note=_BISECTED)
-        yield replace(found, quick=False)
+        yield of_method(
+            methods[name], "numpy", kind, judged=WAYS_JUDGED, timed=8, singles=0, note=_BISECTED, quick=False
+        )
     yield from _in_engines()
 
 
 def _in_engines() -> Iterable[Contender]:
     """Each solver with a mesh of the whole surface for each scene, which is built before its time is taken."""
     for name, solver in WAY_SOLVERS.items():
-        timed = FEW_WAYS if name in SLOW_FOR_WAYS else WAYS_TIMED
-        found = of_method(
-            passage_mesh_methods()[name], "FCL", "mesh", judged=WAYS_JUDGED, timed=timed, singles=FEW_WAYS
-        )
-        yield replace(
-            found,
+        yield of_method(
+            passage_mesh_methods()[name],
+            "FCL",
+            "mesh",
             load=partial(InEngine, partial(way_mesh, solver), height_of_ways, WAYS),
+            judged=WAYS_JUDGED,
+            quick_judged=WAYS_JUDGED_QUICK,
+            timed=FEW_WAYS if name in SLOW_FOR_WAYS else WAYS_TIMED,
+            singles=FEW_WAYS,
             amortised=ONCE,
             needs=solver.engine.title,
             note="the time of a way is without that of building its mesh",
-            quick_judged=WAYS_JUDGED_QUICK,
         )
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
-from hypcheck.bench.contender import Contender, EmptyCall, PreparedWork, of_method
+from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork, of_method
 from hypcheck.bench.timing import Clocked, TimingRefusedError
 from hypcheck.bench.workloads import NEAR_SCENES, WAY_WORKLOADS, WORKLOADS, scene_of
 from hypcheck.errors import InputError
@@ -131,12 +131,11 @@ def _opened(spec: str, limits: Limits) -> RunningForeign:
 
 
 @dataclass
-class RunningForeign:
+class RunningForeign(LoadedMethod):
     """A running implementation; `kind` is that of its SPEC. `trouble` says why rows have no answer."""
 
     implementation: Implementation
     kind: str
-    trouble: str = field(default="", init=False)
 
     def answer(self, rows: Rows) -> Answers:
         """The implementation's answers; CANNOT_SAY for rows without one."""
@@ -156,9 +155,6 @@ class RunningForeign:
             return None
         answers = partial(self._asked, rows, by_scene=False)
         return PreparedWork(len(rows), self._times(rows, answers, each=True), answers, self._clock)
-
-    def build(self, rows: Rows) -> None:
-        """Nothing is built, as far as hypcheck knows."""
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
         """For a library a call that does nothing; for a command without a clock a question about one row."""

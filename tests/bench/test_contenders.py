@@ -9,9 +9,8 @@ import pytest
 
 from hypcheck.bench import accuracy, needs, run
 from hypcheck.bench.c_library import Compiler
-from hypcheck.bench.contender import Contender, InPython, InScalars
+from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.mesh_contenders import InEngine
 from hypcheck.bench.plan import QUICK, BenchPlan
 from hypcheck.errors import Exit, RunOutcome, UnavailableError
 from hypcheck.geometry.rows import CANNOT_SAY
