@@ -35,7 +35,6 @@ from hypcheck.record.lines import (
     WrongAnswer,
 )
 from hypcheck.record.lines import ImplementationLine as Tested
-from hypcheck.record.schema import DRAFT, components
 from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.model import (
     ImplementationTotal,
@@ -257,17 +256,6 @@ class Summary(LinePart, frozen=True, kw_only=True):
     timings: list[TimingSummary]
     methods: Annotated[list[MethodSummary], Meta(description="Of a benchmark, since 1.1.0.")]
     failures: list[FailureSummary]
-
-
-def schema() -> Fields:
-    """The JSON schema of summary.json."""
-    _, definitions = components([Summary])
-    head = {
-        "$schema": DRAFT,
-        "$id": f"urn:hypcheck:summary:{SCHEMA}",
-        "title": f"summary.json of hypcheck, version {SCHEMA}",
-    }
-    return {**head, **definitions.pop("summary"), "$defs": definitions}
 
 
 def render(record: Record) -> bytes:

@@ -9,12 +9,12 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.record import plain
 from hypcheck.record.reader import notes, read
-from hypcheck.record.schema import schema
 from hypcheck.report.write import render
 from tests.report import bench_lines, record_samples
 from tests.support.records import resealed
+from tests.tools.published_schemas import record_schema
 
-REQUIRED = {name: part.get("required", ()) for name, part in schema()["$defs"].items()}
+REQUIRED = {name: part.get("required", ()) for name, part in record_schema()["$defs"].items()}
 """The fields that each type of line must have."""
 
 

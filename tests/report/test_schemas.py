@@ -16,7 +16,6 @@ from hypcheck.record import SCHEMA as RECORD_SCHEMA
 from hypcheck.record import Recorder, measurements, plain, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import LINES
-from hypcheck.record.schema import text
 from hypcheck.report import summary
 from hypcheck.runs import self_check
 from hypcheck.runs.findings import SelfCheckPlan
@@ -24,7 +23,7 @@ from hypcheck.runs.self_check import TimedMethod, timing_line
 from hypcheck.vectors.families import FAMILIES
 from tests.report import bench_lines, record_samples
 from tests.support.records import GrowingText, violations
-from tests.tools.published_schemas import PUBLISHED
+from tests.tools.published_schemas import PUBLISHED, text
 
 
 def schema(name):
