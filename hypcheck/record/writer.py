@@ -117,22 +117,19 @@ class GrowingFile:
     def renew(self, data: bytes) -> None:
         """Replace the whole content by `data`, once that is on the disk."""
         with self._errors_name_it():
-            self._renew(data)
-
-    def _renew(self, data: bytes) -> None:
-        self._path.parent.mkdir(parents=True, exist_ok=True)
-        file = _new_file(self._beside)
-        try:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-            self._beside.replace(self._path)
-        except OSError:
-            with suppress(OSError):
-                file.close()
-            with suppress(OSError):
-                self._beside.unlink()
-            raise
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            file = _new_file(self._beside)
+            try:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+                self._beside.replace(self._path)
+            except OSError:
+                with suppress(OSError):
+                    file.close()
+                with suppress(OSError):
+                    self._beside.unlink()
+                raise
         before, self._file = self._file, file
         if before is not None:
             with suppress(OSError):  # a line that was cut off is in the new file

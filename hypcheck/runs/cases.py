@@ -7,7 +7,7 @@ Frozen vectors are read once; the processes of a pool get them from their parent
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, Position
-from hypcheck.geometry.rows import PAIRS, Floats, Layout, Positions, Rows
+from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.runs import judge
 from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judges import truth_of
@@ -204,38 +204,12 @@ def searched_chunks() -> Iterator[CaseChunk]:
 
 def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
     """The rows of a chunk, with certified positions of frozen vectors and positions of other rows decided now."""
-    return cases_of_chunks((chunk,))[0]
-
-
-def cases_of_chunks(some: Iterable[CaseChunk]) -> tuple[ChunkCases, ...]:
-    """The cases of each chunk, decided together, which takes less time if chunks are small."""
-    made = [(chunk, _columns(chunk)) for chunk in some]
-    layouts = {_family(chunk.family).layout for chunk, _ in made if chunk.seed is not None}  # one: of one question
-    decided = iter(_decided([columns for chunk, columns in made if chunk.seed is not None], *layouts or {PAIRS}))
-    found = []
-    for chunk, columns in made:
-        if chunk.seed is None:
-            known, part = frozen_vectors(chunk.family), slice(chunk.start, chunk.stop)
-            found.append(ChunkCases(chunk, known.rows[part], columns, known.positions[part]))
-        else:
-            found.append(ChunkCases(chunk, np.ascontiguousarray(columns.T), columns, next(decided)))
-    return tuple(found)
-
-
-def _decided(drawn: list[Floats], layout: Layout) -> list[Positions]:
-    """The exact positions of each of these, given by columns, or what is true about ways."""
-    if len({len(columns) for columns in drawn}) > 1:  # of upright and of tilted spheroids
-        return [truth_of(columns.T, layout) for columns in drawn]
-    if not drawn:
-        return []
-    together = truth_of(np.concatenate(drawn, axis=1).T if len(drawn) > 1 else drawn[0].T, layout)
-    return np.split(together, np.cumsum([columns.shape[1] for columns in drawn[:-1]]))
-
-
-def _columns(chunk: CaseChunk) -> NDArray[np.float64]:
     if chunk.seed is None:
-        return np.ascontiguousarray(frozen_vectors(chunk.family).rows[chunk.start : chunk.stop].T)
-    return _family(chunk.family).columns_between(chunk.seed, chunk.start, chunk.stop)
+        known, part = frozen_vectors(chunk.family), slice(chunk.start, chunk.stop)
+        return ChunkCases(chunk, known.rows[part], np.ascontiguousarray(known.rows[part].T), known.positions[part])
+    family = _family(chunk.family)
+    columns = family.columns_between(chunk.seed, chunk.start, chunk.stop)
+    return ChunkCases(chunk, np.ascontiguousarray(columns.T), columns, truth_of(columns.T, family.layout))
 
 
 @lru_cache

@@ -20,7 +20,7 @@ from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions,
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.record.lines import Retest
-from hypcheck.runs.cases import ChunkCases, cases_of_chunks
+from hypcheck.runs.cases import ChunkCases, cases_of_chunk
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest, merged_result, result_of_final
@@ -129,7 +129,7 @@ def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) 
 
 
 def _sample(some: tuple[PendingRetest, ...], criterion: Criterion) -> _Sample:
-    made = cases_of_chunks(each.chunk for each in some)
+    made = tuple(cases_of_chunk(each.chunk) for each in some)
     both = tuple(zip(made, some, strict=True))
     return _Sample(
         made,
