@@ -215,7 +215,7 @@ def _show(name: str) -> None:
 def _prepare_folder(kind: str, out: Path | None) -> None:
     """Make the folder for the files, before anything is simulated."""
     if out is not None:
-        from hypcheck.report.simulation import make_ready
+        from hypcheck.report.write import make_ready
 
         make_ready(kind, out)
 
@@ -226,7 +226,7 @@ def _deliver(result: dict[str, Any], form: str, lines: Iterable[str], out: Path 
 
     written = []
     if out is not None:
-        from hypcheck.report.simulation import write_simulation
+        from hypcheck.report.write import write_simulation
 
         written = write_simulation(result, out)
     for line in [json.dumps(result)] if form == "json" else lines:

@@ -166,16 +166,16 @@ def report(record: Record, out: Path) -> None:
 
 def _print_summary(record: Record, lines: Sequence[str]) -> None:
     """Print the summary; on GitHub also annotations, and the report in the summary of the step."""
-    from hypcheck.report import github
+    from hypcheck.report import code_hosts
 
-    if not github.on_github(os.environ):
+    if not code_hosts.on_github(os.environ):
         for line in lines:
             click.echo(line)
         return
-    for line in [*github.harmless(lines), *github.error_lines(record)]:
+    for line in [*code_hosts.harmless(lines), *code_hosts.error_lines(record)]:
         click.echo(line)
     summary = os.environ.get("GITHUB_STEP_SUMMARY")
-    fault = github.append_summary(record, Path(summary)) if summary else None
+    fault = code_hosts.append_summary(record, Path(summary)) if summary else None
     if fault:
         click.echo(f"hypcheck: {printable(fault)}", err=True)
 

@@ -17,14 +17,14 @@ from hypcheck.record.measurements import SpeedLine
 from hypcheck.report.document import (
     Block,
     Code,
-    Column,
     Paragraph,
+    Row,
     Section,
-    TableCell,
     Text,
     bullets,
+    count,
     joined,
-    number,
+    measured,
     prose,
     table,
 )
@@ -38,7 +38,7 @@ from hypcheck.report.measured import (
     way_totals,
     workloads,
 )
-from hypcheck.report.messages import figure, listed, with_interval
+from hypcheck.report.messages import figure, listed
 
 DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
 """Distances below which errors may not matter: of a metre, 1e-12 is an atom's width, 1e-3 a millimetre."""
@@ -332,26 +332,20 @@ def advised_method_sections(record: Record) -> Iterator[Section]:
 
 
 def _advice_table(advice: tuple[Advice, ...]) -> Block:
-    numbers = (number("time ratio"), number("ns a query"), number("judged"))
-    columns: tuple[Column | str, ...] = (
-        *("you need", "use", "in", "asked"),
-        *numbers,
-        *("as fast", "not reliable on"),
-    )
+    columns = "you need | use | in | asked | # time ratio | # ns a query | # judged | as fast | not reliable on"
     return table("which method to use when", columns, [_advice_row(each) for each in advice])
 
 
-def _advice_row(each: Advice) -> tuple[TableCell, ...]:
+def _advice_row(each: Advice) -> Row:
     line = each.use.speed[each.workload, each.need.mode]
-    ratio = line.ratio or 0.0
     return (
-        TableCell(each.need.what),
-        TableCell(Code(each.use.name)),
-        TableCell(each.need.where),
-        TableCell(each.need.asked),
-        TableCell(with_interval(ratio, line.ratio_ci95), ratio),
-        TableCell(figure(line.median_ns), line.median_ns),
-        TableCell(f"{each.use.asked:,}", each.use.asked),
-        TableCell(joined([Code(other.name) for other in each.alike])),
-        TableCell(", ".join(each.errs)),
+        each.need.what,
+        Code(each.use.name),
+        each.need.where,
+        each.need.asked,
+        measured(line.ratio or 0.0, line.ratio_ci95),
+        measured(line.median_ns),
+        count(each.use.asked),
+        joined([Code(other.name) for other in each.alike]),
+        ", ".join(each.errs),
     )

@@ -14,95 +14,100 @@ from hypcheck.record import Record
 from hypcheck.record.lines import GroupLine
 from hypcheck.record.measurements import AccuracyLine, SpeedLine
 from hypcheck.report.document import (
+    MISSING,
     Block,
     Code,
-    Column,
     Paragraph,
+    Row,
     Section,
     TableBlock,
     TableCell,
     bullets,
-    number,
+    measured,
     prose,
     table,
 )
-from hypcheck.report.messages import figure, listed, with_interval
+from hypcheck.report.messages import figure, listed
 from hypcheck.report.model import implementations, timing_totals, worst_case, worst_error_u
 from hypcheck.report.verdict import verdict
 
 Key = TypeVar("Key", bound=Hashable)
+Value = TypeVar("Value")
 
 Interval = tuple[float, float]
+
+Ratio = tuple[float, Interval | None]
+"""The ratio of a method's time to that of its run's reference, and its interval where it has one."""
 
 FASTER, SLOWER, UNCLEAR = "faster", "slower", "no difference shown"
 
 
 @dataclass(frozen=True, slots=True)
 class StatusChange:
-    """A family of an implementation whose cases ended differently."""
+    """A family of an implementation whose cases ended differently: its lines before and after."""
 
     implementation: str
-    family: str
-    before: Mapping[str, int]
-    after: Mapping[str, int]
-    worst_before_u: float
-    worst_after_u: float
+    before: GroupLine
+    after: GroupLine
+
+    @property
+    def family(self) -> str:
+        """The name of the family."""
+        return self.after.family
 
     @property
     def worse(self) -> bool:
         """Whether more cases ended other than right, or the worst error is greater."""
-        return _bad(self.after) > _bad(self.before) or self.worst_after_u > self.worst_before_u
+        return _bad(self.after) > _bad(self.before) or worst_u(self.after) > worst_u(self.before)
 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyChange:
-    """A method whose errors changed on a workload: [wrong, asked], and the distance above which it is reliable."""
+    """A method whose errors on a workload changed: its lines before and after."""
 
-    method: str
-    workload: str
-    before: tuple[int, int]
-    after: tuple[int, int]
-    reliable_before: float
-    reliable_after: float
+    before: AccuracyLine
+    after: AccuracyLine
 
 
 @dataclass(frozen=True, slots=True)
 class RatioChange:
-    """The ratio of a method's time to that of its run's reference, before and after, with intervals."""
+    """A method's ratio before and after."""
 
     method: str
     workload: str
     mode: str
-    before: float
-    before_interval: Interval | None
-    after: float
-    after_interval: Interval | None
+    before: Ratio
+    after: Ratio
 
     @property
     def verdict(self) -> str:
         """FASTER or SLOWER if the intervals are apart, UNCLEAR if they overlap or are not known."""
-        if self.before_interval is None or self.after_interval is None:
+        before, after = self.before[1], self.after[1]
+        if before is None or after is None:
             return UNCLEAR
-        if self.after_interval[1] < self.before_interval[0]:
+        if after[1] < before[0]:
             return FASTER
-        return SLOWER if self.after_interval[0] > self.before_interval[1] else UNCLEAR
+        return SLOWER if after[0] > before[1] else UNCLEAR
 
 
-def _bad(counts: Mapping[str, int]) -> float:
+def _bad(group: GroupLine) -> float:
     """The share of asked cases that did not end right."""
-    asked = sum(number for status, number in counts.items() if status != "skipped")
-    return 1 - counts.get("right", 0) / asked if asked else 0.0
+    asked = sum(cases for status, cases in group.counts.items() if status != "skipped")
+    return 1 - group.counts.get("right", 0) / asked if asked else 0.0
+
+
+def worst_u(group: GroupLine) -> float:
+    """The greatest backward error of a family in units u; 0 if no answer was wrong."""
+    return worst_error_u(worst_case(group.worst))
 
 
 def status_changes(before: Record, after: Record) -> list[StatusChange]:
     """Families of both records whose counts by status or worst errors differ; those that got worse first."""
     found = []
-    for (name, family), (old, new) in _shared(_groups(before), _groups(after)):
-        errors = [worst_error_u(worst_case(group.worst)) for group in (old, new)]
-        change = StatusChange(name, family, old.counts, new.counts, *errors)
-        all_right = set(change.before) == set(change.after) == {"right"}
-        if not all_right and (change.before, errors[0]) != (change.after, errors[1]):
-            found.append(change)
+    for (name, _), (old, new) in _shared(_groups(before), _groups(after)):
+        all_right = set(old.counts) == set(new.counts) == {"right"}
+        if not all_right and (old.counts, worst_u(old)) != (new.counts, worst_u(new)):
+            found.append(StatusChange(name, old, new))
     return sorted(found, key=lambda change: not change.worse)
 
 
@@ -112,35 +117,32 @@ def _groups(record: Record) -> dict[tuple[str, str], GroupLine]:
 
 def accuracy_changes(before: Record, after: Record) -> list[AccuracyChange]:
     """Methods of both records whose errors on a workload differ."""
-    found = []
-    for key, (old, new) in _shared(_accuracies(before), _accuracies(after)):
-        change = AccuracyChange(
-            *key,
-            (old.wrong, old.asked),
-            (new.wrong, new.asked),
-            float(old.reliable_above),
-            float(new.reliable_above),
-        )
-        if change.before != change.after or change.reliable_before != change.reliable_after:
-            found.append(change)
-    return found
+    pairs = (pair for _, pair in _shared(_accuracies(before), _accuracies(after)))
+    return [AccuracyChange(old, new) for old, new in pairs if _errors(old) != _errors(new)]
+
+
+def _errors(line: AccuracyLine) -> tuple[int, int, float]:
+    return line.wrong, line.asked, float(line.reliable_above)
 
 
 def ratio_changes(before: Record, after: Record) -> list[RatioChange]:
     """Every method that both records have timed against their reference, those with a difference first."""
-    pairs = _shared(_ratios(before), _ratios(after))
-    found = [RatioChange(*key, old[0], old[1], new[0], new[1]) for key, (old, new) in pairs]
+    found = [RatioChange(*key, *pair) for key, pair in _shared(_ratios(before), _ratios(after))]
     return sorted(found, key=lambda change: [SLOWER, FASTER, UNCLEAR].index(change.verdict))
 
 
-def _ratios(record: Record) -> dict[tuple[str, str, str], tuple[float, Interval | None]]:
+def _ratios(record: Record) -> dict[tuple[str, str, str], Ratio]:
     measured = {
         (line.method, line.workload, line.mode): (line.ratio, line.ratio_ci95)
         for line in record.of(SpeedLine)
         if line.ratio is not None
     }
-    timed = {(each.name, each.workload, "batch"): (each.ratio, each.ratio_range) for each in timing_totals(record)}
-    return {**measured, **{key: (ratio, spread) for key, (ratio, spread) in timed.items() if ratio is not None}}
+    timed = {
+        (each.name, each.workload, "batch"): (each.ratio, each.ratio_range)
+        for each in timing_totals(record)
+        if each.ratio is not None
+    }
+    return {**measured, **timed}
 
 
 def _accuracies(record: Record) -> dict[tuple[str, str], AccuracyLine]:
@@ -179,17 +181,15 @@ def conditions(before: Record, after: Record) -> Iterator[str]:
 
 
 def _differing(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[tuple[str, object, object]]:
-    for name, (old, new) in _both(before, after):
+    """The keys whose values differ, with both values: "none" for a missing one."""
+    for name in dict.fromkeys([*before, *after]):
+        old, new = before.get(name), after.get(name)
         if old != new:
             yield name, "none" if old is None else old, "none" if new is None else new
 
 
-def _both(before: Mapping[Key, Any], after: Mapping[Key, Any]) -> list[tuple[Key, tuple[Any, Any]]]:
-    """Every key of either with its two values, None for a missing one."""
-    return [(key, (before.get(key), after.get(key))) for key in dict.fromkeys([*before, *after])]
-
-
-def _shared(before: Mapping[Key, Any], after: Mapping[Key, Any]) -> list[tuple[Key, tuple[Any, Any]]]:
+def _shared(before: Mapping[Key, Value], after: Mapping[Key, Value]) -> list[tuple[Key, tuple[Value, Value]]]:
+    """The keys of both with their two values."""
     return [(key, (before[key], after[key])) for key in before if key in after]
 
 
@@ -221,53 +221,54 @@ def change_sections(record: Record, against: Record) -> Iterator[Section]:
 
 
 def _status_table(changes: list[StatusChange]) -> TableBlock:
-    columns = ("implementation", "family", "before", "after", number("worst before, u"), number("worst after, u"))
-    return table("changed statuses", columns, [_status_row(change) for change in changes])
+    rows = [
+        (
+            Code(change.implementation),
+            Code(change.family),
+            _counts(change.before),
+            TableCell(_counts(change.after), tone="bad" if change.worse else ""),
+            measured(worst_u(change.before)),
+            measured(worst_u(change.after)),
+        )
+        for change in changes
+    ]
+    columns = "implementation | family | before | after | # worst before, u | # worst after, u"
+    return table("changed statuses", columns, rows)
 
 
-def _status_row(change: StatusChange) -> tuple[TableCell, ...]:
-    return (
-        TableCell(Code(change.implementation)),
-        TableCell(Code(change.family)),
-        TableCell(_counts(change.before)),
-        TableCell(_counts(change.after), tone="bad" if change.worse else ""),
-        TableCell(figure(change.worst_before_u), change.worst_before_u),
-        TableCell(figure(change.worst_after_u), change.worst_after_u),
-    )
-
-
-def _counts(counts: Mapping[str, int]) -> str:
-    return listed([f"{number:,} {status}" for status, number in counts.items()]) or "nothing"
+def _counts(group: GroupLine) -> str:
+    return listed([f"{cases:,} {status}" for status, cases in group.counts.items()]) or "nothing"
 
 
 def _accuracy_table(changes: list[AccuracyChange]) -> TableBlock:
-    numbers = map(number, ("wrong before", "wrong after", "reliable above, before", "reliable above, after"))
-    return table("changed errors", ("method", "workload", *numbers), [_accuracy_row(change) for change in changes])
-
-
-def _accuracy_row(change: AccuracyChange) -> tuple[TableCell, ...]:
-    shares = [
-        TableCell(f"{wrong:,} of {asked:,}", wrong / max(1, asked)) for wrong, asked in (change.before, change.after)
+    rows: list[Row] = [
+        (
+            Code(change.after.method),
+            change.after.workload,
+            *(TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)) for line in both),
+            *(measured(float(line.reliable_above)) for line in both),
+        )
+        for change in changes
+        for both in [(change.before, change.after)]
     ]
-    reliable = [TableCell(figure(each), each) for each in (change.reliable_before, change.reliable_after)]
-    return (TableCell(Code(change.method)), TableCell(change.workload), *shares, *reliable)
+    columns = "method | workload | # wrong before | # wrong after | # reliable above, before | # reliable above, after"
+    return table("changed errors", columns, rows)
 
 
 def _ratio_table(changes: list[RatioChange]) -> TableBlock:
-    numbers = map(number, ("ratio before", "ratio after", "change"))
-    columns: tuple[Column | str, ...] = ("method", "workload", "mode", *numbers, "verdict")
+    columns = "method | workload | mode | # ratio before | # ratio after | # change | verdict"
     return table("ratios of times", columns, [_ratio_row(change) for change in changes])
 
 
-def _ratio_row(change: RatioChange) -> tuple[TableCell, ...]:
-    factor = change.after / change.before if change.before else 0.0
-    tone = {SLOWER: "bad", FASTER: "good"}.get(change.verdict, "")
+def _ratio_row(change: RatioChange) -> Row:
+    before, after = change.before[0], change.after[0]
+    factor = after / before if before else 0.0
     return (
-        TableCell(Code(change.method)),
-        TableCell(change.workload),
-        TableCell(change.mode),
-        TableCell(with_interval(change.before, change.before_interval), change.before),
-        TableCell(with_interval(change.after, change.after_interval), change.after),
-        TableCell(f"× {figure(factor)}" if factor else "–", factor),
-        TableCell(change.verdict, tone=tone),
+        Code(change.method),
+        change.workload,
+        change.mode,
+        measured(*change.before),
+        measured(*change.after),
+        TableCell(f"× {figure(factor)}" if factor else MISSING, factor),
+        TableCell(change.verdict, tone={SLOWER: "bad", FASTER: "good"}.get(change.verdict, "")),
     )

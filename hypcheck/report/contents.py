@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from msgspec import UNSET, UnsetType
 
+from hypcheck.geometry.pair import COLUMNS, trouble_with_row
 from hypcheck.isolation.means import isolation_text
 from hypcheck.messages import counted
 from hypcheck.record import Record
@@ -18,22 +19,19 @@ from hypcheck.report.document import (
     Block,
     Bullets,
     Code,
-    Column,
     Either,
     Explorer,
     Paragraph,
+    Row,
     Section,
     Strong,
     TableBlock,
-    TableCell,
     Text,
     bullets,
     count,
-    number,
     prose,
     table,
 )
-from hypcheck.report.explorer import ON_THE_RING, can_be_drawn
 from hypcheck.report.measured import measured_methods
 from hypcheck.report.messages import Replays, error_text, families_text, figure, settings_facts
 from hypcheck.report.sections import accuracy, times, verification
@@ -98,19 +96,16 @@ def _failure_list(found: list[Failure]) -> Bullets:
 
 def _failure_table(found: list[Failure]) -> TableBlock:
     """The failures, with the commands that show them if there are any."""
-    columns, replays = ("which", "where", "what happened"), any(failure.replay for failure in found)
-    ends = [(Code(failure.case or "", failure.row), Code(failure.replay or "")) for failure in found]
-    rows = [
-        (*_failure_row(failure), *(end if replays else ()))
-        for failure, end in zip(found[:IN_TABLE], ends, strict=False)
-    ]
-    rest = [("", "", text, *(["", ""] if replays else [])) for text in _omitted_failures(len(found) - IN_TABLE)]
-    return table("failures", (*columns, *(["case", "look at it with"] if replays else [])), [*rows, *rest])
+    replays = any(failure.replay for failure in found)
+    rows = [_failure_row(failure, with_case=replays) for failure in found[:IN_TABLE]]
+    rows += [("", "", text, *(("", "") if replays else ())) for text in _omitted_failures(len(found) - IN_TABLE)]
+    return table("failures", f"which | where | what happened{' | case | look at it with' if replays else ''}", rows)
 
 
-def _failure_row(failure: Failure) -> tuple[Text, ...]:
+def _failure_row(failure: Failure, *, with_case: bool) -> Row:
     place: Text = (" (", Code(failure.place), ")") if failure.place else ""
-    return Code(failure.name), failure.group, (failure.message, place)
+    case = (Code(failure.case or "", failure.row), Code(failure.replay or "")) if with_case else ()
+    return (Code(failure.name), failure.group, (failure.message, place), *case)
 
 
 def _omitted_failures(left_out: int) -> list[Text]:
@@ -135,15 +130,24 @@ def cause_sections(record: Record) -> Iterator[Section]:
         (
             Code(line.method),
             count(line.cases, bad=True),
-            TableCell(line.sentence + (f" ({line.claim})" if line.claim else "")),
+            line.sentence + (f" ({line.claim})" if line.claim else ""),
             families_text(line, len(line.families)),
             line.remedy,
             (error_text(line.worst), ": ", Code(replays.of_case(line.worst.case, line.spec))),
         )
         for line in found
     ]
-    columns = ("implementation", number("wrong"), "why", "where", "what to do", "the worst of them")
+    columns = "implementation | # wrong | why | where | what to do | the worst of them"
     yield Section("Why wrong answers are wrong", (Paragraph(_CAUSES), table("causes", columns, rows)))
+
+
+ON_THE_RING = (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0)
+"""A row whose centre lies on the ring: exterior, with half a radius to the wall, and Δ is exactly 0."""
+
+
+def can_be_drawn(row: Sequence[float]) -> bool:
+    """Whether the half plane shows the truth about a row: a valid one of an upright spheroid that stands still."""
+    return len(row) == len(COLUMNS) and trouble_with_row(row) is None
 
 
 def explorer_sections(record: Record) -> Iterator[Section]:
@@ -157,16 +161,16 @@ def compared_sections(record: Record) -> Iterator[Section]:
     found = measured_methods(record)
     if not found:
         return
-    columns: tuple[Column | str, ...] = ("method", "what it is", "tier", "precision", "question", "exact", "remarks")
+    columns = "method | what it is | tier | precision | question | exact | remarks"
     rows = [
         (
-            TableCell(Code(each.name)),
-            TableCell(each.line.title),
-            TableCell(each.tier),
-            TableCell(each.line.precision),
-            TableCell(each.line.question),
-            TableCell("yes" if each.exact else ""),
-            TableCell("; ".join(_remarks(each.line))),
+            Code(each.name),
+            each.line.title,
+            each.tier,
+            each.line.precision,
+            each.line.question,
+            "yes" if each.exact else "",
+            "; ".join(_remarks(each.line)),
         )
         for each in found
     ]

@@ -10,6 +10,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Union
 
+from hypcheck.report.messages import figure, with_interval
+
+NONE, MISSING = "·", "–"
+"""The texts of a cell where nothing is wrong, and of one that has no value."""
+
 LONGEST = 2000
 """Characters of one foreign text that a report shows, so that a long name does not hide the rest."""
 
@@ -85,6 +90,10 @@ class TableCell:
     text: Text
     value: float | None = None
     tone: str = ""
+
+
+Row = tuple[TableCell | Text, ...]
+"""A row of a table; a text is a cell without a value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,11 +189,12 @@ class Section:
     page: bool = False
 
 
-def table(name: str, columns: Iterable[Column | str], rows: Iterable[Iterable[TableCell | Text]]) -> TableBlock:
-    """A table; a string is a column of text, and a text is a cell without a value."""
-    heads = tuple(Column(each) if isinstance(each, str) else each for each in columns)
+def table(name: str, columns: str | Iterable[Column], rows: Iterable[Row]) -> TableBlock:
+    """A table. Columns may be their titles with bars between them, "method | # rows": after a # come numbers."""
+    if isinstance(columns, str):
+        columns = (Column(title.removeprefix("# "), title.startswith("# ")) for title in columns.split(" | "))
     cells = tuple(tuple(each if isinstance(each, TableCell) else TableCell(each) for each in row) for row in rows)
-    return TableBlock(name, heads, cells)
+    return TableBlock(name, tuple(columns), cells)
 
 
 def bullets(items: Sequence[Text | Item]) -> Bullets:
@@ -196,6 +206,16 @@ def count(number: int, *, bad: bool = False) -> TableCell:
     """The cell of a count; with `bad`, a count above zero stands out."""
     shown = f"{number:,}"
     return TableCell(Strong(shown), number, "bad") if bad and number else TableCell(shown, number)
+
+
+def measured(value: float | None, interval: Sequence[float] | None = None) -> TableCell:
+    """The cell of a value to three digits, with its interval if it has one; a dash without a value."""
+    return TableCell(MISSING) if value is None else TableCell(with_interval(value, interval), value)
+
+
+def share(part: float, whole: float) -> TableCell:
+    """The cell of a share in per cent; a dash if there is no whole."""
+    return TableCell(f"{figure(100 * part / whole)} %", part / whole) if whole else TableCell(MISSING)
 
 
 def number(title: Text, hint: str = "") -> Column:

@@ -1,15 +1,19 @@
 """report.html: one file that needs no other file and no network, for any screen, keyboard, paper or colours.
 
 Its content security policy allows only its own style and script, which it names by their hashes; templates escape all
-text.
+text. A reader can move the bodies in its explorer: the script templates/explorer.js decides and draws. It runs the same
+programs that are proved and printed, step by step.
 """
 
 from __future__ import annotations
 
 import base64
 import hashlib
+import json
+import math
 import re
-from collections.abc import Iterator
+import sys
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any
@@ -17,11 +21,12 @@ from typing import Any
 import jinja2
 import markupsafe
 
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED
+from hypcheck.derivation.program import needed
 from hypcheck.errors import UnavailableError
 from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report import explorer
-from hypcheck.report.contents import content
+from hypcheck.report.contents import ON_THE_RING, can_be_drawn, content
 from hypcheck.report.document import (
     Block,
     Bullets,
@@ -40,6 +45,7 @@ from hypcheck.report.document import (
     plain,
 )
 from hypcheck.report.drawings import Drawings, ReportContext, drawn_plots
+from hypcheck.report.messages import short_row
 from hypcheck.report.plots.colours import colour_rules
 from hypcheck.version import VERSION
 
@@ -53,9 +59,8 @@ def html_text(words: Text) -> markupsafe.Markup:
         return markupsafe.escape(edges[0] + escaped(bounded(words)) + edges[1])
     if isinstance(words, Code):
         shown = escaped(bounded(words.text))
-        if explorer.can_be_drawn(words.row):
-            drawn = explorer.small_picture(words.row)
-            numbers = explorer.row_as_text(words.row)
+        if can_be_drawn(words.row):
+            drawn, numbers = small_picture(words.row), row_as_text(words.row)
             return markupsafe.Markup('<code data-row="{}">{}</code> {}').format(numbers, shown, _trusted(drawn))
         return markupsafe.Markup("<code>{}</code>").format(shown) if words.text else markupsafe.Markup()
     if isinstance(words, (Strong, Emphasis)):
@@ -87,25 +92,16 @@ def render(record: Record, context: ReportContext | None = None) -> bytes:
 
 def explorer_page() -> bytes:
     """The explorer as a page of its own, in UTF-8; it begins on the ring."""
-    block = _TemplateBlock("explorer", Explorer(explorer.ON_THE_RING))
+    block = _TemplateBlock("explorer", Explorer(ON_THE_RING))
     section = {"title": "Move the bodies", "level": 2, "anchor": "explorer", "blocks": [block]}
     return _page(title="Spheroid and hyperboloid", verdict=None, sections=[section], source="")
 
 
 def _page(**parts: Any) -> bytes:  # noqa: ANN401 - what the template shows
     style, script = colour_rules() + _template("style.css"), _template("script.js") + "\n" + _template("explorer.js")
-    page: str = (
-        _environment()
-        .get_template("page.html")
-        .render(
-            **parts,
-            version=VERSION,
-            style=_trusted(style),
-            script=_trusted(script),
-            style_hash=_hash(style),
-            script_hash=_hash(script),
-        )
-    )
+    own = {"style": _trusted(style), "script": _trusted(script)}
+    hashes = {"style_hash": _hash(style), "script_hash": _hash(script)}
+    page: str = _environment().get_template("page.html").render(**parts, **own, **hashes, version=VERSION)
     return (page + "\n").encode("utf-8", "replace")
 
 
@@ -131,8 +127,8 @@ def _environment() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"text": html_text, "plain": plain, "numbers": explorer.row_as_text}
-    environment.globals["formulas"] = explorer.formulas_as_json
+    environment.filters |= {"text": html_text, "plain": plain, "numbers": row_as_text}
+    environment.globals["formulas"] = formulas_as_json
     return environment
 
 
@@ -162,3 +158,66 @@ def _figures(block: Figures, record: Record, drawings: Drawings) -> _TemplateBlo
     except UnavailableError as error:
         return _TemplateBlock("figures", block, missing=f"The plots are missing: {error}")
     return _TemplateBlock("figures", block, plots=plots)
+
+
+WIDTH, HEIGHT = 96.0, 64.0
+"""The size of a small picture, in its own units."""
+
+_STEEPEST = 1e300
+"""A limit of the scale, so that no place in a picture is infinity times zero."""
+
+_POINTS = 16
+"""Straight pieces of the meridian in a small picture."""
+
+
+def small_picture(row: Sequence[float]) -> str:
+    """Both bodies of a row of seven numbers near the spheroid, as an element of SVG: our own words and numbers.
+
+    Heights have a scale of their own where the spheroid would be too thin to be seen.
+    """
+    alpha, gamma, b, d, x, y, z = row
+    r = min(math.hypot(x, y), sys.float_info.max)
+    wide, tall = min(WIDTH / 4 / b, _STEEPEST), min(HEIGHT / 4 / d, _STEEPEST)
+    if max(wide, tall) <= 4 * min(wide, tall):
+        wide = tall = min(wide, tall)
+    points = []
+    for step in range(_POINTS + 1):
+        height = z + (step / _POINTS - 0.5) * HEIGHT / tall
+        across = WIDTH / 2 + (alpha * math.hypot(1, height / gamma) - r) * wide
+        up = HEIGHT / 2 - (height - z) * tall
+        points.append(f"{_limited(across, WIDTH):.2f},{_limited(up, HEIGHT):.2f}")
+    wall = " ".join(points)
+    drawn = (
+        f'<polygon class="inside" points="{wall} {-WIDTH:g},0 {-WIDTH:g},{HEIGHT:g}"/>'
+        f'<polyline class="wall" points="{wall}"/>'
+        f'<ellipse class="body" cx="{WIDTH / 2:g}" cy="{HEIGHT / 2:g}" rx="{b * wide:.3g}" ry="{d * tall:.3g}"/>'
+    )
+    head = f'<svg class="bodies" viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img" aria-label="{short_row(row)}">'
+    return f"{head}{drawn}</svg>"
+
+
+def _limited(place: float, size: float) -> float:
+    """A place that is at most a picture beside the picture."""
+    return min(max(place, -size), 2 * size)
+
+
+def row_as_text(row: Sequence[float]) -> str:
+    """The numbers of a row as the script reads them, each the shortest that is the same float64."""
+    return " ".join(map(repr, row))
+
+
+def formulas_as_json() -> str:
+    """Every formula about a pair, Table 2 first: name, title, question, regimes, steps, and the step of the answer."""
+    listed = [
+        {
+            "name": each.name,
+            "title": each.title,
+            "question": each.question,
+            "regimes": each.regimes,
+            "answer": each.answer,
+            "steps": [(step.name, step.operation, *step.arguments) for step in needed(each.program, (each.answer,))],
+        }
+        for each in (*FORMULAS.values(), *REPAIRED.values())
+        if each.classifies_pairs
+    ]
+    return json.dumps(listed, ensure_ascii=False, separators=(",", ":"))

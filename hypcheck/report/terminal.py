@@ -263,7 +263,8 @@ def _changes(record: Record, against: Record) -> Iterator[str]:
         f", worse: {listed(worse)}" if worse else ""
     )
     if accuracies:
-        yield f"  errors: {listed([f'{change.method} on {change.workload}' for change in accuracies])} changed"
+        changed = [f"{change.after.method} on {change.after.workload}" for change in accuracies]
+        yield f"  errors: {listed(changed)} changed"
     for verdict_ in (SLOWER, FASTER):
         named = [f"{each.method} ({each.workload}, {each.mode})" for each in ratios if each.verdict == verdict_]
         if named:

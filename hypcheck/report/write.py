@@ -1,14 +1,17 @@
-"""Reports of a record, made and written: each beside its place, then into it.
+"""Reports of a record and results of a simulation, made and written: each beside its place, then into it.
 
 jinja2 and matplotlib, which are extras, are loaded for the reports that need them.
 """
 
 from __future__ import annotations
 
+import json
+import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.messages import escaped
@@ -63,8 +66,6 @@ def render(name: str, record: Record, context: ReportContext | None = None) -> b
 
 def import_all() -> None:
     """Import every module that makes a report, so that none is read from the disk after foreign code has run."""
-    from hypcheck.report import github  # noqa: F401, PLC0415 - used by the command line alone
-
     for load in (pictures, _html):
         with suppress(UnavailableError):
             load()
@@ -119,6 +120,64 @@ def _write(name: str, record: Record, path: Path, context: ReportContext) -> Wri
     except UnavailableError as error:
         remove_file(path)
         return WrittenReport(path, str(error))
+    _write_file(path, content)
+    return WrittenReport(path)
+
+
+def _write_file(path: Path, content: bytes) -> None:
     with writing(str(path), follow=False) as file:
         file.write(content)
-    return WrittenReport(path)
+
+
+PICTURES = {
+    "forest": ("forest-walk", "forest-space"),
+    "tower": ("tower-flights", "tower-table-5", "tower-pitch"),
+}
+"""The names of all pictures that a simulation may have, by its name."""
+
+
+def make_ready(kind: str, directory: Path) -> None:
+    """Make the folder. Raises InputError if a file of the simulation could not be written there.
+
+    So no long run starts whose result would be lost.
+    """
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=directory):
+            pass
+    except OSError as error:
+        reason = system_reason(error)
+        raise InputError(f"--out {directory}: files cannot be written to it: {reason}") from error
+    for name in (_json(kind), *map(_svg, PICTURES[kind])):
+        if (directory / name).is_dir():
+            raise InputError(f"--out {directory}: {name} cannot be written: it is a folder")
+
+
+def write_simulation(result: dict[str, Any], directory: Path) -> list[str]:
+    """Write the files into a folder; returns a line for each, and one with the reason if there are no pictures.
+
+    Pictures of an earlier run that are not drawn again are removed, since they show another run. Raises InputError if a
+    file cannot be written; an earlier file then stays.
+    """
+    kind, notes = result["simulation"], []
+    try:
+        drawn: dict[str, bytes] = pictures().simulation_pictures(result)
+    except UnavailableError as error:
+        drawn = {}
+        notes.append(f"no pictures: {error}")
+    text = json.dumps(result, ensure_ascii=False) + "\n"
+    files = {_json(kind): text.encode(), **{_svg(name): content for name, content in drawn.items()}}
+    for name in PICTURES[kind]:
+        if name not in drawn:
+            remove_file(directory / _svg(name))
+    for name, content in files.items():
+        _write_file(directory / name, content)
+    return [f"wrote {directory / name}" for name in files] + notes
+
+
+def _json(kind: str) -> str:
+    return f"simulate-{kind}.json"
+
+
+def _svg(name: str) -> str:
+    return f"{name}.svg"

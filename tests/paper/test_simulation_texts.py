@@ -10,8 +10,8 @@ from hypcheck.errors import InputError, UnavailableError
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.simulation_text import SHOWN, forest_lines, pitch_lines, tower_lines
 from hypcheck.paper.tower import TowerPlan, simulate_tower
-from hypcheck.report import simulation
-from hypcheck.report.simulation import make_ready, write_simulation
+from hypcheck.report import write
+from hypcheck.report.write import make_ready, write_simulation
 from hypcheck.scene.reading import read_scene
 
 LEANS = {
@@ -126,7 +126,7 @@ def test_a_file_of_a_simulation_that_could_not_be_written_or_removed_is_named(mo
     def unavailable():
         raise UnavailableError("matplotlib is not here")
 
-    monkeypatch.setattr(simulation, "pictures", unavailable)
+    monkeypatch.setattr(write, "pictures", unavailable)
     (tmp_path / "tower-pitch.svg").mkdir()
     with pytest.raises(InputError, match=r"tower-pitch\.svg cannot be written: it is a folder"):
         make_ready("tower", tmp_path)

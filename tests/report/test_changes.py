@@ -19,6 +19,7 @@ from hypcheck.report.changes import (
     only_in_one,
     ratio_changes,
     status_changes,
+    worst_u,
 )
 from hypcheck.report.drawings import ReportContext
 from hypcheck.report.messages import figure
@@ -58,7 +59,7 @@ def test_comparison_of_a_record_with_itself_shows_no_change():
 def test_status_changes_list_a_family_that_got_worse_before_one_that_got_better():
     (worse,) = status_changes(BEFORE, WORSE)
     assert (worse.implementation, worse.family, worse.worse) == ("table-2-float32", "tower-body", True)
-    assert (worse.worst_before_u, worse.worst_after_u) == (2.5, 40.0)
+    assert (worst_u(worse.before), worst_u(worse.after)) == (2.5, 40.0)
     (better,) = status_changes(WORSE, BEFORE)
     assert not better.worse
 
@@ -107,7 +108,7 @@ def test_different_times_with_equal_ratios_are_no_change():
 def test_changed_errors_of_a_benchmark_are_listed_by_method_and_workload():
     after = changed(bench_lines.lines(), "accuracy", {"wrong": 7, "reliable_above": 0.25}, method="dual-numpy-float32")
     (change,) = accuracy_changes(BENCH, record_samples.record(after))
-    assert (change.method, change.workload, change.after[0], change.reliable_after) == (
+    assert (change.after.method, change.after.workload, change.after.wrong, change.after.reliable_above) == (
         "dual-numpy-float32",
         "uniform",
         7,
@@ -156,9 +157,10 @@ def test_a_table_of_changed_errors_shows_shares_and_reliability_before_and_after
     (change,) = accuracy_changes(BENCH, other)
     text = markdown.render(other, ReportContext(against=BENCH)).decode().partition("## What changed")[2]
     row = next(line for line in text.splitlines() if line.startswith("| `dual-numpy-float32` | uniform |"))
-    wrong, asked = change.before
     cells = [cell.strip() for cell in row.strip("|").split("|")]
-    assert cells[2:] == [f"{wrong} of {asked:,}", f"7 of {change.after[1]:,}", figure(change.reliable_before), "0.25"]
+    before, after = change.before, change.after
+    shares = [f"{before.wrong} of {before.asked:,}", f"7 of {after.asked:,}"]
+    assert cells[2:] == [*shares, figure(float(before.reliable_above)), "0.25"]
     assert "No case ended otherwise." not in text
     said = "\n".join(terminal.summary_lines(other, [], against=BENCH))
     assert "  errors: dual-numpy-float32 on uniform changed" in said

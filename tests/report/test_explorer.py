@@ -22,7 +22,7 @@ import hypcheck
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.implementations.method import by_rows
-from hypcheck.report import contents, explorer, html
+from hypcheck.report import contents, html
 from hypcheck.report.document import Code, Explorer
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
@@ -69,8 +69,8 @@ def found(tmp_path_factory):
     if node is None:
         pytest.skip("node is not installed")
     asked, formulas = rows(), tmp_path_factory.mktemp("explorer") / "formulas.json"
-    formulas.write_text(explorer.formulas_as_json(), encoding="utf-8")
-    text = json.dumps([explorer.row_as_text(row).split() for row in asked])
+    formulas.write_text(html.formulas_as_json(), encoding="utf-8")
+    text = json.dumps([html.row_as_text(row).split() for row in asked])
     command = [node, str(ANSWERS), str(ROOM / "templates" / "explorer.js"), str(formulas)]
     done = subprocess.run(command, input=text, capture_output=True, check=False, text=True)
     assert done.returncode == 0, done.stderr
@@ -133,7 +133,7 @@ def test_roots_shown_by_the_explorer_are_those_of_the_cubic(found):
 
 
 def test_reports_draw_only_valid_rows_of_upright_spheroids_at_rest():
-    upright = explorer.ON_THE_RING
+    upright = contents.ON_THE_RING
     for row, drawn in ((upright, True), ((*upright, 0.0, 0.0, 1.0), False), ((math.nan, *upright[1:]), False)):
         text = html.html_text(Code("ring-0001", row))
         assert ('<svg class="bodies"' in text, 'data-row="1.0 2.0 1.0 1.0 2.5 0.0 0.0"' in text) == (drawn, drawn)
@@ -141,12 +141,12 @@ def test_reports_draw_only_valid_rows_of_upright_spheroids_at_rest():
 
 def test_small_picture_has_finite_coordinates_and_draws_thin_bodies_wide_enough_to_be_seen():
     for row in [*rows()[-100:], (1e300, 1e-300, 1e-320, 1e300, 1e308, 1e308, -1e308), (5e-324,) * 7]:
-        drawn = explorer.small_picture(row)
+        drawn = html.small_picture(row)
         places = re.findall(r'(?:points|rx|ry)="([^"]*)"', drawn)
         assert all(math.isfinite(float(place)) for place in re.split("[ ,]", " ".join(places))), row
-    thin = explorer.small_picture((0.052, 4.4, 0.17, 9.6, 0.03, 0.0, -10.5))
+    thin = html.small_picture((0.052, 4.4, 0.17, 9.6, 0.03, 0.0, -10.5))
     assert 'rx="24" ry="16"' in thin
-    assert 'rx="16" ry="16"' in explorer.small_picture(explorer.ON_THE_RING)
+    assert 'rx="16" ry="16"' in html.small_picture(contents.ON_THE_RING)
 
 
 def test_a_failing_case_is_drawn_in_the_table_of_failures_and_the_explorer_begins_with_it():

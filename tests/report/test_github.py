@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.cli.main import main
-from hypcheck.report import github, markdown
+from hypcheck.report import code_hosts, markdown
 from tests.report import record_samples
 
 ANNOTATION = re.compile(r"::error title=([^,:\r\n]*)::([^\r\n]*)")
@@ -32,7 +32,7 @@ def unescaped(text):
 
 @pytest.mark.parametrize("number", [0, 1, 9, 10, 11, 500])
 def test_github_gets_at_most_ten_annotations(number):
-    lines = github.error_lines(failing(number))
+    lines = code_hosts.error_lines(failing(number))
     assert len(lines) == min(number, 10)
     if number > 10:
         assert f"and {number - 9} more failures" in lines[-1]
@@ -42,7 +42,7 @@ def test_github_gets_at_most_ten_annotations(number):
 @given(record_samples.FOREIGN, record_samples.FOREIGN)
 def test_foreign_text_cannot_end_an_annotation(name, text):
     body = [{"type": "implementation", "spec": name, "name": name, "started": False, "trouble": text}]
-    (line,) = github.error_lines(record_samples.record(body, exit_code=5))
+    (line,) = code_hosts.error_lines(record_samples.record(body, exit_code=5))
     title, message = ANNOTATION.fullmatch(line).groups()
     assert unescaped(title).startswith("hypcheck: ")
     assert unescaped(message).isprintable()
@@ -50,7 +50,7 @@ def test_foreign_text_cannot_end_an_annotation(name, text):
 
 def test_annotations_are_escaped_as_the_github_runner_reads_them():
     body = [{"type": "implementation", "spec": "s", "name": "a,b:c%0A", "started": False, "trouble": "1:2,3%25"}]
-    (line,) = github.error_lines(record_samples.record(body, exit_code=5))
+    (line,) = code_hosts.error_lines(record_samples.record(body, exit_code=5))
     assert line == "::error title=hypcheck%3A a%2Cb%3Ac%250A%2C start::1:2,3%2525"
 
 
@@ -59,14 +59,14 @@ def test_the_replay_command_has_a_separate_line_in_an_annotation():
     group = record_samples.group(
         "m", "float64", "ring", {"wrong": 1}, [case], spec="command:a b", failing=["wrong"], faults=[]
     )
-    (line,) = github.error_lines(record_samples.record([group], exit_code=1))
+    (line,) = code_hosts.error_lines(record_samples.record([group], exit_code=1))
     assert line.endswith("%0Areplay: hypcheck replay ring/1/1/7 'command:a b'")
 
 
 @given(st.lists(st.text("ab\n", max_size=30), min_size=1, max_size=30), st.integers(-5, 400))
 def test_step_summary_is_cut_only_at_the_end_of_a_line(texts, room):
     report = ("\n".join(texts) + "\n").encode()
-    cut = github.fitting(report, room)
+    cut = code_hosts.fitting(report, room)
     assert len(cut) <= max(room, 0)
     if len(report) <= room:
         assert cut == report
@@ -84,17 +84,17 @@ def test_a_step_summary_of_more_than_a_mebibyte_is_cut_with_a_note(tmp_path):
         [record_samples.finding(f"f{n}", "ring", inside=True, reason=f"{n} " * 40) for n in range(6000)]
     )
     assert len(markdown.render(record)) > 1 << 20
-    assert github.append_summary(record, path) is None
+    assert code_hosts.append_summary(record, path) is None
     written = path.read_bytes()
     assert written.startswith(b"of an earlier command\n# hypcheck verify\n")
     assert written.endswith(b"report.md has the rest.*\n")
     assert (1 << 20) - 2000 < len(written) < 1 << 20
-    assert github.append_summary(record, path) is None
+    assert code_hosts.append_summary(record, path) is None
     assert path.stat().st_size < 1 << 20
 
 
 def test_a_step_summary_that_cannot_be_written_is_reported_and_fails_no_run(tmp_path):
-    assert "no step summary" in github.append_summary(record_samples.record(), tmp_path)
+    assert "no step summary" in code_hosts.append_summary(record_samples.record(), tmp_path)
 
 
 def run(monkeypatch, tmp_path, capsys, *words, on=True):
@@ -138,10 +138,10 @@ def test_workflow_commands_in_foreign_text_are_suspended(monkeypatch, tmp_path, 
 
 
 def test_on_github_is_true_only_if_github_actions_is_true_in_the_environment():
-    assert github.on_github({"GITHUB_ACTIONS": "true"})
-    assert not github.on_github({"GITHUB_ACTIONS": "1"})
-    assert not github.on_github({})
+    assert code_hosts.on_github({"GITHUB_ACTIONS": "true"})
+    assert not code_hosts.on_github({"GITHUB_ACTIONS": "1"})
+    assert not code_hosts.on_github({})
 
 
 def test_a_record_without_failures_has_no_error_lines():
-    assert github.error_lines(record_samples.record()) == []
+    assert code_hosts.error_lines(record_samples.record()) == []

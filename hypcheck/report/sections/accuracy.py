@@ -1,4 +1,4 @@
-"""Sections about errors: by family, distance, workload, size and place; of meshes and bounding volumes."""
+"""Sections about errors: by family, distance, workload, size and place; of meshes, bounding volumes and ways."""
 
 from __future__ import annotations
 
@@ -21,27 +21,40 @@ from hypcheck.record.measurements import (
     StabilityLine,
 )
 from hypcheck.report.document import (
+    NONE,
     Block,
     Code,
     Column,
     Details,
     Figures,
     Paragraph,
+    Row,
     Section,
     TableBlock,
     TableCell,
     bullets,
     count,
     joined,
+    measured,
     number,
     prose,
+    share,
     table,
 )
-from hypcheck.report.measured import is_unstable, is_wrong_somewhere, measured_methods, stability_title, workloads
+from hypcheck.report.measured import (
+    WayTotal,
+    is_unstable,
+    is_wrong_somewhere,
+    measured_methods,
+    principal,
+    reference,
+    stability_title,
+    way_totals,
+    workloads,
+)
 from hypcheck.report.messages import Replays, figure, from_hex
 from hypcheck.report.model import ImplementationTotal, implementations, worst_case, worst_error_u
 from hypcheck.report.plots.colours import MISTAKES, STEPS
-from hypcheck.report.sections.ways import way_sections
 from hypcheck.runs.judge import Mistake, Status
 from hypcheck.runs.judges import judge_of
 
@@ -92,15 +105,14 @@ def _families(record: Record, found: Sequence[ImplementationTotal]) -> Iterator[
 def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
     """Families by status, with columns for the statuses that occurred."""
     seen = [status.value for status in Status if any(status.value in each.statuses for each in found)]
-    named = [] if len(found) == 1 else [Column("method")]
-    mistakes = _mistakes(found)
-    errors = map(number, (*(name.replace("-", " ") for name in mistakes), "worst error in u"))
+    mistakes, several = _mistakes(found), len(found) > 1
     rows = [
-        (*([TableCell(Code(each.name))] if named else []), *_status_row(group, seen, mistakes))
+        (*([Code(each.name)] if several else []), *_status_row(group, seen, mistakes))
         for each in found
         for group in each.groups
     ]
-    return table("families", (*named, "family", number("asked"), *map(number, seen), *errors), rows)
+    counted = " | ".join(f"# {name}" for name in ("asked", *seen, *(name.replace("-", " ") for name in mistakes)))
+    return table("families", f"{'method | ' if several else ''}family | {counted} | # worst error in u", rows)
 
 
 def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
@@ -111,17 +123,13 @@ def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
     return [each.value for each in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
 
 
-def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str]) -> tuple[TableCell, ...]:
+def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str]) -> Row:
     error = worst_error_u(worst_case(group.worst))
     failing = _BAD if group.failing is UNSET else group.failing
+    statuses = [count(group.counts.get(status, 0), bad=status in failing) for status in seen]
     mistakes = [count(group.mistakes.get(name, 0)) for name in names]
-    return (
-        TableCell(Code(group.family)),
-        count(group.asked),
-        *(count(group.counts.get(status, 0), bad=status in failing) for status in seen),
-        *mistakes,
-        TableCell(figure(error) if error else "·", error),
-    )
+    worst = TableCell(figure(error) if error else NONE, error)
+    return (Code(group.family), count(group.asked), *statuses, *mistakes, worst)
 
 
 def _cases(found: Sequence[ImplementationTotal], replays: Replays) -> Iterator[TableBlock]:
@@ -129,51 +137,39 @@ def _cases(found: Sequence[ImplementationTotal], replays: Replays) -> Iterator[T
     if worst:
         worst.sort(key=lambda of: -float(of[2].backward_error_u))
         kept = [of for each in found for of in [one for one in worst if one[0] is each][:MOST_CASES]]
-        columns: tuple[Column | str, ...] = (
-            "case",
-            "method",
-            "truth",
-            "answer",
-            "mistake",
-            number("wrong by, u"),
-            "status",
-            "look at it with",
-        )
+        columns = "case | method | truth | answer | mistake | # wrong by, u | status | look at it with"
         yield table("worst cases", columns, [_case(*of, replays) for of in kept])
     faults = [(each, group, case) for each in found for group in each.groups for case in group.faults or ()]
     if faults:
-        columns = ("case", "method", "ended", "because", "look at it with")
+        columns = "case | method | ended | because | look at it with"
         yield table("cases without an answer", columns, [_fault(*of, replays) for of in faults[: 5 * MOST_CASES]])
 
 
-def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> tuple[TableCell, ...]:
-    error = float(case.backward_error_u)
+def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> Row:
     return (
-        TableCell(Code(case.case, from_hex(numbers_of(case)))),
-        TableCell(Code(each.name)),
-        TableCell(judge_of(group.question).truth_in_words(case.truth)),
-        TableCell(str(case.answer)),
-        TableCell(case.mistake),
-        TableCell(figure(error), error),
-        TableCell(case.status, tone="bad" if case.status in _BAD else ""),
-        TableCell(Code(replays.command(group, case))),
+        Code(case.case, from_hex(numbers_of(case))),
+        Code(each.name),
+        judge_of(group.question).truth_in_words(case.truth),
+        str(case.answer),
+        case.mistake,
+        measured(float(case.backward_error_u)),
+        _status(case),
+        Code(replays.command(group, case)),
     )
 
 
-def _fault(each: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> tuple[TableCell, ...]:
-    return (
-        TableCell(Code(case.case, from_hex(numbers_of(case)))),
-        TableCell(Code(each.name)),
-        TableCell(case.status, tone="bad" if case.status in _BAD else ""),
-        TableCell(case.reason),
-        TableCell(Code(replays.command(group, case))),
-    )
+def _fault(each: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> Row:
+    shown, command = Code(case.case, from_hex(numbers_of(case))), Code(replays.command(group, case))
+    return (shown, Code(each.name), _status(case), case.reason, command)
+
+
+def _status(case: WrongAnswer | FaultPart) -> TableCell:
+    return TableCell(case.status, tone="bad" if case.status in _BAD else "")
 
 
 _WORKLOAD_DISTANCE = prose(
     "The *distance to the other answer* is the least relative change of a case's inputs that leads to another position:"
-    " a method"
-    " whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
+    " a method whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
 )
 _SIZE_DISTANCE = prose(
     "The *distance to the other answer* of a way is the least relative change of b and d together that leads to it,"
@@ -212,29 +208,31 @@ def error_sections(record: Record) -> Iterator[Section]:
 
 
 def _workload_table(record: Record) -> Block:
-    numbers = map(
-        number, ("asked", "wrong", "false clear", "false contact", "wrong side", "abstained", "reliable above")
-    )
     titles = {name: str(line.title) for name, line in workloads(record).items()}
     rows = [
-        (TableCell(Code(each.name)), TableCell(titles[name]), *_workload_row(line))
+        (Code(each.name), titles[name], *_workload_row(line))
         for each in measured_methods(record)
         for name, line in each.accuracy.items()
     ]
-    return table("wrong answers by workload", ("method", "workload", *numbers, "case farthest from contact"), rows)
+    columns = (
+        "method | workload | # asked | # wrong | # false clear | # false contact | # wrong side | # abstained"
+        " | # reliable above | case farthest from contact"
+    )
+    return table("wrong answers by workload", columns, rows)
 
 
-def _workload_row(line: AccuracyLine) -> tuple[TableCell, ...]:
+def _workload_row(line: AccuracyLine) -> Row:
     worst = max(line.worst, key=lambda case: float(case.flip_distance), default=None)
     reliable = float(line.reliable_above)
-    counts = [count(number) for number in (line.false_contact, line.wrong_side, line.abstained)]
     return (
         count(line.asked),
         count(line.wrong),
         count(line.false_clear, bad=True),
-        *counts,
+        count(line.false_contact),
+        count(line.wrong_side),
+        count(line.abstained),
         TableCell(figure(reliable), reliable, "bad" if reliable == math.inf else ""),
-        TableCell(Code(worst.case, from_hex((*worst.row, *(worst.axis or ())))) if worst else ""),
+        Code(worst.case, from_hex((*worst.row, *(worst.axis or ())))) if worst else "",
     )
 
 
@@ -282,59 +280,104 @@ def peer_sections(record: Record) -> Iterator[Section]:
 
 
 def _meshes(lines: list[ConvergenceLine]) -> TableBlock:
-    numbers = map(number, ("triangles", "deviation, radii", "asked", "wrong", "query, ns", "build, ns"))
     rows = [
         (
-            TableCell(Code(line.method)),
+            Code(line.method),
             count(line.triangles),
-            TableCell(figure(line.deviation), line.deviation),
+            measured(line.deviation),
             count(line.asked),
             count(line.wrong),
-            TableCell(figure(line.query_ns), line.query_ns),
-            TableCell(figure(line.build_ns), line.build_ns),
+            measured(line.query_ns),
+            measured(line.build_ns),
         )
         for line in lines
     ]
-    return table("meshes", ("method", *numbers), rows)
+    columns = "method | # triangles | # deviation, radii | # asked | # wrong | # query, ns | # build, ns"
+    return table("meshes", columns, rows)
 
 
 def _bounds(lines: list[BoundingLine]) -> TableBlock:
-    columns: tuple[Column | str, ...] = (
-        "shape",
-        "workload",
-        *map(number, ("asked", "false contact", "share", "false clear")),
-    )
     rows = [
         (
-            TableCell(line.shape),
-            TableCell(line.workload),
+            line.shape,
+            line.workload,
             count(line.asked),
             count(line.false_contact),
-            _share(line.false_contact, line.asked),
+            share(line.false_contact, line.asked),
             count(line.false_clear, bad=True),
         )
         for line in lines
     ]
+    columns = "shape | workload | # asked | # false contact | # share | # false clear"
     return table("bounding volumes", columns, rows)
 
 
 def _overlaps(lines: list[BoundingLine]) -> TableBlock:
-    numbers = map(number, ("d/b", "asked", "false contact", "share", "median excess clearance, radii"))
     rows = [
         (
-            TableCell(line.shape),
-            TableCell(line.workload),
-            TableCell(figure(ratio), ratio),
+            line.shape,
+            line.workload,
+            measured(ratio),
             count(int(asked)),
             count(int(contacts)),
-            _share(contacts, asked),
-            TableCell("–") if excess is None else TableCell(figure(excess), excess),
+            share(contacts, asked),
+            measured(excess),
         )
         for line in lines
         for ratio, asked, contacts, excess in line.overlap
     ]
-    return table("bounding volumes by shape of the spheroid", ("shape", "workload", *numbers), rows)
+    columns = "shape | workload | # d/b | # asked | # false contact | # share | # median excess clearance, radii"
+    return table("bounding volumes by shape of the spheroid", columns, rows)
 
 
-def _share(part: float, whole: float) -> TableCell:
-    return TableCell(f"{figure(100 * part / whole)} %", part / whole) if whole else TableCell("–")
+_WAYS = prose(
+    "A *missed contact* (dangerous) is a way that was called clear and has contact; a *false contact* closes a way that"
+    " is clear. Counts are of all workloads together; a slow method is asked fewer ways. A wrong answer is measured by"
+    " the change of b and d that makes it right: half of the wrong answers need at least what stands under *wrong by*,"
+    " about, and *worst* is the greatest that was found (∞: no change below 100 % is enough, as where the centre goes"
+    " through the surface). Times are medians of a way in a batch."
+)
+_WAY_FRONT = Figures("front", "missed contacts and false contacts against the time of a way", "front.svg")
+
+
+def way_sections(record: Record) -> Iterator[Section]:
+    """The comparison of methods for ways; none if the benchmark is about positions."""
+    totals = way_totals(record)
+    if totals:
+        yield Section(
+            "Missed and false contacts against time", (Paragraph(_WAYS), _WAY_FRONT, _way_table(record, totals))
+        )
+
+
+def _way_table(record: Record, totals: list[WayTotal]) -> TableBlock:
+    where = workloads(record)[principal(record)].title
+    mistakes = ("ways", "missed contacts", "share", "false contacts", "share", "cannot say", "wrong by", "worst")
+    columns = (
+        Column("method"),
+        *map(number, mistakes),
+        number("µs a way", hint=f"on the workload: {where}"),
+        number("ratio", hint=f"to the time of {reference(record)}"),
+    )
+    return table("missed and false contacts", columns, [_way_row(each) for each in totals])
+
+
+def _way_row(each: WayTotal) -> Row:
+    return (
+        Code(each.name),
+        count(each.asked),
+        count(each.missed, bad=True),
+        share(each.missed, each.asked),
+        count(each.false),
+        share(each.false, each.asked),
+        count(each.abstained),
+        _size(each, each.typical),
+        _size(each, each.worst),
+        measured(None if each.time_ns is None else each.time_ns / 1000),
+        measured(each.ratio, each.ratio_ci95),
+    )
+
+
+def _size(each: WayTotal, size: float) -> TableCell:
+    if not each.missed and not each.false:
+        return TableCell(NONE, 0.0)
+    return TableCell(f"{figure(100 * size)} %" if size < math.inf else "∞", size)

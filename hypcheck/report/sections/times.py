@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 
 from msgspec.structs import astuple, fields
 
 from hypcheck.messages import counted
 from hypcheck.record import Record
-from hypcheck.record.fields import Interval
 from hypcheck.record.measurements import (
     ComparisonLine,
     CostLine,
@@ -22,24 +21,25 @@ from hypcheck.record.measurements import (
     UnmeasuredLine,
 )
 from hypcheck.report.document import (
+    MISSING,
     Block,
     Code,
-    Column,
     Figures,
     Item,
     Paragraph,
+    Row,
     Section,
     Strong,
     TableBlock,
     TableCell,
     bullets,
     count,
-    number,
+    measured,
     prose,
     table,
 )
 from hypcheck.report.measured import lost, measured_methods, noise_floor, workloads
-from hypcheck.report.messages import figure, with_interval
+from hypcheck.report.messages import figure
 
 _TIMES = prose(
     "Medians over interleaved rounds in fresh processes, with 95 % intervals. A ratio is of times in the same round, to"
@@ -51,72 +51,56 @@ _MEMORY = "The growth of a fresh process's peak resident memory while it answers
 
 def speed_sections(record: Record) -> Iterator[Section]:
     """The times and the memory of methods, with their intervals and the noise of the run."""
-    refused = [
-        (Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in record.of(RefusedLine)
+    blocks = [
+        *_untimed("Not timed, because the answers were wrong:", record.of(RefusedLine)),
+        *_untimed("Could not be timed here, which does not fail the run:", record.of(UnmeasuredLine)),
     ]
-    unmeasured = [
-        (Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in record.of(UnmeasuredLine)
-    ]
-    if record.of(SpeedLine) or refused or unmeasured:
-        blocks: list[Block] = [Paragraph(_TIMES)]
-        if refused:
-            blocks += [Paragraph("Not timed, because the answers were wrong:"), bullets(refused)]
-        if unmeasured:
-            blocks += [
-                Paragraph("Could not be timed here, which does not fail the run:"),
-                bullets(unmeasured),
-            ]
-        yield Section("Run times", (*blocks, Figures("speeds"), _speed_table(record)))
+    if record.of(SpeedLine) or blocks:
+        yield Section("Run times", (Paragraph(_TIMES), *blocks, Figures("speeds"), _speed_table(record)))
     if record.of(MemoryLine):
         yield Section("Memory", (Paragraph(_MEMORY), _memory(record)))
 
 
+def _untimed(words: str, lines: Sequence[RefusedLine | UnmeasuredLine]) -> list[Block]:
+    """A list of these lines after these words; nothing without a line."""
+    items = [(Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in lines]
+    return [Paragraph(words), bullets(items)] if items else []
+
+
 def _speed_table(record: Record) -> TableBlock:
-    numbers = map(number, ("ratio", "ns a query", "queries a second", "noise", "rows"))
     titles = {name: str(line.title) for name, line in workloads(record).items()}
     rows = [
-        (TableCell(Code(each.name)), TableCell(titles[line.workload]), TableCell(line.mode), *_time(record, line))
+        (Code(each.name), titles[line.workload], line.mode, *_time(record, line))
         for each in measured_methods(record)
         for line in each.speed.values()
     ]
-    return table("run times", ("method", "workload", "mode", *numbers, "timed by"), rows)
+    columns = "method | workload | mode | # ratio | # ns a query | # queries a second | # noise | # rows | timed by"
+    return table("run times", columns, rows)
 
 
-def _time(record: Record, line: SpeedLine) -> tuple[TableCell, ...]:
+def _time(record: Record, line: SpeedLine) -> Row:
     floor = noise_floor(record, line.workload, line.mode)
-    median, ratio = float(line.median_ns), line.ratio
-    interval = line.ratio_ci95
-    if lost(line):
-        return (TableCell("–"), TableCell("no more than an empty call"), TableCell("–"), _noise(floor), *_how(line))
-    return (
-        TableCell("–") if ratio is None else TableCell(with_interval(ratio, interval), ratio),
-        TableCell(with_interval(median, line.ci95_ns), median),
-        TableCell(figure(1e9 / median), 1e9 / median) if median > 0 else TableCell("–"),
-        _noise(floor),
-        *_how(line),
-    )
-
-
-def _noise(floor: float | None) -> TableCell:
-    return TableCell("–") if floor is None else TableCell(f"± {figure(100 * floor)} %", floor)
-
-
-def _how(line: SpeedLine) -> tuple[TableCell, TableCell]:
+    noise = MISSING if floor is None else TableCell(f"± {figure(100 * floor)} %", floor)
     dropped = f", {counted(line.dropped, 'impossible sample')} dropped" if line.dropped else ""
-    return count(line.rows), TableCell(f"{line.timed_by}{dropped}")
+    ends = (noise, count(line.rows), f"{line.timed_by}{dropped}")
+    if lost(line):
+        return (MISSING, "no more than an empty call", MISSING, *ends)
+    median = float(line.median_ns)
+    rate = measured(1e9 / median if median > 0 else None)
+    return (measured(line.ratio, line.ratio_ci95), measured(median, line.ci95_ns), rate, *ends)
 
 
 def _memory(record: Record) -> TableBlock:
     rows = [
         (
-            TableCell(Code(line.method)),
+            Code(line.method),
             count(line.rows),
             TableCell(figure(line.peak_bytes / 1e6), line.peak_bytes),
-            TableCell(figure(line.peak_bytes / max(1, line.rows)), line.peak_bytes / max(1, line.rows)),
+            measured(line.peak_bytes / max(1, line.rows)),
         )
         for line in record.of(MemoryLine)
     ]
-    return table("memory", ("method", number("rows"), number("growth, MB"), number("bytes a row")), rows)
+    return table("memory", "method | # rows | # growth, MB | # bytes a row", rows)
 
 
 _FOREST = prose(
@@ -128,7 +112,6 @@ _SCENES = prose(
     " Then the kernel's time, in C, by that of Table 2 as printed, in C, and of the certified kernel of"
     " `classify_scene`, in one thread, many rows by a call and a call for each: below 1 is faster."
 )
-_STAGES = tuple(each.name for each in fields(Shares))
 
 
 def scene_sections(record: Record) -> Iterator[Section]:
@@ -143,58 +126,50 @@ def scene_sections(record: Record) -> Iterator[Section]:
 
 
 def _forest(lines: list[ForestLine]) -> TableBlock:
-    numbers = map(number, ("trees", "ns a step", "by hypcheck.Scene's", "building, s", "steps", "wrong"))
     rows = [
         (
-            TableCell(Code(line.method)),
+            Code(line.method),
             count(line.trees),
-            TableCell(with_interval(line.step_ns, line.ci95_ns), line.step_ns),
-            _ratio(line.ratio, line.ratio_ci95),
-            TableCell(figure(line.build_s), line.build_s),
+            measured(line.step_ns, line.ci95_ns),
+            measured(line.ratio, line.ratio_ci95),
+            measured(line.build_s),
             count(line.asked),
             count(line.wrong, bad=bool(line.exact)),
         )
         for line in lines
     ]
-    return table("a step in a forest", ("asked", *numbers), rows)
-
-
-def _ratio(ratio: float | None, interval: Interval | None) -> TableCell:
-    return TableCell("–") if ratio is None else TableCell(with_interval(ratio, interval), ratio)
+    columns = "asked | # trees | # ns a step | # by hypcheck.Scene's | # building, s | # steps | # wrong"
+    return table("a step in a forest", columns, rows)
 
 
 def _shares(lines: list[SceneLine]) -> TableBlock:
-    numbers = map(number, ("pairs of sizes", *(f"{stage}, %" for stage in _STAGES), "wrong"))
-    rows = [
+    rows: list[Row] = [
         (
-            TableCell(line.scene),
-            TableCell(line.question),
+            line.scene,
+            line.question,
             count(line.settings),
-            *(TableCell(figure(100 * share), share) for share in astuple(line.shares)),
+            *(TableCell(figure(100 * part), part) for part in astuple(line.shares)),
             count(line.wrong, bad=True),
         )
         for line in lines
     ]
-    return table("what decides in scenes", ("scene", "question", *numbers), rows)
+    stages = " | ".join(f"# {each.name}, %" for each in fields(Shares))
+    return table("what decides in scenes", f"scene | question | # pairs of sizes | {stages} | # wrong", rows)
 
 
 def _scene_table(lines: list[SceneLine]) -> TableBlock:
-    columns: tuple[Column | str, ...] = (
-        "scene",
-        "asked",
-        *map(number, ("ns a row", "by Table 2's", "by the certified kernel's")),
-    )
     rows = [
         (
-            TableCell(line.scene),
-            TableCell(how),
-            TableCell(figure(times.kernel_ns), times.kernel_ns),
-            _ratio(times.by_printed, times.by_printed_ci95),
-            _ratio(times.by_certified, times.by_certified_ci95),
+            line.scene,
+            how,
+            measured(times.kernel_ns),
+            measured(times.by_printed, times.by_printed_ci95),
+            measured(times.by_certified, times.by_certified_ci95),
         )
         for line in lines
         for times, how in ((line.batch, "many by a call"), (line.single, "a call each"))
     ]
+    columns = "scene | asked | # ns a row | # by Table 2's | # by the certified kernel's"
     return table("what scenes save", columns, rows)
 
 
@@ -220,28 +195,24 @@ def target_sections(record: Record) -> Iterator[Section]:
         yield Section("The kernels' targets", (_kernels(record.of(KernelLine)),))
 
 
-def _interval(value: float, ends: Interval | None) -> TableCell:
-    return TableCell(with_interval(value, ends), value)
-
-
 def _baseline(lines: list[ComparisonLine]) -> TableBlock:
-    numbers = map(number, ("before", "after", "change", "allowed"))
     order = ["slower", "inconclusive", "faster", "same"]
     ranked = sorted(lines, key=lambda line: (not line.gates, order.index(line.verdict)))
     rows = [
         (
-            TableCell(Code(line.method)),
-            TableCell(line.workload),
-            TableCell(line.mode),
-            TableCell(figure(line.before), line.before),
-            TableCell(figure(line.after), line.after),
-            _interval(line.change, line.ci95),
-            TableCell(figure(line.allowed), line.allowed),
+            Code(line.method),
+            line.workload,
+            line.mode,
+            measured(line.before),
+            measured(line.after),
+            measured(line.change, line.ci95),
+            measured(line.allowed),
             _verdict(line),
         )
         for line in ranked
     ]
-    return table("against the baseline", ("method", "workload", "mode", *numbers, "verdict"), rows)
+    columns = "method | workload | mode | # before | # after | # change | # allowed | verdict"
+    return table("against the baseline", columns, rows)
 
 
 def _verdict(line: ComparisonLine) -> TableCell:
@@ -270,41 +241,32 @@ def claim_sections(record: Record) -> Iterator[Section]:
 def _claims(record: Record) -> Iterator[Block]:
     for claim, lines in costs_by_claim(record).items():
         yield Paragraph(Strong(claim))
-        rows = [
-            (TableCell(line.scene), TableCell(Strong(line.verdict), tone=_TONES.get(line.verdict, "")), line.says)
+        verdicts: list[Row] = [
+            (line.scene, TableCell(Strong(line.verdict), tone=_TONES.get(line.verdict, "")), line.says)
             for line in lines
         ]
-        yield table("what was measured of a claim", ("scene", "verdict", "what was measured"), rows)
-        columns: tuple[Column | str, ...] = ("scene", "compared", *map(number, ("ratio", "ns")), "operations")
-        yield table("what was compared", columns, [row for line in lines for row in _compared(line)])
+        yield table("what was measured of a claim", "scene | verdict | what was measured", verdicts)
+        compared = [row for line in lines for row in _compared(line)]
+        yield table("what was compared", "scene | compared | # ratio | # ns | operations", compared)
 
 
-def _compared(line: CostLine) -> Iterator[tuple[TableCell, ...]]:
+def _compared(line: CostLine) -> Iterator[Row]:
     for each in line.compared:
-        yield (
-            TableCell(line.scene),
-            TableCell(each.name),
-            TableCell("–") if each.ratio is None else _interval(each.ratio, each.ratio_ci95),
-            TableCell("–") if each.median_ns is None else TableCell(figure(each.median_ns), each.median_ns),
-            TableCell(_operations(each.operations)),
-        )
-
-
-def _operations(counts: Mapping[str, int] | None) -> str:
-    return "" if counts is None else ", ".join(f"{number_} {name}" for name, number_ in counts.items())
+        operations = ", ".join(f"{amount} {name}" for name, amount in (each.operations or {}).items())
+        yield (line.scene, each.name, measured(each.ratio, each.ratio_ci95), measured(each.median_ns), operations)
 
 
 def _kernels(lines: list[KernelLine]) -> TableBlock:
-    columns: tuple[Column | str, ...] = ("kernel", "target", *map(number, ("wanted", "measured")), "met", "which says")
     rows = [
         (
-            TableCell(line.name),
-            TableCell(line.target),
-            TableCell(figure(line.wanted), line.wanted),
-            _interval(line.measured, line.ci95),
+            line.name,
+            line.target,
+            measured(line.wanted),
+            measured(line.measured, line.ci95),
             TableCell("yes", tone="good") if line.met else TableCell(Strong("no"), tone="bad"),
-            TableCell(line.says),
+            line.says,
         )
         for line in sorted(lines, key=lambda line: bool(line.met))
     ]
+    columns = "kernel | target | # wanted | # measured | met | which says"
     return table("targets of the kernels", columns, rows)

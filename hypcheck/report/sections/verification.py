@@ -9,12 +9,15 @@ from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import EquationLine, FindingLine, ImplementationLine, MapLine, NotStartedLine, ProofLine
 from hypcheck.report.document import (
+    MISSING,
+    NONE,
     Block,
     Code,
     Column,
     Figures,
     Item,
     Paragraph,
+    Row,
     Section,
     Strong,
     TableBlock,
@@ -23,6 +26,7 @@ from hypcheck.report.document import (
     bullets,
     count,
     joined,
+    measured,
     number,
     prose,
     table,
@@ -32,7 +36,6 @@ from hypcheck.report.model import (
     REFERENCE,
     ImplementationTotal,
     OracleTotal,
-    TimingTotal,
     UnderTest,
     drawn_way,
     explanation,
@@ -62,15 +65,6 @@ def oracle_sections(record: Record) -> Iterator[Section]:
 
 
 def _oracle_table(totals: list[OracleTotal]) -> TableBlock:
-    columns = (
-        "oracle",
-        number("asked"),
-        number("agreed"),
-        number("undecided"),
-        number("disagreed"),
-        "how it answered",
-        number("seconds"),
-    )
     rows = [
         (
             Code(total.name),
@@ -79,15 +73,13 @@ def _oracle_table(totals: list[OracleTotal]) -> TableBlock:
             count(total.undecided),
             count(total.disagreements, bad=True),
             ", ".join(f"{stage or 'answered'} {answers:,}" for stage, answers in total.stages.items()),
-            TableCell(figure(total.seconds), total.seconds),
+            measured(total.seconds),
         )
         for total in totals
     ]
+    columns = "oracle | # asked | # agreed | # undecided | # disagreed | how it answered | # seconds"
     return table("oracles", columns, rows)
 
-
-NOTHING = "·"
-NOT_ASKED = "–"
 
 _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
 """The statuses that have a column, and that of cases that were not asked."""
@@ -112,7 +104,7 @@ def _exact(methods: Sequence[ImplementationTotal]) -> Section:
         "Methods that promise to be exact",
         (
             Paragraph("A single answer that is not right fails the run."),
-            table("exact methods", ("method", "what it is", number("asked"), "answers"), rows),
+            table("exact methods", "method | what it is | # asked | answers", rows),
         ),
     )
 
@@ -151,23 +143,25 @@ def _part(precision: str, methods: Sequence[ImplementationTotal]) -> Section:
 
 
 def _totals(methods: Sequence[ImplementationTotal]) -> TableBlock:
-    numbers = map(number, ("asked", "right", "tolerated", "wrong", "false clear", "worst error in u"))
-    return table("methods", ("method", "question", *numbers, "its case"), [_method_row(each) for each in methods])
+    columns = (
+        "method | question | # asked | # right | # tolerated | # wrong | # false clear | # worst error in u | its case"
+    )
+    return table("methods", columns, [_method_row(each) for each in methods])
 
 
-def _method_row(each: ImplementationTotal) -> tuple[TableCell, ...]:
+def _method_row(each: ImplementationTotal) -> Row:
     statuses, worst = each.statuses, each.worst
     error = worst_error_u(worst)
     return (
-        TableCell(Code(_plain_name(each))),
-        TableCell(each.question),
+        Code(_plain_name(each)),
+        each.question,
         count(each.asked),
         count(statuses.get("right", 0)),
         count(statuses.get("tolerated", 0)),
         count(statuses.get("wrong", 0), bad=True),
         count(each.mistakes.get("false-clear", 0)),
-        TableCell(figure(error) if worst else NOTHING, error),
-        TableCell(Code(worst.case, from_hex(numbers_of(worst))) if worst else NOTHING),
+        TableCell(figure(error) if worst else NONE, error),
+        Code(worst.case, from_hex(numbers_of(worst))) if worst else NONE,
     )
 
 
@@ -178,20 +172,19 @@ def _matrix(methods: Sequence[ImplementationTotal]) -> tuple[Block, ...]:
     def cell(method: str, family: str) -> TableCell:
         group = groups.get((method, family))
         if group is None or not group.asked:
-            return TableCell(NOT_ASKED, -1)
+            return TableCell(MISSING, -1)
         wrong = group.counts.get("wrong", 0)
-        return TableCell(f"{wrong:,}", wrong, "bad") if wrong else TableCell(NOTHING, 0)
+        return TableCell(f"{wrong:,}", wrong, "bad") if wrong else TableCell(NONE, 0)
 
-    rows: list[tuple[TableCell, ...]] = [
-        (TableCell(Code(family)), *(cell(each.name, family) for each in methods)) for family in families
-    ]
+    rows: list[Row] = [(Code(family), *(cell(each.name, family) for each in methods)) for family in families]
+    columns = (Column("family"), *(number(Code(_plain_name(each))) for each in methods))
     asked = max((group.asked for group in groups.values()), default=0)
     return (
         Paragraph(
-            f"Wrong answers by family, of at most {counted(asked, 'case')} each ({NOTHING} none, {NOT_ASKED} nothing"
+            f"Wrong answers by family, of at most {counted(asked, 'case')} each ({NONE} none, {MISSING} nothing"
             " asked: outside the stated regimes or the format's range):"
         ),
-        table("wrong answers by family", ("family", *(number(Code(_plain_name(each))) for each in methods)), rows),
+        table("wrong answers by family", columns, rows),
     )
 
 
@@ -199,38 +192,32 @@ def _statuses(statuses: dict[str, int]) -> str:
     return ", ".join(f"{name} {cases:,}" for name, cases in statuses.items())
 
 
-_NONE = "–"
-
-
 def gated_sections(record: Record) -> Iterator[Section]:
     """Gated implementations: what each declares, and what it was judged as; none if nothing was gated."""
     found = under_test(record)
     if not found:
         return
-    head = ("", "", "question", "spheroids", "precision", "domain", "language", "version")
+    columns = " |  | question | spheroids | precision | domain | language | version"
     rows = [
         row for each in found if isinstance(each.line, ImplementationLine) for row in _gated_rows(each.name, each.line)
     ]
-    declared = [table("implementations under test", head, rows)] if rows else []
+    declared = [table("implementations under test", columns, rows)] if rows else []
     yield Section("Implementations under test", (*declared, bullets([_gated_value(each) for each in found])))
 
 
-def _gated_rows(name: str, line: ImplementationLine) -> list[tuple[Text, ...]]:
+def _gated_rows(name: str, line: ImplementationLine) -> Iterator[Row]:
     """What it declares, and what it was judged as: options of the command line replace declarations."""
-    names: dict[str, Text] = {"declared": Code(name), "judged as": ""}
-    return [
-        (
-            names[what],
+    for shown, what, description in ((Code(name), "declared", line.declared), ("", "judged as", line.used)):
+        yield (
+            shown,
             what,
             description.question,
             "upright and tilted" if description.tilt else "upright",
             description.precision,
             domain_text(description.domain),
-            description.language or _NONE,
-            description.version or _NONE,
+            description.language or MISSING,
+            description.version or MISSING,
         )
-        for what, description in (("declared", line.declared), ("judged as", line.used))
-    ]
 
 
 def _gated_value(tested: UnderTest) -> Text:
@@ -276,20 +263,19 @@ def timing_sections(record: Record) -> Iterator[Section]:
         " to another machine."
     )
     said = ("On ", workloads, how)
-    numbers = map(number, ("rows", "ns a row, median", "least to greatest", "time ratio"))
-    columns: tuple[Column | str, ...] = ("contender", "what it is", *numbers)
-    yield Section("Timings", (Paragraph(said), table("timings", columns, [_timing_row(total) for total in totals])))
-
-
-def _timing_row(total: TimingTotal) -> tuple[TableCell, ...]:
-    return (
-        TableCell(total.name),
-        TableCell(total.title),
-        count(total.rows),
-        TableCell(figure(total.median_ns), total.median_ns),
-        TableCell(f"{figure(total.least_ns)} to {figure(total.greatest_ns)}", total.greatest_ns),
-        TableCell("–") if total.ratio is None else TableCell(figure(total.ratio), total.ratio),
-    )
+    rows = [
+        (
+            total.name,
+            total.title,
+            count(total.rows),
+            measured(total.median_ns),
+            TableCell(f"{figure(total.least_ns)} to {figure(total.greatest_ns)}", total.greatest_ns),
+            measured(total.ratio),
+        )
+        for total in totals
+    ]
+    columns = "contender | what it is | # rows | # ns a row, median | # least to greatest | # time ratio"
+    yield Section("Timings", (Paragraph(said), table("timings", columns, rows)))
 
 
 MAP = Figures("map", "exact positions and wrong answers over the half plane (r, z)", "map.svg")
@@ -353,7 +339,7 @@ def _proofs(lines: list[ProofLine]) -> Section:
         (Code(name), TableCell(str(sum(holds)), sum(holds)), TableCell(str(len(holds)), len(holds)))
         for name, holds in by_formula.items()
     ]
-    proved = table("proofs", ("formula", number("proved"), number("to be shown")), rows)
+    proved = table("proofs", "formula | # proved | # to be shown", rows)
     return Section("The proofs", (Paragraph(_PROOFS), proved))
 
 
@@ -363,29 +349,21 @@ def _findings(lines: list[FindingLine]) -> Section:
     for line in sorted(lines, key=lambda line: not line.inside):
         key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
         alike.setdefault(key, []).append(line)
-    columns = (
-        "formula",
-        "family",
-        "stated regimes",
-        number("wrong"),
-        "why",
-        "first witness, to six digits",
-        "its case",
-    )
+    columns = "formula | family | stated regimes | # wrong | why | first witness, to six digits | its case"
     found = table("mathematical findings", columns, [_finding(group) for group in alike.values()])
     return Section("Mathematical findings", (Paragraph(_FINDINGS), found))
 
 
-def _finding(group: list[FindingLine]) -> tuple[TableCell, ...]:
+def _finding(group: list[FindingLine]) -> Row:
     line = group[0]
     why = explanation(line)
     row = from_hex(line.first_row)
     return (
-        TableCell(joined([Code(each.formula) for each in group])),
-        TableCell(Code(line.family)),
-        TableCell(Strong("inside") if line.inside else "outside"),
+        joined([Code(each.formula) for each in group]),
+        Code(line.family),
+        Strong("inside") if line.inside else "outside",
         TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
-        TableCell(Strong(why), tone="bad") if unlisted(line) else TableCell(why),
-        TableCell(short_row(row)),
-        TableCell(Code(line.first_case, row)),
+        TableCell(Strong(why), tone="bad") if unlisted(line) else why,
+        short_row(row),
+        Code(line.first_case, row),
     )

@@ -16,7 +16,7 @@ from hypcheck.kernel.emission.kernel import emitted
 from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines
 from hypcheck.record.integrity import check, repair
 from hypcheck.record.reader import notes, read, recorded_cases
-from hypcheck.report import github, html
+from hypcheck.report import code_hosts, html
 from hypcheck.report.drawings import DrawnPlot, ReportContext, drawn_plots
 from hypcheck.report.plots.pictures import PLOTS
 from hypcheck.report.write import render as render_report
@@ -76,7 +76,7 @@ def reports(data: bytes) -> None:
     notes(found)
     for name in ("terminal", "json", "markdown", "junit", "sarif", "gitlab", "badge"):
         render_report(name, found)
-    github.error_lines(found)
+    code_hosts.error_lines(found)
 
 
 def page(data: bytes) -> None:
