@@ -1,195 +1,204 @@
-"""All chains by name: Propositions 3 and 5 and Procedure 1 repaired, the rules for every size, and what they need.
+"""All chains by name; here those of the rules that hold for every size.
 
-- Proposition 3, repaired: for (γ/d)² ≥ α/b, which is B² ≥ A, exterior by Δ, c2 and c1, and the ring.
-- Procedure 1, repaired: in the plane of the waist r > a + 1 decides; elsewhere there is no ring.
-- Proposition 5, repaired: for α/b ≥ 1, which is A ≥ 1, interior by Δ, c2, c1, and the positions that the printed
-  condition drops.
+- Theorem 1: dividing x, y by b and z by d changes no position, and makes the spheroid the unit sphere.
+- The rule without hypothesis: the bodies are clear if g > 0 somewhere between −A and B, and only then. φ is the
+  Lagrange dual of the squared distance to the hyperboloid H (docs/mathematics.md). Letters: C = (x_c, y_c, z_c) the
+  centre, h(X) = (x² + y²)/A − z²/B − 1, and for −A < λ < B the positive u = A + λ, v = B − λ.
 - The coefficient rule and the local maximum decide for every size, and the programs that answer by them do so.
 """
 
 from __future__ import annotations
 
 from functools import cache
-from itertools import product
 
 import sympy
 
 from hypcheck.derivation import pencil, root_chains
-from hypcheck.derivation.decisions import SIGNS
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.links import GENERIC_CUBIC, Chain, FiniteCases, Link, identity, known, sign
-from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q, symbol
+from hypcheck.derivation.links import GENERIC_CUBIC, PHI, Chain, FiniteCases, Link, chain, identity, known, link, sign
+from hypcheck.derivation.pencil import LAMBDA, XC, YC, ZC, A, B, P, Q, X, Y, Z, read, symbol
 from hypcheck.derivation.proofs import proofs_of
-from hypcheck.derivation.root_chains import positions_chain, roots_chain
-from hypcheck.derivation.rule_chain import rule_chain, theorem_1
+from hypcheck.derivation.root_chains import positions_chain, procedure_1, proposition_3, proposition_5, roots_chain
 
 
-def proposition_3() -> Chain:
-    """Both directions, and what Δ ≤ 0 leaves."""
-    return Chain(
-        "Proposition 3, repaired",
-        "For (γ/d)² ≥ α/b: exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring (z0 = 0, g'(B) = 0, A < B²). Δ ≤ 0 means "
-        "contact or the ring.",
-        (
-            _not_all_beyond_B(),
-            root_chains.true_of_patterns(
-                "So exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring.",
-                lambda roots: not (roots.crowded and roots.all_positive),
-                lambda roots: ((roots.delta > 0 and roots.all_positive) or roots.ring) == (roots.position > 0),
-            ),
-            root_chains.no_contact_but_the_ring(),
+def theorem_1() -> Chain:
+    """The chain; the map is X̄ = A·X with A = diag(1/b, 1/b, 1/d) of equation (9)."""
+    scaling = sympy.diag(1 / pencil.SMALL_B, 1 / pencil.SMALL_B, 1 / pencil.SMALL_D)
+    return chain(
+        "Theorem 1",
+        "The spheroid stands to the hyperboloid as the unit sphere stands to the scaled hyperboloid.",
+        link(
+            "X̄ = A·X is one-to-one: A = diag(1/b, 1/b, 1/d) has a determinant above 0.",
+            identity("det A = 1/(b²·d)", scaling.det()),
+            sign("1/(b²·d) > 0", "b d"),
         ),
-        needs=("rule", "roots", "positions"),
-    )
-
-
-def _not_all_beyond_B() -> Link:
-    return Link(
-        "Three different positive roots are not all at least B, at B + u, B + v and B + w: their product A·B would "
-        "exceed B³, against B² = A + k with k ≥ 0. So the lower two lie in (0, B], and g > 0 between them.",
-        "sign",
-        (
-            sign("(B + u)·(B + v)·(B + w) − B³ > 0", "B v w", "u"),
-            identity("A·B − B³ = −B·(B² − A)", A * B - B**3),
-            sign("−B·k ≤ 0", "B", "k"),
+        link(
+            "The hyperboloid's equation, with its values inside and outside, becomes (7).",
+            identity("h(A⁻¹·X̄) = x²/(α/b)² + y²/(α/b)² − z²/(γ/d)² − 1", pencil.scaled(pencil.hyperboloid())),
+        ),
+        link(
+            "The spheroid's equation becomes (8), that of a unit sphere. So points in common go to points in "
+            "common, and inside stays inside.",
+            identity("e(A⁻¹·X̄) = (x − x0/b)² + (y − y0/b)² + (z − z0/d)² − 1", pencil.scaled(pencil.spheroid())),
+        ),
+        link(
+            "The roots stay the same too: the determinant of the pencil changes by a constant factor.",
+            known("Theorem 1 divides the pencil's determinant by the constant 1/(b⁴d²)"),
         ),
     )
 
 
-def procedure_1() -> Chain:
-    """Both cases of the procedure put right."""
-    return Chain(
-        "Procedure 1, repaired",
-        "For (γ/d)² ≥ α/b: exterior ⟺ E > 0 and E² > 4·A where Q = 0, with E = P − A − 1; elsewhere Δ > 0, c2 < 0 and "
-        "c1 > 0.",
-        (
-            *_in_the_plane_of_the_waist(),
-            Link(
-                "In lengths E > 0 and E² > 4·A say r > a + 1: with r = a + 1 + t, E² − 4·A is positive exactly where t "
-                "is, for r > 0.",
-                "identity",
-                (
-                    identity(
-                        "E² − 4·A = t·(t + 2)·(t + 2·a)·(t + 2·a + 2)",
-                        ((symbol("a") + 1 + symbol("t")) ** 2 - symbol("a") ** 2 - 1) ** 2 - 4 * symbol("a") ** 2,
-                    ),
-                ),
-            ),
-            Link(
-                "Where Q > 0 there is no ring, since g(B) = −B·Q·(A + B) < 0 leaves no root at B; Proposition 3, "
-                "repaired, says the rest.",
-                "identity",
-                (identity("g(B) = −B·Q·(A + B)", pencil.cubic().g.subs(LAMBDA, B)),),
-            ),
+S_LEMMA = "S-lemma (Yakubovich 1971; Pólik and Terlaky, SIAM Review 49 (2007) 371–418)"
+
+_U, _V = A + LAMBDA, B - LAMBDA
+_OF_CENTRE = {P: XC**2 + YC**2, Q: ZC**2}
+_SURFACE = (X**2 + Y**2) / A - Z**2 / B - 1
+_SQUARED_DISTANCE = (X - XC) ** 2 + (Y - YC) ** 2 + (Z - ZC) ** 2
+_SLOPE = sympy.diff(PHI, LAMBDA)
+_NEAREST = {X: A * XC / _U, Y: A * YC / _U, Z: B * ZC / _V}
+
+
+def rule_chain() -> Chain:
+    """Exterior, interior and contact by the sign of g between the poles, for all sizes."""
+    return chain(
+        "rule",
+        "For all a, c > 0: exterior ⟺ g(λ) > 0 for some λ in (0, B); interior ⟺ g(λ) > 0 for some λ in (−A, 0); "
+        "contact ⟺ neither.",
+        _weak_duality(),
+        _attained_inside(),
+        link(
+            "φ is concave, so it has one largest value: where φ' = 0, or at a pole. At −A only if P = 0, at B only if "
+            "Q = 0: else φ' is positive near −A, negative near B.",
+            identity("φ''(λ) = −2·A·P/u³ − 2·B·Q/v³", sympy.diff(PHI, LAMBDA, 2), u=_U, v=_V),
+            sign("−2·A·P/u³ − 2·B·Q/v³ ≤ 0", "A B u v", "P Q"),
+            identity("u²·φ' at −A = A·P", sympy.cancel(_SLOPE * _U**2).subs(LAMBDA, -A)),
+            identity("v²·φ' at B = −B·Q", sympy.cancel(_SLOPE * _V**2).subs(LAMBDA, B)),
+            sign("A·P > 0", "A P"),
+            sign("−B·Q < 0", "B Q"),
         ),
-        needs=("rule", "Proposition 3, repaired"),
+        _attained_at_minus_A(),
+        _attained_at_B(),
+        _s_lemma(),
+        _sides(),
+        link(
+            "The ball is clear exactly if dist > 1, so exactly if φ > 0 somewhere between the poles; and there g has "
+            "the sign of φ.",
+            known("g(λ) = (A + λ)(B − λ)·φ(λ)"),
+            sign("u·v > 0", "u v"),
+            reason="identity",
+        ),
+        _no_fourth_position(),
     )
 
 
-def _in_the_plane_of_the_waist() -> tuple[Link, ...]:
-    e, u, v = symbol("E"), symbol("u"), symbol("v")
-    return (
-        Link(
-            "Where Q = 0, g is (λ − B) times a quadratic. So in (0, B), where λ − B < 0, g > 0 exactly where the "
-            "quadratic is negative.",
-            "identity",
-            (identity("g = (λ − B)·(λ² − E·λ + A)", pencil.cubic().g.subs(Q, 0), E=P - A - 1),),
+def _weak_duality() -> Link:
+    whole = _SQUARED_DISTANCE + LAMBDA * _SURFACE
+    return link(
+        "Every λ in (−A, B) bounds the distance: for X on H, where h = 0, |X − C|² ≥ φ(λ) + 1.",
+        identity(
+            "|X − C|² + λ·h(X) = u/A·((x − A·x_c/u)² + (y − A·y_c/u)²) + v/B·(z − B·z_c/v)² + φ + 1",
+            whole,
+            u=_U,
+            v=_V,
+            phi=PHI.subs(_OF_CENTRE),
         ),
-        Link(
-            "If E > 0 and E² > 4·A, the quadratic has two different roots u and u + v, u, v > 0, of sum E and of "
-            "product A; between them it is negative. The smaller has u² < A ≤ B², so part of that is in (0, B): "
-            "exterior.",
-            "sign",
-            (
-                identity("(λ − u)·(λ − u − v) = λ² − (2·u + v)·λ + u·(u + v)", (LAMBDA - u) * (LAMBDA - u - v)),
-                sign("u·(u + v) − u² > 0", "u v"),
-                sign("(2·u + v)² − 4·u·(u + v) > 0", "u v"),
-            ),
-        ),
-        Link(
-            "If E = −h ≤ 0, all terms of the quadratic are ≥ 0 for λ = s > 0, and one is > 0; if E² ≤ 4·A, it is a "
-            "square and k = A − E²/4 ≥ 0. So it is nowhere negative in (0, B): not exterior.",
-            "sign",
-            (
-                sign("s² + h·s + A > 0", "A s", "h"),
-                identity("(λ − E/2)² + A − E²/4 = λ² − E·λ + A", (LAMBDA - e / 2) ** 2 + A - e**2 / 4),
-            ),
-        ),
+        sign("u/A > 0", "u A"),
+        sign("v/B > 0", "v B"),
+        reason="identity",
     )
 
 
-def proposition_5() -> Chain:
-    """Both directions, and the patterns that the printed statement leaves out."""
-    return Chain(
-        "Proposition 5, repaired",
-        "For α/b ≥ 1: interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0). Δ ≤ 0 means contact or the ring.",
-        (
-            _two_negative(),
-            _not_both_beyond_minus_A(),
-            root_chains.true_of_patterns(
-                "So interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0).",
-                lambda roots: not (roots.crowded and not roots.all_positive),
-                lambda roots: (roots.delta > 0 and not roots.all_positive) == (roots.position < 0),
-            ),
-            root_chains.no_contact_but_the_ring(),
-            _dropped(),
-        ),
-        needs=("rule", "roots", "positions"),
+def _attained_inside() -> Link:
+    distance = (_SQUARED_DISTANCE + LAMBDA * _SURFACE).subs(_NEAREST)
+    return link(
+        "Where φ' = 0 the bound is attained: the minimiser X = (A·x_c/u, A·y_c/u, B·z_c/v) lies on H.",
+        identity("φ'(λ) = A·P/u² − B·Q/v² − 1", _SLOPE, u=_U, v=_V),
+        identity("h(X) = A·P/u² − B·Q/v² − 1", _SURFACE.subs(_NEAREST), u=_U, v=_V, **_centre()),
+        identity("|X − C|² + λ·h(X) = φ + 1", distance, phi=PHI.subs(_OF_CENTRE)),
     )
 
 
-def _two_negative() -> Link:
-    r1, r2, s = root_chains.ROOTS
-    return Link(
-        "Δ > 0 and not (c2 < 0 and c1 > 0): not all roots are positive, by Vieta; none is 0; and the product A·B > 0 "
-        "makes two of them negative.",
-        "sign",
-        (
-            *root_chains.positive_roots_have_signs().parts,
-            identity("−c0 = r1·r2·s", r1 * r2 * s),
-            sign("A·B > 0", "A B"),
-        ),
+def _centre() -> dict[str, sympy.Expr]:
+    return {name.name: value for name, value in _OF_CENTRE.items()}
+
+
+def _attained_at_minus_A() -> Link:
+    on_axis = {XC: 0, YC: 0}
+    height = B * ZC / (A + B)
+    circle = {X: symbol("rho"), Y: 0, Z: height}
+    radius = {"rho": sympy.sqrt(A * (1 + height**2 / B))}
+    distance = _SQUARED_DISTANCE.subs(on_axis).subs(circle).subs(symbol("rho"), radius["rho"])
+    return link(
+        "If P = 0, φ falls all the way from −A, and the bound is attained there: on a circle of H at height B·z_c/(A + "
+        "B).",
+        identity("φ' without P = −B·Q/v² − 1", _SLOPE.subs(P, 0), v=_V),
+        sign("−B·Q/v² − 1 < 0", "B v", "Q"),
+        identity("h on the circle = 0", _SURFACE.subs(circle).subs(symbol("rho"), radius["rho"])),
+        identity("|X − C|² on the circle = A + A·z_c²/(A + B)", distance),
+        identity("φ(−A) + 1 without P = A + A·Q/(A + B)", (PHI.subs(P, 0) + 1).subs(LAMBDA, -A)),
+        reason="identity",
     )
 
 
-def _not_both_beyond_minus_A() -> Link:
-    return Link(
-        "They are not both at most −A, at −A − u and −A − v: the third, A·B over their product, would be below B, with "
-        "A = 1 + k, k ≥ 0. So both lie in [−A, 0), and g > 0 between them.",
-        "sign",
-        (sign("B − (1 + k)·B/((1 + k + u)·(1 + k + v)) > 0", "B v", "k u"),),
+def _attained_at_B() -> Link:
+    """In the half plane y = 0, x ≥ 0 of the centre (r, 0, 0); k says by how much A·P exceeds (A + B)²."""
+    r, zeta = symbol("r"), symbol("zeta")
+    rho = A * r / (A + B)
+    height = sympy.sqrt(B * (rho**2 / A - 1))
+    in_waist = {XC: r, YC: 0, ZC: 0}
+    points = {X: rho, Y: 0, Z: zeta}
+    distance = _SQUARED_DISTANCE.subs(in_waist).subs(points).subs(zeta, height)
+    return link(
+        "If Q = 0 and φ' ≥ 0 up to B, which is A·P = (A + B)² + k with k ≥ 0, the bound is attained at B: in two "
+        "points of H, at x = A·r/(A + B), r² = P.",
+        identity("φ'(B) without Q = A·P/(A + B)² − 1", _SLOPE.subs(Q, 0).subs(LAMBDA, B)),
+        identity("z²/B = A·P/(A + B)² − 1", height**2 / B, P=r**2),
+        sign("((A + B)² + k)/(A + B)² − 1 ≥ 0", "A B", "k"),
+        identity("h in the points = 0", _SURFACE.subs(points).subs(zeta, height)),
+        identity("|X − C|² in the points = P·B/(A + B) − B", distance, P=r**2),
+        identity("φ(B) + 1 without Q = P·B/(A + B) − B", (PHI.subs(Q, 0) + 1).subs(LAMBDA, B)),
+        reason="identity",
     )
 
 
-def _dropped() -> Link:
-    """With c0 = −r, r > 0."""
-    p, q, r = (symbol(name) for name in "pqr")
-    generic = pencil.discriminant_of_cubic()
-    c2, c1, c0 = (symbol(name) for name in ("c2", "c1", "c0"))
-    return Link(
-        "Of these interior positions the printed [c2 > 0, c1 ≠ 0] or [c2 < 0, c1 < 0] drops those with c2 = 0 > c1 and "
-        "those with c1 = 0 < c2, and no others: c2 = 0 ≤ c1 = q and c1 = 0 ≥ c2 = −p have Δ < 0 (as Δ(c2, c1, c0), c0 "
-        "= −r).",
-        "case split",
-        (
-            FiniteCases(
-                "the printed condition and not (c2 < 0 and c1 > 0) differ ⟺ c2 = 0 or c1 = 0",
-                tuple(product(SIGNS, repeat=2)),
-                only_zeros_are_dropped,
-            ),
-            identity("Δ(0, q, −r) = −4·q³ − 27·r²", generic.subs({c2: 0, c1: q, c0: -r})),
-            sign("−4·q³ − 27·r² < 0", "r", "q"),
-            identity("Δ(−p, 0, −r) = −4·p³·r − 27·r²", generic.subs({c1: 0, c2: -p, c0: -r})),
-            sign("−4·p³·r − 27·r² < 0", "r", "p"),
-        ),
+def _s_lemma() -> Link:
+    """Its hypothesis on either side: the constraint h ≤ 0, or −h ≤ 0, holds strictly somewhere."""
+    a = symbol("a")
+    return link(
+        "So the largest φ is dist(C, H)² − 1. The S-lemma says the same in general: |X − C|² ≥ ρ² wherever h ≤ 0 (or "
+        "−h ≤ 0) exactly if some λ ≥ 0 (or ≤ 0) has |X − C|² − ρ² + λ·h ≥ 0 everywhere.",
+        identity("h(0, 0, 0) = −1", _SURFACE.subs({X: 0, Y: 0, Z: 0})),
+        sign("−1 < 0"),
+        identity("h(2·a, 0, 0) = 3", _SURFACE.subs({X: 2 * a, Y: 0, Z: 0}).subs(A, a**2)),
+        sign("3 > 0"),
+        cites=S_LEMMA,
     )
 
 
-def only_zeros_are_dropped(c2: int, c1: int) -> bool:
-    """Whether the repaired and the printed condition differ at these signs exactly if one of them is 0."""
-    printed = (c2 > 0 and c1 != 0) or (c2 < 0 and c1 < 0)
-    repaired = not (c2 < 0 and c1 > 0)
-    return (printed != repaired) == (0 in (c2, c1))
+def _sides() -> Link:
+    tangent = PHI - PHI.subs(LAMBDA, 0) - _SLOPE.subs(LAMBDA, 0) * LAMBDA
+    return link(
+        "φ lies below its tangent at 0, which begins at −1 with the slope h(C): φ > 0 at a λ > 0 puts C outside H, at "
+        "a λ < 0 inside.",
+        identity("φ(0) = −1", PHI.subs(LAMBDA, 0)),
+        identity("φ'(0) = P/A − Q/B − 1", _SLOPE.subs(LAMBDA, 0)),
+        identity("h(C) = P/A − Q/B − 1", _SURFACE.subs({X: XC, Y: YC, Z: ZC}), **_centre()),
+        identity("φ − φ(0) − φ'(0)·λ = −λ²·(P/(A·u) + Q/(B·v))", tangent, u=_U, v=_V),
+        sign("−λ²·(P/(A·u) + Q/(B·v)) ≤ 0", "A B u v", "P Q"),
+    )
+
+
+def _no_fourth_position() -> Link:
+    line = {X: read("α"), Y: read("α·t"), Z: read("γ·t")}
+    reach = (X**2 + Y**2 + Z**2).subs(line)
+    return link(
+        "There is no fourth position: the ball, being connected, is wholly on one side if it is clear; and H, "
+        "connected and without bound, does not fit into a ball.",
+        known("the line (α, αt, γt), turned about the axis, lies on the hyperboloid"),
+        identity("|(α, α·t, γ·t)|² = α² + (α² + γ²)·t²", reach),
+        sign("α² + (α² + γ²)·t² > 0", "alpha gamma"),
+        reason="identity",
+    )
 
 
 PROGRAMS = ("coefficients", "hessian", "shared")
@@ -198,23 +207,20 @@ PROGRAMS = ("coefficients", "hessian", "shared")
 
 def all_sizes() -> Chain:
     """Without c² ≥ a and a ≥ 1: which three positive roots, and which two negative ones, mean a clear position."""
-    return Chain(
+    return chain(
         "all sizes",
         "For all a, c > 0: exterior ⟺ Δ > 0, c2 < 0, c1 > 0 and not (c2 < −3B and g'(B) > 0), or the ring; interior ⟺ "
         "Δ > 0, not (c2 < 0 and c1 > 0), c2 < 3A and g'(−A) > 0.",
-        (
-            _all_beyond_B(),
-            _two_below_B(),
-            _both_above_minus_A(),
-            _both_beyond_minus_A(),
-            root_chains.true_of_patterns(
-                "So the rule holds; among patterns with Δ > 0 the two inequalities at B, or at −A, tell the crowded "
-                "ones.",
-                lambda _: True,
-                lambda roots: _by_rule(roots) == roots.position,
-            ),
-            *map(program_is_the_rule, PROGRAMS),
+        _all_beyond_B(),
+        _two_below_B(),
+        _both_above_minus_A(),
+        _both_beyond_minus_A(),
+        root_chains.true_of_patterns(
+            "So the rule holds; among patterns with Δ > 0 the two inequalities at B, or at −A, tell the crowded ones.",
+            lambda _: True,
+            lambda roots: _by_rule(roots) == roots.position,
         ),
+        *map(program_is_the_rule, PROGRAMS),
         needs=("rule", "roots", "positions"),
     )
 
@@ -246,107 +252,83 @@ def _at(place: str) -> dict[str, object]:
 
 def _all_beyond_B() -> Link:
     at = _at("beyond B")
-    return Link(
+    return link(
         "Three different roots B + u, B + v, B + w, none below B, have c2 < −3B and g'(B) > 0: a crossing, not "
         "exterior.",
-        "sign",
-        (
-            identity("g'(λ) = 3·λ² + 2·c2·λ + c1", GENERIC_CUBIC.diff(LAMBDA)),
-            identity("c2 + 3·B = −(u + v + w)", at["c2"] + 3 * B),
-            sign("−(u + v + w) < 0", "v w", "u"),
-            identity("g'(B) = u·v + v·w + w·u", at["slope"]),
-            sign("u·v + v·w + w·u > 0", "v w", "u"),
-        ),
+        identity("g'(λ) = 3·λ² + 2·c2·λ + c1", GENERIC_CUBIC.diff(LAMBDA)),
+        identity("c2 + 3·B = −(u + v + w)", at["c2"] + 3 * B),
+        sign("−(u + v + w) < 0", "v w", "u"),
+        identity("g'(B) = u·v + v·w + w·u", at["slope"]),
+        sign("u·v + v·w + w·u > 0", "v w", "u"),
     )
 
 
 def _two_below_B() -> Link:
     at = _at("about B")
-    return Link(
+    return link(
         "Three different positive roots of which two are at most B, B − u, B − v and B + w, cannot have both: c2 < −3B "
         "means w = u + v + k with k > 0, and then g'(B) < 0. They are exterior.",
-        "sign",
-        (
-            identity("c2 + 3·B = u + v − w", at["c2"] + 3 * B),
-            identity("g'(B) = u·v − w·(u + v)", at["slope"]),
-            sign("u·v − (u + v + k)·(u + v) < 0", "u k", "v"),
-        ),
+        identity("c2 + 3·B = u + v − w", at["c2"] + 3 * B),
+        identity("g'(B) = u·v − w·(u + v)", at["slope"]),
+        sign("u·v − (u + v + k)·(u + v) < 0", "u k", "v"),
     )
 
 
 def _both_above_minus_A() -> Link:
     at = _at("above −A")
-    return Link(
+    return link(
         "Two different negative roots −A + u and −A + v in [−A, 0) beside t > 0 have c2 < 3A and g'(−A) > 0: interior.",
-        "sign",
-        (
-            identity("c2 − 3·A = −(A + u + v + t)", at["c2"] - 3 * A),
-            sign("−(A + u + v + t) < 0", "A v t", "u"),
-            identity("g'(−A) = u·v + (u + v)·(A + t)", at["slope"]),
-            sign("u·v + (u + v)·(A + t) > 0", "A v t", "u"),
-        ),
+        identity("c2 − 3·A = −(A + u + v + t)", at["c2"] - 3 * A),
+        sign("−(A + u + v + t) < 0", "A v t", "u"),
+        identity("g'(−A) = u·v + (u + v)·(A + t)", at["slope"]),
+        sign("u·v + (u + v)·(A + t) > 0", "A v t", "u"),
     )
 
 
 def _both_beyond_minus_A() -> Link:
     at = _at("beyond −A")
-    return Link(
+    return link(
         "Two different roots −A − u and −A − v, none above −A, cannot have both: c2 < 3A means A + t = u + v + k with "
         "k > 0, and then g'(−A) < 0. They cross.",
-        "sign",
-        (
-            identity("c2 − 3·A = u + v − (A + t)", at["c2"] - 3 * A),
-            identity("g'(−A) = u·v − (u + v)·(A + t)", at["slope"]),
-            sign("u·v − (u + v)·(u + v + k) < 0", "v k", "u"),
-        ),
+        identity("c2 − 3·A = u + v − (A + t)", at["c2"] - 3 * A),
+        identity("g'(−A) = u·v − (u + v)·(A + t)", at["slope"]),
+        sign("u·v − (u + v)·(u + v + k) < 0", "v k", "u"),
     )
 
 
 def program_is_the_rule(name: str) -> Link:
     """The proofs of the program, which `hypcheck verify` records too."""
     proofs = proofs_of(FORMULAS[name])
-    return Link(
+    return link(
         f"The program {name} computes these numbers, and decides by this rule.",
-        "case split",
-        (
-            FiniteCases(
-                f"{len(proofs)} proofs of the program {name}", tuple((proof,) for proof in proofs), lambda p: p.holds
-            ),
+        FiniteCases(
+            f"{len(proofs)} proofs of the program {name}", tuple((proof,) for proof in proofs), lambda p: p.holds
         ),
     )
 
 
 def local_maximum() -> Chain:
     """From "g > 0 somewhere between two places where it is not" to one value of g."""
-    return Chain(
+    return chain(
         "local maximum",
         "For all a, c > 0: with h1 = c2² − 3·c1 > 0, λm = (−c2 − √h1)/3 and g(λm) > 0, exterior if 0 < λm < B, "
         "interior if −A < λm < 0; else contact.",
-        (
-            Link(
-                "g is not positive at −A, 0 and B; where it is positive between two of them it has a local maximum.",
-                "sign",
-                (
-                    known("g(−A) = −AP(A + B)"),
-                    known("g(0) = −AB"),
-                    known("g(B) = −BQ(A + B)"),
-                    sign("−A·P·(A + B) ≤ 0", "A B", "P"),
-                    sign("−A·B < 0", "A B"),
-                    sign("−B·Q·(A + B) ≤ 0", "A B", "Q"),
-                ),
-            ),
-            Link(
-                "A cubic that grows has one at most, at the lower zero of g', where g'' < 0; without h1 > 0 it has "
-                "none.",
-                "identity",
-                (
-                    identity("coefficient of λ³ in g = 1", sympy.Poly(pencil.cubic().g, LAMBDA).LC()),
-                    known("g'(λm) = 0"),
-                    known("g''(λm) = −2√h1"),
-                ),
-            ),
-            program_is_the_rule("local-maximum"),
+        link(
+            "g is not positive at −A, 0 and B; where it is positive between two of them it has a local maximum.",
+            known("g(−A) = −AP(A + B)"),
+            known("g(0) = −AB"),
+            known("g(B) = −BQ(A + B)"),
+            sign("−A·P·(A + B) ≤ 0", "A B", "P"),
+            sign("−A·B < 0", "A B"),
+            sign("−B·Q·(A + B) ≤ 0", "A B", "Q"),
         ),
+        link(
+            "A cubic that grows has one at most, at the lower zero of g', where g'' < 0; without h1 > 0 it has none.",
+            identity("coefficient of λ³ in g = 1", sympy.Poly(pencil.cubic().g, LAMBDA).LC()),
+            known("g'(λm) = 0"),
+            known("g''(λm) = −2√h1"),
+        ),
+        program_is_the_rule("local-maximum"),
         needs=("rule", "roots"),
     )
 

@@ -184,7 +184,7 @@ def _generic_identities() -> tuple[tuple[str, sympy.Expr], ...]:
 
 
 REASONS = ("identity", "sign", "case split", "cited theorem")
-"""Of several reasons a link gives the one that carries it."""
+"""Of several reasons a link gives the one that carries it: mostly the last of these that it has."""
 
 
 @dataclass(frozen=True)
@@ -266,6 +266,20 @@ class Chain:
         return bool(self.links) and all(link.holds for link in self.links)
 
 
+def link(statement: str, *parts: Part, reason: str = "", cites: str = "") -> Link:
+    """A link of these parts; its reason is the last of REASONS that it has, where no other one is named."""
+    found = [_REASON_OF[type(part)] for part in parts] + ["cited theorem"] * bool(cites)
+    return Link(statement, reason or max(found, key=REASONS.index), parts, cites)
+
+
+_REASON_OF = {Identity: "identity", Sign: "sign", FiniteCases: "case split"}
+
+
+def chain(name: str, statement: str, *links: Link, needs: tuple[str, ...] = ()) -> Chain:
+    """A chain of these links."""
+    return Chain(name, statement, links, needs)
+
+
 def identity(text: str, left: sympy.Expr, **meanings: sympy.Expr) -> Identity:
     """That `left` equals what the text says right of its last "="; `meanings` are what letters there stand for."""
     right = read(text.rpartition(" = ")[2])
@@ -283,8 +297,8 @@ def matrix_identity(text: str, left: sympy.Matrix) -> Identity:
     return Identity(text, left, sympy.Matrix([[read(entry) for entry in row.split(", ")] for row in rows]))
 
 
-def printed(number: str) -> tuple[Identity, ...]:
-    """The formulas that the paper prints under that number (printed_equations.py), compared with the derivation."""
+def printed(*numbers: str) -> tuple[Identity, ...]:
+    """The formulas that the paper prints under these numbers (printed_equations.py), compared with the derivation."""
     return tuple(
         Identity(
             claim.statement,
@@ -292,7 +306,7 @@ def printed(number: str) -> tuple[Identity, ...]:
             sympy.Matrix([derived for _, derived in claim.pairs]),
         )
         for claim in printed_claims()
-        if claim.number == number
+        if claim.number in numbers
     )
 
 

@@ -1,8 +1,15 @@
-"""Chains about the roots of g: their places beside −A, 0 and B, and what exterior and interior mean for them.
+"""Chains about the roots of g: their places beside −A, 0 and B, what the positions mean for them, the propositions.
 
 First come links about any cubic with real roots (Vieta's formulas, signs between roots, Δ), then the chain "roots":
 signs of g at three places and Vieta's product; then the chain "positions", from the rule to the roots, with the cases
 of Δ = 0 that are no contact.
+
+From these follow the propositions put right:
+
+- Proposition 3, repaired: for (γ/d)² ≥ α/b, which is B² ≥ A, exterior by Δ, c2 and c1, and the ring.
+- Procedure 1, repaired: in the plane of the waist r > a + 1 decides; elsewhere there is no ring.
+- Proposition 5, repaired: for α/b ≥ 1, which is A ≥ 1, interior by Δ, c2, c1, and the positions that the printed
+  condition drops.
 """
 
 from __future__ import annotations
@@ -14,8 +21,22 @@ from itertools import product
 import sympy
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.links import C0, C1, C2, GENERIC_CUBIC, Chain, FiniteCases, Link, identity, known, sign
-from hypcheck.derivation.pencil import LAMBDA, B, discriminant_of_cubic, symbol
+from hypcheck.derivation.decisions import SIGNS
+from hypcheck.derivation.links import (
+    C0,
+    C1,
+    C2,
+    GENERIC_CUBIC,
+    Chain,
+    FiniteCases,
+    Link,
+    chain,
+    identity,
+    known,
+    link,
+    sign,
+)
+from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q, discriminant_of_cubic, symbol
 
 ROOTS = tuple(symbol(name) for name in ("r1", "r2", "s"))
 
@@ -38,30 +59,25 @@ def distinct_roots() -> Link:
     real, imaginary, s = (symbol(name) for name in ("p", "q", "s"))
     of_pair = sympy.Poly(((LAMBDA - real) ** 2 + imaginary**2) * (LAMBDA - s), LAMBDA).all_coeffs()[1:]
     of_pair_discriminant = discriminant_of_cubic().subs(dict(zip((C2, C1, C0), of_pair, strict=True)))
-    return Link(
+    return link(
         "Δ > 0 exactly if g has three different real roots: it is the product of their squared differences, and below "
         "0 for a pair p ± q·i beside a real root s.",
-        "identity",
-        (
-            known("Δ is the product of the squared differences of the roots"),
-            identity("Δ = −4·q²·((s − p)² + q²)²", of_pair_discriminant),
-            sign("−4·q²·(t² + q²)² < 0", "q"),
-        ),
+        known("Δ is the product of the squared differences of the roots"),
+        identity("Δ = −4·q²·((s − p)² + q²)²", of_pair_discriminant),
+        sign("−4·q²·(t² + q²)² < 0", "q"),
+        reason="identity",
     )
 
 
 def positive_roots_have_signs() -> Link:
     """Vieta's formulas for three positive roots."""
     c2, c1, _ = coefficients_of_roots()
-    return Link(
+    return link(
         "Three positive roots r1, r2, s mean c2 < 0 and c1 > 0.",
-        "sign",
-        (
-            identity("c2 = −(r1 + r2 + s)", c2),
-            sign("−(r1 + r2 + s) < 0", "r1 r2 s"),
-            identity("c1 = r1·r2 + r2·s + s·r1", c1),
-            sign("r1·r2 + r2·s + s·r1 > 0", "r1 r2 s"),
-        ),
+        identity("c2 = −(r1 + r2 + s)", c2),
+        sign("−(r1 + r2 + s) < 0", "r1 r2 s"),
+        identity("c1 = r1·r2 + r2·s + s·r1", c1),
+        sign("r1·r2 + r2·s + s·r1 > 0", "r1 r2 s"),
     )
 
 
@@ -69,13 +85,10 @@ def no_negative_root() -> Link:
     """Descartes' rule where all signs are alike."""
     p, q, r = (symbol(name) for name in ("p", "q", "r"))
     mirrored = -GENERIC_CUBIC.subs({C2: -p, C1: q, C0: -r}, simultaneous=True).subs(LAMBDA, -LAMBDA)
-    return Link(
+    return link(
         "c2 < 0 and c1 > 0 leave no root below 0: with c2 = −p, c1 = q, c0 = −r every term of −g(−λ) is positive.",
-        "sign",
-        (
-            identity("−g(−λ) = λ³ + p·λ² + q·λ + r", mirrored),
-            sign("λ³ + p·λ² + q·λ + r > 0", "p q r", "lambda"),
-        ),
+        identity("−g(−λ) = λ³ + p·λ² + q·λ + r", mirrored),
+        sign("λ³ + p·λ² + q·λ + r > 0", "p q r", "lambda"),
     )
 
 
@@ -84,60 +97,46 @@ def positive_between_roots() -> Link:
     u, v, w = (symbol(name) for name in ("u", "v", "w"))
     r1, r2, s = ROOTS
     product = ((LAMBDA - r1) * (LAMBDA - r2) * (LAMBDA - s)).subs({r1: LAMBDA - u, r2: LAMBDA + v, s: LAMBDA + w})
-    return Link(
+    return link(
         "Between its two lower roots g is positive: λ = r1 + u = r2 − v = s − w.",
-        "sign",
-        (identity("(λ − r1)·(λ − r2)·(λ − s) = u·v·w", product), sign("u·v·w > 0", "u v w")),
+        identity("(λ − r1)·(λ − r2)·(λ − s) = u·v·w", product),
+        sign("u·v·w > 0", "u v w"),
     )
 
 
 def roots_chain() -> Chain:
     """One root is at least B; the other two are complex, or stand together in one of four intervals."""
-    return Chain(
+    return chain(
         "roots",
         "One root s of g is at least B. The other two are complex, or lie together in one of (−∞, −A], [−A, 0), (0, "
         "B], [B, ∞).",
-        (*_signs(), _one_root_beyond(), _same_sign(), _same_side(), _together()),
-    )
-
-
-def _signs() -> tuple[Link, ...]:
-    return (
-        Link(
-            "g is not positive at −A.",
-            "sign",
-            (known("g(−A) = −AP(A + B)"), sign("−A·P·(A + B) ≤ 0", "A B", "P")),
-        ),
-        Link("g is negative at 0.", "sign", (known("g(0) = −AB"), sign("−A·B < 0", "A B"))),
-        Link(
-            "g is not positive at B.",
-            "sign",
-            (known("g(B) = −BQ(A + B)"), sign("−B·Q·(A + B) ≤ 0", "A B", "Q")),
-        ),
+        link("g is not positive at −A.", known("g(−A) = −AP(A + B)"), sign("−A·P·(A + B) ≤ 0", "A B", "P")),
+        link("g is negative at 0.", known("g(0) = −AB"), sign("−A·B < 0", "A B")),
+        link("g is not positive at B.", known("g(B) = −BQ(A + B)"), sign("−B·Q·(A + B) ≤ 0", "A B", "Q")),
+        _one_root_beyond(),
+        _same_sign(),
+        _same_side(),
+        _together(),
     )
 
 
 def _one_root_beyond() -> Link:
     leading = sympy.Poly(pencil.cubic().g, LAMBDA).LC()
-    return Link(
+    return link(
         "So one root is at least B: g(B) ≤ 0, and g grows without bound, its leading coefficient being 1. Call the "
         "largest root s.",
-        "cited theorem",
-        (identity("coefficient of λ³ in g = 1", leading),),
+        identity("coefficient of λ³ in g = 1", leading),
         cites="intermediate value theorem",
     )
 
 
 def _same_sign() -> Link:
     _, _, c0 = coefficients_of_roots()
-    return Link(
+    return link(
         "The product of the other two is A·B/s > 0: if they are real they have one sign, and neither is 0.",
-        "sign",
-        (
-            identity("c0 of (λ − r1)·(λ − r2)·(λ − s) = −r1·r2·s", c0),
-            identity("c0 = −A·B", pencil.cubic().c0),
-            sign("A·B/s > 0", "A B s"),
-        ),
+        identity("c0 of (λ − r1)·(λ − r2)·(λ − s) = −r1·r2·s", c0),
+        identity("c0 = −A·B", pencil.cubic().c0),
+        sign("A·B/s > 0", "A B s"),
     )
 
 
@@ -148,33 +147,27 @@ def _same_side() -> Link:
     g, w = pencil.cubic().g, symbol("w")
     at_minus_A = (g / (LAMBDA - s)).subs(LAMBDA, -pencil.A)
     at_B = (g / (LAMBDA - s)).subs(LAMBDA, pencil.B).subs(s, pencil.B + w)
-    return Link(
+    return link(
         "The other two stand on one side of −A, and on one side of B: k = g/(λ − s) = (λ − r1)·(λ − r2) is not "
         "negative at −A, nor at B = s − w. (Where w = 0 both are at most s = B.)",
-        "sign",
-        (
-            identity("k(−A) = (r1 + A)·(r2 + A)", quadratic.subs(LAMBDA, -pencil.A)),
-            identity("k(−A) = A·P·(A + B)/(A + s)", at_minus_A),
-            sign("A·P·(A + B)/(A + s) ≥ 0", "A B s", "P"),
-            identity("k(B) = (r1 − B)·(r2 − B)", quadratic.subs(LAMBDA, pencil.B)),
-            identity("k(B) = B·Q·(A + B)/w", at_B),
-            sign("B·Q·(A + B)/w ≥ 0", "A B w", "Q"),
-        ),
+        identity("k(−A) = (r1 + A)·(r2 + A)", quadratic.subs(LAMBDA, -pencil.A)),
+        identity("k(−A) = A·P·(A + B)/(A + s)", at_minus_A),
+        sign("A·P·(A + B)/(A + s) ≥ 0", "A B s", "P"),
+        identity("k(B) = (r1 − B)·(r2 − B)", quadratic.subs(LAMBDA, pencil.B)),
+        identity("k(B) = B·Q·(A + B)/w", at_B),
+        sign("B·Q·(A + B)/w ≥ 0", "A B w", "Q"),
     )
 
 
 def _together() -> Link:
     """With A = B = 2 every place of two roots to −A, 0 and B is that of one of these pairs."""
     places = (-3, -2, -1, 1, 2, 3)
-    return Link(
+    return link(
         "Hence they lie together in one of the four intervals.",
-        "case split",
-        (
-            FiniteCases(
-                "r1·r2 > 0 and (r1 + A)·(r2 + A) ≥ 0 and (r1 − B)·(r2 − B) ≥ 0: one interval",
-                tuple(product(places, repeat=2)),
-                in_one_interval,
-            ),
+        FiniteCases(
+            "r1·r2 > 0 and (r1 + A)·(r2 + A) ≥ 0 and (r1 − B)·(r2 − B) ≥ 0: one interval",
+            tuple(product(places, repeat=2)),
+            in_one_interval,
         ),
     )
 
@@ -220,10 +213,8 @@ PATTERNS = (
 def true_of_patterns(statement: str, where: Callable[[Pattern], bool], right: Callable[[Pattern], bool]) -> Link:
     """That what is said is `right` of every pattern of roots that can occur, which are those `where` it says so."""
     possible = tuple((pattern,) for pattern in PATTERNS if where(pattern))
-    return Link(
-        statement,
-        "case split",
-        (FiniteCases(f"true of each of the {len(possible)} patterns of roots that can occur", possible, right),),
+    return link(
+        statement, FiniteCases(f"true of each of the {len(possible)} patterns of roots that can occur", possible, right)
     )
 
 
@@ -238,20 +229,25 @@ def no_contact_but_the_ring() -> Link:
 
 def positions_chain() -> Chain:
     """What the propositions have in common."""
-    return Chain(
+    return chain(
         "positions",
         "Exterior has three positive roots, different but on the ring; interior has two different negative roots; and "
         "the signs of Δ, c2 and c1 tell how many roots are real, different and positive.",
-        (
-            exterior_has_positive_roots(),
-            interior_has_negative_roots(),
-            only_the_ring(),
-            ring_is_exterior(),
-            distinct_roots(),
-            positive_roots_have_signs(),
-            no_negative_root(),
-            positive_between_roots(),
+        exterior_has_positive_roots(),
+        link(
+            "Interior means g > 0 somewhere in (−A, 0), so by its signs at −A and 0 two different roots in [−A, 0); "
+            "the third is at least B > 0. Three different roots: Δ > 0.",
+            known("g(−A) = −AP(A + B)"),
+            known("g(0) = −AB"),
+            sign("−A·P·(A + B) ≤ 0", "A B", "P"),
+            sign("−A·B < 0", "A B"),
         ),
+        only_the_ring(),
+        ring_is_exterior(),
+        distinct_roots(),
+        positive_roots_have_signs(),
+        no_negative_root(),
+        positive_between_roots(),
         needs=("rule", "roots"),
     )
 
@@ -259,31 +255,13 @@ def positions_chain() -> Chain:
 def exterior_has_positive_roots() -> Link:
     """From g > 0 in (0, B) to three positive roots."""
     _, _, c0 = coefficients_of_roots()
-    return Link(
+    return link(
         "Exterior means g > 0 somewhere in (0, B), so by its signs at 0 and B two roots r1 < r2 in (0, B]; the third, "
         "A·B/(r1·r2), is positive too.",
-        "sign",
-        (
-            known("g(0) = −AB"),
-            known("g(B) = −BQ(A + B)"),
-            identity("c0 of (λ − r1)·(λ − r2)·(λ − s) = −r1·r2·s", c0),
-            sign("A·B/(r1·r2) > 0", "A B r1 r2"),
-        ),
-    )
-
-
-def interior_has_negative_roots() -> Link:
-    """From g > 0 in (−A, 0) to two different negative roots."""
-    return Link(
-        "Interior means g > 0 somewhere in (−A, 0), so by its signs at −A and 0 two different roots in [−A, 0); the "
-        "third is at least B > 0. Three different roots: Δ > 0.",
-        "sign",
-        (
-            known("g(−A) = −AP(A + B)"),
-            known("g(0) = −AB"),
-            sign("−A·P·(A + B) ≤ 0", "A B", "P"),
-            sign("−A·B < 0", "A B"),
-        ),
+        known("g(0) = −AB"),
+        known("g(B) = −BQ(A + B)"),
+        identity("c0 of (λ − r1)·(λ − r2)·(λ − s) = −r1·r2·s", c0),
+        sign("A·B/(r1·r2) > 0", "A B r1 r2"),
     )
 
 
@@ -291,17 +269,14 @@ def only_the_ring() -> Link:
     """Exterior with a double root."""
     w, t, m, n = (symbol(name) for name in "wtmn")
     at_B = ((LAMBDA - m) ** 2 * (LAMBDA - n)).subs({LAMBDA: B, m: B + w, n: B - t}, simultaneous=True)
-    return Link(
+    return link(
         "Exterior with a double root m, g = (λ − m)²·(λ − n), is the ring: g > 0 below B puts n = B − t below it, so m "
         "= B + w is the root that is at least B; g(B) ≤ 0 leaves w = 0. So Q = 0, g'(B) = 0, and n = A/B < B.",
-        "sign",
-        (
-            identity("g(B) = w²·t", at_B),
-            sign("w²·t > 0", "w t"),
-            known("g(B) = −BQ(A + B)"),
-            known("with Q = 0, g'(B) = 0 only at P = (A + B)(B + 1)/B"),
-            known("on the ring Q = 0, P = (A + B)(B + 1)/B: g(λ) = (λ − B)²(λ − A/B)"),
-        ),
+        identity("g(B) = w²·t", at_B),
+        sign("w²·t > 0", "w t"),
+        known("g(B) = −BQ(A + B)"),
+        known("with Q = 0, g'(B) = 0 only at P = (A + B)(B + 1)/B"),
+        known("on the ring Q = 0, P = (A + B)(B + 1)/B: g(λ) = (λ − B)²(λ − A/B)"),
     )
 
 
@@ -310,13 +285,143 @@ def ring_is_exterior() -> Link:
     at = symbol("m")
     u, v = symbol("u"), symbol("v")
     g = ((LAMBDA - B) ** 2 * (LAMBDA - at)).subs({LAMBDA: B - u, at: B - u - v}, simultaneous=True)
-    return Link(
+    return link(
         "On the ring the spheroid is exterior: g is positive between the simple root A/B < B and B, where λ = B − u "
         "and A/B = λ − v.",
-        "sign",
-        (
-            known("on the ring Q = 0, P = (A + B)(B + 1)/B: g(λ) = (λ − B)²(λ − A/B)"),
-            identity("g(λ) = u²·v", g),
-            sign("u²·v > 0", "u v"),
+        known("on the ring Q = 0, P = (A + B)(B + 1)/B: g(λ) = (λ − B)²(λ − A/B)"),
+        identity("g(λ) = u²·v", g),
+        sign("u²·v > 0", "u v"),
+    )
+
+
+def proposition_3() -> Chain:
+    """Both directions, and what Δ ≤ 0 leaves."""
+    return chain(
+        "Proposition 3, repaired",
+        "For (γ/d)² ≥ α/b: exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring (z0 = 0, g'(B) = 0, A < B²). Δ ≤ 0 means "
+        "contact or the ring.",
+        link(
+            "Three different positive roots are not all at least B, at B + u, B + v and B + w: their product A·B would "
+            "exceed B³, against B² = A + k with k ≥ 0. So the lower two lie in (0, B], and g > 0 between them.",
+            sign("(B + u)·(B + v)·(B + w) − B³ > 0", "B v w", "u"),
+            identity("A·B − B³ = −B·(B² − A)", A * B - B**3),
+            sign("−B·k ≤ 0", "B", "k"),
+        ),
+        true_of_patterns(
+            "So exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring.",
+            lambda roots: not (roots.crowded and roots.all_positive),
+            lambda roots: ((roots.delta > 0 and roots.all_positive) or roots.ring) == (roots.position > 0),
+        ),
+        no_contact_but_the_ring(),
+        needs=("rule", "roots", "positions"),
+    )
+
+
+def procedure_1() -> Chain:
+    """Both cases of the procedure put right."""
+    return chain(
+        "Procedure 1, repaired",
+        "For (γ/d)² ≥ α/b: exterior ⟺ E > 0 and E² > 4·A where Q = 0, with E = P − A − 1; elsewhere Δ > 0, c2 < 0 and "
+        "c1 > 0.",
+        *_in_the_plane_of_the_waist(),
+        link(
+            "In lengths E > 0 and E² > 4·A say r > a + 1: with r = a + 1 + t, E² − 4·A is positive exactly where t "
+            "is, for r > 0.",
+            identity(
+                "E² − 4·A = t·(t + 2)·(t + 2·a)·(t + 2·a + 2)",
+                ((symbol("a") + 1 + symbol("t")) ** 2 - symbol("a") ** 2 - 1) ** 2 - 4 * symbol("a") ** 2,
+            ),
+        ),
+        link(
+            "Where Q > 0 there is no ring, since g(B) = −B·Q·(A + B) < 0 leaves no root at B; Proposition 3, "
+            "repaired, says the rest.",
+            identity("g(B) = −B·Q·(A + B)", pencil.cubic().g.subs(LAMBDA, B)),
+        ),
+        needs=("rule", "Proposition 3, repaired"),
+    )
+
+
+def _in_the_plane_of_the_waist() -> tuple[Link, ...]:
+    e, u, v = symbol("E"), symbol("u"), symbol("v")
+    return (
+        link(
+            "Where Q = 0, g is (λ − B) times a quadratic. So in (0, B), where λ − B < 0, g > 0 exactly where the "
+            "quadratic is negative.",
+            identity("g = (λ − B)·(λ² − E·λ + A)", pencil.cubic().g.subs(Q, 0), E=P - A - 1),
+        ),
+        link(
+            "If E > 0 and E² > 4·A, the quadratic has two different roots u and u + v, u, v > 0, of sum E and of "
+            "product A; between them it is negative. The smaller has u² < A ≤ B², so part of that is in (0, B): "
+            "exterior.",
+            identity("(λ − u)·(λ − u − v) = λ² − (2·u + v)·λ + u·(u + v)", (LAMBDA - u) * (LAMBDA - u - v)),
+            sign("u·(u + v) − u² > 0", "u v"),
+            sign("(2·u + v)² − 4·u·(u + v) > 0", "u v"),
+        ),
+        link(
+            "If E = −h ≤ 0, all terms of the quadratic are ≥ 0 for λ = s > 0, and one is > 0; if E² ≤ 4·A, it is a "
+            "square and k = A − E²/4 ≥ 0. So it is nowhere negative in (0, B): not exterior.",
+            sign("s² + h·s + A > 0", "A s", "h"),
+            identity("(λ − E/2)² + A − E²/4 = λ² − E·λ + A", (LAMBDA - e / 2) ** 2 + A - e**2 / 4),
         ),
     )
+
+
+def proposition_5() -> Chain:
+    """Both directions, and the patterns that the printed statement leaves out."""
+    return chain(
+        "Proposition 5, repaired",
+        "For α/b ≥ 1: interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0). Δ ≤ 0 means contact or the ring.",
+        _two_negative(),
+        link(
+            "They are not both at most −A, at −A − u and −A − v: the third, A·B over their product, would be below B, "
+            "with A = 1 + k, k ≥ 0. So both lie in [−A, 0), and g > 0 between them.",
+            sign("B − (1 + k)·B/((1 + k + u)·(1 + k + v)) > 0", "B v", "k u"),
+        ),
+        true_of_patterns(
+            "So interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0).",
+            lambda roots: not (roots.crowded and not roots.all_positive),
+            lambda roots: (roots.delta > 0 and not roots.all_positive) == (roots.position < 0),
+        ),
+        no_contact_but_the_ring(),
+        _dropped(),
+        needs=("rule", "roots", "positions"),
+    )
+
+
+def _two_negative() -> Link:
+    r1, r2, s = ROOTS
+    return link(
+        "Δ > 0 and not (c2 < 0 and c1 > 0): not all roots are positive, by Vieta; none is 0; and the product A·B > 0 "
+        "makes two of them negative.",
+        *positive_roots_have_signs().parts,
+        identity("−c0 = r1·r2·s", r1 * r2 * s),
+        sign("A·B > 0", "A B"),
+    )
+
+
+def _dropped() -> Link:
+    """With c0 = −r, r > 0."""
+    p, q, r = (symbol(name) for name in "pqr")
+    generic = pencil.discriminant_of_cubic()
+    c2, c1, c0 = (symbol(name) for name in ("c2", "c1", "c0"))
+    return link(
+        "Of these interior positions the printed [c2 > 0, c1 ≠ 0] or [c2 < 0, c1 < 0] drops those with c2 = 0 > c1 and "
+        "those with c1 = 0 < c2, and no others: c2 = 0 ≤ c1 = q and c1 = 0 ≥ c2 = −p have Δ < 0 (as Δ(c2, c1, c0), c0 "
+        "= −r).",
+        FiniteCases(
+            "the printed condition and not (c2 < 0 and c1 > 0) differ ⟺ c2 = 0 or c1 = 0",
+            tuple(product(SIGNS, repeat=2)),
+            only_zeros_are_dropped,
+        ),
+        identity("Δ(0, q, −r) = −4·q³ − 27·r²", generic.subs({c2: 0, c1: q, c0: -r})),
+        sign("−4·q³ − 27·r² < 0", "r", "q"),
+        identity("Δ(−p, 0, −r) = −4·p³·r − 27·r²", generic.subs({c1: 0, c2: -p, c0: -r})),
+        sign("−4·p³·r − 27·r² < 0", "r", "p"),
+    )
+
+
+def only_zeros_are_dropped(c2: int, c1: int) -> bool:
+    """Whether the repaired and the printed condition differ at these signs exactly if one of them is 0."""
+    printed = (c2 > 0 and c1 != 0) or (c2 < 0 and c1 < 0)
+    repaired = not (c2 < 0 and c1 > 0)
+    return (printed != repaired) == (0 in (c2, c1))

@@ -8,7 +8,6 @@ a formula the right one stands here.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain as flattened
 
 import sympy
 
@@ -19,12 +18,11 @@ from hypcheck.derivation.links import (
     C2,
     GENERIC_CUBIC,
     Chain,
-    Identity,
-    Link,
-    Part,
+    chain,
     hessian_coefficients,
     identity,
     known,
+    link,
     matrix_identity,
     printed,
 )
@@ -34,19 +32,13 @@ from hypcheck.derivation.printed_equations import rotor_meanings
 
 def rotors() -> Chain:
     """Equations (15) to (21)."""
-    return Chain(
+    return chain(
         "The rotors",
         "Four spheroids of semi-axes b_s, b_s, d_s at the ends of arms of length l. One cosine and one sine serve all "
         "four: g_i = g_1 + (i − 1)·π/2 only exchanges T1 and T2 and turns signs.",
-        (
-            Link("Their centres, equations (15) and (18).", "identity", (*printed("15"), *printed("18"))),
-            Link("Scaled by 1/b_s and 1/d_s, equations (16) and (17).", "identity", (*printed("16"), *printed("17"))),
-            Link(
-                "Their coefficients, equations (19) to (21).",
-                "identity",
-                (*printed("19"), *printed("20"), *printed("21")),
-            ),
-        ),
+        link("Their centres, equations (15) and (18).", *printed("15", "18")),
+        link("Scaled by 1/b_s and 1/d_s, equations (16) and (17).", *printed("16", "17")),
+        link("Their coefficients, equations (19) to (21).", *printed("19", "20", "21")),
     )
 
 
@@ -59,19 +51,13 @@ def appendix() -> Chain:
         c1,
         **{name: rotor_meanings()[name] for name in ("T1", "T2")},
     )
-    return Chain(
+    return chain(
         "Appendix A",
         "The same, step by step: (15) put into (14), and what turns with g_i parted from what does not.",
-        (
-            Link("c1 in x_i, y_i, z_i, and by (18).", "identity", (*printed("A.1"), *printed("A.2a"))),
-            Link("The paper prints l² + l here; + l is too much.", "identity", (repaired,)),
-            Link(
-                "Parted into A1, A2 and C(g_i).",
-                "identity",
-                tuple(part for number in ("A.3", "A.4", "A.5", "A.6") for part in printed(number)),
-            ),
-            Link("Named B1 and B2, equations (22) and (23).", "identity", (*printed("22"), *printed("23"))),
-        ),
+        link("c1 in x_i, y_i, z_i, and by (18).", *printed("A.1", "A.2a")),
+        link("The paper prints l² + l here; + l is too much.", repaired),
+        link("Parted into A1, A2 and C(g_i).", *printed("A.3", "A.4", "A.5", "A.6")),
+        link("Named B1 and B2, equations (22) and (23).", *printed("22", "23")),
     )
 
 
@@ -89,66 +75,52 @@ def walk() -> Iterator[Chain]:
     yield appendix()
 
 
-def _shown(statement: str, *parts: Part) -> Link:
-    return Link(statement, "identity", parts)
-
-
-def _of(*numbers: str) -> tuple[Identity, ...]:
-    return tuple(flattened.from_iterable(printed(number) for number in numbers))
-
-
 def _surfaces() -> Chain:
-    return Chain(
+    return chain(
         "The two surfaces",
         "A circular hyperboloid of one sheet H̄, centred at the origin, and a spheroid E of semi-axes b, b, d about "
         "(x0, y0, z0).",
-        (
-            _shown(
-                "The hyperboloid, equations (1) to (3).",
-                *_of("1", "2", "3"),
-                known("the line (α, αt, γt), turned about the axis, lies on the hyperboloid"),
-            ),
-            _shown(
-                "The spheroid, equations (4) to (6).",
-                *_of("4", "5", "6"),
-                known("the unit sphere, stretched by b, b, d and moved to (x0, y0, z0), is the spheroid"),
-            ),
+        link(
+            "The hyperboloid, equations (1) to (3).",
+            *printed("1", "2", "3"),
+            known("the line (α, αt, γt), turned about the axis, lies on the hyperboloid"),
+        ),
+        link(
+            "The spheroid, equations (4) to (6).",
+            *printed("4", "5", "6"),
+            known("the unit sphere, stretched by b, b, d and moved to (x0, y0, z0), is the spheroid"),
         ),
     )
 
 
 def _theorem_1() -> Chain:
-    return Chain(
+    return chain(
         "Theorem 1: scaling",
         "Divide x and y by b, and z by d. The spheroid becomes the unit sphere S, the hyperboloid H has the semi-axes "
         "a = α/b and c = γ/d; points in common stay points in common.",
-        (
-            _shown("The map X̄ = A·X, equations (9) and (10).", *_of("9", "10")),
-            _shown("What it makes of the two surfaces, equations (7) and (8).", *_of("7", "8")),
-            _shown(
-                "The determinant below changes by a constant factor, its roots not at all.",
-                known("Theorem 1 divides the pencil's determinant by the constant 1/(b⁴d²)"),
-            ),
+        link("The map X̄ = A·X, equations (9) and (10).", *printed("9", "10")),
+        link("What it makes of the two surfaces, equations (7) and (8).", *printed("7", "8")),
+        link(
+            "The determinant below changes by a constant factor, its roots not at all.",
+            known("Theorem 1 divides the pencil's determinant by the constant 1/(b⁴d²)"),
         ),
     )
 
 
 def _matrices() -> Chain:
     hyperboloid, sphere = pencil.scaled_matrices()
-    return Chain(
+    return chain(
         "The two matrices",
         "Of the surfaces (x, y, z, 1)·M·(x, y, z, 1)ᵀ = 0, with (x_c, y_c, z_c) = (x0/b, y0/b, z0/d).",
-        (
-            _shown(
-                "The scaled hyperboloid.",
-                matrix_identity("H = [1/a², 0, 0, 0; 0, 1/a², 0, 0; 0, 0, −1/c², 0; 0, 0, 0, −1]", hyperboloid),
-            ),
-            _shown(
-                "The unit sphere.",
-                matrix_identity(
-                    "S = [1, 0, 0, −x_c; 0, 1, 0, −y_c; 0, 0, 1, −z_c; −x_c, −y_c, −z_c, x_c² + y_c² + z_c² − 1]",
-                    sphere,
-                ),
+        link(
+            "The scaled hyperboloid.",
+            matrix_identity("H = [1/a², 0, 0, 0; 0, 1/a², 0, 0; 0, 0, −1/c², 0; 0, 0, 0, −1]", hyperboloid),
+        ),
+        link(
+            "The unit sphere.",
+            matrix_identity(
+                "S = [1, 0, 0, −x_c; 0, 1, 0, −y_c; 0, 0, 1, −z_c; −x_c, −y_c, −z_c, x_c² + y_c² + z_c² − 1]",
+                sphere,
             ),
         ),
     )
@@ -158,23 +130,21 @@ def _pencil() -> Chain:
     derived = pencil.scaled_cubic()
     factor, whole = read("a² + λ"), sympy.cancel(derived.f * read("a⁴·c²"))
     remainder = sympy.rem(sympy.Poly(whole, LAMBDA), sympy.Poly(factor, LAMBDA)).as_expr()
-    return Chain(
+    return chain(
         "The pencil and its cubic",
         "The characteristic polynomial is f(λ) = det(λ·H + S). One factor is known beforehand; what is left is the "
         "cubic g.",
-        (
-            _shown(
-                "The factor a² + λ, equation (11) with its denominator put right: the paper prints a²·c².",
-                identity("remainder of a⁴·c²·f(λ) divided by (a² + λ) = 0", remainder),
-                identity("f(λ) = (a² + λ)·g(λ)/(a⁴·c²)", derived.f, g=derived.g),
-            ),
-            _shown(
-                "The cubic, equation (12) with the −z_c² that the paper drops.",
-                identity(
-                    "g(λ) = λ³ + (a² − c² + 1 − x_c² − y_c² − z_c²)·λ² − (a²·c² − a² + c² − c²·x_c² − c²·y_c² + "
-                    "a²·z_c²)·λ − a²·c²",
-                    derived.g,
-                ),
+        link(
+            "The factor a² + λ, equation (11) with its denominator put right: the paper prints a²·c².",
+            identity("remainder of a⁴·c²·f(λ) divided by (a² + λ) = 0", remainder),
+            identity("f(λ) = (a² + λ)·g(λ)/(a⁴·c²)", derived.f, g=derived.g),
+        ),
+        link(
+            "The cubic, equation (12) with the −z_c² that the paper drops.",
+            identity(
+                "g(λ) = λ³ + (a² − c² + 1 − x_c² − y_c² − z_c²)·λ² − (a²·c² − a² + c² − c²·x_c² − c²·y_c² + "
+                "a²·z_c²)·λ − a²·c²",
+                derived.g,
             ),
         ),
     )
@@ -182,61 +152,52 @@ def _pencil() -> Chain:
 
 def _coefficients() -> Chain:
     derived = pencil.cubic()
-    return Chain(
+    return chain(
         "The coefficients",
         "g(λ) = λ³ + c2·λ² + c1·λ + c0. Only A = (α/b)², B = (γ/d)², P = (x0² + y0²)/b² and Q = (z0/d)² matter.",
-        (
-            _shown("In the seven inputs, equation (14).", *_of("14")),
-            _shown(
-                "In A, B, P and Q.",
-                identity("c0 = −A·B", derived.c0),
-                identity("c1 = −A·B + A − B + B·P − A·Q", derived.c1),
-                identity("c2 = A − B + 1 − P − Q", derived.c2),
-            ),
+        link("In the seven inputs, equation (14).", *printed("14")),
+        link(
+            "In A, B, P and Q.",
+            identity("c0 = −A·B", derived.c0),
+            identity("c1 = −A·B + A − B + B·P − A·Q", derived.c1),
+            identity("c2 = A − B + 1 − P − Q", derived.c2),
         ),
     )
 
 
 def _between_poles() -> Chain:
-    return Chain(
+    return chain(
         "g at and between its poles",
         "Where λ·H + S degenerates, at −A and B, and at 0, the sign of g is known. Between them g has the sign of φ, "
         "the dual of the distance.",
-        (
-            _shown(
-                "g as a sum of three products.",
-                known("g(λ) = (A + λ)(B − λ)(P + Q − 1 − λ) − AP(B − λ) − BQ(A + λ)"),
-                known("g(−A) = −AP(A + B)"),
-                known("g(0) = −AB"),
-                known("g(B) = −BQ(A + B)"),
-            ),
-            _shown(
-                "φ(λ) = P·λ/(A + λ) − Q·λ/(B − λ) − 1 − λ.",
-                known("g(λ) = (A + λ)(B − λ)·φ(λ)"),
-            ),
+        link(
+            "g as a sum of three products.",
+            known("g(λ) = (A + λ)(B − λ)(P + Q − 1 − λ) − AP(B − λ) − BQ(A + λ)"),
+            known("g(−A) = −AP(A + B)"),
+            known("g(0) = −AB"),
+            known("g(B) = −BQ(A + B)"),
         ),
+        link("φ(λ) = P·λ/(A + λ) − Q·λ/(B − λ) − 1 − λ.", known("g(λ) = (A + λ)(B − λ)·φ(λ)")),
     )
 
 
 def _discriminant() -> Chain:
     h1, h2, h3 = hessian_coefficients()
-    return Chain(
+    return chain(
         "The discriminant",
         "Δ is minus the resultant of g and g'. Three times it is a difference of two products of the Hessian's "
         "coefficients.",
-        (
-            _shown(
-                "Remark 2, equation (13).",
-                *_of("13"),
-                known("Δ is the product of the squared differences of the roots"),
-            ),
-            _shown(
-                "The Hessian form takes fewer operations: the Hessian covariant of g is h1·λ² + h2·λ·μ + h3·μ².",
-                identity("h1 = c2² − 3·c1", h1),
-                identity("h2 = c2·c1 − 9·c0", h2),
-                identity("h3 = c1² − 3·c2·c0", h3),
-                known("3Δ = 4·h1·h3 − h2²"),
-            ),
+        link(
+            "Remark 2, equation (13).",
+            *printed("13"),
+            known("Δ is the product of the squared differences of the roots"),
+        ),
+        link(
+            "The Hessian form takes fewer operations: the Hessian covariant of g is h1·λ² + h2·λ·μ + h3·μ².",
+            identity("h1 = c2² − 3·c1", h1),
+            identity("h2 = c2·c1 − 9·c0", h2),
+            identity("h3 = c1² − 3·c2·c0", h3),
+            known("3Δ = 4·h1·h3 − h2²"),
         ),
     )
 
@@ -247,19 +208,17 @@ def _roots_in_numbers() -> Chain:
     in_root = {C1: (C2**2 - root**2) / 3}
     w = (9 * C1 * C2 - 2 * C2**3 - 27 * C0).subs(in_root)
     at = 27 * GENERIC_CUBIC.subs(in_root).subs(LAMBDA, (2 * root * cosine - C2) / 3)
-    return Chain(
+    return chain(
         "The roots in numbers",
         "What the coefficients spare: three cosines. With h = √h1 and w = 9·c1·c2 − 2·c2³ − 27·c0, λ = (2·h·k − c2)/3 "
         "is a root of g exactly if 4·k³ − 3·k = w/(2·h³); and 4·cos³ θ − 3·cos θ = cos 3θ.",
-        (
-            _shown(
-                "The substitution.",
-                identity("27·g(λ) = 2·h³·(4·k³ − 3·k) − w", at, w=w),
-                identity(
-                    "27·Δ = 4·h⁶ − w²",
-                    27 * pencil.discriminant_of_cubic().subs(in_root),
-                    w=w,
-                ),
+        link(
+            "The substitution.",
+            identity("27·g(λ) = 2·h³·(4·k³ − 3·k) − w", at, w=w),
+            identity(
+                "27·Δ = 4·h⁶ − w²",
+                27 * pencil.discriminant_of_cubic().subs(in_root),
+                w=w,
             ),
         ),
     )

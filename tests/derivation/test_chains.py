@@ -9,10 +9,17 @@ import pytest
 import sympy
 
 from hypcheck.derivation import chain_book, links, pencil
-from hypcheck.derivation.chain_book import MAKERS, chains, proposition_3, proposition_5, proved
+from hypcheck.derivation.chain_book import MAKERS, chains, proved
 from hypcheck.derivation.links import REASONS, Chain, FiniteCases, Identity, Link, Sign, identity, sign
 from hypcheck.derivation.pencil import symbol
-from hypcheck.derivation.root_chains import PATTERNS, Pattern, in_one_interval, roots_chain
+from hypcheck.derivation.root_chains import (
+    PATTERNS,
+    Pattern,
+    in_one_interval,
+    proposition_3,
+    proposition_5,
+    roots_chain,
+)
 from hypcheck.derivation.walk import walk
 
 CHAINS = (
