@@ -41,6 +41,7 @@ from hypcheck.kernel import core
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.choice import compiled as compiled_kernel
 from hypcheck.kernel.compiled_kernel import in_parts
+from hypcheck.record.measurements import CompilerLine
 from hypcheck.vectors.scenes import BODY, TOWER
 
 FLAGS = ("-O3", "-march=native", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
@@ -51,15 +52,6 @@ FORMATS = ("float32", "float64")
 
 _SECONDS = 120
 _INCLUDE = f"-I{core.__path__[0]}"
-
-
-@dataclass(frozen=True)
-class Compiler:
-    """The compiler: the program, the first line of its version, and its flags."""
-
-    program: str
-    version: str
-    flags: tuple[str, ...]
 
 
 KERNEL_FLAGS = ("-O3", "-ffp-contract=fast", "-fPIC")
@@ -83,7 +75,7 @@ def place_of(name: str) -> int:
     return [each.name for each in bodies()].index(name) + 1
 
 
-def compiled(folder: Path) -> tuple[Path, Compiler]:
+def compiled(folder: Path) -> tuple[Path, CompilerLine]:
     """The library of the methods, made in a folder. Raises UnavailableError if no compiler can make it."""
     code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
     code.write_text(source(bodies()), encoding="ascii")
@@ -95,7 +87,7 @@ def compiled(folder: Path) -> tuple[Path, Compiler]:
     return library, compiler
 
 
-def compile_c(code: Path, target: Path, how: str = "-shared") -> Compiler:
+def compile_c(code: Path, target: Path, how: str = "-shared") -> CompilerLine:
     """Compile a C file to a library, or as `how` says. Raises UnavailableError without a compiler."""
     program = compiler_here()
     tried = []
@@ -106,7 +98,7 @@ def compile_c(code: Path, target: Path, how: str = "-shared") -> Compiler:
     else:
         _require(tried[0], f"compile {code.name}")
     version = run_compiler([program, "--version"]).stdout.splitlines() or [""]
-    return Compiler(program, version[0], flags)
+    return CompilerLine(program=program, version=version[0], flags=list(flags))
 
 
 def _kernel(folder: Path) -> str:

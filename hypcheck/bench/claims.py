@@ -1,8 +1,8 @@
-"""The paper's claims about cost, and the ways that are timed for each: the printed one first, then the others."""
+"""The paper's claims about cost, the ways that are timed for each (the printed one first), and what the times say."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
@@ -13,13 +13,14 @@ from hypcheck.bench.c_library import InC, bodies_asked, place_of
 from hypcheck.bench.c_source import NAMES
 from hypcheck.bench.contender import InPython, PreparedWork
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.timing import clocked
+from hypcheck.bench.timing import Estimate, SampleTable, clocked, estimate, ratios
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, ROOTS_TRIGONOMETRIC, Formula, cost_of
 from hypcheck.derivation.program import Operations, count
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.method import RECIPROCAL, by_rows, by_scene
 from hypcheck.implementations.procedures import CRAFT, PROCEDURES, CraftPath, hull_programs, procedure_2b
+from hypcheck.record.measurements import Compared, CostLine
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.scenes import ARM, BODY, ROTOR, TOWER
 
@@ -32,6 +33,12 @@ TRIGONOMETRIC, EIGENVALUES = "the roots by cosines, where Δ > 0", "the roots by
 
 BODIES = (PRINTED_A, PRINTED_B, OURS, REPAIRED_A, REPAIRED_B)
 """The procedures for a body and its rotors, in the order of PROCEDURES and of NAMES."""
+
+COST_OF = "cost of "
+"""Begins the name of a claim, in place of a workload."""
+
+FIRST_AGAIN = "the first again"
+"""The first alternative of a comparison a second time; its difference is noise."""
 
 _ROOTS_TIMED = 96
 
@@ -50,6 +57,11 @@ class CostClaim:
     tier: str
     compared: Callable[[BenchPlan], dict[str, PreparedWork]]
     operations: dict[str, Operations]
+
+    @property
+    def where(self) -> str:
+        """What stands in the place of a workload where it is measured."""
+        return f"{COST_OF}{self.name}-{self.tier}"
 
 
 def cost_claims(plan: BenchPlan) -> list[CostClaim]:
@@ -114,17 +126,14 @@ def _procedures_in_c(plan: BenchPlan) -> dict[str, PreparedWork]:
 
 
 def _divisions(tier: str) -> CostClaim:
+    listed = {PRINTED: TABLE_2, RECIPROCALS: RECIPROCAL, REPAIRED_1: PROCEDURE_1}
     return CostClaim(
         "divisions",
         "Section 3.1: in Table 2 only additions or products are performed, so the computational cost is very low",
         f"uniform around the cooling tower, in {tier}, in a batch",
         tier,
-        partial(_formulas, tier=tier, listed={PRINTED: TABLE_2, RECIPROCALS: RECIPROCAL, REPAIRED_1: PROCEDURE_1}),
-        {
-            PRINTED: cost_of(TABLE_2).query,
-            RECIPROCALS: cost_of(RECIPROCAL).query,
-            REPAIRED_1: cost_of(PROCEDURE_1).query,
-        },
+        partial(_formulas, tier=tier, listed=listed),
+        {name: cost_of(formula).query for name, formula in listed.items()},
     )
 
 
@@ -169,6 +178,91 @@ def _library(plan: BenchPlan) -> Path:
     return plan.compiled
 
 
-def shown_operations(operations: Operations) -> dict[str, int]:
-    """The operations with a number above 0, by kind."""
+HOLDS, DOES_NOT_HOLD, INCONCLUSIVE = "holds", "does not hold", "inconclusive"
+
+Ratios = Mapping[str, Estimate]
+
+
+def cost_line(plan: BenchPlan, claim: CostClaim, samples: Mapping[str, SampleTable]) -> CostLine:
+    """The record's line about a claim, from the samples of its alternatives by name, the printed one first."""
+    first = next(iter(samples))
+    to_first = {name: estimate(ratios(each, samples[first])) for name, each in samples.items()}
+    noise = 1 + to_first.pop(FIRST_AGAIN).half_width
+    verdict, says = _SAYS[claim.name](plan, claim, to_first, noise)
+    return CostLine(
+        claim=claim.text,
+        scene=claim.scene,
+        compared=[
+            Compared(
+                name=name,
+                operations=_counted(claim.operations.get(name)),
+                median_ns=estimate(samples[name]).median,
+                ratio=ratio.median,
+                ratio_ci95=(ratio.low, ratio.high),
+            )
+            for name, ratio in to_first.items()
+        ],
+        verdict=verdict,
+        says=says,
+    )
+
+
+def _counted(operations: Operations | None) -> dict[str, int] | None:
+    """The operations with a number above 0, by kind; None if they are not counted."""
+    if operations is None:
+        return None
     return {name: number for name, number in asdict(operations).items() if number}
+
+
+def _says_of_procedures(plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
+    second, ours = found[PRINTED_B], found[OURS]
+    share = share_touching(flight_of(plan.seed, plan.amounts.bodies))
+    four, hull = claim.operations[PRINTED_A].rounded, hull_operations().rounded
+    return cheaper(second, noise), (
+        f"2.b takes {_ratio_text(second)} of 2.a's time and ours {_ratio_text(ours)}; put right, 2.a takes "
+        f"{_ratio_text(found[REPAIRED_A])} and 2.b {_ratio_text(found[REPAIRED_B])}; Δ ≤ 0 at {100 * share:.1f} % of "
+        f"positions; 2.a rounds {four} times a position, 2.b {hull} times and, where Δ ≤ 0, {four} times more."
+    )
+
+
+def _says_of_divisions(_plan: BenchPlan, claim: CostClaim, found: Ratios, _noise: float) -> tuple[str, str]:
+    divisions = claim.operations[PRINTED].divisions
+    return (HOLDS if divisions == 0 else DOES_NOT_HOLD), (
+        f"The loop takes {divisions} divisions a position, by b² and by d; with their reciprocals kept outside it "
+        f"takes {claim.operations[RECIPROCALS].divisions} and {_ratio_text(found[RECIPROCALS])} of the time. "
+        f"Put right, Procedure 1 takes {_ratio_text(found[REPAIRED_1])} of it."
+    )
+
+
+def _says_of_roots(_plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
+    others = "; ".join(f"{name}: {_ratio_text(ratio)}" for name, ratio in found.items() if name != PRINTED)
+    counted = claim.operations.get(TRIGONOMETRIC)
+    functions = f"{counted.functions} a position" if counted else "three where Δ > 0"
+    return dearer(found[TRIGONOMETRIC], noise), (
+        f"Of Table 2's time take: {others}. Trigonometric functions: {functions} for the roots, none for "
+        "the coefficients."
+    )
+
+
+_SAYS = {"procedures": _says_of_procedures, "divisions": _says_of_divisions, "roots": _says_of_roots}
+"""The verdict on each claim, and a sentence about it."""
+
+
+def cheaper(ratio: Estimate, noise: float) -> str:
+    """The verdict "holds" if it certainly takes less time than the first, beyond noise."""
+    if ratio.high * noise < 1:
+        return HOLDS
+    return DOES_NOT_HOLD if ratio.low / noise > 1 else INCONCLUSIVE
+
+
+def dearer(ratio: Estimate, noise: float) -> str:
+    """The verdict "holds" if it certainly takes more time than the first."""
+    if ratio.low / noise > 1:
+        return HOLDS
+    return DOES_NOT_HOLD if ratio.high * noise < 1 else INCONCLUSIVE
+
+
+def _ratio_text(ratio: Estimate) -> str:
+    values = (ratio.median, ratio.low, ratio.high)
+    middle, low, high = (f"{value:.3g}" if value < 1000 else f"{value:,.0f}" for value in values)
+    return f"{middle} ({low} to {high})"

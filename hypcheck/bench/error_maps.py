@@ -9,8 +9,7 @@ clear, and at which distance.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
 from types import MappingProxyType
 
@@ -26,7 +25,6 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.meshes import FCL, PAIRINGS, height_of, scene_mesh
 from hypcheck.implementations.method import Answers, on_rows
-from hypcheck.processes import perform
 from hypcheck.record.measurements import BoundingLine, ConvergenceLine, PlacesLine, Scenery, StabilityLine
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Mistake
@@ -57,13 +55,8 @@ def _wanted(contender: Contender) -> bool:
     return ours and (contender.judged or ENOUGH) >= ENOUGH
 
 
-def stability_lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[StabilityLine]:
-    """A line for each of the methods."""
-    for _, line in perform(_stability_line, [(plan, name) for name in names], executor):
-        yield line
-
-
-def _stability_line(task: tuple[BenchPlan, str]) -> StabilityLine:
+def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
+    """The line of the method with that name."""
     plan, name = task
     contender = contenders(plan)[name]
     rows, cells = _stability_rows(plan)
@@ -79,7 +72,7 @@ def _stability_line(task: tuple[BenchPlan, str]) -> StabilityLine:
         for cell, (number, error) in enumerate(zip(asked, errors, strict=True))
         if number
     ]
-    return StabilityLine(method=name, precision=contender.precision, bins=bins)
+    return [StabilityLine(method=name, precision=contender.precision, bins=bins)]
 
 
 def _stability_rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
@@ -119,13 +112,8 @@ def mapped_regions(plan: BenchPlan) -> dict[str, tuple[Span, Span]]:
     return {"whole": whole, "ring": ((ring - near, ring + near, count), (-near, near, count))}
 
 
-def place_lines(plan: BenchPlan, names: Sequence[str], executor: Executor | None) -> Iterator[list[PlacesLine]]:
-    """The lines of each of the methods, one for each region."""
-    for _, found in perform(_place_lines, [(plan, name) for name in names], executor):
-        yield found
-
-
-def _place_lines(task: tuple[BenchPlan, str]) -> list[PlacesLine]:
+def place_lines(task: tuple[BenchPlan, str]) -> list[PlacesLine]:
+    """The lines of the method with that name, one for each region."""
     plan, name = task
     contender = contenders(plan)[name]
     with closing(contender.load()) as way:

@@ -21,7 +21,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.needs import note_absent
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import Samples, TimingEntry, clocked_calls, estimate, measure, ratios
 from hypcheck.errors import UnavailableError
@@ -224,8 +223,6 @@ def run(recorder: Recorder, advance: Advance, seed: int, forests: Sequence[int],
         for line in _lines(forest_of(trees, seed), QUICK_ROUNDS if quick else ROUNDS, seed):
             recorder.add(line)
         advance(1)
-    if (trouble := FCL.trouble()) is not None:
-        note_absent(recorder, FCL.title, trouble)
 
 
 def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:

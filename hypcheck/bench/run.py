@@ -1,24 +1,29 @@
-"""One run of bench: judge, measure, compare; each result goes into the record at once."""
+"""One run of bench: look for what it needs, judge, measure, compare; each result goes into the record at once."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+import os
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import Any
+from pathlib import Path
 
-from hypcheck.bench import accuracy, error_maps, forest, scene, speed, targets
+from hypcheck.bench import accuracy, error_maps, foreign, forest, scene, speed, targets
 from hypcheck.bench.accuracy import MethodAnswers, WorkloadTruth, chosen_workloads
 from hypcheck.bench.baseline import Baseline, alike, comparisons, gated, read_baseline, require_common, speeds_of
+from hypcheck.bench.c_library import compiled
 from hypcheck.bench.contender import Contender
-from hypcheck.bench.contenders import contenders
-from hypcheck.bench.needs import governor, load, needs_met, plan_with_needs
+from hypcheck.bench.contenders import COMPILER, contenders
 from hypcheck.bench.plan import PASSAGE, BenchPlan
 from hypcheck.bench.workloads import leaning_scenes, scene_of
-from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome
-from hypcheck.implementations.meshes import FCL
+from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome, UnavailableError
+from hypcheck.implementations.description import QUESTIONS
+from hypcheck.implementations.meshes import COAL, FCL
+from hypcheck.implementations.session import StartError
 from hypcheck.processes import Advance, Stage, perform, processes, usable_processors
 from hypcheck.record import Recorder, RecordLine
+from hypcheck.record.lines import NotStartedLine
 from hypcheck.record.measurements import (
     AbsentLine,
     ConditionsLine,
@@ -30,34 +35,6 @@ from hypcheck.record.measurements import (
     WorkloadLine,
 )
 from hypcheck.scene.reading import shipped_scenes
-
-
-@dataclass
-class _Run:
-    """The values that the stages of a run share."""
-
-    plan: BenchPlan
-    recorder: Recorder
-    outcome: RunOutcome
-    found: dict[str, Contender]
-    answers: list[MethodAnswers] = field(default_factory=list)
-    baseline: Baseline | None = None
-    speeds: list[RecordLine] = field(default_factory=list)
-
-    @property
-    def timed(self) -> list[str]:
-        """The methods that are timed."""
-        return [name for name, each in self.found.items() if not each.accuracy_only]
-
-    @property
-    def meshes(self) -> bool:
-        """Whether FCL is compared."""
-        return any(each.needs == FCL.title for each in self.found.values())
-
-    @property
-    def shapes(self) -> bool:
-        """Whether other shapes than the spheroid are compared."""
-        return any(each.kind == "bounding" for each in self.found.values())
 
 
 def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[Stage]:
@@ -72,40 +49,24 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
             raise InputError("--scene measures only scenes; other choices are allowed only if its mover leans")
         return (_scenes(plan, plan.scenes, recorder, outcome),)
     plan = _tilted_plan(plan, leaning)
-    workloads = len(chosen_workloads(plan))
+    workloads = chosen_workloads(plan)
     before = read_baseline(plan)
-    plan = needs_met(plan_with_needs(plan, recorder), recorder)
+    plan = plan_with_specs(plan_with_needs(plan, recorder), recorder)
     if len(plan.foreign) < len(plan.specs):
         outcome.codes.add(Exit.NOT_STARTED)
     if before is not None:
         plan = replace(plan, foreign=alike(before, plan.foreign))
-    run = _Run(plan, recorder, outcome, contenders(plan), baseline=before)
+    run = MethodsRun(plan, recorder, outcome, contenders(plan))
     if before is not None:
         require_common(before, gated(plan, run.found))
     return (
-        Stage("methods", 1, lambda advance: _introduce(run, advance)),
-        Stage("answers", workloads + len(run.found), lambda advance: _judge(run, advance)),
-        *(_map_stages(run) if plan.everyday else ()),
-        Stage("speed", plan.processes, lambda advance: _measure(run, advance)),
-        Stage("baseline", 0 if before is None else 1, lambda advance: _compare(run, advance)),
-        *(_mesh_and_memory_stages(run) if plan.everyday else ()),
+        Stage("methods", 1, run.introduce),
+        Stage("answers", len(workloads) + len(run.found), run.judge),
+        *(run.map_stages if plan.everyday else ()),
+        Stage("speed", plan.processes, run.measure),
+        *([] if before is None else [Stage("baseline", 1, lambda advance: run.compare(before, advance))]),
+        *(run.mesh_and_memory_stages if plan.everyday else ()),
         *([_scenes(plan, shipped_scenes(), recorder, outcome), _forest(plan, recorder, outcome)] if plan.whole else []),
-    )
-
-
-def _map_stages(run: _Run) -> Sequence[Stage]:
-    maps = len(error_maps.stability_methods(run.found)) + len(error_maps.place_methods(run.found))
-    return (
-        Stage("maps", maps, lambda advance: _map(run, advance)),
-        Stage("bounding volumes", 1, lambda advance: _bound(run, advance)),
-    )
-
-
-def _mesh_and_memory_stages(run: _Run) -> Sequence[Stage]:
-    meshes = error_maps.convergence_steps(run.plan) if run.meshes else 0
-    return (
-        Stage("meshes", meshes, lambda advance: _refine(run, advance)),
-        Stage("memory", len(run.timed) if run.plan.amounts.memory else 0, lambda advance: _weigh(run, advance)),
     )
 
 
@@ -120,12 +81,78 @@ def _tilted_plan(plan: BenchPlan, leaning: Sequence[str]) -> BenchPlan:
     return replace(plan, tilted=True)
 
 
+def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
+    """The plan with what is available and what is missing, which the record says too.
+
+    Raises InputError naming a method that does not exist.
+    """
+    engines = {engine.title: engine for engine in (FCL, COAL)}
+    for need in sorted({each.needs for each in contenders(plan).values()} - {""}):
+        if need == COMPILER:
+            try:
+                library, compiler = compiled(plan.folder)
+                recorder.add(compiler)
+                plan, trouble = replace(plan, compiled=library), None
+            except UnavailableError as error:
+                trouble = str(error)
+        else:
+            trouble = engines[need].trouble()
+        if trouble is not None:
+            note_absent(recorder, need, trouble)
+            plan = replace(plan, missing=(*plan.missing, need))
+    return plan
+
+
+def plan_with_specs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
+    """The plan with the methods of its SPECs; those that cannot be started are recorded instead.
+
+    Raises InputError if a text is no SPEC.
+    """
+    found: list[foreign.ForeignMethod] = []
+    for spec in plan.specs:
+        try:
+            taken = [*contenders(plan), *(each.name for each in found)]
+            layout = QUESTIONS[plan.question].layout
+            found.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted, layout=layout))
+        except StartError as error:  # noqa: PERF203 - a process is started in each turn
+            recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
+    return replace(plan, foreign=tuple(found))
+
+
+def note_absent(recorder: Recorder, what: str, reason: str) -> None:
+    """Record once that something is not available, and why."""
+    if not any(isinstance(line, AbsentLine) and line.what == what for line in recorder.lines):
+        recorder.add(AbsentLine(what=what, reason=reason))
+
+
+def governor() -> str | None:
+    """What sets the processor's frequency, if the system tells; unless it is "performance", times vary."""
+    with suppress(OSError):
+        return Path("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").read_text(encoding="utf-8").strip()
+    return None
+
+
+def load() -> tuple[float, float, float] | None:
+    """The mean number of processes that wanted a processor during 1, 5 and 15 minutes, if the system tells."""
+    with suppress(OSError, AttributeError):
+        short, middle, long = (round(average, 2) for average in os.getloadavg())
+        return short, middle, long
+    return None
+
+
+def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
+    targets.run(recorder, advance, plan.quick)
+    if any(isinstance(line, KernelLine) and not line.met for line in recorder.lines):
+        outcome.codes.add(Exit.SLOWER)
+
+
 def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
         forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
-        for line in recorder.lines:
-            if isinstance(line, ForestLine) and line.exact and line.wrong:
-                outcome.codes.add(Exit.WRONG)
+        if any(isinstance(line, ForestLine) and line.exact and line.wrong for line in recorder.lines):
+            outcome.codes.add(Exit.WRONG)
+        if (trouble := FCL.trouble()) is not None:
+            note_absent(recorder, FCL.title, trouble)
 
     sizes = forest.sizes(plan)
     return Stage("forest", len(sizes), measure)
@@ -133,7 +160,10 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
 
 def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
-        scene.run_scenes(plans, recorder, advance, plan.folder, quick=plan.quick)
+        try:
+            scene.run_scenes(plans, recorder, advance, plan.folder, quick=plan.quick)
+        except UnavailableError as error:
+            note_absent(recorder, COMPILER, str(error))
         measured = [line for line in recorder.lines if isinstance(line, SceneLine)]
         if any(line.wrong for line in measured):
             outcome.codes.add(Exit.WRONG)
@@ -145,129 +175,148 @@ def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: 
     return Stage("scenes", len(plans), measure)
 
 
-def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
-    targets.run(recorder, advance, plan.quick)
-    for line in recorder.lines:
-        if isinstance(line, KernelLine) and not line.met:
-            outcome.codes.add(Exit.SLOWER)
+@dataclass
+class MethodsRun:
+    """A run that compares methods: what its stages share, and the stages."""
 
+    plan: BenchPlan
+    recorder: Recorder
+    outcome: RunOutcome
+    found: dict[str, Contender]
+    answers: list[MethodAnswers] = field(default_factory=list)
+    speeds: list[RecordLine] = field(default_factory=list)
 
-def _introduce(run: _Run, advance: Advance) -> None:
-    for each in run.found.values():
-        run.recorder.add(introduction(each))
-    for workload in chosen_workloads(run.plan):
-        count = run.plan.amounts.timed if workload.timed else workload.judged(run.plan)
-        rows = workload.rows(run.plan.seed, count)
-        run.recorder.add(
-            WorkloadLine(
-                workload=workload.name,
-                title=workload.title,
-                text=workload.text,
-                rows=len(rows),
-                seed=run.plan.seed,
-                timed=workload.timed,
-                scene=scene_of(rows, workload.layout),
+    @property
+    def map_stages(self) -> Sequence[Stage]:
+        """The stages about positions of upright spheroids that follow the answers."""
+        maps = len(error_maps.stability_methods(self.found)) + len(error_maps.place_methods(self.found))
+        shapes = any(each.kind == "bounding" for each in self.found.values())
+        bounding = [Stage("bounding volumes", 1, self.bound)] if shapes else []
+        return [Stage("maps", maps, self.draw_maps), *bounding]
+
+    @property
+    def mesh_and_memory_stages(self) -> Sequence[Stage]:
+        """The stages about positions of upright spheroids that come last."""
+        found = []
+        if any(each.needs == FCL.title for each in self.found.values()):
+            found.append(Stage("meshes", error_maps.convergence_steps(self.plan), self.refine))
+        if self.plan.amounts.memory:
+            found.append(Stage("memory", len(self.timed), self.weigh))
+        return found
+
+    @property
+    def timed(self) -> list[str]:
+        """The methods that are timed."""
+        return [name for name, each in self.found.items() if not each.accuracy_only]
+
+    def introduce(self, advance: Advance) -> None:
+        """Record the methods and the workloads."""
+        names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
+        for each in self.found.values():
+            self.recorder.add(MethodLine(method=each.name, **{name: getattr(each, name) for name in names}))
+        for workload in chosen_workloads(self.plan):
+            count = self.plan.amounts.timed if workload.timed else workload.judged(self.plan)
+            rows = workload.rows(self.plan.seed, count)
+            self.recorder.add(
+                WorkloadLine(
+                    workload=workload.name,
+                    title=workload.title,
+                    text=workload.text,
+                    rows=len(rows),
+                    seed=self.plan.seed,
+                    timed=workload.timed,
+                    scene=scene_of(rows, workload.layout),
+                )
             )
-        )
-    advance(1)
+        advance(1)
 
+    def judge(self, advance: Advance) -> None:
+        """Ask all methods about all workloads, and judge the answers."""
+        truths: dict[str, WorkloadTruth] = {}
+        with processes(self.plan.workers) as executor:
+            for truth in accuracy.workload_truths(self.plan, executor):
+                truths[truth.workload.name] = truth
+                advance(1)
+            slowest_first = sorted(self.found, key=lambda name: self.found[name].timed or math.inf)
+            tasks = [(self.plan, name) for name in slowest_first]  # those take longest
+            for _, answered in perform(accuracy.method_answers, tasks, executor):
+                self.answers += answered
+                advance(1)
+        methods, workloads = list(self.found), list(truths)
+        self.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
+        for each in self.answers:
+            self._judge(each, truths[each.workload])
 
-def introduction(contender: Contender) -> MethodLine:
-    """The record's line that introduces a method."""
-    names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
-    return MethodLine(method=contender.name, **{name: getattr(contender, name) for name in names})
-
-
-def _judge(run: _Run, advance: Advance) -> None:
-    truths: dict[str, WorkloadTruth] = {}
-    with processes(run.plan.workers) as executor:
-        for truth in accuracy.workload_truths(run.plan, executor):
-            truths[truth.workload.name] = truth
-            advance(1)
-        slowest_first = sorted(run.found, key=lambda name: run.found[name].timed or math.inf)  # they take longest
-        tasks = [(run.plan, name) for name in slowest_first]
-        for _, answered in perform(accuracy.method_answers, tasks, executor):
-            run.answers += answered
-            advance(1)
-    tried = accuracy.FEW_TRIED if run.plan.quick and run.plan.question == PASSAGE else accuracy.WORST_TRIED
-    methods, workloads = list(run.found), list(truths)
-    run.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
-    for each in run.answers:
+    def _judge(self, each: MethodAnswers, truth: WorkloadTruth) -> None:
+        contender = self.found[each.method]
         if each.trouble:
-            run.recorder.add(RefusedLine(method=each.method, workload=each.workload, mode="batch", reason=each.trouble))
-            run.outcome.codes.add(Exit.WRONG)
-        if not len(each.places):
-            continue
-        line = accuracy.accuracy_line(run.found[each.method], each, truths[each.workload], tried)
-        run.recorder.add(line)
-        if run.found[each.method].exact and (line.wrong or line.abstained):
-            run.outcome.codes.add(Exit.WRONG)
+            line = RefusedLine(method=each.method, workload=each.workload, mode="batch", reason=each.trouble)
+            self.recorder.add(line)
+            self.outcome.codes.add(Exit.WRONG)
+        if len(each.places):
+            tried = accuracy.FEW_TRIED if self.plan.quick and self.plan.question == PASSAGE else accuracy.WORST_TRIED
+            found = accuracy.accuracy_line(contender, each, truth, tried)
+            self.recorder.add(found)
+            if contender.exact and (found.wrong or found.abstained):
+                self.outcome.codes.add(Exit.WRONG)
 
-
-def _map(run: _Run, advance: Advance) -> None:
-    with processes(run.plan.workers) as executor:
-        bins = list(
-            _counted(error_maps.stability_lines(run.plan, error_maps.stability_methods(run.found), executor), advance)
+    def draw_maps(self, advance: Advance) -> None:
+        """Record the maps of each method that has some, in the order of the methods."""
+        maps: tuple[tuple[Callable[[tuple[BenchPlan, str]], Sequence[RecordLine]], list[str]], ...] = (
+            (error_maps.stability_lines, error_maps.stability_methods(self.found)),
+            (error_maps.place_lines, error_maps.place_methods(self.found)),
         )
-        maps = list(_counted(error_maps.place_lines(run.plan, error_maps.place_methods(run.found), executor), advance))
-    order = list(run.found).index
-    for line in sorted(bins, key=lambda each: order(each.method)):
-        run.recorder.add(line)
-    for found in sorted(maps, key=lambda each: order(each[0].method)):
-        for line in found:
-            run.recorder.add(line)
+        with processes(self.plan.workers) as executor:
+            for lines_of, names in maps:
+                found = {}
+                for (_, name), lines in perform(lines_of, [(self.plan, name) for name in names], executor):
+                    found[name] = lines
+                    advance(1)
+                for line in (line for name in names for line in found[name]):
+                    self.recorder.add(line)
 
+    def bound(self, advance: Advance) -> None:
+        """Record how often simpler shapes than the spheroid err."""
+        for line in error_maps.bounding_lines(self.plan):
+            self.recorder.add(line)
+        advance(1)
 
-def _bound(run: _Run, advance: Advance) -> None:
-    if run.shapes:
-        for line in error_maps.bounding_lines(run.plan):
-            run.recorder.add(line)
-    advance(1)
+    def measure(self, advance: Advance) -> None:
+        """Time all methods, and the claims about costs."""
+        before = load()
+        found = speed.measurements_of(self.plan, speed.expected_prints(self.answers), advance)
+        self.recorder.add(
+            ConditionsLine(governor=governor(), processors=usable_processors(), load_before=before, load_after=load())
+        )
+        for line in speed.speed_lines(found, self.plan.reference):
+            self.recorder.add(line)
+            self.speeds.append(line)
+            if isinstance(line, RefusedLine):
+                self.outcome.codes.add(Exit.WRONG)
+        for claim in speed.cost_lines(self.plan, found):
+            self.recorder.add(claim)
 
-
-def _measure(run: _Run, advance: Advance) -> None:
-    before = load()
-    found = speed.measurements_of(run.plan, speed.expected_prints(run.answers), advance)
-    run.recorder.add(
-        ConditionsLine(governor=governor(), processors=usable_processors(), load_before=before, load_after=load())
-    )
-    for line in speed.speed_lines(found, run.plan.reference):
-        run.recorder.add(line)
-        run.speeds.append(line)
-        if isinstance(line, RefusedLine):
-            run.outcome.codes.add(Exit.WRONG)
-    for claim in speed.cost_lines(run.plan, found):
-        run.recorder.add(claim)
-
-
-def _compare(run: _Run, advance: Advance) -> None:
-    if run.baseline is not None:
-        names, compared = gated(run.plan, run.found), False
-        for line in comparisons(run.plan, run.baseline, speeds_of(run.speeds), names):
-            run.recorder.add(line)
+    def compare(self, baseline: Baseline, advance: Advance) -> None:
+        """Compare the speeds with a baseline."""
+        codes = {"slower": Exit.SLOWER, "inconclusive": Exit.INCONCLUSIVE}
+        names, compared = gated(self.plan, self.found), False
+        for line in comparisons(self.plan, baseline, speeds_of(self.speeds), names):
+            self.recorder.add(line)
             compared |= line.gates
-            if line.gates and line.verdict == "slower":
-                run.outcome.codes.add(Exit.SLOWER)
-            if line.gates and line.verdict == "inconclusive":
-                run.outcome.codes.add(Exit.INCONCLUSIVE)
+            if line.gates and line.verdict in codes:
+                self.outcome.codes.add(codes[line.verdict])
         if not compared:
-            run.outcome.codes.add(Exit.INCONCLUSIVE)  # both runs timed nothing that is held to the baseline
+            self.outcome.codes.add(Exit.INCONCLUSIVE)  # both runs timed nothing that is held to the baseline
         advance(1)
 
+    def refine(self, advance: Advance) -> None:
+        """Record errors and times of ever finer meshes."""
+        for line in error_maps.convergence_lines(self.plan):
+            self.recorder.add(line)
+            advance(1)
 
-def _refine(run: _Run, advance: Advance) -> None:
-    if run.meshes:
-        for line in _counted(error_maps.convergence_lines(run.plan), advance):
-            run.recorder.add(line)
-
-
-def _weigh(run: _Run, advance: Advance) -> None:
-    if run.plan.amounts.memory:
-        for line in _counted(accuracy.memory_lines(run.plan, run.timed), advance):
-            run.recorder.add(line)
-
-
-def _counted(found: Iterable[Any], advance: Advance) -> Iterable[Any]:
-    for each in found:
-        advance(1)
-        yield each
+    def weigh(self, advance: Advance) -> None:
+        """Record the memory of each method that is timed."""
+        for line in accuracy.memory_lines(self.plan, self.timed):
+            self.recorder.add(line)
+            advance(1)

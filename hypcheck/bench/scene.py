@@ -18,10 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.bench.c_library import InC, compile_c, compiled, place_of
-from hypcheck.bench.contenders import COMPILER
-from hypcheck.bench.needs import note_absent
 from hypcheck.bench.timing import Clocked, Estimate, Samples, TimingEntry, clocked, estimate, measure, ratios
-from hypcheck.errors import InputError, UnavailableError
+from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
 from hypcheck.kernel.choice import Question
 from hypcheck.kernel.classify import classify_scene
@@ -219,15 +217,12 @@ def require_upright(plan: ScenePlan) -> None:
 
 
 def run_scenes(plans: Sequence[ScenePlan], recorder: Recorder, advance: Advance, folder: Path, *, quick: bool) -> None:
-    """Record a line for each scene."""
-    try:
-        methods, _ = compiled(folder)
-        for number, plan in enumerate(plans):
-            rounds = QUICK_ROUNDS if quick else ROUNDS
-            recorder.add(_scene_line(plan, methods, folder / f"scene-{number}", rounds))
-            advance(1)
-    except UnavailableError as error:
-        note_absent(recorder, COMPILER, str(error))
+    """Record a line for each scene. Raises UnavailableError if there is no C compiler."""
+    methods, _ = compiled(folder)
+    for number, plan in enumerate(plans):
+        rounds = QUICK_ROUNDS if quick else ROUNDS
+        recorder.add(_scene_line(plan, methods, folder / f"scene-{number}", rounds))
+        advance(1)
 
 
 def _scene_line(plan: ScenePlan, methods: Path, folder: Path, rounds: int) -> SceneLine:

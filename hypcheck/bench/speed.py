@@ -1,40 +1,193 @@
-"""Times as lines of the record: medians, ratios to the reference, the noise floor, verdicts on claims about cost."""
+"""Times of all methods: fresh processes that measure, and what they measured as lines of the record.
+
+A process checks every method, then times all of them in rounds, workload by workload. The lines have medians, ratios to
+the reference and the noise floor.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from statistics import median
 
+import numpy as np
 from msgspec import UNSET
 
-from hypcheck.bench import claims, session
-from hypcheck.bench.accuracy import MethodAnswers
-from hypcheck.bench.claims import (
-    OURS,
-    PRINTED,
-    PRINTED_A,
-    PRINTED_B,
-    RECIPROCALS,
-    REPAIRED_1,
-    REPAIRED_A,
-    REPAIRED_B,
-    TRIGONOMETRIC,
-    CostClaim,
-)
+from hypcheck.bench.accuracy import MethodAnswers, answers_print, chosen_workloads, timed_rows
+from hypcheck.bench.claims import COST_OF, FIRST_AGAIN, CostClaim, cost_claims, cost_line
+from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork
+from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.session import (
-    COST_OF,
-    EMPTY_CALL,
-    FIRST_AGAIN,
-    NOT_ANSWERED,
-    REFERENCE_AGAIN,
-    Measurement,
-    MeasurementKey,
-    MeasuringSession,
-)
-from hypcheck.bench.timing import LEAST_NS, Estimate, estimate, ratios
+from hypcheck.bench.timing import LEAST_NS, Estimate, Samples, TimingEntry, estimate, measure, ratios
+from hypcheck.bench.workloads import Workload
 from hypcheck.processes import Advance, fresh, perform
-from hypcheck.record.measurements import Compared, CostLine, NoiseLine, RefusedLine, SpeedLine, UnmeasuredLine
+from hypcheck.record.measurements import CostLine, NoiseLine, RefusedLine, SpeedLine, UnmeasuredLine
+
+MODES = ("batch", "single", "build")
+"""The modes of timing a method: many rows by one call, rows one by one, and the building before."""
+
+REFERENCE_AGAIN = "the reference again"
+"""The reference a second time: its difference from the first is noise."""
+
+MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {
+    "single": ("uniform", "near-contact", "tower"),
+    "build": ("uniform", "one-axis", "region", "tower"),
+}
+"""The workloads of a mode, if not all: single rows have no neighbours, and a mesh belongs to the scene."""
+
+BUILDS = 2
+"""Rounds of building meshes: a large mesh takes almost a second."""
+
+NOT_ANSWERED = "not answered"
+"""Replaces the hash of answers if the method failed when it was judged, which is recorded already."""
+
+EMPTY_CALL = "an empty call"
+
+MeasurementKey = tuple[str, str, str]
+"""A method, a workload and a mode."""
+
+
+@dataclass(frozen=True)
+class MeasuringSession:
+    """The work of one process.
+
+    `expected` are hashes of the answers by method, workload and mode; a method with other answers is refused. `loops`
+    are loops and takes of the first process, which all others use; the first gets none.
+    """
+
+    plan: BenchPlan
+    number: int
+    expected: Mapping[MeasurementKey, str]
+    loops: Mapping[MeasurementKey, tuple[int, int]]
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """The samples of one process for one method, workload and mode, from which `empty_ns` is subtracted.
+
+    The rest may be negative, if noise made the empty call longer. `calls_ns` are the samples of the empty call, in
+    nanoseconds a row of the method.
+    """
+
+    key: MeasurementKey
+    samples: Samples
+    empty_ns: float
+    timed_by: str
+    calls_ns: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class _Together:
+    """Work that is measured together, at a workload and in a mode: by name, with the calls that are subtracted.
+
+    `sums` are those of the answers, where they are known already.
+    """
+
+    where: tuple[str, str]
+    ready: dict[str, PreparedWork]
+    empties: dict[str, EmptyCall] = field(default_factory=dict)
+    sums: dict[str, int] = field(default_factory=dict)
+
+
+def run_session(session: MeasuringSession) -> list[Measurement]:
+    """All measurements, in the order of workloads and modes."""
+    found = contenders(session.plan)
+    ways = {name: each.load() for name, each in found.items() if not each.accuracy_only}
+    measured = []
+    try:
+        for workload in chosen_workloads(session.plan):
+            for mode in _modes(workload):
+                here, refused = _methods(session, found, ways, workload, mode)
+                measured += [*refused, *_measured(session, here)]
+        for claim in cost_claims(session.plan):
+            measured += _measured(session, _compared(session, claim))
+    finally:
+        for way in ways.values():
+            way.close()
+    return measured
+
+
+def _compared(session: MeasuringSession, claim: CostClaim) -> _Together:
+    """The alternatives of a claim about cost, and the first of them again."""
+    ready = claim.compared(session.plan)
+    again = {FIRST_AGAIN: next(iter(ready.values()))}
+    return _Together((claim.where, "batch"), {**ready, **again})
+
+
+def _modes(workload: Workload) -> Sequence[str]:
+    """The modes of a workload, without those that repeat another result."""
+    return tuple(
+        mode for mode in MODES if workload.timed and workload.name in MODE_WORKLOADS.get(mode, (workload.name,))
+    )
+
+
+def _methods(
+    session: MeasuringSession,
+    found: Mapping[str, Contender],
+    ways: Mapping[str, LoadedMethod],
+    workload: Workload,
+    mode: str,
+) -> tuple[_Together, list[Measurement]]:
+    """The methods that are measured, and those that are refused because their answers are others than before."""
+    here, refused = _Together((workload.name, mode), {}), []
+    for name, way in ways.items():
+        rows = timed_rows(session.plan, found[name], workload)
+        if mode == "single":
+            rows = rows[: found[name].singles]
+        key = (name, *here.where)
+        told = session.expected.get(key)
+        ready = getattr(way, mode)(rows) if len(rows) and told != NOT_ANSWERED else None
+        if ready is None:
+            continue
+        answers = ready.answers()
+        if told is not None and answers_print(answers) != told:
+            reason = "its answers, when it was about to be timed, were not those that were judged"
+            refused.append(Measurement(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
+            continue
+        here.ready[name], here.sums[name] = ready, int(answers.sum(dtype=np.int64))
+        if (empty := way.empty(rows, mode)) is not None:
+            here.empties[name] = empty
+    return here, refused
+
+
+def _measured(session: MeasuringSession, here: _Together) -> Iterator[Measurement]:
+    if not here.ready:
+        return
+    reference = session.plan.reference
+    todo = {**here.ready, **({REFERENCE_AGAIN: here.ready[reference]} if reference in here.ready else {})}
+    calls: dict[str, PreparedWork] = {}
+    for call in here.empties.values():
+        calls.setdefault(_called(call), call.ready)
+    samples = _rounds(session, here, {**todo, **calls})
+    for name, ready in todo.items():
+        found, own = samples[name], here.empties.get(reference if name == REFERENCE_AGAIN else name)
+        empty = None if own is None else samples[_called(own)]
+        empty_ns = empty.median_ns if empty is not None and empty.samples_ns else 0.0
+        share = 1 if here.where[1] == "single" else 1 / ready.rows
+        found.samples_ns = [sample - share * empty_ns for sample in found.samples_ns]
+        calls_ns = () if empty is None else tuple(share * sample for sample in empty.samples_ns)
+        yield Measurement((name, *here.where), found, empty_ns, ready.timed_by, calls_ns)
+    for name in calls:
+        yield Measurement((name, *here.where), samples[name], 0.0, "process")
+
+
+def _called(call: EmptyCall) -> str:
+    return f"{EMPTY_CALL} of {call.name}"
+
+
+def _rounds(session: MeasuringSession, here: _Together, todo: Mapping[str, PreparedWork]) -> dict[str, Samples]:
+    where, entries = here.where, []
+    for name, each in todo.items():
+        total = here.sums.get(session.plan.reference if name == REFERENCE_AGAIN else name)
+        total = int(each.answers().sum(dtype=np.int64)) if total is None else total
+        loops, takes = session.loops.get((name, *where), (None, 1))
+        entries.append(TimingEntry(name, each.rows, each.run, total, loops, takes))
+    first = session.number * len(entries) // max(1, session.plan.processes)
+    shortest = session.plan.amounts.sample_s
+    rounds = BUILDS if where[1] == "build" else session.plan.rounds
+    samples = measure(entries, rounds, shortest, first)
+    return {each.name: each for each in samples}
+
 
 UNLIKE = 0.1
 """An empty call may differ by this share: through ctypes it takes 200 ns, and 7 ns more or less by its arguments."""
@@ -59,7 +212,7 @@ def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advan
     loops: dict[MeasurementKey, tuple[int, int]] = {}
     for number in range(plan.processes):
         with fresh(1) as executor:
-            ((_, results),) = perform(session.run_session, [MeasuringSession(plan, number, prints, loops)], executor)
+            ((_, results),) = perform(run_session, [MeasuringSession(plan, number, prints, loops)], executor)
         for each in results:
             found.setdefault(each.key, []).append(each)
             loops.setdefault(each.key, (each.samples.loops, each.samples.takes))
@@ -169,88 +322,8 @@ def samples_of(parts: list[Measurement]) -> list[list[float]]:
     return [[float(f"{sample:.6g}") for sample in each.samples.samples_ns] for each in parts]
 
 
-HOLDS, DOES_NOT_HOLD, INCONCLUSIVE = "holds", "does not hold", "inconclusive"
-
-Ratios = Mapping[str, Estimate]
-
-
 def cost_lines(plan: BenchPlan, found: Measurements) -> Iterator[CostLine]:
-    """A line for each claim."""
-    for claim in claims.cost_claims(plan):
-        where = f"{COST_OF}{claim.name}-{claim.tier}"
-        samples = {
-            name: samples_of(parts) for (name, workload, _), parts in found.items() if workload == where and parts
-        }
-        first = next(iter(samples))
-        to_first = {name: estimate(ratios(each, samples[first])) for name, each in samples.items()}
-        noise = 1 + to_first.pop(FIRST_AGAIN).half_width
-        verdict, says = _SAYS[claim.name](plan, claim, to_first, noise)
-        yield CostLine(
-            claim=claim.text,
-            scene=claim.scene,
-            compared=[
-                Compared(
-                    name=name,
-                    operations=claims.shown_operations(claim.operations[name]) if name in claim.operations else None,
-                    median_ns=estimate(samples[name]).median,
-                    ratio=ratio.median,
-                    ratio_ci95=(ratio.low, ratio.high),
-                )
-                for name, ratio in to_first.items()
-            ],
-            verdict=verdict,
-            says=says,
-        )
-
-
-def _procedures(plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
-    second, ours = found[PRINTED_B], found[OURS]
-    share = claims.share_touching(claims.flight_of(plan.seed, plan.amounts.bodies))
-    four, hull = claim.operations[PRINTED_A].rounded, claims.hull_operations().rounded
-    return cheaper(second, noise), (
-        f"2.b takes {_ratio_text(second)} of 2.a's time and ours {_ratio_text(ours)}; put right, 2.a takes "
-        f"{_ratio_text(found[REPAIRED_A])} and 2.b {_ratio_text(found[REPAIRED_B])}; Δ ≤ 0 at {100 * share:.1f} % of "
-        f"positions; 2.a rounds {four} times a position, 2.b {hull} times and, where Δ ≤ 0, {four} times more."
-    )
-
-
-def _divisions(_plan: BenchPlan, claim: CostClaim, found: Ratios, _noise: float) -> tuple[str, str]:
-    divisions = claim.operations[PRINTED].divisions
-    return (HOLDS if divisions == 0 else DOES_NOT_HOLD), (
-        f"The loop takes {divisions} divisions a position, by b² and by d; with their reciprocals kept outside it "
-        f"takes {claim.operations[RECIPROCALS].divisions} and {_ratio_text(found[RECIPROCALS])} of the time. "
-        f"Put right, Procedure 1 takes {_ratio_text(found[REPAIRED_1])} of it."
-    )
-
-
-def _roots(_plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
-    others = "; ".join(f"{name}: {_ratio_text(ratio)}" for name, ratio in found.items() if name != PRINTED)
-    counted = claim.operations.get(TRIGONOMETRIC)
-    functions = f"{counted.functions} a position" if counted else "three where Δ > 0"
-    return dearer(found[TRIGONOMETRIC], noise), (
-        f"Of Table 2's time take: {others}. Trigonometric functions: {functions} for the roots, none for "
-        "the coefficients."
-    )
-
-
-_SAYS = {"procedures": _procedures, "divisions": _divisions, "roots": _roots}
-
-
-def cheaper(ratio: Estimate, noise: float) -> str:
-    """The verdict "holds" if it certainly takes less time than the first, beyond noise."""
-    if ratio.high * noise < 1:
-        return HOLDS
-    return DOES_NOT_HOLD if ratio.low / noise > 1 else INCONCLUSIVE
-
-
-def dearer(ratio: Estimate, noise: float) -> str:
-    """The verdict "holds" if it certainly takes more time than the first."""
-    if ratio.low / noise > 1:
-        return HOLDS
-    return DOES_NOT_HOLD if ratio.high * noise < 1 else INCONCLUSIVE
-
-
-def _ratio_text(ratio: Estimate) -> str:
-    values = (ratio.median, ratio.low, ratio.high)
-    middle, low, high = (f"{value:.3g}" if value < 1000 else f"{value:,.0f}" for value in values)
-    return f"{middle} ({low} to {high})"
+    """A line for each claim about costs."""
+    for claim in cost_claims(plan):
+        samples = {name: samples_of(parts) for (name, workload, _), parts in found.items() if workload == claim.where}
+        yield cost_line(plan, claim, samples)

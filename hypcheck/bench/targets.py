@@ -207,18 +207,21 @@ Group = Callable[[], Iterable[KernelLine]]
 
 def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> None:
     """Measure every target and add its line; a quick run has fewer rounds and streams a tenth of the rows."""
+    absent = {}
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
         for group in _groups(Path(folder), quick=quick):
             try:
                 for line in _lines(group):
                     recorder.add(line)
             except UnavailableError as error:
-                recorder.add(AbsentLine(what="C compiler", reason=str(error)))
+                absent["C compiler"] = str(error)
             advance(1)
     if choice().kernel != "compiled":
-        recorder.add(AbsentLine(what="compiled kernel", reason=choice().reason))
+        absent["compiled kernel"] = choice().reason
     if (trouble := FCL.trouble()) is not None:
-        recorder.add(AbsentLine(what=FCL.title, reason=trouble))
+        absent[FCL.title] = trouble
+    for what, reason in absent.items():
+        recorder.add(AbsentLine(what=what, reason=reason))
 
 
 def _lines(group: Group) -> list[KernelLine]:

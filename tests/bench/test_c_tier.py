@@ -12,8 +12,8 @@ import pytest
 from hypcheck.bench import c_library
 from hypcheck.bench.c_library import FLAGS, compiled
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.needs import plan_with_needs
 from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.run import plan_with_needs
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Recorder

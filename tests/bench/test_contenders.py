@@ -7,8 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from hypcheck.bench import accuracy, needs, run
-from hypcheck.bench.c_library import Compiler
+from hypcheck.bench import accuracy, run
 from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import QUICK, BenchPlan
@@ -16,7 +15,7 @@ from hypcheck.errors import Exit, RunOutcome, UnavailableError
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Domain
 from hypcheck.implementations.meshes import FCL, scene_mesh
-from hypcheck.record.measurements import AbsentLine, KernelLine
+from hypcheck.record.measurements import AbsentLine, CompilerLine, KernelLine
 from tests.support.fractions_truth import exact_position
 from tests.support.tilted_fractions import exact_position as exact_tilted
 
@@ -122,12 +121,14 @@ def test_bench_plan_has_the_compiled_library_or_records_once_that_it_is_missing(
         raise UnavailableError("no compiler is here")
 
     recorder, plan = Recorder(), BenchPlan(amounts=QUICK)
-    monkeypatch.setattr(needs, "compiled", lambda folder: (tmp_path, Compiler("cc", "1", ("-O3",))))
-    assert needs.plan_with_needs(plan, recorder).compiled == tmp_path
+    monkeypatch.setattr(
+        run, "compiled", lambda folder: (tmp_path, CompilerLine(program="cc", version="1", flags=["-O3"]))
+    )
+    assert run.plan_with_needs(plan, recorder).compiled == tmp_path
     assert [line.program for line in recorder.lines if not isinstance(line, AbsentLine)] == ["cc"]
-    monkeypatch.setattr(needs, "compiled", fails)
+    monkeypatch.setattr(run, "compiled", fails)
     recorder = Recorder()
-    found = needs.plan_with_needs(needs.plan_with_needs(plan, recorder), recorder)
+    found = run.plan_with_needs(run.plan_with_needs(plan, recorder), recorder)
     reasons = [line.reason for line in recorder.lines if isinstance(line, AbsentLine)]
     assert reasons.count("no compiler is here") == 1
     assert found.compiled is None
@@ -138,5 +139,5 @@ def test_load_of_a_system_that_does_not_report_it_is_recorded_as_missing(monkeyp
     def refused():
         raise OSError
 
-    monkeypatch.setattr(needs.os, "getloadavg", refused)
-    assert needs.load() is None
+    monkeypatch.setattr(run.os, "getloadavg", refused)
+    assert run.load() is None

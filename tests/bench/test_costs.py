@@ -11,6 +11,8 @@ from hypcheck.bench import claims, speed
 from hypcheck.bench.c_library import compiled
 from hypcheck.bench.claims import (
     BODIES,
+    COST_OF,
+    FIRST_AGAIN,
     OURS,
     PRINTED,
     PRINTED_A,
@@ -22,7 +24,7 @@ from hypcheck.bench.claims import (
     TRIGONOMETRIC,
 )
 from hypcheck.bench.plan import QUICK, BenchPlan
-from hypcheck.bench.session import COST_OF, FIRST_AGAIN, Measurement, MeasuringSession, _compared
+from hypcheck.bench.speed import Measurement, MeasuringSession, _compared
 from hypcheck.bench.timing import Estimate, Samples
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import count
@@ -96,8 +98,8 @@ def test_cost_claims_use_numpy_without_a_compiler_and_are_left_out_if_methods_ar
 )
 def test_a_cost_ratio_is_cheaper_or_dearer_only_beyond_the_noise(low, high, noise, is_cheaper, is_dearer):
     ratio = Estimate((low + high) / 2, low, high)
-    assert speed.cheaper(ratio, noise) == is_cheaper
-    assert speed.dearer(ratio, noise) == is_dearer
+    assert claims.cheaper(ratio, noise) == is_cheaper
+    assert claims.dearer(ratio, noise) == is_dearer
 
 
 def measured(times):

@@ -21,7 +21,9 @@ PLAN = BenchPlan(quick=True, amounts=replace(QUICK, cell=4, map_lines=15, judged
 
 
 def test_the_stability_map_shows_overflow_of_float32_and_no_error_of_the_fast_method():
-    found = {line.method: line for line in error_maps.stability_lines(PLAN, ["fast-numpy", "table-2-float32"], None)}
+    found = {
+        name: line for name in ("fast-numpy", "table-2-float32") for line in error_maps.stability_lines((PLAN, name))
+    }
     exact = found["fast-numpy"].bins
     assert len(exact) == 400
     assert all(asked == 4 and wrong == 0 for _, _, asked, wrong in exact)
@@ -40,7 +42,7 @@ def test_each_cell_of_the_stability_map_holds_rows_of_its_size_ratios():
 
 
 def test_the_place_maps_show_the_errors_of_float32_on_the_ring():
-    whole, ring = next(error_maps.place_lines(PLAN, ["table-2-float32"], None))
+    whole, ring = error_maps.place_lines((PLAN, "table-2-float32"))
     assert (whole.region, ring.region) == ("whole", "ring")
     for line, columns in ((whole, 29), (ring, 15)):
         assert len(line.wrong) == line.z[2] == 15

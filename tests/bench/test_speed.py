@@ -9,7 +9,7 @@ from hypcheck.bench import run, speed
 from hypcheck.bench.baseline import speeds_of
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import REFERENCE, BenchPlan
-from hypcheck.bench.session import REFERENCE_AGAIN, Measurement
+from hypcheck.bench.speed import REFERENCE_AGAIN, Measurement
 from hypcheck.bench.timing import Samples
 from hypcheck.errors import Exit, RunOutcome
 from hypcheck.record import Recorder
@@ -68,8 +68,8 @@ def test_a_speed_that_only_one_run_has_makes_the_comparison_inconclusive(tmp_pat
     for now, inconclusive in ((before, 0), (after, 1)):
         outcome = RunOutcome()
         recorder = Recorder(GrowingText(), plan.options)
-        state = run._Run(plan, recorder, outcome, contenders(plan), baseline=speeds_of(before), speeds=now)
-        run._compare(state, lambda steps: None)
+        state = run.MethodsRun(plan, recorder, outcome, contenders(plan), speeds=now)
+        state.compare(speeds_of(before), lambda steps: None)
         assert outcome.codes == ({Exit.INCONCLUSIVE} if inconclusive else set())
 
 
