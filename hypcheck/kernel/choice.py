@@ -92,9 +92,3 @@ NUMBER_OF = {question: number for number, question in enumerate(QUESTIONS)}
 
 POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 """The position to which a question is answered yes."""
-
-
-def require_known(question: str) -> None:
-    """Raise InputError for a question that is none."""
-    if question not in QUESTIONS:
-        raise InputError(f"question is {question!r}; it must be one of {', '.join(QUESTIONS)}")

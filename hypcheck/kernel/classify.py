@@ -32,7 +32,8 @@ from hypcheck.geometry.rows import (
     require_valid,
     tilted_rows,
 )
-from hypcheck.kernel.choice import Question, choice, require_known
+from hypcheck.kernel.choice import Question, choice
+from hypcheck.scene.model import QUESTIONS
 
 ROWS_AT_A_TIME = 1 << 22
 """Rows that are made at a time of centres with an axis each: some 300 MB, and work for four threads."""
@@ -230,7 +231,8 @@ def required(question: str, threads: int | None, on_invalid: str) -> int | None:
     """The number of threads, when all three make sense."""
     if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
         raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
-    require_known(question)
+    if question not in QUESTIONS:
+        raise InputError(f"question is {question!r}; it must be one of {', '.join(QUESTIONS)}")
     if threads is None:
         return None
     try:

@@ -68,12 +68,7 @@ def exact_position(
                         return 1
                 elif (c2 > e2 or c1 < -e1) and A > SLACK:
                     return -1
-    return position_by_integers(alpha, gamma, b, d, x, y, z)
-
-
-def position_by_integers(*numbers: float) -> int:
-    """The same by integers alone, after a look at each number."""
-    return int(integers.position(Pair.from_row(numbers).lengths))
+    return int(integers.position(Pair.from_row((alpha, gamma, b, d, x, y, z)).lengths))
 
 
 def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:

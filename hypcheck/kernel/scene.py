@@ -104,10 +104,8 @@ class Scene:
         """
         axes = self._axes(axis) if axis is not None or self._leaning else ()
         asked = (*_ASKED, *AXIS[: len(axes)])
-        columns = as_columns(asked, (x, y, z, heading, *axes))
+        columns = _finite_columns(asked, (x, y, z, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
-        for name, values in zip(asked, columns, strict=True):
-            _require_finite(name, values)
         query, body = self._pairs(centres)
         movers = _directions(columns[4:]) if axes else None
         said = self._said(query, body, centres, columns[3], movers)
@@ -176,10 +174,8 @@ class Scene:
         InputError for numbers that are not finite, for a hyperboloid that leans, and for a mover whose axis is free.
         """
         self._require_upright("the nearest is found")
-        columns = as_columns(CENTER, (x, y, z))
-        for name, values in zip(CENTER, columns, strict=True):
-            _require_finite(name, values)
-        return scene_nearest.nearest(self._bodies, self.model.mover, np.stack(columns, axis=1))
+        centres = np.stack(_finite_columns(CENTER, (x, y, z)), axis=1)
+        return scene_nearest.nearest(self._bodies, self.model.mover, centres)
 
     def _require_upright(self, what: str) -> None:
         if self.model.mover.axis == FREE:
@@ -369,16 +365,19 @@ def _ways(start: ArrayLike, end: ArrayLike, heading: ArrayLike) -> tuple[Floats,
             raise InputError(f"{name} is of shape {point.shape}; {_POINTS}")
         points.append(point.reshape(-1, len(CENTER)).T)
     names = (*(f"{each} of the start" for each in CENTER), *(f"{each} of the end" for each in CENTER), "heading")
-    columns = as_columns(names, (*points[0], *points[1], heading))
-    for name, values in zip(names, columns, strict=True):
-        _require_finite(name, values)
+    columns = _finite_columns(names, (*points[0], *points[1], heading))
     return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), columns[6]
 
 
-def _require_finite(name: str, values: Floats) -> None:
-    if not np.isfinite(values).all():
-        index = int(np.argmin(np.isfinite(values)))
-        raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
+def _finite_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+    """The columns as as_columns makes them. Raises InputError about the first number that is not finite."""
+    columns = as_columns(names, given)
+    for name, values in zip(names, columns, strict=True):
+        finite = np.isfinite(values)
+        if not finite.all():
+            index = int(np.argmin(finite))
+            raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
+    return columns
 
 
 def _directions(columns: Sequence[Floats]) -> Floats:

@@ -3,14 +3,10 @@
 A centre seen from another is x − x₀, and that is no float64 as a rule. Its rounding error, though, is one, and is known
 (TwoSum): where it is 0 the difference is exact and the fast path answers.
 
-**Both upright.** Elsewhere the difference lies between two neighbouring floats. The exterior positions are an up-set
-when |x| and |y| grow and |z| falls, the interior ones when |x| and |y| fall and |z| grows: when the two extreme corners
-of that box have one position, it is the answer; else the exact difference is taken in integers. `positions_beside` does
-so for arrays, `position_beside` for one step of a walk.
-
-**The mover alone leans.** With the error e of the difference a spheroid whose semi-axes are ε = |e|/min(b, d) longer
-contains the true one, and one with semi-axes that much shorter lies in it. The larger clear is clear, the smaller in
-contact is contact; what is left is decided in integers from the exact difference.
+**The hyperboloid is upright.** With the error e of the difference a spheroid whose semi-axes are ε = |e|/min(b, d)
+longer contains the true one, and one with semi-axes that much shorter lies in it. The larger clear is clear, the
+smaller in contact is contact; what is left is decided in integers from the exact difference. `positions_beside` does so
+for arrays, `position_beside` for one step of a walk.
 
 **The hyperboloid leans**, along w, and nothing is rotated: squares and products of its axis, the spheroid's and the
 centre's difference are rational, and the position is decided from them (tilted_integers.squares_between_axes). Most
@@ -20,8 +16,8 @@ surface's radius. In floats h and ϱ are formed from w/|w| and the centres with 
 at most six terms: 64 u Σ|C| bounds what they are wrong by; ρ takes five roundings on positive terms.
 
 **Straight ways.** The kernel's answer about ways (core/parts/ways.h) is asked twice: about a spheroid that is larger,
-and about one that is smaller, by what the rounding of the difference of two centres may be in radii, as where the mover
-alone leans. The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the
+and about one that is smaller, by what the rounding of the difference of two centres may be in radii, as for
+positions. The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the
 exact differences by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about ways is
 known. So is a way that may hit, and leaves the modelled height: of it the part at that height counts.
 """
@@ -30,15 +26,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import inf, nextafter, sqrt
-from sys import float_info
+from math import inf, sqrt
 
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.pair import Lengths, Position, to_integers
+from hypcheck.geometry.pair import UPRIGHT, Position, to_integers
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
-from hypcheck.kernel import integers
 from hypcheck.kernel.classify import classify, kernel
 from hypcheck.kernel.scalar import position
 from hypcheck.kernel.scene_index import Bodies
@@ -46,71 +40,8 @@ from hypcheck.kernel.tilted_integers import position_of_squares, squares_between
 from hypcheck.scene.model import Mover, Point
 from hypcheck.truth.swept import Passage, passage
 
-
-def positions_beside(sizes: Rows, centres: Rows, origins: Rows) -> Positions:
-    """The exact position of each mover, int8 (n,): sizes (n, 4), and both centres (n, 3) in the scene's coordinates."""
-    with np.errstate(all="ignore"):
-        offset, error = two_sum(centres, -origins)
-    beyond = np.logical_not((np.abs(offset) < np.finfo(np.float64).max).all(axis=1))  # no float64, or none above it
-    result = classify(np.concatenate([sizes, np.where(beyond[:, None], 0.0, offset)], axis=1))
-    rounded = np.flatnonzero((error != 0).any(axis=1) & ~beyond)
-    if len(rounded):
-        result[rounded] = _between(sizes[rounded], offset[rounded], centres[rounded], origins[rounded])
-    for index in np.flatnonzero(beyond).tolist():
-        result[index] = position_of_exact_difference(
-            sizes[index].tolist(), centres[index].tolist(), origins[index].tolist()
-        )
-    return result
-
-
-def _between(sizes: Rows, offset: Floats, centres: Rows, origins: Rows) -> Positions:
-    size = np.abs(offset)
-    less, more = np.nextafter(size, 0.0), np.nextafter(size, np.inf)
-    outermost = classify(np.concatenate([sizes, more[:, :2], less[:, 2:]], axis=1))
-    innermost = classify(np.concatenate([sizes, less[:, :2], more[:, 2:]], axis=1))
-    result = outermost.copy()
-    for index in np.flatnonzero(outermost != innermost).tolist():
-        result[index] = position_of_exact_difference(
-            sizes[index].tolist(), centres[index].tolist(), origins[index].tolist()
-        )
-    return result
-
-
-def position_of_exact_difference(sizes: list[float], centre: list[float], origin: list[float]) -> int:
-    """The position about the exact difference of two centres, in integers."""
-    alpha, gamma, b, d = sizes
-    x, y, z = (Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True))
-    return int(integers.position(Lengths(*to_integers((alpha, b, x, y)), *to_integers((gamma, d, z)))))
-
-
-LARGEST_FLOAT = float_info.max
-"""A difference of centres from here on has no float64 above it."""
-
 Body = tuple[float, float, float, float, float, float, float]
 """α, γ, the centre x, y, z, and the lowest and highest modelled z, of a hyperboloid."""
-
-
-def position_beside(body: Body, b: float, d: float, x: float, y: float, z: float) -> int:
-    """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
-    alpha, gamma, there_x, there_y, there_z, _, _ = body
-    across, along, up = x - there_x, y - there_y, z - there_z
-    # TwoSum: what each difference has lost; 0 where it is exact.
-    back_x, back_y, back_z = across + there_x, along + there_y, up + there_z
-    if (
-        (x - back_x) == (there_x - (back_x - across))
-        and (y - back_y) == (there_y - (back_y - along))
-        and (z - back_z) == (there_z - (back_z - up))
-    ):
-        return position(alpha, gamma, b, d, across, along, up)
-    across, along, up = abs(across), abs(along), abs(up)
-    if not (across < LARGEST_FLOAT and along < LARGEST_FLOAT and up < LARGEST_FLOAT):
-        return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
-    outermost = position(alpha, gamma, b, d, nextafter(across, inf), nextafter(along, inf), nextafter(up, 0.0))
-    innermost = position(alpha, gamma, b, d, nextafter(across, 0.0), nextafter(along, 0.0), nextafter(up, inf))
-    if outermost == innermost:
-        return outermost
-    return position_of_exact_difference([alpha, gamma, b, d], [x, y, z], [there_x, there_y, there_z])
-
 
 ERROR = 64 * 2.0**-53
 """Of h and ϱ, in units of the sum of all coordinates."""
@@ -125,13 +56,76 @@ LEAST, GREATEST = 2.0**-200, 2.0**200
 """Lengths, and coordinates that are not 0, whose squares and quotients neither overflow nor underflow."""
 
 
+def positions_beside(sizes: Rows, centres: Rows, origins: Rows, movers: Rows | None = None) -> Positions:
+    """The exact position of each mover beside an upright hyperboloid, int8 (n,).
+
+    `sizes` are (n, 4), both centres (n, 3) in the scene's coordinates, the movers' axes (n, 3); None: all are upright.
+    """
+    with np.errstate(all="ignore"):
+        offset, error = two_sum(centres, -origins)
+    beyond = np.asarray(~np.isfinite(offset).all(axis=1))
+    offset[beyond] = 0.0
+    place = offset if movers is None else np.concatenate([offset, movers], axis=1)
+    result = classify(np.concatenate([sizes, place], axis=1))
+    some = np.flatnonzero(beyond | ~(error == 0).all(axis=1))
+    if len(some):
+        result[some], unsettled = _between(sizes[some], place[some], np.abs(error[some]).sum(axis=1), beyond[some])
+        upright = np.broadcast_to(UPRIGHT, (len(sizes), 3))
+        movers = upright if movers is None else movers
+        _exactly(some[unsettled], result, sizes, centres, origins, movers, upright)
+    return result
+
+
+def _between(sizes: Rows, place: Rows, lost: Floats, beyond: Mask) -> tuple[Positions, Mask]:
+    """The positions about rounded differences that lost so much, and a mask of those that it leaves open."""
+    with np.errstate(all="ignore"):
+        stretch = lost / sizes[:, 2:].min(axis=1) * (1 + MARGIN) + ROUNDED
+        larger, smaller = sizes.copy(), sizes.copy()
+        larger[:, 2:] *= (1 + stretch)[:, None]
+        smaller[:, 2:] *= (1 - stretch)[:, None]
+    fits = np.isfinite(larger).all(axis=1) & (smaller > LEAST).all(axis=1) & ~beyond
+    outer, inner = (classify(np.concatenate([each[fits], place[fits]], axis=1)) for each in (larger, smaller))
+    found, unsettled = np.zeros(len(sizes), np.int8), ~fits
+    found[fits], unsettled[fits] = outer, (outer == Position.CONTACT) & (inner != Position.CONTACT)
+    return found, unsettled
+
+
+def position_beside(
+    body: Body, b: float, d: float, x: float, y: float, z: float, axis: Sequence[float] | None = None
+) -> int:
+    """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
+    alpha, gamma, there_x, there_y, there_z, _, _ = body
+    across, along, up = x - there_x, y - there_y, z - there_z
+    # TwoSum: what the differences have lost together; 0 where they are exact, NaN where that is not known.
+    back_x, back_y, back_z = across + there_x, along + there_y, up + there_z
+    lost = (
+        abs((x - back_x) - (there_x - (back_x - across)))
+        + abs((y - back_y) - (there_y - (back_y - along)))
+        + abs((z - back_z) - (there_z - (back_z - up)))
+    )
+    mover = {} if axis is None else {"axis": axis}
+    if lost == 0:
+        return position(alpha, gamma, b, d, across, along, up, **mover)
+    least = min(b, d)
+    if LEAST < least and max(b, d) < GREATEST and lost < GREATEST:
+        stretch = lost / least * (1 + MARGIN) + ROUNDED
+        outer = position(alpha, gamma, b * (1 + stretch), d * (1 + stretch), across, along, up, **mover)
+        if outer != Position.CONTACT:
+            return outer
+        if stretch < 1:
+            inner = position(alpha, gamma, b * (1 - stretch), d * (1 - stretch), across, along, up, **mover)
+            if inner == outer:
+                return outer
+    origin = (there_x, there_y, there_z)
+    return _from_exact_difference((alpha, gamma, b, d), (x, y, z), origin, axis or UPRIGHT, UPRIGHT)
+
+
 def positions_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
     """The exact position of each mover, int8 (n,): sizes (n, 4), both centres and both axes (n, 3)."""
     lean = (axes[:, :2] != 0).any(axis=1)
     result = np.empty(len(sizes), np.int8)
-    for those, decide in ((np.flatnonzero(~lean), _beside_upright), (np.flatnonzero(lean), _beside_leaning)):
-        if len(those):
-            result[those] = decide(sizes[those], centres[those], origins[those], movers[those], axes[those])
+    result[~lean] = positions_beside(*(each[~lean] for each in (sizes, centres, origins, movers)))
+    result[lean] = _beside_leaning(*(each[lean] for each in (sizes, centres, origins, movers, axes)))
     return result
 
 
@@ -143,36 +137,11 @@ def position_leaning(
     axis: Sequence[float],
 ) -> int:
     """The same of one pair."""
-    upright = axis[0] == axis[1] == 0
-    found = _by_sizes(sizes, centre, origin, mover) if upright else _by_ball(sizes, centre, origin, axis)
+    if axis[0] == axis[1] == 0:
+        (alpha, gamma, b, d), (x, y, z), (u, v, w) = sizes, centre, origin
+        return position_beside((alpha, gamma, u, v, w, -inf, inf), b, d, x, y, z, mover)
+    found = _by_ball(sizes, centre, origin, axis)
     return _from_exact_difference(sizes, centre, origin, mover, axis) if found is None else int(found)
-
-
-def _by_sizes(
-    sizes: Sequence[float], centre: Sequence[float], origin: Sequence[float], mover: Sequence[float]
-) -> int | None:
-    """The position beside an upright hyperboloid, where the difference's rounding leaves it; as _beside_upright."""
-    alpha, gamma, b, d = sizes
-    x, y, z = (there - here for there, here in zip(centre, origin, strict=True))
-    error = sum(map(_lost, centre, origin, (x, y, z)))
-    if error == 0:
-        return position(alpha, gamma, b, d, x, y, z, axis=mover)
-    least = min(b, d)
-    if not (LEAST < least and max(b, d) < GREATEST and error < GREATEST):
-        return None
-    stretch = error / least * (1 + MARGIN) + ROUNDED
-    outer = position(alpha, gamma, b * (1 + stretch), d * (1 + stretch), x, y, z, axis=mover)
-    if outer != Position.CONTACT:
-        return outer
-    if stretch < 1 and position(alpha, gamma, b * (1 - stretch), d * (1 - stretch), x, y, z, axis=mover) == outer:
-        return outer
-    return None
-
-
-def _lost(there: float, here: float, difference: float) -> float:
-    """What the rounding of a difference lost (TwoSum), without its sign; nan where that is not known."""
-    back = difference - there
-    return abs((there - (difference - back)) - (here + back))
 
 
 def _by_ball(
@@ -223,30 +192,6 @@ def _exactly(those: Indices, result: Positions, *columns: Rows) -> None:
     """Decide some rows in integers."""
     for index in those.tolist():
         result[index] = _from_exact_difference(*(column[index].tolist() for column in columns))
-
-
-def _beside_upright(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
-    with np.errstate(all="ignore"):
-        offset, error = two_sum(centres, -origins)
-        inexact = ~(error == 0).all(axis=1)
-        beyond = ~np.isfinite(offset).all(axis=1)
-        stretch = np.abs(error).sum(axis=1) / sizes[:, 2:].min(axis=1) * (1 + MARGIN) + ROUNDED
-        larger, smaller = sizes.copy(), sizes.copy()
-        larger[:, 2:] *= (1 + stretch)[:, None]
-        smaller[:, 2:] *= (1 - stretch)[:, None]
-    offset[beyond] = 0.0
-    result = classify(np.concatenate([sizes, offset, movers], axis=1))
-    fits = np.isfinite(larger).all(axis=1) & (smaller > LEAST).all(axis=1) & ~beyond
-    some = np.flatnonzero(inexact & fits)
-    unsettled = inexact | beyond
-    if len(some):
-        rest = np.concatenate([offset, movers], axis=1)[some]
-        outer = classify(np.concatenate([larger[some], rest], axis=1))
-        inner = classify(np.concatenate([smaller[some], rest], axis=1))
-        result[some] = outer
-        unsettled[some] = (outer == Position.CONTACT) & (inner != Position.CONTACT)
-    _exactly(np.flatnonzero(unsettled), result, sizes, centres, origins, movers, axes)
-    return result
 
 
 def _beside_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:

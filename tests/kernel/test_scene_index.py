@@ -204,6 +204,16 @@ def test_a_tangency_that_rounding_of_the_difference_moves_keeps_its_exact_positi
         assert position_beside((alpha, gamma, *origin, -np.inf, np.inf), b, d, *centre) == expected
 
 
+@pytest.mark.parametrize(("x", "expected"), [(0.25, Position.INTERIOR), (0.0625, Position.CONTACT)])
+def test_a_difference_whose_rounding_exceeds_the_spheroid_is_decided_exactly(x, expected):
+    """The rounded difference is on the surface; the exact one is 1/4 inside of it, or 1/16, and the radius is 1/8."""
+    far = 2.0**53
+    sizes, centre, origin = (far, far, 0.125, 0.125), (far, 0.0, 0.0), (x, 0.0, 0.0)
+    assert far - x == far
+    assert position_beside((far, far, *origin, -np.inf, np.inf), 0.125, 0.125, *centre) == expected
+    assert positions_beside(np.array([sizes]), np.array([centre]), np.array([origin])).tolist() == [expected]
+
+
 def test_an_exact_difference_of_centres_is_decided_by_one_call(monkeypatch):
     asked = []
     monkeypatch.setattr(scene_pairs, "position", lambda *row: asked.append(row) or 1)

@@ -316,7 +316,7 @@ def _leaning_parts(dialect: Dialect) -> dict[str, str]:
 
     return {
         "components": double_doubles(leaning.COMPONENTS, "c1", "c2", "c3"),
-        "lambda": double_doubles(leaning.LAMBDA, "lambda_"),
+        "lambda": double_doubles(last_stages.PLACE, "lambda_"),
         "phi": double_doubles(leaning.PHI, "phi", "to_a1", "to_a2", "to_b"),
         "place": doubles(leaning.PLACE, "to_a1", "to_a2", "to_b"),
         "falls": doubles(leaning.falls(), "past"),

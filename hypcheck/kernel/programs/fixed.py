@@ -31,8 +31,8 @@ from hypcheck.derivation.program import Argument, Program, cut, program_of, step
 from hypcheck.kernel.programs.integers import INTEGERS
 
 BITS = 128
-SQUARE, PRODUCT, BALANCED = 126, 124, 125
-"""A square is a number of units of 2⁻¹²⁶, N, n2, n1 and ps are of 2⁻¹²⁴, and balanced of 2⁻¹²⁵."""
+SQUARE, BALANCED = 126, 125
+"""A square is a number of units of 2⁻¹²⁶, so N, n2, n1 and ps are of 2⁻¹²⁴; balanced they are of 2⁻¹²⁵."""
 
 MOST_GROWN = 100
 

@@ -222,20 +222,9 @@ PLACE = program_of(
     to_b = is_inside ? inside_b : to_pole
     """,
 )
-"""From the distance to 0 (near_zero = 1) or to the pole (0) to those to all poles, in doubles."""
+"""From the distance to 0 (near_zero = 1) or to the pole (0) to those to all poles, in doubles.
 
-LAMBDA = program_of(
-    "lambda",
-    ("pole", "distance", "near_zero", "inside"),
-    """
-    is_near_zero = near_zero > 0
-    is_inside = inside > 0
-    complement = pole - distance
-    from_zero = is_near_zero ? distance : complement
-    minus_from_zero = - from_zero
-    lambda_ = is_inside ? minus_from_zero : from_zero
-    """,
-)
+λ itself is a step of last_stages.PLACE, in double-double."""
 
 OMEGA = {"fixed": 2.0**-96, "free": 2.0**-82}
 LOST = 2.0**-400
