@@ -142,11 +142,6 @@ def exact_positions(rows: Rows) -> Positions:
     return tilted_positions(rows)
 
 
-def wrong_cases(rows: Rows, truth: Positions, answers: NDArray[np.int8], criterion: Criterion) -> list[WrongCase]:
-    """Every wrong answer of a batch, judged."""
-    return list(judged(rows, answers, np.flatnonzero(is_wrong(truth, answers, criterion.question)), criterion))
-
-
 def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:
     """The wrong answers at these indices of a batch, judged in order."""
     proved = _proved_ends(rows, answers, wrong, criterion)
@@ -169,43 +164,25 @@ def measured(case: WrongCase, question: str) -> float:
         return case.least
     lengths = _lengths(case.row)
     if isinstance(lengths, Lengths):
-        return error_of(case.row, case.answer, question)
-    if case.status not in (Status.WRONG, Status.EXCUSED):
-        return ends_of(case.row, case.answer, question)[1]
+        return _error(lengths, case.answer, question)
     from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
 
     truth = tilted_exact.decide(lengths)
     targets = right_positions(truth.position, case.answer, question)
-    return min(tilted_error.lower_end(case.row, truth, target) for target in targets)
-
-
-def ends_of(row: Sequence[float], answer: int, question: str) -> tuple[float, float]:
-    """Two ends between which the backward error of an answer about a tilted spheroid is proved to lie."""
-    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
-
-    truth = tilted_exact.decide(TiltedLengths.of(row))
-    targets = right_positions(truth.position, answer, question)
-    brackets = [tilted_error.quick_bracket(row, truth, target) for target in targets]
-    return min(each.lower for each in brackets), min(each.upper for each in brackets)
-
-
-def error_of(row: Sequence[float], answer: int, question: str) -> float:
-    """The backward error of an answer to a row, right or wrong, to 4 significant digits.
-
-    Of a tilted spheroid, a number that it is proved not to exceed.
-    """
-    lengths = _lengths(row)
-    return (
-        ends_of(row, answer, question)[1] if isinstance(lengths, TiltedLengths) else _error(lengths, answer, question)
-    )
+    if case.status in (Status.WRONG, Status.EXCUSED):
+        return min(tilted_error.lower_end(case.row, truth, target) for target in targets)
+    return min(tilted_error.quick_bracket(case.row, truth, target).upper for target in targets)
 
 
 def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
-    """The same of an upright spheroid; of a tilted one an estimate, which takes a small part of the time."""
+    """The backward error of an answer to a row, right or wrong, to 4 significant digits.
+
+    Of a tilted spheroid an estimate, which takes a small part of the time of a proof.
+    """
     lengths = _lengths(row)
-    return (
-        error_of(row, answer, question) if isinstance(lengths, Lengths) else _estimate(lengths, row, answer, question)
-    )
+    if isinstance(lengths, Lengths):
+        return _error(lengths, answer, question)
+    return _estimate(lengths, row, answer, question)
 
 
 def _estimate(lengths: TiltedLengths, row: Sequence[float], answer: int, question: str) -> float:

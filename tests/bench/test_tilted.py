@@ -22,6 +22,7 @@ from hypcheck.report import markdown
 from hypcheck.runs import judge
 from hypcheck.truth.tilted import batch
 from tests.bench.test_run import ended
+from tests.support.judging import ends_of
 from tests.tools.miniatures import QUICK, command
 
 pytestmark = pytest.mark.usefixtures("text_reports")
@@ -77,7 +78,7 @@ def test_estimated_distance_of_a_tilted_row_is_within_twice_its_proved_interval(
     clear = hypcheck.classify(rows) != 0
     assert clear.sum() > 3
     for row in rows[clear][:3].tolist():
-        low, high = judge.ends_of(row, 0, "position")
+        low, high = ends_of(row, 0)
         assert low / 2 <= judge.about_error_of(row, 0, "position") <= 2 * high
 
 

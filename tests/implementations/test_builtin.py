@@ -13,6 +13,7 @@ from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import float_filter
 from hypcheck.vectors.families import select
+from tests.support.judging import wrong_cases
 
 
 @pytest.fixture(scope="module")
@@ -46,9 +47,7 @@ def test_the_built_in_methods_that_are_kernels_are_exact(name, rows):
 def test_the_built_in_dual_form_has_a_backward_error_below_one_unit(precision, rows):
     method = builtin(f"dual-{precision}")
     asked = rows[method.domain.holds(rows) & representable(rows, precision)]
-    cases = judge.wrong_cases(
-        asked, float_filter.positions(asked), method.answer(asked), Criterion(precision=precision)
-    )
+    cases = wrong_cases(asked, float_filter.positions(asked), method.answer(asked), Criterion(precision=precision))
     assert cases  # at a tangency one side or the other is bound to be missed
     unit = UNIT_ROUNDOFF[precision]
     assert max(judge.in_units(judge.measured(case, "position"), unit) for case in cases) < 1

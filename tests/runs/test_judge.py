@@ -15,6 +15,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.truth import float_filter
+from tests.support.judging import ends_of, wrong_cases
 from tests.support.pairs import ordinary_pairs
 
 CLEAR = (2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0)  # r − a = 2
@@ -25,7 +26,7 @@ INSIDE = (4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 0.0)
 
 def judged(row, answer, criterion=Criterion()):  # noqa: B008  frozen
     rows = np.array([row])
-    return judge.wrong_cases(rows, float_filter.positions(rows), np.array([answer], dtype=np.int8), criterion)
+    return wrong_cases(rows, float_filter.positions(rows), np.array([answer], dtype=np.int8), criterion)
 
 
 @pytest.mark.parametrize(
@@ -113,7 +114,7 @@ def test_judge_refuses_an_invalid_criterion(bad):
 def test_exponent_of_a_wrong_case_contains_its_measured_error(some, seed):
     rows = np.array([pair.row for pair in some])
     answers = np.random.default_rng(seed).integers(-1, 2, len(rows)).astype(np.int8)
-    for case in judge.wrong_cases(rows, float_filter.positions(rows), answers, Criterion()):
+    for case in wrong_cases(rows, float_filter.positions(rows), answers, Criterion()):
         error = judge.measured(case, "position")
         assert case.truth != case.answer
         if math.isfinite(case.exponent):
@@ -144,7 +145,7 @@ def test_in_words_names_answers_and_keeps_other_numbers(answer, question, words)
 
 def test_the_distance_of_a_leaning_spheroid_to_the_other_answer_is_estimated_near_the_proved_one():
     leaning = (2.0, 3.0, 0.5, 0.25, 2.54, 0.0, 0.5, 0.0, 1.0, 1.0)
-    proved = judge.error_of(leaning, 0, "position")
+    proved = ends_of(leaning, 0)[1]
     assert 0 < proved < 0.01
     assert judge.about_error_of(leaning, 0, "position") == pytest.approx(proved, rel=0.05)
     assert judge.flip_exponents(np.array([leaning])).tolist() == [math.floor(math.log2(proved))]
@@ -152,7 +153,9 @@ def test_the_distance_of_a_leaning_spheroid_to_the_other_answer_is_estimated_nea
 
 def test_the_distance_of_an_upright_spheroid_is_the_same_with_and_without_its_axis():
     upright = (2.0, 3.0, 0.5, 0.25, 3.0, 0.0, 0.5)
-    assert judge.about_error_of((*upright, 0.0, 0.0, 1.0), 0, "position") == judge.error_of(upright, 0, "position")
+    assert judge.about_error_of((*upright, 0.0, 0.0, 1.0), 0, "position") == judge.about_error_of(
+        upright, 0, "position"
+    )
     with_axis = judge.flip_exponents(np.array([(*upright, 0.0, 0.0, 1.0)]))
     assert with_axis.tolist() == judge.flip_exponents(np.array([upright])).tolist()
 
@@ -162,7 +165,7 @@ def test_every_wrong_answer_about_leaning_rows_is_judged_where_some_are_proved_a
     near = [*row[:4], 1.125 + 1e-12, *row[5:]]
     rows = np.array([row, near, row, [*row[:7], 0.0, 0.0, 1.0]])
     truth = np.array([1, 1, 1, 1], dtype=np.int8)
-    found = judge.wrong_cases(rows, truth, np.zeros(4, dtype=np.int8), Criterion(tolerance=Fraction(10**4)))
+    found = wrong_cases(rows, truth, np.zeros(4, dtype=np.int8), Criterion(tolerance=Fraction(10**4)))
     assert [case.index for case in found] == [0, 1, 2, 3]
     assert [case.status for case in found] == [Status.WRONG, Status.TOLERATED, Status.WRONG, Status.WRONG]
     assert [case.mistake for case in found] == [Mistake.FALSE_CONTACT] * 4
@@ -174,7 +177,7 @@ def test_exponent_of_a_wrong_answer_about_a_leaning_spheroid_is_minus_infinity_a
     needle = [1.0, 4.0, 0.125, 0.25, 1.125, 0.0, 0.0, 0.0, 1.0, 0.0]  # across the x axis, it touches the throat
     rows = np.array([needle, [*needle[:4], 1.25, *needle[5:]]])
     truth, answers = np.array([0, 1], dtype=np.int8), np.array([1, 0], dtype=np.int8)
-    touching, clear = judge.wrong_cases(rows, truth, answers, Criterion(tolerance=Fraction(0)))
+    touching, clear = wrong_cases(rows, truth, answers, Criterion(tolerance=Fraction(0)))
     assert touching.exponent == -math.inf
     assert math.floor(clear.exponent) == math.floor(math.log2(1 / 19))  # contact where x (1 − ε) = (α + b)(1 + ε)
 

@@ -127,7 +127,7 @@ def test_tally_keeps_the_cases_with_the_largest_errors():
     answers = answered(rows, np.arange(120)).answers
     wrong = np.flatnonzero((answers != CANNOT_SAY) & (answers != float_filter.positions(rows)))
     assert len(wrong) > 20
-    errors = sorted((judge.error_of(rows[n].tolist(), int(answers[n]), "position") for n in wrong), reverse=True)
+    errors = sorted((judge.about_error_of(rows[n].tolist(), int(answers[n]), "position") for n in wrong), reverse=True)
     assert [case.error for case in tallied(rows).worst] == errors[:3]
 
 

@@ -21,6 +21,7 @@ from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.vectors.fixed_sizes import families_for
+from tests.support.judging import wrong_cases
 
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
 LIBRARY = ("-O2", "-fPIC", "-shared")
@@ -156,7 +157,7 @@ def worst_error(asked_of, plan, count):
 
 def worst_of(asked_of, rows, criterion):
     """The largest backward error in units u of what `asked_of` answers to these rows."""
-    wrong = judge.wrong_cases(rows, judge.exact_positions(rows), asked_of(rows), criterion)
+    wrong = wrong_cases(rows, judge.exact_positions(rows), asked_of(rows), criterion)
     return max(
         (judge.in_units(judge.measured(case, criterion.question), criterion.unit) for case in wrong), default=0.0
     )

@@ -36,6 +36,7 @@ from tests.kernel.emission.building import (
     worst_error,
 )
 from tests.kernel.emission.test_conformance import gated
+from tests.support.judging import wrong_cases
 
 PITCHED = (0.3, 0.1, 1.0)
 TREES = (
@@ -202,7 +203,7 @@ def test_the_last_stage_for_a_leaning_mover_is_right_within_1_u_on_every_tilted_
     assert (found[found == 1] == truth[found == 1]).all()
     assert (found[found == -1] == truth[found == -1]).all()
     criterion = judge.Criterion("position", "float64", Fraction(1))
-    wrong = judge.wrong_cases(rows, truth, found, criterion)
+    wrong = wrong_cases(rows, truth, found, criterion)
     assert all(judge.measured(case, "position") <= criterion.unit for case in wrong)
 
 

@@ -29,6 +29,7 @@ from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.runs import leaning
+from tests.support.judging import ends_of, wrong_cases
 from tests.support.records import GrowingText
 from tests.support.tilted_fractions import exact_position
 
@@ -163,9 +164,7 @@ def test_answers_about_upright_rows_of_ten_numbers_keep_their_exact_backward_err
     axes = np.tile([0.0, 0.0, -7.5], (len(rows), 1))
     answers = np.zeros(len(rows), dtype=np.int8)
     truth = judge.exact_positions(rows)
-    upright, ten = (
-        judge.wrong_cases(some, truth, answers, Criterion()) for some in (rows, np.column_stack([rows, axes]))
-    )
+    upright, ten = (wrong_cases(some, truth, answers, Criterion()) for some in (rows, np.column_stack([rows, axes])))
     assert len(upright) > 10
     for one, other in zip(upright, ten, strict=True):
         assert (one.status, one.exponent) == (other.status, other.exponent)
@@ -173,15 +172,13 @@ def test_answers_about_upright_rows_of_ten_numbers_keep_their_exact_backward_err
 
 
 def test_a_wrong_answer_about_a_tilted_spheroid_is_wrong_by_at_least_what_is_recorded():
-    (case,) = judge.wrong_cases(
-        np.array([BESIDE]), np.zeros(1, dtype=np.int8), np.array([1], dtype=np.int8), Criterion()
-    )
-    low, high = judge.ends_of(case.row, case.answer, "position")
+    (case,) = wrong_cases(np.array([BESIDE]), np.zeros(1, dtype=np.int8), np.array([1], dtype=np.int8), Criterion())
+    low, high = ends_of(case.row, case.answer)
     assert exact_position(BESIDE) == 0
     assert case.status is Status.WRONG
     assert low / 1.25 < judge.measured(case, "position") <= low <= high
     tolerant = Criterion(tolerance=Fraction(high) * 2**53)
-    (case,) = judge.wrong_cases(np.array([BESIDE]), np.zeros(1, dtype=np.int8), np.array([1], dtype=np.int8), tolerant)
+    (case,) = wrong_cases(np.array([BESIDE]), np.zeros(1, dtype=np.int8), np.array([1], dtype=np.int8), tolerant)
     assert case.status is Status.TOLERATED
     assert low <= judge.measured(case, "position") <= 1.25 * high
 

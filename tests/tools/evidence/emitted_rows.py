@@ -18,6 +18,7 @@ from hypcheck.kernel.specialise.last_stages import LeaningSearch
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE
+from tests.support.judging import wrong_cases
 
 BLOCK = 300
 """Rows of one kind after another, more than a block of a kernel has."""
@@ -188,7 +189,7 @@ def _judge(plan: ScenePlan, stages: Stages, rows: Rows, found: np.ndarray) -> No
         kept &= near
     criterion = judge.Criterion(plan.question, plan.format.name, Fraction(8))
     asked, given = rows[kept], found[kept]
-    wrong = judge.wrong_cases(asked, judge.exact_positions(asked), given, criterion)
+    wrong = wrong_cases(asked, judge.exact_positions(asked), given, criterion)
     for case in wrong:
         worst = judge.in_units(judge.measured(case, plan.question), criterion.unit)
         assert worst <= plan.bound_u, (worst, case)

@@ -99,7 +99,8 @@ def test_rounding_flags_of_cases_agree_with_the_wrong_answers_of_built_in_method
     from hypcheck.derivation.formulas import FORMULAS, answers
     from hypcheck.geometry.pair import COLUMNS
     from hypcheck.implementations.builtin import builtin_methods
-    from hypcheck.runs.judge import Criterion, Status, expected, wrong_cases
+    from hypcheck.runs.judge import Criterion, Status, expected
+    from tests.support.judging import wrong_cases
 
     names = ("osculation", "near-axis", "ring-neighbourhood", "extreme-float32", "worst-cancellation")
     rows = np.concatenate([vectors.load(name).rows[:60] for name in names])

@@ -1,0 +1,23 @@
+"""Wrong answers of a batch, judged, and both ends of the backward error of an answer about a tilted spheroid."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hypcheck.geometry.pair import Position
+from hypcheck.runs import judge
+from hypcheck.truth.tilted import exact
+from hypcheck.truth.tilted.backward_error import quick_bracket
+from hypcheck.truth.tilted.pair import TiltedLengths
+
+
+def wrong_cases(rows, truth, answers, criterion) -> list[judge.WrongCase]:
+    """Every wrong answer of a batch, judged."""
+    wrong = np.flatnonzero(judge.is_wrong(truth, answers, criterion.question))
+    return list(judge.judged(rows, answers, wrong, criterion))
+
+
+def ends_of(row, answer) -> tuple[float, float]:
+    """Two ends between which the backward error of a position is proved to lie."""
+    found = quick_bracket(row, exact.decide(TiltedLengths.of(row)), Position(answer))
+    return found.lower, found.upper
