@@ -22,9 +22,9 @@ LINES, WIDTH = 3, 400
 """Lines of standard error in a sentence, and characters of a text."""
 
 
-def quoted(data: bytes | bytearray, width: int = 80) -> str:
+def quoted(data: bytes | bytearray) -> str:
     """Bytes as a sentence quotes them."""
-    return f"'{escaped(bytes(data[: 4 * width]).decode('utf-8', 'replace'), width)}'"
+    return f"'{escaped(bytes(data[:320]).decode('utf-8', 'replace'), 80)}'"
 
 
 class OutputTail:

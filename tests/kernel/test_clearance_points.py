@@ -166,14 +166,20 @@ def stretched(rows, seed=5):
     return found
 
 
-@pytest.mark.parametrize("wrong", [0.4, -0.4, 1e-3, -1e-3, 1e-6, -1e-9])
-def test_the_error_of_an_upright_touch_holds_for_a_multiplier_that_is_wrong(monkeypatch, wrong):
-    rows, poles = np.concatenate([UPRIGHT, stretched(UPRIGHT)]), clearance_points._poles
+def moved_poles(wrong):
+    """The poles of an upright pair with that relative error; of the smaller one, λ is taken."""
+    poles = clearance_points._poles
 
     def moved(A, B, p, q):
         tau, sigma = poles(A, B, p, q)
-        return tau * (1 + wrong), sigma * (1 + wrong)  # of the smaller one, λ is taken
+        return tau * (1 + wrong), sigma * (1 + wrong)
 
+    return moved
+
+
+@pytest.mark.parametrize("wrong", [0.4, -0.4, 1e-3, -1e-3, 1e-6, -1e-9])
+def test_the_error_of_an_upright_touch_holds_for_a_multiplier_that_is_wrong(monkeypatch, wrong):
+    rows, moved = np.concatenate([UPRIGHT, stretched(UPRIGHT)]), moved_poles(wrong)
     monkeypatch.setattr(clearance_points, "_poles", moved)
     found = clearance_points.upright_touches(rows)
     off = np.array([nearest_off(row, point) for row, point in zip(rows.tolist(), found.point, strict=True)])
@@ -268,12 +274,7 @@ def test_a_touch_far_from_the_surface_or_with_a_nearly_singular_matrix_has_no_er
 @pytest.mark.parametrize("rounded", [2.0**-8, 2.0**-46])
 def test_the_error_bound_of_an_upright_touch_is_that_of_its_written_formulas(monkeypatch, wrong, rounded):
     """√(Γ A/τ) and √(Γ B/σ), and what the hyperboloid makes of them; each coordinate rounds by a share of itself."""
-    rows, poles = np.concatenate([UPRIGHT, stretched(UPRIGHT)]), clearance_points._poles
-
-    def moved(A, B, p, q):
-        tau, sigma = poles(A, B, p, q)
-        return tau * (1 + wrong), sigma * (1 + wrong)
-
+    rows, moved = np.concatenate([UPRIGHT, stretched(UPRIGHT)]), moved_poles(wrong)
     monkeypatch.setattr(clearance_points, "_poles", moved)
     monkeypatch.setattr(clearance_points, "_ROUNDED", rounded)
     found = clearance_points.upright_touches(rows)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import builtins
 import json
 import subprocess
 import sys
@@ -15,6 +14,7 @@ from hypcheck.cli.main import main
 from hypcheck.paper import motion
 from hypcheck.scene.reading import shipped_text
 from tests.support.records import violations
+from tests.support.without_drawing import draw_nothing
 
 SHORT = shipped_text("tower").replace("distance = 500.0", "distance = 3.0")
 FOREST = ("simulate", "forest", "--seed", "3")
@@ -132,15 +132,8 @@ def test_simulate_writes_files_and_names_them_on_standard_error(capsys, tower, t
 
 
 def test_without_matplotlib_simulate_writes_all_but_the_pictures(capsys, tmp_path, monkeypatch):
-    imported = builtins.__import__
-
-    def without(name, *arguments, **options):
-        if name.partition(".")[0] == "matplotlib":
-            raise ImportError(f"No module named {name!r}")
-        return imported(name, *arguments, **options)
-
     (tmp_path / "forest-walk.svg").write_text("of another run")
-    monkeypatch.setattr(builtins, "__import__", without)
+    draw_nothing(monkeypatch)
     code, out, err = run(capsys, *FOREST, "--steps", 10, "--out", tmp_path)
     assert code == 0
     assert "64 trees" in out

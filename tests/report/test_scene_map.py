@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import builtins
 import subprocess
 import sys
 from xml.etree import ElementTree
@@ -19,6 +18,7 @@ from hypcheck.report.drawings import render_picture
 from hypcheck.report.plots import half_plane, pictures
 from hypcheck.report.plots.style import styled
 from tests.report import record_samples
+from tests.support.without_drawing import draw_nothing
 
 
 def maps(body=None):
@@ -107,14 +107,7 @@ def test_record_without_a_map_has_no_picture_of_it():
 
 
 def test_without_matplotlib_the_picture_is_unavailable_with_a_reason(monkeypatch):
-    imported = builtins.__import__
-
-    def without(name, *arguments, **options):
-        if name.partition(".")[0] == "matplotlib":
-            raise ImportError(f"No module named {name!r}")
-        return imported(name, *arguments, **options)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    draw_nothing(monkeypatch)
     with pytest.raises(UnavailableError) as caught:
         render_picture("map", record_samples.record(), {})
     assert "matplotlib" in str(caught.value)

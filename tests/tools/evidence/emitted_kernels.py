@@ -13,6 +13,7 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -83,6 +84,13 @@ def _whole_scenes() -> Iterator[tuple[str, SceneModel]]:
     yield "whole, exterior, everywhere", forest(3, "exterior", (), Region())
 
 
+def _answered_alike(library: Path, rows: np.ndarray) -> np.ndarray:
+    """The answers to rows, which are the same by scene."""
+    found = answers(library, rows)
+    assert (found == answers_by_scene(library, rows)).all()
+    return found
+
+
 def _asks_scene(plan: ScenePlan) -> Callable[[Path], None]:
     def ask(library: Path) -> None:
         def both(rows: np.ndarray) -> np.ndarray:
@@ -90,11 +98,6 @@ def _asks_scene(plan: ScenePlan) -> Callable[[Path], None]:
             for axis in np.unique(rows[:, 7:], axis=0):
                 alike = (rows[:, 7:] == axis).all(axis=1)
                 assert (found[alike] == answers_by_scene(library, rows[alike])).all()
-            return found
-
-        def both_at_once(rows: np.ndarray) -> np.ndarray:
-            found = answers(library, rows)
-            assert (found == answers_by_scene(library, rows)).all()
             return found
 
         worst, asked = worst_error(both, plan, COUNT)
@@ -105,7 +108,7 @@ def _asks_scene(plan: ScenePlan) -> Callable[[Path], None]:
             _ask_odd(library, np.array([alpha, gamma, b, d, alpha + (b + d) / 2, 0, 0]), stages.setting.axis)
             for rows in _wide(np.array(stages.setting.sizes), stages.setting.axis, plan.format.name == "float32"):
                 both(rows)
-            ask_limits(plan, stages, both_at_once)
+            ask_limits(plan, stages, partial(_answered_alike, library))
 
     return ask
 
@@ -173,11 +176,7 @@ def _asks_whole(scene: SceneModel) -> Callable[[Path], None]:
         assert (still == headed).all()  # no headings are headings of 0
         plan = whole_plan(scene)
 
-        def pairs(rows: np.ndarray) -> np.ndarray:
-            found = answers(library, rows)
-            assert (found == answers_by_scene(library, rows)).all()
-            return found
-
+        pairs = partial(_answered_alike, library)
         assert worst_error(pairs, plan, COUNT)[0] <= plan.bound_u
         for stages in plan.settings:
             for rows in _wide(np.array(stages.setting.sizes), None, False):
