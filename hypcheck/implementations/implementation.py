@@ -72,7 +72,12 @@ class Implementation:
             raise
         self._allowed = AllowedAnswers(self.description)
         self._limits = limits
-        self._batch = min(_FIRST, self._supervisor.max_batch)
+        self.max_rows = self._supervisor.max_rows
+        """The most rows of a family that it answers in reasonable time; None if that is not known."""
+        self.scene = self._supervisor.scene
+        """Whether it can be asked by scene: one set of sizes, many centres."""
+        self.proven_batch = min(_FIRST, self._supervisor.max_batch)
+        """Largest batch that it has answered well within the timeout so far."""
 
     def __enter__(self) -> Implementation:
         return self
@@ -86,35 +91,16 @@ class Implementation:
             self._supervisor.kill()
 
     @property
-    def max_rows(self) -> int | None:
-        """The most rows of a family that it answers in reasonable time; None if that is not known."""
-        return self._supervisor.max_rows
-
-    @property
-    def scene(self) -> bool:
-        """Whether it can be asked by scene: one set of sizes, many centres."""
-        return self._supervisor.scene
-
-    @property
-    def proven_batch(self) -> int:
-        """Largest batch that it has answered well within the timeout so far."""
-        return self._batch
-
-    @property
     def allowance(self) -> Allowance:
         """The faults that it may still have."""
         return self._supervisor.left
 
-    def allow(self, allowance: Allowance) -> None:
-        """Replace the allowance."""
+    @allowance.setter
+    def allowance(self, allowance: Allowance) -> None:
         self._supervisor.left = allowance
 
-    def use_fresh_process(self) -> None:
-        """Continue in a fresh process, which does not count as a restart."""
-        self._supervisor.close()
-
     def close(self) -> None:
-        """Let the process end, or kill it if it does not."""
+        """Let the process end, or kill it if it does not. A further question starts another, which is no restart."""
         self._supervisor.close()
 
     def kill(self) -> None:
@@ -145,7 +131,7 @@ class Implementation:
     def _ask_all(self, asking: RowQuestions, n: int, batch: int | None) -> None:
         start = 0
         while start < n:
-            size = min(batch or self._batch, self._supervisor.max_batch)
+            size = min(batch or self.proven_batch, self._supervisor.max_batch)
             stop = min(n, start + size)
             began = time.monotonic()
             asking.ask(start, stop)
@@ -156,10 +142,10 @@ class Implementation:
     def _adapt(self, seconds: float, rows: int) -> None:
         target = self._limits.timeout / _SHARE
         if seconds > target:
-            self._batch = max(1, self._batch // 2)
+            self.proven_batch = max(1, self.proven_batch // 2)
         elif seconds < target / 2:
             growth = _GROWTH if seconds < target / _GROWTH else 2
-            self._batch = max(self._batch, min(self._supervisor.max_batch, rows * growth))
+            self.proven_batch = max(self.proven_batch, min(self._supervisor.max_batch, rows * growth))
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> int | None:
         """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None where it offers no timing.
@@ -319,11 +305,7 @@ class Crashed:
         self.allowance = allowance
         self._reason = reason
 
-    def allow(self, allowance: Allowance) -> None:
-        """Replace the allowance."""
-        self.allowance = allowance
-
-    def use_fresh_process(self) -> None:
+    def close(self) -> None:
         """Do nothing: there is no process."""
 
     def classify(self, rows: Rows, *, batch: int | None = None) -> Answered:  # noqa: ARG002 - however it is asked

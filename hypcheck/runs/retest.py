@@ -101,7 +101,7 @@ def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: J
     if not asked.pending:
         return CasesResult()
     sample, changes, outcomes = _sample(asked.pending, rules.criterion), ChangedAnswers(), set[Outcome]()
-    implementation.use_fresh_process()
+    implementation.close()  # so that a fresh process is asked
     asking = retest_questions(
         sample.truth, sample.moments, lambda: implementation.proven_batch, rules.seed, asked.number, asked.part
     )

@@ -73,7 +73,7 @@ def perform_task(
     task: Task, implementation: Implementation | Crashed, rules: JudgingRules, allowance: Allowance
 ) -> TaskResult:
     """Perform a task within the allowance. The result depends only on the answers and the allowance."""
-    implementation.allow(allowance)
+    implementation.allowance = allowance
     if isinstance(task, CaseChunk):
         result = ask_chunk(task, implementation, rules)
     elif isinstance(task, RetestTask):

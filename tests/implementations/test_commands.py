@@ -214,7 +214,7 @@ def test_a_command_whose_state_changes_its_answers_is_not_restarted_to_repair_th
         assert first.answers.tolist() == truth(some).tolist()
         it.classify(some, batch=20)
         assert it.classify(some).answers.tolist() == (-truth(some)).tolist()
-        it.use_fresh_process()
+        it.close()
         assert it.classify(some).answers.tolist() == truth(some).tolist()
         assert restarts_of(it) == 0
 

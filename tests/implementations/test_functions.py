@@ -189,7 +189,7 @@ def test_the_worker_varies_row_addresses_so_that_answers_that_depend_on_them_dif
     some = rows()
     with open_implementation(function("minds_alignment"), LIMITS) as it:
         answers = {bytes(it.classify(some).answers) for _ in range(8)}
-        it.use_fresh_process()
+        it.close()
         afresh = it.classify(some).answers
     assert len(answers) == 2
     assert bytes(afresh) in answers
@@ -199,7 +199,7 @@ def test_the_state_of_a_function_is_lost_with_a_fresh_process():
     some = rows()
     with open_implementation(function("stateful"), LIMITS) as it:
         seen = [it.classify(some).answers.tolist() for _ in range(5)]
-        it.use_fresh_process()
+        it.close()
         assert it.classify(some).answers.tolist() == truth(some).tolist()
     assert seen == [truth(some).tolist()] * 3 + [(-truth(some)).tolist()] * 2
 

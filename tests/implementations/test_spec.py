@@ -109,7 +109,7 @@ def test_a_built_in_method_has_the_interface_of_an_implementation():
         assert answered.answered.all()
         assert answered.answers.tolist() == classify(some).tolist()
         assert it.time(some, 3) > 0
-        it.use_fresh_process()
+        it.close()
         assert it.classify(some, batch=7).answers.tolist() == answered.answers.tolist()
         assert (it.description.name, it.description.precision) == ("fast", "float64")
         assert it.description.domain == builtin("fast").domain
@@ -121,7 +121,7 @@ def test_a_built_in_method_has_the_interface_of_an_implementation():
 def test_batches_grow_while_answers_are_quick_and_shrink_while_they_are_slow():
     """A tenth of the timeout, 1 s, is what a question should take."""
     with open_implementation("builtin:fast") as it:
-        sizes = [it._batch]
+        sizes = [it.proven_batch]
         for seconds, rows in (
             (0.01, 3),
             (0.01, 64),

@@ -20,7 +20,7 @@ def test_an_error_of_a_task_is_raised_by_its_future_and_not_where_it_is_submitte
 def test_stand_in_for_an_implementation_that_kills_workers_reports_a_crash_for_every_row():
     allowance = Allowance(1, 2, "", None)
     crashed = Crashed(16, "it ended the worker", Allowance(5, 5, "", None))
-    crashed.allow(allowance)
+    crashed.allowance = allowance
     answered = crashed.classify([[1.0] * 7] * 3)
     assert (crashed.max_rows, crashed.allowance) == (16, allowance)
     assert not answered.answered.any()

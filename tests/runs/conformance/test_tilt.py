@@ -207,7 +207,7 @@ class AskedAgain:
     def __init__(self):
         self.widths = set()
 
-    def use_fresh_process(self):
+    def close(self):
         """Nothing to begin afresh."""
 
     def classify(self, rows, *, batch=None):
