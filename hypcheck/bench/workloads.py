@@ -28,7 +28,7 @@ from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES, family_of
 from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, centred
 from hypcheck.vectors.scenes import BODY, ROTOR, TOWER
-from hypcheck.vectors.tilted.families import Vectors, anywhere, beside
+from hypcheck.vectors.tilted import Vectors, anywhere, beside
 
 NEAR_SCENES = (
     (*TOWER, *BODY),
@@ -184,7 +184,7 @@ def _frozen_ways(_seed: int, count: int) -> Rows:
 @cache
 def frozen_ways() -> Rows:
     """The frozen ways of upright spheroids, all families in turn."""
-    families = [frozen.load_ways(name).rows for name, family in WAY_FAMILIES.items() if not family.tilted]
+    families = [frozen.load(name).rows for name, family in WAY_FAMILIES.items() if not family.tilted]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
 

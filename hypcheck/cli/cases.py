@@ -80,7 +80,7 @@ def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:
     """
     from hypcheck.errors import Exit
     from hypcheck.proofs.build import run_checker
-    from hypcheck.vectors.examining import examine, shipped_files
+    from hypcheck.vectors.checking import examine, shipped_files
 
     if checker == "coq":
         context.exit(run_checker(list(files) or shipped_files(tilted=False)))
@@ -106,10 +106,10 @@ def freeze(names: tuple[str, ...], into: Path) -> None:
 
     All files take some minutes, most of it the search for the worst cancellation and the flips of tilted spheroids.
     """
-    from hypcheck.vectors.freezing import NAMES
     from hypcheck.vectors.freezing import freeze as write
+    from hypcheck.vectors.frozen import ALL_NAMES
 
-    write(names or NAMES, into, lambda name: click.echo(printable(into / f"{name}.json")))
+    write(names or ALL_NAMES, into, lambda name: click.echo(printable(into / f"{name}.json")))
 
 
 def _format_of(target: str) -> str:

@@ -236,8 +236,9 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     from hypcheck.runs.replay import case_of
     from hypcheck.truth.tilted.pair import pair_of
     from hypcheck.vectors.families import is_extreme
+    from hypcheck.vectors.format import content_with
+    from hypcheck.vectors.labels import labelled
     from hypcheck.vectors.showing import way_answer_lines
-    from hypcheck.vectors.ways.labels import labelled_ways
 
     given = case_of(case)
     with opened(spec, **subject) as target:
@@ -247,7 +248,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     row = run.last.case.row
     if run.target.layout is WAYS:
         click.echo("\nthe right answer")
-        click.echo("\n".join(way_answer_lines(*labelled_ways([("", row)]))))
+        click.echo("\n".join(way_answer_lines(*labelled(content_with(WAYS), [("", row)]))))
     else:
         click.echo(f"\nthe right answer: {answer_as_text(answer(pair_of(row)))}")
 

@@ -21,9 +21,9 @@ from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judges import truth_of
 from hypcheck.vectors import families
 from hypcheck.vectors import frozen as vectors
+from hypcheck.vectors.cases import TiltedVector
 from hypcheck.vectors.families import FAMILIES, case_id
 from hypcheck.vectors.family import BLOCK, Family
-from hypcheck.vectors.tilted.format import TiltedVector
 
 _SMALLEST = 1e-300
 """Below this distance the float in a frozen vector is too inaccurate."""
@@ -48,12 +48,12 @@ _LOADED: dict[str, FrozenVectors] = {}
 def frozen_vectors(name: str) -> FrozenVectors:
     """The vectors of a family. Raises InputError if it has none."""
     if name not in _LOADED:
-        found = vectors.frozen_rows(name)
+        found = vectors.load(name)
         exponents = np.full(len(found.rows), math.nan)
         if name in vectors.NAMES:
-            exponents = np.array([_exponent(vector.position, vector.flips) for vector in vectors.load(name).cases])
+            exponents = np.array([_exponent(vector.position, vector.flips) for vector in found.cases])
         elif name in vectors.TILTED_NAMES:
-            exponents = np.array([_tilted_exponent(vector) for vector in vectors.load_tilted(name).cases])
+            exponents = np.array([_tilted_exponent(vector) for vector in found.cases])
         _LOADED[name] = FrozenVectors(found.ids, found.rows, found.positions, exponents)
     return _LOADED[name]
 

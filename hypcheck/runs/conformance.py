@@ -28,7 +28,7 @@ from hypcheck.runs.resume import ProgressWriter, recorded_description
 from hypcheck.runs.retest import result_without_retest
 from hypcheck.runs.schedule import ImplementationOpener, RetestStep, RunState, TaskExecution, perform_steps
 from hypcheck.runs.tally import Tally
-from hypcheck.vectors import frozen
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -194,7 +194,7 @@ class ImplementationLines:
         )
 
     def _group(self, family: str, tallied: Tally) -> GroupLine:
-        wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in frozen.INVALID_CONTENTS
+        wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in INVALID_CONTENTS
         grave = (*((Status.WRONG,) if wrong_fails else ()), Status.UNDECIDED, *UNANSWERED)
         failing = [status.value for status in grave if tallied.counts.get(status.value)]
         name = self.used.name

@@ -28,8 +28,8 @@ from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
 from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT, Tally, WorstCase
-from hypcheck.vectors import frozen
 from hypcheck.vectors.family import MARK
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
 
 _OFF = (Status.WRONG, Status.TOLERATED, Status.UNDECIDED, Status.EXCUSED)
 _ENDED_AS = tuple(outcome for outcome in Outcome if outcome is not Outcome.ANSWERED)
@@ -60,7 +60,7 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
         raise ValueError("a family has two lines")
     fixed_sizes = {family: plan.count for family in tallied if MARK in family and not plan.filtered}
     question = whole.used.question
-    refuses = frozen.INVALID_NAMES[QUESTIONS[question].layout][0] in tallied
+    refuses = INVALID_NAMES[QUESTIONS[question].layout][0] in tallied
     used = Description(whole.used.name, question=question, refuses=refuses, tilt=whole.used.tilt is True)
     planned = planned_cases(plan, used)
     trouble = _difference(tallied, planned | fixed_sizes)
@@ -83,7 +83,7 @@ def _of_failing(line: GroupLine, plan: ConformancePlan) -> str:
     """The statuses for which a group fails the run must be those of its counts, as far as these decide it."""
     must = {name for name in (*_UNANSWERED, Status.UNDECIDED.value) if line.counts.get(name)}
     may = must | ({str(Status.WRONG.value)} if line.counts.get(Status.WRONG.value) else set())
-    if plan.fail_on == "wrong" or line.family in frozen.INVALID_CONTENTS:
+    if plan.fail_on == "wrong" or line.family in INVALID_CONTENTS:
         must = may
     failing = line.failing or []
     if not must <= set(failing) <= may:
@@ -198,7 +198,7 @@ def _of_sums(family: str, sums: _Sums) -> str:
         return f"{family} has a status or a mistake that does not exist"
     off, wrong = sum(counts[each.value] for each in _OFF), counts[Status.WRONG.value]
     asked = sums.asked == sum(counts.values()) - counts[Status.SKIPPED.value]
-    if family in frozen.INVALID_CONTENTS:
+    if family in INVALID_CONTENTS:
         agree = not (sums.mistakes or sums.exponents or any(sums.bins) or sums.worst)
     else:
         measured: Counter[str] = Counter()
@@ -224,9 +224,9 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
         return trouble
     if tally.dangerous > min(counts[Status.WRONG.value], sum(tally.mistakes.get(each.value, 0) for each in DANGEROUS)):
         return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
-    faults = _UNANSWERED | ({Status.WRONG.value} if family in frozen.INVALID_CONTENTS else set())
+    faults = _UNANSWERED | ({Status.WRONG.value} if family in INVALID_CONTENTS else set())
     diagnosed = sum(each.cases for each in tally.diagnosis.explained.values())
-    if diagnosed != (0 if family in frozen.INVALID_CONTENTS else sum(counts[each.value] for each in FAILING)):
+    if diagnosed != (0 if family in INVALID_CONTENTS else sum(counts[each.value] for each in FAILING)):
         return f"{family} has causes of {diagnosed} wrong answers, but another number of these"
     kept = Counter(fault.status for fault in tally.unanswered)
     if kept != Counter({name: min(UNANSWERED_KEPT, counts[name]) for name in faults if counts[name]}):

@@ -30,6 +30,7 @@ from hypcheck.runs.way_slips import WAY_SLIPS
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.family import MARK
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 CAUSES: tuple[Cause, ...] = (*PLACES, *UPRIGHT_SLIPS, *TILTED_SLIPS, *WAY_SLIPS)
 """All causes; a set of them is a number with a bit for each, in this order."""
@@ -210,9 +211,9 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
     layout = QUESTIONS[criterion.question].layout
     widths: dict[int, list[tuple[Rows, Positions]]] = {}
     for family in clean:
-        if family in frozen.INVALID_CONTENTS or MARK in family:
+        if family in INVALID_CONTENTS or MARK in family:
             continue
-        found = frozen.frozen_rows(family)
+        found = frozen.load(family)
         inside = claimed(found.rows, domain, criterion.precision, extreme=is_extreme(family), layout=layout)
         rows = found.rows[inside][:: max(1, len(inside) // CLEAN)]
         truth = found.positions[inside][:: max(1, len(inside) // CLEAN)]

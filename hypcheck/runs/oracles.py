@@ -33,9 +33,9 @@ from hypcheck.truth.tilted import roots as tilted_roots
 from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import frozen
+from hypcheck.vectors.cases import TiltedVector
 from hypcheck.vectors.families import TILTED_FAMILIES
 from hypcheck.vectors.family import Family
-from hypcheck.vectors.tilted.format import TiltedVector
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,7 +185,7 @@ def tilted_batches(plan: SelfCheckPlan) -> tuple[TiltedBatch, ...]:
 
 
 def _tilted_batch(family: Family, count: int) -> TiltedBatch:
-    cases = frozen.load_tilted(family.name).cases[:count]
+    cases = frozen.load(family.name).cases[:count]
     return TiltedBatch(
         family,
         np.asarray([case.row for case in cases]),

@@ -18,9 +18,10 @@ from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.known_failures import KnownFailure, read_known_failures
 from hypcheck.runs.results import InvalidRows, JudgingRules
 from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
-from hypcheck.vectors import fixed_sizes, frozen
+from hypcheck.vectors import fixed_sizes
 from hypcheck.vectors.families import select
 from hypcheck.vectors.family import Family
+from hypcheck.vectors.invalid_rows import INVALID_NAMES
 
 FAIL_ON = ("wrong", "false-clear")
 
@@ -115,7 +116,7 @@ def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
 
 def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
     """The invalid rows that an implementation is asked: with an axis too if it takes tilt; none unless it refuses."""
-    names = frozen.INVALID_NAMES[used.asked.layout][: 1 + used.tilt]
+    names = INVALID_NAMES[used.asked.layout][: 1 + used.tilt]
     return tuple(map(InvalidRows, names)) if used.refuses else ()
 
 

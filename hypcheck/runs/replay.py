@@ -48,10 +48,10 @@ from hypcheck.truth.kinds import Kind
 from hypcheck.truth.swept import Passage
 from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.truth.tilted.pair import TiltedPair, pair_of
-from hypcheck.vectors import frozen
-from hypcheck.vectors.families import WAY_FAMILIES, is_extreme, parse_case_id
+from hypcheck.vectors.families import is_extreme, parse_case_id
 from hypcheck.vectors.family import MARK
-from hypcheck.vectors.showing import invalid_row_of, vector_of
+from hypcheck.vectors.invalid_rows import columns_at_fault
+from hypcheck.vectors.showing import case_named
 
 _RECORDED = re.compile(r"(.+):([0-9]+)", re.ASCII | re.DOTALL)
 _HEXADECIMAL = re.compile(r"[ \t]*[+-]?0x", re.ASCII | re.IGNORECASE)
@@ -70,7 +70,7 @@ class ReplayCase:
     @property
     def at_fault(self) -> tuple[str, ...]:
         """The columns that make the row invalid, so that it must be refused; none of a valid row."""
-        return frozen.columns_at_fault(self.row, (self.layout or PAIRS).columns(len(self.row)))
+        return columns_at_fault(self.row, (self.layout or PAIRS).columns(len(self.row)))
 
 
 def case_of(text: str) -> ReplayCase:
@@ -89,11 +89,8 @@ def case_of(text: str) -> ReplayCase:
     if "/" in text:
         case = parse_case_id(text)
         return ReplayCase(text, case.family.row(case.seed, case.index), case.family.layout)
-    if text.rpartition("-")[0] in frozen.INVALID_CONTENTS:
-        of_ways = text.rpartition("-")[0] in frozen.INVALID_NAMES[WAYS]
-        return ReplayCase(text, invalid_row_of(text).row, WAYS if of_ways else PAIRS)
-    way = text.rpartition("-")[0] in WAY_FAMILIES
-    return ReplayCase(text, vector_of(text).row, WAYS if way else PAIRS)
+    found, content = case_named(text)
+    return ReplayCase(text, found.row, content.layout)
 
 
 def _from_record(path: Path, number: int) -> ReplayCase:

@@ -30,7 +30,8 @@ from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_ca
 from hypcheck.runs.tally import STATUS_CODES, Tally, counts_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
-from hypcheck.vectors.frozen import InvalidRowFile
+from hypcheck.vectors.format import CaseFile
+from hypcheck.vectors.invalid_rows import InvalidRow
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,15 +120,15 @@ class JudgingRules:
 class InvalidRows:
     """All invalid rows of one file, which go to an implementation that declares that it refuses such rows."""
 
-    family: str = frozen.INVALID_NAME
+    family: str = "invalid"
 
     def __len__(self) -> int:
         return len(self.file.cases)
 
     @property
-    def file(self) -> InvalidRowFile:
+    def file(self) -> CaseFile[InvalidRow]:
         """The rows."""
-        return frozen.load_invalid_rows(self.family)
+        return frozen.load(self.family)
 
     def name(self, index: int) -> str:
         """The id of a case."""

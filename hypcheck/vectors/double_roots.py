@@ -30,12 +30,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.vectors.draw import Draw, exponent, ldexp
+from hypcheck.vectors.draw import Draw, Integers, exponent, ldexp, stepped
 
 BigIntegers = NDArray[np.object_]
 
 RADIAL_COLUMNS = [0, 2, 4, 5]
 AXIAL_COLUMNS = [1, 3, 6]
+ULPS = 40
+"""Neighbours of what is exact lie 1, 2, 4 … 2^ULPS ulp away."""
+
 ATTEMPTS = 1000
 """The rarest rows wanted are 1 in 50, which takes some dozens of attempts for a block."""
 
@@ -112,6 +115,16 @@ def in_metres(draw: Draw, rows: Rows) -> Rows:
         unit = draw.integers(n, -3, 3) - (exponent(greatest) + exponent(least)) // 2
         rows[:, columns] = ldexp(rows[:, columns], unit[:, None])
     return rows + 0.0
+
+
+def one_moved(draw: Draw, rows: Rows, steps: Integers) -> Rows:
+    """The rows with one number each, any but a zero, moved by so many ulps, (n,)."""
+    n = len(rows)
+    chosen, index = draw.integers(n, 0, rows.shape[1] - 1), np.arange(n)
+    chosen = np.where(rows[index, chosen] == 0, chosen % 4, chosen)
+    moved = rows.copy()
+    moved[index, chosen] = stepped(rows[index, chosen], steps)
+    return moved
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,26 +1,21 @@
-"""A family of cases: its generator of rows, its description, and the labelled and proved cases of its file.
+"""A family of cases: its generator of rows, and what the files of its cases say of it.
 
 The rows of a generator depend on nothing but (name, version, seed, index).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cache
 from importlib import resources
-from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck import toml
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Pair, Position
-from hypcheck.geometry.rows import PAIRS, Layout, Positions, Rows
-from hypcheck.truth.certificate import Certificate
-from hypcheck.truth.kinds import Kind
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.vectors.draw import Draw, Maker
 
 MARK = "@"
@@ -75,14 +70,16 @@ class Family:
     """One trap, and a generator of rows that lead into it; descriptions.toml says what it is for.
 
     `name`: kebab-case; `version`: of the generator, raised by every change of its output, since both are part of the
-    case ids. `extreme`: lengths near the end of a float format, so the family is taken only when it is asked for.
-    `by_place`: the generator works place by place, so that it can make several blocks at one go. `movement`: so many
-    consecutive rows follow one object from moment to moment; 1 where none do. `layout` says what rows are about, a
-    position or a way. `tilted`: they have three numbers more, the axis of the spheroid behind the others.
+    case ids. `frozen`: so many rows are frozen, more where the traps are, few where proofs are long. `extreme`: lengths
+    near the end of a float format, so the family is taken only when it is asked for. `by_place`: the generator works
+    place by place, so that it can make several blocks at one go. `movement`: so many consecutive rows follow one object
+    from moment to moment; 1 where none do. `layout` says what rows are about, a position or a way. `tilted`: they have
+    three numbers more, the axis of the spheroid behind the others.
     """
 
     name: str
     make: Maker = field(repr=False)
+    frozen: int = 0
     version: int = 1
     extreme: bool = False
     by_place: bool = False
@@ -133,115 +130,6 @@ class Family:
         if seed < 0 or count < 0:
             raise InputError(f"seed is {seed} and count is {count}; neither may be negative")
         return np.ascontiguousarray(self.columns_between(seed, 0, count).T)
-
-
-SCHEMA = "1.0.0"
-"""The version of the files' schemas, such as cases/schema/vectors-1.0.0.json."""
-
-TILTED_SCHEMA = "1.1.0"
-"""The version of the schemas of files about tilted spheroids."""
-
-WAY_SCHEMA = "1.2.0"
-"""The version of the schemas of files about ways; a reader refuses any other than these three."""
-
-Offset = tuple[Fraction, Fraction, Fraction]
-
-
-@dataclass(frozen=True, slots=True)
-class StoredCertificate:
-    """A certificate as files hold it: one of a multiplier λ, a double root m, and points.
-
-    Points are offsets (s, t, w) from the spheroid's centre in its semi-axes, so that s² + t² + w² ≤ 1 says that
-    (x + b s, y + b t, z + d w) belongs to the spheroid, and short numbers do.
-    """
-
-    multiplier: Fraction | None = None
-    offsets: tuple[Offset, ...] = ()
-    double_root: Fraction | None = None
-
-    def certificate(self, pair: Pair, position: Position) -> Certificate:
-        """The certificate of that claim, its points in the caller's coordinates."""
-        _, _, b, d, x, y, z = map(Fraction, pair.row)
-        points = tuple((x + b * s, y + b * t, z + d * w) for s, t, w in self.offsets)
-        return Certificate(position, multiplier=self.multiplier, points=points, double_root=self.double_root)
-
-
-@dataclass(frozen=True, slots=True)
-class Vector:
-    """A case: a valid row (−0.0 included, as it was given), its labels, and what proves them.
-
-    `clearance` is in spheroid radii, to within an ulp, inf beyond float64. `flips` has the distance to each other
-    position as truth/flip.py measures it. `flags` are names out of flags.FLAGS.
-    """
-
-    id: str
-    row: Row
-    position: Position
-    tangent: bool
-    kind: Kind
-    clearance: float
-    flips: Mapping[Position, float]
-    witness: StoredCertificate
-    flags: tuple[str, ...] = ()
-
-    @property
-    def pair(self) -> Pair:
-        """The row as a query."""
-        return Pair.from_row(self.row)
-
-
-@dataclass(frozen=True, slots=True)
-class FlagFacts:
-    """What a flag says of a case, and the kind of defect that cases with it find."""
-
-    meaning: str
-    bug_type: str
-
-
-Case = TypeVar("Case", bound="LabelledCase")
-
-
-class LabelledCase(Protocol):
-    """What the cases of all files with answers have."""
-
-    @property
-    def id(self) -> str:
-        """Its name, its own for ever."""
-        ...
-
-    @property
-    def row(self) -> Row:
-        """The numbers that are asked about."""
-        ...
-
-    @property
-    def flags(self) -> tuple[str, ...]:
-        """The names of what is special about it."""
-        ...
-
-
-@dataclass(frozen=True)
-class CaseFile(Generic[Case]):
-    """A file of cases. `lines` are the lines on which they stood where it was read, for messages."""
-
-    head: Metadata
-    flags: Mapping[str, FlagFacts]
-    cases: tuple[Case, ...]
-    lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
-
-
-class VectorFile(CaseFile[Vector]):
-    """A file about positions of upright spheroids."""
-
-    @property
-    def rows(self) -> Rows:
-        """The rows, float64 (n, 7)."""
-        return rows_of([case.row for case in self.cases])
-
-    @property
-    def positions(self) -> Positions:
-        """The right answers, int8 (n,)."""
-        return np.asarray([case.position for case in self.cases], dtype=np.int8)
 
 
 def rows_of(rows: list[Row]) -> Rows:

@@ -22,10 +22,10 @@ from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows, with_axis
 from hypcheck.truth import exact
 from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors import tilted
 from hypcheck.vectors.draw import Draw, ldexp, stepped, turns
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
-from hypcheck.vectors.tilted import families as tilted_families
 
 OPEN = 2.0
 """Where the centre may be anywhere, rows lie within so many waist radii of the axis and heights γ of the waist."""
@@ -255,10 +255,10 @@ TRAPS: dict[str, Trap] = {
 """What an upright spheroid is asked; descriptions.toml says what for."""
 
 
-def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted_families.Vectors:
+def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted.Vectors:
     """The axis of the setting; a free one in every direction, a third of them in a plane of the coordinates."""
     if setting.axis is None or setting.axis == "free":
-        x, y, z = tilted_families.anywhere(draw, n)
+        x, y, z = tilted.anywhere(draw, n)
         return x * turns(n, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0), y, z * turns(n, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0)
     x, y, z = (np.full(n, part) for part in setting.axis)
     return x, y, z
@@ -268,7 +268,7 @@ def _leaning_rows(setting: FixedSizes, draw: Draw, n: int, offset: Floats) -> Ro
     """Centres `offset` radii off the surface."""
     size = Sizes(*(np.full(n, value) for value in setting.sizes))
     heights = _heights(setting, draw, n) / setting.sizes[1]
-    return tilted_families.beside(draw, size, heights, _axes_of(setting, draw, n), offset)
+    return tilted.beside(draw, size, heights, _axes_of(setting, draw, n), offset)
 
 
 def _held(setting: FixedSizes, rows: Rows) -> Rows:

@@ -7,6 +7,7 @@ every operation of a formula's program is rounded once, in the order in which it
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -15,12 +16,17 @@ from numpy.typing import NDArray
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, WAY_COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Mask, Rows, within
 from hypcheck.truth import backward_error
 from hypcheck.truth.exact import Decision, cubic
+from hypcheck.truth.exact import position as upright_position
 from hypcheck.truth.kinds import Kind
-from hypcheck.vectors.family import FlagFacts, Row, rows_of
+from hypcheck.truth.passage_certificate import PassageCertificate
+from hypcheck.truth.swept import journey_of
+from hypcheck.truth.tilted.exact import TiltedDecision, discriminant, quartic
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors.family import Row, rows_of
 
 
 def exactly_right(formula: str, row: Row, truth: Position) -> bool:
@@ -84,6 +90,14 @@ def _excuse(formula: str, answer: int) -> Position:
     if question == "position":
         return Position(answer)
     return Position[question.upper()] if answer else Position.CONTACT
+
+
+@dataclass(frozen=True, slots=True)
+class FlagFacts:
+    """What a flag says of a case, and the kind of defect that cases with it find."""
+
+    meaning: str
+    bug_type: str
 
 
 FORMATS = ("float16", "float32", "float64")
@@ -269,3 +283,56 @@ def _beyond(row: Row, truth: Decision, excuse: Position, precision: str) -> bool
     change = TOLERANCE_U * Fraction(unit_roundoff(precision))
     lengths = Pair.from_row(row).lengths
     return truth.kind.limit_of is not excuse and not backward_error.makes_right(lengths, truth.position, excuse, change)
+
+
+_SHORTEST, _LONGEST = 2.0**-511, 2.0**511
+"""Between these a length's square neither underflows nor overflows."""
+
+
+def tilted_flags(pair: TiltedPair, decision: TiltedDecision) -> tuple[str, ...]:
+    """What is special about a case, each decided exactly."""
+    lengths, sizes = pair.lengths, pair.row[:7]
+    vertical = lengths.upright is not None
+    double = not vertical and discriminant(quartic(lengths)) == 0
+    v_x, v_y, v_z = lengths.axis
+    across = lengths.x * v_y - lengths.y * v_x
+    leaning = lengths.y * v_z - lengths.z * v_y, lengths.z * v_x - lengths.x * v_z
+    largest = max(map(abs, pair.axis))
+    found = {
+        "tangent": decision.tangent,
+        "quartic-ring": double and decision.position is not Position.CONTACT,
+        "quartic-delta=0": double,
+        "tilt-matters": upright_position(Pair(*sizes).lengths) is not decision.position,
+        "vertical-axis": v_x == v_y == 0,
+        "horizontal-axis": v_z == 0,
+        "sphere": pair.b == pair.d,
+        "meridian-plane": across == 0,
+        "through-the-origin": across == leaning[0] == leaning[1] == 0,
+        "on-axis": lengths.x == lengths.y == 0,
+        "on-surface": (lengths.x**2 + lengths.y**2) * lengths.gamma**2
+        == lengths.alpha**2 * (lengths.gamma**2 + lengths.z**2),
+        "long-axis": not _SHORTEST <= largest <= _LONGEST,
+        "extreme": not within(np.asarray([sizes]))[0],
+    }
+    return tuple(name for name, holds in found.items() if holds)
+
+
+def way_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
+    """What is special about a case; positions at its ends are decided exactly."""
+    start, end, axis = row[4:7], row[7:10], row[len(WAY_COLUMNS) :]
+    ends = [_position(row, Fraction(time)) for time in (0, 1)]
+    found = {
+        "tunnelling": first is not None and ends[0] is ends[1] is not Position.CONTACT,
+        "tangent": proof.double_root is not None,
+        "contact-at-start": ends[0] is Position.CONTACT,
+        "contact-at-end-alone": first is not None and first[0] < 1 == proof.time and first[1] == 1,
+        "still": start == end,
+        "vertical-way": start[:2] == end[:2] and start[2] != end[2],
+        "horizontal-way": start[2] == end[2] and start[:2] != end[:2],
+        "upright": bool(axis) and (not any(axis[:2]) or row[2] == row[3]),
+    }
+    return tuple(name for name, holds in found.items() if holds)
+
+
+def _position(row: Row, time: Fraction) -> Position:
+    return journey_of(row[:4], row[4 : len(COLUMNS)], row[7:10], row[len(WAY_COLUMNS) :] or None).position(time)

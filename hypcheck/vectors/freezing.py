@@ -1,8 +1,8 @@
 """The frozen files made anew: old cases stay as they are, with the ids they have; new rows are added after them.
 
-A family's file has the first rows of seed SEED, as many as COUNTS says, each once. Where a new version of a generator
-makes other rows, these are added too: no copy of a case ever loses its meaning. Vector files of generated rows are made
-in the same way.
+A family's file has the first rows of seed SEED, as many as the table of families says, each once. Where a new version
+of a generator makes other rows, these are added too: no copy of a case ever loses its meaning. Vector files of
+generated rows are made in the same way.
 """
 
 from __future__ import annotations
@@ -20,85 +20,18 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.tables.streams import writing
 from hypcheck.vectors import cancellation
-from hypcheck.vectors import frozen as refusals
-from hypcheck.vectors.families import ALL, WAY_FAMILIES, case_id, parse_case_id
-from hypcheck.vectors.family import CaseFile, Family, LabelledCase, Row, described
-from hypcheck.vectors.file_types import FileType, type_of_rows
-from hypcheck.vectors.frozen import AnyVector, InvalidRowFile, invalid_rows_text, read_invalid_rows
-from hypcheck.vectors.labels import LabelFault, faults_of_invalid_rows
+from hypcheck.vectors.cases import AnyVector, cases_text, read_cases
+from hypcheck.vectors.checking import faults_of
+from hypcheck.vectors.families import ALL, case_id, parse_case_id
+from hypcheck.vectors.family import Family, Metadata, Row, described
+from hypcheck.vectors.format import CaseFile, Content, content_with
+from hypcheck.vectors.frozen import ALL_NAMES, head_of
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, InvalidRow, InvalidRowFile, invalid_rows
+from hypcheck.vectors.labels import labelled
 
 SEED = 1
 
-COUNTS = {
-    "forest-type-1": 120,
-    "forest-type-2": 120,
-    "tower-body": 120,
-    "tower-rotors": 120,
-    "flight": 128,
-    "uniform": 160,
-    "far-centers": 120,
-    "giant-spheroids": 120,
-    "tiny-spheroids": 120,
-    "float32-exact": 160,
-    "float16-exact": 160,
-    "small-integers": 240,
-    "symmetric-images": 160,
-    "one-number-changed": 168,
-    "tangent": 270,
-    "near-tangent-outside": 240,
-    "near-tangent-inside": 240,
-    "degenerate-crossing": 120,
-    "degenerate-neighbourhood": 160,
-    "on-surface": 120,
-    "tangent-ladder": 492,
-    "ring": 240,
-    "ring-neighbourhood": 240,
-    "osculation": 240,
-    "near-axis": 200,
-    "coefficient-zero": 240,
-    "axis": 160,
-    "waist": 160,
-    "regime-borders": 240,
-    "out-of-regime": 240,
-    "stiff-radial": 160,
-    "stiff-axial": 160,
-    "stiff-both": 160,
-    "whole-domain": 240,
-    "extreme-float16": 180,
-    "extreme-float32": 180,
-    "extreme-float64": 180,
-    "extreme-subnormal": 120,
-    "extreme-magnitude": 120,
-    "extreme-hair": 60,
-}
-"""Rows of each family: more where the traps are, few where proofs are long."""
-
-TILTED_COUNTS = {
-    "tilted-uniform": 160,
-    "tilted-tower": 160,
-    "tilted-near-contact": 200,
-    "tilted-tangent": 200,
-    "tilted-near-tangent": 240,
-    "tilted-crossing": 120,
-    "tilted-symmetric": 200,
-    "tilted-sphere": 120,
-    "tilted-upright": 120,
-    "tilted-slight": 180,
-    "tilted-twins": 180,
-    "tilted-ring": 200,
-    "tilted-stiff": 180,
-    "tilted-axis-length": 160,
-    "tilted-small-integers": 200,
-    "extreme-tilted": 120,
-}
-"""The same of the families of tilted spheroids."""
-
-WAY_COUNTS = {name: 40 if family.tilted else 108 for name, family in WAY_FAMILIES.items()}
-"""The same of the families of ways."""
-
 _NUMBER = re.compile(r".*-([0-9]+)", re.ASCII)
-
-NAMES = (*COUNTS, cancellation.NAME, *TILTED_COUNTS, *WAY_COUNTS, *refusals.INVALID_CONTENTS)
 
 Progress = Callable[[str], object]
 
@@ -111,8 +44,8 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
     """
     wanted = list(dict.fromkeys(names))
     for name in wanted:
-        if name not in NAMES:
-            raise InputError(f"there are no frozen vectors {name!r}; there are {', '.join(NAMES)}")
+        if name not in ALL_NAMES:
+            raise InputError(f"there are no frozen vectors {name!r}; there are {', '.join(ALL_NAMES)}")
     if not folder.is_dir():
         raise InputError(f"{folder} is no folder; create it, or name another folder with --into")
     for name in wanted:
@@ -124,19 +57,23 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
 
 
 def _text(name: str, path: Path) -> str:
-    if name in refusals.INVALID_CONTENTS:
-        invalid = frozen_invalid_rows(read_invalid_rows(str(path)) if path.exists() else None, name)
-        _require_no_faults(faults_of_invalid_rows(invalid))
-        return invalid_rows_text(invalid)
-    kind = _type_of(name)
-    file = frozen(name, _before(name, path, kind))
-    _require_no_faults(kind.faults(file))
-    return kind.text(file)
+    before = read_cases(str(path), _content_of(name)) if path.exists() else None
+    if before is not None and before.head.name != name:
+        raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
+    file = frozen_invalid_rows(name, before) if name in INVALID_CONTENTS else frozen(name, before)
+    for fault in faults_of(file):
+        raise DisagreementError(
+            f"the label made for {fault.case} fails its check: {fault.sentence}; please report this, it is a "
+            "fault of hypcheck"
+        )
+    return cases_text(file)
 
 
-def _type_of(name: str) -> FileType[Any]:
+def _content_of(name: str) -> Content:
+    if name in INVALID_CONTENTS:
+        return INVALID_CONTENTS[name]
     family = ALL.get(name)
-    return type_of_rows() if family is None else type_of_rows(family.layout, tilted=family.tilted)
+    return content_with(family.layout, tilted=family.tilted) if family else content_with()
 
 
 def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
@@ -144,23 +81,27 @@ def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
 
     Labels of positions of upright spheroids are made quickly: all of them are made anew.
     """
-    kind = _type_of(name)
+    content = _content_of(name)
     old = before.cases if before else ()
     cases = extended(name, _named(old), [tuple(row) for row in planned(name).tolist()])
-    kept = () if kind is type_of_rows() else old
-    return kind.assembled(refusals.head_of(name), (*kept, *kind.labelled(cases[len(kept) :])))
+    kept = () if content is content_with() else old
+    return assembled(head_of(name), content, (*kept, *labelled(content, cases[len(kept) :])))
 
 
-def _named(cases: Iterable[LabelledCase]) -> list[tuple[str, Row]]:
+def assembled(head: Metadata, content: Content, cases: Sequence[AnyVector]) -> CaseFile[Any]:
+    """A file of these cases, with the meaning of the flags that they have."""
+    used = {flag for case in cases for flag in case.flags}
+    flags = {name: facts for name, facts in content.flags.items() if name in used}
+    return CaseFile(head, content, tuple(cases), flags)
+
+
+def _named(cases: Iterable[AnyVector]) -> list[tuple[str, Row]]:
     return [(case.id, case.row) for case in cases]
 
 
 def planned(name: str) -> Rows:
     """The rows that a file must have, float64 (n, as many numbers as a row has), some of them perhaps twice."""
-    if name == cancellation.NAME:
-        return cancellation.worst_rows()
-    (count,) = (counts[name] for counts in (COUNTS, TILTED_COUNTS, WAY_COUNTS) if name in counts)
-    return ALL[name].rows(SEED, count)
+    return cancellation.worst_rows() if name == cancellation.NAME else ALL[name].rows(SEED, ALL[name].frozen)
 
 
 def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:
@@ -182,60 +123,42 @@ def _next_number(ids: Iterable[str]) -> int:
     return 1 + max((int(match.group(1)) for match in found if match), default=-1)
 
 
-def generated_case(name: str) -> AnyVector:
-    """The generated case of that id, labelled and proved. Raises InputError where there is none."""
+def generated_case(name: str) -> tuple[AnyVector, Content]:
+    """The generated case of that id, labelled and proved, and the content of its file. Raises InputError."""
     case = parse_case_id(name)
+    content = content_with(case.family.layout, tilted=case.family.tilted)
     row = case.family.row(case.seed, case.index)
-    kind = type_of_rows(case.family.layout, tilted=case.family.tilted)
-    found: list[AnyVector] = kind.labelled([(case_id(case.family, case.seed, case.index), row)])
-    return found[0]
+    (found,) = labelled(content, [(case_id(case.family, case.seed, case.index), row)])
+    return found, content
 
 
 def generated_text(family: Family, seed: int, count: int) -> str:
     """A vector file of the first rows of a family's seed, with generated ids."""
     named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
     head = family.described(f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
-    kind = type_of_rows(family.layout, tilted=family.tilted)
-    return kind.text(kind.assembled(head, kind.labelled(named)))
+    content = content_with(family.layout, tilted=family.tilted)
+    return cases_text(assembled(head, content, labelled(content, named)))
 
 
-def frozen_invalid_rows(before: InvalidRowFile | None = None, name: str = refusals.INVALID_NAME) -> InvalidRowFile:
+def frozen_invalid_rows(name: str, before: CaseFile[Any] | None = None) -> InvalidRowFile:
     """The file of rows that must be refused; those of an earlier one keep their ids and places."""
-    kept = before.cases if before else ()
+    kept: tuple[InvalidRow, ...] = before.cases if before else ()
     known = {case.bits for case in kept}
     number = _next_number(case.id for case in kept)
-    made = refusals.invalid_rows(name)
+    made = invalid_rows(name)
     added = [case for case in made.cases if case.bits not in known]
     renamed = (replace(case, id=f"{name}-{number + place:04d}") for place, case in enumerate(added))
-    return InvalidRowFile(made.head, (*kept, *renamed), made.content)
-
-
-def _before(name: str, path: Path, kind: FileType[Any]) -> CaseFile[Any] | None:
-    """The file that is there. Raises InputError where it is of another family."""
-    if not path.exists():
-        return None
-    before = kind.read(str(path))
-    if before.head.name != name:
-        raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
-    return before
+    return InvalidRowFile(made.head, made.content, (*kept, *renamed))
 
 
 def _bits(row: Row) -> bytes:
     return struct.pack(f"<{len(row)}d", *row)
 
 
-def _require_no_faults(faults: list[LabelFault]) -> None:
-    if faults:
-        worst = faults[0]
-        raise DisagreementError(
-            f"the label made for {worst.case} fails its check: {worst.sentence}; please report this, it is a "
-            "fault of hypcheck"
-        )
-
-
 def require_keepable(path: str, *, tilted: bool = False, layout: Layout = PAIRS) -> None:
     """Check before a long hunt that rows can be added to this file. Raises InputError as `keep_rows` would."""
-    _found_before(path, "", tilted=tilted, layout=layout)
+    if Path(path).exists():
+        read_cases(path, content_with(layout, tilted=tilted))
     folder = Path(path).resolve().parent
     if not folder.is_dir():
         raise InputError(f"cannot write {path}: there is no folder {folder}")
@@ -250,22 +173,11 @@ def keep_rows(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool = Fa
     spheroids. A new file names `made_by` as the command that made it. Cases of an existing file stay as they are.
     Raises InputError if the file is no such vector file, or cannot be written.
     """
-    kind, before = type_of_rows(layout, tilted=tilted), _found_before(path, made_by, tilted=tilted, layout=layout)
+    content = content_with(layout, tilted=tilted)
+    there = Path(path).exists()
+    before = read_cases(path, content) if there else CaseFile[Any](described("found", made_by), content, ())
     known = _named(before.cases)
-    added = kind.labelled(extended(before.head.name, known, rows)[len(known) :])
+    added = labelled(content, extended(before.head.name, known, rows)[len(known) :])
     with writing(path) as writer:
-        writer.write(kind.text(kind.assembled(before.head, (*before.cases, *added))).encode())
+        writer.write(cases_text(assembled(before.head, content, (*before.cases, *added))).encode())
     return len(added)
-
-
-def _found_before(path: str, made_by: str, *, tilted: bool, layout: Layout) -> CaseFile[Any]:
-    """The file that is there, an empty one if there is none. Raises InputError if its rows are others."""
-    kind = type_of_rows(layout, tilted=tilted)
-    if not Path(path).exists():
-        return kind.assembled(described("found", made_by), ())
-    before = kind.read(path)
-    width = len(layout.tilted if tilted else layout.upright)
-    if before.cases and len(before.cases[0].row) != width:
-        numbers = len(before.cases[0].row)
-        raise InputError(f"{path} has rows of {numbers} numbers; it must have rows of {width}, to add these")
-    return before

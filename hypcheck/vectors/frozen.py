@@ -1,292 +1,24 @@
 """The frozen vectors that travel with the package: a file of certified cases for each family, and invalid rows.
 
 Files are read when they are asked for. Ids are for ever: a row keeps the id it was given, whatever becomes of the
-generator that made it. The files of INVALID_CONTENTS have rows that are no valid query, each with the columns
-that are at fault. Loads numpy, neither sympy nor mpmath.
+generator that made it. Loads numpy, neither sympy nor mpmath.
 """
 
 from __future__ import annotations
 
-import math
-import re
-import sys
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, SIZES, trouble_with
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Positions, Rows
+from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import suggestion
-from hypcheck.tables.numbers import shown_json
-from hypcheck.tables.strict_json import JsonDocument, JsonPlace, read_document
 from hypcheck.vectors import cancellation
+from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.families import ALL, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.family import Metadata, Row, Vector, VectorFile, described
-from hypcheck.vectors.format import (
-    COLUMNS_OF,
-    INVALID,
-    REFUSALS,
-    cases_of,
-    content_of,
-    document_text,
-    json_text,
-    listed,
-    number_of,
-    numbers_text,
-    object_text,
-    read_metadata,
-    read_vectors,
-)
-from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, read_tilted_vectors
-from hypcheck.vectors.ways.format import WayFile, WayVector, read_ways
-
-INVALID_NAME, TILTED_INVALID_NAME = "invalid", "tilted-invalid"
-WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME = "way-invalid", "tilted-way-invalid"
-EXPECTED = "refused"
-
-
-INVALID_CONTENTS = dict(
-    zip((INVALID_NAME, TILTED_INVALID_NAME, WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME), REFUSALS, strict=True)
-)
-"""The files of rows without an answer by name, and the content of each."""
-
-INVALID_NAMES = {PAIRS: (INVALID_NAME, TILTED_INVALID_NAME), WAYS: (WAY_INVALID_NAME, TILTED_WAY_INVALID_NAME)}
-"""The names of these files by layout, of upright spheroids and of tilted ones."""
-
-CASE_FIELDS = ("id", "row", "bits", "expected", "columns")
-
-_BITS = re.compile(r"[0-9a-f]{16}", re.ASCII)
-_WORDS = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
-_SOUND = {
-    PAIRS: (
-        (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0),
-        (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0),
-        (4.0, 4.0, 1.0, 1.0, 4.0, 0.0, 0.5),
-    ),
-    WAYS: (
-        (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, 4.0, 0.5, 1.0),
-        (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0, -0.5, 1.0, -2.0),
-        (4.0, 4.0, 1.0, 1.0, 9.0, 0.0, 0.5, -9.0, 1.0, 0.5),
-    ),
-}
-"""Valid rows, one of each position: exterior, interior, contact. In what follows something of theirs is made bad."""
-
-_SIGN = 1 << 63
-_NANS = {
-    "nan": 0x7FF8 << 48,
-    "−nan": 0xFFF8 << 48,
-    "payload": (0x7FF8 << 48) + 0x1234,
-    "signalling": (0x7FF0 << 48) + 1,
-}
-
-
-@dataclass(frozen=True, slots=True)
-class InvalidRow:
-    """A bad row: the 64 bits of its numbers, and the columns that are at fault, in their order."""
-
-    id: str
-    bits: tuple[int, ...]
-    columns: tuple[str, ...]
-
-    @property
-    def row(self) -> Row:
-        """The numbers; a NaN may lose its payload on the way."""
-        return tuple(rows_from_bits([self.bits])[0].tolist())
-
-
-@dataclass(frozen=True)
-class InvalidRowFile:
-    """The file of such rows, its content one of REFUSALS.
-
-    `lines` are the lines on which they stood where it was read, for messages.
-    """
-
-    head: Metadata
-    cases: tuple[InvalidRow, ...]
-    content: str
-    lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
-
-    @property
-    def rows(self) -> Rows:
-        """The rows, float64 (n, as many as `columns`), to the bit."""
-        return rows_from_bits([case.bits for case in self.cases])
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The names of a row's numbers."""
-        return COLUMNS_OF[self.content]
-
-
-def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
-    """Rows (n, 7, 10 or 13) of these 64-bit words."""
-    return np.asarray(bits, dtype=np.uint64).reshape(len(bits), -1).view(np.float64)
-
-
-def head_of(name: str) -> Metadata:
-    """What the frozen file of that name says of its family."""
-    family, made_by = ALL.get(name), f"hypcheck cases freeze {name}"
-    return family.described(made_by) if family else described(name, made_by)
-
-
-def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
-    """The columns of these names whose values are not allowed; all three of an axis without a direction."""
-    found = [name for name, value in zip(names, row, strict=True) if trouble_with(name, value) is not None]
-    axis = row[-len(AXIS) :] if names[-len(AXIS) :] == AXIS else ()
-    return (*found, *AXIS) if axis and not any(axis) else tuple(found)
-
-
-def invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
-    """The file of that name, made anew."""
-    layout = next(each for each, names in INVALID_NAMES.items() if name in names)
-    unlike = dict.fromkeys((_bad_rows if name == INVALID_NAMES[layout][0] else _bad_tilted_rows)(layout))
-    content = INVALID_CONTENTS[name]
-    cases = []
-    for number, bits in enumerate(unlike):
-        row = tuple(rows_from_bits([bits])[0].tolist())
-        cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row, COLUMNS_OF[content])))
-    return InvalidRowFile(head_of(name), tuple(cases), content)
-
-
-def _bad_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
-    """One bad number in each column, every kind of NaN in each, then several bad numbers that might cancel."""
-    sound, width = [_bits(row) for row in _SOUND[layout]], len(layout.upright)
-    for place, name in enumerate(layout.upright):
-        for turn, word in enumerate(_bad_words(name, _SOUND[layout][place % 3][place])):
-            yield _replaced(sound[(place + turn) % 3], {place: word})
-    for turn, word in enumerate(_NANS.values()):
-        for place in range(width):
-            yield _replaced(sound[(place + turn) % 3], {place: word})
-    nan, infinite = _NANS["nan"], _word(math.inf)
-    for row in sound:
-        sign = {place: row[place] ^ _SIGN for place in range(4)}
-        yield _replaced(row, {0: sign[0], 2: sign[2]})  # α/b as before
-        yield _replaced(row, {1: sign[1], 3: sign[3]})  # γ/d as before
-        yield _replaced(row, sign)
-        yield _replaced(row, {0: 0, 2: 0})  # α/b = 0/0
-        yield _replaced(row, {1: 0, 3: 0})
-        yield _replaced(row, {0: infinite, 2: infinite})
-        yield _replaced(row, {1: infinite, 3: infinite})
-        yield _replaced(row, {4: infinite, 5: infinite ^ _SIGN})
-        yield _replaced(row, {2: infinite, 4: infinite})
-        yield _replaced(row, {4: nan, 5: nan, 6: nan})
-        for place in range(4, width - 3):  # both ends of a way
-            yield _replaced(row, {place: infinite, place + 3: infinite})  # the step is ∞ − ∞
-            yield _replaced(row, {place: infinite, place + 3: infinite ^ _SIGN})
-            yield _replaced(row, {place: nan, place + 3: nan})  # at rest, if NaN were equal to itself
-    yield (0,) * width
-    yield (nan,) * width
-    yield (infinite,) * width
-    yield (infinite ^ _SIGN,) * width
-
-
-def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
-    """Axes of zeros, one bad number in each place of the axis, several, and bad numbers before a sound axis."""
-    sound = [(*_bits(row), *_bits(axis)) for row, axis in zip(_SOUND[layout], _AXES, strict=True)]
-    width = len(layout.upright)
-    axis_places = range(width, width + len(AXIS))
-    nan, infinite, minus = _NANS["nan"], _word(math.inf), _word(-math.inf)
-    for row in sound:
-        for zeros in ((0, 0, 0), (_SIGN, 0, 0), (0, _SIGN, _SIGN), (_SIGN, _SIGN, _SIGN)):
-            yield _replaced(row, dict(zip(axis_places, zeros, strict=True)))
-        for place in axis_places:
-            for word in (infinite, minus, *_NANS.values()):
-                yield _replaced(row, {place: word})
-            others = {other: 0 for other in axis_places if other != place}
-            for word in (nan, infinite):
-                yield _replaced(row, {place: word, **others})
-        for word in (nan, infinite, minus):
-            yield _replaced(row, dict.fromkeys(axis_places, word))
-        yield _replaced(row, {width: infinite, width + 1: minus})
-        for place in range(width):
-            yield _replaced(row, {place: nan})
-        for place in range(len(SIZES)):
-            yield _replaced(row, {place: 0})
-            yield _replaced(row, {place: row[place] ^ _SIGN})
-        yield _replaced(row, {2: 0, **dict.fromkeys(axis_places, 0)})
-    yield (0,) * len(row)
-    yield (nan,) * len(row)
-    yield (infinite,) * len(row)
-
-
-_AXES = ((3.0, 4.0, 12.0), (0.0, 0.0, 1.0), (-1.0, 0.5, 0.0))
-
-
-def _bad_words(name: str, value: float) -> Iterator[int]:
-    yield from (_word(math.inf), _word(-math.inf))
-    if name in SIZES:
-        yield from (0, _SIGN, _word(-value), _word(-math.ulp(0.0)), _word(-sys.float_info.max))
-
-
-def _bits(row: Row) -> tuple[int, ...]:
-    return tuple(np.asarray(row, dtype=np.float64).view(np.uint64).tolist())
-
-
-def _word(value: float) -> int:
-    return int(np.float64(value).view(np.uint64))
-
-
-def _replaced(row: tuple[int, ...], words: dict[int, int]) -> tuple[int, ...]:
-    return tuple(words.get(place, word) for place, word in enumerate(row))
-
-
-def invalid_rows_text(file: InvalidRowFile) -> str:
-    """The whole document."""
-    return document_text(file.content, file.head, None, map(invalid_row_text, file.cases))
-
-
-def invalid_row_text(case: InvalidRow) -> str:
-    """One case, an object on one line."""
-    return object_text(
-        {
-            "id": json_text(case.id),
-            "row": numbers_text(case.row),
-            "bits": json_text([f"{word:016x}" for word in case.bits]),
-            "expected": json_text(EXPECTED),
-            "columns": json_text(case.columns),
-        }
-    )
-
-
-def read_invalid_rows(path: str) -> InvalidRowFile:
-    """The file of bad rows at `path`. Raises InputError where it is not wholly as the schema demands."""
-    return invalid_rows_of(read_document(path), path)
-
-
-def invalid_rows_of(document: JsonDocument, path: str) -> InvalidRowFile:
-    """The file of bad rows that a document is. Raises InputError where it is none."""
-    content = content_of(document, path)
-    head, _ = read_metadata(document, path, content if content in REFUSALS else INVALID)
-    names = COLUMNS_OF[content]
-    cases = cases_of(document, path, head.name, CASE_FIELDS, lambda place, fields: _invalid_row(place, fields, names))
-    return InvalidRowFile(head, cases, content, tuple(place.line for place, _ in document.cases))
-
-
-def _invalid_row(place: JsonPlace, fields: dict[str, Any], names: tuple[str, ...]) -> InvalidRow:
-    if fields["expected"] != EXPECTED:
-        raise InputError(f"{place}: expected is {shown_json(fields['expected'])}; it must be {EXPECTED!r}")
-    columns = listed(place, "columns", fields["columns"])
-    if not columns or columns != [name for name in names if name in columns]:
-        raise InputError(f"{place}: columns is {shown_json(columns)}; it must name one or more of {', '.join(names)}")
-    numbers = listed(place, "row", fields["row"], len(names))
-    words = listed(place, "bits", fields["bits"], len(names))
-    bits = tuple(_checked_bits(place, *each) for each in zip(names, numbers, words, strict=True))
-    return InvalidRow(fields["id"], bits, tuple(columns))
-
-
-def _checked_bits(place: JsonPlace, name: str, value: Any, word: Any) -> int:  # noqa: ANN401 - JSON
-    number = _WORDS[value] if isinstance(value, str) and value in _WORDS else number_of(place, name, value)
-    if not isinstance(word, str) or not _BITS.fullmatch(word):
-        raise InputError(f"{place}: the bits of {name} are {shown_json(word)}; they must be 16 hexadecimal digits")
-    bits = int(word, 16)
-    if (bits & ~_SIGN <= _word(math.inf)) if math.isnan(number) else (bits != _word(number)):
-        raise InputError(f"{place}: the bits of {name} are {word}, which is not {shown_json(value)}")
-    return bits
-
+from hypcheck.vectors.family import Metadata, described
+from hypcheck.vectors.format import CaseFile
+from hypcheck.vectors.invalid_rows import INVALID_NAMES
 
 NAMES = (*FAMILIES, cancellation.NAME)
 """The files of upright spheroids with answers; INVALID_CONTENTS names those of rows without."""
@@ -297,17 +29,18 @@ TILTED_NAMES = tuple(TILTED_FAMILIES)
 WAY_NAMES = tuple(WAY_FAMILIES)
 """Those of ways; the rows of names that begin with tilted have an axis."""
 
-ALL_NAMES = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *INVALID_CONTENTS)
-"""Those of all files."""
+ALL_NAMES = (
+    *(*NAMES, "invalid"),
+    *(*TILTED_NAMES, "tilted-invalid"),
+    *(*WAY_NAMES, *INVALID_NAMES[WAYS]),
+)
+"""All files, in the order in which they are listed."""
 
 
-@dataclass(frozen=True, slots=True)
-class FrozenRows:
-    """The cases of a file as arrays: their ids, rows and right answers, positions or hits on ways, int8 (n,)."""
-
-    ids: tuple[str, ...]
-    rows: Rows
-    positions: Positions
+def head_of(name: str) -> Metadata:
+    """What the frozen file of that name says of its family."""
+    family, made_by = ALL.get(name), f"hypcheck cases freeze {name}"
+    return family.described(made_by) if family else described(name, made_by)
 
 
 def folder() -> Path:
@@ -324,54 +57,7 @@ def path_of(name: str) -> Path:
     return folder() / f"{name}.json"
 
 
-AnyVector = Vector | TiltedVector | WayVector
-"""A case with an answer."""
-
-VectorsFile = VectorFile | TiltedVectorFile | WayFile
-"""A file of such cases."""
-
-
 @cache
-def load(name: str) -> VectorFile:
+def load(name: str) -> CaseFile[Any]:
     """The frozen cases of that name. Raises InputError where there are none, or their file is not as it must be."""
-    _require_answers(name)
-    return read_vectors(str(path_of(name)))
-
-
-@cache
-def load_tilted(name: str) -> TiltedVectorFile:
-    """The frozen cases of tilted spheroids of that name. Raises InputError as `load` does."""
-    _require_answers(name)
-    return read_tilted_vectors(str(path_of(name)))
-
-
-@cache
-def load_ways(name: str) -> WayFile:
-    """The frozen ways of that name. Raises InputError as `load` does."""
-    _require_answers(name)
-    return read_ways(str(path_of(name)))
-
-
-def load_any(name: str) -> VectorsFile:
-    """The frozen cases of that name, whatever they are about. Raises InputError as `load` does."""
-    if name in WAY_NAMES:
-        return load_ways(name)
-    return load_tilted(name) if name in TILTED_NAMES else load(name)
-
-
-def _require_answers(name: str) -> None:
-    if name in INVALID_CONTENTS:
-        raise InputError(f"the rows of {name!r} have no answers; they must be refused")
-
-
-@cache
-def load_invalid_rows(name: str = INVALID_NAME) -> InvalidRowFile:
-    """The frozen rows that must be refused. Raises InputError where their file is not as it must be."""
-    return read_invalid_rows(str(path_of(name)))
-
-
-def frozen_rows(name: str) -> FrozenRows:
-    """The rows and right answers of the frozen cases of that name. Raises InputError as load does."""
-    file = load_any(name)
-    answers = file.hits if isinstance(file, WayFile) else file.positions
-    return FrozenRows(tuple(case.id for case in file.cases), file.rows, answers)
+    return read_cases(str(path_of(name)))

@@ -1,46 +1,66 @@
-"""The labels of a case (decision, measures, flags, shortest proof), and whether those of a file are true.
+"""The labels of a case: answer, measures, flags, and the shortest proof.
 
-Each label of a file is proved, or computed anew by an oracle that did not make it. Position and tangency follow from
-the certificate alone (truth/certificate.py and shows_crossing, rational arithmetic); the roots give the kind, the
-nearest point the clearance. Labels are made by the exact decision, which shares nothing with these.
-Distances to other answers rest on exact decisions and are computed anew, and so are the flags.
+They are made by the exact decisions (truth/exact.py and truth/tilted/exact.py), ways by steps or by roots
+(truth/swept.py). checking.py proves them in another way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import count
+from typing import Any
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.tables.numbers import decimal_of
+from hypcheck.geometry.rows import WAYS
 from hypcheck.truth import backward_error, exact
-from hypcheck.truth.certificate import Certificate, check_certificate
+from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest_exact import nearest
+from hypcheck.truth.passage_certificate import place
+from hypcheck.truth.passage_prove import prove as prove_passage
 from hypcheck.truth.prove import prove
-from hypcheck.truth.roots import classify_by_roots
-from hypcheck.vectors.family import LabelledCase, Offset, Row, StoredCertificate, Vector, VectorFile
-from hypcheck.vectors.flags import flags_of
-from hypcheck.vectors.frozen import InvalidRowFile, columns_at_fault
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.backward_error import bracket
+from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
+from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.truth.tilted.prove import prove as prove_tilted
+from hypcheck.vectors.cases import (
+    Offset,
+    StoredCertificate,
+    StoredPassage,
+    TiltedVector,
+    UprightVector,
+    Vector,
+    WayVector,
+    offset_to,
+    point_at,
+)
+from hypcheck.vectors.family import Row
+from hypcheck.vectors.flags import flags_of, tilted_flags, way_flags
+from hypcheck.vectors.format import Content
 
 _MOST_BITS = 1 << 14
 
 
-def labelled(cases: Iterable[tuple[str, Row]]) -> list[Vector]:
-    """Cases with every label and flag, from ids and valid rows."""
-    named = list(cases)
-    rows = [row for _, row in named]
-    decisions = [exact.decide(Pair.from_row(row).lengths) for row in rows]
-    flags = flags_of(rows, decisions) if rows else []
-    return [
-        _labelled(name, row, decision, flags_of_row)
-        for (name, row), decision, flags_of_row in zip(named, decisions, flags, strict=True)
-    ]
+def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
+    """Cases of a file of that content with every label and flag, from ids and valid rows.
+
+    Raises ValueError as passage_prove.prove does.
+    """
+    if content.layout is WAYS:
+        return [_labelled_way(*each) for each in cases]
+    return [_labelled_tilted(*each) for each in cases] if content.tilted else _labelled_upright(list(cases))
 
 
-def _labelled(name: str, row: Row, decision: Decision, flags: tuple[str, ...]) -> Vector:
+def _labelled_upright(cases: Sequence[tuple[str, Row]]) -> list[UprightVector]:
+    decisions = [exact.decide(Pair.from_row(row).lengths) for _, row in cases]
+    flags = flags_of([row for _, row in cases], decisions)
+    return [_labelled(*case, truth, held) for case, truth, held in zip(cases, decisions, flags, strict=True)]
+
+
+def _labelled(name: str, row: Row, decision: Decision, flags: tuple[str, ...]) -> UprightVector:
     pair = Pair.from_row(row)
     return Vector(
         id=name,
@@ -50,9 +70,35 @@ def _labelled(name: str, row: Row, decision: Decision, flags: tuple[str, ...]) -
         kind=decision.kind,
         clearance=nearest(pair).clearance,
         flips=flips(pair.lengths, decision),
-        witness=stored_certificate(pair, prove(pair, decision)),
+        witness=stored_certificate(row, prove(pair, decision)),
         flags=flags,
     )
+
+
+def _labelled_tilted(name: str, row: Row) -> TiltedVector:
+    pair = TiltedPair.from_row(row)
+    decision = tilted_exact.decide(pair.lengths)
+    return Vector(
+        id=name,
+        row=row,
+        position=decision.position,
+        tangent=decision.tangent,
+        kind=None,
+        clearance=tilted_nearest(pair).clearance,
+        flips=_tilted_flips(row, decision),
+        witness=stored_certificate(row, prove_tilted(pair, decision)),
+        flags=tilted_flags(pair, decision),
+    )
+
+
+def _labelled_way(name: str, row: Row) -> WayVector:
+    _, first, proof = prove_passage(row)
+    offsets: tuple[Offset, ...] = ()
+    if proof.time is not None:
+        b, (x, y, z) = Fraction(row[2]), place(row, proof.time).row[4:]
+        offsets = tuple(((u - x) / b, (v - y) / b, (w - z) / b) for u, v, w in proof.points)
+    witness = StoredPassage(proof.pieces, proof.time, offsets, proof.double_root)
+    return WayVector(name, row, first, witness, way_flags(row, first, proof))
 
 
 def flips(lengths: Lengths, truth: Decision) -> Mapping[Position, float]:
@@ -61,18 +107,24 @@ def flips(lengths: Lengths, truth: Decision) -> Mapping[Position, float]:
     return {other: backward_error.backward_error(lengths, truth, other) for other in others}
 
 
-def stored_certificate(pair: Pair, certificate: Certificate) -> StoredCertificate:
+def _tilted_flips(row: Row, decision: TiltedDecision) -> Mapping[Position, Bracket]:
+    others = (other for other in Position if other is not decision.position)
+    return {other: bracket(row, decision, other, cuts=0, steps=2) for other in others}
+
+
+def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
     """The certificate in a file's terms; of two points of a crossing the second is rounded as far as it can be."""
     if not certificate.points:
         return StoredCertificate(multiplier=certificate.multiplier, double_root=certificate.double_root)
-    _, _, b, d, x, y, z = map(Fraction, pair.row)
-    offsets = [((u - x) / b, (v - y) / b, (w - z) / d) for u, v, w in certificate.points]
+    offsets = tuple(offset_to(row, point) for point in certificate.points)
     if len(offsets) == 1:
-        return StoredCertificate(offsets=tuple(offsets))
-    center, touched = offsets
-    far = next(offset for offset in _slid(touched) if shows_crossing(pair, (center, offset)))
-    shorter = next(offset for offset in _cut_off(far) if shows_crossing(pair, (center, offset)))
-    return StoredCertificate(offsets=(center, shorter))
+        return StoredCertificate(offsets=offsets)
+    center, far = offsets
+    if len(row) > 7:
+        shorter = _rounded(far)
+    else:
+        shorter = _cut_off(next(offset for offset in _slid(far) if shows_crossing(row, (center, offset))))
+    return StoredCertificate(offsets=(center, next(each for each in shorter if shows_crossing(row, (center, each)))))
 
 
 def _slid(offset: Offset) -> Iterator[Offset]:
@@ -97,32 +149,45 @@ def _slid(offset: Offset) -> Iterator[Offset]:
 
 def _cut_off(offset: Offset) -> Iterator[Offset]:
     """The offset with each part cut off after more and more bits, so that it stays in the spheroid; at last itself."""
-    bits = 1
-    while bits < _MOST_BITS:
-        s, t, w = (Fraction(_toward_zero(part * (1 << bits)), 1 << bits) for part in offset)
+    for bits in _bits():
+        s, t, w = (Fraction(int(part * (1 << bits)), 1 << bits) for part in offset)
         yield (s, t, w)
-        bits += 1 + bits // 4
     yield offset
 
 
-def _toward_zero(value: Fraction) -> int:
-    whole = abs(value.numerator) // value.denominator
-    return whole if value >= 0 else -whole
+def _rounded(offset: Offset) -> Iterator[Offset]:
+    """The offset, a little shortened, with more and more bits; at last itself."""
+    longest = max(map(abs, offset))
+    unit = Fraction(2) ** (longest.numerator.bit_length() - longest.denominator.bit_length())
+    for bits in _bits():
+        step, share = unit / (1 << bits), 1 - Fraction(1, 1 << bits)
+        s, t, w = (round(part * share / step) * step for part in offset)
+        yield (s, t, w)
+    yield offset
 
 
-def shows_crossing(pair: Pair, offsets: Sequence[Offset]) -> bool:
+def _bits() -> Iterator[int]:
+    bits = 1
+    while bits < _MOST_BITS:
+        yield bits
+        bits += 1 + bits // 4
+
+
+def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
     """Whether these points of the closed spheroid prove a contact that is no tangency.
 
     A spheroid that only touches has all its points on one side or on the surface, and none of its inner ones on the
     surface: two points strictly on either side, or an inner one on the surface, prove that it does more.
     """
-    alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
+    alpha, gamma, b, d, _, _, _, *axis = map(Fraction, row)
     sides = set()
-    for s, t, w in offsets:
-        reach = s * s + t * t + w * w
+    for offset in offsets:
+        reach = _dot(offset, offset)
+        if axis:
+            reach += (b * b / (d * d) - 1) * _dot(offset, axis) ** 2 / _dot(axis, axis)
         if reach > 1:
             return False
-        u, v, height = x + b * s, y + b * t, z + d * w
+        u, v, height = point_at(row, offset)
         level = (u * u + v * v) / alpha**2 - (height / gamma) ** 2 - 1
         if level == 0 and reach < 1:
             return True
@@ -130,74 +195,5 @@ def shows_crossing(pair: Pair, offsets: Sequence[Offset]) -> bool:
     return {-1, 1} <= sides
 
 
-@dataclass(frozen=True, slots=True)
-class LabelFault:
-    """A label that is wrong: the line of its case (0 where it was not read from a file), its id, and what is wrong."""
-
-    line: int
-    case: str
-    sentence: str
-
-
-def faults_of_vectors(file: VectorFile) -> list[LabelFault]:
-    """Every wrong label of a file of cases, in order."""
-    lines = file.lines or (0,) * len(file.cases)
-    decisions = [exact.decide(case.pair.lengths) for case in file.cases]
-    flags = flags_of([case.row for case in file.cases], decisions) if file.cases else []
-    faults = []
-    for line, case, truth, computed in zip(lines, file.cases, decisions, flags, strict=True):
-        faults += [LabelFault(line, case.id, sentence) for sentence in _sentences(case, truth, computed)]
-    return faults
-
-
-def faults_of_invalid_rows(file: InvalidRowFile) -> list[LabelFault]:
-    """Every row that is valid, or refused for other columns than the file says."""
-    faults = []
-    for line, case in zip(file.lines or (0,) * len(file.cases), file.cases, strict=True):
-        found = columns_at_fault(case.row, file.columns)
-        if found != case.columns:
-            said = f"columns {', '.join(case.columns)} are said to be at fault"
-            faults.append(LabelFault(line, case.id, f"{said}, but {', '.join(found) or 'none'} is"))
-    return faults
-
-
-def _sentences(case: Vector, truth: Decision, flags: Sequence[str]) -> Iterator[str]:
-    pair = case.pair
-    proved = check_certificate(pair, case.witness.certificate(pair, case.position))
-    double = case.witness.double_root is not None
-    yield from unproved(case.position, case.tangent, double, proved, lambda: shows_crossing(pair, case.witness.offsets))
-    kind = classify_by_roots(pair).kind
-    if kind is not case.kind:
-        yield f"kind is {case.kind.value}; the roots say {kind.value}"
-    measured = nearest(pair)
-    if measured.clearance != case.clearance:
-        yield f"clearance is {decimal_of(case.clearance)}; the nearest point says {decimal_of(measured.clearance)}"
-    if (truth.position, truth.tangent) != (case.position, case.tangent):
-        return  # its flips are to other positions
-    for position, distance in flips(pair.lengths, truth).items():
-        if distance != case.flips[position]:
-            yield f"the flip to {position.label} is {decimal_of(case.flips[position])}; it is {decimal_of(distance)}"
-    yield from wrong_flags(case, flags)
-
-
-def unproved(
-    position: Position, tangent: bool, double: bool, proved: bool, crosses: Callable[[], bool]
-) -> Iterator[str]:
-    """What a certificate does not prove of position and tangency.
-
-    `double`: it has a double root. `proved`: it proves the position. `crosses` says whether its points prove a contact
-    that is no tangency.
-    """
-    claim = f"{position.label}, tangent" if tangent else position.label
-    if not proved:
-        yield f"the certificate does not prove {claim}"
-    elif tangent != (position is Position.CONTACT and double):
-        yield f"the certificate is not one of a pair that is {claim}"
-    elif position is Position.CONTACT and not tangent and not crosses():
-        yield "the certificate proves contact, but does not rule tangency out"
-
-
-def wrong_flags(case: LabelledCase, flags: Sequence[str]) -> Iterator[str]:
-    """A sentence if the flags of a case are others than these."""
-    if set(flags) != set(case.flags):
-        yield f"flags are {', '.join(case.flags) or 'none'}; they are {', '.join(flags) or 'none'}"
+def _dot(one: Sequence[Fraction], other: Sequence[Fraction]) -> Fraction:
+    return sum((a * b for a, b in zip(one, other, strict=True)), Fraction(0))

@@ -5,36 +5,25 @@ from __future__ import annotations
 import io
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, TILTED_WAY_COLUMNS, Position
+from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import counted, suggestion
-from hypcheck.tables.numbers import hex_of, readable_text
+from hypcheck.tables.numbers import equals_text, hex_of, readable_text
 from hypcheck.tables.streams import writing
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.vectors import frozen
+from hypcheck.vectors.cases import AnyVector, TiltedVector, UprightVector, WayVector, case_text
 from hypcheck.vectors.families import EXTREME, case_id, family_of, select
-from hypcheck.vectors.family import Family, Metadata, Vector, VectorFile
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
-from hypcheck.vectors.format import content_of, read_metadata, vector_text
-from hypcheck.vectors.frozen import AnyVector, InvalidRow, InvalidRowFile, VectorsFile
-from hypcheck.vectors.tilted.format import TiltedVector, TiltedVectorFile, tilted_vector_text
-from hypcheck.vectors.ways.format import WayFile, WayVector, way_text
-
-SHOWN = (
-    *frozen.NAMES,
-    frozen.INVALID_NAME,
-    *frozen.TILTED_NAMES,
-    frozen.TILTED_INVALID_NAME,
-    *frozen.WAY_NAMES,
-    *frozen.INVALID_NAMES[WAYS],
-)
-"""The files, in the order in which they are listed."""
+from hypcheck.vectors.family import Family, Metadata
+from hypcheck.vectors.format import Content, read_metadata
+from hypcheck.vectors.frozen import ALL_NAMES
+from hypcheck.vectors.invalid_rows import EXPECTED, InvalidRow
 
 WIDTH = 100
 """Columns of a line of running text."""
@@ -44,67 +33,63 @@ _LABEL = 12
 
 def list_lines() -> Iterator[str]:
     """Every set of vectors: its name, how many are frozen, and what it is."""
-    width, together = max(map(len, SHOWN)), 0
-    for name in SHOWN:
+    width, together = max(map(len, ALL_NAMES)), 0
+    for name in ALL_NAMES:
         path = str(frozen.path_of(name))
         document = read_document(path)  # of the cases the number alone is asked for
-        head, _ = read_metadata(document, path, content_of(document, path))
+        head, _ = read_metadata(document, path)
         together += len(document.cases)
         mark = " (extreme: taken when asked for)" if head.extreme else ""
         yield f"{name:{width}}  {len(document.cases):4}  {head.title}{mark}"
     yield f"{'together':{width}}  {together:4}"
 
 
-def _load(name: str) -> VectorsFile | InvalidRowFile:
-    return frozen.load_invalid_rows(name) if name in frozen.INVALID_CONTENTS else frozen.load_any(name)
-
-
 def family_lines(name: str) -> Iterator[str]:
     """What is known of a family, and its frozen cases counted."""
-    file = _load(name)
-    refused = ", all to be refused" if isinstance(file, InvalidRowFile) else ""
+    file = frozen.load(name)
+    refused = ", all to be refused" if file.content.refused else ""
     yield from _metadata_lines(file.head)
     yield from _titled("cases", f"{len(file.cases)}, {file.cases[0].id} to {file.cases[-1].id}{refused}")
-    if isinstance(file, InvalidRowFile):
+    if file.content.refused:
         return
-    if isinstance(file, WayFile):
-        yield from _titled("answers", _counted(Counter("contact" if case.hit else "clear" for case in file.cases)))
+    if file.content.layout is WAYS:
+        yield from _titled("answers", _counted("contact" if case.hit else "clear" for case in file.cases))
     else:
-        yield from _titled("positions", _counted(Counter(case.position.label for case in file.cases)))
-    if isinstance(file, VectorFile):
-        yield from _titled("kinds", _counted(Counter(case.kind.value for case in file.cases)))
+        yield from _titled("positions", _counted(case.position.label for case in file.cases))
+        if not file.content.tilted:
+            yield from _titled("kinds", _counted(case.kind.value for case in file.cases))
     for flag, facts in file.flags.items():
         count = sum(flag in case.flags for case in file.cases)
         yield from _titled("flag", f"{flag}, {count} times: {facts.meaning} ({facts.bug_type})")
 
 
-def case_lines(case: AnyVector) -> Iterator[str]:
-    """A case with its labels and its proof."""
-    if isinstance(case, WayVector):
-        yield from _way_lines(case)
-        return
-    tilted = isinstance(case, TiltedVector)
+def case_lines(case: AnyVector | InvalidRow, content: Content) -> Iterator[str]:
+    """A case of a file with that content, with its labels and its proof."""
     yield case.id
-    for name, value in zip(TILTED_COLUMNS if tilted else COLUMNS, case.row, strict=True):
+    if isinstance(case, InvalidRow):
+        yield from _invalid_row_lines(case, content)
+        return
+    for name, value in zip(content.columns, case.row, strict=True):
         yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
+    yield from way_answer_lines(case) if isinstance(case, WayVector) else _position_lines(case)
+    for flag in case.flags:
+        yield from _titled("flag", f"{flag}: {content.flags[flag].meaning}")
+
+
+def _invalid_row_lines(case: InvalidRow, content: Content) -> Iterator[str]:
+    for name, value, bits in zip(content.columns, case.row, case.bits, strict=True):
+        yield f"{name:{_LABEL}}{value!r:24}{bits:016x}{'  at fault' if name in case.columns else ''}"
+    yield from _titled("expected", EXPECTED)
+
+
+def _position_lines(case: UprightVector | TiltedVector) -> Iterator[str]:
     yield from _titled("position", f"{case.position.label}, tangent" if case.tangent else case.position.label)
-    if not isinstance(case, TiltedVector):
+    if case.kind is not None:
         yield from _titled("kind", f"{case.kind.value}: {case.kind.description}")
     yield from _titled("clearance", f"{case.clearance!r} spheroid radii ({hex_of(case.clearance)})")
     for position, distance in case.flips.items():
         yield from _titled("flip", f"{position.label} if each number may change by a relative {_distance(distance)}")
-    yield from _titled("proof", _tilted_proof(case) if isinstance(case, TiltedVector) else _proof(case))
-    for flag in case.flags:
-        yield from _titled("flag", f"{flag}: {(TILTED_FLAGS if tilted else FLAGS)[flag].meaning}")
-
-
-def _way_lines(case: WayVector) -> Iterator[str]:
-    yield case.id
-    for name, value in zip(TILTED_WAY_COLUMNS, case.row, strict=False):
-        yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
-    yield from way_answer_lines(case)
-    for flag in case.flags:
-        yield from _titled("flag", f"{flag}: {WAY_FLAGS[flag].meaning}")
+    yield from _titled("proof", _proof(case))
 
 
 def way_answer_lines(case: WayVector) -> Iterator[str]:
@@ -114,11 +99,11 @@ def way_answer_lines(case: WayVector) -> Iterator[str]:
         yield from _titled("first", f"contact at t from {case.first[0]!r} to {case.first[1]!r}")
     pieces = case.witness.pieces
     if pieces:
-        until = readable_text(pieces[-1][1])
-        yield from _titled("proof", f"clear up to t {_said(until)}, by {counted(len(pieces), 'multiplier')}")
+        until = equals_text(pieces[-1][1])
+        yield from _titled("proof", f"clear up to t {until}, by {counted(len(pieces), 'multiplier')}")
     if case.witness.time is not None:
         proof = "a double root" if case.witness.double_root is not None else "points"
-        yield from _titled("proof", f"contact at t {_said(readable_text(case.witness.time))}, by {proof}")
+        yield from _titled("proof", f"contact at t {equals_text(case.witness.time)}, by {proof}")
 
 
 def _distance(distance: float | Bracket) -> str:
@@ -127,60 +112,31 @@ def _distance(distance: float | Bracket) -> str:
     return repr(distance.upper) if distance.lower == distance.upper else f"{distance.lower!r} … {distance.upper!r}"
 
 
-def invalid_row_lines(case: InvalidRow, names: tuple[str, ...]) -> Iterator[str]:
-    """A row of numbers of these names that must be refused, and where it is at fault."""
-    yield case.id
-    for name, value, bits in zip(names, case.row, case.bits, strict=True):
-        yield f"{name:{_LABEL}}{value!r:24}{bits:016x}{'  at fault' if name in case.columns else ''}"
-    yield from _titled("expected", frozen.EXPECTED)
-
-
-def vector_of(name: str) -> AnyVector:
-    """The case of that id, frozen or generated. Raises InputError where there is none."""
+def case_named(name: str) -> tuple[AnyVector | InvalidRow, Content]:
+    """The case of that id, frozen or generated, and the content of its file. Raises InputError where there is none."""
     if "/" in name:
-        return _generated(name)
-    file = _load(_family_of(name)) if _family_of(name) in SHOWN else None
-    if isinstance(file, VectorFile | TiltedVectorFile | WayFile):
-        for case in file.cases:
-            if case.id == name:
-                return case
-    raise InputError(f"there is no case or family {name!r}; {_hint(_family_of(name))}")
+        from hypcheck.vectors.freezing import generated_case  # noqa: PLC0415 - frozen cases need no oracles
 
-
-def invalid_row_of(name: str) -> InvalidRow:
-    """The row to be refused that has that id. Raises InputError where there is none."""
+        return generated_case(name)
     family = _family_of(name)
-    for case in frozen.load_invalid_rows(family).cases if family in frozen.INVALID_CONTENTS else ():
+    if family not in ALL_NAMES:
+        raise InputError(f"there is no case or family {name!r}; {suggestion(family, ALL_NAMES)}")
+    file = frozen.load(family)
+    for case in file.cases:
         if case.id == name:
-            return case
-    raise InputError(f"there is no case {name!r}; {_hint(family)}")
+            return case, file.content
+    raise InputError(f"there is no case {name!r}; the last one is {file.cases[-1].id}")
 
 
 def show(name: str, *, as_json: bool) -> Iterator[str]:
     """The lines about a family or a case; a case as it stands in a file where JSON is asked for. Raises InputError."""
-    if name in SHOWN:
-        if as_json:
-            yield from frozen.path_of(name).read_text(encoding="utf-8").splitlines()
-        else:
-            yield from family_lines(name)
-    elif _family_of(name) in frozen.INVALID_CONTENTS:
-        bad, columns = invalid_row_of(name), frozen.load_invalid_rows(_family_of(name)).columns
-        yield from (frozen.invalid_row_text(bad),) if as_json else invalid_row_lines(bad, columns)
+    if name not in ALL_NAMES:
+        case, content = case_named(name)
+        yield from (case_text(case),) if as_json else case_lines(case, content)
+    elif as_json:
+        yield from frozen.path_of(name).read_text(encoding="utf-8").splitlines()
     else:
-        case = vector_of(name)
-        yield from (_json_text(case),) if as_json else case_lines(case)
-
-
-def _json_text(case: AnyVector) -> str:
-    if isinstance(case, WayVector):
-        return way_text(case)
-    return tilted_vector_text(case) if isinstance(case, TiltedVector) else vector_text(case)
-
-
-def _generated(name: str) -> AnyVector:
-    from hypcheck.vectors.freezing import generated_case  # noqa: PLC0415 - frozen cases are shown without the oracles
-
-    return generated_case(name)
+        yield from family_lines(name)
 
 
 def _metadata_lines(head: Metadata) -> Iterator[str]:
@@ -196,35 +152,28 @@ def _metadata_lines(head: Metadata) -> Iterator[str]:
         yield from _titled(label, text)
 
 
-def _proof(case: Vector) -> str:
-    witness = case.witness
+def _proof(case: UprightVector | TiltedVector) -> str:
+    witness, tilted = case.witness, case.kind is None
     if witness.multiplier is not None:
-        interval = "(0, c²)" if case.position is Position.EXTERIOR else "(−a², 0)"
-        return f"g(λ) > 0 at λ {_said(readable_text(witness.multiplier))} in {interval}"
+        at = f"at λ {equals_text(witness.multiplier)}"
+        if tilted:
+            return f"S + λH is positive definite {at}"
+        return f"g(λ) > 0 {at} in {'(0, c²)' if case.position is Position.EXTERIOR else '(−a², 0)'}"
     if witness.double_root is not None:
-        return f"g has the double root m {_said(readable_text(witness.double_root))}"
+        root = equals_text(witness.double_root)
+        return (
+            f"det(S + λH) has the double root λ {root}, M + λD ≥ 0 there"
+            if tilted
+            else f"g has the double root m {root}"
+        )
     points = " and ".join(f"({', '.join(map(readable_text, point))})" for point in witness.offsets)
     where = "on the surface" if len(witness.offsets) == 1 else "on both sides of the surface"
-    return f"in the spheroid and {where}: the centre + (b s, b t, d w) for (s, t, w) = {points}"
+    step = "b (s, t, w)" if tilted else "(b s, b t, d w)"
+    return f"in the spheroid and {where}: the centre + {step} for (s, t, w) = {points}"
 
 
-def _tilted_proof(case: TiltedVector) -> str:
-    witness = case.witness
-    if witness.multiplier is not None:
-        return f"S + λH is positive definite at λ {_said(readable_text(witness.multiplier))}"
-    if witness.double_root is not None:
-        return f"det(S + λH) has the double root λ {_said(readable_text(witness.double_root))}, M + λD ≥ 0 there"
-    points = " and ".join(f"({', '.join(map(readable_text, point))})" for point in witness.offsets)
-    where = "on the surface" if len(witness.offsets) == 1 else "on both sides of the surface"
-    return f"in the spheroid and {where}: the centre + b (s, t, w) for (s, t, w) = {points}"
-
-
-def _said(text: str) -> str:
-    return text if text.startswith("≈") else f"= {text}"
-
-
-def _counted(counter: Counter[str]) -> str:
-    return ", ".join(f"{count} {name}" for name, count in counter.most_common())
+def _counted(names: Iterable[str]) -> str:
+    return ", ".join(f"{count} {name}" for name, count in Counter(names).most_common())
 
 
 def _titled(label: str, text: str) -> list[str]:
@@ -242,12 +191,6 @@ def _family_of(name: str) -> str:
     """What stands before the number of a frozen case's id; the whole of any other name."""
     family, _, number = name.rpartition("-")
     return family if number.isdecimal() else name
-
-
-def _hint(family: str) -> str:
-    if family in SHOWN:
-        return f"the last one is {_load(family).cases[-1].id}"
-    return suggestion(family, SHOWN)
 
 
 def generate(name: str, seed: int, count: int, form: str, target: str) -> None:

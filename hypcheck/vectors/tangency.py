@@ -13,19 +13,18 @@ import numpy as np
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.vectors import double_roots
 from hypcheck.vectors.double_roots import (
+    ULPS,
     DoubleRoots,
     big_integers_of_any_length,
     gather,
     in_metres,
+    one_moved,
     to_rows,
     triples,
     turned,
 )
 from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, stepped, turns
 from hypcheck.vectors.random_pairs import beside_surface, centred, sizes
-
-ULPS = 40
-"""Near misses lie 1, 2, 4 … 2^ULPS ulp away."""
 
 
 def exact_maker(construction: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
@@ -79,16 +78,8 @@ def ulps_away(draw: Draw, rows: Rows) -> Rows:
     Fewer where so many would be more than about 2⁻⁸ radii, so that no row is carried right through the surface.
     """
     n = len(rows)
-    alpha, _, b, d, x, y, z = np.abs(rows).T
-    reach = np.maximum(exponent(np.maximum(np.maximum(alpha, x), y) / b), exponent(z / d))
-    most = np.minimum(ULPS, 52 - 8 - 1 - reach)
-    steps = ldexp(draw.signs(n), draw.integers(n, 0, ULPS) % (most + 1)).astype(np.int64)
-    chosen = draw.integers(n, 0, rows.shape[1] - 1)
-    index = np.arange(n)
-    chosen = np.where(rows[index, chosen] == 0, chosen % 4, chosen)
-    moved = rows.copy()
-    moved[index, chosen] = stepped(rows[index, chosen], steps)
-    return moved
+    most = np.minimum(ULPS, 52 - 8 - 1 - reach(rows))
+    return one_moved(draw, rows, ldexp(draw.signs(n), draw.integers(n, 0, ULPS) % (most + 1)).astype(np.int64))
 
 
 def near_tangent(*, outer: bool) -> Maker:

@@ -65,7 +65,7 @@ def test_rows_of_ten_numbers_are_answered_exactly_by_every_kernel(each, question
 
 @pytest.mark.parametrize("name", frozen.TILTED_NAMES)
 def test_every_kernel_answers_frozen_tilted_vectors_as_they_are_labelled(name):
-    vectors = frozen.frozen_rows(name)
+    vectors = frozen.load(name)
     for each in KERNELS:
         assert (
             each.answer_rows(np.ascontiguousarray(vectors.rows), "position")[0].tolist() == vectors.positions.tolist()
@@ -74,7 +74,7 @@ def test_every_kernel_answers_frozen_tilted_vectors_as_they_are_labelled(name):
 
 @pytest.mark.parametrize("each", KERNELS)
 def test_every_kernel_answers_127_for_the_frozen_invalid_tilted_rows(each):
-    rows = frozen.rows_from_bits([case.bits for case in frozen.load_invalid_rows(frozen.TILTED_INVALID_NAME).cases])
+    rows = frozen.load("tilted-invalid").rows
     assert rows.shape[1] == 10
     found, refused = each.answer_rows(rows, "position")
     assert set(found.tolist()) == {127}

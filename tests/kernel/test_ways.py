@@ -14,7 +14,7 @@ from hypcheck.implementations import ways
 from hypcheck.kernel import compiled_kernel, numpy_kernel
 from hypcheck.truth.passage_error import hits_at_size, scaled_passage
 from hypcheck.vectors.families import WAY_FAMILIES
-from hypcheck.vectors.frozen import WAY_NAMES, frozen_rows
+from hypcheck.vectors.frozen import WAY_NAMES, load
 from tests.tools.attack.rounding import DIRECTED, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -39,7 +39,7 @@ def some_ways(seed, count, *, leaning=False):
 
 @pytest.mark.parametrize("name", WAY_NAMES)
 def test_the_compiled_kernel_answers_no_frozen_way_wrongly_and_decides_most(name):
-    cases = frozen_rows(name)
+    cases = load(name)
     hits, times = compiled_kernel.answer_ways(cases.rows)
     decided = hits != CANNOT_SAY
     assert (hits[decided] == cases.positions[decided]).all()
@@ -79,7 +79,7 @@ def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit(count, lean
 @pytest.mark.parametrize("mode", DIRECTED)
 def test_the_compiled_kernel_answers_no_way_wrongly_in_any_rounding_mode(mode):
     for name in ("way-near-graze", "way-short", "way-stiff", "way-vertical", "tilted-way-end", "tilted-way-uniform"):
-        cases = frozen_rows(name)
+        cases = load(name)
         hits, times = np.empty(len(cases.rows), np.int8), np.empty(len(cases.rows))
         with rounded(mode):
             compiled.passage(cases.rows, hits, times)
@@ -156,7 +156,7 @@ def test_ways_with_subnormal_and_huge_numbers_are_decided_exactly(row, hit):
 
 
 def test_hits_of_ways_do_not_depend_on_whether_times_are_asked_for():
-    rows = np.concatenate([frozen_rows(name).rows for name in UPRIGHT])
+    rows = np.concatenate([load(name).rows for name in UPRIGHT])
     without = np.empty(len(rows), np.int8)
     compiled.passage(rows, without)
     assert (without == compiled_kernel.answer_ways(rows)[0]).all()

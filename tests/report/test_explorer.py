@@ -54,7 +54,7 @@ def rows():
     """A quarter each: everyday numbers, extreme ones, frozen vectors, and frozen vectors with one number an ulp off."""
     draw = random.Random(20)  # noqa: S311 - any rows will do
     families = FAMILIES if ROWS > FEW else ("ring", "tangent", "osculation", "extreme-subnormal", "stiff-both")
-    every = [tuple(row) for name in families for row in frozen.frozen_rows(name).rows.tolist()]
+    every = [tuple(row) for name in families for row in frozen.load(name).rows.tolist()]
     chosen = [draw.choice(every) for _ in range(ROWS // 2)]
     for place, row in enumerate(chosen[: ROWS // 4]):
         column = draw.randrange(len(COLUMNS))

@@ -13,7 +13,7 @@ from hypcheck.runs.causes import PLACES, SILENT, Asked, Standing
 from hypcheck.runs.diagnosis import CAUSES, Diagnosis, causes_of, diagnose, merged
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.score import score
-from hypcheck.vectors.frozen import frozen_rows
+from hypcheck.vectors.frozen import load
 
 FAMILIES = ("ring", "ring-neighbourhood", "out-of-regime", "coefficient-zero", "near-axis", "uniform")
 ORDINARY = Criterion()
@@ -23,7 +23,7 @@ def diagnosed(implementation, families=FAMILIES, criterion=ORDINARY):
     """The causes, None of what is unexplained, with the number of wrong answers; and how many are wrong in all."""
     diagnoses, clean, wrong = {}, [], 0
     for family in families:
-        found = frozen_rows(family)
+        found = load(family)
         given = np.asarray(implementation(found.rows), dtype=np.int8)
         scored = score(found.rows, found.positions, Answered.of(given), criterion)
         cases = [case for case in scored.judged() if case.status == "wrong"]
@@ -120,7 +120,7 @@ def test_diagnosis_names_an_ignored_axis():
 
 
 def test_rounding_causes_agree_with_every_right_clear_answer():
-    found = frozen_rows("uniform")
+    found = load("uniform")
     sure = found.positions != 0
     asked = Asked(found.rows[sure], found.positions[sure], found.positions[sure], ORDINARY)
     for cause in PLACES:
@@ -129,7 +129,7 @@ def test_rounding_causes_agree_with_every_right_clear_answer():
 
 
 def test_diagnoses_can_be_merged_in_any_order():
-    found = frozen_rows("ring")
+    found = load("ring")
     given = np.zeros(len(found.rows), dtype=np.int8)
     scored = score(found.rows, found.positions, Answered.of(given), ORDINARY)
     cases = list(scored.judged())

@@ -25,7 +25,7 @@ SAMPLE = {
 
 
 def said(name):
-    case = frozen.load_ways(name).cases[SAMPLE[name]]
+    case = frozen.load(name).cases[SAMPLE[name]]
     return Said(case.id, case.row, case.first and tuple(map(Fraction, case.first)))
 
 

@@ -197,7 +197,7 @@ def told(first):
 def frozen_ways(names=frozen.WAY_NAMES):
     """What the files say."""
     for name in names:
-        for case in frozen.load_ways(name).cases:
+        for case in frozen.load(name).cases:
             yield Said(case.id, case.row, case.first and tuple(map(Fraction, case.first)))
 
 

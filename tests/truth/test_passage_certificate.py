@@ -11,7 +11,7 @@ import pytest
 
 from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, check_passage, clear_until, contact_at
 from hypcheck.truth.passage_prove import _simplest, _within, prove
-from hypcheck.vectors.tilted.coincidences import TWO_POINTS
+from hypcheck.vectors.tilted import TWO_POINTS
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
 OUTSIDE = (2.0, 3.0, 1.0, 1.0, -6.0, 5.0, 1.0, 8.0, 3.25, 0.5)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import re
-from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -16,7 +15,7 @@ from hypcheck.vectors.double_roots import gather
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import WAY_FAMILIES, case_id, family_of, parse_case_id, select
 from hypcheck.vectors.family import BLOCK
-from hypcheck.vectors.ways import coincidences
+from hypcheck.vectors.ways import more_than_a_radius_away, ring_attempt
 
 DIGESTS = {
     "way-anywhere": "c884c53f71228633130e82191fad30f9ee7dac62c2bd9bc9a7dd0c309a6cfbb5",
@@ -57,10 +56,9 @@ def test_a_family_of_ways_is_described_in_full(family):
     assert family.layout is WAYS
     assert family.tilted == family.name.startswith("tilted-")
     assert not family.extreme
-    for field in fields(family):
-        value = getattr(family, field.name)
+    for name, value in vars(family.described("a command")).items():
         if isinstance(value, str):
-            assert value.strip().rstrip(".") == value != "", field.name
+            assert value.strip().rstrip(".") == value != "", name
 
 
 @every_family
@@ -81,12 +79,12 @@ def test_rows_of_families_of_ways_equal_those_of_their_generator_version():
 
 def test_generated_ways_across_a_ring_are_clear_where_rings_beside_the_surface_were_replaced():
     rows = WAY_FAMILIES["way-ring"].rows(1, BLOCK)
-    before = gather(Draw("way-ring", 1, 1, 0), BLOCK, coincidences.ring_attempt)
+    before = gather(Draw("way-ring", 1, 1, 0), BLOCK, ring_attempt)
     replaced = (rows != before).any(axis=1)
     assert 0 < replaced.sum() < 0.05 * BLOCK
     assert all(hits_at_size(row) for row in before[replaced].tolist())
     assert not any(hits_at_size(row) for row in rows[:64].tolist())
-    near = ~coincidences.more_than_a_radius_away(rows)
+    near = ~more_than_a_radius_away(rows)
     assert near.any()
     assert not any(hits_at_size(row) for row in rows[near].tolist())
 

@@ -29,7 +29,7 @@ UNFILTERED |= {"cpp": UNFILTERED["c"], "python": ("if decided:", "if False:"), "
 @pytest.fixture(scope="module")
 def vectors():
     """A part of the frozen vectors of every family, the extreme ones too, and their positions."""
-    found = [frozen.frozen_rows(name) for name in frozen.NAMES]
+    found = [frozen.load(name) for name in frozen.NAMES]
     rows = np.ascontiguousarray(np.vstack([each.rows[::9] for each in found]))
     return rows, np.concatenate([each.positions[::9] for each in found])
 
@@ -95,7 +95,7 @@ def test_emitted_pair_code_in_floats_alone_is_right_or_answers_cannot_say(tmp_pa
 @pytest.mark.parametrize("method", ["dual", "local-maximum"])
 def test_emitted_dual_form_pair_code_decides_every_row_of_ordinary_families(tmp_path, method):
     named = ("tower-body", "tower-rotors", "forest-type-1", "flight", "uniform", "on-surface", "ring")
-    found = [frozen.frozen_rows(name) for name in named]
+    found = [frozen.load(name) for name in named]
     rows, positions = np.vstack([each.rows for each in found]), np.concatenate([each.positions for each in found])
     assert (answers(tmp_path, "python", emitted_pair(method, "python", COMMAND), rows) == positions).all()
 

@@ -16,7 +16,7 @@ from hypcheck.kernel.classify import classify
 from hypcheck.runs.cases import FRESH_SEEDS
 from hypcheck.runs.plan import ConformancePlan, planned_cases, planned_size
 from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.frozen import frozen_rows
+from hypcheck.vectors.frozen import load
 
 SEED = FRESH_SEEDS + 77
 
@@ -34,7 +34,7 @@ def classify(rows):
 def by_heart(tmp_path, monkeypatch):
     """The SPEC of a function that knows the frozen vectors of `uniform`, the rows of the usual seed, and no others."""
     monkeypatch.chdir(tmp_path)
-    rows = np.vstack([frozen_rows("uniform").rows, FAMILIES["uniform"].rows(1, 300)])
+    rows = np.vstack([load("uniform").rows, FAMILIES["uniform"].rows(1, 300)])
     known = {row.tobytes().hex(): int(answer) for row, answer in zip(rows, classify(rows), strict=True)}
     (tmp_path / "known.json").write_text(json.dumps(known))
     (tmp_path / "by_heart.py").write_text(KNOWS_BY_HEART.format(path=str(tmp_path / "known.json")))

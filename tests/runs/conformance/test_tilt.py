@@ -28,6 +28,7 @@ from hypcheck.runs.retest import RetestTask, retest
 from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.invalid_rows import INVALID_NAMES
 from tests.runs import leaning
 from tests.support.judging import ends_of, wrong_cases
 from tests.support.records import GrowingText
@@ -70,7 +71,7 @@ def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_
     found = by_family(record)
     assert code == 1
     assert found["invalid"].counts == {"refused": found["invalid"].asked}
-    assert found["tilted-invalid"].asked == len(frozen.load_invalid_rows("tilted-invalid").cases)
+    assert found["tilted-invalid"].asked == len(frozen.load("tilted-invalid").cases)
     assert found["tilted-invalid"].failing == ["wrong"]
     for fault in found["tilted-invalid"].faults:
         assert not any(map(float.fromhex, fault.axis))
@@ -118,7 +119,7 @@ def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(
     steps, more = [], []
     plan = ConformancePlan(("python:tests.runs.leaning:exact",), ("ring", "tilted-ring"), count=3)
     run_conformance(plan, Recorder(GrowingText(), {}), RunOutcome(), steps.append, expect=more.append)
-    assert more == [sum(len(frozen.load_invalid_rows(name).cases) for name in frozen.INVALID_NAMES[PAIRS])]
+    assert more == [sum(len(frozen.load(name).cases) for name in INVALID_NAMES[PAIRS])]
     assert sum(steps) == planned_size(plan) + sum(more)
 
 
@@ -130,7 +131,7 @@ def test_the_frozen_vectors_of_tilted_spheroids_are_counted_by_their_distance(tm
     assert sum(found["tilted-tangent"].octaves["-inf"].values()) == found["tilted-tangent"].asked - 3
     counted = {float(key): sum(each.values()) for key, each in found["tilted-slight"].octaves.items()}
     assert sum(counted.values()) == found["tilted-slight"].asked - 3
-    cases = frozen.load_tilted("tilted-slight").cases
+    cases = frozen.load("tilted-slight").cases
     near = [case for case in cases if case.position and case.flips[Position.CONTACT].lower < 2.0**-40]
     assert len(near) <= sum(number for exponent, number in counted.items() if exponent < -40)
 

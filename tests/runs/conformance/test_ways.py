@@ -23,7 +23,7 @@ from hypcheck.vectors import frozen
 from tests.tools.miniatures import function
 
 FEW = ("--families", "way-tunnelling", "--count", "6")
-ASKED = len(frozen.load_ways("way-tunnelling").cases) + 6
+ASKED = len(frozen.load("way-tunnelling").cases) + 6
 ROW = (1.0, 2.0, 1.0, 1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -65,7 +65,7 @@ def test_right_passage_function_passes_and_repeats_its_times_in_the_retest(tmp_p
 @pytest.mark.slow
 def test_known_failure_of_a_way_is_excused_and_fails_the_run_if_it_no_longer_occurs(tmp_path, capsys):
     listed = tmp_path / "known.toml"
-    some = [case.id for case in frozen.load_ways("way-still").cases[:3]]
+    some = [case.id for case in frozen.load("way-still").cases[:3]]
     entries = {"family": ["way-tunnelling", "way-still"], "case": some}
     listed.write_text(
         "".join(
@@ -115,7 +115,7 @@ def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(tmp_path
     assert found["way-tunnelling"].counts == {"right": ASKED}
     assert found["tilted-way-invalid"].counts["refused"] > 100
     group = found["way-invalid"]
-    file = frozen.load_invalid_rows("way-invalid")
+    file = frozen.load("way-invalid")
     assert group.counts["wrong"] == (~np.isfinite(file.rows[:, 4:]).all(axis=1)).sum()
     assert all(fault.reason.startswith("answered 0; a row with an invalid ") for fault in group.faults)
 

@@ -9,8 +9,8 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit
-from hypcheck.vectors.format import read_vectors
-from hypcheck.vectors.labels import faults_of_vectors
+from hypcheck.vectors.cases import read_cases
+from hypcheck.vectors.checking import faults_of
 
 RIGHT = """
 import hypcheck as project
@@ -143,15 +143,15 @@ def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, tmp_path):
     path = str(tmp_path / "ours.json")
     hunt = ("hunt", "builtin:table-2-float64", "--queries")
     _, output, _ = told(capsys, *hunt, "2500", "--out", path)
-    before = read_vectors(path)
+    before = read_cases(path)
     kinds = int(next(line for line in output.splitlines() if line.startswith("kinds of wrong")).split()[4].strip(","))
     assert len(before.cases) == kinds > 1
-    assert faults_of_vectors(before) == []
+    assert faults_of(before) == []
     _, output, _ = told(capsys, *hunt, "2500", "--out", path)
     assert "0 rows added" in output
-    assert read_vectors(path).cases == before.cases
+    assert read_cases(path).cases == before.cases
     told(capsys, *hunt, "2500", "--seed", "2", "--out", path)
-    after = read_vectors(path)
+    after = read_cases(path)
     assert after.cases[: len(before.cases)] == before.cases
     assert len(after.cases) > len(before.cases)
     assert after.head == before.head

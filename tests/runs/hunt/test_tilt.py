@@ -15,9 +15,9 @@ from hypcheck.runs.hunt_place import TILTED, place_of
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.runs.minimise import same_query
 from hypcheck.truth.tilted.pair import pair_of
+from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.tilted.format import read_tilted_vectors
 from tests.support.tilted_fractions import exact_position
 
 UPRIGHT = "python:tests.runs.leaning:upright"
@@ -34,7 +34,7 @@ def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_
     row = tuple(map(float, shown.split(",")))
     assert len(row) == 10
     assert exact_position(row) != exact_position((*row[:7], 0.0, 0.0, 1.0))
-    kept = read_tilted_vectors(str(out))
+    kept = read_cases(str(out))
     assert f"{len(kept.cases)} rows added" in said
     assert row in {case.row for case in kept.cases}
     assert all(exact_position(case.row) == case.position for case in kept.cases)

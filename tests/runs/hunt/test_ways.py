@@ -16,9 +16,9 @@ from hypcheck.runs.hunt_place import TILTED, WAY, way_place
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.runs.minimise import same_query, small_ways
 from hypcheck.truth.passage_error import hits_at_size, scaled_passage
+from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import WAY_FAMILIES
-from hypcheck.vectors.ways.format import read_ways
 from tests.tools.way_agreement import Said, faults
 
 THROUGH = (1.0, 2.0, 1.0, 1.0, 6.0, 0.5, 0.25, -10.0, 0.5, 0.0)
@@ -46,7 +46,7 @@ def test_a_hunt_finds_wrong_answers_and_late_times_and_keeps_their_ways(quickly,
     assert re.search(r"^   time +answered: 0\.\d+; first contact between 0\.", said, flags=re.MULTILINE)
     shown = re.findall(r"^   row +(\S+)  \(alpha, .*, x1, y1, z1\)$", said, flags=re.MULTILINE)
     rows = {tuple(map(float, each.split(","))) for each in shown}
-    kept = read_ways(str(out))
+    kept = read_cases(str(out))
     assert rows == {case.row for case in kept.cases}
     assert f"{len(rows)} rows added" in said
     for case in kept.cases:
@@ -68,9 +68,9 @@ def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_ti
     words = ("hunt", "python:tests.runs.moving:upright", "--queries", "12", "--show", "1", "--out", str(out))
     assert main([*words]) == 1
     assert "axis_x, axis_y, axis_z)" in capsys.readouterr().out
-    assert all(len(case.row) == 13 for case in read_ways(str(out)).cases)
+    assert all(len(case.row) == 13 for case in read_cases(str(out)).cases)
     assert main(["hunt", "builtin:passage-sampled-4", "--queries", "8", "--out", str(out)]) == 2
-    assert "has rows of 13 numbers; it must have rows of 10, to add these" in capsys.readouterr().err
+    assert "content is 'tilted-ways'; here it must be 'ways', rows of 10 numbers" in capsys.readouterr().err
 
 
 def test_neighbours_of_a_way_are_valid_and_brought_to_the_border_of_contact(monkeypatch):

@@ -95,7 +95,7 @@ def test_foreign_implementation_is_compared_with_a_formula_that_errs_alike(capsy
 
 
 def ring_where_table_2_errs():
-    frozen = vectors.frozen_rows("ring")
+    frozen = vectors.load("ring")
     answers = builtin("table-2-float64").answer(frozen.rows)
     return next(name for name, answer in zip(frozen.ids, answers.tolist(), strict=True) if answer == 0)
 

@@ -23,9 +23,8 @@ from hypcheck.report.write import render as render_report
 from hypcheck.runs.known_failures import read_known_failures, render
 from hypcheck.scene.reading import read_scene
 from hypcheck.tables.streams import Route
-from hypcheck.vectors.examining import examine
-from hypcheck.vectors.format import read_vectors
-from hypcheck.vectors.frozen import read_invalid_rows
+from hypcheck.vectors.cases import read_cases
+from hypcheck.vectors.checking import examine
 from tests.support.records import resealed
 from tests.tools.fuzz.judging import require_sentence
 from tests.tools.fuzz.tables import require_agreement
@@ -36,13 +35,13 @@ LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 
 def vectors(data: bytes) -> None:
     """A file of cases."""
-    file = read_vectors(str(kept(data, "cases.json")))
+    file = read_cases(str(kept(data, "cases.json")))
     assert len(file.rows) == len(file.positions)
 
 
 def refusals(data: bytes) -> None:
     """A file of rows that must be refused."""
-    file = read_invalid_rows(str(kept(data, "cases.json")))
+    file = read_cases(str(kept(data, "cases.json")))
     assert len(file.rows) == len(file.cases)
 
 

@@ -23,7 +23,7 @@ def _frozen():
     """The answers to the frozen vectors, by the bytes of the row."""
     known = {}
     for name in frozen.NAMES:
-        file = frozen.frozen_rows(name)
+        file = frozen.load(name)
         known.update(zip(map(bytes, file.rows), file.positions.tolist(), strict=True))
     return known
 

@@ -15,15 +15,8 @@ from hypcheck.geometry.rows import CANNOT_SAY, WAYS
 from hypcheck.implementations.ways import certified
 from hypcheck.truth import nearest
 from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.frozen import (
-    INVALID_NAMES,
-    NAMES,
-    TILTED_NAMES,
-    WAY_NAMES,
-    frozen_rows,
-    load_invalid_rows,
-    rows_from_bits,
-)
+from hypcheck.vectors.frozen import NAMES, TILTED_NAMES, WAY_NAMES, load
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
 from tests.tools.attack.places import Scene
 from tests.tools.attack.strike import Batch, batches
 from tests.tools.processors.builds import LEVELS, MODES, Build, BuildError
@@ -63,19 +56,14 @@ class Job:
     said: tuple[int, int] = (1, 0)
 
 
-_REFUSED = tuple(name for names in INVALID_NAMES.values() for name in names)
-FROZEN = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *_REFUSED)
+FROZEN = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *INVALID_CONTENTS)
 
 
 def frozen(names: Sequence[str] = FROZEN) -> Iterator[Job]:
     """Frozen vectors of these names: upright rows also with an axis and one by one, ways, rows that must be refused."""
     for name in names:
-        if name in _REFUSED:
-            rows = rows_from_bits([case.bits for case in load_invalid_rows(name).cases])
-            right = np.full(len(rows), REFUSED)
-        else:
-            cases = frozen_rows(name)
-            rows, right = cases.rows, cases.positions
+        cases = load(name)
+        rows, right = cases.rows, cases.positions
         if name in (*WAY_NAMES, *INVALID_NAMES[WAYS]):
             yield _ways("frozen ways", rows, right)
             continue

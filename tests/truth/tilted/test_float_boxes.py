@@ -20,7 +20,7 @@ FAMILIES = ("tilted-uniform", "tilted-near-contact", "tilted-tangent", "tilted-s
 
 
 def tilted_cases(name):
-    return [case for case in frozen.load_tilted(name).cases if any(case.row[7:9]) and case.row[2] != case.row[3]]
+    return [case for case in frozen.load(name).cases if any(case.row[7:9]) and case.row[2] != case.row[3]]
 
 
 @pytest.mark.parametrize("name", FAMILIES)

@@ -18,7 +18,7 @@ from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import matrices
 from hypcheck.truth.tilted.journey import Surd, _ring_between, _sign_at_root
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
-from hypcheck.vectors.tilted.coincidences import RINGS, TWO_POINTS
+from hypcheck.vectors.tilted import RINGS, TWO_POINTS
 
 CONTACT = Position.CONTACT
 

@@ -55,8 +55,8 @@ def test_tilted_roots_oracle_agrees_with_exact_positions_by_matrices():
 
 @pytest.mark.parametrize("name", ["tilted-tangent", "tilted-crossing", "tilted-ring", "tilted-twins"])
 def test_frozen_coincidences_have_their_proved_labels(name):
-    for case in frozen.load_tilted(name).cases[::12]:
-        found = classify_tilted_by_roots(case.pair)
+    for case in frozen.load(name).cases[::12]:
+        found = classify_tilted_by_roots(TiltedPair.from_row(case.row))
         assert (found.position, found.tangent) == (case.position, case.tangent), case.id
 
 

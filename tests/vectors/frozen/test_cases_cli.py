@@ -14,9 +14,9 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.vectors import frozen as vectors
+from hypcheck.vectors.cases import read_cases
+from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.format import read_vectors
-from hypcheck.vectors.labels import faults_of_vectors
 
 try:
     from numpy._core import _multiarray_umath as numpy_core
@@ -43,9 +43,9 @@ def test_cases_list_names_every_family_with_its_count(capsys):
     counts = {line.split()[0]: int(line.split()[1]) for line in lines}
     assert counts.pop("together") == sum(counts.values())
     for name in ("invalid", "tilted-invalid", "way-invalid", "tilted-way-invalid"):
-        assert counts.pop(name) == len(vectors.load_invalid_rows(name).cases)
-    files = [*map(vectors.load, vectors.NAMES), *map(vectors.load_tilted, vectors.TILTED_NAMES)]
-    files += map(vectors.load_ways, vectors.WAY_NAMES)
+        assert counts.pop(name) == len(vectors.load(name).cases)
+    files = [*map(vectors.load, vectors.NAMES), *map(vectors.load, vectors.TILTED_NAMES)]
+    files += map(vectors.load, vectors.WAY_NAMES)
     assert counts == {file.head.name: len(file.cases) for file in files}
     assert all(vectors.head_of(name).title in line for line in lines for name in FAMILIES if line.split()[0] == name)
     assert sum("extreme: taken when asked for" in line for line in lines) == sum(file.head.extreme for file in files)
@@ -119,11 +119,11 @@ def test_showing_an_unknown_case_names_the_existing_ones(capsys, name, hint):
 def test_cases_generate_json_writes_a_vector_file_with_right_labels(capsys, tmp_path):
     path = tmp_path / "mine.json"
     assert printed(capsys, "generate", "small-integers", "--seed", "9", "--count", "40", "--output", str(path)) == ""
-    file = read_vectors(str(path))
+    file = read_cases(str(path))
     assert [case.id for case in file.cases] == [f"small-integers/2/9/{index}" for index in range(40)]
     assert np.array_equal(file.rows, FAMILIES["small-integers"].rows(9, 40))
     assert file.head.made_by == "hypcheck cases generate small-integers --seed 9 --count 40"
-    assert faults_of_vectors(file) == []
+    assert faults_of(file) == []
     assert printed(capsys, "generate", "small-integers", "--seed", "9", "--count", "40") == path.read_text(
         encoding="utf-8"
     )

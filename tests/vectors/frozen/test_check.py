@@ -14,9 +14,8 @@ from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Position
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors import frozen
-from hypcheck.vectors.family import StoredCertificate, VectorFile
-from hypcheck.vectors.format import vectors_text
-from hypcheck.vectors.labels import faults_of_invalid_rows, faults_of_vectors
+from hypcheck.vectors.cases import StoredCertificate, cases_text
+from hypcheck.vectors.checking import faults_of
 
 STEP = 23
 """Every STEP-th frozen case is checked here; `make check-cases` checks all."""
@@ -42,7 +41,7 @@ every_sample = pytest.mark.parametrize("case", SAMPLES, ids=lambda case: case.id
 def sentences(case, **changes):
     """What the check says of a case with these labels in place of its own."""
     changed = replace(case, **changes)
-    faults = faults_of_vectors(VectorFile(frozen.load("ring").head, {}, (changed,)))
+    faults = faults_of(replace(frozen.load("ring"), cases=(changed,), lines=()))
     assert {fault.case for fault in faults} <= {case.id}
     return [fault.sentence for fault in faults]
 
@@ -179,16 +178,16 @@ def test_labels_of_frozen_files_are_right():
         file = frozen.load(name)
         chosen = sorted({*range(0, len(file.cases), STEP), len(file.cases) - 1})
         sample = replace(file, cases=tuple(file.cases[place] for place in chosen), lines=())
-        assert faults_of_vectors(sample) == []
-    assert faults_of_invalid_rows(frozen.load_invalid_rows()) == []
+        assert faults_of(sample) == []
+    assert faults_of(frozen.load("invalid")) == []
 
 
 def test_valid_row_in_a_file_of_invalid_rows_is_a_fault():
-    file = frozen.load_invalid_rows()
+    file = frozen.load("invalid")
     bits = tuple(int(word, 16) for word in ["3ff0000000000000"] * 7)
     valid = replace(file.cases[5], bits=bits)
     other = replace(file.cases[6], columns=("x",))
-    faults = faults_of_invalid_rows(replace(file, cases=(*file.cases[:5], valid, other, *file.cases[7:])))
+    faults = faults_of(replace(file, cases=(*file.cases[:5], valid, other, *file.cases[7:])))
     assert [(fault.case, fault.line) for fault in faults] == [
         (file.cases[place].id, file.lines[place]) for place in (5, 6)
     ]
@@ -199,7 +198,7 @@ def written(tmp_path, change):
     """A small vector file, changed as text."""
     file = frozen.load("tangent")
     path = tmp_path / "mine.json"
-    text = vectors_text(replace(file, cases=file.cases[:6]))
+    text = cases_text(replace(file, cases=file.cases[:6]))
     changed = change(text)
     assert changed != text or change is same
     path.write_text(changed, encoding="utf-8")

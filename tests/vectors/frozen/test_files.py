@@ -19,23 +19,15 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.vectors import cancellation, freezing
 from hypcheck.vectors import frozen as vectors
+from hypcheck.vectors.cases import cases_text
+from hypcheck.vectors.double_roots import ULPS
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.family import SCHEMA
 from hypcheck.vectors.flags import DEFEATED
-from hypcheck.vectors.format import vectors_text
-from hypcheck.vectors.tangency import RUNGS, ULPS
+from hypcheck.vectors.format import SCHEMA
+from hypcheck.vectors.tangency import RUNGS
 from tests.support.records import violations
 
 FOLDER = vectors.folder()
-ALL = (
-    *vectors.NAMES,
-    vectors.INVALID_NAME,
-    *vectors.TILTED_NAMES,
-    vectors.TILTED_INVALID_NAME,
-    *vectors.WAY_NAMES,
-    vectors.WAY_INVALID_NAME,
-    vectors.TILTED_WAY_INVALID_NAME,
-)
 FULLY_COMPARED = ("ring", "tangent", "float16-exact", "coefficient-zero", "extreme-subnormal")
 
 
@@ -61,11 +53,11 @@ def schema(name, version=SCHEMA):
 def test_cases_folder_has_one_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
     pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
-    assert found == set(ALL) == {*pairs, *WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
+    assert found == set(vectors.ALL_NAMES) == {*pairs, *WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
 
 
 def test_there_are_at_least_7000_pairs_and_all_files_have_at_most_10_megabytes():
-    rows = {row for name in (*vectors.NAMES, *vectors.TILTED_NAMES) for row in bits(vectors.frozen_rows(name).rows)}
+    rows = {row for name in (*vectors.NAMES, *vectors.TILTED_NAMES) for row in bits(vectors.load(name).rows)}
     assert len(rows) >= 7000
     assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 10_000_000
 
@@ -89,7 +81,7 @@ def test_every_family_of_a_later_version_has_rows_of_earlier_ones():
 @pytest.mark.parametrize("name", FAMILIES)
 def test_rows_of_a_frozen_file_are_the_first_rows_of_its_family_without_duplicates(name):
     file = vectors.load(name)
-    wanted = list(dict.fromkeys(bits(FAMILIES[name].rows(freezing.SEED, freezing.COUNTS[name]))))
+    wanted = list(dict.fromkeys(bits(freezing.planned(name))))
     rows = bits(file.rows)
     earlier = rows[: EARLIER.get(name, 0)]
     assert rows == earlier + [row for row in wanted if row not in set(earlier)]
@@ -100,16 +92,16 @@ def test_rows_of_a_frozen_file_are_the_first_rows_of_its_family_without_duplicat
 
 @pytest.mark.parametrize("name", FULLY_COMPARED)
 def test_frozen_files_are_those_that_freezing_from_nothing_makes(name):
-    assert vectors_text(freezing.frozen(name)) == text_of(name)
+    assert cases_text(freezing.frozen(name)) == text_of(name)
 
 
 def test_frozen_invalid_rows_equal_those_that_freezing_makes():
-    assert vectors.invalid_rows_text(freezing.frozen_invalid_rows()) == text_of(vectors.INVALID_NAME)
+    assert cases_text(freezing.frozen_invalid_rows("invalid")) == text_of("invalid")
 
 
 @pytest.mark.parametrize("name", vectors.NAMES)
 def test_a_frozen_file_is_written_back_to_the_same_bytes(name):
-    assert vectors_text(vectors.load(name)) == text_of(name)
+    assert cases_text(vectors.load(name)) == text_of(name)
 
 
 def test_rows_of_worst_cancellation_are_those_that_its_searches_find():
@@ -141,10 +133,10 @@ def test_every_row_of_worst_cancellation_defeats_a_formula_in_the_default_domain
         assert max(errors) > family_error
 
 
-@pytest.mark.parametrize("name", [*vectors.NAMES, vectors.INVALID_NAME])
+@pytest.mark.parametrize("name", [*vectors.NAMES, "invalid"])
 def test_every_frozen_file_fits_its_schema(name):
     document = json.loads(text_of(name))
-    wanted = schema("refusals" if name == vectors.INVALID_NAME else "vectors")
+    wanted = schema("refusals" if name == "invalid" else "vectors")
     assert violations(document, wanted, closed=True) == []
 
 
@@ -175,7 +167,7 @@ def test_schema_of_vectors_refuses_each_malformed_document():
 
 
 def test_each_case_of_a_frozen_file_stands_on_its_own_line():
-    for name in ALL:
+    for name in vectors.ALL_NAMES:
         lines = text_of(name).splitlines()
         begin = lines.index('"cases": [') + 1
         assert lines[-1] == "]}"
@@ -184,7 +176,7 @@ def test_each_case_of_a_frozen_file_stands_on_its_own_line():
 
 
 def test_arrays_of_frozen_rows_hold_the_cases_of_a_file_in_order():
-    frozen = vectors.frozen_rows("small-integers")
+    frozen = vectors.load("small-integers")
     file = vectors.load("small-integers")
     assert frozen.rows.shape == (len(file.cases), 7)
     assert frozen.rows.dtype == np.float64
@@ -214,7 +206,7 @@ def test_every_tangent_ladder_changes_its_answer_once_and_has_every_rung():
 
 
 def test_frozen_invalid_rows_include_each_column_invalid_alone_and_every_kind_of_nan():
-    file = vectors.load_invalid_rows()
+    file = vectors.load("invalid")
     assert invalid(file.rows).all()
     alone = Counter(case.columns for case in file.cases if len(case.columns) == 1)
     assert {columns[0] for columns in alone} == {"alpha", "gamma", "b", "d", "x", "y", "z"}
@@ -237,11 +229,7 @@ def block(language):
 
 
 def test_readme_of_cases_has_a_line_for_each_family_that_agrees_with_its_file():
-    heads = {name: vectors.load(name) for name in vectors.NAMES} | {vectors.INVALID_NAME: vectors.load_invalid_rows()}
-    heads |= {name: vectors.load_tilted(name) for name in vectors.TILTED_NAMES}
-    heads |= {vectors.TILTED_INVALID_NAME: vectors.load_invalid_rows(vectors.TILTED_INVALID_NAME)}
-    heads |= {name: vectors.load_ways(name) for name in vectors.WAY_NAMES}
-    heads |= {name: vectors.load_invalid_rows(name) for name in ("way-invalid", "tilted-way-invalid")}
+    heads = {name: vectors.load(name) for name in vectors.ALL_NAMES}
     rows = [f"| [{n}]({n}.json) | {len(f.cases)} | {f.head.title} | {f.head.purpose} |" for n, f in heads.items()]
     listed = [line for line in readme().splitlines() if ".json) | " in line]
     assert listed == rows
@@ -273,7 +261,7 @@ def test_c_example_of_the_cases_readme_compiles_and_reads_every_number_to_the_bi
         subprocess.run(command, cwd=tmp_path, check=True)
     ran = subprocess.run([str(tmp_path / "check")], capture_output=True, check=False)
     assert ran.returncode == 1
-    frozen = vectors.frozen_rows(name)
+    frozen = vectors.load(name)
     wanted = b"".join(row + f"{case}\n".encode() for case, row in zip(frozen.ids, bits(frozen.rows), strict=True))
     assert ran.stdout == wanted
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 
 import pytest
 
-from hypcheck.errors import InputError
+from hypcheck.geometry.pair import REFUSED
 from hypcheck.vectors import frozen
-from hypcheck.vectors.frozen import read_invalid_rows
+from hypcheck.vectors.cases import read_cases
+from hypcheck.vectors.format import content_with
 from tests.vectors.frozen.test_reading import SOUND, refused
 
 BAD_ROWS = frozen.path_of("invalid").read_text(encoding="utf-8").splitlines()
@@ -38,13 +40,16 @@ def test_malformed_case_in_a_file_of_invalid_rows_is_refused(tmp_path, change, m
     assert case["row"][0] == "inf"
     change(case)
     lines[BAD_FIRST] = json.dumps(case) + ","
-    found = refused(tmp_path, lines, read_invalid_rows)
+    found = refused(tmp_path, lines, read_cases)
     assert f", line {BAD_FIRST + 1}, case invalid-0000" in found
     assert message in found
 
 
 def test_readers_of_answers_and_of_invalid_rows_refuse_each_others_files(tmp_path):
-    assert "here it must be 'positions'" in refused(tmp_path, BAD_ROWS)
-    assert "here it must be 'refusals'" in refused(tmp_path, SOUND, read_invalid_rows)
-    with pytest.raises(InputError, match="have no answers"):
-        frozen.load("invalid")
+    for lines, wanted in ((BAD_ROWS, content_with()), (SOUND, content_with(refused=True))):
+        found = refused(tmp_path, lines, partial(read_cases, content=wanted))
+        assert f"here it must be {wanted.name!r}" in found
+
+
+def test_right_answers_to_invalid_rows_are_refusals():
+    assert set(frozen.load("invalid").positions.tolist()) == {REFUSED}

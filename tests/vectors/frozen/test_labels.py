@@ -19,14 +19,15 @@ from hypcheck.tables.numbers import Literal, decimal_of, exact_text, hex_of, is_
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.prove import prove
-from hypcheck.vectors import file_types, freezing
+from hypcheck.vectors import freezing
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cancellation import BEGINNINGS, STRATA, CancellationSearch, searches, worst_row
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.cases import cases_text, read_cases
+from hypcheck.vectors.families import ALL, FAMILIES
 from hypcheck.vectors.flags import DEFEATED, FLAGS, flags_of, in_range
-from hypcheck.vectors.format import read_vectors, vectors_text
+from hypcheck.vectors.format import content_with
 from hypcheck.vectors.freezing import extended, frozen, frozen_invalid_rows
-from hypcheck.vectors.frozen import invalid_rows_text, read_invalid_rows
+from hypcheck.vectors.invalid_rows import invalid_rows
 from hypcheck.vectors.labels import labelled, shows_crossing, stored_certificate
 from tests.support.pairs import pairs
 
@@ -139,11 +140,11 @@ def test_flags_of_a_case_come_in_the_order_of_the_table():
 @settings(max_examples=25)
 def test_shortened_proofs_still_prove_a_crossing(pair):
     decision = exact.decide(pair.lengths)
-    found = stored_certificate(pair, prove(pair, decision))
+    found = stored_certificate(pair.row, prove(pair, decision))
     crosses = decision.position is Position.CONTACT and not decision.tangent
     assert bool(found.offsets) == crosses
     if crosses:
-        assert shows_crossing(pair, found.offsets)
+        assert shows_crossing(pair.row, found.offsets)
 
 
 def test_proofs_of_ordinary_crossings_are_of_few_digits():
@@ -169,9 +170,9 @@ def test_a_proof_point_on_the_spheroid_is_moved_inside(outward):
     assert [Fraction(value) for value in scaled] == [20 * value for value in center]
     touched = tuple(20 * (value + step) for value, step in zip(center, reach, strict=True))
     plain = Certificate(Position.CONTACT, points=(tuple(20 * value for value in center), touched))
-    assert not shows_crossing(pair, ((Fraction(0),) * 3, reach))
-    found = stored_certificate(pair, plain)
-    assert shows_crossing(pair, found.offsets)
+    assert not shows_crossing(pair.row, ((Fraction(0),) * 3, reach))
+    found = stored_certificate(pair.row, plain)
+    assert shows_crossing(pair.row, found.offsets)
     assert max(len(exact_text(part)) for part in found.offsets[1]) < 20
 
 
@@ -179,9 +180,9 @@ def test_points_outside_the_spheroid_do_not_prove_a_crossing():
     """x = 4 is beyond the waist of x² + y² − z² = 1 and x = 0 inside it; a unit sphere at (3, 0, 0) has neither."""
     pair = Pair(1.0, 1.0, 1.0, 1.0, 3.0, 0.0, 0.0)
     inside, outside = (Fraction(-3), Fraction(0), Fraction(0)), (Fraction(1), Fraction(0), Fraction(0))
-    assert not shows_crossing(pair, (inside, outside))
+    assert not shows_crossing(pair.row, (inside, outside))
     wider = Pair(1.0, 1.0, 3.0, 1.0, 3.0, 0.0, 0.0)
-    assert shows_crossing(wider, ((Fraction(-1), Fraction(0), Fraction(0)), outside))
+    assert shows_crossing(wider.row, ((Fraction(-1), Fraction(0), Fraction(0)), outside))
 
 
 @given(st.floats(allow_nan=False))
@@ -230,9 +231,9 @@ def test_freezing_keeps_ids_of_old_rows_and_appends_new_ones():
 
 def test_freezing_keeps_what_an_older_generator_made(monkeypatch):
     """Half of the frozen cases, in another order, and a row that no generator makes now."""
-    monkeypatch.setitem(freezing.COUNTS, "ring", 12)
+    monkeypatch.setitem(ALL, "ring", replace(ALL["ring"], frozen=12))
     now = frozen("ring")
-    alien = replace(labelled([("ring-0500", ROWS[2])])[0])
+    alien = replace(labelled(content_with(), [("ring-0500", ROWS[2])])[0])
     before = replace(now, cases=(now.cases[9], alien, now.cases[2]))
     after = frozen("ring", before)
     assert after.cases[:3] == before.cases
@@ -242,13 +243,13 @@ def test_freezing_keeps_what_an_older_generator_made(monkeypatch):
 
 
 def test_freezing_writes_files_that_are_read_back(tmp_path, monkeypatch):
-    monkeypatch.setitem(freezing.COUNTS, "ring", 5)
+    monkeypatch.setitem(ALL, "ring", replace(ALL["ring"], frozen=5))
     told = []
     freezing.freeze(["ring", "invalid", "ring"], tmp_path, told.append)
     assert told == ["ring", "invalid"]
     before = (tmp_path / "ring.json").read_bytes()
-    assert len(read_vectors(str(tmp_path / "ring.json")).cases) == 5
-    assert read_invalid_rows(str(tmp_path / "invalid.json")) == vectors.load_invalid_rows()
+    assert len(read_cases(str(tmp_path / "ring.json")).cases) == 5
+    assert read_cases(str(tmp_path / "invalid.json")) == vectors.load("invalid")
     freezing.freeze(["ring"], tmp_path)
     assert (tmp_path / "ring.json").read_bytes() == before
 
@@ -258,7 +259,7 @@ def test_freezing_does_not_overwrite_a_file_of_another_family(tmp_path):
     with pytest.raises(InputError, match="line 1"):
         freezing.freeze(["ring"], tmp_path)
     assert (tmp_path / "ring.json").read_text(encoding="utf-8") == "precious"
-    (tmp_path / "ring.json").write_text(vectors_text(vectors.load("axis")), encoding="utf-8")
+    (tmp_path / "ring.json").write_text(cases_text(vectors.load("axis")), encoding="utf-8")
     with pytest.raises(InputError, match="of the family 'axis'"):
         freezing.freeze(["ring"], tmp_path)
     with pytest.raises(InputError, match="no frozen vectors 'rnig'"):
@@ -269,28 +270,29 @@ def test_freezing_does_not_overwrite_a_file_of_another_family(tmp_path):
 
 def test_freezing_refuses_a_label_that_fails_its_check(tmp_path, monkeypatch):
     """A maker of labels that lies about the clearance is found out before anything is written."""
-    monkeypatch.setitem(freezing.COUNTS, "ring", 3)
-    wrong = replace(
-        file_types.UPRIGHT, labelled=lambda cases: [replace(case, clearance=1.0) for case in labelled(cases)]
-    )
-    monkeypatch.setattr(file_types, "UPRIGHT", wrong)
+    monkeypatch.setitem(ALL, "ring", replace(ALL["ring"], frozen=3))
+
+    def wrong(content, cases):
+        return [replace(case, clearance=1.0) for case in labelled(content, cases)]
+
+    monkeypatch.setattr(freezing, "labelled", wrong)
     with pytest.raises(DisagreementError, match="ring-0000"):
         freezing.freeze(["ring"], tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_freezing_keeps_ids_of_old_invalid_rows_and_appends_new_ones():
-    now = vectors.invalid_rows()
+    now = invalid_rows("invalid")
     before = replace(now, cases=(replace(now.cases[4], id="invalid-0700"), now.cases[0]))
-    after = frozen_invalid_rows(before)
+    after = frozen_invalid_rows("invalid", before)
     assert after.cases[:2] == before.cases
     assert after.cases[2].id == "invalid-0701"
     assert {case.bits for case in after.cases} == {case.bits for case in now.cases}
-    assert invalid_rows_text(frozen_invalid_rows(after)) == invalid_rows_text(after)
+    assert cases_text(frozen_invalid_rows("invalid", after)) == cases_text(after)
 
 
 def test_freezing_has_a_count_for_every_family_and_a_search_for_every_stratum():
-    assert set(freezing.COUNTS) == set(FAMILIES)
+    assert all(family.frozen for family in ALL.values())
     assert set(STRATA) <= set(FAMILIES)
     assert len(searches()) == len(DEFEATED) * 2 * len(STRATA) * BEGINNINGS
 

@@ -8,13 +8,13 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.vectors import family, fixed_sizes, frozen
-from hypcheck.vectors.examining import wrong_description, wrong_meanings
+from hypcheck.vectors.cases import cases_text
+from hypcheck.vectors.checking import wrong_description, wrong_meanings
 from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
-from hypcheck.vectors.format import vectors_text
-from hypcheck.vectors.frozen import invalid_rows_text
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 FILE = frozen.load("tangent")
-TEXT = vectors_text(replace(FILE, cases=FILE.cases[:6]))
+TEXT = cases_text(replace(FILE, cases=FILE.cases[:6]))
 
 
 def checked(tmp_path, capsys, text):
@@ -44,7 +44,7 @@ def test_wrong_description_in_the_metadata_of_a_family_is_a_fault(tmp_path, caps
 
 
 def test_wrong_description_in_the_metadata_of_invalid_rows_is_a_fault(tmp_path, capsys):
-    text = invalid_rows_text(frozen.load_invalid_rows())
+    text = cases_text(frozen.load("invalid"))
     code, lines = checked(tmp_path, capsys, text.replace(frozen.head_of("invalid").drone, "a bad row is answered"))
     assert (code, lines[0][:39]) == (1, 'line 3: family.drone is "a bad row is a')
 
@@ -91,12 +91,12 @@ def test_descriptions_in_the_shipped_files_are_right():
         assert file.head.name == name
         assert [*wrong_description(file.head), *wrong_meanings(file.flags, FLAGS)] == []
     for name in frozen.TILTED_NAMES:
-        tilted = frozen.load_tilted(name)
+        tilted = frozen.load(name)
         assert tilted.head.name == name
         assert [*wrong_description(tilted.head), *wrong_meanings(tilted.flags, TILTED_FLAGS)] == []
     for name in frozen.WAY_NAMES:
-        ways = frozen.load_ways(name)
+        ways = frozen.load(name)
         assert ways.head.name == name
         assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, WAY_FLAGS)] == []
-    for name in frozen.INVALID_CONTENTS:
-        assert list(wrong_description(frozen.load_invalid_rows(name).head)) == []
+    for name in INVALID_CONTENTS:
+        assert list(wrong_description(frozen.load(name).head)) == []

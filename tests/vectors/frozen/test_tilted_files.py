@@ -15,14 +15,12 @@ from hypcheck.geometry.pair import TILTED_COLUMNS, Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.vectors import freezing, frozen
+from hypcheck.vectors.cases import case_fields, cases_text, read_cases
+from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.family import TILTED_SCHEMA
 from hypcheck.vectors.flags import TILTED_FLAGS
-from hypcheck.vectors.format import read_vectors
-from hypcheck.vectors.frozen import invalid_rows_text, read_invalid_rows
-from hypcheck.vectors.labels import faults_of_invalid_rows
-from hypcheck.vectors.tilted.format import CASE_FIELDS, read_tilted_vectors, tilted_vectors_text
-from hypcheck.vectors.tilted.labels import faults_of_tilted, shows_tilted_crossing
+from hypcheck.vectors.format import TILTED_SCHEMA, content_with
+from hypcheck.vectors.labels import shows_crossing
 from tests.support.records import violations
 from tests.support.tilted_fractions import exact_position
 from tests.vectors.frozen.test_files import bits, schema, text_of
@@ -33,28 +31,27 @@ FEW = ("tilted-tangent", "tilted-ring", "tilted-upright", "tilted-near-contact")
 
 
 def sample(name, step=STEP):
-    file = frozen.load_tilted(name)
+    file = frozen.load(name)
     chosen = sorted({*range(0, len(file.cases), step), len(file.cases) - 1})
     return replace(file, cases=tuple(file.cases[place] for place in chosen), lines=())
 
 
 def test_there_are_at_least_2000_tilted_cases_in_at_least_12_families():
     assert len(frozen.TILTED_NAMES) >= 12
-    assert sum(len(frozen.load_tilted(name).cases) for name in frozen.TILTED_NAMES) >= 2000
-    assert set(freezing.TILTED_COUNTS) == set(TILTED_FAMILIES)
-    cases = [case for name in frozen.TILTED_NAMES for case in frozen.load_tilted(name).cases]
+    assert sum(len(frozen.load(name).cases) for name in frozen.TILTED_NAMES) >= 2000
+    cases = [case for name in frozen.TILTED_NAMES for case in frozen.load(name).cases]
     assert {flag for case in cases for flag in case.flags} == set(TILTED_FLAGS)
 
 
 @every_file
 def test_rows_of_a_tilted_file_are_the_first_rows_of_its_family_without_duplicates(name):
-    file = frozen.load_tilted(name)
-    wanted = list(dict.fromkeys(bits(TILTED_FAMILIES[name].rows(freezing.SEED, freezing.TILTED_COUNTS[name]))))
+    file = frozen.load(name)
+    wanted = list(dict.fromkeys(bits(freezing.planned(name))))
     assert bits(file.rows) == wanted
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(wanted))]
     assert file.head == TILTED_FAMILIES[name].described(f"hypcheck cases freeze {name}")
-    assert tilted_vectors_text(file) == text_of(name)
-    assert frozen.frozen_rows(name).rows.shape == (len(wanted), 10)
+    assert cases_text(file) == text_of(name)
+    assert frozen.load(name).rows.shape == (len(wanted), 10)
 
 
 @every_file
@@ -66,7 +63,7 @@ def test_the_positions_of_a_tilted_file_are_those_of_the_matrices(name):
 @pytest.mark.slow
 @every_file
 def test_labels_of_a_tilted_file_are_right(name):
-    assert faults_of_tilted(sample(name)) == []
+    assert faults_of(sample(name)) == []
 
 
 @every_file
@@ -77,46 +74,46 @@ def test_a_tilted_file_fits_its_published_schema(name):
 
 
 def test_frozen_invalid_tilted_rows_fit_their_schema_and_equal_those_that_freezing_makes():
-    text = text_of(frozen.TILTED_INVALID_NAME)
+    text = text_of("tilted-invalid")
     assert list(violations(json.loads(text), schema("tilted-refusals", TILTED_SCHEMA))) == []
-    assert invalid_rows_text(freezing.frozen_invalid_rows(name=frozen.TILTED_INVALID_NAME)) == text
-    file = frozen.load_invalid_rows(frozen.TILTED_INVALID_NAME)
+    assert cases_text(freezing.frozen_invalid_rows("tilted-invalid")) == text
+    file = frozen.load("tilted-invalid")
     assert file.rows.shape == (len(file.cases), 10)
     assert invalid(file.rows).all()
-    assert faults_of_invalid_rows(file) == []
+    assert faults_of(file) == []
     assert {columns[0] for case in file.cases if len(columns := case.columns) == 1} == set(TILTED_COLUMNS)
     without = [case for case in file.cases if case.columns == TILTED_COLUMNS[7:]]
     assert any(not np.any(case.row[7:]) for case in without)
 
 
 def test_tilted_ring_cases_are_clear_with_a_vanishing_discriminant():
-    cases = frozen.load_tilted("tilted-ring").cases
+    cases = frozen.load("tilted-ring").cases
     exactly = [case for case in cases if "quartic-delta=0" in case.flags]
     assert len(exactly) >= len(cases) / 4
     assert all("quartic-ring" in case.flags and case.position is not Position.CONTACT for case in exactly)
 
 
 def test_tangent_and_crossing_files_have_double_roots_of_either_kind():
-    assert all(case.tangent for case in frozen.load_tilted("tilted-tangent").cases)
-    for case in frozen.load_tilted("tilted-crossing").cases:
+    assert all(case.tangent for case in frozen.load("tilted-tangent").cases)
+    for case in frozen.load("tilted-crossing").cases:
         assert not case.tangent
         assert {"quartic-delta=0", "sphere"} & set(case.flags)
 
 
 def test_vertical_axes_and_spheres_have_the_position_of_the_upright_pair():
     for name in ("tilted-upright", "tilted-sphere"):
-        assert not any("tilt-matters" in case.flags for case in frozen.load_tilted(name).cases)
-    tower = frozen.load_tilted("tilted-tower").cases
+        assert not any("tilt-matters" in case.flags for case in frozen.load(name).cases)
+    tower = frozen.load("tilted-tower").cases
     assert 0.01 < np.mean(["tilt-matters" in case.flags for case in tower]) < 0.5
 
 
 def changed(case, **changes):
-    file = replace(frozen.load_tilted("tilted-near-contact"), cases=(replace(case, **changes),), lines=())
-    return [fault.sentence for fault in faults_of_tilted(file)]
+    file = replace(frozen.load("tilted-near-contact"), cases=(replace(case, **changes),), lines=())
+    return [fault.sentence for fault in faults_of(file)]
 
 
 def test_wrong_labels_of_a_tilted_case_are_found():
-    case = next(each for each in frozen.load_tilted("tilted-near-contact").cases if each.position is Position.EXTERIOR)
+    case = next(each for each in frozen.load("tilted-near-contact").cases if each.position is Position.EXTERIOR)
     assert changed(case) == []
     assert "does not prove contact" in changed(case, position=Position.CONTACT)[0]
     assert "clearance" in changed(case, clearance=case.clearance * 1.1)[0]
@@ -132,12 +129,12 @@ def test_wrong_labels_of_a_tilted_case_are_found():
 
 
 def test_points_of_a_crossing_lie_in_the_spheroid_on_strictly_opposite_sides():
-    case = next(each for each in frozen.load_tilted("tilted-near-contact").cases if len(each.witness.offsets) == 2)
+    case = next(each for each in frozen.load("tilted-near-contact").cases if len(each.witness.offsets) == 2)
     centre, other = case.witness.offsets
-    assert shows_tilted_crossing(case.pair, (centre, other))
-    assert not shows_tilted_crossing(case.pair, (centre,))
-    assert not shows_tilted_crossing(case.pair, (other,))
-    assert not shows_tilted_crossing(case.pair, (centre, tuple(2 * Fraction(each) for each in other)))
+    assert shows_crossing(case.row, (centre, other))
+    assert not shows_crossing(case.row, (centre,))
+    assert not shows_crossing(case.row, (other,))
+    assert not shows_crossing(case.row, (centre, tuple(2 * Fraction(each) for each in other)))
 
 
 NO_AXIS, NO_HEX = [0.0] * 3, ["0x0p+0"] * 3
@@ -163,26 +160,26 @@ FIRST = SOUND.index('"cases": [') + 1
 def test_a_tilted_case_that_is_wrongly_written_is_refused(tmp_path, change, message):
     lines = list(SOUND)
     case = json.loads(lines[FIRST].removesuffix(","))
-    assert tuple(case) == CASE_FIELDS
+    assert tuple(case) == case_fields(content_with(tilted=True))
     change(case)
     lines[FIRST] = json.dumps(case) + ","
     path = tmp_path / "mine.json"
     path.write_text("\n".join(lines), encoding="utf-8")
     with pytest.raises(InputError, match=f"line {FIRST + 1}, case tilted-ring-0000: .*{message}"):
-        read_tilted_vectors(str(path))
+        read_cases(str(path))
 
 
-def test_readers_refuse_files_with_another_content_than_theirs(tmp_path):
+def test_a_file_with_another_content_than_the_wanted_one_is_refused(tmp_path):
     with pytest.raises(InputError, match="here it must be 'positions'"):
-        read_vectors(str(frozen.path_of("tilted-ring")))
+        read_cases(str(frozen.path_of("tilted-ring")), content_with())
     with pytest.raises(InputError, match="here it must be 'tilted-positions'"):
-        read_tilted_vectors(str(frozen.path_of("ring")))
+        read_cases(str(frozen.path_of("ring")), content_with(tilted=True))
     with pytest.raises(InputError, match="here it must be 'refusals'"):
-        read_invalid_rows(str(frozen.path_of("tilted-ring")))
+        read_cases(str(frozen.path_of("tilted-ring")), content_with(refused=True))
     path = tmp_path / "mine.json"
     path.write_text(text_of("tilted-ring").replace("1.1.0", "1.0.0", 1), encoding="utf-8")
     with pytest.raises(InputError, match="it must be 'positions' or 'refusals'"):
-        read_tilted_vectors(str(path))
+        read_cases(str(path))
 
 
 def printed(capsys, *arguments):
@@ -213,7 +210,7 @@ def test_cases_generate_writes_tilted_rows_in_every_format(capsys, tmp_path):
     assert table[1].startswith("tilted-uniform/1/1/0,")
     path = tmp_path / "mine.json"
     printed(capsys, "generate", "tilted-upright", "--count", "2", "--seed", "7", "--output", str(path))
-    assert len(read_tilted_vectors(str(path)).cases) == 2
+    assert len(read_cases(str(path)).cases) == 2
     assert printed(capsys, "check", str(path)) == "2 cases checked, none with a wrong label\n"
 
 

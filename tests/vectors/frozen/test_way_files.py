@@ -15,13 +15,11 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, invalid
 from hypcheck.truth.swept import by_roots, journey_of
 from hypcheck.vectors import freezing, frozen
+from hypcheck.vectors.cases import cases_text, read_cases
+from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import WAY_FAMILIES
-from hypcheck.vectors.family import WAY_SCHEMA
 from hypcheck.vectors.flags import WAY_FLAGS
-from hypcheck.vectors.frozen import invalid_rows_text
-from hypcheck.vectors.labels import faults_of_invalid_rows
-from hypcheck.vectors.ways.format import read_ways, ways_text
-from hypcheck.vectors.ways.labels import faults_of_ways
+from hypcheck.vectors.format import WAY_SCHEMA
 from tests.support import fractions_truth
 from tests.support.records import violations
 from tests.support.tilted_fractions import exact_position
@@ -34,7 +32,7 @@ OUTDATED = {"way-ring": (14, 43, 55)}
 
 
 def sample(name, step=STEP):
-    return frozen.load_ways(name).cases[::step]
+    return frozen.load(name).cases[::step]
 
 
 def position_at(row, time):
@@ -45,7 +43,7 @@ def position_at(row, time):
 
 
 def test_there_are_at_least_2000_ways_in_at_least_14_families():
-    files = [frozen.load_ways(name) for name in frozen.WAY_NAMES]
+    files = [frozen.load(name) for name in frozen.WAY_NAMES]
     assert len(files) >= 14
     cases = [case for file in files for case in file.cases]
     assert len({struct for file in files for struct in bits(file.rows)}) == len(cases) >= 2000
@@ -57,8 +55,8 @@ def test_there_are_at_least_2000_ways_in_at_least_14_families():
 
 @every_file
 def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplicates(name):
-    file = frozen.load_ways(name)
-    wanted = list(dict.fromkeys(bits(WAY_FAMILIES[name].rows(freezing.SEED, freezing.WAY_COUNTS[name]))))
+    file = frozen.load(name)
+    wanted = list(dict.fromkeys(bits(freezing.planned(name))))
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(file.cases))]
     found, outdated = bits(file.rows), OUTDATED.get(name, ())
     for place in outdated:
@@ -66,8 +64,8 @@ def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplica
         found[place] = found[len(wanted) + outdated.index(place)]
     assert found == wanted + [wanted[place] for place in outdated]
     assert file.head == WAY_FAMILIES[name].described(f"hypcheck cases freeze {name}")
-    assert ways_text(file) == text_of(name)
-    assert frozen.frozen_rows(name).positions.tolist() == file.hits.tolist()
+    assert cases_text(file) == text_of(name)
+    assert file.positions.tolist() == [int(case.hit) for case in file.cases]
     assert not invalid(file.rows, WAYS).any()
 
 
@@ -99,7 +97,7 @@ def test_the_roots_of_the_discriminant_decide_ways_as_their_files_say(name):
 
 @every_file
 def test_labels_of_a_file_of_ways_are_right(name):
-    assert faults_of_ways(replace(frozen.load_ways(name), cases=sample(name), lines=())) == []
+    assert faults_of(replace(frozen.load(name), cases=sample(name), lines=())) == []
 
 
 @every_file
@@ -114,11 +112,11 @@ def test_a_file_of_ways_fits_its_published_schema(name):
 def test_frozen_invalid_ways_fit_their_schema_and_equal_those_that_freezing_makes(name, columns):
     text = text_of(name)
     assert list(violations(json.loads(text), schema(name.replace("invalid", "refusals"), WAY_SCHEMA))) == []
-    assert invalid_rows_text(freezing.frozen_invalid_rows(name=name)) == text
-    file = frozen.load_invalid_rows(name)
+    assert cases_text(freezing.frozen_invalid_rows(name)) == text
+    file = frozen.load(name)
     assert file.rows.shape == (len(file.cases), len(columns))
     assert invalid(file.rows, WAYS).all()
-    assert faults_of_invalid_rows(file) == []
+    assert faults_of(file) == []
     assert {case.columns[0] for case in file.cases if len(case.columns) == 1} == set(columns)
     with np.errstate(invalid="ignore"):
         steps = file.rows[:, 7:10] - file.rows[:, 4:7]
@@ -129,7 +127,7 @@ def test_frozen_invalid_ways_fit_their_schema_and_equal_those_that_freezing_make
 
 def test_frozen_ways_have_the_flags_that_their_family_promises():
     def flagged(name, flag):
-        cases = frozen.load_ways(name).cases
+        cases = frozen.load(name).cases
         return sum(flag in case.flags for case in cases) / len(cases)
 
     assert flagged("way-grazing", "tangent") == flagged("way-grazing", "tunnelling") == 1
@@ -139,22 +137,21 @@ def test_frozen_ways_have_the_flags_that_their_family_promises():
     assert flagged("way-vertical", "vertical-way") > 0.9
     assert flagged("way-horizontal", "horizontal-way") > 0.9
     assert flagged("way-across", "tunnelling") > 0.5
-    assert np.flatnonzero(frozen.load_ways("way-ring").hits).tolist() == list(OUTDATED["way-ring"])
-    assert not frozen.load_ways("tilted-way-ring").hits.any()
+    assert np.flatnonzero(frozen.load("way-ring").positions).tolist() == list(OUTDATED["way-ring"])
+    assert not frozen.load("tilted-way-ring").positions.any()
     for name in ("way-near-graze", "way-uniform", "way-tower", "way-short", "way-long", "tilted-way-uniform"):
-        assert 0.05 < frozen.load_ways(name).hits.mean() < 0.99, name
+        assert 0.05 < frozen.load(name).positions.mean() < 0.99, name
 
 
 def changed(name, place, **changes):
-    file = frozen.load_ways(name)
+    file = frozen.load(name)
     return [
-        fault.sentence
-        for fault in faults_of_ways(replace(file, cases=(replace(file.cases[place], **changes),), lines=()))
+        fault.sentence for fault in faults_of(replace(file, cases=(replace(file.cases[place], **changes),), lines=()))
     ]
 
 
 def test_wrong_labels_of_a_way_are_found():
-    case = frozen.load_ways("way-grazing").cases[0]
+    case = frozen.load("way-grazing").cases[0]
     assert changed("way-grazing", 0) == []
     assert changed("way-grazing", 0, first=None)[0] == "the certificate does not prove that the way is clear"
     later = replace(case.witness, time=case.witness.time + Fraction(1, 64))
@@ -182,7 +179,7 @@ def test_a_damaged_file_of_ways_is_refused(tmp_path, old, new, message):
     path = tmp_path / "ways.json"
     path.write_text(text.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(InputError, match=message):
-        read_ways(str(path))
+        read_cases(str(path))
 
 
 def test_cases_commands_accept_ways(tmp_path, capsys):

@@ -1,0 +1,232 @@
+"""The check of vector files: each is read strictly, its metadata is compared, and every label is proved.
+
+Each label is proved, or computed anew by an oracle that did not make it. Position and tangency follow from
+the certificate alone (truth/certificate.py and truth/tilted/certificate.py, with shows_crossing: rational arithmetic).
+The roots give the kind of an upright pair, the nearest point the clearance. Labels are made by the exact decision,
+which shares nothing with these. Distances to other answers rest on exact decisions and are computed anew; of tilted
+spheroids each end of their bracket is proved anew. So are the flags (flags.py). Of a way, answer and first contact
+follow from the certificate alone (truth/passage_certificate.py).
+
+A label is checked by this program's meaning of its flag and read by the meaning that its file states, so the two must
+agree. A family of this program is described in the words of its generator's version. For an earlier version, or for a
+family of someone else, nothing is known here, and the description is not compared.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from hypcheck.errors import NothingJudgedError
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.rows import WAYS
+from hypcheck.tables.numbers import decimal_of, shown_json
+from hypcheck.tables.strict_json import read_document
+from hypcheck.truth import exact
+from hypcheck.truth.certificate import check_certificate
+from hypcheck.truth.exact import Decision
+from hypcheck.truth.nearest_exact import nearest
+from hypcheck.truth.passage_certificate import check_passage, contact_at
+from hypcheck.truth.roots import classify_by_roots
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.backward_error import excluded_at_once, goal_of, is_bracket
+from hypcheck.truth.tilted.certificate import check_certificate as check_tilted_certificate
+from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
+from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.vectors import frozen
+from hypcheck.vectors.cases import (
+    AnyVector,
+    TiltedVector,
+    UprightVector,
+    WayVector,
+    cases_of,
+)
+from hypcheck.vectors.family import Metadata
+from hypcheck.vectors.flags import FlagFacts, flags_of, tilted_flags, way_flags
+from hypcheck.vectors.format import CaseFile
+from hypcheck.vectors.invalid_rows import InvalidRow, columns_at_fault
+from hypcheck.vectors.labels import flips, shows_crossing
+
+
+@dataclass(frozen=True, slots=True)
+class LabelFault:
+    """A label that is wrong: the line of its case (0 where it was not read from a file), its id, and what is wrong."""
+
+    line: int
+    case: str
+    sentence: str
+
+
+def faults_of(file: CaseFile[Any]) -> list[LabelFault]:
+    """Every wrong label of a file of cases, in order; of rows that must be refused, whether they must, and what for."""
+    found: Iterable[Iterator[str]]
+    if file.content.refused:
+        found = (_wrong_columns(case, file.content.columns) for case in file.cases)
+    elif file.content.layout is WAYS:
+        found = map(_way_sentences, file.cases)
+    elif file.content.tilted:
+        found = map(_tilted_sentences, file.cases, _proved_lower_ends(file.cases))
+    else:
+        decisions = [exact.decide(Pair.from_row(case.row).lengths) for case in file.cases]
+        found = map(_sentences, file.cases, decisions, flags_of([case.row for case in file.cases], decisions))
+    return [
+        LabelFault(line, case.id, sentence)
+        for (line, case), sentences in zip(file.numbered_cases(), found, strict=True)
+        for sentence in sentences
+    ]
+
+
+def _wrong_columns(case: InvalidRow, columns: tuple[str, ...]) -> Iterator[str]:
+    found = columns_at_fault(case.row, columns)
+    if found != case.columns:
+        said = f"columns {', '.join(case.columns)} are said to be at fault"
+        yield f"{said}, but {', '.join(found) or 'none'} is"
+
+
+def _sentences(case: UprightVector, truth: Decision, flags: Sequence[str]) -> Iterator[str]:
+    pair = Pair.from_row(case.row)
+    yield from _unproved(case, check_certificate(pair, case.certificate))
+    kind = classify_by_roots(pair).kind
+    if case.kind is not kind:
+        yield f"kind is {case.kind.value if case.kind else None}; the roots say {kind.value}"
+    yield from _wrong_clearance(case, nearest(pair).clearance)
+    if (truth.position, truth.tangent) != (case.position, case.tangent):
+        return  # its flips are to other positions
+    for position, distance in flips(pair.lengths, truth).items():
+        if distance != case.flips[position]:
+            yield f"the flip to {position.label} is {decimal_of(case.flips[position])}; it is {decimal_of(distance)}"
+    yield from _wrong_flags(case, flags)
+
+
+def _tilted_sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str]:
+    pair = TiltedPair.from_row(case.row)
+    yield from _unproved(case, check_tilted_certificate(pair, case.certificate))
+    yield from _wrong_clearance(case, tilted_nearest(pair).clearance)
+    truth = tilted_exact.decide(pair.lengths)
+    if (truth.position, truth.tangent) != (case.position, case.tangent):
+        return  # its flips are to other positions
+    for other, ends in case.flips.items():
+        if not is_bracket(case.row, truth, other, ends, cuts=0, lower_holds=other in proved):
+            said = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
+            yield f"the flip to {other.label} is {said}; no proof of both ends is found"
+    yield from _wrong_flags(case, tilted_flags(pair, truth))
+
+
+def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:
+    """For each case the other positions whose lower end float64 proves, all cases at once: most, in little time."""
+    proved: list[set[Position]] = [set() for _ in cases]
+    asked = [
+        (index, other, ends.lower)
+        for index, case in enumerate(cases)
+        for other, ends in case.flips.items()
+        if other is not case.position and 0 < ends.lower < 1
+    ]
+    goals = [goal_of(cases[index].position, other) for index, other, _ in asked]
+    rows = [cases[index].row for index, *_ in asked]
+    for (index, other, _), holds in zip(asked, excluded_at_once(rows, goals, [low for *_, low in asked]), strict=True):
+        if holds:
+            proved[index].add(other)
+    return proved
+
+
+def _way_sentences(case: WayVector) -> Iterator[str]:
+    if not check_passage(case.row, case.certificate, case.first):
+        if case.first is None:
+            yield "the certificate does not prove that the way is clear"
+        elif contact_at(case.row, case.certificate) is None:
+            yield "the certificate does not prove contact at its time"
+        else:
+            said = f"{decimal_of(case.first[0])} … {decimal_of(case.first[1])}"
+            yield f"the certificate does not prove that the first contact is at {said}"
+    yield from _wrong_flags(case, way_flags(case.row, case.first, case.certificate))
+
+
+def _unproved(case: UprightVector | TiltedVector, proved: bool) -> Iterator[str]:
+    """What the certificate, which proves the position or does not, does not prove of position and tangency."""
+    contact = case.position is Position.CONTACT
+    claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
+    if not proved:
+        yield f"the certificate does not prove {claim}"
+    elif case.tangent != (contact and case.witness.double_root is not None):
+        yield f"the certificate is not one of a pair that is {claim}"
+    elif contact and not case.tangent and not shows_crossing(case.row, case.witness.offsets):
+        yield "the certificate proves contact, but does not rule tangency out"
+
+
+def _wrong_clearance(case: UprightVector | TiltedVector, measured: float) -> Iterator[str]:
+    if measured != case.clearance:
+        yield f"clearance is {decimal_of(case.clearance)}; the nearest point says {decimal_of(measured)}"
+
+
+def _wrong_flags(case: AnyVector, flags: Sequence[str]) -> Iterator[str]:
+    if set(flags) != set(case.flags):
+        yield f"flags are {', '.join(case.flags) or 'none'}; they are {', '.join(flags) or 'none'}"
+
+
+def wrong_description(head: Metadata) -> Iterator[str]:
+    """A sentence for each wrong description of a known family in a file; the command that made it is not compared."""
+    known = frozen.head_of(head.name) if head.name in frozen.ALL_NAMES else None
+    if known is None or head.version < known.version:
+        return
+    for name, said, right in _differences(head, replace(known, made_by=head.made_by)):
+        yield f"family.{name} is {said}; of {head.name} it is {right}"
+
+
+def wrong_meanings(flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts]) -> Iterator[str]:
+    """A sentence for each flag whose description in a file is not the meaning that is checked."""
+    for flag, facts in flags.items():
+        for name, said, right in _differences(facts, known[flag]):
+            yield f"the {name} of the flag {flag} is {said}; it is {right}"
+
+
+def _differences(there: Metadata | FlagFacts, known: Metadata | FlagFacts) -> Iterator[tuple[str, str, str]]:
+    """Names of fields that differ, with what is said there, cut where it is long, and what is right, whole."""
+    for each in fields(known):
+        said, right = getattr(there, each.name), getattr(known, each.name)
+        if said != right:
+            yield each.name, shown_json(said), json.dumps(right, ensure_ascii=False)
+
+
+@dataclass(frozen=True, slots=True)
+class FileReport:
+    """What became of a file: how many cases it has, what is wrong at its head, and every wrong label."""
+
+    path: str
+    count: int
+    head: tuple[MetadataFault, ...]
+    faults: tuple[LabelFault, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MetadataFault:
+    """What a file says wrongly before its cases, and on which line."""
+
+    line: int
+    sentence: str
+
+
+def shipped_files(*, tilted: bool = True) -> list[str]:
+    """The paths of the frozen files, all of which must be there; without `tilted`, those about single upright pairs."""
+    names = frozen.ALL_NAMES if tilted else (*frozen.NAMES, "invalid")
+    return [str(frozen.path_of(name)) for name in names]
+
+
+def examine(paths: Iterable[str]) -> Iterator[FileReport]:
+    """A report on each file in turn.
+
+    Raises InputError where one is not wholly as its schema demands, NothingJudgedError where it has no cases.
+    """
+    for path in paths:
+        document = read_document(path)
+        file = cases_of(document, path)
+        if not file.cases:
+            raise NothingJudgedError(f"{path} has no cases; nothing was checked")
+        wrong = {"family": wrong_description(file.head), "flags": wrong_meanings(file.flags, file.content.flags)}
+        head = [
+            MetadataFault(document.members[member][0].line, sentence)
+            for member, sentences in wrong.items()
+            for sentence in sentences
+        ]
+        yield FileReport(path, len(file.cases), tuple(head), tuple(faults_of(file)))
