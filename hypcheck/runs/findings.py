@@ -34,7 +34,7 @@ from hypcheck.runs.score import score
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision, cubic
 from hypcheck.truth.kinds import Kind
-from hypcheck.vectors.families import case_id, select
+from hypcheck.vectors.families import case_id
 from hypcheck.vectors.family import Family
 
 ALL_BUT_EXTREME: tuple[str, ...] = ()
@@ -79,30 +79,27 @@ class FamilyBatch:
     decisions: tuple[Decision, ...]
     positions: Positions
 
+    start: int = 0
+
     def head(self, count: int) -> FamilyBatch:
         """The first `count` cases."""
         return replace(self, rows=self.rows[:count], decisions=self.decisions[:count], positions=self.positions[:count])
 
     def name(self, index: int) -> str:
         """The id by which a case can be asked for again."""
-        return case_id(self.family, self.seed, index)
+        return case_id(self.family, self.seed, self.start + index)
 
     def place(self, index: int) -> CasePlace:
         """The place of a case in the family."""
-        return 1, index
+        return 1, self.start + index
 
 
-def batches(plan: SelfCheckPlan) -> tuple[FamilyBatch, ...]:
-    """The cases of every family, decided exactly. Raises InputError naming a family that does not exist."""
-    return tuple(batch_of(family, plan) for family in select(plan.families))
-
-
-def batch_of(family: Family, plan: SelfCheckPlan) -> FamilyBatch:
-    """The cases of one family, decided exactly."""
-    rows = family.rows(plan.seed, plan.count)
+def batch_of(family: Family, seed: int, start: int, stop: int) -> FamilyBatch:
+    """The cases of one family from `start` to `stop` − 1, decided exactly."""
+    rows = np.ascontiguousarray(family.columns_between(seed, start, stop).T)
     decisions = tuple(exact.decide(Pair.from_row(row).lengths) for row in rows.tolist())
     positions = np.array([decision.position for decision in decisions], dtype=np.int8)
-    return FamilyBatch(family, plan.seed, rows, decisions, positions)
+    return FamilyBatch(family, seed, rows, decisions, positions, start)
 
 
 def mathematical_findings(formula: Formula, batch: FamilyBatch, plan: SelfCheckPlan) -> list[FindingLine]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -148,19 +148,6 @@ ORACLES = {
 }
 
 
-CHUNK = 100
-"""Rows of a task: few enough for a smooth progress bar, enough to be worth sending."""
-
-
-@dataclass(frozen=True, slots=True)
-class OracleTask:
-    """Rows of one family for one oracle; `batch` is the number of the family's batch."""
-
-    oracle: str
-    batch: int
-    rows: Rows
-
-
 @dataclass(frozen=True)
 class TiltedBatch:
     """Frozen vectors of one family of tilted spheroids: rows (n, 10), ids, and their proved labels."""
@@ -169,6 +156,7 @@ class TiltedBatch:
     rows: Rows
     decisions: tuple[TiltedDecision, ...]
     ids: tuple[str, ...]
+    start: int = 0
 
     def name(self, index: int) -> str:
         """The id of a case."""
@@ -178,13 +166,13 @@ class TiltedBatch:
 Batch = FamilyBatch | TiltedBatch
 
 
-def tilted_batches(plan: SelfCheckPlan) -> tuple[TiltedBatch, ...]:
-    """The frozen vectors of all families of tilted spheroids but the extreme one; none where families were chosen."""
-    families = () if plan.families else tuple(each for each in TILTED_FAMILIES.values() if not each.extreme)
-    return tuple(_tilted_batch(family, plan.count) for family in families)
+def tilted_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
+    """All families of tilted spheroids but the extreme one; none where families were chosen."""
+    return () if plan.families else tuple(each for each in TILTED_FAMILIES.values() if not each.extreme)
 
 
-def _tilted_batch(family: Family, count: int) -> TiltedBatch:
+def tilted_batch(family: Family, count: int) -> TiltedBatch:
+    """The first `count` frozen vectors of a family of tilted spheroids."""
     cases = frozen.load(family.name).cases[:count]
     return TiltedBatch(
         family,
@@ -200,39 +188,34 @@ def _limit_of(case: TiltedVector) -> Position | None:
     return None if root is None else Position.EXTERIOR if root > 0 else Position.INTERIOR
 
 
-def oracle_tasks(plan: SelfCheckPlan, all_batches: Sequence[Batch]) -> list[OracleTask]:
-    """All tasks, those of slow oracles first, so that no long task is left for the end."""
-    families = max(1, len(all_batches))
-    shares = {
+def shares(plan: SelfCheckPlan, families: int) -> dict[str, int]:
+    """The number of each family's cases that each oracle of the plan is asked, if there are so many families."""
+    every = {
         "exact": plan.count,
         "nearest": plan.count,
         "roots": -(-plan.roots // families),
         "mesh": -(-plan.meshes // families),
     }
-    order = [name for name in ("mesh", "roots", "exact", "nearest") if name in plan.oracles]
-    return [
-        OracleTask(oracle, place, batch.rows[start : min(start + CHUNK, shares[oracle])])
-        for oracle in order
-        for place, batch in enumerate(all_batches)
-        for start in range(0, min(len(batch.rows), shares[oracle]), CHUNK)
-    ]
+    return {oracle: every[oracle] for oracle in plan.oracles}
 
 
-def ask_oracle(task: OracleTask) -> tuple[list[Opinion], float]:
-    """The oracle's opinions about a task's rows, and the seconds they took."""
-    started, oracle = time.perf_counter(), ORACLES[task.oracle]
-    opinions = (oracle.ask if task.rows.shape[1] == len(COLUMNS) else oracle.ask_tilted)(task.rows)
-    return list(opinions), time.perf_counter() - started
+def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
+    """The record's lines about those cases of a batch that are among the first of their family, for each oracle."""
+    parts = ((oracle, batch.rows[: max(0, share - batch.start)]) for oracle, share in shares.items())
+    return [_oracle_line(oracle, batch, rows) for oracle, rows in parts if len(rows)]
 
 
-def oracle_line(oracle: str, batch: Batch, opinions: Sequence[Opinion], seconds: float) -> OracleLine:
-    """The record's line about an oracle's opinions on the first cases of a family, beside the exact decisions."""
+def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
+    """The line about an oracle's opinions on the first rows of a batch, beside the exact decisions."""
+    started = time.perf_counter()
+    opinions = (ORACLES[oracle].ask if rows.shape[1] == len(COLUMNS) else ORACLES[oracle].ask_tilted)(rows)
+    seconds = time.perf_counter() - started
     differences = [_difference(batch, index, opinion) for index, opinion in enumerate(opinions)]
     disagreements = [
         DisagreementPart(
             oracle=oracle,
             case=batch.name(index),
-            **row_fields(batch.rows[index].tolist()),
+            **row_fields(rows[index].tolist()),
             exact=words[0],
             opinion=words[1],
         )
@@ -247,6 +230,31 @@ def oracle_line(oracle: str, batch: Batch, opinions: Sequence[Opinion], seconds:
         stages=dict(sorted(Counter(opinion.stage for opinion in opinions).items())),
         seconds=seconds,
         disagreeing=len(disagreements),
+        disagreements=sorted(disagreements, key=lambda each: each.case)[:DISAGREEMENTS_KEPT],
+    )
+
+
+def merged_lines(found: Iterable[OracleLine]) -> list[OracleLine]:
+    """One line for each oracle and family, in that order; the order of the parts does not matter."""
+    parts: dict[tuple[str, str], list[OracleLine]] = {}
+    for line in found:
+        parts.setdefault((line.oracle, line.family), []).append(line)
+    return [_sum(parts[key]) for key in sorted(parts)]
+
+
+def _sum(parts: Sequence[OracleLine]) -> OracleLine:
+    stages: Counter[str] = Counter()
+    for part in parts:
+        stages.update(part.stages)
+    disagreements = (each for part in parts for each in part.disagreements)
+    return OracleLine(
+        oracle=parts[0].oracle,
+        family=parts[0].family,
+        asked=sum(part.asked for part in parts),
+        undecided=sum(part.undecided for part in parts),
+        stages=dict(sorted(stages.items())),
+        seconds=sum(part.seconds for part in parts),
+        disagreeing=sum(part.disagreeing for part in parts),
         disagreements=sorted(disagreements, key=lambda each: each.case)[:DISAGREEMENTS_KEPT],
     )
 

@@ -6,12 +6,10 @@ else running, it times the fast path beside the plain formula, general-purpose r
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
-from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -28,10 +26,10 @@ from hypcheck.processes import Advance, Stage, in_order
 from hypcheck.record import Recorder, lines
 from hypcheck.record.lines import FindingLine, GroupLine, OracleLine, TimingLine
 from hypcheck.runs import findings, judge, oracles
-from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan, batch_of, batches
+from hypcheck.runs.findings import SelfCheckPlan, batch_of
 from hypcheck.runs.judge import Status
-from hypcheck.runs.oracles import ORACLES, Opinion, OracleTask
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.runs.oracles import ORACLES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
 
 if TYPE_CHECKING:
     from hypcheck.derivation.printed_equations import EquationCheck
@@ -129,10 +127,6 @@ MESH = "mesh"
 """The oracle that needs FCL; without it FCL is not loaded."""
 
 
-OracleOnBatch = tuple[str, int]
-"""The name of an oracle, and the number of a batch that it is asked."""
-
-
 def _done(task: Callable[[], object]) -> Any:  # noqa: ANN401 - of each task another type
     """The result of a task, a unit of work that a process does without anything else from the run."""
     return task()
@@ -146,9 +140,30 @@ def derivation() -> tuple[Sequence[EquationCheck], Sequence[Proof]]:
     return check_equations(), prove_formulas()
 
 
-def _family_lines(family: str, plan: SelfCheckPlan) -> tuple[list[FindingLine], list[GroupLine]]:
-    """The errors of the formulas in exact rationals on a family's cases, and the tallies of the methods in floats."""
-    batch = batch_of(FAMILIES[family], plan)
+CASES = 400
+"""Cases of one task: few enough that processes end together, and enough to be worth a task."""
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyLines:
+    """The record's lines about cases of one family: errors of formulas, tallies of methods, opinions of oracles."""
+
+    findings: list[FindingLine]
+    groups: list[GroupLine]
+    oracles: list[OracleLine]
+
+
+def tilted_lines(family: str, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
+    """The lines about the frozen vectors of a family of tilted spheroids."""
+    return FamilyLines([], [], oracles.oracle_lines(oracles.tilted_batch(TILTED_FAMILIES[family], plan.count), shares))
+
+
+def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
+    """The lines about a family's cases from `start` to `stop` − 1; formulas and methods are asked the first ones."""
+    batch = batch_of(FAMILIES[family], plan.seed, start, stop)
+    opinions = oracles.oracle_lines(batch, shares)
+    if start:
+        return FamilyLines([], [], opinions)
     found = [
         finding
         for formula in findings.exact_formulas()
@@ -156,7 +171,22 @@ def _family_lines(family: str, plan: SelfCheckPlan) -> tuple[list[FindingLine], 
     ]
     head = batch.head(plan.judged)
     exponents = judge.flip_exponents(head.rows)
-    return found, [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)]
+    return FamilyLines(
+        found, [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)], opinions
+    )
+
+
+def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
+    """The tasks of all families, the longest first. Raises InputError naming a family that does not exist."""
+    upright, tilted = select(plan.families), oracles.tilted_families(plan)
+    shares = oracles.shares(plan, len(upright) + len(tilted))
+    first = max(CASES, plan.judged, plan.exact_formulas)
+    starts = (0, *range(first, plan.count, CASES))
+    ranges = list(zip(starts, (*starts[1:], plan.count), strict=True))
+    return [
+        *(partial(tilted_lines, family.name, plan, shares) for family in tilted),
+        *(partial(upright_lines, family.name, *cases, plan, shares) for cases in ranges for family in upright),
+    ]
 
 
 def methods_of(plan: SelfCheckPlan) -> tuple[Method, ...]:
@@ -172,26 +202,17 @@ def stages(plan: SelfCheckPlan, recorder: Recorder, outcome: RunOutcome) -> tupl
 
 @dataclass
 class _SelfCheck:
-    """One self-check: its plan, the record that it writes, its outcome, and its cases by family."""
+    """One self-check: its plan, the record that it writes, and its outcome."""
 
     plan: SelfCheckPlan
     recorder: Recorder
     outcome: RunOutcome
-    batches: tuple[FamilyBatch, ...] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.batches = batches(self.plan)
 
     def stages(self) -> tuple[Stage, ...]:
         """The stages of the run in order; the record says which oracles are not available."""
-        asked: tuple[oracles.Batch, ...] = (*self.batches, *oracles.tilted_batches(self.plan))
-        questions = oracles.oracle_tasks(self._with_available_oracles(), asked)
+        tasks = [derivation, *family_tasks(self._with_available_oracles())]
         return (
-            Stage(
-                "deriving, asking, judging",
-                1 + len(self.batches) + len(questions),
-                lambda advance: self._perform(questions, asked, advance),
-            ),
+            Stage("deriving, asking, judging", len(tasks), lambda advance: self._perform(tasks, advance)),
             Stage("map", 2, self._draw),
             Stage("timing", TIMING_ROUNDS, self._time),
         )
@@ -203,30 +224,19 @@ class _SelfCheck:
                 self.recorder.add(lines.UnavailableLine(oracle=name, reason=reason))
         return replace(self.plan, oracles=tuple(name for name, reason in reasons.items() if reason is None))
 
-    def _perform(self, questions: Sequence[OracleTask], asked: Sequence[oracles.Batch], advance: Advance) -> None:
-        """Derive, judge and ask, in processes where the plan has several workers; record the results in that order."""
-        tasks: list[Callable[[], object]] = [
-            derivation,
-            *(partial(_family_lines, batch.family.name, self.plan) for batch in self.batches),
-            *(partial(oracles.ask_oracle, question) for question in questions),
-        ]
+    def _perform(self, tasks: Sequence[Callable[[], Any]], advance: Advance) -> None:
+        """Do the tasks, in processes where the plan has several workers; record their results in that order."""
         found: list[FindingLine] = []
-        opinions, seconds = defaultdict[OracleOnBatch, list[Opinion]](list), defaultdict[OracleOnBatch, float](float)
+        opinions: list[OracleLine] = []
         with closing(in_order(_done, tasks, self.plan.workers, 0, ahead=len(tasks))) as results:
             self._record_derivation(*next(results))
             advance(1)
-            for lines_of_family in islice(results, len(self.batches)):
-                found += self._record_family(*lines_of_family)
-                advance(1)
-            for question, (some, took) in zip(questions, results, strict=True):
-                opinions[question.oracle, question.batch] += some
-                seconds[question.oracle, question.batch] += took
+            for made in results:
+                found += self._record_family(made)
+                opinions += made.oracles
                 advance(1)
         self._record_drift(found)
-        self._record_oracles(
-            oracles.oracle_line(oracle, asked[batch], some, seconds[oracle, batch])
-            for (oracle, batch), some in opinions.items()
-        )
+        self._record_oracles(opinions)
 
     def _record_derivation(self, equations: Sequence[EquationCheck], proofs: Sequence[Proof]) -> None:
         for equation in equations:
@@ -236,13 +246,13 @@ class _SelfCheck:
             if not proof.holds:
                 self.outcome.codes.add(Exit.ORACLES_DISAGREE)
 
-    def _record_family(self, findings_here: list[FindingLine], groups: list[GroupLine]) -> list[FindingLine]:
+    def _record_family(self, made: FamilyLines) -> list[FindingLine]:
         """Record a family's lines; returns its findings with the reasons of those that are known."""
         known = findings.known_findings()
-        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, known)) for each in findings_here]
-        for line in (*found, *groups):
+        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, known)) for each in made.findings]
+        for line in (*found, *made.groups):
             self.recorder.add(line)
-        if any(line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value} for line in groups):
+        if any(line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value} for line in made.groups):
             self.outcome.codes.add(Exit.WRONG)
         return found
 
@@ -252,7 +262,7 @@ class _SelfCheck:
             self.outcome.codes.add(Exit.WRONG)
 
     def _record_oracles(self, found: Iterable[OracleLine]) -> None:
-        for line in sorted(found, key=lambda each: (each.oracle, each.family)):
+        for line in oracles.merged_lines(found):
             self.recorder.add(line)
             if line.disagreeing:
                 self.outcome.codes.add(Exit.ORACLES_DISAGREE)

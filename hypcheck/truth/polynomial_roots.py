@@ -57,7 +57,14 @@ def linear_factor(root: Fraction) -> Polynomial:
 
 def divided_by_root(f: Polynomial, root: Fraction) -> Polynomial:
     """The quotient of a primitive f by the linear factor of one of its roots; in integers, by Gauss's lemma."""
-    return _quotient(f, linear_factor(root))
+    return quotient(f, linear_factor(root))
+
+
+def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
+    """The greatest common divisor of two primitive polynomials, up to its sign."""
+    while g:
+        f, g = g, primitive(_remainder(f, g))
+    return f
 
 
 @lru_cache(maxsize=4)  # who asks whether f is squarefree goes on to its roots
@@ -106,7 +113,7 @@ def isolate(f: Polynomial, cuts: Sequence[Fraction], *, narrow: bool = True) -> 
     while pending:
         lower, left, upper, right = pending.pop()
         if left - right == 1:
-            found.append(_narrowed(f, lower, upper) if narrow else (lower, upper))
+            found.append(enclosed(f, lower, upper, RELATIVE_WIDTH_BITS) if narrow else (lower, upper))
         elif left > right:
             # Eight candidates, seven roots at most: one of them is no root.
             middle = next(x for x in _between(lower, upper) if value(f, x))
@@ -157,16 +164,38 @@ def _between(lower: Fraction, upper: Fraction) -> Iterator[Fraction]:
         yield start + step * unit / 2
 
 
-def _narrowed(f: Polynomial, lower: Fraction, upper: Fraction) -> Interval:
-    """The interval of the one simple root inside, narrowed by bisection; (x, x) where the root x is met."""
-    rising = value(f, upper) > 0
-    while (upper - lower) * 2**RELATIVE_WIDTH_BITS > min(abs(lower), abs(upper)):
-        middle = next(_between(lower, upper))
-        sign = value(f, middle)
-        if sign == 0:
-            return middle, middle
-        lower, upper = (lower, middle) if (sign > 0) == rising else (middle, upper)
+def enclosed(f: Polynomial, lower: Fraction, upper: Fraction, bits: int) -> Interval:
+    """The interval of one simple root, narrowed to 2^−bits of its ends; (x, x) where the root x is met.
+
+    Quadratic interval refinement (Abbott, 2014): the line through the values at the ends points at one of 2^k parts. If
+    signs show the root in that part, 2^2k parts are next, else 2^(k/2). Ends of unlike exponents are halved before.
+    """
+    rising, k = value(f, upper) > 0, 1
+    while (upper - lower) * 2**bits > min(abs(lower), abs(upper)):
+        if abs(_exponent(abs(upper)) - _exponent(abs(lower))) >= 3:
+            lower, upper = _part(f, lower, upper, next(_between(lower, upper)), rising=rising)
+            continue
+        low, high = _exact_value(f, lower), _exact_value(f, upper)
+        width = (upper - lower) / 2**k
+        place = lower + min(max(round(low / (low - high) * 2**k), 1), 2**k - 1) * width
+        lower, upper = _part(f, lower, upper, place, rising=rising)
+        beside = place - width if upper == place else place + width
+        if lower < beside < upper:
+            lower, upper = _part(f, lower, upper, beside, rising=rising)
+        k = min(2 * k, bits) if upper - lower <= width else max(1, k // 2)
     return lower, upper
+
+
+def _part(f: Polynomial, lower: Fraction, upper: Fraction, x: Fraction, *, rising: bool) -> Interval:
+    """The part below or above x that holds the one root of f in an open interval; (x, x) where that is x."""
+    sign = value(f, x)
+    if sign == 0:
+        return x, x
+    return (lower, x) if (sign > 0) == rising else (x, upper)
+
+
+def _exact_value(f: Polynomial, x: Fraction) -> Fraction:
+    return Fraction(value(f, x), x.denominator ** (len(f) - 1))
 
 
 def prove(f: Polynomial, intervals: Sequence[Interval]) -> None:
@@ -212,10 +241,10 @@ def squarefree(f: Polynomial) -> Polynomial:
     if len(f) == 1:
         return (1,)
     common = sturm_chain(f)[-1]
-    return f if len(common) == 1 else _quotient(f, common)
+    return f if len(common) == 1 else quotient(f, common)
 
 
-def _quotient(f: Polynomial, g: Polynomial) -> Polynomial:
+def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
     """f over one of its factors, both primitive; in integers, by Gauss's lemma."""
     rest, quotient = list(f), []
     while len(rest) >= len(g):

@@ -8,22 +8,24 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.runs import oracles
-from hypcheck.runs.findings import SelfCheckPlan
-from hypcheck.runs.oracles import ORACLES, Opinion, TiltedBatch
+from hypcheck.runs.findings import SelfCheckPlan, batch_of
+from hypcheck.runs.oracles import ORACLES, Opinion
 from hypcheck.vectors import frozen
+from hypcheck.vectors.families import FAMILIES, case_id
 
-PLAN = SelfCheckPlan(count=6, roots=60, meshes=60)
+PLAN = SelfCheckPlan()
 ASKED = ("exact", "nearest", "roots", "mesh")
+TANGENT = Opinion(Position.CONTACT, tangent=True)
+
+
+def first(count):
+    """The first frozen vectors of all families that are asked."""
+    return [oracles.tilted_batch(family, count) for family in oracles.tilted_families(PLAN)]
 
 
 @pytest.fixture(scope="module")
 def batches():
-    return oracles.tilted_batches(PLAN)
-
-
-def tallied(task, batch):
-    opinions, seconds = oracles.ask_oracle(task)
-    return oracles.oracle_line(task.oracle, batch, opinions, seconds)
+    return first(6)
 
 
 @pytest.mark.slow
@@ -31,28 +33,26 @@ def test_tilted_oracles_are_asked_the_frozen_vectors_of_every_family_except_the_
     assert [batch.family.name for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
     assert all(batch.rows.shape == (6, 10) for batch in batches)
     assert batches[0].name(3) == "tilted-uniform-0003"
-    assert oracles.tilted_batches(SelfCheckPlan(families=("ring",))) == ()
+    assert oracles.tilted_families(SelfCheckPlan(families=("ring",))) == ()
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(ORACLES["mesh"].available() is not None, reason="python-fcl is not installed")
 def test_four_oracles_are_asked_about_tilted_spheroids_and_agree_with_the_labels(batches):
-    tasks = oracles.oracle_tasks(PLAN, batches)
-    assert {task.oracle for task in tasks} == set(ASKED)
-    for task in tasks:
-        found = tallied(task, batches[task.batch])
-        assert found.disagreements == [], found
-        assert found.undecided == 0 or task.oracle == "mesh", found
+    for batch in batches:
+        found = oracles.oracle_lines(batch, dict.fromkeys(ASKED, 4))
+        assert [(line.oracle, line.asked) for line in found] == [(name, 4) for name in ASKED]
+        assert all(line.disagreements == [] for line in found), found
+        assert all(line.undecided == 0 or line.oracle == "mesh" for line in found), found
 
 
 @pytest.mark.parametrize("name", ASKED)
 def test_wrong_oracle_for_tilted_spheroids_is_reported_as_disagreeing(monkeypatch, batches, name):
     wrong = replace(ORACLES[name], ask_tilted=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, name, wrong)
-    ring: TiltedBatch = next(batch for batch in batches if batch.family.name == "tilted-ring")
-    (task,) = (each for each in oracles.oracle_tasks(PLAN, [ring]) if each.oracle == name)
-    found = tallied(task, ring)
-    assert len(found.disagreements) == len(task.rows)
+    ring = next(batch for batch in batches if batch.family.name == "tilted-ring")
+    (found,) = oracles.oracle_lines(ring, {name: 4})
+    assert len(found.disagreements) == found.asked == 4
     assert found.disagreements[0].case == "tilted-ring-0000"
     assert len(found.disagreements[0].axis) == 3
     assert found.disagreements[0].opinion == "contact, tangent: False, None"
@@ -62,5 +62,26 @@ def test_a_tangency_that_an_oracle_calls_a_crossing_is_a_disagreement(monkeypatc
     wrong = replace(ORACLES["roots"], ask_tilted=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, "roots", wrong)
     tangent = next(batch for batch in batches if batch.family.name == "tilted-tangent")
-    (task,) = (each for each in oracles.oracle_tasks(PLAN, [tangent]) if each.oracle == "roots")
-    assert len(tallied(task, tangent).disagreements) == len(task.rows)
+    (found,) = oracles.oracle_lines(tangent, {"roots": 4})
+    assert found.disagreeing == found.asked == 4
+
+
+def test_oracle_is_asked_only_those_cases_of_a_later_batch_that_are_among_the_first_of_the_family():
+    uniform = FAMILIES["uniform"]
+    later, none = batch_of(uniform, 1, 400, 410), batch_of(uniform, 1, 403, 410)
+    assert [line.asked for line in oracles.oracle_lines(later, {"exact": 405, "roots": 403})] == [5, 3]
+    assert oracles.oracle_lines(none, {"roots": 403}) == []
+    assert none.name(0) == case_id(uniform, 1, 403)
+    assert none.rows.tolist() == uniform.rows(1, 410)[403:].tolist()
+
+
+def test_merged_line_of_an_oracle_adds_up_the_parts_of_a_family(monkeypatch):
+    wrong = replace(ORACLES["exact"], ask=lambda rows: [Opinion(None, stage="lost")] + [TANGENT] * (len(rows) - 1))
+    monkeypatch.setitem(oracles.ORACLES, "exact", wrong)
+    parts = [batch_of(FAMILIES["uniform"], 1, *cases) for cases in ((12, 24), (0, 12), (24, 30))]
+    found = [line for part in parts for line in oracles.oracle_lines(part, {"exact": 30})]
+    (line,) = oracles.merged_lines(found)
+    assert (line.asked, line.undecided, line.disagreeing, len(line.disagreements)) == (30, 3, 27, 20)
+    assert line.stages == {"": 27, "lost": 3}
+    assert line.seconds == sum(part.seconds for part in found)
+    assert [each.case for each in line.disagreements] == sorted(each.case for each in line.disagreements)

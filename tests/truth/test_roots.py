@@ -223,6 +223,25 @@ def _one_twice(f, cuts):
     return [found[0], *found[:-1]]
 
 
+@given(
+    st.fractions(-1000, 1000).filter(bool),
+    st.lists(st.integers(-9, 9), min_size=1, max_size=4),
+    st.integers(-400, 400),
+    st.integers(-400, 400),
+    st.integers(1, 600),
+)
+def test_enclosed_root_is_within_an_interval_as_narrow_as_asked(root, others, below, above, bits):
+    # The other roots are complex: (x - a)^2 + 1.
+    f = polynomial_roots.linear_factor(root)
+    for a in others:
+        f = polynomial_roots.polynomial_product(f, (1, -2 * a, a * a + 1))
+    sign = 1 if root > 0 else -1
+    ends = sorted((root / (1 + Fraction(2) ** below), root * (1 + Fraction(2) ** above)))
+    low, high = polynomial_roots.enclosed(f, *ends, bits)
+    assert ends[0] <= low <= root <= high <= ends[1]
+    assert low == root == high or (low < root < high and high - low <= sign * min(low, high, key=abs) / 2**bits)
+
+
 def _beyond_its_place(f, cuts):
     """Enclosures that are right but reach over 0, where the sign of f at −1 and 0 is the same."""
     return [(Fraction(-1), polynomial_roots.isolate(f, cuts)[0][1]), *polynomial_roots.isolate(f, cuts)[1:]]

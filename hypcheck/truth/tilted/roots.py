@@ -24,19 +24,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from itertools import combinations, combinations_with_replacement, groupby, product
+from itertools import combinations, combinations_with_replacement, groupby, pairwise, product
 from types import MappingProxyType
 
 from hypcheck.geometry.pair import Position
 from hypcheck.truth.polynomial_roots import (
     Interval,
     Polynomial,
+    common_divisor,
+    enclosed,
     isolate,
-    polynomial_product,
     primitive,
+    quotient,
     squarefree,
     sturm_chain,
-    value,
 )
 from hypcheck.truth.roots import classify_by_roots
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
@@ -179,21 +180,53 @@ def _determinant(matrix: list[list[int]]) -> int:
 
 def _sides(f: Polynomial, g: Polynomial) -> tuple[str, str]:
     """The patterns of the roots of f on either side of 0, outward, beside the nearest roots of g there."""
-    layers = _layers(f)
-    both = squarefree(primitive(polynomial_product(f, g)))
-    below: list[tuple[bool, int]] = []
-    above: list[tuple[bool, int]] = []
-    for interval in isolate(both, (), narrow=False):
-        multiplicity = sum(_has_root(layer, interval) for layer in layers)
-        (above if interval[1] > 0 else below).append((_has_root(g, interval), multiplicity))
-    return _side(below[::-1]), _side(above)
+    factors = _factors(f, g)
+    roots = [(interval, each) for each in factors for interval in isolate(each.polynomial, (), narrow=False)]
+    roots = _apart(roots)
+    below = [factor for interval, factor in roots if interval[1] <= 0]
+    return _side(below[::-1]), _side([factor for _, factor in roots[len(below) :]])
 
 
-def _side(roots: list[tuple[bool, int]]) -> str:
-    """The pattern of one side: of each root, outward, whether it is one of g, and how often one of f."""
-    end = next(place for place, (is_pole, _) in enumerate(roots) if is_pole)
+@dataclass(frozen=True, slots=True)
+class _Factor:
+    """A squarefree polynomial whose roots have one meaning: whether they are roots of g, and how often of f."""
+
+    polynomial: Polynomial
+    is_pole: bool
+    multiplicity: int
+
+
+def _factors(f: Polynomial, g: Polynomial) -> list[_Factor]:
+    """Factors of f and g without a common root, which have all of their roots."""
+    found, poles = [], squarefree(g)
+    for multiplicity, (layer, beyond) in enumerate(pairwise([*_layers(f), (1,)]), 1):
+        exactly = quotient(layer, beyond)
+        common = common_divisor(exactly, poles)
+        poles = quotient(poles, common)
+        found += [_Factor(common, True, multiplicity), _Factor(quotient(exactly, common), False, multiplicity)]
+    return [each for each in (*found, _Factor(poles, True, 0)) if len(each.polynomial) > 1]
+
+
+def _apart(roots: list[tuple[Interval, _Factor]]) -> list[tuple[Interval, _Factor]]:
+    """The enclosures narrowed until they are disjoint, in order; this ends, because no two factors share a root."""
+    bits = 4
+    while True:
+        roots = sorted(roots, key=lambda each: each[0])
+        close = {place for place in range(1, len(roots)) if roots[place - 1][0][1] > roots[place][0][0]}
+        if not close:
+            return roots
+        bits *= 2
+        roots = [
+            (enclosed(factor.polynomial, *interval, bits) if {place, place + 1} & close else interval, factor)
+            for place, (interval, factor) in enumerate(roots)
+        ]
+
+
+def _side(roots: Sequence[_Factor]) -> str:
+    """The pattern of one side: the meanings of its roots, outward."""
+    end = next(place for place, root in enumerate(roots) if root.is_pole)
     places = [INNER] * end + [END] + [BEYOND] * (len(roots) - end - 1)
-    return _word((place, number) for place, (_, number) in zip(places, roots, strict=True) if number)
+    return _word((place, root.multiplicity) for place, root in zip(places, roots, strict=True) if root.multiplicity)
 
 
 def _layers(f: Polynomial) -> list[Polynomial]:
@@ -204,11 +237,3 @@ def _layers(f: Polynomial) -> list[Polynomial]:
         common = sturm_chain(f)[-1]
         f = common if common[0] > 0 else tuple(-each for each in common)
     return found
-
-
-def _has_root(f: Polynomial, interval: Interval) -> bool:
-    """Whether the one root in an interval is one of f, whose roots are simple and not at an open interval's ends."""
-    lower, upper = interval
-    if lower == upper:
-        return value(f, lower) == 0
-    return (value(f, lower) > 0) != (value(f, upper) > 0)
