@@ -92,7 +92,7 @@ class InPython(LoadedMethod):
 
     def batch(self, rows: Rows) -> PreparedWork:
         """One call, of the scene if all rows share their sizes."""
-        return _prepared(len(rows), self._work(rows))
+        return prepared(len(rows), self._work(rows))
 
     def single(self, rows: Rows) -> PreparedWork:
         """A call for each row, by the entry for rows: a caller with one row has no scene."""
@@ -102,7 +102,7 @@ class InPython(LoadedMethod):
     def empty(self, rows: Rows, mode: str) -> EmptyCall:
         """A Python function that does nothing."""
         if mode == "batch":
-            return EmptyCall("Python", _prepared(1, _nothing))
+            return EmptyCall("Python", prepared(1, _nothing))
         return EmptyCall("Python", one_by_one(_nothing_of, [rows[:1]] * len(rows)))
 
     def _work(self, rows: Rows) -> Callable[[], Answers]:
@@ -132,7 +132,7 @@ class InScalars(LoadedMethod):
     def single(self, rows: Rows) -> PreparedWork:
         """A call for each row, whose numbers are Python floats already."""
         queries = list(map(tuple, rows.tolist()))
-        return _prepared(len(queries), lambda: np.array([self.function(*query) for query in queries], dtype=np.int8))
+        return prepared(len(queries), lambda: np.array([self.function(*query) for query in queries], dtype=np.int8))
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
         """A function of seven numbers that does nothing."""
@@ -152,10 +152,11 @@ def one_by_one(function: Answering, parts: list[Rows]) -> PreparedWork:
             found[place] = function(part)[0]
         return found
 
-    return _prepared(len(parts), work)
+    return prepared(len(parts), work)
 
 
-def _prepared(rows: int, work: Callable[[], Answers]) -> PreparedWork:
+def prepared(rows: int, work: Callable[[], Answers]) -> PreparedWork:
+    """Work in this process that answers so many rows."""
     return PreparedWork(rows, clocked(work), work)
 
 
@@ -209,7 +210,7 @@ class InEngine(LoadedMethod):
     def batch(self, rows: Rows) -> PreparedWork:
         """Every row, with meshes that exist."""
         work = partial(self._ready(rows), rows)
-        return _prepared(len(rows), work)
+        return prepared(len(rows), work)
 
     def single(self, rows: Rows) -> PreparedWork:
         """The same by a call for each row."""

@@ -9,18 +9,19 @@ a walker asks.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.bench.c_library import InC, compile_c, compiled, place_of
-from hypcheck.bench.timing import Clocked, Estimate, Samples, TimingEntry, clocked, estimate, measure, ratios
+from hypcheck.bench.contender import PreparedWork, prepared
+from hypcheck.bench.timing import Clocked, Samples, TimingEntry, estimate, measure, ratios
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import CANNOT_SAY, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
 from hypcheck.kernel.choice import Question
 from hypcheck.kernel.classify import classify_scene
 from hypcheck.kernel.emission.kernel import emitted
@@ -50,35 +51,28 @@ class SceneKernel:
 
     library: ctypes.CDLL
 
-    def batch(self, tables: Sequence[Rows]) -> Callable[[], Positions]:
-        """All rows by one call for each table; the rows of a table have the same sizes."""
-        found = np.zeros(sum(map(len, tables)), dtype=np.int8)
-        kept, calls, start = [], [], 0
-        for rows in tables:
-            part = found[start : start + len(rows)]
-            parts = (rows[0, :4].copy(), *np.ascontiguousarray(rows[:, 4:].T), part)
-            pointers = [ctypes.c_void_p(each.ctypes.data) for each in parts]
-            kept.append(parts)
-            calls.append((pointers[0], ctypes.c_size_t(len(rows)), *pointers[1:]))
-            start += len(rows)
+    def batch(self, rows: Rows) -> PreparedWork:
+        """Rows with the same sizes by one call."""
+        sizes, (x, y, z) = rows[0, :4].copy(), np.ascontiguousarray(rows[:, 4:].T)
+        return self._called("hypcheck_classify_scene", len(rows), sizes, len(rows), x, y, z)
 
-        def work(_kept: object = kept) -> Positions:
-            for call in calls:
-                self.library.hypcheck_classify_scene(*call)
-            return found
-
-        return work
-
-    def single(self, rows: Rows) -> Callable[[], Positions]:
+    def single(self, rows: Rows) -> PreparedWork:
         """All rows by one call each, from C."""
-        queries, found = np.ascontiguousarray(rows), np.zeros(len(rows), dtype=np.int8)
-        pointers = [ctypes.c_void_p(each.ctypes.data) for each in (queries, found)]
+        return self._called("one_by_one", len(rows), len(rows), np.ascontiguousarray(rows))
 
-        def work(_kept: object = queries) -> Positions:
-            self.library.one_by_one(ctypes.c_size_t(len(found)), *pointers)
+    def _called(self, name: str, count: int, *given: Floats | int) -> PreparedWork:
+        """A function of the library, called with what is given and an array for so many answers."""
+        function, found = getattr(self.library, name), np.zeros(count, dtype=np.int8)
+        words = [
+            ctypes.c_size_t(each) if isinstance(each, int) else ctypes.c_void_p(each.ctypes.data)
+            for each in (*given, found)
+        ]
+
+        def work(_kept: object = given) -> Positions:  # pointers alone would not keep the arrays alive
+            function(*words)
             return found
 
-        return work
+        return prepared(count, work)
 
 
 def compiled_kernel(plan: ScenePlan, folder: Path) -> SceneKernel:
@@ -95,90 +89,51 @@ REPEATED_CENTRES = 16
 """The sample's centres are repeated so often: 65,536 rows, which a branch predictor cannot learn."""
 
 
-@dataclass(frozen=True)
-class KernelTimes:
-    """Nanoseconds for a centre, and the kernel's time relative to that of Table 2."""
+def kernel_savings(plan: ScenePlan, folder: Path) -> Iterator[dict[str, Any]]:
+    """What the kernel of each setting of the plan saves, by one call for many centres and by a call for each.
 
-    kernel_ns: float
-    printed_ns: float
-    ratio: Estimate
-
-    @classmethod
-    def of(cls, own: Samples, other: Samples) -> KernelTimes:
-        """The times from the samples of both."""
-        return cls(own.median_ns, other.median_ns, estimate(ratios([own.samples_ns], [other.samples_ns])))
-
-    @property
-    def says(self) -> str:
-        """The times as a part of a sentence."""
-        times = 1 / self.ratio.median
-        how = f"{times:.2f} times as fast as" if times >= 1 else f"{self.ratio.median:.2f} times as slow as"
-        return (
-            f"{self.kernel_ns:.2f} ns a centre, {how} Table 2 as printed ({self.printed_ns:.2f} ns); "
-            f"ratio {self.ratio.median:.3f}, 95 % interval {self.ratio.low:.3f} to {self.ratio.high:.3f}"
-        )
-
-    @property
-    def fields(self) -> dict[str, Any]:
-        """The times as values for programs."""
-        return {
-            "kernel_ns": self.kernel_ns,
-            "printed_ns": self.printed_ns,
-            "ratio": self.ratio.median,
-            "ratio_ci95": [self.ratio.low, self.ratio.high],
-        }
-
-
-@dataclass(frozen=True)
-class KernelSaving:
-    """The time that the kernel of one setting saves: by one call for many centres, and by a call for each."""
-
-    stages: Stages
-    rows: int
-    batch: KernelTimes
-    single: KernelTimes
-
-    @property
-    def says(self) -> str:
-        """The savings in sentences."""
-        return f"In C, many by a call: {self.batch.says}. A call each: {self.single.says}."
-
-
-def kernel_savings(plan: ScenePlan, folder: Path) -> Iterator[KernelSaving]:
-    """The savings of each setting of the plan.
-
-    Raises UnavailableError if there is no C compiler, InputError where the mover leans.
+    These are values for programs; those of "says" are sentences. Raises UnavailableError if there is no C compiler,
+    InputError where the mover leans.
     """
     require_upright(plan)
     methods, _ = compiled(folder)
     kernel, printed = compiled_kernel(plan, folder / "scene"), InC(methods, place_of(f"{PRINTED}-{plan.format.name}"))
     for stages in plan.settings:
-        yield _kernel_saving(stages, kernel, printed)
+        rows = rows_of(stages)
+        works = (kernel.batch(rows), printed.batch(rows), kernel.single(rows), printed.single(rows))
+        entries = [TimingEntry(str(place), len(rows), each.run) for place, each in enumerate(works)]
+        samples = measure(entries, KERNEL_ROUNDS)
+        batch, single = _saving(*samples[:2]), _saving(*samples[2:])
+        yield {
+            "sizes": list(stages.setting.sizes),
+            "uses": list(stages.setting.uses),
+            "rows": len(rows),
+            "shares": stages.shares,
+            "batch": batch,
+            "single": single,
+            "says": f"In C, many by a call: {_saving_text(**batch)}. A call each: {_saving_text(**single)}.",
+        }
 
 
-def saving_fields(found: KernelSaving) -> dict[str, Any]:
-    """The fields of the record's line about one setting."""
+def _saving(own: Samples, other: Samples) -> dict[str, Any]:
+    """Nanoseconds for a centre, and the kernel's time relative to that of Table 2."""
+    ratio = estimate(ratios([own.samples_ns], [other.samples_ns]))
     return {
-        "sizes": list(found.stages.setting.sizes),
-        "uses": list(found.stages.setting.uses),
-        "rows": found.rows,
-        "shares": found.stages.shares,
-        "batch": found.batch.fields,
-        "single": found.single.fields,
-        "says": found.says,
+        "kernel_ns": own.median_ns,
+        "printed_ns": other.median_ns,
+        "ratio": ratio.median,
+        "ratio_ci95": [ratio.low, ratio.high],
     }
 
 
-def _kernel_saving(stages: Stages, kernel: SceneKernel, printed: InC) -> KernelSaving:
-    rows = rows_of(stages)
-    entries = [
-        TimingEntry("kernel", len(rows), clocked(kernel.batch([rows]))),
-        TimingEntry("printed", len(rows), printed.batch(rows).run),
-        TimingEntry("kernel, one by one", len(rows), clocked(kernel.single(rows))),
-        TimingEntry("printed, one by one", len(rows), printed.single(rows).run),
-    ]
-    samples = measure(entries, KERNEL_ROUNDS)
-    return KernelSaving(stages, len(rows), KernelTimes.of(*samples[:2]), KernelTimes.of(*samples[2:]))
+def _saving_text(kernel_ns: float, printed_ns: float, ratio: float, ratio_ci95: Sequence[float]) -> str:
+    """The same as a part of a sentence."""
+    low, high = ratio_ci95
+    how = f"{1 / ratio:.2f} times as fast as" if ratio <= 1 else f"{ratio:.2f} times as slow as"
+    return (
+        f"{kernel_ns:.2f} ns a centre, {how} Table 2 as printed ({printed_ns:.2f} ns); "
+        f"ratio {ratio:.3f}, 95 % interval {low:.3f} to {high:.3f}"
+    )
 
 
 def rows_of(stages: Stages, times: int = REPEATED_CENTRES) -> Rows:
@@ -227,37 +182,41 @@ def run_scenes(plans: Sequence[ScenePlan], recorder: Recorder, advance: Advance,
 
 def _scene_line(plan: ScenePlan, methods: Path, folder: Path, rounds: int) -> SceneLine:
     tables, kernel = _tables(plan), compiled_kernel(plan, folder)
+    printed, certified = (InC(methods, place_of(name)) for name in (f"{PRINTED}-{plan.format.name}", CERTIFIED))
     rows = np.concatenate(tables)
-    batch, single, certified = kernel.batch(tables), kernel.single(rows), _certified(plan, tables)
-    exact = certified()
-    wrong = int((_wrong(batch(), exact) | _wrong(single(), exact)).sum())
-    printed = InC(methods, place_of(f"{PRINTED}-{plan.format.name}"))
     batches = {
-        "kernel": clocked(batch),
-        "printed": _all_of([printed.batch(each).run for each in tables]),
-        "certified": clocked(certified),
+        "kernel": [kernel.batch(each) for each in tables],
+        "printed": [printed.batch(each) for each in tables],
+        "certified": [_certified(plan, each) for each in tables],
     }
     singles = {
-        "kernel": clocked(single),
-        "printed": printed.single(rows).run,
-        "certified": InC(methods, place_of(CERTIFIED)).single(rows).run,
+        "kernel": [kernel.single(rows)],
+        "printed": [printed.single(rows)],
+        "certified": [certified.single(rows)],
     }
+    exact = _answers(batches["certified"])
+    wrong = [(said != exact) & (said != CANNOT_SAY) for said in map(_answers, (batches["kernel"], singles["kernel"]))]
     return SceneLine(
         scene=plan.scene.name,
         question=plan.question,
         precision=plan.format.name,
         settings=len(plan.settings),
         rows=len(rows),
-        wrong=wrong,
+        wrong=int(np.logical_or(*wrong).sum()),
         shares=Shares(**stage_shares(plan.settings)),
         batch=_times(batches, len(rows), rounds),
         single=_times(singles, len(rows), rounds),
     )
 
 
-def _times(asked: Mapping[str, Clocked], count: int, rounds: int) -> SceneTimes:
+def _answers(parts: Sequence[PreparedWork]) -> Positions:
+    return np.concatenate([part.answers() for part in parts])
+
+
+def _times(asked: Mapping[str, Sequence[PreparedWork]], count: int, rounds: int) -> SceneTimes:
     """Nanoseconds for a row of each, and the kernel's time relative to the others'."""
-    samples = measure([TimingEntry(name, count, run) for name, run in asked.items()], rounds)
+    entries = [TimingEntry(name, count, _all_of([part.run for part in parts])) for name, parts in asked.items()]
+    samples = measure(entries, rounds)
     own, *others = samples
     found: dict[str, Any] = {f"{each.name}_ns": each.median_ns for each in samples}
     for other in others:
@@ -277,23 +236,13 @@ def _tables(plan: ScenePlan) -> list[Rows]:
     return [rows_of(stages, times) for stages in plan.settings]
 
 
-def _certified(plan: ScenePlan, tables: Sequence[Rows]) -> Callable[[], Positions]:
-    """The exact kernel of classify_scene with the same rows."""
-    question = cast("Question", plan.question)
-    found = np.zeros(sum(map(len, tables)), dtype=np.int8)
-    calls, start = [], 0
-    for rows in tables:
-        alpha, gamma, b, d = rows[0, :4].tolist()
-        x, y, z = (np.ascontiguousarray(column) for column in rows[:, 4:].T)
-        calls.append(((alpha, gamma, b, d), x, y, z, found[start : start + len(rows)]))
-        start += len(rows)
-
-    def work() -> Positions:
-        for sizes, x, y, z, part in calls:
-            classify_scene(sizes, x, y, z, part, question=question, threads=1)
-        return found
-
-    return work
+def _certified(plan: ScenePlan, rows: Rows) -> PreparedWork:
+    """The exact kernel of classify_scene with rows of the same sizes."""
+    alpha, gamma, b, d = rows[0, :4].tolist()
+    x, y, z = np.ascontiguousarray(rows[:, 4:].T)
+    question, out = cast("Question", plan.question), np.zeros(len(rows), dtype=np.int8)
+    ask = partial(classify_scene, (alpha, gamma, b, d), x, y, z, out, question=question, threads=1)
+    return prepared(len(rows), ask)
 
 
 def _all_of(parts: Sequence[Clocked]) -> Clocked:
@@ -304,8 +253,3 @@ def _all_of(parts: Sequence[Clocked]) -> Clocked:
         return sum(took for took, _ in done), sum(total for _, total in done)
 
     return run
-
-
-def _wrong(said: Positions, exact: Positions) -> NDArray[np.bool_]:
-    """The rows to which the kernel gives another answer than the exact one; "cannot say" is not wrong."""
-    return np.asarray((said != exact) & (said != CANNOT_SAY))

@@ -154,51 +154,53 @@ def measure(
 def _calibrated(entry: TimingEntry, shortest_s: float) -> Samples:
     """The entry after a warm-up, with enough loops for a sample of that duration."""
     found = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0, takes=entry.takes)
-    try:
-        _calibrate(entry, found, shortest_s)
-    except TimingRefusedError as refused:
-        found.refused = str(refused)
+    with _refused(found):
+        took, checksum = entry.run(1)
+        if entry.checksum is None:
+            found.checksum = checksum
+        if entry.loops is None:
+            loops, shortest = 1, shortest_s / TAKES * 1e9
+            while (
+                took < shortest / 8 and loops < MOST_LOOPS
+            ):  # a shorter time is too inaccurate for the number of loops
+                loops = min(MOST_LOOPS, 2 * loops if took <= 0 else max(2 * loops, round(loops * shortest / 4 / took)))
+                took, checksum = entry.run(loops)
+            took = min(took, entry.run(loops)[0])  # after an interruption the takes would be too short
+            found.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
+            lasts = max(1, took * found.loops / loops)
+            found.takes = max(1, min(TAKES, int(_LONGEST * TAKES * shortest / lasts)))
+        _require_sum(found, checksum)
     return found
 
 
-def _calibrate(entry: TimingEntry, found: Samples, shortest_s: float) -> None:
-    took, checksum = entry.run(1)
-    if entry.checksum is None:
-        found.checksum = checksum
-    if entry.loops is None:
-        loops, shortest = 1, shortest_s / TAKES * 1e9
-        while took < shortest / 8 and loops < MOST_LOOPS:  # a shorter time is too inaccurate for the number of loops
-            loops = min(MOST_LOOPS, 2 * loops if took <= 0 else max(2 * loops, round(loops * shortest / 4 / took)))
-            took, checksum = entry.run(loops)
-        took = min(took, entry.run(loops)[0])  # after an interruption the takes would be too short
-        found.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
-        lasts = max(1, took * found.loops / loops)
-        found.takes = max(1, min(TAKES, int(_LONGEST * TAKES * shortest / lasts)))
-    _check(found, checksum)
-
-
 def _sample(entry: TimingEntry, found: Samples) -> None:
-    takes = [_take(entry, found) for _ in range(found.takes)]
-    if found.refused is None:
-        found.samples_ns.append(min(takes) / (found.loops * found.rows))
-
-
-def _take(entry: TimingEntry, found: Samples) -> float:
-    """Nanoseconds; infinite for a refused entry, which is not run."""
-    if found.refused is None:
-        try:
+    """Add a sample, unless the entry is refused."""
+    if found.refused is not None:
+        return
+    with _refused(found):
+        times = []
+        for _ in range(found.takes):
             took, checksum = entry.run(found.loops)
-        except TimingRefusedError as refused:
-            found.refused = str(refused)
-        else:
-            _check(found, checksum)
-            return took
-    return math.inf
+            _require_sum(found, checksum)
+            times.append(took)
+        found.samples_ns.append(min(times) / (found.loops * found.rows))
 
 
-def _check(found: Samples, checksum: int) -> None:
+def _require_sum(found: Samples, checksum: int) -> None:
+    """Raise TimingRefusedError if the answers are others than they must be."""
     if checksum != found.checksum:
-        found.refused = f"its answers summed to {checksum} while it was timed; they must sum to {found.checksum}"
+        raise TimingRefusedError(
+            f"its answers summed to {checksum} while it was timed; they must sum to {found.checksum}"
+        )
+
+
+@contextmanager
+def _refused(found: Samples) -> Iterator[None]:
+    """A block after which the samples say why the entry was refused, if it was."""
+    try:
+        yield
+    except TimingRefusedError as refused:
+        found.refused = str(refused)
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,7 +11,6 @@ from hypcheck.messages import printable
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from hypcheck.bench.scene import KernelSaving
     from hypcheck.kernel.specialise.plan import ScenePlan
     from hypcheck.scene.model import SceneModel
 
@@ -42,15 +41,13 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
     found = planned(scene, precision, question)
     times = list(_measured(found)) if measure else []
     if as_json:
-        from hypcheck.bench.scene import saving_fields
-
-        measured = {"measured": [saving_fields(each) for each in times]} if measure else {}
+        measured = {"measured": times} if measure else {}
         click.echo(json.dumps(plan_as_json(found) | measured))
         return
     for text in plan_lines(found):
         click.echo(printable(text))
     for place, each in enumerate(times, start=1):
-        click.echo(printable(f"{place}. {each.says}"))
+        click.echo(printable(f"{place}. {each['says']}"))
 
 
 def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
@@ -76,7 +73,7 @@ def asked_scene(scene: str, question: str | None) -> SceneModel:
     return found
 
 
-def _measured(found: ScenePlan) -> Iterator[KernelSaving]:
+def _measured(found: ScenePlan) -> Iterator[dict[str, Any]]:
     """The saving of each setting. Raises UnavailableError if there is no C compiler."""
     from pathlib import Path
     from tempfile import TemporaryDirectory
