@@ -6,21 +6,24 @@ that errs where the implementation is right is not.
 
 This file has what a cause is, and the causes that are about places: on the ring, outside a regime, where rounding
 decides. slips.py has those about every row: a wrong sign, a column taken for another, an axis that is ignored.
+causes.toml has the texts of both.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import cached_property
+from functools import cache, cached_property
+from importlib import resources
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck import toml
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
-from hypcheck.geometry.rows import WAYS, Floats, Mask, Positions, Rows
-from hypcheck.implementations.description import QUESTIONS, UNIT_ROUNDOFF
+from hypcheck.geometry.rows import WAYS, Floats, Indices, Mask, Positions, Rows
+from hypcheck.implementations.description import UNIT_ROUNDOFF
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import exact
@@ -30,9 +33,6 @@ Answers = NDArray[np.int8]
 
 SILENT = 100
 """What a rule gives for a row about which it says nothing."""
-
-RECOMMENDED = "take the code of `hypcheck emit --method exact`"
-"""The one recommendation where the answer must be right at every row."""
 
 
 class Standing(IntEnum):
@@ -60,10 +60,14 @@ class Asked:
 
     @property
     def subject(self) -> str:
-        """What the rows are about: "upright", "tilted" or "way"."""
-        if QUESTIONS[self.criterion.question].layout is WAYS:
-            return "way"
-        return "upright" if self.rows.shape[1] == len(COLUMNS) else "tilted"
+        """What the rows are about."""
+        return subject_of(self.rows.shape[1], self.criterion)
+
+    def part(self, places: Sequence[int] | Indices) -> Asked:
+        """The rows at these indices, as if they alone had been asked."""
+        times = None if self.times is None else self.times[places]
+        rows = np.ascontiguousarray(self.rows[places])
+        return Asked(rows, self.truth[places], self.given[places], self.criterion, times)
 
     def said(self, positions: NDArray[np.int8]) -> Answers:
         """The answers to the question at these positions; SILENT stays."""
@@ -76,14 +80,21 @@ class Asked:
         return Numbers.of(self.rows)
 
 
+def subject_of(numbers: int, criterion: Criterion) -> str:
+    """What rows of so many numbers are about: "upright", "tilted" or "way"."""
+    if criterion.layout is WAYS:
+        return "way"
+    return "upright" if numbers == len(COLUMNS) else "tilted"
+
+
 Rule = Callable[[Asked], Answers]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
     """A rule that is wrong: its name, what it does in a sentence without a full stop, and one line of remedy.
 
-    `rule` gives its answers. `subject` says of which rows (Asked.subject). `claim` is a statement of the paper that is
+    `rule` gives its answers. `subject` says of which rows (subject_of). `claim` is a statement of the paper that is
     the reason, as `hypcheck derive --claim` takes it. `slack` is how often, for each wrong answer that it explains, an
     implementation with this cause may be right at a row where the rule errs.
     """
@@ -96,6 +107,17 @@ class Cause:
     subject: str = "upright"
     claim: str = ""
     slack: float = 0.02
+
+
+@cache
+def _texts() -> dict[str, dict[str, str]]:
+    text = resources.files("hypcheck.runs").joinpath("causes.toml").read_text(encoding="utf-8")
+    return toml.parsed(text, "causes.toml")
+
+
+def cause(name: str, rule: Rule, standing: Standing, *, subject: str = "upright", slack: float = 0.02) -> Cause:
+    """The cause with the texts of that name in causes.toml."""
+    return Cause(name=name, rule=rule, standing=standing, subject=subject, slack=slack, **_texts()[name])
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,13 +187,14 @@ class Numbers:
             return np.asarray(small & (np.abs(self.slope_at_B) <= share * size) & (self.A < self.B**2))
 
 
-def _silent(asked: Asked) -> Answers:
+def silent(asked: Asked) -> Answers:
+    """An answer to no row."""
     return np.full(len(asked.rows), SILENT, dtype=np.int8)
 
 
 def _exactly_where(candidates: Mask, asked: Asked, holds: Callable[[Pair], bool], position: Position) -> Answers:
     """The answer of a position at those candidates of which exact arithmetic says that something holds."""
-    positions = _silent(asked)
+    positions = silent(asked)
     for place in np.flatnonzero(candidates).tolist():
         if holds(Pair.from_row(asked.rows[place].tolist())):
             positions[place] = position
@@ -224,23 +247,17 @@ def _zero_coefficient(asked: Asked) -> Answers:
     return _exactly_where((asked.truth == Position.INTERIOR) & small, asked, vanishes, Position.CONTACT)
 
 
-def _tangency(kind: Kind) -> Rule:
+def _tangency(kind: Kind, clear: Position) -> Rule:
     """A tangency of this kind, taken for the clear position of which it is the limit."""
 
     def rule(asked: Asked) -> Answers:
-        if kind.limit_of is None:
-            raise ValueError(f"{kind.value} is no tangency")
         at = (asked.truth == Position.CONTACT) & asked.numbers.possible(2.0**-50)[:, 1]
-        return _exactly_where(at, asked, _is(kind), kind.limit_of)
+        return _exactly_where(at, asked, _is(kind), clear)
 
     return rule
 
 
-def _given_where(asked: Asked, possible: NDArray[np.bool_]) -> Answers:
-    """The answers given where one of the possible positions −1, 0, +1, (n, 3), gives them."""
-    answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), asked.criterion.question)
-    agrees = (possible & (answers[None, :] == asked.given[:, None])).any(axis=1)
-    return np.where(agrees, asked.given, SILENT).astype(np.int8)
+_FLOAT64 = 2.0**-53
 
 
 def _unit(asked: Asked) -> float:
@@ -248,39 +265,42 @@ def _unit(asked: Asked) -> float:
     return float(UNIT_ROUNDOFF[asked.criterion.precision])
 
 
-_FLOAT64 = 2.0**-53
+def _rounded(asked: Asked, unit: float, at: Mask | bool = True, *, printed: bool = False) -> Answers:
+    """The answers given where roundings of this unit may turn them into these, at these rows (Numbers.possible)."""
+    answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), asked.criterion.question)
+    possible = asked.numbers.possible(unit, printed=printed)
+    agrees = (possible & (answers[None, :] == asked.given[:, None])).any(axis=1)
+    return np.where(agrees & at, asked.given, SILENT).astype(np.int8)
 
 
 def _lost_beside_the_ring(asked: Asked) -> Answers:
     """Δ has no sign in floats beside the ring, and is taken for 0 or less."""
-    found = _given_where(asked, asked.numbers.possible(2 * max(_unit(asked), _FLOAT64)))
     at = (asked.truth == Position.EXTERIOR) & asked.numbers.near_the_ring(2.0**-12)
-    return np.where(at, found, SILENT).astype(np.int8)
+    return _rounded(asked, 2 * max(_unit(asked), _FLOAT64), at)
 
 
 def _lost(asked: Asked) -> Answers:
     """A sign that the rounding errors of a plain evaluation may turn."""
     unit = _unit(asked)
-    return _given_where(asked, asked.numbers.possible(2 * unit)) if unit >= _FLOAT64 else _silent(asked)
+    return _rounded(asked, 2 * unit) if unit >= _FLOAT64 else silent(asked)
 
 
 def _lost_outside(asked: Asked) -> Answers:
     """The same for the rules as printed, at contacts outside the regimes in which they are right."""
-    unit, n = max(_unit(asked), _FLOAT64), asked.numbers
+    n = asked.numbers
     with np.errstate(all="ignore"):
         outside = (asked.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
-    found = _given_where(asked, n.possible(2 * unit, printed=True))
-    return np.where(outside, found, SILENT).astype(np.int8)
+    return _rounded(asked, 2 * max(_unit(asked), _FLOAT64), outside, printed=True)
 
 
 def _lost_in_float64(asked: Asked) -> Answers:
     """A sign that float64 does not tell, where more is declared."""
-    return _given_where(asked, asked.numbers.possible(2 * _FLOAT64)) if _unit(asked) < _FLOAT64 else _silent(asked)
+    return _rounded(asked, 2 * _FLOAT64) if _unit(asked) < _FLOAT64 else silent(asked)
 
 
 def _half_lost(asked: Asked) -> Answers:
     """A sign that half the digits of the precision do not tell."""
-    return _given_where(asked, asked.numbers.possible(2 * max(_unit(asked), _FLOAT64) ** 0.5))
+    return _rounded(asked, 2 * max(_unit(asked), _FLOAT64) ** 0.5)
 
 
 _RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128), "float64": (-1022, 1024)}
@@ -290,7 +310,7 @@ _RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128)
 def _out_of_range(asked: Asked) -> Answers:
     """A square or a product of the plain formula is not in the range of the format, so that Δ has no sign."""
     if asked.criterion.precision not in _RANGES:
-        return _silent(asked)
+        return silent(asked)
     least, greatest = _RANGES[asked.criterion.precision]
     with np.errstate(all="ignore"):
         alpha, gamma, b, d, x, y, z = np.log2(np.abs(asked.rows[:, : len(COLUMNS)].T))
@@ -308,96 +328,26 @@ def _greatest(*values: Floats) -> Floats:
 
 
 PLACES: tuple[Cause, ...] = (
-    Cause(
-        "ring",
-        "on the ring (z = 0, far apart, Δ = 0) it says contact, as Proposition 3.2 does",
-        "where z = 0, exterior is E > 0 and E² > 4A, with E = P − A − 1",
-        _ring,
-        Standing.PLACE,
-        claim="Proposition 3.2",
-        slack=4,
-    ),
-    Cause(
-        "groove",
-        "where (γ/d)² < α/b, outside the regime of Proposition 3, it calls a spheroid that crosses the groove exterior",
-        "exterior must also require: not (c2 < −3B and (3B + 2 c2) B + c1 > 0)",
-        _groove,
-        Standing.PLACE,
-        claim="Proposition 3.1",
-    ),
-    Cause(
-        "throat",
-        "where α < b, outside the regime of Proposition 5, it calls a spheroid stuck in the throat interior",
-        "interior asks besides for: c2 < 3A and (3A − 2 c2) A + c1 > 0",
-        _throat,
-        Standing.PLACE,
-        claim="Proposition 5.1",
-    ),
-    Cause(
-        "zero-coefficient",
-        "where c1 or c2 is 0 it denies interior, as Proposition 5 does",
-        "interior is Δ > 0 and not (c2 < 0 and c1 > 0)",
-        _zero_coefficient,
-        Standing.PLACE,
-        claim="Proposition 5.1",
-        slack=4,
-    ),
+    cause("ring", _ring, Standing.PLACE, slack=4),
+    cause("groove", _groove, Standing.PLACE),
+    cause("throat", _throat, Standing.PLACE),
+    cause("zero-coefficient", _zero_coefficient, Standing.PLACE, slack=4),
     *(
         Cause(
-            kind.value,
-            f"it takes a tangency for clear ({kind.contact_set} in common, {kind.value})",
-            "a tangency is contact: exterior and interior ask for > 0, never for ≥ 0",
-            _tangency(kind),
-            Standing.PLACE,
+            name=kind.value,
+            sentence=f"it takes a tangency for clear ({kind.contact_set} in common, {kind.value})",
+            remedy="a tangency is contact: exterior and interior ask for > 0, never for ≥ 0",
+            rule=_tangency(kind, kind.limit_of),
+            standing=Standing.PLACE,
         )
         for kind in Kind
-        if kind.tangent
+        if kind.limit_of is not None
     ),
-    Cause(
-        "out-of-range",
-        "a square or a product of the plain formula leaves the range of the declared precision, so Δ has no sign",
-        f"divide by the sizes before squaring, or declare the magnitudes that it takes; or {RECOMMENDED}",
-        _out_of_range,
-        Standing.ROUNDING,
-    ),
-    Cause(
-        "lost-beside-the-ring",
-        "beside the ring Δ is smaller than its rounding errors, however far apart the bodies are",
-        f"never take Δ ≤ 0 for contact in floats; {RECOMMENDED}",
-        _lost_beside_the_ring,
-        Standing.ROUNDING,
-        claim="Proposition 3.2",
-    ),
-    Cause(
-        "lost-to-rounding",
-        "a sign that decides is smaller than the rounding errors of Δ, c1 or c2 in the declared precision",
-        f"the coefficients cancel: {RECOMMENDED}",
-        _lost,
-        Standing.ROUNDING,
-    ),
-    Cause(
-        "lost-outside-the-regime",
-        "outside the regimes of Propositions 3 and 5 Δ is smaller than its rounding errors, and a positive Δ is taken "
-        "for clear",
-        f"ask besides where the poles −A and B are; or {RECOMMENDED}",
-        _lost_outside,
-        Standing.ROUNDING,
-        claim="Proposition 5.1",
-    ),
-    Cause(
-        "float64-for-more",
-        "a sign that decides is smaller than the rounding errors of float64, though more than float64 is declared",
-        f"declare float64, or compute what is declared throughout; or {RECOMMENDED}",
-        _lost_in_float64,
-        Standing.ROUNDING,
-    ),
-    Cause(
-        "half-the-digits",
-        "half the digits of the declared precision do not tell the sign that decides: a narrower format, computed "
-        "roots, or a threshold",
-        f"compute in the declared precision throughout, without roots and thresholds; or {RECOMMENDED}",
-        _half_lost,
-        Standing.ROUNDING,
-    ),
+    cause("out-of-range", _out_of_range, Standing.ROUNDING),
+    cause("lost-beside-the-ring", _lost_beside_the_ring, Standing.ROUNDING),
+    cause("lost-to-rounding", _lost, Standing.ROUNDING),
+    cause("lost-outside-the-regime", _lost_outside, Standing.ROUNDING),
+    cause("float64-for-more", _lost_in_float64, Standing.ROUNDING),
+    cause("half-the-digits", _half_lost, Standing.ROUNDING),
 )
 """The causes about places, those in exact arithmetic first."""

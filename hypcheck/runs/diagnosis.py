@@ -18,15 +18,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import WAYS, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS, Domain, claimed
 from hypcheck.runs import judge
-from hypcheck.runs.causes import PLACES, SILENT, Answers, Asked, Cause, Standing
+from hypcheck.runs.causes import PLACES, SILENT, Answers, Asked, Cause, Standing, subject_of
 from hypcheck.runs.judge import Criterion, Status, WrongCase
-from hypcheck.runs.leaning_slips import TILTED_SLIPS
-from hypcheck.runs.slips import UPRIGHT_SLIPS
-from hypcheck.runs.way_slips import WAY_SLIPS
+from hypcheck.runs.slips import TILTED_SLIPS, UPRIGHT_SLIPS, WAY_SLIPS
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.family import MARK
@@ -85,16 +82,22 @@ class Diagnosis:
     explained: Mapping[int, Explained] = field(default_factory=dict)
     denied: Mapping[str, int] = field(default_factory=dict)
 
+    @classmethod
+    def of(cls, explained: Iterable[tuple[int, Explained]], denied: Mapping[str, int]) -> Diagnosis:
+        """The diagnosis with all of these, of which some may have the same set of causes."""
+        by_set: dict[int, list[Explained]] = {}
+        for causes, each in explained:
+            by_set.setdefault(causes, []).append(each)
+        return cls({causes: together(by_set[causes]) for causes in sorted(by_set)}, dict(sorted(denied.items())))
+
 
 def merged(parts: Iterable[Diagnosis]) -> Diagnosis:
     """The diagnosis of all answers of these, which may come in any order."""
-    by_set: dict[int, list[Explained]] = {}
+    some = tuple(parts)
     denied: Counter[str] = Counter()
-    for part in parts:
+    for part in some:
         denied.update(part.denied)
-        for causes, each in part.explained.items():
-            by_set.setdefault(causes, []).append(each)
-    return Diagnosis({causes: together(by_set[causes]) for causes in sorted(by_set)}, dict(sorted(denied.items())))
+    return Diagnosis.of((item for part in some for item in part.explained.items()), denied)
 
 
 def diagnose(
@@ -107,7 +110,7 @@ def diagnose(
     witnesses = list(right[:: max(1, -(-len(right) // WITNESSES))])
     share = len(right) / len(witnesses) if witnesses else 0.0
     places = [case.index for case, _ in failing]
-    part = _part(asked, places + witnesses)
+    part = asked.part(places + witnesses)
     sets, denied = [0] * len(failing), dict[str, int]()
     for bit, cause in enumerate(CAUSES):
         if cause.subject != asked.subject:
@@ -118,34 +121,12 @@ def diagnose(
         against = _against(answers[len(failing) :], part.given[len(failing) :])
         if against:
             denied[cause.name] = round(against * share)
-    by_set: dict[int, list[Explained]] = {}
-    for causes, (case, (at, name)) in zip(sets, failing, strict=True):
-        by_set.setdefault(causes, []).append(Explained(1, at, name, case))
-    return Diagnosis({causes: together(by_set[causes]) for causes in sorted(by_set)}, dict(sorted(denied.items())))
-
-
-def denials(asked: Asked, suspected: Iterable[Cause]) -> dict[str, int]:
-    """How many of these answers, which are all right, deny each of these causes, by name; those that none does."""
-    found = {each.name: _against(each.rule(asked), asked.given) for each in suspected if each.subject == asked.subject}
-    return {name: number for name, number in found.items() if number}
-
-
-def suspects(diagnosis: Diagnosis) -> list[Cause]:
-    """The causes that explain a wrong answer at least."""
-    found = 0
-    for causes in diagnosis.explained:
-        found |= causes
-    return [cause for cause in CAUSES if _has(found, cause)]
+    explained = (Explained(1, at, name, case) for case, (at, name) in failing)
+    return Diagnosis.of(zip(sets, explained, strict=True), denied)
 
 
 def _against(answers: Answers, given: Answers) -> int:
     return int(((answers != SILENT) & (answers != given)).sum())
-
-
-def _part(asked: Asked, places: list[int]) -> Asked:
-    times = None if asked.times is None else asked.times[places]
-    rows = np.ascontiguousarray(asked.rows[places])
-    return Asked(rows, asked.truth[places], asked.given[places], asked.criterion, times)
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,29 +145,36 @@ class CountedCause:
 
 @dataclass
 class _Left:
-    """Wrong answers that no cause has taken yet, by family and set of causes; `denied` as in Diagnosis."""
+    """Wrong answers that no cause has taken yet, by family and set of causes; and what the causes took."""
 
     explained: dict[tuple[str, int], Explained]
-    denied: Mapping[str, int]
+    taken: list[CountedCause] = field(default_factory=list)
 
-    def number(self, cause: Cause | None = None) -> int:
-        """How many a cause explains; all without one."""
-        return sum(each.cases for (_, causes), each in self.explained.items() if cause is None or _has(causes, cause))
+    @property
+    def total(self) -> int:
+        """How many there are."""
+        return sum(each.cases for each in self.explained.values())
 
-    def covered(self, some: Sequence[Cause]) -> int:
+    def number(self, *some: Cause) -> int:
         """How many one of these causes explains at least."""
-        return sum(each.cases for (_, causes), each in self.explained.items() if any(_has(causes, one) for one in some))
+        bits = _bits(some)
+        return sum(each.cases for (_, causes), each in self.explained.items() if causes & bits)
 
-    def take(self, cause: Cause | None = None) -> CountedCause | None:
-        """What a cause explains, or all, which is no longer left; None if there is nothing."""
-        found = {key: each for key, each in self.explained.items() if cause is None or _has(key[1], cause)}
-        if not found:
-            return None
+    def take(self, cause: Cause | None) -> None:
+        """Take what a cause explains, all without one."""
+        bits = None if cause is None else _bits([cause])
+        found = {key: each for key, each in self.explained.items() if bits is None or key[1] & bits}
         families: Counter[str] = Counter()
         for key, each in found.items():
             families[key[0]] += each.cases
             del self.explained[key]
-        return CountedCause(cause, dict(families), together(found.values()))
+        if found:
+            self.taken.append(CountedCause(cause, families, together(found.values())))
+
+
+def _bits(some: Iterable[Cause]) -> int:
+    """The number that stands for a set of causes."""
+    return sum(1 << _BITS[cause.name] for cause in some)
 
 
 CLEAN = 16
@@ -196,14 +184,32 @@ CLEAN = 16
 def causes_of(
     diagnoses: Mapping[str, Diagnosis], clean: Sequence[str], criterion: Criterion, domain: Domain
 ) -> list[CountedCause]:
-    """The causes that stand, of the diagnoses of all families; `clean` families were asked and have no wrong answer."""
-    suspected = suspects(merged(diagnoses.values()))
-    if not suspected:
+    """The causes that stand, of the diagnoses of all families, most wrong answers first, what is unexplained last.
+
+    `clean` families were asked and have no wrong answer.
+    """
+    by_subject: dict[str, dict[str, Diagnosis]] = {}
+    for family, each in diagnoses.items():
+        if each.explained:
+            worst = next(iter(each.explained.values())).worst
+            by_subject.setdefault(subject_of(len(worst.row), criterion), {})[family] = each
+    if not by_subject:
         return []
+    explaining = {causes for each in diagnoses.values() for causes in each.explained}
+    suspects = [cause for cause in CAUSES if any(causes & _bits([cause]) for causes in explaining)]
     denied: Counter[str] = Counter()
     for asked in _right_answers(clean, criterion, domain):
-        denied.update(denials(asked, suspected))
-    return findings(diagnoses, criterion, denied)
+        for cause in suspects:
+            if cause.subject == asked.subject:
+                denied[cause.name] += _against(cause.rule(asked), asked.given)
+    named: dict[str, list[CountedCause]] = {}
+    for part in by_subject.values():
+        for one in _standing(part, denied):
+            named.setdefault(one.cause.name if one.cause else "", []).append(one)
+    return sorted(
+        map(_joined, named.values()),
+        key=lambda each: (each.cause is None, -each.cases, _BITS[each.cause.name] if each.cause else 0),
+    )
 
 
 def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -> Iterator[Asked]:
@@ -227,23 +233,6 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
         yield Asked(rows, truth, given, criterion)
 
 
-def findings(diagnoses: Mapping[str, Diagnosis], criterion: Criterion, denied: Mapping[str, int]) -> list[CountedCause]:
-    """The causes that stand, most wrong answers first, what is unexplained last; `denied` comes from other families."""
-    by_subject: dict[str, dict[str, Diagnosis]] = {}
-    for family, each in diagnoses.items():
-        if each.explained:
-            worst = next(iter(each.explained.values())).worst
-            by_subject.setdefault(_subject(worst, criterion), {})[family] = each
-    found = [each for part in by_subject.values() for each in _findings(part, denied)]
-    named: dict[str, list[CountedCause]] = {}
-    for one in found:
-        named.setdefault(one.cause.name if one.cause else "", []).append(one)
-    joined = [_joined(some) for some in named.values()]
-    return sorted(
-        joined, key=lambda each: (each.cause is None, -each.cases, _BITS[each.cause.name] if each.cause else 0)
-    )
-
-
 def _joined(some: list[CountedCause]) -> CountedCause:
     families: Counter[str] = Counter()
     for each in some:
@@ -251,48 +240,32 @@ def _joined(some: list[CountedCause]) -> CountedCause:
     return CountedCause(some[0].cause, dict(sorted(families.items())), together(each.worst for each in some))
 
 
-def _subject(case: WrongCase, criterion: Criterion) -> str:
-    if QUESTIONS[criterion.question].layout is WAYS:
-        return "way"
-    return "upright" if len(case.row) == len(COLUMNS) else "tilted"
-
-
-def _findings(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) -> Iterator[CountedCause]:
-    """The causes that stand, of families with rows of one subject."""
+def _standing(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) -> list[CountedCause]:
+    """The causes that stand, of families with rows of one subject; `elsewhere` denies them in other families."""
     denied = Counter(merged(diagnoses.values()).denied) + Counter(elsewhere)
     left = _Left(
-        {(family, causes): each for family, one in diagnoses.items() for causes, each in one.explained.items()}, denied
+        {(family, causes): each for family, one in diagnoses.items() for causes, each in one.explained.items()}
     )
-    everywhere = [cause for cause in CAUSES if cause.standing is Standing.EVERYWHERE and _stands(cause, left)]
-    best = max(everywhere, key=left.number, default=None)
+
+    def of(standing: Standing) -> list[Cause]:
+        """The causes of this standing that explain something, and that right answers hardly deny."""
+        some = ((cause, left.number(cause)) for cause in CAUSES if cause.standing is standing)
+        return [cause for cause, number in some if number and denied[cause.name] <= cause.slack * number]
+
+    everywhere, places = of(Standing.EVERYWHERE), of(Standing.PLACE)
     rounding = [cause for cause in CAUSES if cause.standing is Standing.ROUNDING]
-    places = [cause for cause in CAUSES if cause.standing is Standing.PLACE and _stands(cause, left)]
-    known = [*places, *rounding]
+    best, known = max(everywhere, key=left.number, default=None), [*places, *rounding]
     # A few families may hold nothing that denies a rule: what is known of their places explains as much then.
-    if best is not None and left.number(best) >= MOST * left.number() and left.number(best) > left.covered(known):
-        yield from _taken(left, best)
-    for cause in places if 2 * left.covered(known) >= left.number() else []:  # else something else is wrong, there too
-        yield from _taken(left, cause)
-    if left.covered(rounding) >= ROUNDED * left.number():
+    if best is not None and left.number(best) >= MOST * left.total and left.number(best) > left.number(*known):
+        left.take(best)
+    if 2 * left.number(*known) >= left.total:  # else something else is wrong, there too
+        for cause in places:
+            left.take(cause)
+    if left.number(*rounding) >= ROUNDED * left.total:
         for cause in rounding:
-            yield from _taken(left, cause)
-    rest = [cause for cause in everywhere if left.number(cause) >= MOST * left.number() > 0]
+            left.take(cause)
+    rest = [cause for cause in everywhere if left.number(cause) >= MOST * left.total > 0]
     if rest:
-        yield from _taken(left, max(rest, key=left.number))
-    yield from _taken(left, None)
-
-
-def _taken(left: _Left, cause: Cause | None) -> Iterator[CountedCause]:
-    found = left.take(cause)
-    if found is not None:
-        yield found
-
-
-def _stands(cause: Cause, left: _Left) -> bool:
-    """Whether it explains something, and right answers hardly deny it."""
-    number = left.number(cause)
-    return number > 0 and left.denied.get(cause.name, 0) <= cause.slack * number
-
-
-def _has(causes: int, cause: Cause) -> bool:
-    return bool(causes >> _BITS[cause.name] & 1)
+        left.take(max(rest, key=left.number))
+    left.take(None)
+    return left.taken

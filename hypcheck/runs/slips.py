@@ -1,22 +1,24 @@
-"""Causes about every row of upright spheroids: a sign or a term wrong in a formula, a column taken for another.
+"""Causes about every row: a sign or a term wrong in a formula, a column taken for another, positions in place of a way.
 
-Each is a whole rule. Rules about what is asked are answered exactly after what their sentence says was done to the row.
-Rules about a formula are evaluated in float64 and, where most of their answers agree with the ones given, in whole
-numbers at the rows where they do not.
+Each is a whole rule. Rules about what is asked are answered exactly after what their sentence in causes.toml says was
+done to the row. Rules about a formula are evaluated in float64 and, where most of their answers agree with the ones
+given, in whole numbers at the rows where they do not.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS
-from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.geometry.rows import WAYS, Floats, Rows
+from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
-from hypcheck.runs.causes import SILENT, Answers, Asked, Cause, Rule, Standing
+from hypcheck.runs.causes import SILENT, Answers, Asked, Cause, Rule, Standing, cause, silent
+from hypcheck.runs.judges import passage_of, time_is_right
 
 _MOSTLY = 0.5
 """A formula is evaluated exactly, too, where it gives this share of the wrong answers in float64."""
@@ -24,18 +26,8 @@ _MOSTLY = 0.5
 Number = Any
 """An array of float64, or of Python's integers."""
 
-
-@dataclass(frozen=True)
-class SlipLengths:
-    """The seven columns, float64 or whole numbers in a radial and an axial unit, on which no position depends."""
-
-    alpha: Number
-    gamma: Number
-    b: Number
-    d: Number
-    x: Number
-    y: Number
-    z: Number
+Lengths = Mapping[str, Number]
+"""The columns by name, float64 or whole numbers in a radial and an axial unit, on which no position depends."""
 
 
 @dataclass(frozen=True)
@@ -49,79 +41,76 @@ class Terms:
     U: Number
 
     @classmethod
-    def of(cls, of: SlipLengths) -> Terms:
+    def of(cls, row: Lengths) -> Terms:
         """Those of the paper."""
-        bb, dd = of.b * of.b, of.d * of.d
-        return cls(of.alpha**2 * dd, of.gamma**2 * bb, (of.x**2 + of.y**2) * dd, of.z**2 * bb, bb * dd)
+        bb, dd = row["b"] ** 2, row["d"] ** 2
+        squares = row["x"] ** 2 + row["y"] ** 2
+        return cls(row["alpha"] ** 2 * dd, row["gamma"] ** 2 * bb, squares * dd, row["z"] ** 2 * bb, bb * dd)
 
 
-def _in_floats(rows: Rows) -> SlipLengths:
+def _in_floats(rows: Rows) -> Lengths:
     """The rows, with b and d as the two units."""
     alpha, gamma, b, d, x, y, z = rows.T
     one = np.ones(len(rows))
-    return SlipLengths(alpha / b, gamma / d, one, one, x / b, y / b, z / d)
+    return dict(zip(COLUMNS, (alpha / b, gamma / d, one, one, x / b, y / b, z / d), strict=True))
 
 
-def _in_whole_numbers(rows: Rows) -> SlipLengths:
-    columns: list[Any] = [None] * len(COLUMNS)
+def _in_whole_numbers(rows: Rows) -> Lengths:
+    columns: dict[str, Number] = {}
     for group in ((0, 2, 4, 5), (1, 3, 6)):
         mantissas, exponents = np.frexp(rows[:, group])
         least = np.where(mantissas == 0, 4000, exponents).min(axis=1, keepdims=True)
         shift = np.where(mantissas == 0, 0, exponents - least).astype(object)
         whole = np.ldexp(mantissas, 53).astype(np.int64).astype(object) << shift
-        for place, column in enumerate(group):
-            columns[column] = whole[:, place]
-    return SlipLengths(*columns)
+        columns |= {COLUMNS[column]: whole[:, place] for place, column in enumerate(group)}
+    return columns
 
 
-def _c0(t: Terms) -> Number:
-    return -t.A * t.B * t.U
+_COEFFICIENTS: dict[str, dict[str, Callable[[Terms], Number]]] = {
+    "c0": {"AB": lambda t: -t.A * t.B * t.U},
+    "c1": {
+        "AB": lambda t: -t.A * t.B,
+        "A": lambda t: t.A * t.U,
+        "B": lambda t: -t.B * t.U,
+        "BP": lambda t: t.B * t.P,
+        "AQ": lambda t: -t.A * t.Q,
+    },
+    "c2": {"A": lambda t: t.A, "B": lambda t: -t.B, "1": lambda t: t.U, "P": lambda t: -t.P, "Q": lambda t: -t.Q},
+}
+_WRITTEN = {"c0": "c0 = −AB", "c1": "c1 = −AB + A − B + BP − AQ", "c2": "c2 = A − B + 1 − P − Q"}
 
-
-def _c1(t: Terms) -> Number:
-    return -t.A * t.B + t.U * (t.A - t.B) + t.B * t.P - t.A * t.Q
-
-
-def _c2(t: Terms) -> Number:
-    return t.A - t.B + t.U - t.P - t.Q
-
-
-def _all_positive(c1: Number, c2: Number) -> Number:
-    return (c2 < 0) & (c1 > 0)
+_DELTA = {"c2³ c0": -4, "c2² c1²": 1, "c2 c1 c0": 18, "c1³": -4, "c0²": -27}
+"""The factors of the terms of Δ, equation (13)."""
 
 
 @dataclass(frozen=True, slots=True)
 class SlippedRule:
     """The coefficient rule for all regimes, with one of its parts replaced.
 
-    `delta` are the factors of the five terms of equation (13).
+    `factors` of terms of coefficients, by both names, are 1 unless given. `delta` are the factors of the terms of Δ.
+    `signs` are those of c1 and c2 where all roots are positive.
     """
 
-    terms: Callable[[SlipLengths], Terms] = Terms.of
-    c0: Callable[[Terms], Number] = _c0
-    c1: Callable[[Terms], Number] = _c1
-    c2: Callable[[Terms], Number] = _c2
-    delta: tuple[int, int, int, int, int] = (-4, 1, 18, -4, -27)
-    positive: Callable[[Number, Number], Number] = _all_positive
-    groove: bool = True
-    throat: bool = True
-    ring: bool = True
+    terms: Callable[[Lengths], Terms] = Terms.of
+    factors: Mapping[tuple[str, str], int] = field(default_factory=dict)
+    delta: tuple[int, ...] = tuple(_DELTA.values())
+    signs: tuple[int, int] = (1, -1)
 
-    def positions(self, of: SlipLengths) -> Answers:
+    def positions(self, row: Lengths) -> Answers:
         """The positions, int8 (n,)."""
         with np.errstate(all="ignore"):
-            t = self.terms(of)
-            c0, c1, c2 = self.c0(t), self.c1(t), self.c2(t)
+            t = self.terms(row)
+            c0, c1, c2 = (
+                sum(self.factors.get((name, term), 1) * compute(t) for term, compute in terms.items())
+                for name, terms in _COEFFICIENTS.items()
+            )
             parts = (c2**3 * c0, c2**2 * c1**2, c2 * c1 * c0, c1**3, c0**2)
             distinct = sum(factor * part for factor, part in zip(self.delta, parts, strict=True)) > 0
-            positive, at_B = self.positive(c1, c2), 3 * t.B * t.B + 2 * c2 * t.B + c1
-            exterior, interior = distinct & positive, distinct & ~positive
-            if self.groove:
-                exterior = exterior & ~((c2 < -3 * t.B) & (at_B > 0))
-            if self.ring:
-                exterior = exterior | ((t.Q == 0) & (at_B == 0) & (t.A * t.U < t.B * t.B))
-            if self.throat:
-                interior = interior & (c2 < 3 * t.A) & (3 * t.A * t.A - 2 * c2 * t.A + c1 > 0)
+            positive = (self.signs[0] * c1 > 0) & (self.signs[1] * c2 > 0)
+            at_B = 3 * t.B * t.B + 2 * c2 * t.B + c1
+            ring = (t.Q == 0) & (at_B == 0) & (t.A * t.U < t.B * t.B)
+            exterior = ring | (distinct & positive & ~((c2 < -3 * t.B) & (at_B > 0)))
+            interior = distinct & ~positive & (c2 < 3 * t.A) & (3 * t.A * t.A - 2 * c2 * t.A + c1 > 0)
             return np.where(exterior, 1, np.where(interior, -1, 0)).astype(np.int8)
 
     def __call__(self, asked: Asked) -> Answers:
@@ -131,126 +120,54 @@ class SlippedRule:
         if (answers == asked.given)[wrong].sum() < _MOSTLY * wrong.sum():
             return answers
         if len(others):
-            part = Asked(asked.rows[others], asked.truth[others], asked.given[others], asked.criterion)
+            part = asked.part(others)
             answers[others] = part.said(self.positions(_in_whole_numbers(part.rows)))
         return answers
 
 
-_RIGHT = {"c0": _c0, "c1": _c1, "c2": _c2}
-_WRITTEN = {"c0": "c0 = −AB", "c1": "c1 = −AB + A − B + BP − AQ", "c2": "c2 = A − B + 1 − P − Q"}
-_NEGATED: dict[str, dict[str, Callable[[Terms], Number]]] = {
-    "c0": {"AB": lambda t: 2 * t.A * t.B * t.U},
-    "c1": {
-        "AB": lambda t: 2 * t.A * t.B,
-        "A": lambda t: -2 * t.A * t.U,
-        "B": lambda t: 2 * t.B * t.U,
-        "BP": lambda t: -2 * t.B * t.P,
-        "AQ": lambda t: 2 * t.A * t.Q,
-    },
-    "c2": {
-        "A": lambda t: -2 * t.A,
-        "B": lambda t: 2 * t.B,
-        "1": lambda t: -2 * t.U,
-        "P": lambda t: 2 * t.P,
-        "Q": lambda t: 2 * t.Q,
-    },
-}
-"""What turns the sign of each term of a coefficient; half of it takes the term away."""
+def _formula_slips() -> Iterator[Cause]:
+    """Formulas with a sign or a term of a coefficient or of Δ wrong, or the decision."""
 
+    def slip(name: str, what: str, remedy: str, rule: Rule) -> Cause:
+        sentence = f"it answers as if{what}"
+        return Cause(name=name, sentence=sentence, remedy=remedy, rule=rule, standing=Standing.EVERYWHERE)
 
-def _changed(name: str, change: Callable[[Terms], Number], part: int) -> SlippedRule:
-    """The formula with this coefficient changed, by all of the change or, where `part` is 2, by half of it."""
-
-    def coefficient(t: Terms) -> Number:
-        whole = change(t)
-        return _RIGHT[name](t) + (whole if part == 1 else _half(whole))
-
-    if name == "c0":
-        return SlippedRule(c0=coefficient)
-    return SlippedRule(c1=coefficient) if name == "c1" else SlippedRule(c2=coefficient)
-
-
-def _half(value: Number) -> Number:
-    return value / 2 if value.dtype == np.float64 else value // 2
-
-
-def _coefficient_slips() -> Iterator[tuple[str, str, str, Rule]]:
-    """Names, sentences, remedies and rules of formulas with a sign or a term of a coefficient wrong."""
-    for name, terms in _NEGATED.items():
-        for term, change in terms.items():
-            sentence = f"it answers as if the sign of {term} in {name} were wrong"
-            yield f"{name}-sign-{term}", sentence, _WRITTEN[name], _changed(name, change, 1)
+    for name, terms in _COEFFICIENTS.items():
+        for term in terms:
+            negated, left_out = (SlippedRule(factors={(name, term): factor}) for factor in (-1, 0))
+            yield slip(f"{name}-sign-{term}", f" the sign of {term} in {name} were wrong", _WRITTEN[name], negated)
             if name != "c0":
-                sentence = f"it answers as if {name} lacked the term {term}"
-                yield f"{name}-without-{term}", sentence, _WRITTEN[name], _changed(name, change, 2)
-
-
-_POWERS = ("c2³ c0", "c2² c1²", "c2 c1 c0", "c1³", "c0²")
-
-
-def _discriminant_slips() -> Iterator[tuple[str, str, str, Rule]]:
-    """The same of formulas with a term of Δ or the decision wrong."""
-    delta, plain = "Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²", SlippedRule().delta
-    for place, term in enumerate(_POWERS):
-        for name, what, other in (("sign", "the sign were wrong", -plain[place]), ("without", "nothing stood", 0)):
-            factors = (*plain[:place], other, *plain[place + 1 :])
-            sentence = f"it answers as if, at the term {term} of Δ, {what}"
-            yield f"delta-{name}-{place + 1}", sentence, delta, SlippedRule(delta=_five(factors))
-    yield "delta-negative", "it answers as if Δ < 0 were asked for", delta, SlippedRule(delta=(4, -1, -18, 4, 27))
+                yield slip(f"{name}-without-{term}", f" {name} lacked the term {term}", _WRITTEN[name], left_out)
+    right, factors = "Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²", tuple(_DELTA.values())
+    for place, term in enumerate(_DELTA):
+        for name, what, other in (("sign", "the sign were wrong", -factors[place]), ("without", "nothing stood", 0)):
+            rule = SlippedRule(delta=(*factors[:place], other, *factors[place + 1 :]))
+            yield slip(f"delta-{name}-{place + 1}", f", at the term {term} of Δ, {what}", right, rule)
+    yield slip("delta-negative", " Δ < 0 were asked for", right, SlippedRule(delta=tuple(-each for each in factors)))
     right = "three roots are positive exactly if c2 < 0 and c1 > 0"
-    for name, positive in (("c1", _c1_negative), ("c2", _c2_positive)):
-        sentence = f"it answers as if the sign of {name} were asked for the other way"
-        yield f"decision-{name}", sentence, right, SlippedRule(positive=positive)
+    for name, signs in (("c1", (-1, -1)), ("c2", (1, 1))):
+        what = f" the sign of {name} were asked for the other way"
+        yield slip(f"decision-{name}", what, right, SlippedRule(signs=signs))
 
 
-def _c1_negative(c1: Number, c2: Number) -> Number:
-    return (c2 < 0) & (c1 < 0)
-
-
-def _c2_positive(c1: Number, c2: Number) -> Number:
-    return (c2 > 0) & (c1 > 0)
-
-
-def _terms(**changed: Callable[[SlipLengths], Number]) -> SlippedRule:
+def _terms(**changed: Callable[[Lengths], Number]) -> Rule:
     """The formula with some of A, B, P, Q (times b² d²) computed otherwise."""
-    return SlippedRule(
-        terms=lambda of: replace(Terms.of(of), **{name: compute(of) for name, compute in changed.items()})
-    )
+    return SlippedRule(lambda row: replace(Terms.of(row), **{name: compute(row) for name, compute in changed.items()}))
 
 
-_TERMS: tuple[tuple[str, str, str, Rule], ...] = (
-    ("A-not-squared", "it answers as if A were α/b", "A = (α/b)²", _terms(A=lambda of: of.alpha * of.b * of.d**2)),
-    ("B-not-squared", "it answers as if B were γ/d", "B = (γ/d)²", _terms(B=lambda of: of.gamma * of.d * of.b**2)),
-    ("Q-not-squared", "it answers as if Q were |z|/d", "Q = (z/d)²", _terms(Q=lambda of: abs(of.z) * of.d * of.b**2)),
-    (
-        "P-not-squared",
-        "it answers as if P were (|x| + |y|)/b",
-        "P = (x² + y²)/b²",
-        _terms(P=lambda of: (abs(of.x) + abs(of.y)) * of.b * of.d**2),
-    ),
-)
+def _changed(change: Callable[[Rows], Rows]) -> Rule:
+    """The exact answers to other rows than those asked; SILENT where the changed row is none."""
 
-
-def _five(factors: tuple[int, ...]) -> tuple[int, int, int, int, int]:
-    first, second, third, fourth, fifth = factors
-    return first, second, third, fourth, fifth
-
-
-@dataclass(frozen=True, slots=True)
-class Changed:
-    """The exact answers to other rows than those asked."""
-
-    change: Callable[[Rows], Rows]
-
-    def __call__(self, asked: Asked) -> Answers:
-        """The answers; SILENT where the changed row is none."""
+    def rule(asked: Asked) -> Answers:
         with np.errstate(all="ignore"):
-            rows = self.change(asked.rows.copy())
+            rows = change(asked.rows.copy())
         positions = classify(np.ascontiguousarray(rows), on_invalid="flag")
         return asked.said(np.where(positions == REFUSED, SILENT, positions).astype(np.int8))
 
+    return rule
 
-def put(**columns: Callable[[dict[str, Floats]], Floats]) -> Changed:
+
+def _put(**columns: Callable[[dict[str, Floats]], Floats]) -> Rule:
     """The rows with some columns computed from all columns."""
 
     def change(rows: Rows) -> Rows:
@@ -260,146 +177,266 @@ def put(**columns: Callable[[dict[str, Floats]], Floats]) -> Changed:
             rows[:, names.index(name)] = compute(before)
         return rows
 
-    return Changed(change)
+    return _changed(change)
 
 
-def swapped(first: str, second: str) -> Changed:
-    """The rows with two columns exchanged."""
-    return put(**{first: lambda c: c[second], second: lambda c: c[first]})
+def _swapped(first: str, second: str) -> Rule:
+    return _put(**{first: lambda c: c[second], second: lambda c: c[first]})
 
 
-def _ignored(name: str) -> Changed:
-    return put(**{name: lambda c: 0 * c[name]})
+def _ignored(name: str) -> Rule:
+    return _put(**{name: lambda c: 0 * c[name]})
 
 
-_AS_ASKED = "read the columns as alpha, gamma, b, d, x, y, z"
+def _larger(c: dict[str, Floats]) -> Floats:
+    return np.maximum(c["b"], c["d"])
 
-_ROWS: tuple[tuple[str, str, str, Rule], ...] = (
-    ("alpha-gamma", "it answers as if α and γ changed places", _AS_ASKED, swapped("alpha", "gamma")),
-    ("b-d", "it answers as if b and d changed places", _AS_ASKED, swapped("b", "d")),
-    ("alpha-b", "it answers as if α and b changed places", _AS_ASKED, swapped("alpha", "b")),
-    ("gamma-d", "it answers as if γ and d changed places", _AS_ASKED, swapped("gamma", "d")),
-    ("x-z", "it answers as if x and z changed places", "the axis of the hyperboloid is z", swapped("x", "z")),
-    ("y-z", "it answers as if y and z changed places", "the axis of the hyperboloid is z", swapped("y", "z")),
-    ("x-ignored", "it answers as if x were 0", "r² = x² + y²", _ignored("x")),
-    ("y-ignored", "it answers as if y were 0", "r² = x² + y²", _ignored("y")),
-    ("z-ignored", "it answers as if z were 0", "Q = (z/d)²", _ignored("z")),
-    ("x-for-y", "it answers as if y were x", "r² = x² + y²", put(y=lambda c: c["x"])),
-    (
-        "city-block",
-        "it answers as if r were |x| + |y|",
-        "r² = x² + y²",
-        put(x=lambda c: np.abs(c["x"]) + np.abs(c["y"]), y=lambda c: 0 * c["y"]),
+
+def _smaller(c: dict[str, Floats]) -> Floats:
+    return np.minimum(c["b"], c["d"])
+
+
+def _always(answer: int) -> Rule:
+    return lambda asked: np.full(len(asked.rows), answer, dtype=np.int8)
+
+
+def _gap(asked: Asked) -> Floats:
+    """The horizontal distance of the centre from the surface at its height, negative inside."""
+    alpha, gamma, _, _, x, y, z = asked.rows.T
+    return np.asarray(np.hypot(x, y) - alpha * np.hypot(1, z / gamma))
+
+
+def _horizontally(asked: Asked) -> Answers:
+    gap, b = _gap(asked), asked.rows[:, 2]
+    return asked.said(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
+
+
+def _slips(subject: str, rules: Mapping[str, Rule], standing: Standing = Standing.EVERYWHERE) -> tuple[Cause, ...]:
+    return tuple(cause(name, rule, standing, subject=subject) for name, rule in rules.items())
+
+
+UPRIGHT_SLIPS = (
+    *_slips(
+        "upright",
+        {
+            "always-0": _always(0),
+            "always-1": _always(1),
+            "always-minus-1": _always(-1),
+            "horizontal-gap": _horizontally,
+            "centre-alone": lambda asked: asked.said(np.sign(_gap(asked)).astype(np.int8)),
+            "sides-exchanged": lambda asked: asked.said((-asked.truth).astype(np.int8)),
+            "alpha-gamma": _swapped("alpha", "gamma"),
+            "b-d": _swapped("b", "d"),
+            "alpha-b": _swapped("alpha", "b"),
+            "gamma-d": _swapped("gamma", "d"),
+            "x-z": _swapped("x", "z"),
+            "y-z": _swapped("y", "z"),
+            "x-ignored": _ignored("x"),
+            "y-ignored": _ignored("y"),
+            "z-ignored": _ignored("z"),
+            "x-for-y": _put(y=lambda c: c["x"]),
+            "city-block": _put(x=lambda c: np.abs(c["x"]) + np.abs(c["y"]), y=lambda c: 0 * c["y"]),
+            "chessboard": _put(x=lambda c: np.maximum(np.abs(c["x"]), np.abs(c["y"])), y=lambda c: 0 * c["y"]),
+            "z-below": _put(z=lambda c: np.maximum(c["z"], 0)),
+            "x-below": _put(x=lambda c: np.maximum(c["x"], 0)),
+            "z-from-the-bottom": _put(z=lambda c: c["z"] - c["gamma"]),
+            "ball-of-b": _put(d=lambda c: c["b"]),
+            "ball-of-d": _put(b=lambda c: c["d"]),
+            "ball-around": _put(b=_larger, d=_larger),
+            "ball-within": _put(b=_smaller, d=_smaller),
+            "half-spheroid": _put(b=lambda c: c["b"] / 2, d=lambda c: c["d"] / 2),
+            "double-spheroid": _put(b=lambda c: c["b"] * 2, d=lambda c: c["d"] * 2),
+            "half-waist": _put(alpha=lambda c: c["alpha"] / 2),
+            "gamma-is-alpha": _put(gamma=lambda c: c["alpha"]),
+            "input-in-float32": _changed(lambda rows: rows.astype(np.float32).astype(np.float64)),
+            "input-in-float16": _changed(lambda rows: rows.astype(np.float16).astype(np.float64)),
+            "A-not-squared": _terms(A=lambda row: row["alpha"] * row["b"] * row["d"] ** 2),
+            "B-not-squared": _terms(B=lambda row: row["gamma"] * row["d"] * row["b"] ** 2),
+            "Q-not-squared": _terms(Q=lambda row: abs(row["z"]) * row["d"] * row["b"] ** 2),
+            "P-not-squared": _terms(P=lambda row: (abs(row["x"]) + abs(row["y"])) * row["b"] * row["d"] ** 2),
+        },
     ),
-    (
-        "chessboard",
-        "it answers as if r were the larger of |x| and |y|",
-        "r² = x² + y²",
-        put(x=lambda c: np.maximum(np.abs(c["x"]), np.abs(c["y"])), y=lambda c: 0 * c["y"]),
-    ),
-    ("z-below", "it answers as if a negative z were 0", "Q = (z/d)²", put(z=lambda c: np.maximum(c["z"], 0))),
-    ("x-below", "it answers as if a negative x were 0", "r² = x² + y²", put(x=lambda c: np.maximum(c["x"], 0))),
-    (
-        "z-from-the-bottom",
-        "it answers as if z were measured from −γ",
-        "z is measured from the waist",
-        put(z=lambda c: c["z"] - c["gamma"]),
-    ),
-    ("ball-of-b", "it answers for a ball of radius b", "d is the semi-axis along z", put(d=lambda c: c["b"])),
-    ("ball-of-d", "it answers for a ball of radius d", "b is the semi-axis across z", put(b=lambda c: c["d"])),
-    (
-        "ball-around",
-        "it answers for the smallest ball around the spheroid",
-        "scale x and y by b, z by d",
-        put(b=lambda c: np.maximum(c["b"], c["d"]), d=lambda c: np.maximum(c["b"], c["d"])),
-    ),
-    (
-        "ball-within",
-        "it answers for the largest ball in the spheroid",
-        "scale x and y by b, z by d",
-        put(b=lambda c: np.minimum(c["b"], c["d"]), d=lambda c: np.minimum(c["b"], c["d"])),
-    ),
-    (
-        "half-spheroid",
-        "it answers as if b and d were diameters",
-        "b and d are semi-axes",
-        put(b=lambda c: c["b"] / 2, d=lambda c: c["d"] / 2),
-    ),
-    (
-        "double-spheroid",
-        "it answers as if b and d were half the semi-axes",
-        "b and d are semi-axes",
-        put(b=lambda c: c["b"] * 2, d=lambda c: c["d"] * 2),
-    ),
-    (
-        "half-waist",
-        "it answers as if α were the waist's diameter",
-        "α is the waist's radius",
-        put(alpha=lambda c: c["alpha"] / 2),
-    ),
-    ("gamma-is-alpha", "it answers as if γ were α", "B = (γ/d)²", put(gamma=lambda c: c["alpha"])),
-    (
-        "input-in-float32",
-        "it answers the row after each number was rounded to float32",
-        "keep the row in float64",
-        Changed(lambda rows: rows.astype(np.float32).astype(np.float64)),
-    ),
-    (
-        "input-in-float16",
-        "it answers the row after each number was rounded to float16",
-        "keep the row in the declared precision",
-        Changed(lambda rows: rows.astype(np.float16).astype(np.float64)),
-    ),
+    *_formula_slips(),
 )
+"""The simplest first."""
+
+Axes = tuple[Floats, Floats, Floats]
 
 
-def always(answer: int) -> Rule:
-    """One answer to every row."""
+def _axis(compute: Callable[[Floats, Floats, Floats], Axes]) -> Rule:
+    """The rows with another axis; upright where that has no direction."""
+
+    def change(rows: Rows) -> Rows:
+        rows[:, 7:] = np.column_stack(compute(*rows[:, 7:].T.copy()))
+        rows[~rows[:, 7:].any(axis=1), 7:] = (0.0, 0.0, 1.0)
+        return rows
+
+    return _changed(change)
+
+
+def _angle(turn: Callable[[Floats], Floats]) -> Rule:
+    """The rows with the axis at another angle from the vertical, in radians."""
+
+    def compute(x: Floats, y: Floats, z: Floats) -> Axes:
+        across = np.hypot(x, y)
+        angle = turn(np.arctan2(across, z))
+        scale = np.sin(angle) / np.where(across == 0, 1, across)
+        return x * scale, y * scale, np.cos(angle)
+
+    return _axis(compute)
+
+
+def _in_float32(*values: Floats) -> Axes:
+    x, y, z = (each.astype(np.float32).astype(np.float64) for each in values)
+    return x, y, z
+
+
+def _direction_in_float32(x: Floats, y: Floats, z: Floats) -> Axes:
+    length = np.sqrt(x * x + y * y + z * z)
+    return _in_float32(x / length, y / length, z / length)
+
+
+def _along(factor: Callable[[Rows], Floats]) -> Rule:
+    """M = I/b² + (1/d² − 1/b²) f v vᵀ/(v·v): the spheroid that a factor f of 1 would leave as it is."""
+
+    def change(rows: Rows) -> Rows:
+        b, d = rows[:, 2], rows[:, 3]
+        square = 1 / b**2 + (1 / d**2 - 1 / b**2) * factor(rows[:, 7:])
+        rows[:, 3] = 1 / np.sqrt(np.where(square > 0, square, 1e-12))
+        return rows
+
+    return _changed(change)
+
+
+TILTED_SLIPS = _slips(
+    "tilted",
+    {
+        "axis-ignored": _axis(lambda x, y, z: (0 * x, 0 * y, 1 + 0 * z)),
+        "axis-level": _axis(lambda x, y, z: (x, y, 0 * z)),
+        "axis-towards-x": _axis(lambda x, y, z: (np.hypot(x, y), 0 * y, z)),
+        "axis-turned-back": _axis(lambda x, y, z: (-x, -y, z)),
+        "axis-y-negated": _axis(lambda x, y, z: (x, -y, z)),
+        "axis-x-y": _axis(lambda x, y, z: (y, x, z)),
+        "axis-y-z": _axis(lambda x, y, z: (x, z, y)),
+        "axis-x-z": _axis(lambda x, y, z: (z, y, x)),
+        "axis-sign": _axis(lambda x, y, z: (x, y, np.abs(z))),
+        "axis-down": _axis(lambda x, y, z: (np.where(z > 0, x, 0), np.where(z > 0, y, 0), np.where(z > 0, z, 1))),
+        "degrees-as-radians": _angle(np.degrees),
+        "radians-as-degrees": _angle(np.radians),
+        "half-angle": _angle(lambda angle: angle / 2),
+        "double-angle": _angle(lambda angle: 2 * angle),
+        "angle-from-the-plane": _angle(lambda angle: np.pi / 2 - angle),
+        "small-angle": _angle(np.arctan),
+        "axis-not-normalised": _along(lambda v: (v * v).sum(axis=1)),
+        "axis-over-length": _along(lambda v: np.sqrt((v * v).sum(axis=1))),
+        "axis-over-sum": _along(lambda v: (v * v).sum(axis=1) / np.abs(v).sum(axis=1) ** 2),
+        "axis-over-greatest": _along(lambda v: (v * v).sum(axis=1) / np.abs(v).max(axis=1) ** 2),
+        "axis-in-float32": _axis(_in_float32),
+        "direction-in-float32": _axis(_direction_in_float32),
+        "axis-is-d": _put(d=lambda c: np.sqrt(c["axis_x"] ** 2 + c["axis_y"] ** 2 + c["axis_z"] ** 2)),
+        "tilted-b-d": _swapped("b", "d"),
+        "tilted-ball-around": _put(b=_larger, d=_larger),
+        "tilted-ball-within": _put(b=_smaller, d=_smaller),
+    },
+)
+"""The axis ignored, read, normalised or turned wrongly; other bodies. The simplest first."""
+
+SAME_TIME = 1e-9
+"""Two times of a way, from 0 to 1, that a rule and an implementation may compute differently."""
+
+_MOST_WAYS = 512
+"""Deciding a way exactly costs a millisecond, so only so many ways of a chunk are asked again."""
+
+
+def _touches(asked: Asked, place: int) -> Answers:
+    """Whether the spheroid is in contact at the start (place 4) or the end (7) of each way, with its axis if any."""
+    rows = asked.rows
+    ends = np.hstack([rows[:, :4], rows[:, place : place + 3], rows[:, 10:]])
+    return np.asarray(classify(np.ascontiguousarray(ends)) == 0, dtype=np.int8)
+
+
+def _timed(asked: Asked, hits: Answers, times: Floats | float) -> Answers:
+    """The hits; nothing where a hit is given at another time than these, which explains no time that is wrong."""
+    if asked.times is None:
+        return hits
+    with np.errstate(invalid="ignore"):
+        other = (hits == 1) & (asked.given == 1) & ~(np.abs(asked.times - times) <= SAME_TIME)
+    return np.where(other, SILENT, hits).astype(np.int8)
+
+
+def _at_both_ends(asked: Asked) -> Answers:
+    first = _touches(asked, 4)
+    return _timed(asked, np.maximum(first, _touches(asked, 7)), np.where(first == 1, 0.0, 1.0))
+
+
+def _between(asked: Asked) -> Answers:
+    """Clear where both ends are clear and the way between them is not."""
+    first, last = _touches(asked, 4), _touches(asked, 7)
+    missed = (asked.truth == 1) & (asked.given == 0) & (first == 0) & (last == 0)
+    return np.where(missed, 0, SILENT).astype(np.int8)
+
+
+def _other_ways(*order: int) -> Rule:
+    """The exact hits on ways with their columns in this order; nothing about tilted spheroids."""
 
     def rule(asked: Asked) -> Answers:
-        return np.full(len(asked.rows), answer, dtype=np.int8)
+        answers, times = silent(asked), np.zeros(len(asked.rows))
+        if asked.rows.shape[1] != len(WAYS.upright):
+            return answers
+        answers[:_MOST_WAYS], times[:_MOST_WAYS] = ways.exact(np.ascontiguousarray(asked.rows[:_MOST_WAYS, order]))
+        return _timed(asked, answers, times)
 
     return rule
 
 
-def _other_side(asked: Asked) -> Answers:
-    return asked.said((-asked.truth).astype(np.int8))
+def _where_time(asked: Asked, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
+    """The answer given where it is a hit, and right, and this holds of the way and the time of the answer."""
+    answers = silent(asked)
+    if asked.times is not None:
+        for place in np.flatnonzero((asked.given == 1) & (asked.truth == 1)).tolist():
+            if holds(tuple(asked.rows[place].tolist()), float(asked.times[place])):
+                answers[place] = 1
+    return answers
 
 
-def _horizontally(asked: Asked) -> Answers:
-    """The surface's radius at the centre's height, compared with r ± b."""
-    alpha, gamma, b, _, x, y, z = asked.rows.T
-    gap = np.hypot(x, y) - alpha * np.hypot(1, z / gamma)
-    return asked.said(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
+def _times_from_the_end(asked: Asked) -> Answers:
+    """The answer given where its time, counted from the end, is right."""
+    return _where_time(asked, lambda row, time: time_is_right(row, 1 - time, asked.criterion))
 
 
-def _centre(asked: Asked) -> Answers:
-    """The side of the centre."""
-    alpha, gamma, _, _, x, y, z = asked.rows.T
-    return asked.said(np.sign(np.hypot(x, y) - alpha * np.hypot(1, z / gamma)).astype(np.int8))
+def _times_off(asked: Asked, *, late: bool) -> Answers:
+    """The answer given where only its time is wrong, in this direction, by less than a thousandth of the way."""
+
+    def is_off(row: tuple[float, ...], time: float) -> bool:
+        off = time - passage_of(row).first_lower
+        return 0 < abs(off) < 1e-3 and (off > 0) is late and not time_is_right(row, time, asked.criterion)
+
+    return _where_time(asked, is_off)
 
 
-_SAME: tuple[tuple[str, str, str, Rule], ...] = (
-    ("always-0", "it answers 0 whatever the row", "let the answer depend on the row", always(0)),
-    ("always-1", "it answers 1 whatever the row", "let the answer depend on the row", always(1)),
-    ("always-minus-1", "it answers −1 whatever the row", "let the answer depend on the row", always(-1)),
-    (
-        "horizontal-gap",
-        "it compares the horizontal distance at the centre's height with b",
-        "the wall slopes: the nearest point is at another height",
-        _horizontally,
+WAY_SLIPS = (
+    *_slips("way", {"between-positions": _between}, Standing.PLACE),
+    *_slips(
+        "way",
+        {
+            "late-times": lambda asked: _times_off(asked, late=True),
+            "early-times": lambda asked: _times_off(asked, late=False),
+        },
+        Standing.ROUNDING,
     ),
-    ("centre-alone", "it tests the centre alone", "the spheroid has a size: compare with b and d", _centre),
-    ("sides-exchanged", "it exchanges exterior and interior", "exterior is +1, interior −1", _other_side),
+    *_slips(
+        "way",
+        {
+            "only-the-start": lambda asked: _timed(asked, _touches(asked, 4), 0.0),
+            "only-the-end": lambda asked: _timed(asked, _touches(asked, 7), 1.0),
+            "only-the-ends": _at_both_ends,
+            "way-x-z": _other_ways(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
+            "way-b-d": _other_ways(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
+            "way-level": _other_ways(0, 1, 2, 3, 4, 5, 6, 7, 8, 6),
+            "way-always-0": _always(0),
+            "way-always-1": lambda asked: _timed(asked, _always(1)(asked), 0.0),
+            "times-from-the-end": _times_from_the_end,
+        },
+    ),
 )
-
-
-def causes_told(told: Iterable[tuple[str, str, str, Rule]], subject: str, standing: Standing) -> tuple[Cause, ...]:
-    """Causes from their names, sentences, remedies and rules."""
-    return tuple(Cause(*each, standing=standing, subject=subject) for each in told)
-
-
-UPRIGHT_SLIPS = causes_told(
-    (*_SAME, *_ROWS, *_TERMS, *_coefficient_slips(), *_discriminant_slips()), "upright", Standing.EVERYWHERE
-)
-"""The simplest first."""
+"""Positions tested in place of the way, columns and times mistaken. The simplest first."""

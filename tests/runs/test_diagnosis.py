@@ -1,8 +1,11 @@
 """Causes of wrong answers: each is named where its rule gives those very answers, and nowhere else."""
 
+from importlib import resources
+
 import numpy as np
 import pytest
 
+from hypcheck import toml
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
@@ -11,7 +14,7 @@ from hypcheck.implementations.session import Answered
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import PLACES, SILENT, Asked, Standing
 from hypcheck.runs.diagnosis import CAUSES, Diagnosis, causes_of, diagnose, merged
-from hypcheck.runs.judge import Criterion
+from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import score
 from hypcheck.vectors.frozen import load
 
@@ -141,3 +144,18 @@ def test_diagnoses_can_be_merged_in_any_order():
     assert merged(parts) == merged(parts[::-1]) == merged([merged(parts[:2]), parts[2]])
     assert sum(each.cases for each in merged(parts).explained.values()) == len(cases)
     assert merged([]) == Diagnosis()
+
+
+def test_wrong_answers_that_no_rule_gives_at_all_are_counted_as_unexplained():
+    found = load("uniform")
+    clear = np.flatnonzero(found.positions == 1)[:1]
+    asked = Asked(found.rows[clear], found.positions[clear], np.array([7], dtype=np.int8), ORDINARY)
+    case = WrongCase(0, tuple(asked.rows[0].tolist()), 1, 7, Mistake.FALSE_CONTACT, Status.WRONG, -1.0)
+    diagnoses = {"uniform": diagnose(asked, [case], [], [((0, 0), "uniform-0000")])}
+    (counted,) = causes_of(diagnoses, [], ORDINARY, EVERYWHERE)
+    assert (counted.cause, counted.families, counted.worst.worst) == (None, {"uniform": 1}, case)
+
+
+def test_every_text_of_a_cause_belongs_to_one():
+    text = resources.files("hypcheck.runs").joinpath("causes.toml").read_text(encoding="utf-8")
+    assert toml.parsed(text, "causes.toml").keys() <= {cause.name for cause in CAUSES}

@@ -8,7 +8,7 @@ import pytest
 import hypcheck
 from hypcheck.runs.causes import SILENT, Asked
 from hypcheck.runs.judge import Criterion
-from hypcheck.runs.way_slips import WAY_SLIPS
+from hypcheck.runs.slips import WAY_SLIPS
 from tests.support.fractions_truth import exact_position
 
 SIZES = (2.0, 3.0, 0.25, 0.15)
