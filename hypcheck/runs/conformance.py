@@ -25,8 +25,8 @@ from hypcheck.runs.known_failures import no_longer_failing
 from hypcheck.runs.plan import ConformancePlan, known_failures_of, planned_cases, planned_size, rules_of, steps_of
 from hypcheck.runs.results import CasesResult, JudgingRules, merged_result
 from hypcheck.runs.resume import ProgressWriter, recorded_description
-from hypcheck.runs.retest import result_without_retest
-from hypcheck.runs.schedule import ImplementationOpener, RetestStep, RunState, TaskExecution, perform_steps
+from hypcheck.runs.retest import RetestStep, result_without_retest
+from hypcheck.runs.schedule import ImplementationOpener, RunState, TaskExecution, perform_steps
 from hypcheck.runs.tally import Tally
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 

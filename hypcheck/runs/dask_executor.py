@@ -37,7 +37,7 @@ from hypcheck.runs.fingerprint import (
     spec_on_worker,
 )
 from hypcheck.runs.results import JudgingRules
-from hypcheck.runs.schedule import ImplementationOpener, Task, TaskExecution, TaskResult, WorkerLost, perform_task
+from hypcheck.runs.schedule import ImplementationOpener, Step, TaskExecution, TaskResult, WorkerLost, perform_task
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -220,7 +220,7 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
             opened.close()
 
 
-def _perform_opened(name: str, task: Task, allowance: Allowance) -> TaskResult:
+def _perform_opened(name: str, task: Step, allowance: Allowance) -> TaskResult:
     """Perform a task of the run with that name on this worker.
 
     Raises InputError if the worker has other files of hypcheck than the machine where the run began.
@@ -244,7 +244,7 @@ class _OpenedImplementation:
         self._over = threading.Event()
         threading.Thread(target=self._close_idle, name="hypcheck-idle", daemon=True).start()
 
-    def perform(self, task: Task, allowance: Allowance) -> TaskResult:
+    def perform(self, task: Step, allowance: Allowance) -> TaskResult:
         """Perform a task with an idle implementation, or a new one."""
         with self._lock:
             implementation = self._idle.pop()[1] if self._idle else None

@@ -30,7 +30,7 @@ from hypcheck.runs.fingerprint import code_fingerprint
 from hypcheck.runs.results import JudgingRules
 from hypcheck.runs.schedule import (
     ImplementationOpener,
-    Task,
+    Step,
     TaskExecution,
     TaskResult,
     WorkerLost,
@@ -268,7 +268,7 @@ def _opened(
         yield
 
 
-def _perform_opened(task: Task, allowance: Allowance) -> TaskResult:
+def _perform_opened(task: Step, allowance: Allowance) -> TaskResult:
     return perform_task(task, *_OPENED.get(), allowance)
 
 

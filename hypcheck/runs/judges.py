@@ -50,7 +50,7 @@ def _window(row: Row, change: Fraction) -> tuple[Fraction | None, Fraction | Non
 
 
 class Judge:
-    """How the answers to a question are judged: to one about a position, by judge.py.
+    """How the answers to a question about positions are judged; PassageJudge has the same methods about ways.
 
     Answers are allowed ones or CANNOT_SAY, which is never wrong.
     """

@@ -67,15 +67,21 @@ is always the same in the last place is wrong in one of them."""
 
 
 @dataclass(frozen=True, slots=True)
-class RetestTask:
-    """Pending cases of some chunks, to be asked again together.
+class RetestStep:
+    """A step that asks pending cases again together: those of one part, of the chunks since the last round.
 
-    `number` counts the rounds of a run; `part` is the part of the round, of which there are up to PARTS.
+    `number` counts the rounds of a run. Part 0 holds the first chunks of families, and everything that is asked once in
+    a run. Parts 1 and 2 hold the other chunks, so that two processes are busy at the end of a run. `pending` are the
+    cases, which are known once all chunks before the step were asked.
     """
 
     number: int
-    part: int
-    pending: tuple[PendingRetest, ...]
+    part: int = 0
+    pending: tuple[PendingRetest, ...] = ()
+
+    def of(self, some: tuple[PendingRetest, ...]) -> RetestStep:
+        """The step with its part of all pending cases."""
+        return replace(self, pending=tuple(each for each in some if each.chunk.part == self.part))
 
 
 @dataclass(frozen=True)
@@ -96,7 +102,7 @@ ChangedAnswers = dict[int, tuple[Status, str]]
 """The status of cases with another answer than before, and the reason; TOLERATED if rounding can explain the change."""
 
 
-def retest(asked: RetestTask, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
+def retest(asked: RetestStep, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
     """Ask the pending cases again, and judge all of them; cases with a changed answer get the status of the change."""
     if not asked.pending:
         return CasesResult()

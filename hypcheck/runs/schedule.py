@@ -23,14 +23,13 @@ from hypcheck.runs.results import (
     CasesResult,
     InvalidRows,
     JudgingRules,
-    PendingRetest,
     ask_chunk,
     ask_invalid_rows,
     merged_result,
 )
-from hypcheck.runs.retest import RetestTask, retest
+from hypcheck.runs.retest import RetestStep, retest
 
-Task = CaseChunk | RetestTask | InvalidRows
+Step = CaseChunk | RetestStep | InvalidRows
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +69,13 @@ class TaskResult:
 
 
 def perform_task(
-    task: Task, implementation: Implementation | Crashed, rules: JudgingRules, allowance: Allowance
+    task: Step, implementation: Implementation | Crashed, rules: JudgingRules, allowance: Allowance
 ) -> TaskResult:
     """Perform a task within the allowance. The result depends only on the answers and the allowance."""
     implementation.allowance = allowance
     if isinstance(task, CaseChunk):
         result = ask_chunk(task, implementation, rules)
-    elif isinstance(task, RetestTask):
+    elif isinstance(task, RetestStep):
         result = retest(task, implementation, rules)
     else:
         result = ask_invalid_rows(task, implementation)
@@ -99,25 +98,6 @@ MAX_WORKERS_LOST = 3
 """The number of workers that one task may kill, and of workers in a row that may die before they are ready."""
 
 _TICK = 1.0
-
-
-@dataclass(frozen=True, slots=True)
-class RetestStep:
-    """A step that retests the pending cases of the chunks since the last round: those of one part.
-
-    Part 0 holds the first chunks of families, and everything that is asked once in a run. Parts 1 and 2 hold the other
-    chunks, so that two processes are busy at the end of a run.
-    """
-
-    number: int
-    part: int = 0
-
-    def of(self, some: tuple[PendingRetest, ...]) -> RetestTask:
-        """The task of the step, given all pending cases."""
-        return RetestTask(self.number, self.part, tuple(each for each in some if each.chunk.part == self.part))
-
-
-Step = CaseChunk | RetestStep | InvalidRows
 
 
 @dataclass(frozen=True)
@@ -178,7 +158,7 @@ class TaskExecution:
     max_rows: int | None
     rules: JudgingRules
 
-    def crashed(self, task: Task, allowance: Allowance, reason: str) -> TaskResult:
+    def crashed(self, task: Step, allowance: Allowance, reason: str) -> TaskResult:
         """The result of a task if all of its cases crash."""
         return perform_task(task, Crashed(self.max_rows, reason, allowance), self.rules, allowance)
 
@@ -211,7 +191,7 @@ def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunStat
     while queue.look_ahead(state):
         for entry in queue.due(state):
             allowance = state.allowance(execution.limits)
-            entry.future = execution.executor.submit(execution.function, task=entry.task, allowance=allowance)
+            entry.future = execution.executor.submit(execution.function, task=entry.step, allowance=allowance)
         if (found := queue.take()) is None:
             queue.wait()
             continue
@@ -227,12 +207,13 @@ def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunStat
 class _QueuedStep:
     """A step whose result is not merged yet.
 
-    `task` is None until it can be made, `future` until it is submitted. `deaths` are the workers that died of it, which
-    makes it a suspect; `alone` says that it was submitted as the only task.
+    `ready` says that it can be submitted: a retest can once its cases are known. `future` is None until it is.
+    `deaths` are the workers that died of it, which makes it a suspect; `alone` says that it was submitted as the only
+    step.
     """
 
     step: Step
-    task: Task | None = None
+    ready: bool
     future: Future[TaskResult] | None = None
     deaths: int = 0
     alone: bool = False
@@ -274,17 +255,17 @@ class _TaskQueue:
         self._settle(state.allowance(self._execution.limits))
         steps = 1 if self._one_by_one(state) else self._execution.workers * STEPS_AHEAD
         while len(self._entries) < steps and (step := next(self._coming, None)) is not None:
-            self._entries.append(_QueuedStep(step, None if isinstance(step, RetestStep) else step))
+            self._entries.append(_QueuedStep(step, not isinstance(step, RetestStep)))
         for entry in takewhile(lambda each: isinstance(each.step, RetestStep), self._entries):
-            if isinstance(entry.step, RetestStep) and entry.task is None:  # all of its cases are pending only now
-                entry.task = entry.step.of(state.total.pending)
+            if isinstance(entry.step, RetestStep) and not entry.ready:  # all of its cases are pending only now
+                entry.step, entry.ready = entry.step.of(state.total.pending), True
         return bool(self._entries)
 
     def due(self, state: RunState) -> list[_QueuedStep]:
         """The first entries whose tasks can be submitted now; a suspect only if no other task runs."""
         suspects = [entry for entry in self._entries if entry.deaths]
         most = 1 if suspects or self._one_by_one(state) else self._execution.workers * TASKS_PER_WORKER
-        ready = [entry for entry in suspects[:1] or self._entries if entry.future is None and entry.task is not None]
+        ready = [entry for entry in suspects[:1] or self._entries if entry.future is None and entry.ready]
         due = ready[: max(0, most - len(self._running))]
         for entry in due:
             entry.alone = bool(suspects)
@@ -318,9 +299,9 @@ class _TaskQueue:
                 )
             return
         entry.deaths += lost.deaths
-        if entry.alone and entry.deaths >= MAX_WORKERS_LOST and entry.task is not None:
+        if entry.alone and entry.deaths >= MAX_WORKERS_LOST:
             last = f", {lost.last}" if lost.last else ""
             reason = f"{entry.deaths} {lost.workers} ended while they asked these cases{last}"
             entry.future = Future()
-            entry.future.set_result(self._execution.crashed(entry.task, allowance, reason))
+            entry.future.set_result(self._execution.crashed(entry.step, allowance, reason))
             entry.deaths = 0

@@ -20,7 +20,8 @@ from hypcheck.runs.executors import execution_here, execution_in_pool
 from hypcheck.runs.known_failures import KnownFailure
 from hypcheck.runs.results import CasesResult, merged_result
 from hypcheck.runs.resume import restored_result, restored_state, saved_result, saved_state
-from hypcheck.runs.schedule import ImplementationOpener, RetestStep, RunState, perform_steps, perform_task
+from hypcheck.runs.retest import RetestStep
+from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps, perform_task
 from tests.runs import crashing
 from tests.runs.crashing import steps_of
 

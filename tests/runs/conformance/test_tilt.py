@@ -24,7 +24,7 @@ from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.plan import ConformancePlan, invalid_rows, planned_cases, planned_size, steps_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest
 from hypcheck.runs.resume import restored_result, saved_result
-from hypcheck.runs.retest import RetestTask, retest
+from hypcheck.runs.retest import RetestStep, retest
 from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
@@ -221,7 +221,7 @@ def test_pending_cases_of_upright_and_tilted_spheroids_are_retested_together():
     chunks = [CaseChunk("uniform", 1, 0, 20), CaseChunk(LEANING, 1, 0, 20)]
     some = tuple(PendingRetest(chunk, np.arange(20), cases_of_chunk(chunk).positions) for chunk in chunks)
     subject = AskedAgain()
-    result = retest(RetestTask(0, 0, some), subject, JudgingRules(Criterion(), Domain()))
+    result = retest(RetestStep(0, 0, some), subject, JudgingRules(Criterion(), Domain()))
     assert subject.widths == {10}
     assert result.retest.asked == 40
     assert {family: dict(each.counts) for family, each in result.tallies.items()} == {
