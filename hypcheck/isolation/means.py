@@ -55,11 +55,6 @@ class Means:
         """Whether nothing that `--isolate on` promises is missing; namespaces do all that Landlock does."""
         return self.namespaces and self.seccomp
 
-    @property
-    def sentence(self) -> str:
-        """The means, and the reason for what is missing, as the part of a sentence."""
-        return isolation_text(self.names, self.missing)
-
 
 def isolation_text(means: Sequence[str], missing: Sequence[str]) -> str:
     """The end of "it is": isolated by these means, and why others are missing."""

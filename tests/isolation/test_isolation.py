@@ -23,13 +23,14 @@ from hypcheck.implementations.session import FaultError, Limits, StartError
 from hypcheck.implementations.worker_session import WORKER_MODULES
 from hypcheck.isolation import means
 from hypcheck.isolation.launch import Isolation
-from hypcheck.isolation.means import Means, NotIsolatedError
+from hypcheck.isolation.means import Means, NotIsolatedError, isolation_text
 
 HERE = means.available()
 WITHOUT_NAMESPACES = Means(False, HERE.landlock, HERE.seccomp, ("no namespaces: a test",))
 
-needs_namespaces = pytest.mark.skipif(not HERE.whole, reason=f"a program here is {HERE.sentence}")
-needs_landlock = pytest.mark.skipif(HERE.landlock < 6, reason=f"a program here is {HERE.sentence}")
+SAID = isolation_text(HERE.names, HERE.missing)
+needs_namespaces = pytest.mark.skipif(not HERE.whole, reason=f"a program here is {SAID}")
+needs_landlock = pytest.mark.skipif(HERE.landlock < 6, reason=f"a program here is {SAID}")
 both = pytest.mark.parametrize(
     "ways",
     [
@@ -202,7 +203,7 @@ def test_an_isolated_implementation_that_does_not_start_gets_a_hint_about_isolat
     monkeypatch.setattr("hypcheck.isolation.launch.means_of", lambda mode: HERE)
     code = "open('/forged', 'w')"
     if not HERE.names:
-        pytest.skip(f"a program here is {HERE.sentence}")
+        pytest.skip(f"a program here is {SAID}")
     with pytest.raises(StartError, match=r"; it was isolated, and --isolate off starts it without$"):
         open_implementation("command:" + json.dumps([sys.executable, "-I", "-S", "-c", code]), Limits())
 
@@ -308,7 +309,10 @@ def test_a_program_is_not_isolated_if_isolation_is_off():
     process = Process((sys.executable, "-I", "-S", "-c", "import os; print(os.getppid()); input()"), limits)
     assert int(line_of(process)) == os.getpid()
     process.kill()
-    assert limits.isolation.means.sentence == "not isolated (--isolate is off)"
+    assert (
+        isolation_text(limits.isolation.means.names, limits.isolation.means.missing)
+        == "not isolated (--isolate is off)"
+    )
 
 
 def test_isolation_on_is_refused_with_the_reason_if_the_system_lacks_namespaces(monkeypatch):
@@ -327,7 +331,7 @@ def test_verify_prints_and_records_how_an_implementation_is_isolated(tmp_path, m
     monkeypatch.chdir(tmp_path)
     spec = f"command:{sys.executable} -I -S -c pass"
     assert main(["verify", spec, "--count", "1", "--families", "ring", "--out", "out", "--isolate", "auto"]) == 5
-    assert capsys.readouterr().err.splitlines()[0] == f"hypcheck: verifying {spec}; {HERE.sentence}"
+    assert capsys.readouterr().err.splitlines()[0] == f"hypcheck: verifying {spec}; {SAID}"
     header = json.loads((tmp_path / "out" / "record.jsonl").read_text().splitlines()[0])
     assert header["isolation"] == {"mode": "auto", "means": [*HERE.names], "missing": [*HERE.missing]}
     assert header["options"]["limits"]["isolate"] == "auto"

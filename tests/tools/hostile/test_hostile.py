@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from hypcheck.isolation.means import Means, available
+from hypcheck.isolation.means import Means, available, isolation_text
 from tests.tools.hostile.running import command_fate
 from tests.tools.hostile.table import ATTACKS
 
@@ -22,10 +22,14 @@ QUICK = ("write_memory_of_judge", "kill_judge", "forge_summary_after_the_end", "
 def cases():
     for attack in ATTACKS:
         late = () if attack.name in QUICK else pytest.mark.thorough
-        lacks = pytest.mark.skipif(not HERE.whole, reason=f"a program here is {HERE.sentence}")
+        lacks = pytest.mark.skipif(
+            not HERE.whole, reason=f"a program here is {isolation_text(HERE.names, HERE.missing)}"
+        )
         yield pytest.param(attack, HERE, attack.told, id=attack.name, marks=[lacks, *([late] if late else [])])
         if attack.alone is not None:
-            lacks = pytest.mark.skipif(HERE.landlock < 6, reason=f"a program here is {HERE.sentence}")
+            lacks = pytest.mark.skipif(
+                HERE.landlock < 6, reason=f"a program here is {isolation_text(HERE.names, HERE.missing)}"
+            )
             marks = [lacks, pytest.mark.thorough]
             yield pytest.param(attack, ALONE, attack.alone, id=f"{attack.name} by Landlock", marks=marks)
 
