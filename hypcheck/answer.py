@@ -16,7 +16,7 @@ from typing import Any
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.pair import TILTED_COLUMNS, UPRIGHT, Pair, Position
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
-from hypcheck.truth import exact
+from hypcheck.truth import exact, nearest_exact
 from hypcheck.truth.certificate import Certificate, Point, check_certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
@@ -97,10 +97,8 @@ def answer(pair: Pair | TiltedPair) -> Answer | TiltedAnswer:
 
 
 def _upright_answer(pair: Pair) -> Answer:
-    from hypcheck.truth.nearest_exact import nearest  # noqa: PLC0415 - loads mpmath
-
     decision = exact.decide(pair.lengths)
-    measured = nearest(pair)
+    measured = nearest_exact.nearest(pair)
     require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
     return Answer(pair, decision, measured.clearance, proved(pair, decision))
 

@@ -29,6 +29,7 @@ from hypcheck.record.measurements import BoundingLine, ConvergenceLine, PlacesLi
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Mistake
 from hypcheck.truth import float_filter
+from hypcheck.truth.nearest import clearances
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.random_pairs import Sizes, sizes
 
@@ -228,8 +229,6 @@ def bounding_lines(plan: BenchPlan) -> Iterator[BoundingLine]:
 
 def bounding_line(rows: Rows, answer: Callable[[Rows], Answers], shape: str, workload: str) -> BoundingLine:
     """The answers of a shape that replaces the spheroid, for each ratio d/b."""
-    from hypcheck.truth.nearest import clearances  # noqa: PLC0415 - loads mpmath
-
     overlap: list[tuple[float, int, int, float | None]] = []
     false_contact = false_clear = 0
     for ratio in BOUNDING_RATIOS:

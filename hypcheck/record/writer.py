@@ -38,6 +38,9 @@ from hypcheck.record.progress import ProgressLine
 from hypcheck.record.reader import Record
 from hypcheck.version import VERSION
 
+if sys.platform != "win32":
+    import fcntl
+
 
 class FolderInUseError(InputError):
     """Another run is writing to the folder."""
@@ -60,16 +63,13 @@ def folder_locked(folder: Path) -> Iterator[None]:
 
 
 def _locked(place: int) -> bool:
-    """Take the lock of an open folder; returns whether it was free."""
-    if sys.platform != "win32":
-        import fcntl  # noqa: PLC0415 - there is none on Windows
-
-        try:
-            fcntl.flock(place, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-        except OSError:
-            return True
+    """Take the lock of an open folder; returns whether it was free, or the system has none."""
+    try:
+        fcntl.flock(place, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
     return True
 
 

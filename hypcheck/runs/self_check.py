@@ -134,10 +134,9 @@ def _done(task: Callable[[], object]) -> Any:  # noqa: ANN401 - of each task ano
 
 def derivation() -> tuple[Sequence[EquationCheck], Sequence[Proof]]:
     """The checked equations of the paper, and the proofs of the formulas."""
-    from hypcheck.derivation.printed_equations import check_equations  # noqa: PLC0415 - loads sympy, in one process
-    from hypcheck.derivation.proofs import prove_formulas  # noqa: PLC0415 - as above
+    from hypcheck.derivation import printed_equations, proofs  # noqa: PLC0415 - loads sympy, in one process
 
-    return check_equations(), prove_formulas()
+    return printed_equations.check_equations(), proofs.prove_formulas()
 
 
 CASES = 400

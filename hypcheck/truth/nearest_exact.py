@@ -22,9 +22,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
-from typing import cast
-
-import mpmath
+from functools import cache
+from typing import Any, cast
 
 from hypcheck.geometry.pair import Pair, Position
 
@@ -104,8 +103,15 @@ def _reduced(first: int, second: int, third: int) -> tuple[int, int, int]:
     return first >> shift, second >> shift, third >> shift
 
 
-_WIDE = mpmath.MPContext()  # our own context, so that mpmath's precision stays what it is; not changed after this
-_WIDE.prec = 64  # and an exponent without limits
+@cache
+def _without_range() -> Any:  # noqa: ANN401 - mpmath has no types
+    """A context of 64 bits and an exponent without limits: our own, so that mpmath's precision stays what it is."""
+    import mpmath  # noqa: PLC0415 - only for lengths beyond the range of the iteration in float64
+
+    context = mpmath.MPContext()
+    context.prec = 64
+    return context
+
 
 _FLOAT_RANGE = 120
 """Binary orders within which A, B, P, Q must lie for the iteration in float64: then nothing overflows in it."""
@@ -121,15 +127,16 @@ def start(squares: SquaredLengths) -> tuple[bool, int, int]:
         tau, sigma = _iterate(squares, lambda n, d: n / d, math.sqrt)
         fraction, exponent = math.frexp(min(tau, sigma))
     else:
-        tau, sigma = _iterate(squares, lambda n, d: _wide(n) / _wide(d), _WIDE.sqrt)
-        fraction, exponent = _WIDE.frexp(min(tau, sigma))
+        context = _without_range()
+        tau, sigma = _iterate(squares, lambda n, d: _wide(n) / _wide(d), context.sqrt)
+        fraction, exponent = context.frexp(min(tau, sigma))
     return tau <= sigma, int(fraction * 2**64), exponent - 64
 
 
 def _wide(number: int) -> float:
     """The number, to 80 bits before it is rounded: mpmath takes off the zeros that a long one ends in 8 at a time."""
     excess = max(0, number.bit_length() - 80)
-    return cast("float", _WIDE.ldexp(number >> excess, excess))
+    return cast("float", _without_range().ldexp(number >> excess, excess))
 
 
 def _fits_float(squares: SquaredLengths) -> bool:
