@@ -37,7 +37,7 @@ from hypcheck.implementations.method import Answers, ByScene, Method, by_scene, 
 from hypcheck.implementations.ways import WAY_SOLVERS, height_of_ways, way_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
-from hypcheck.truth.tilted import batch
+from hypcheck.truth import float_filter
 from hypcheck.truth.tilted.pair import TiltedPair
 
 ALGEBRAIC = ("coefficients", "hessian", "shared", "local-maximum", "dual")
@@ -238,7 +238,7 @@ def tilted_contenders() -> Iterable[Contender]:
         "fast-numpy", "numpy", "certified", "the fast path in numpy",
         numpy_kernel.positions, numpy_kernel.positions_of_scene, note=CERTIFIED, timed=8192,
     )  # fmt: skip
-    yield _ours("exact-oracle", "python", "exact", _ORACLE, batch.positions, judged=3000, timed=96)
+    yield _ours("exact-oracle", "python", "exact", _ORACLE, float_filter.positions, judged=3000, timed=96)
     yield _ours("nearest-point", "python", "exact", _NEAREST, _nearest, judged=240, timed=16, note=_TELLS)
     yield _ours(
         TILTED_REFERENCE, "numpy", "algebraic", "eigenvectors by numpy.linalg.eigh, then the dual function, float64",

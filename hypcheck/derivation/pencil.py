@@ -14,7 +14,7 @@ for the symbols of their names. Arguments that only say what a letter depends on
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 
@@ -119,11 +119,11 @@ def scaled(surface: sympy.Expr) -> sympy.Expr:
     return surface.subs({X: SMALL_B * X, Y: SMALL_B * Y, Z: SMALL_D * Z}, simultaneous=True)
 
 
-def quadric_matrix(surface: sympy.Expr, coordinates: Sequence[sympy.Symbol] = (X, Y, Z)) -> sympy.Matrix:
+def quadric_matrix(surface: sympy.Expr) -> sympy.Matrix:
     """The symmetric 4×4 matrix M with (x, y, z, 1) M (x, y, z, 1)ᵀ equal to the surface's equation."""
     w = sympy.Dummy("w")
-    homogeneous = sympy.expand(w**2 * surface.subs({v: v / w for v in coordinates}, simultaneous=True))
-    variables = (*coordinates, w)
+    homogeneous = sympy.expand(w**2 * surface.subs({v: v / w for v in (X, Y, Z)}, simultaneous=True))
+    variables = (X, Y, Z, w)
     return sympy.Matrix(4, 4, lambda i, j: sympy.diff(homogeneous, variables[i], variables[j]) / 2)
 
 

@@ -249,13 +249,8 @@ def program_of(name: str, inputs: tuple[str, ...], *listings: str) -> Program:
     return Program(name, inputs, tuple(step for text in listings for step in steps_of(text)))
 
 
-def listing_of(program: Program) -> str:
-    """The program's steps in the written form; `steps_of` reads them back."""
-    return "".join(f"{line_of(step)}\n" for step in program.steps)
-
-
 def line_of(step: Step) -> str:
-    """One step in the written form."""
+    """One step in the written form; `steps_of` reads it back."""
     sign = KNOWN[step.operation].sign
     if step.operation == "select":
         condition, left, right = step.arguments

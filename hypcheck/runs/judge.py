@@ -25,7 +25,6 @@ from hypcheck.implementations.description import PRECISIONS, QUESTIONS, UNIT_ROU
 from hypcheck.truth import backward_error, exact, float_filter
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.batch import positions as tilted_positions
 from hypcheck.truth.tilted.pair import TiltedLengths
 
 DEFAULT_TOLERANCE = Fraction(8)
@@ -137,9 +136,7 @@ def is_wrong(truth: Positions, answers: NDArray[np.int8], question: str) -> NDAr
 
 def exact_positions(rows: Rows) -> Positions:
     """The exact positions of valid rows, (n, 7) or (n, 10): int8 (n,)."""
-    if rows.shape[1] == len(COLUMNS):
-        return float_filter.positions(rows)
-    return tilted_positions(rows)
+    return float_filter.positions(rows)
 
 
 def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:

@@ -26,6 +26,9 @@ from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision
 
+DIGITS = 4
+"""Significant digits of a backward error."""
+
 
 def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
     """The corner of the box of relative changes up to `change` that is nearest to `toward`; farthest, if that is < 0.
@@ -55,8 +58,8 @@ def makes_right(lengths: Lengths, truth: Position, answer: Position, change: Fra
     return exact.position(corner(lengths, -change, truth)) is not truth
 
 
-def backward_error(lengths: Lengths, truth: Decision, answer: Position, digits: int = 4) -> float:
-    """The infimum of the relative changes that make `answer` right, rounded up to `digits` significant digits.
+def backward_error(lengths: Lengths, truth: Decision, answer: Position) -> float:
+    """The infimum of the relative changes that make `answer` right, rounded up to DIGITS significant digits.
 
     0 when the answer is right, or the limit of right answers (`truth` is a tangency from that side); inf when no
     change up to 1 is enough, which only the answer "exterior" for a centre on the axis can be.
@@ -65,7 +68,7 @@ def backward_error(lengths: Lengths, truth: Decision, answer: Position, digits: 
     if not math.isfinite(exponent):
         return 0.0 if exponent < 0 else math.inf
     low, high = Fraction(2) ** int(exponent), Fraction(2) ** (int(exponent) + 1)
-    for _ in range(math.ceil(digits * math.log2(10))):
+    for _ in range(math.ceil(DIGITS * math.log2(10))):
         middle = (low + high) / 2
         if makes_right(lengths, truth.position, answer, middle):
             high = middle

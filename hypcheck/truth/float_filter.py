@@ -44,9 +44,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import exact
+from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.tilted.pair import TiltedLengths
 
 LINE_MARGIN = 64 * 2.0**-53
 SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
@@ -145,10 +147,14 @@ Squares = tuple[Floats, ...]
 
 
 def positions(rows: Rows) -> Positions:
-    """The exact position of every row, int8 (n,). Raises InputError about the first invalid row.
+    """The exact position of every row, (n, 7) or (n, 10): int8 (n,). Raises InputError about the first invalid row.
 
-    Rows whose columns lie in memory one behind the other (the transpose of a (7, n) array) are decided fastest.
+    Rows of seven whose columns lie in memory one behind the other (the transpose of a (7, n) array) are decided
+    fastest; each row of ten is decided on its own.
     """
+    if rows.shape[1] != len(COLUMNS):
+        require_valid(rows)
+        return np.array([tilted_exact.position(TiltedLengths.of(row)) for row in rows.tolist()], dtype=np.int8)
     result = np.empty(len(rows), dtype=np.int8)
     for start in range(0, len(rows), CHUNK):
         result[start : start + CHUNK] = _chunk(rows[start : start + CHUNK], start)

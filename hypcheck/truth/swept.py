@@ -58,15 +58,12 @@ class Steps:
         return self.pieces[-1][1]
 
 
-def steps(journey: Journey, width_bits: int | None = WIDTH_BITS) -> Steps | None:
-    """The steps of a way that begins clear, or None where they decide nothing.
-
-    The enclosure of the first contact is 2^−width_bits of it; as wide as it happens to be where that is None.
-    """
+def steps(journey: Journey) -> Steps | None:
+    """The steps of a way that begins clear, or None where they decide nothing."""
     pencil, time = journey.pencil, Fraction(0)
     pieces: list[Piece] = []
     contact = Fraction(1) if _crosses(journey, Fraction(1)) else None
-    while len(pieces) < MOST_STEPS and not _narrow(time, contact, width_bits):
+    while len(pieces) < MOST_STEPS and not _narrow(time, contact):
         multiplier, step = _step(journey, pencil, time)
         if step is None or time + step >= 1:
             return Steps((*pieces, (multiplier, Fraction(1))), None)
@@ -80,10 +77,8 @@ def steps(journey: Journey, width_bits: int | None = WIDTH_BITS) -> Steps | None
     return Steps(tuple(pieces), contact) if contact is not None and pieces else None
 
 
-def _narrow(time: Fraction, contact: Fraction | None, width_bits: int | None) -> bool:
-    if contact is None:
-        return False
-    return width_bits is None or (contact - time) * 2**width_bits <= time
+def _narrow(time: Fraction, contact: Fraction | None) -> bool:
+    return contact is not None and (contact - time) * 2**WIDTH_BITS <= time
 
 
 def _crosses(journey: Journey, time: Fraction) -> bool:
@@ -174,14 +169,14 @@ def passage(
     return by_steps(journey) or by_roots(journey)
 
 
-def by_steps(journey: Journey, width_bits: int | None = WIDTH_BITS) -> Passage | None:
+def by_steps(journey: Journey) -> Passage | None:
     """What happens on a way, by steps; None where they decide nothing, or where it begins with a tangency."""
     here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
     if not journey.moves:
         return None
     if here is Position.CONTACT:
         return None if journey.tangent(Fraction(0)) else Passage(here, there, (Fraction(0), Fraction(0)))
-    found = steps(journey, width_bits)
+    found = steps(journey)
     if found is None:
         return None
     return Passage(here, there, None if found.contact is None else (found.until, found.contact))

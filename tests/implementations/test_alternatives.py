@@ -30,7 +30,6 @@ from hypcheck.implementations.builtin import builtin, builtin_methods
 from hypcheck.implementations.method import on_rows, on_scene
 from hypcheck.kernel import numpy_kernel
 from hypcheck.truth import float_filter
-from hypcheck.truth.tilted import batch
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
 
 BY_PAIRS = [name for name, each in FORMULAS.items() if each.classifies_pairs]
@@ -145,7 +144,7 @@ LEANING = ("tilted-uniform", "tilted-tower")
 @pytest.mark.parametrize("method", [by_eigenvectors, by_roots])
 def test_numpy_methods_for_tilted_rows_are_right_away_from_contact(method, name):
     rows = TILTED_FAMILIES[name].rows(3, 300)
-    assert (method(rows) == batch.positions(rows)).all()
+    assert (method(rows) == float_filter.positions(rows)).all()
 
 
 @pytest.mark.parametrize("method", [by_eigenvectors, by_roots])

@@ -14,7 +14,7 @@ from hypcheck.kernel.choice import choice
 from hypcheck.kernel.classify import kernel
 from hypcheck.kernel.scalar import exact_position
 from hypcheck.scene.model import QUESTIONS
-from hypcheck.truth.tilted.batch import positions
+from hypcheck.truth.float_filter import positions
 from hypcheck.vectors import frozen
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
 

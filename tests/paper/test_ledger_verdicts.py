@@ -148,7 +148,11 @@ TRUE_STATEMENTS = [
     statements.REMARK_6,
     statements.REPAIRED_3,
     statements.REPAIRED_5,
-    statements.ALL_SIZES,
+    Statement(
+        "the position is that of the coefficient rule for all sizes",
+        lambda _: True,
+        lambda facts: statements.rule_of_all_sizes(facts) == facts.position,
+    ),
     statements.CONTACT_IF_TALL,
 ]
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import invalid, with_axis
-from hypcheck.truth.tilted.batch import positions
+from hypcheck.truth.float_filter import positions
 from hypcheck.vectors import frozen
 
 hypcheck = {"name": "leaning", "tilt": True, "refuses": True}

@@ -11,7 +11,8 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import TILTED_COLUMNS, Position
-from hypcheck.truth.tilted.batch import invalid, positions
+from hypcheck.geometry.rows import invalid
+from hypcheck.truth.float_filter import positions
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, case_id, family_of, is_extreme, parse_case_id, select
 from hypcheck.vectors.family import BLOCK
 

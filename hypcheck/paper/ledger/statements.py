@@ -146,11 +146,6 @@ REPAIRED_5 = Statement(
         and (facts.delta > 0 or contact(facts) or ring(facts))
     ),
 )
-ALL_SIZES = Statement(
-    "the position is that of the coefficient rule for all sizes",
-    lambda _: True,
-    lambda facts: rule_of_all_sizes(facts) == facts.position,
-)
 
 
 def _valid(where: Condition, text: str) -> Statement:

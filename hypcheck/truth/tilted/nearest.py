@@ -86,9 +86,9 @@ def position(pair: TiltedPair) -> Position | None:
     return None
 
 
-def multiplier(row: Sequence[float | Fraction], bits: int = STAGES[0]) -> Fraction:
+def multiplier(row: Sequence[float | Fraction]) -> Fraction:
     """About the λ at which φ is largest, for ten valid numbers; a hint, of which nothing is proved."""
-    return _fraction(_Spectrum(row, bits, enclosed=False).optimum())
+    return _fraction(_Spectrum(row, STAGES[0], enclosed=False).optimum())
 
 
 def _position(at: mpf, lower: mpf, upper: mpf) -> Position | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.truth import float_filter
-from hypcheck.truth.tilted.batch import positions as tilted_positions
+from hypcheck.truth.float_filter import positions as tilted_positions
 from hypcheck.vectors.families import TILTED_FAMILIES
 from tests.tools.attack import places, tilted_places
 from tests.tools.attack.places import Scene

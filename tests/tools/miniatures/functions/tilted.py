@@ -1,6 +1,6 @@
 """Always right about spheroids whose axis may point anywhere, and refuses what is no row."""
 
-from hypcheck.truth.tilted.batch import positions
+from hypcheck.truth.float_filter import positions
 
 hypcheck = {"name": "tilted", "tilt": True, "refuses": True}
 
