@@ -69,25 +69,33 @@ def positions_beside(sizes: Rows, centres: Rows, origins: Rows, movers: Rows | N
     result = classify(np.concatenate([sizes, place], axis=1))
     some = np.flatnonzero(beyond | ~(error == 0).all(axis=1))
     if len(some):
-        result[some], unsettled = _between(sizes[some], place[some], np.abs(error[some]).sum(axis=1), beyond[some])
+        result[some], unsettled = _between(sizes[some], place[some], np.abs(error[some]).sum(axis=1))
         upright = np.broadcast_to(UPRIGHT, (len(sizes), 3))
         movers = upright if movers is None else movers
         _exactly(some[unsettled], result, sizes, centres, origins, movers, upright)
     return result
 
 
-def _between(sizes: Rows, place: Rows, lost: Floats, beyond: Mask) -> tuple[Positions, Mask]:
+def _between(sizes: Rows, place: Rows, lost: Floats) -> tuple[Positions, Mask]:
     """The positions about rounded differences that lost so much, and a mask of those that it leaves open."""
-    with np.errstate(all="ignore"):
-        stretch = lost / sizes[:, 2:].min(axis=1) * (1 + MARGIN) + ROUNDED
-        larger, smaller = sizes.copy(), sizes.copy()
-        larger[:, 2:] *= (1 + stretch)[:, None]
-        smaller[:, 2:] *= (1 - stretch)[:, None]
-    fits = np.isfinite(larger).all(axis=1) & (smaller > LEAST).all(axis=1) & ~beyond
-    outer, inner = (classify(np.concatenate([each[fits], place[fits]], axis=1)) for each in (larger, smaller))
+    larger, smaller, fits = _larger_and_smaller(sizes[:, 2:], lost)
+    outer, inner = (
+        classify(np.concatenate([sizes[fits, :2], each[fits], place[fits]], axis=1)) for each in (larger, smaller)
+    )
     found, unsettled = np.zeros(len(sizes), np.int8), ~fits
     found[fits], unsettled[fits] = outer, (outer == Position.CONTACT) & (inner != Position.CONTACT)
     return found, unsettled
+
+
+def _larger_and_smaller(semi_axes: Rows, lost: Floats) -> tuple[Floats, Floats, Mask]:
+    """The semi-axes (n, 2), longer and shorter by what differences of centres lost, and where both are as they must be.
+
+    That is nowhere where a difference has overflowed: then nobody knows what it lost, which is NaN.
+    """
+    with np.errstate(all="ignore"):
+        stretch = np.where(lost == 0, 0.0, lost / semi_axes.min(axis=1) * (1 + MARGIN) + ROUNDED)
+        larger, smaller = semi_axes * (1 + stretch)[:, None], semi_axes * (1 - stretch)[:, None]
+    return larger, smaller, np.asarray((smaller > LEAST).all(axis=1) & (larger < GREATEST).all(axis=1))
 
 
 def position_beside(
@@ -272,16 +280,11 @@ def hits_beside(bodies: Bodies, body: Indices, mover: Mover, axis: Point | None,
     origins, shapes = bodies.origins[body], bodies.shapes[body]
     low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
     leaves = (low < bodies.heights[body, 0]) | (high > bodies.heights[body, 1])
-    radii, leaning = (mover.b, mover.d), np.empty((len(body), 0))
-    if axis is not None:
-        leaning = np.broadcast_to(axis, (len(body), 3))
+    leaning = np.empty((len(body), 0)) if axis is None else np.broadcast_to(axis, (len(body), 3))
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
         lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
-        stretch = np.where(lost == 0, 0.0, lost / min(radii) * (1 + MARGIN) + ROUNDED)
-        larger, smaller = np.outer(1 + stretch, radii), np.outer(1 - stretch, radii)
-        fits = lost < GREATEST  # NaN where a difference overflows
-        fits &= (smaller > LEAST).all(axis=1) & (larger < GREATEST).all(axis=1)
+    larger, smaller, fits = _larger_and_smaller(np.broadcast_to((mover.b, mover.d), (len(body), 2)), lost)
     hits = np.zeros(len(body), np.bool_)
     open_ways = ~fits
     asked = np.flatnonzero(fits)
