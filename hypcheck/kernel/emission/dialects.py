@@ -1,13 +1,20 @@
-"""How each language writes an emitted kernel: constants, conditions, answers, tables, comments, statements."""
+"""How each language writes an emitted kernel: templates, constants, conditions, answers, tables, comments, statements.
+
+In a template ${name} in a line becomes its text; alone on a line, its lines, indented as the mark was.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from importlib import resources
 
 from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.kernel.printing.languages import statements_in
+
+_MARK = re.compile(r"^( *)\$\{(\w+)\}$|\$\{(\w+)\}", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -45,6 +52,21 @@ class Dialect:
     def statements(self, program: Program, wanted: tuple[str, ...], precision: str) -> tuple[str, ...]:
         """The needed part of the program, in numbers of the format; a statement for each step."""
         return statements_in(self.name, program, wanted, number=self.number_of(precision))
+
+    def filled(self, name: str, parts: Mapping[str, str]) -> str:
+        """The language's template of that name with its marks filled in: what a part says is never taken for a mark.
+
+        Raises KeyError for a mark that has no part.
+        """
+        path = resources.files("hypcheck.kernel.emission").joinpath("templates", f"{name}.{self.extension}.tmpl")
+
+        def part(match: re.Match[str]) -> str:
+            indent, alone, within = match.groups()
+            if within:
+                return parts[within]
+            return "\n".join(f"{indent}{line}" if line else "" for line in parts[alone].splitlines())
+
+        return _MARK.sub(part, path.read_text(encoding="utf-8"))
 
     def say(self, phrase: str, **words: object) -> str:
         """A phrase with its words filled in; {place} is the setting's number and {number} the type of numbers."""
@@ -165,19 +187,7 @@ _PYTHON = {
 }
 
 
-_HAS_DIRECTION = """
-{before}{integer} has_direction(const double axis[3])
-{{
-    const double largest = {std}fmax({std}fmax({std}fabs(axis[0]), {std}fabs(axis[1])), {std}fabs(axis[2]));
-    const double spread = (axis[0] - axis[0]) + (axis[1] - axis[1]) + (axis[2] - axis[2]);
-    return largest > 0 && spread == 0;
-}}
-"""
-
 _C_AXIS = {
-    "check": _HAS_DIRECTION.format(
-        before="/* Whether an axis is one: of finite numbers, not 0, 0, 0. */\nstatic ", integer="int", std=""
-    ),
     "checked": " && has_direction(axis)",
     "checked_row": " && has_direction(row + 7)",
     "axis": ", const double axis[3]",
@@ -185,19 +195,7 @@ _C_AXIS = {
     "row": ", row + 7",
     "header": "#include <float.h>\n",
 }
-_CPP_AXIS = {
-    **_C_AXIS,
-    "check": _HAS_DIRECTION.format(
-        before="// Whether an axis is one: of finite numbers, not 0, 0, 0.\n", integer="bool", std="std::"
-    ),
-}
 _RUST_AXIS = {
-    "check": """
-/// Whether an axis is one: of finite numbers, not 0, 0, 0.
-fn has_direction(axis: &[f64; 3]) -> bool {
-    axis.iter().all(|part| part.is_finite()) && axis.iter().any(|part| *part != 0.0)
-}
-""",
     "checked": ".filter(|_| has_direction(axis))",
     "axis": ", axis: &[f64; 3]",
     "given": ", axis",
@@ -209,12 +207,6 @@ fn has_direction(axis: &[f64; 3]) -> bool {
     "read": "let axis = &*axis.cast::<[f64; 3]>();\n    ",
 }
 _JAVASCRIPT_AXIS = {
-    "check": """
-/** Whether an axis is one: of finite numbers, not 0, 0, 0. */
-function has_direction(axis) {
-    return axis.every(Number.isFinite) && axis.some((part) => part !== 0);
-}
-""",
     "checked": " && has_direction([axisX, axisY, axisZ])",
     "axis": ", axis",
     "given": ", axis",
@@ -222,12 +214,6 @@ function has_direction(axis) {
     "names": ", axisX, axisY, axisZ",
 }
 _PYTHON_AXIS = {
-    "check": """
-
-def has_direction(axis: tuple[float, float, float]) -> bool:
-    \"\"\"Whether an axis is one: of finite numbers, not 0, 0, 0.\"\"\"
-    return all(map(math.isfinite, axis)) and any(axis)
-""",
     "checked": " or not has_direction((axis_x, axis_y, axis_z))",
     "axis": ", axis: tuple[float, float, float]",
     "given": ", axis",
@@ -247,7 +233,7 @@ DIALECTS = {
     dialect.name: dialect
     for dialect in (
         Dialect("c", "c", " * ", _C_NUMBERS, _C_LIKE, _C_AXIS, _C_SUFFIXES, exports=True, by_block=True),
-        Dialect("cpp", "cpp", "// ", _C_NUMBERS, _CPP, _CPP_AXIS, _C_SUFFIXES, exports=True, by_block=True),
+        Dialect("cpp", "cpp", "// ", _C_NUMBERS, _CPP, _C_AXIS, _C_SUFFIXES, exports=True, by_block=True),
         Dialect("rust", "rs", "//! ", _RUST_NUMBERS, _RUST, _RUST_AXIS, exports=True),
         Dialect("javascript", "mjs", "// ", _JAVASCRIPT_NUMBERS, _JAVASCRIPT, _JAVASCRIPT_AXIS),
         Dialect("python", "py", "", {"float64": "float"}, _PYTHON, _PYTHON_AXIS),

@@ -19,7 +19,7 @@ import numpy as np
 from hypcheck.derivation.program import Program, needed
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel.emission.dialects import Dialect
+from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_asked
 from hypcheck.kernel.specialise.first_stages import CENTRE, Thresholds
 from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, LeaningSearch
@@ -212,55 +212,22 @@ PASSED_OVER = 15
 OPEN = 3
 """The code of a centre that is not decided yet."""
 
-_MANY = """static void many_{place}(size_t n, const double *all_x, const double *all_y, const double *all_z{axis},
-                         int8_t *positions)
-{{
-    int pass_over = 0;
-    for (size_t start = 0; start < n; start += {block}) {{
-        const double *xs = all_x + start, *ys = all_y + start, *zs = all_z + start;
-        const size_t count = n - start < {block} ? n - start : {block};
-        {number} code[{block}];
-        if (pass_over > 0) {{
-            for (size_t i = 0; i < count; i++) code[i] = {open};
-        }} else {{
-            for (size_t i = 0; i < count; i++) {{
-{first}
-            }}
-        }}
-        int left = any_open(code, count);
-{second}        for (size_t i = 0; i < count; i++) positions[start + i] = (int8_t)code[i];
-        if (left) {{
-            for (size_t i = 0; i < count; i++)
-                if (code[i] == {open})
-                    positions[start + i] = (int8_t)position_{place}({centre}{given});
-        }}
-    }}
-}}"""
-
-_SECOND = """        if (left) {{
-            pass_over = pass_over > 0 ? pass_over - 1 : {passed};
-            for (size_t i = 0; i < count; i++) {{
-{body}
-            }}
-            left = any_open(code, count);
-        }}
-"""
-
 
 def batch_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> str:
     """The function for many centres of the setting at this place."""
-    batch = _Batch(plan, stages, dialect)
+    batch, number = _Batch(plan, stages, dialect), dialect.number_of(plan.format.name)
     second = "\n".join(batch.second())
-    number = dialect.number_of(plan.format.name)
-    words = {"place": place, "block": BLOCK, "number": number, "open": batch.code(OPEN)}
-    words["centre"] = ", ".join(f"({number}){name}s[i]" for name in "xyz")
-    words |= {name: dialect.axis[name] if plan.free else "" for name in ("axis", "given")}
-    loop = _SECOND.format(body=_indented(second), passed=PASSED_OVER) if second else ""
-    return _MANY.format(**words, first=_indented("\n".join(batch.first())), second=loop)
-
-
-def _indented(text: str) -> str:
-    return "\n".join(f"                {line}" if line else "" for line in text.splitlines())
+    words = {
+        "place": str(place),
+        "number": number,
+        "block": str(BLOCK),
+        "open": batch.code(OPEN),
+        "centre": ", ".join(f"({number}){name}s[i]" for name in "xyz"),
+        **{name: dialect.axis[name] if plan.free else "" for name in ("axis", "given")},
+        "first": "\n".join(batch.first()),
+        "second": DIALECTS["c"].filled("many_open", {"passed": str(PASSED_OVER), "body": second}) if second else "",
+    }
+    return DIALECTS["c"].filled("many", words).rstrip()
 
 
 class _Batch(_Statements):

@@ -1,17 +1,16 @@
 """A kernel from a plan, in one of the languages: a template, its constants, its description, and printed statements.
 
-In a template ${name} in a line becomes its text; alone on a line, its lines, indented as the mark was. The description
-is what a kernel says of itself: a text of JSON, or an object of its language, a line for each setting. The search for a
-spheroid that leans is in double-double: its programs are printed as calls of functions that its template has.
+The description is what a kernel says of itself: a text of JSON, or an object of its language, a line for each setting.
+The search for a spheroid that leans is in double-double: its programs are printed as calls of functions that its
+template has.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from importlib import resources
 from typing import Any
 
 from hypcheck.derivation.program import Program
@@ -27,37 +26,6 @@ from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import escaped
 from hypcheck.scene.model import FREE
 from hypcheck.version import VERSION
-
-_ALONE = re.compile(r"^( *)\$\{(\w+)\}$", re.MULTILINE)
-_WITHIN = re.compile(r"\$\{(\w+)\}")
-
-
-def template(name: str) -> str:
-    """The text of a template of this package."""
-    return resources.files("hypcheck.kernel.emission").joinpath("templates", name).read_text(encoding="utf-8")
-
-
-def filled(text: str, parts: Mapping[str, str]) -> str:
-    """The text with its marks filled in, once: what a part says is never taken for a mark.
-
-    Raises KeyError for a mark that has no part.
-    """
-
-    def block(match: re.Match[str]) -> str:
-        indent, lines = match.group(1), parts[match.group(2)].splitlines()
-        return "\n".join(f"{indent}{line}" if line else "" for line in lines)
-
-    pieces = []
-    end = 0
-    for match in _ALONE.finditer(text):
-        pieces += [_inline(text[end : match.start()], parts), block(match)]
-        end = match.end()
-    return "".join([*pieces, _inline(text[end:], parts)])
-
-
-def _inline(text: str, parts: Mapping[str, str]) -> str:
-    return _WITHIN.sub(lambda match: parts[match.group(1)], text)
-
 
 LONGEST = 4095
 """Characters in a string that every compiler of ISO C takes."""
@@ -132,7 +100,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "header": header(plan, command, dialect.comment),
         "prefix": prefix,
         "number": number,
-        "search": _searches_text(plan, dialect) + (dialect.axis["check"].lstrip("\n") + "\n" if plan.free else ""),
+        "search": _searches_text(plan, dialect) + (dialect.filled("direction", {}) + "\n" if plan.free else ""),
         **_axis_parts(plan, dialect),
         "imports": "\n".join(
             ["import math"] * bool(_searched(plan) or plan.free) + ["from collections.abc import Iterable"]
@@ -146,7 +114,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
         "description": description_in_language(description(plan, language), language),
     }
-    return filled(template(f"kernel.{dialect.extension}.tmpl"), parts).strip("\n") + "\n"
+    return dialect.filled("kernel", parts).strip("\n") + "\n"
 
 
 def description(plan: ScenePlan, language: str) -> dict[str, Any]:
@@ -227,7 +195,7 @@ def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
         return search_text(plan, dialect)
     names = ["leaning", "free"] if searches[0].free else ["leaning"]
     parts = _leaning_parts(dialect)
-    return "".join(filled(template(f"{name}.{dialect.extension}.tmpl"), parts) for name in names) + "\n"
+    return "".join(dialect.filled(name, parts) for name in names) + "\n"
 
 
 def search_text(plan: ScenePlan, dialect: Dialect) -> str:
@@ -252,7 +220,7 @@ def search_text(plan: ScenePlan, dialect: Dialect) -> str:
         "steps": str(GEOMETRIC_STEPS + plan.format.bits + 3),
         "geometric_steps": str(GEOMETRIC_STEPS),
     }
-    return filled(template(f"search.{dialect.extension}.tmpl"), parts) + "\n"
+    return dialect.filled("search", parts) + "\n"
 
 
 _CALLS = {

@@ -19,7 +19,7 @@ from typing import Any
 from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import PREFIX, filled, require_prefix, template
+from hypcheck.kernel.emission.kernel import PREFIX, require_prefix
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
@@ -56,6 +56,7 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
     require_method(method)
     require_prefix(prefix, language)
     dialect, whole = DIALECTS[language], method == EXACT
+    source = DIALECTS["c"] if language == "cpp" else dialect  # one text is C and C++
     number, (program, values) = dialect.number_of("float64"), _FLOATS[method]
     constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
     parts = {
@@ -70,18 +71,14 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
     }
     if whole:
         steps = "\n".join(_whole(INTEGERS, language))
-        parts["integers"] = filled(template(f"integers.{_template(language)}.tmpl"), {"steps": steps})
-    return filled(template(f"pair.{_template(language)}.tmpl"), parts)
+        parts["integers"] = source.filled("integers", {"steps": steps})
+    return source.filled("pair", parts)
 
 
 def _last(method: str, language: str) -> str:
     if method != EXACT:
         return "CANNOT_SAY"
     return "exactly(row)" if language == "rust" else "exactly(alpha, gamma, b, d, x, y, z)"
-
-
-def _template(language: str) -> str:
-    return "c" if language == "cpp" else DIALECTS[language].extension
 
 
 def _head(method: str, command: Sequence[str]) -> Iterator[str]:

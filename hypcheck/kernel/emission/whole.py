@@ -30,10 +30,8 @@ from hypcheck.kernel.emission.kernel import (
     SETTING,
     description,
     description_in_language,
-    filled,
     require_prefix,
     search_text,
-    template,
 )
 from hypcheck.kernel.emission.plan_text import whole_header
 from hypcheck.kernel.scene_index import bodies_of, reaches
@@ -173,59 +171,13 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
         "region": _region(scene, language),
         "question": str(NUMBER_OF[scene.question]),
         "yes": str(POSITION_OF.get(scene.question, NO_POSITION)),
-        "of_parts": _of_parts(scene, language, dialect.number_of(plan.format.name)),
+        "of_parts": _of_parts(scene, plan, dialect),
         "constants": ", ".join(f"constants_{place}" for place in range(len(shapes.texts))) + ",",
         "description": description_in_language(description(plan, language), language),
     }
-    return filled(template(f"whole.{dialect.extension}.tmpl"), parts).strip("\n") + "\n"
+    return dialect.filled("whole", parts).strip("\n") + "\n"
 
 
-_C_PARTS = """for (int k = 0; k < PARTS; k++) {
-    const double turn = heading * RADIAN + arms[k][1];
-    const double dx = x + arms[k][0] * cos(turn) - places[m][0], dy = y + arms[k][0] * sin(turn) - places[m][1];
-    const int position = position_of(settings_of[m][k + 1], (NUMBER)dx, (NUMBER)dy, (NUMBER)(z - places[m][2]));
-    if (position == 0 || (k && position != found)) return 0;
-    found = position;
-}"""
-
-_PARTS = {
-    "c": _C_PARTS,
-    "cpp": _C_PARTS.replace("cos(", "std::cos(")
-    .replace("sin(", "std::sin(")
-    .replace("(NUMBER)dx", "static_cast<NUMBER>(dx)")
-    .replace("(NUMBER)dy", "static_cast<NUMBER>(dy)")
-    .replace("(NUMBER)(", "static_cast<NUMBER>("),
-    "javascript": """for (let k = 0; k < PARTS; k++) {
-    const turn = heading * RADIAN + arms[k][1];
-    const dx = x + arms[k][0] * Math.cos(turn) - places[m][0], dy = y + arms[k][0] * Math.sin(turn) - places[m][1];
-    const position = position_of(settings_of[m][k + 1], round(dx), round(dy), round(z - places[m][2]));
-    if (position === 0 || (k && position !== found)) return 0;
-    found = position;
-}""",
-    "python": """for k, (arm, angle) in enumerate(arms):
-    turn = heading * RADIAN + angle
-    dx, dy = x + arm * math.cos(turn) - places[m][0], y + arm * math.sin(turn) - places[m][1]
-    position = position_of(settings_of[m][k + 1], dx, dy, z - places[m][2])
-    if position == 0 or (k and position != found):
-        return 0
-    found = position""",
-    "rust": """/// The position that all parts have in common beside a hyperboloid; else contact.
-fn of_parts(m: usize, x: f64, y: f64, z: f64, heading: f64) -> i8 {
-    let mut found = 0;
-    for k in 0..PARTS {
-        let turn = heading * RADIAN + arms[k][1];
-        let dx = x + arms[k][0] * turn.cos() - places[m][0];
-        let dy = y + arms[k][0] * turn.sin() - places[m][1];
-        let dz = z - places[m][2];
-        let position = position_of(settings_of[m][k + 1], dx as NUMBER, dy as NUMBER, dz as NUMBER);
-        if position == 0 || (k > 0 && position != found) {
-            return 0;
-        }
-        found = position;
-    }
-    found
-}""",
-}
 _NO_PARTS = {
     "c": "(void)m; (void)x; (void)y; (void)z; (void)heading;",
     "javascript": "",
@@ -235,12 +187,13 @@ _NO_PARTS = {
 _NO_PARTS["cpp"] = _NO_PARTS["c"]
 
 
-def _of_parts(scene: SceneModel, language: str, number: str) -> str:
+def _of_parts(scene: SceneModel, plan: ScenePlan, dialect: Dialect) -> str:
     """What a kernel does where the mover has contact."""
     if not scene.mover.parts:
-        return _NO_PARTS[language]
-    text = _PARTS[language].replace("PARTS", str(len(scene.mover.parts)))
-    return text.replace("RADIAN", repr(radians(1.0))).replace("NUMBER", number)
+        return _NO_PARTS[dialect.name]
+    number = dialect.number_of(plan.format.name)
+    words = {"parts": str(len(scene.mover.parts)), "radian": repr(radians(1.0)), "number": number}
+    return dialect.filled("parts", words)
 
 
 def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
