@@ -16,7 +16,7 @@ from hypcheck.derivation.proofs import proofs_of, prove
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.points import Point, facts, facts_in_order
-from hypcheck.paper.ledger.procedures import quadcopters
+from hypcheck.paper.ledger.statements import quadcopters
 from hypcheck.truth import exact
 from tests.derivation.test_proofs import mutants
 

@@ -13,8 +13,7 @@ from hypcheck.cli.main import main
 from hypcheck.derivation.chain_book import chains
 from hypcheck.errors import Exit
 from hypcheck.paper.derive import selection
-from hypcheck.paper.derive.selection import entries_of
-from hypcheck.paper.ledger.book import entries
+from hypcheck.paper.ledger.book import entries, entries_of
 
 
 def told(capsys, *arguments):

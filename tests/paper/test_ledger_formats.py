@@ -17,7 +17,8 @@ from hypcheck.derivation.program import Operations
 from hypcheck.derivation.walk import walk
 from hypcheck.paper.derive import FORMATS, PARTS, as_json, erratum, latex, markdown, text
 from hypcheck.paper.derive.latex import UnknownCharacterError, formula, sentence
-from hypcheck.paper.derive.selection import WIDTH, Selection, broken, columns, paragraph
+from hypcheck.paper.derive.selection import Selection
+from hypcheck.paper.derive.text import WIDTH, broken, columns, paragraph
 from hypcheck.paper.ledger.book import entries
 from hypcheck.version import VERSION
 from tests.support.records import violations

@@ -14,8 +14,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger import statements as say
 from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.points import Point, counterexample, facts
-from hypcheck.paper.ledger.procedures import Quadcopter, program_says, quadcopters, refused_though_inside
-from hypcheck.paper.ledger.statements import PROCEDURE_2A
+from hypcheck.paper.ledger.statements import PROCEDURE_2A, Quadcopter, program_says, quadcopters, refused_though_inside
 
 
 @cache

@@ -18,11 +18,11 @@ from hypcheck.paper.derive.selection import (
     COSTS_EXPLAINED,
     FAILS,
     Selection,
-    broken,
     cost_cells,
     details,
     verdict,
 )
+from hypcheck.paper.derive.text import broken
 from hypcheck.paper.ledger.entry import LedgerEntry
 
 _LETTERS = {"α": r"\alpha", "γ": r"\gamma", "λ": r"\lambda", "μ": r"\mu", "φ": r"\varphi", "ρ": r"\rho", "θ": r"\theta"}

@@ -39,7 +39,7 @@ from hypcheck.paper.ledger.entry import (
     without_counterexample,
 )
 from hypcheck.paper.ledger.points import Condition, Statement
-from hypcheck.paper.ledger.procedures import errs
+from hypcheck.paper.ledger.statements import errs
 
 
 class Claim(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -42,8 +42,11 @@ from hypcheck.paper.ledger.points import (
     rational,
     with_c2,
 )
-from hypcheck.paper.ledger.procedures import refused_for_a_zero_coefficient, refused_though_the_hull_is_in_contact
-from hypcheck.paper.ledger.statements import rule_of_all_sizes
+from hypcheck.paper.ledger.statements import (
+    refused_for_a_zero_coefficient,
+    refused_though_the_hull_is_in_contact,
+    rule_of_all_sizes,
+)
 from hypcheck.proofs.build import pattern_table
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.roots import PATTERNS, RootPlace, admissible, pattern_of
