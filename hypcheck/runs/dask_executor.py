@@ -70,11 +70,11 @@ def execution_on_cluster(
     name = f"hypcheck-{uuid.uuid4().hex}"
     files, module = files_to_ship(opener.spec), module_sha256(opener.spec)
     opener = replace(opener, declared=implementation.declared)
-    job = ClusterJob(name, opener, rules, files, module, code_fingerprint())
+    plugin = ImplementationPlugin(name, opener, rules, files, module, code_fingerprint())
     workers = max(1, sum(client.nthreads().values()))
     with DaskExecutor(client) as executor:
         try:
-            call_with_timeout(CONNECT, lambda: client.register_plugin(ImplementationPlugin(job)))
+            call_with_timeout(CONNECT, lambda: client.register_plugin(plugin))
         except TimeoutError:
             raise executor.lost(f"it did not answer within {CONNECT} s") from None
         function = partial(_perform_opened, name)
@@ -185,12 +185,12 @@ class DaskExecutor(Executor):
                     self._fail(future, self.lost(trouble))
 
 
-@dataclass(frozen=True)
-class ClusterJob:
-    """What every worker gets once: a name for the run, what to open, and how to judge.
+@dataclass(eq=False)
+class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package that is not checked
+    """The plugin that dask gives to all workers, present and later ones: it holds the implementations of one run.
 
-    `files` are the files that its SPEC names, `module` is the sha256 of its Python module, `fingerprint` that of
-    hypcheck's own files.
+    On each worker these are as many as it performs tasks at the same time. `name` is that of the run. `files` are the
+    files that the SPEC names, `module` is the sha256 of its Python module, `fingerprint` that of hypcheck's own files.
     """
 
     name: str
@@ -200,48 +200,14 @@ class ClusterJob:
     module: str
     fingerprint: str
 
-
-class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package that is not checked
-    """The plugin that dask gives to all workers, present and later ones."""
-
-    def __init__(self, job: ClusterJob) -> None:
-        self.job = job
-        self.name = job.name
-
     def setup(self, worker: Worker) -> None:
         """Prepare the worker; the first task opens the implementation."""
         keep_freed_memory()
-        _OPENED[self.name] = _OpenedImplementation(self.job, worker.address, Path(worker.local_directory))
-
-    def teardown(self, worker: Worker) -> None:  # noqa: ARG002 - dask's signature
-        """Close the implementations of the worker."""
-        opened = _OPENED.pop(self.name, None)
-        if opened is not None:
-            opened.close()
-
-
-def _perform_opened(name: str, task: Step, allowance: Allowance) -> TaskResult:
-    """Perform a task of the run with that name on this worker.
-
-    Raises InputError if the worker has other files of hypcheck than the machine where the run began.
-    """
-    if name not in _OPENED:  # its setup failed
-        raise InputError(f"worker {get_worker().address} {OTHER_FILES}")
-    return _OPENED[name].perform(task, allowance)
-
-
-class _OpenedImplementation:
-    """The implementations of one run on one worker: as many as it performs tasks at the same time."""
-
-    def __init__(self, job: ClusterJob, worker: str, home: Path) -> None:
-        self._job = job
-        self._worker = worker
-        self._home = home
+        self._worker, self._home = worker.address, Path(worker.local_directory)
         self._folder: Path | None = None
         self._opener: ImplementationOpener | None = None
         self._idle: list[tuple[float, Implementation]] = []
-        self._lock = threading.Lock()
-        self._over = threading.Event()
+        self._lock, self._over = threading.Lock(), threading.Event()
         threading.Thread(target=self._close_idle, name="hypcheck-idle", daemon=True).start()
 
     def perform(self, task: Step, allowance: Allowance) -> TaskResult:
@@ -252,26 +218,25 @@ class _OpenedImplementation:
         if implementation is None:
             implementation = opener.open()
         try:
-            done = perform_task(task, implementation, self._job.rules, allowance)
+            done = perform_task(task, implementation, self.rules, allowance)
         except BaseException:
             implementation.kill()
             raise
         with self._lock:
             self._idle.append((time.monotonic(), implementation))
         if self._over.is_set():
-            self.close()
+            self._close()
         return done
 
     def _opener_here(self) -> ImplementationOpener:
-        job = self._job
-        spec = job.opener.spec
-        if code_fingerprint() != job.fingerprint:
+        spec = self.opener.spec
+        if code_fingerprint() != self.fingerprint:
             raise InputError(f"worker {self._worker} {OTHER_FILES}")
-        if job.module:
-            require_same_sha256(f"the module of {spec}", job.module, module_sha256(spec), self._worker)
+        if self.module:
+            require_same_sha256(f"the module of {spec}", self.module, module_sha256(spec), self._worker)
         try:
             self._folder = Path(tempfile.mkdtemp(prefix="hypcheck-", dir=self._home))
-            return replace(job.opener, spec=spec_on_worker(spec, job.files, self._worker, self._folder))
+            return replace(self.opener, spec=spec_on_worker(spec, self.files, self._worker, self._folder))
         except OSError as error:
             reason = system_reason(error)
             raise InputError(f"worker {self._worker} cannot write into its folder {self._home}: {reason}") from None
@@ -284,8 +249,11 @@ class _OpenedImplementation:
             for _, implementation in old:
                 implementation.close()
 
-    def close(self) -> None:
-        """End all implementations now, and remove the files that were sent here."""
+    def teardown(self, worker: Worker) -> None:  # noqa: ARG002 - dask's signature
+        """End all implementations of the worker now, and remove the files that were sent there."""
+        self._close()
+
+    def _close(self) -> None:
         self._over.set()
         with self._lock:
             idle, self._idle = self._idle, []
@@ -295,5 +263,13 @@ class _OpenedImplementation:
             shutil.rmtree(self._folder, ignore_errors=True)
 
 
-_OPENED: dict[str, _OpenedImplementation] = {}
-"""By the name of the run: a task runs in any free thread, and finds the implementations of its worker here."""
+def _perform_opened(name: str, task: Step, allowance: Allowance) -> TaskResult:
+    """Perform a task of the run with that name on this worker.
+
+    Raises InputError if the worker has other files of hypcheck than the machine where the run began.
+    """
+    worker = get_worker()
+    plugin: ImplementationPlugin | None = worker.plugins.get(name)
+    if plugin is None:  # the worker could not load it
+        raise InputError(f"worker {worker.address} {OTHER_FILES}")
+    return plugin.perform(task, allowance)
