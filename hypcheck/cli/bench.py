@@ -87,7 +87,6 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
 
     from hypcheck.bench import run
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
-    from hypcheck.isolation.means import isolation_text
     from hypcheck.processes import usable_processors
     from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
@@ -123,7 +122,6 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     unchanged = FileSnapshot(files) if files is not None else None
 
     title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
-    title += "" if isolation is None else f"; {isolation_text(isolation.means, isolation.missing)}"
     settings = in_effect(context, unused=("question",))  # it chooses methods, and replaces no declaration
     provenance = Provenance(files, unchanged.program if unchanged else None, settings, isolation)
     with (

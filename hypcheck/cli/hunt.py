@@ -19,13 +19,16 @@ import click
 
 from hypcheck.cli.options import (
     LARGEST_SEED,
-    Command,
+    PRECISION,
+    QUESTION,
+    TOLERANCE,
     IntegerOption,
     NumberOption,
     OutputPath,
     limits_of,
     print_isolation,
     with_limits,
+    with_options,
 )
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import print_file_settings
@@ -33,33 +36,39 @@ from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 from hypcheck.messages import counted, printable
 
 if TYPE_CHECKING:
+    from hypcheck.implementations.implementation import Implementation
     from hypcheck.runs.hunt import Hunt, HuntTarget
 
 
-IMPLEMENTATION_OPTIONS = (
-    click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"),
-    click.option(
-        "--precision", metavar="FORMAT", help="The precision whose unit roundoff is u.  [default: as declared]"
-    ),
+about_one_implementation = with_options(
+    QUESTION,
+    PRECISION,
     click.option("--domain", metavar="JSON", help="The domain to ask in, instead of the declared domain."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
-    click.option(
-        "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
-    ),
+    TOLERANCE,
     with_limits,
 )
-"""How an implementation is opened and judged: options of the commands that ask a single one."""
-
-
-def about_one_implementation(command: Command) -> Command:
-    """The command with IMPLEMENTATION_OPTIONS, for `opened`."""
-    for option in reversed(IMPLEMENTATION_OPTIONS):
-        command = option(command)
-    return command
+"""A decorator of commands that hunt in a single implementation: how it is opened and judged, for `_target`."""
 
 
 @contextmanager
-def opened(
+def _opened(
+    spec: str, question: str | None, precision: str | None, domain: str | None, limits: dict[str, Any]
+) -> Iterator[Implementation]:
+    """The running implementation of `spec`, described as the options say. Raises InputError, StartError."""
+    from hypcheck.implementations.description import parse_domain
+    from hypcheck.implementations.implementation import open_implementation
+
+    claimed = None if domain is None else parse_domain(domain)
+    print_file_settings()
+    bounds = limits_of(**limits)
+    with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
+        print_isolation(spec, bounds)
+        yield implementation
+
+
+@contextmanager
+def _target(
     spec: str,
     *,
     question: str | None,
@@ -70,8 +79,6 @@ def opened(
     **limits: Any,  # noqa: ANN401 - those of with_limits
 ) -> Iterator[HuntTarget]:
     """The running implementation of `spec`, judged as the options say. Raises InputError, StartError."""
-    from hypcheck.implementations.description import parse_domain
-    from hypcheck.implementations.implementation import open_implementation
     from hypcheck.runs.hunt import target_of
     from hypcheck.runs.judge import DEFAULT_TOLERANCE
 
@@ -79,11 +86,7 @@ def opened(
     options = [(f"--{name}", value) for name, value in said.items() if value is not None]
     if tolerance != DEFAULT_TOLERANCE:
         options.append(("--tolerance", repr(tolerance)))
-    claimed = None if domain is None else parse_domain(domain)
-    print_file_settings()
-    bounds = limits_of(**limits)
-    with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
-        print_isolation(spec, bounds)
+    with _opened(spec, question, precision, domain, limits) as implementation:
         yield target_of(
             spec,
             implementation,
@@ -136,13 +139,13 @@ def hunt(
     seed: int,
     show: int,
     out: Path | None,
-    **subject: Any,  # noqa: ANN401 - IMPLEMENTATION_OPTIONS
+    **subject: Any,  # noqa: ANN401 - about_one_implementation
 ) -> None:
     """Hunt until the budget is spent, and print the findings; after an interrupt, those until then."""
     from hypcheck.runs.hunt import Hunt, HuntPlan
 
     plan = HuntPlan(60.0 if budget is None and queries is None else budget, queries, seed)
-    with opened(spec, **subject) as target:
+    with _target(spec, **subject) as target:
         if out is not None:
             from hypcheck.vectors.freezing import require_keepable
 
@@ -241,7 +244,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     from hypcheck.vectors.showing import way_answer_lines
 
     given = case_of(case)
-    with opened(spec, **subject) as target:
+    with _target(spec, **subject) as target:
         run = simplify(replace(target, extreme=is_extreme(given.name)), given)
     for line in minimised_lines(run):
         click.echo(printable(line))
@@ -277,12 +280,10 @@ Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC canno
 @click.argument("spec")
 @click.option("--formula", metavar="NAME", help="The formula to show.  [default: its own, or one with the same answer]")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
-@click.option("--precision", metavar="FORMAT", help="The precision whose unit roundoff is u.  [default: as declared]")
-@click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]")
+@PRECISION
+@QUESTION
 @click.option("--domain", metavar="JSON", help="The domain where it must be right, instead of the declared domain.")
-@click.option(
-    "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
-)
+@TOLERANCE
 @with_limits
 @click.pass_context
 def replay(
@@ -299,8 +300,6 @@ def replay(
     **limits: Any,  # noqa: ANN401 - those of with_limits
 ) -> None:
     """Replay, and print the result."""
-    from hypcheck.implementations.description import parse_domain
-    from hypcheck.implementations.implementation import open_implementation
     from hypcheck.runs.intermediates import require_formula
     from hypcheck.runs.judge import Criterion
     from hypcheck.runs.replay import case_of
@@ -309,11 +308,7 @@ def replay(
 
     asked = case_of(case)
     require_formula(formula)
-    claimed = None if domain is None else parse_domain(domain)
-    print_file_settings()
-    bounds = limits_of(**limits)
-    with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
-        print_isolation(spec, bounds)
+    with _opened(spec, question, precision, domain, limits) as implementation:
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
         done = run(asked, implementation, criterion, formula)

@@ -127,7 +127,29 @@ PASS_ENV = click.option(
     "--pass-env", metavar="NAMES", help="Environment variables that the isolated implementation sees."
 )
 
-_LIMITS = (
+QUESTION = click.option(
+    "--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"
+)
+PRECISION = click.option(
+    "--precision", metavar="FORMAT", help="The precision whose unit roundoff is u.  [default: as declared]"
+)
+TOLERANCE = click.option(
+    "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
+)
+
+
+def with_options(*options: Callable[[Command], Command]) -> Callable[[Command], Command]:
+    """A decorator of commands that adds these options in their order."""
+
+    def add(command: Command) -> Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return add
+
+
+with_limits = with_options(
     click.option(
         "--startup-timeout",
         type=_SECONDS,
@@ -151,17 +173,10 @@ _LIMITS = (
     ISOLATE,
     PASS_ENV,
 )
-
+"""A decorator of commands: the options that limit an implementation's processes, for `limits_of`."""
 
 LIMITS = ("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env")
 """The parameters of limits_of that are options."""
-
-
-def with_limits(command: Command) -> Command:
-    """The command with the options that limit an implementation's processes, for `limits_of`."""
-    for option in reversed(_LIMITS):
-        command = option(command)
-    return command
 
 
 def limits_of(

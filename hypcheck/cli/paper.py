@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from hypcheck.cli.commands import CommandGroup
-from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath
+from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath, with_options
 from hypcheck.cli.progress import watched
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import printable
@@ -78,8 +78,6 @@ def _write(lines: Iterable[str], output: str) -> None:
             file.write(f"{line}\n".encode())
 
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-
 SEED = click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
 OUT = click.option("--out", type=OutputPath(), help="A folder for the JSON and the pictures.")
 CONTINUOUS = click.option("--continuous", is_flag=True, help="Also decide exactly what happens between the positions.")
@@ -93,12 +91,8 @@ FORMAT = click.option(
 )
 SHOW = click.option("--show-scene", is_flag=True, help="Print the file of a shipped scene, for you to change, and end.")
 
-
-def common(command: Command) -> Command:
-    """The options that both simulations have."""
-    for option in (SHOW, FORMAT, OUT, CONTINUOUS, SEED):
-        command = option(command)
-    return command
+common = with_options(SEED, CONTINUOUS, OUT, FORMAT, SHOW)
+"""A decorator of commands: the options that both simulations have."""
 
 
 @click.group(

@@ -53,10 +53,10 @@ def recording(
 ) -> Iterator[Recording]:
     """Write the record of a run to `out` while the block lasts; then write the reports, and print the summary.
 
-    When the run begins, its `title` and its settings are printed, and reports of an earlier run are removed; the record
-    of the earlier run stays until the new one is complete. An interrupted run leaves a truncated record with reports.
-    `carried` are lines of the run that this one resumes; its record may be the one in `out`. Raises InputError if `out`
-    cannot be written, or another run is writing there.
+    When the run begins, its `title`, how implementations are isolated and its settings are printed, and reports of an
+    earlier run are removed; the record of the earlier run stays until the new one is complete. An interrupted run
+    leaves a truncated record with reports. `carried` are lines of the run that this one resumes; its record may be the
+    one in `out`. Raises InputError if `out` cannot be written, or another run is writing there.
     """
     from hypcheck.record import Recorder
     from hypcheck.record.reader import FILE, GROWING
@@ -77,9 +77,7 @@ def recording(
         running = Recording(recorder)
         try:
             remove_reports(out)
-            if title:
-                _print_note(title)
-            print_settings(None if provenance is None else provenance.settings)
+            _print_beginning(title, provenance)
             yield running
             running.record = recorder.close(running.exit_code)
         except BaseException as error:
@@ -97,6 +95,17 @@ def recording(
             then = f"hypcheck report {place} --out {place} makes its reports"
             _print_note(f"the record in {escaped(out / FILE)} is complete; {then}")
             raise
+
+
+def _print_beginning(title: str, provenance: Provenance | None) -> None:
+    """Print the title of a run, how its implementations are isolated, and its settings."""
+    if provenance is not None and provenance.isolation is not None:
+        from hypcheck.isolation.means import isolation_text
+
+        title += f"; {isolation_text(provenance.isolation.means, provenance.isolation.missing)}"
+    if title:
+        _print_note(title)
+    print_settings(None if provenance is None else provenance.settings)
 
 
 def run_stages(stages: Sequence[Stage]) -> None:

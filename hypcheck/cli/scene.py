@@ -133,7 +133,10 @@ default names.
 @click.option(
     "--proof", metavar="FILE", help="Also write a proof of the discriminant's bound, for Coq (docs/proofs.md)."
 )
+@click.pass_context
 def emit(
+    context: click.Context,
+    /,
     method: str | None,
     scene: str | None,
     language: str,
@@ -146,7 +149,12 @@ def emit(
 ) -> None:
     """Write the kernel of a scene, or the code for one pair."""
     from hypcheck.errors import InputError
+    from hypcheck.kernel.emission.kernel import require_prefix
+    from hypcheck.kernel.emission.pair import emitted_pair
+    from hypcheck.kernel.printing.coq import proof_of
+    from hypcheck.tables.streams import writing
 
+    command, proved = _command(context), None
     if method is not None:
         scenes = {"--scene": scene, "--question": question, "--proof": proof}
         extra = [name for name, value in scenes.items() if value is not None]
@@ -154,57 +162,43 @@ def emit(
         extra += ["--whole"] if whole else []
         if extra:
             raise InputError(f"{extra[0]} is for a scene; --method {method} is for one pair of any sizes, without it")
-        _write_pair(method, language, prefix, output)
+        text = emitted_pair(method, language, command, prefix)
     elif scene is None:
         raise InputError("emit needs --scene SCENE, or --method exact for one pair of any sizes")
     else:
-        _write_kernel(scene, language, precision, question, whole, prefix, output, proof)
-
-
-def _write_pair(method: str, language: str, prefix: str, output: str) -> None:
-    from hypcheck.kernel.emission.kernel import PREFIX
-    from hypcheck.kernel.emission.pair import emitted_pair
-    from hypcheck.tables.streams import writing
-
-    command = ["hypcheck", "emit", "--method", method, "--language", language]
-    command += [] if prefix == PREFIX else ["--prefix", prefix]
-    text = emitted_pair(method, language, command, prefix)
-    with writing(output) as stream:
-        stream.write(text.encode("utf-8"))
-
-
-def _write_kernel(
-    scene: str,
-    language: str,
-    precision: str,
-    question: str | None,
-    whole: bool,
-    prefix: str,
-    output: str,
-    proof: str | None,
-) -> None:
-    from hypcheck.kernel.emission.kernel import PREFIX, emitted, require_prefix
-    from hypcheck.kernel.printing.coq import proof_of
-    from hypcheck.tables.streams import writing
-
-    require_prefix(prefix, language)
-    if whole:
-        from hypcheck.kernel.emission.whole import whole as whole_text
-        from hypcheck.kernel.emission.whole import whole_plan
-
+        require_prefix(prefix, language)
         asked = asked_scene(scene, question)
-        plan = whole_plan(asked, precision)
-    else:
-        plan = planned(scene, precision, question)
-    command = ["hypcheck", "emit", "--scene", scene, "--language", language]
-    command += [] if precision == "float64" else ["--precision", precision]
-    command += [] if question is None else ["--question", question]
-    command += ["--whole"] if whole else []
-    command += [] if prefix == PREFIX else ["--prefix", prefix]
-    text = whole_text(asked, plan, language, command, prefix) if whole else emitted(plan, language, command, prefix)
-    proved = None if proof is None else proof_of(plan)
+        plan, text = _kernel(asked, language, precision, command, prefix, whole=whole)
+        proved = None if proof is None else proof_of(plan)
     with writing(output) as stream:
         stream.write(text.encode("utf-8"))
     if proof is not None and proved is not None:
         with writing(proof) as stream:
             stream.write(proved.encode("utf-8"))
+
+
+def _command(context: click.Context) -> list[str]:
+    """The command that writes the same code: what was given and is not the default, but for the files to write."""
+    command = ["hypcheck", "emit"]
+    for option in context.command.params:
+        value = context.params[str(option.name)]
+        if option.name not in ("output", "proof") and value not in (None, option.default):
+            command += [option.opts[0]] if value is True else [option.opts[0], value]
+    return command
+
+
+def _kernel(
+    asked: SceneModel, language: str, precision: str, command: list[str], prefix: str, *, whole: bool
+) -> tuple[ScenePlan, str]:
+    """The plan of a scene, or of the whole scene, and its kernel."""
+    if whole:
+        from hypcheck.kernel.emission.whole import whole as whole_text
+        from hypcheck.kernel.emission.whole import whole_plan
+
+        plan = whole_plan(asked, precision)
+        return plan, whole_text(asked, plan, language, command, prefix)
+    from hypcheck.kernel.emission.kernel import emitted
+    from hypcheck.kernel.specialise.plan import plan_of
+
+    plan = plan_of(asked, precision)
+    return plan, emitted(plan, language, command, prefix)

@@ -19,7 +19,7 @@ import click
 from click.core import ParameterSource
 
 from hypcheck import toml
-from hypcheck.cli.options import LARGEST_COUNT, LARGEST_SEED, integer_wanted
+from hypcheck.cli.options import LARGEST_COUNT, LARGEST_SEED, LIMITS, integer_wanted
 from hypcheck.errors import InputError
 from hypcheck.messages import escaped, suggestion
 
@@ -28,10 +28,7 @@ if TYPE_CHECKING:
 
 FILE = "hypcheck.toml"
 
-ABOUT_ONE = (
-    *("tolerance", "precision", "question", "domain"),
-    *("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env"),
-)
+ABOUT_ONE = ("tolerance", "precision", "question", "domain", *LIMITS)
 """How an implementation is opened and judged: keys for the commands that ask a single one, too."""
 
 COMMANDS = ("verify", "replay", "hunt", "minimise")

@@ -17,9 +17,9 @@ from hypcheck.cli.options import (
     LARGEST_SEED,
     LIMITS,
     MOST_PROCESSES,
+    TOLERANCE,
     FreshOption,
     IntegerOption,
-    NumberOption,
     OutputPath,
     isolation_of,
     limits_of,
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 _WITH_SPEC = frozenset(
     {
         *("max_abstained", "fail_on", "deterministic", "known_failures", "update", "precision", "question", "domain"),
-        *("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env", "fresh", "cluster", "resume"),
+        *(*LIMITS, "fresh", "cluster", "resume"),
     }
 )
 _WITHOUT_SPEC = frozenset({"oracles", "judged", "roots", "meshes"})
@@ -53,24 +53,17 @@ def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformanceP
     from hypcheck.runs.plan import ConformancePlan
 
     update, known_failures = options["update"], options["known_failures"]
+    same = ("count", "seed", "max_abstained", "fail_on", "deterministic", "precision", "question", "workers", "cluster")
     to_be_made = update and known_failures is not None and not known_failures.exists()
     plan = ConformancePlan(
         specs=specs,
         families=names_in(options["families"]),
-        count=options["count"],
-        seed=options["seed"],
         fresh=_fresh_seed(options["fresh"], options["resume"]),
         tolerance=Fraction(options["tolerance"]),
-        max_abstained=options["max_abstained"],
-        fail_on=options["fail_on"],
-        deterministic=options["deterministic"],
         known_failures=None if to_be_made else known_failures,
-        precision=options["precision"],
-        question=options["question"],
         domain=None if options["domain"] is None else parse_domain(options["domain"]),
         limits=limits_of(**{name: options[name] for name in LIMITS}, out=options["out"]),
-        workers=options["workers"],
-        cluster=options["cluster"],
+        **{name: options[name] for name in same},
     )
     if update and (known_failures is None or plan.filtered):
         raise InputError(
@@ -81,7 +74,6 @@ def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformanceP
 
 def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> int:
     """Run or resume a conformance run, write its reports, and return the exit code. Raises InputError."""
-    from hypcheck.isolation.means import isolation_text
     from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
     from hypcheck.runs import conformance as run
@@ -94,7 +86,6 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     recorded = _recorded(plan, options)
     isolation = isolation_of(specs, plan.limits)
     title += "" if plan.fresh is None else f"; as many fresh rows, of seed {plan.fresh}"
-    title += "" if isolation is None else f"; {isolation_text(isolation.means, isolation.missing)}"
     cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
     import_all()
     unchanged = FileSnapshot(files)
@@ -187,9 +178,7 @@ _COUNT = IntegerOption(1)
 @click.option(
     "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Seed of the generated rows."
 )
-@click.option(
-    "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
-)
+@TOLERANCE
 @click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="The oracles to ask.")
 @click.option(
     "--judged",
