@@ -58,11 +58,6 @@ class Position(IntEnum):
         return self.name.lower()
 
 
-def columns_of(row: Sequence[float]) -> tuple[str, ...]:
-    """The names of the numbers of a row, of seven or of ten."""
-    return COLUMNS if len(row) == len(COLUMNS) else TILTED_COLUMNS
-
-
 REFUSED = 127
 """The answer code of a row that is no valid query, if the caller asked for invalid rows to be marked."""
 

@@ -1,22 +1,30 @@
-"""Values out of a parsed TOML table: each is checked, none is left over, and every refusal names its line."""
+"""Values out of a parsed TOML table: each is checked, none is left over, and every refusal names its line.
+
+A reader of TOML does not give lines. The scanner at the end finds them in a text that is known to be valid TOML 1.0
+(tomllib has read it), so it judges nothing.
+"""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, NoReturn, TypeVar
 
+from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
 from hypcheck.scene.model import FREE, Point, Span
-from hypcheck.scene.positions import Path, lines_of, nearest_line
 
 Value = TypeVar("Value")
 Check = Callable[[object], Value]
 """From what the file holds to what the scene holds; raises ValueError, whose text ends "it must be …"."""
+
+Path = tuple[str | int, ...]
+"""How to get to a value: keys of tables, and places in arrays counted from 0."""
 
 _LONGEST = 60
 """Characters of a value that a message shows."""
@@ -49,7 +57,7 @@ class TomlTable:
     def __init__(self, source: TomlSource, path: Path, title: str, content: object, keys: Sequence[str]) -> None:
         self._source, self._path, self._title = source, path, title
         if not isinstance(content, dict):
-            self.refuse(f"{title} is {shown(content)}; it must be a table with {_listed(keys)}")
+            self.refuse(f"{title} is {shown(content)}; it must be a table with {', '.join(keys)}")
         self._content: dict[str, Any] = content
         for key in content:
             if key not in keys:
@@ -165,21 +173,22 @@ def truth(value: object) -> bool:
 
 def point(value: object) -> Point:
     """Three coordinates."""
-    wanted = "three finite numbers, [x, y, z]"
-    if not isinstance(value, list) or len(value) != 3:
-        raise ValueError(wanted)
-    x, y, z = (_number(each, wanted) for each in value)
-    return x, y, z
+    return _three(value, "three finite numbers, [x, y, z]")
 
 
 def axis(value: object) -> Point:
     """A direction, of any length."""
     wanted = "three finite numbers, [x, y, z], not all 0"
+    found = _three(value, wanted)
+    if not any(found):
+        raise ValueError(wanted)
+    return found
+
+
+def _three(value: object, wanted: str) -> Point:
     if not isinstance(value, list) or len(value) != 3:
         raise ValueError(wanted)
     x, y, z = (_number(each, wanted) for each in value)
-    if x == y == z == 0:
-        raise ValueError(wanted)
     return x, y, z
 
 
@@ -233,5 +242,161 @@ def _wanted(check: Check[Any]) -> str:
     raise AssertionError("a check let nothing pass for something")
 
 
-def _listed(keys: Sequence[str]) -> str:
-    return ", ".join(keys)
+_BLANK = re.compile(r"[ \t\r\n]*")
+_COMMENT = re.compile(r"#[^\n]*")
+_SPACE = re.compile(r"[ \t]*")
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
+_BARE_VALUE = re.compile(r"[^,\]}#\n]+")
+_WITHIN = {'"': re.compile(r'[^"\\]+'), "'": re.compile(r"[^']+")}
+"""What stands in a text between its marks and escapes. No pattern repeats a group: that takes memory each time."""
+
+
+def lines_of(text: str) -> dict[Path, int]:
+    """The line, counted from 1, of every table, array and value in a valid TOML text, by its path."""
+    return _TomlScanner(text).scan()
+
+
+def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:
+    """The line of the value at the path, else of the innermost table or array around it that is known."""
+    while path and path not in lines:
+        path = path[:-1]
+    return lines.get(path)
+
+
+class _TomlScanner:
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._at = 0
+        self._lines: dict[Path, int] = {}
+        self._counts: dict[Path, int] = {}
+        """How many tables each array of tables has so far."""
+        self._counted, self._line_there = 0, 1
+        """Up to where lines were counted, and the line there."""
+
+    def scan(self) -> dict[Path, int]:
+        table: Path = ()
+        self._blank()
+        while self._at < len(self._text):
+            if self._text[self._at] == "[":
+                table = self._header()
+            else:
+                self._pair(table)
+            self._blank()
+        return self._lines
+
+    def _header(self) -> Path:
+        """The table that [a.b] or [[a.b]] begins."""
+        line, several = self._line(), self._text.startswith("[[", self._at)
+        self._at += 2 if several else 1
+        keys = self._keys()
+        self._at += 2 if several else 1
+        table: Path = ()
+        for key in keys[:-1]:
+            table = self._inner(table, key)
+        if several:
+            array = (*table, keys[-1])
+            self._lines.setdefault(array, line)
+            self._counts[array] = self._counts.get(array, 0) + 1
+        table = self._inner(table, keys[-1])
+        self._lines[table] = line
+        return table
+
+    def _inner(self, table: Path, key: str) -> Path:
+        """The table of that key; of an array of tables, its last one."""
+        path: Path = (*table, key)
+        return (*path, self._counts[path] - 1) if path in self._counts else path
+
+    def _pair(self, table: Path) -> None:
+        """A key and its value; each table on the way of a dotted key begins where it is first named."""
+        line = self._line()
+        path = table
+        for key in self._keys():
+            path = (*path, key)
+            self._lines.setdefault(path, line)
+        self._at += 1  # the equals sign
+        self._skip(_SPACE)
+        self._value(path)
+
+    def _value(self, path: Path) -> None:
+        self._lines[path] = self._line()
+        opening = self._text[self._at]
+        if opening == "[":
+            self._sequence("]", path)
+        elif opening == "{":
+            self._sequence("}", path)
+        else:
+            self._quoted() if opening in _WITHIN else self._skip(_BARE_VALUE)
+
+    def _sequence(self, closing: str, path: Path) -> None:
+        """What stands between brackets, with commas between."""
+        place = 0
+        self._at += 1
+        self._blank()
+        while self._text[self._at] != closing:
+            if closing == "]":
+                self._value((*path, place))
+            else:
+                self._pair(path)
+            place += 1
+            self._blank()
+            if self._text[self._at] == ",":
+                self._at += 1
+                self._blank()
+        self._at += 1
+
+    def _keys(self) -> tuple[str, ...]:
+        """The parts of a dotted key; the scanner stands on what follows it then."""
+        keys = []
+        while True:
+            self._skip(_SPACE)
+            keys.append(self._key())
+            self._skip(_SPACE)
+            if self._text[self._at] != ".":
+                return tuple(keys)
+            self._at += 1
+
+    def _key(self) -> str:
+        """A key without its quotation marks and escapes."""
+        begin = self._at
+        if self._text[begin] not in _WITHIN:
+            return self._take(_BARE_KEY)
+        self._quoted()
+        return str(toml.parsed(f"key = {self._text[begin : self._at]}", "the scene")["key"])
+
+    def _quoted(self) -> None:
+        """A text in one quotation mark, or in three and with one or two of its own before the last three."""
+        quote = self._text[self._at]
+        mark = 3 * quote if self._text.startswith(3 * quote, self._at) else quote
+        self._at += len(mark)
+        while not self._text.startswith(mark, self._at):
+            if self._text[self._at] == "\\" and quote == '"':
+                self._at += 2
+            elif self._text[self._at] == quote:
+                self._at += 1
+            else:
+                self._skip(_WITHIN[quote])
+        self._at += len(mark)
+        for _ in range(len(mark) - 1):
+            self._at += self._text.startswith(quote, self._at)
+
+    def _blank(self) -> None:
+        """Blanks, ends of lines and comments."""
+        self._skip(_BLANK)
+        while self._text.startswith("#", self._at):
+            self._skip(_COMMENT)
+            self._skip(_BLANK)
+
+    def _line(self) -> int:
+        self._line_there += self._text.count("\n", self._counted, self._at)
+        self._counted = self._at
+        return self._line_there
+
+    def _take(self, pattern: re.Pattern[str]) -> str:
+        match = pattern.match(self._text, self._at)
+        if match is None:
+            raise AssertionError("a text that is no TOML was to be scanned")
+        self._at = match.end()
+        return match.group()
+
+    def _skip(self, pattern: re.Pattern[str]) -> None:
+        self._take(pattern)
