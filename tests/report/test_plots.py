@@ -7,7 +7,7 @@ from itertools import combinations
 
 import pytest
 
-from hypcheck.report.plots import curves, heat, pareto
+from hypcheck.report.plots import curves, pareto, planes
 from hypcheck.report.plots.curves import TANGENT, Octave, curve, in_parts
 from hypcheck.report.plots.pareto import ParetoPoint, front
 from hypcheck.report.plots.pictures import PLOTS, draw_plots
@@ -95,11 +95,11 @@ def test_many_curves_are_divided_evenly_among_plots():
     [(10, 0, 0), (1000, 1, 1), (100, 1, 1), (100, 2, 2), (10, 1, 2), (10, 2, 3), (10, 5, 3), (10, 6, 4), (1, 1, 4)],
 )
 def test_heat_map_has_a_colour_step_for_each_share_of_wrong_answers(asked, wrong, role):
-    assert heat.step(asked, wrong) == f"share-{role}"
+    assert planes.step(asked, wrong) == f"share-{role}"
 
 
 def test_heat_map_merges_cells_by_sums_also_at_negative_indices():
-    assert heat.cells([[-1, 0, 5, 1], [-2, 1, 5, 2], [0, 0, 7, 0]], 2) == {(-1, 0): (10, 3), (0, 0): (7, 0)}
+    assert planes.cells([[-1, 0, 5, 1], [-2, 1, 5, 2], [0, 0, 7, 0]], 2) == {(-1, 0): (10, 3), (0, 0): (7, 0)}
 
 
 def test_pareto_front_has_the_points_that_no_other_point_beats():

@@ -15,7 +15,7 @@ from hypcheck.errors import UnavailableError
 from hypcheck.record.fields import as_json
 from hypcheck.record.lines import MapLine
 from hypcheck.report.drawings import render_picture
-from hypcheck.report.plots import half_plane, pictures
+from hypcheck.report.plots import pictures, planes
 from hypcheck.report.plots.style import styled
 from tests.report import record_samples
 from tests.support.without_drawing import draw_nothing
@@ -27,7 +27,7 @@ def maps(body=None):
 
 def of_figure(body=None):
     with styled():
-        return half_plane.maps_together(record_samples.record(body)).figure
+        return planes.maps_together(record_samples.record(body)).figure
 
 
 def test_scene_map_is_svg_without_date_and_version():
@@ -38,7 +38,7 @@ def test_scene_map_is_svg_without_date_and_version():
 
 
 def test_each_grid_point_of_the_scene_map_has_the_colour_of_its_position():
-    colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in half_plane.REGIONS.items()}
+    colours = {letter: np.array(to_rgb(colour)) for letter, (_, colour) in planes.REGIONS.items()}
     panels = [axes for axes in of_figure().axes if axes.images]
     assert len(panels) == len(maps())
     for axes, line in zip(panels, maps(), strict=True):
@@ -46,7 +46,7 @@ def test_each_grid_point_of_the_scene_map_has_the_colour_of_its_position():
         assert axes.images[0].origin == "lower"  # the first line is the lowest z
         for up, text in enumerate(line.lines):
             for across, letter in enumerate(text):
-                wanted = to_rgb(half_plane.WRONG) if letter.isupper() else colours[letter]
+                wanted = to_rgb(planes.WRONG) if letter.isupper() else colours[letter]
                 assert np.allclose(image[up, across], [*wanted, 1])
 
 
@@ -84,7 +84,7 @@ def test_scene_map_colours_differ_in_lightness():
     """Whoever sees no colours, or prints without them, still tells them apart."""
     lightness = sorted(
         float(np.dot([0.2126, 0.7152, 0.0722], to_rgb(colour)))
-        for colour in (half_plane.WRONG, *(colour for _, colour in half_plane.REGIONS.values()))
+        for colour in (planes.WRONG, *(colour for _, colour in planes.REGIONS.values()))
     )
     assert min(np.diff(lightness)) > 0.11
     assert lightness[1] - lightness[0] > 0.25  # what is wrong stands out

@@ -18,7 +18,6 @@ from matplotlib.lines import Line2D
 
 from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
-from hypcheck.record.measurements import AccuracyLine
 from hypcheck.report.measured import TIERS, MeasuredMethod, measured_methods, principal, workloads
 from hypcheck.report.messages import figure
 from hypcheck.report.model import ImplementationTotal, implementations
@@ -27,8 +26,10 @@ from hypcheck.report.plots.style import (
     NONE_WRONG,
     WIDTH,
     CurveStyle,
+    Mark,
     colour,
     curve_style,
+    draw_marks,
     legend_handles,
     log_axis,
     new_figure,
@@ -164,19 +165,15 @@ def _draw_curve(
     for measured, dashes, width in ((True, how.dashes, 1.4), (False, _DOTS, 0.9)):
         axes.plot(*_segments(finite, measured=measured), color=how.colour, linestyle=dashes, linewidth=width)
     place, number = turn
-    wrong = [pair for pair in at if pair[1].wrong]
-    none = [
-        pair
-        for count, pair in enumerate(at)
-        if not pair[1].wrong and (count % number == place or (count and at[count - 1][1].wrong))
-    ]
-    tips = {}
-    for what, pairs, marks in (("wrong", wrong, {"marker": how.marker}), ("none", none, LIMIT)):
-        if pairs:
-            xs, ys = [x for x, _ in pairs], [octave.share for _, octave in pairs]
-            axes.plot(xs, ys, gid=f"{gid}-{what}", color=how.colour, linestyle="none", **marks)
-            tips[f"{gid}-{what}"] = [_tip(curve.name, octave) for _, octave in pairs]
-    return tips
+    wrong, none = [], []
+    for count, (x, octave) in enumerate(at):
+        mark = Mark(x, octave.share, _tip(curve.name, octave))
+        if octave.wrong:
+            wrong.append(mark)
+        elif count % number == place or (count and at[count - 1][1].wrong):
+            none.append(mark)
+    tips = draw_marks(axes, f"{gid}-wrong", wrong, **how.marks)
+    return tips | draw_marks(axes, f"{gid}-none", none, color=how.colour, **LIMIT)
 
 
 def _tip(name: str, octave: Octave) -> str:
@@ -222,8 +219,9 @@ def _octave_curve(each: ImplementationTotal) -> Curve:
     wrong: Counter[float] = Counter()
     for group in each.groups:
         for exponent, counts in group.octaves.items():
-            asked[float(exponent)] += sum(number for status, number in counts.items() if status != "skipped")
-            wrong[float(exponent)] += sum(number for status, number in counts.items() if status not in NOT_WRONG)
+            for status, number in counts.items():
+                asked[float(exponent)] += number * (status != "skipped")
+                wrong[float(exponent)] += number * (status not in NOT_WRONG)
     return curve(each.name, {exponent: (asked[exponent], wrong[exponent]) for exponent in asked})
 
 
@@ -254,7 +252,8 @@ def _groups(found: list[MeasuredMethod], workload: str) -> Iterator[tuple[str, l
     for each in sorted(found, key=lambda each: TIERS.index(each.tier)):
         line = each.accuracy.get(workload)
         if line is not None and line.asked:
-            groups.setdefault(_group(each), []).append(_workload_curve(each.name, line))
+            octaves = {float(exponent): (asked, wrong) for exponent, asked, wrong in line.octaves}
+            groups.setdefault(_group(each), []).append(curve(each.name, octaves))
     for name, curves in groups.items():
         parts = list(in_parts(curves))
         for number, part in enumerate(parts, start=1):
@@ -268,7 +267,3 @@ def _group(each: MeasuredMethod) -> str:
     if kind in FORMULAS:
         return f"Formulas in {line.tier}, {_SHORT if line.precision in SHORT else _LONG}"
     return {"mesh": "Meshes", "bounding": "Bounding volumes"}.get(kind, str(kind).capitalize())
-
-
-def _workload_curve(name: str, line: AccuracyLine) -> Curve:
-    return curve(name, {float(exponent): (asked, wrong) for exponent, asked, wrong in line.octaves})

@@ -8,23 +8,23 @@ from typing import Any
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
-from hypcheck.report.plots import curves, half_plane, heat, pareto, simulations, times, worst_way
+from hypcheck.report.plots import curves, pareto, planes, simulations, times, worst_way
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import Plot, inline, standalone, together
 
 PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
-    "map": half_plane.map_plots,
+    "map": planes.map_plots,
     "ways": worst_way.plots,
     "octaves": curves.octave_plots,
-    "sizes": heat.size_plots,
-    "fields": half_plane.field_plots,
+    "sizes": planes.size_plots,
+    "fields": planes.field_plots,
     "errors": curves.error_plots,
     "other-errors": curves.other_error_plots,
     "pareto": pareto.pareto_plots,
     "front": pareto.front_plots,
     "speeds": times.speed_plots,
-    "stability": heat.stability_plots,
-    "places": half_plane.place_plots,
+    "stability": planes.stability_plots,
+    "places": planes.place_plots,
     "convergence": times.convergence_plots,
     "bounding": times.bounding_plots,
     "forest": times.forest_plots,
@@ -71,7 +71,7 @@ def render_map(record: Record) -> bytes:
     if not record.of(MapLine):
         raise UnavailableError("the record has no map")
     with styled():
-        plot = half_plane.maps_together(record)
+        plot = planes.maps_together(record)
     return standalone(plot)
 
 

@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from hypcheck.geometry.rows import Floats
-from hypcheck.report.plots import half_plane
+from hypcheck.report.plots.planes import FAINT, paint_letters
 from hypcheck.report.plots.style import colour, curve_style, new_figure, power_of_ten
 from hypcheck.report.plots.svg import Plot
 
@@ -157,8 +157,8 @@ def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
     """The surroundings of a phantom, in millimetres from it, and its place in the whole picture."""
     millimetres = 1000 * wall["half"]
     span = (-millimetres, millimetres)
-    colours = {"e": half_plane.FAINT, "E": colour("clear"), "c": colour("ink"), "C": colour("contact")}
-    half_plane.paint_letters(axes, wall["lines"], colours, span, span)
+    colours = {"e": FAINT, "E": colour("clear"), "c": colour("ink"), "C": colour("contact")}
+    paint_letters(axes, wall["lines"], colours, span, span)
     axes.set_aspect("equal")
     axes.set(xlabel=f"x from {_MARKED} (mm)", ylabel=f"y from {_MARKED} (mm)")
     axes.set_title(f"the invisible wall at {_MARKED}")

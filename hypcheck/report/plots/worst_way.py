@@ -25,7 +25,7 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import WrongAnswer
 from hypcheck.report.messages import figure, from_hex
 from hypcheck.report.model import drawn_way, implementations
-from hypcheck.report.plots.half_plane import draw_surface
+from hypcheck.report.plots.planes import draw_surface
 from hypcheck.report.plots.style import WIDTH, colour, new_figure
 from hypcheck.report.plots.svg import Plot
 from hypcheck.runs.judges import LABELS, passage_of

@@ -9,7 +9,7 @@ from matplotlib.patches import Ellipse, Rectangle
 
 from hypcheck.geometry.pair import Position
 from hypcheck.kernel.scalar import position
-from hypcheck.report.plots.half_plane import ON_MAP, REGIONS
+from hypcheck.report.plots.planes import ON_MAP, REGIONS
 from hypcheck.report.plots.style import new_figure
 from hypcheck.report.plots.svg import Plot
 

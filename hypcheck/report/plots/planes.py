@@ -1,34 +1,133 @@
-"""Pictures of the half plane (r, z), a dot a grid point: exact positions of a scene, and where methods are wrong.
+"""Pictures over a plane: shares of wrong answers over sizes and places, and maps of the half plane (r, z).
 
-r is drawn across and z up; the fields of a verification are in semi-axes of the hyperboloid, r/α and |z|/γ.
+Shares have five steps of colour, and stay empty where nothing was asked. In the half plane a dot is a grid point, r is
+drawn across and z up; the fields of a verification are in semi-axes of the hyperboloid, r/α and |z|/γ.
 """
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PatchCollection
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, PathPatch, Rectangle
+from matplotlib.path import Path
 from msgspec.structs import asdict
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
-from hypcheck.record.measurements import PlacesLine
-from hypcheck.report.measured import is_wrong_somewhere
-from hypcheck.report.messages import listed
+from hypcheck.record.measurements import PlacesLine, StabilityLine
+from hypcheck.report.measured import is_unstable, is_wrong_somewhere, stability_title
+from hypcheck.report.messages import figure, listed
 from hypcheck.report.model import ImplementationTotal, implementations
-from hypcheck.report.plots import heat
-from hypcheck.report.plots.colours import MISTAKES
-from hypcheck.report.plots.style import SMALL, WIDTH, colour, new_figure, share_layout
+from hypcheck.report.plots.colours import MISTAKES, STEPS
+from hypcheck.report.plots.style import SMALL, WIDTH, colour, decades, new_figure, power_of_ten, share_layout
 from hypcheck.report.plots.svg import Plot
+
+GAP = 0.08
+"""Between two cells, of the width of a cell."""
+
+Cells = Mapping[tuple[int, int], tuple[int, int]]
+"""[asked, wrong] by the numbers of a cell across and up."""
+
+
+SIZES = ("α/b", "γ/d")
+"""The quantities across and up."""
+
+
+def step(asked: int, wrong: int) -> str:
+    """The role of the colour of a share."""
+    place = next(place for place, (end, _) in enumerate(STEPS) if wrong <= end * asked)
+    return f"share-{place}"
+
+
+def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
+    """The cells of [across, up, asked, wrong], so many of them made one in each direction."""
+    asked: Counter[tuple[int, int]] = Counter()
+    wrong: Counter[tuple[int, int]] = Counter()
+    for across, up, cases, errors in bins:
+        asked[across // merged, up // merged] += cases
+        wrong[across // merged, up // merged] += errors
+    return {place: (asked[place], wrong[place]) for place in sorted(asked) if asked[place]}
+
+
+def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterator[Plot]:
+    """A small plot over the sizes for each map, by its title; all over the same part of the plane.
+
+    A cell has `width` decades: cell k reaches from 10^(k·width) to 10^((k+1)·width).
+    """
+    places = [place for found in maps.values() for place in found]
+    if not places:
+        return
+    limits = [(min(place[k] for place in places), max(place[k] for place in places) + 1) for k in (0, 1)]
+    first = None
+    for number, (title, found) in enumerate(maps.items()):
+        plot = _heat_plot(f"{prefix}-{number}", title, width, found, limits)
+        first = share_layout(plot.figure, first)
+        yield plot
+
+
+def _heat_plot(name: str, title: str, width: float, found: Cells, limits: Sequence[tuple[int, int]]) -> Plot:
+    drawn = new_figure(SMALL, 170)
+    axes = drawn.subplots()
+    axes.grid(visible=False)
+    wrong = {place: counts for place, counts in found.items() if counts[1]}
+    right = [_square(place) for place in found if place not in wrong]
+    if right:  # as one shape: there are many, and nothing else to say of each
+        outlines = (square.get_patch_transform().transform_path(square.get_path()) for square in right)
+        shape = Path.make_compound_path(*outlines)
+        axes.add_patch(PathPatch(shape, facecolor=colour("share-0"), linewidth=0, clip_on=False))
+    if wrong:
+        squares, colours = map(_square, wrong), [colour(step(*counts)) for counts in wrong.values()]
+        axes.add_collection(PatchCollection(squares, facecolors=colours, linewidths=0, gid=name, clip_on=False))
+    for axis, label, ends in zip("xy", SIZES, limits, strict=True):
+        exponents = decades(10.0 ** (ends[0] * width), 10.0 ** (ends[1] * width), 4)
+        ticks = [exponent / width for exponent in exponents]
+        getattr(axes, f"set_{axis}lim")(*ends)
+        getattr(axes, f"set_{axis}ticks")(ticks, [power_of_ten(exponent) for exponent in exponents])
+        getattr(axes, f"set_{axis}label")(label)
+    asked, errors = (sum(counts[k] for counts in found.values()) for k in (0, 1))
+    said = f"Share of wrong answers over {SIZES[0]} and {SIZES[1]}: {errors:,} of {asked:,} wrong."
+    tips = {name: [_tip(width, place, counts) for place, counts in wrong.items()]} if wrong else {}
+    return Plot(name, title, said, drawn, tips)
+
+
+def _square(place: tuple[int, int]) -> Rectangle:
+    return Rectangle((place[0] + GAP / 2, place[1] + GAP / 2), 1 - GAP, 1 - GAP)
+
+
+def _tip(width: float, place: tuple[int, int], counts: tuple[int, int]) -> str:
+    middles = [f"{name} ≈ {figure(10.0 ** ((k + 0.5) * width))}" for name, k in zip(SIZES, place, strict=True)]
+    return f"{', '.join(middles)}: {counts[1]:,} of {counts[0]:,} wrong"
+
+
+OCTAVES = 3
+"""Octaves of the record that make one cell."""
+
+
+def size_plots(record: Record) -> Iterator[Plot]:
+    """A small plot for each method that erred."""
+    maps = {
+        each.name: cells((row for group in each.groups for row in group.size_bins), OCTAVES)
+        for each in implementations(record)
+        if any(row[3] for group in each.groups for row in group.size_bins)
+    }
+    yield from _heat_plots("sizes", OCTAVES * math.log10(2), maps)
+
+
+def stability_plots(record: Record) -> Iterator[Plot]:
+    """A small plot for each method and precision that is wrong somewhere; the record's cells have half a decade."""
+    wrong = [line for line in record.of(StabilityLine) if is_unstable(line)]
+    yield from _heat_plots("stability", 0.5, {stability_title(line): cells(line.bins) for line in wrong})
+
 
 Interval = tuple[float, float]
 
@@ -83,20 +182,20 @@ def field_plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method that erred."""
     first = None
     for number, each in enumerate(implementations(record)):
-        found = heat.cells(row for group in each.groups for row in group.place_bins)
+        found = cells(row for group in each.groups for row in group.place_bins)
         if any(wrong for _, wrong in found.values()):
             plot = _field_plot(f"fields-{number}", each, found)
             first = share_layout(plot.figure, first)
             yield plot
 
 
-def _field_plot(name: str, each: ImplementationTotal, found: heat.Cells) -> Plot:
+def _field_plot(name: str, each: ImplementationTotal, found: Cells) -> Plot:
     drawn = new_figure(SMALL, 170)
     axes = drawn.subplots()
     image = np.zeros((CELLS, CELLS, 4))
     steps: Counter[str] = Counter()
     for (across, up), (asked, wrong) in found.items():
-        role = heat.step(asked, wrong)
+        role = step(asked, wrong)
         steps[role] += 1
         image[min(up, CELLS - 1), min(across, CELLS - 1)] = to_rgba(FAINT if role == "share-0" else colour(role))
     end = CELLS / PER_UNIT
