@@ -165,7 +165,7 @@ def mark_grid_points(axes: Axes, letters: Sequence[str], colours: Mapping[str, s
             axes.scatter(rs[across], zs[up], s=3, marker="s", color=name, linewidths=0, rasterized=True, zorder=3)
 
 
-def draw_surface(axes: Axes, sizes: tuple[float, float], r: Interval, z: Interval, line: str) -> None:
+def draw_surface(axes: Axes, sizes: Sequence[float], r: Interval, z: Interval, line: str) -> None:
     """Draw the hyperboloid's meridian r = α √(1 + z²/γ²), if it is within the picture."""
     alpha, gamma = sizes
     heights = [z[0] + (z[1] - z[0]) * step / 200 for step in range(201)]

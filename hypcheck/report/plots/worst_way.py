@@ -25,7 +25,7 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import WrongAnswer
 from hypcheck.report.messages import figure, from_hex
 from hypcheck.report.model import drawn_way, implementations
-from hypcheck.report.plots.planes import draw_surface
+from hypcheck.report.plots.planes import Interval, draw_surface
 from hypcheck.report.plots.style import WIDTH, colour, new_figure
 from hypcheck.report.plots.svg import Plot
 from hypcheck.runs.judges import LABELS, passage_of
@@ -37,6 +37,8 @@ AROUND = 2.6
 
 _POINTS, _ZOOMS = 400, 5
 _LONGEST_NAME = 40
+
+_SAID_DASHES = (0, (4, 2))
 
 WAY, TOUCHES, SAID = "series-1", "series-2", "series-4"
 """The roles of the way's colour, of the spheroid's where it first touches, and of its at the answered time."""
@@ -104,16 +106,14 @@ def _answer(way: _Way) -> str:
 
 
 def _whole(axes: Axes, way: _Way) -> None:
-    alpha, gamma, b, d = way.row[:4]
+    b, d = way.row[2:4]
     rs, zs = way.at(_times(way))
-    (near_r, near_z) = _about(way)
+    near_r, near_z = _about(way)
     r = min(float(rs.min()) - 1.2 * b, near_r[0]), max(float(rs.max()) + 1.2 * b, near_r[1])
     z = min(float(zs.min()) - 1.2 * d, near_z[0]), max(float(zs.max()) + 1.2 * d, near_z[1])
     span = r[1] - r[0]
     r = (0.0 if r[0] < span else r[0]), r[1] + 0.04 * span  # the axis, unless it is far away; the marks of both ends
-    _frame(axes, r, z, "the whole way")
-    draw_surface(axes, (alpha, gamma), r, z, colour("ink"))
-    axes.plot(rs, zs, color=colour(WAY), linewidth=1.4, zorder=3)
+    _panel(axes, way, r, z, "the whole way")
     for time, marker in ((0.0, "o"), (1.0, "s")):
         axes.plot(*way.at(time), marker=marker, markersize=6, color=colour(WAY), zorder=4)
         _body(axes, way, time, WAY)
@@ -121,15 +121,21 @@ def _whole(axes: Axes, way: _Way) -> None:
 
 
 def _near(axes: Axes, way: _Way) -> None:
-    alpha, gamma = way.row[:2]
-    r, z = _about(way)
-    _frame(axes, r, z, "where it first touches" if way.hit else "where it comes nearest")
-    draw_surface(axes, (alpha, gamma), r, z, colour("ink"))
-    axes.plot(*way.at(_times(way)), color=colour(WAY), linewidth=1.4, zorder=3)
+    _panel(axes, way, *_about(way), "where it first touches" if way.hit else "where it comes nearest")
     _touching(axes, way)
 
 
-def _about(way: _Way) -> tuple[tuple[float, float], tuple[float, float]]:
+def _panel(axes: Axes, way: _Way, r: Interval, z: Interval, title: str) -> None:
+    """The way and the surface in a part of the half plane."""
+    axes.set(xlim=r, ylim=z, xlabel="r, distance from the axis", ylabel="z, height")
+    axes.set_title(title, fontsize=10)
+    axes.locator_params(nbins=4)
+    axes.ticklabel_format(useOffset=False)
+    draw_surface(axes, way.row[:2], r, z, colour("ink"))
+    axes.plot(*way.at(_times(way)), color=colour(WAY), linewidth=1.4, zorder=3)
+
+
+def _about(way: _Way) -> tuple[Interval, Interval]:
     """The part of the half plane about the spheroid at the time that is shown."""
     b, d = way.row[2:4]
     r, z = (float(each) for each in way.at(way.shown))
@@ -147,16 +153,11 @@ def _times(way: _Way) -> Floats:
     return np.unique(np.clip(np.concatenate(every), 0.0, 1.0))
 
 
-def _frame(axes: Axes, r: tuple[float, float], z: tuple[float, float], title: str) -> None:
-    axes.set(xlim=r, ylim=z, xlabel="r, distance from the axis", ylabel="z, height")
-    axes.set_title(title, fontsize=10)
-    axes.locator_params(nbins=4)
-    axes.ticklabel_format(useOffset=False)
-
-
 def _touching(axes: Axes, way: _Way) -> None:
-    _body(axes, way, way.shown, TOUCHES if way.hit else WAY, filled=way.hit)
-    axes.plot(*way.at(way.shown), marker="+", markersize=7, color=colour(TOUCHES if way.hit else WAY), zorder=5)
+    """The spheroid at the time that the right panel shows, and at the answered time."""
+    role = TOUCHES if way.hit else WAY
+    _body(axes, way, way.shown, role, filled=way.hit)
+    axes.plot(*way.at(way.shown), marker="+", markersize=7, color=colour(role), zorder=5)
     if way.said is not None:
         _body(axes, way, way.said, SAID)
 
@@ -165,13 +166,10 @@ def _body(axes: Axes, way: _Way, time: float, role: str, *, filled: bool = False
     b, d = way.row[2:4]
     r, z = (float(each) for each in way.at(time))
     face = colour(role) if filled else "none"
-    axes.add_patch(
-        Ellipse((r, z), 2 * b, 2 * d, facecolor=face, edgecolor="none", alpha=0.25, zorder=2)  # its rim is drawn apart
-    )
+    axes.add_patch(Ellipse((r, z), 2 * b, 2 * d, facecolor=face, edgecolor="none", alpha=0.25, zorder=2))
     turn = np.linspace(0.0, 2 * math.pi, 121)
-    dashes = (0, (4, 2)) if role == SAID else "solid"
     rim = r + b * np.cos(turn), z + d * np.sin(turn)
-    axes.plot(*rim, color=colour(role), linewidth=1.2, linestyle=dashes, zorder=3)
+    axes.plot(*rim, color=colour(role), linewidth=1.2, linestyle=_SAID_DASHES if role == SAID else "solid", zorder=3)
 
 
 def _legend(drawn: Figure, way: _Way) -> None:
@@ -184,5 +182,5 @@ def _legend(drawn: Figure, way: _Way) -> None:
     if way.hit:
         handles.append(Patch(facecolor=colour(TOUCHES), alpha=0.4, label="first contact"))
     if way.said is not None:
-        handles.append(Line2D([], [], color=colour(SAID), linestyle=(0, (4, 2)), label="at the answered time"))
+        handles.append(Line2D([], [], color=colour(SAID), linestyle=_SAID_DASHES, label="at the answered time"))
     drawn.legend(handles=handles, loc="outside lower center", ncols=3)
