@@ -9,11 +9,10 @@ named with it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from hypcheck.record import Record
-from hypcheck.record.measurements import SpeedLine
 from hypcheck.report.document import (
     Block,
     Code,
@@ -35,6 +34,7 @@ from hypcheck.report.measured import (
     measured_methods,
     noise_floor,
     reference,
+    timed_workloads,
     way_totals,
     workloads,
 )
@@ -96,7 +96,7 @@ class Recommendations:
 
 def recommendations(record: Record) -> Recommendations:
     """The advice of a record; none if it has no times. Of needs with the same advice only the strictest is kept."""
-    timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(SpeedLine))]
+    timed = timed_workloads(record)
     advice: list[Advice] = []
     unmet: list[Need] = []
     if not timed or way_totals(record):  # the needs are those of positions
@@ -179,21 +179,24 @@ def _reliable(
     return [each for each in found if each.line.kind != "bounding" and holds(each)]
 
 
+def _by_ratio(found: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
+    """The methods that have a ratio there, the fastest first."""
+    ranked = [(ratio, each) for each in found if (ratio := each.ratio(workload, mode)) is not None]
+    return [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
+
+
 def _fastest(record: Record, found: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
     """The fastest method, and after it those as fast within the noise, by their ratios."""
-    ranked = sorted(
-        ((ratio, each) for each in found if (ratio := each.ratio(workload, mode)) is not None),
-        key=lambda pair: pair[0],
-    )
+    ranked = _by_ratio(found, workload, mode)
     if not ranked:
         return []
-    least, best = ranked[0]
-    floor = noise_floor(record, workload, mode) or 0.0
+    best = ranked[0]
+    limit = (best.ratio(workload, mode) or 0.0) * (1 + (noise_floor(record, workload, mode) or 0.0))
     high = _interval(best, workload, mode)[1]
     return [
         each
-        for ratio, each in ranked
-        if each is best or ratio <= least * (1 + floor) or _interval(each, workload, mode)[0] <= high
+        for each in ranked
+        if each is best or (each.ratio(workload, mode) or 0.0) <= limit or _interval(each, workload, mode)[0] <= high
     ]
 
 
@@ -203,60 +206,16 @@ def _interval(each: MeasuredMethod, workload: str, mode: str) -> tuple[float, fl
     return line.ratio_ci95 or (ratio, ratio)
 
 
-@dataclass(frozen=True, slots=True)
-class ExactnessPrice:
-    """The fastest method that was never wrong, the fastest that was, and the ratios of their times by workload."""
-
-    never: MeasuredMethod
-    fastest: MeasuredMethod
-    ratios: tuple[tuple[str, float], ...]
-
-
-def exactness_price(record: Record) -> ExactnessPrice | None:
-    """The price of exactness in a batch; the fastest methods are those on the first timed workload.
-
-    None if not both were timed there.
-    """
-    timed = [name for name in workloads(record) if any(line.workload == name for line in record.of(SpeedLine))]
-    ranked = sorted(
-        (
-            (ratio, each)
-            for each in measured_methods(record)
-            for name in timed[:1]
-            if (ratio := each.ratio(name)) is not None
-        ),
-        key=lambda pair: pair[0],
-    )
-    never = next((pair for pair in ranked if pair[1].never_wrong), None)
-    fastest = next((pair for pair in ranked if pair[1].wrong and pair[1].line.kind != "bounding"), None)
-    if never is None or fastest is None:
-        return None
-    pairs = [(name, never[1].ratio(name), fastest[1].ratio(name)) for name in timed]
-    return ExactnessPrice(
-        never[1], fastest[1], tuple((name, mine / other) for name, mine, other in pairs if mine and other)
-    )
-
-
 def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMethod]]:
     """Methods for which another of the same tier and question is certainly faster, and reliable at least as near."""
     found = [each for each in measured_methods(record) if each.line.kind != "bounding"]
     timed = [name for name in workloads(record) if any((name, BATCH) in each.speed for each in found)]
-    if not timed:
-        return []
     pairs = []
     for each in found:
         faster = [other for other in found if _beats(other, each, timed)]
         if faster:
-            pairs.append((each, min(faster, key=_by_ratio(timed[0]))))
+            pairs.append((each, min(faster, key=lambda other: other.ratio(timed[0]) or math.inf)))
     return pairs
-
-
-def _reach(each: MeasuredMethod, workload: str) -> float:
-    return float(each.accuracy[workload].reliable_above)
-
-
-def _by_ratio(workload: str) -> Callable[[MeasuredMethod], float]:
-    return lambda each: each.ratio(workload) or math.inf
 
 
 def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) -> bool:
@@ -264,7 +223,9 @@ def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) ->
         return False
     if (each.exact and not other.exact) or each.accuracy.keys() != other.accuracy.keys():
         return False
-    if any(_reach(other, name) > _reach(each, name) for name in each.accuracy):
+    if any(
+        float(other.accuracy[name].reliable_above) > float(line.reliable_above) for name, line in each.accuracy.items()
+    ):
         return False
     shared = [name for name in timed if each.ratio(name) is not None and other.ratio(name) is not None]
     return bool(shared) and all(_interval(other, name, BATCH)[1] < _interval(each, name, BATCH)[0] for name in shared)
@@ -286,8 +247,7 @@ def advice_sections(record: Record) -> Iterator[Section]:
     if not chosen.advice:
         return
     known = workloads(record)
-    timed = [line for name, line in known.items() if any(each.workload == name for each in record.of(SpeedLine))]
-    scenes = listed([str(line.title) for line in timed])
+    scenes = listed([str(known[name].title) for name in timed_workloads(record)])
     against = reference(record)
     said: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
     if against is not None:
@@ -302,17 +262,23 @@ def advice_sections(record: Record) -> Iterator[Section]:
 
 
 def _price_sentences(record: Record) -> Iterator[Text]:
-    """Sentences about the price of exactness."""
-    found = exactness_price(record)
-    if found is not None:
-        known, distance = workloads(record), found.fastest.reliable_above
-        errs = (
+    """The price of exactness in a batch: the time of the fastest method that was never wrong, by that of one that was.
+
+    Both are the fastest of their kind on the first timed workload; nothing if there is none of a kind.
+    """
+    timed, known = timed_workloads(record), workloads(record)
+    ranked = _by_ratio(measured_methods(record), timed[0]) if timed else []
+    never = next((each for each in ranked if each.never_wrong), None)
+    fastest = next((each for each in ranked if each.wrong and each.line.kind != "bounding"), None)
+    if never is not None and fastest is not None:
+        ratios = [(known[name].title, never.ratio(name), fastest.ratio(name)) for name in timed]
+        times = listed([f"{figure(mine / other)} times ({title})" for title, mine, other in ratios if mine and other])
+        distance = fastest.reliable_above
+        ends = (
             f"errors end at {figure(distance)}" if distance < math.inf else "reliable at no distance on some workload"
         )
-        times = listed([f"{figure(ratio)} times ({known[name].title})" for name, ratio in found.ratios])
-        fastest: Text = (Code(found.fastest.name), f", the fastest of those that err ({errs})")
-        lead = "The price of exactness: in a batch "
-        yield (lead, Code(found.never.name), f" takes {times} as long as ", fastest, ".")
+        err: Text = (Code(fastest.name), f", the fastest of those that err ({ends})")
+        yield ("The price of exactness: in a batch ", Code(never.name), f" takes {times} as long as ", err, ".")
 
 
 def advised_method_sections(record: Record) -> Iterator[Section]:

@@ -177,6 +177,12 @@ def workloads(record: Record) -> dict[str, WorkloadLine]:
     return found
 
 
+def timed_workloads(record: Record) -> list[str]:
+    """The names of the workloads that have times, in the order of the record."""
+    timed = {line.workload for line in record.of(SpeedLine)}
+    return [name for name in workloads(record) if name in timed]
+
+
 def principal(record: Record) -> str:
     """The workload that has cases at every distance from contact; the first one if it was not measured."""
     known = workloads(record)
