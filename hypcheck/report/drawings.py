@@ -10,6 +10,7 @@ from collections.abc import Collection, Mapping
 from concurrent.futures import BrokenExecutor
 from dataclasses import dataclass, field
 from types import ModuleType
+from typing import NamedTuple
 
 from hypcheck.errors import UnavailableError
 from hypcheck.messages import escaped
@@ -21,8 +22,7 @@ MANY = 100
 """Lines with plots, at least, for which it is worth to start processes: starting one takes a second."""
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnPlot:
+class DrawnPlot(NamedTuple):
     """A plot's title and its element of SVG."""
 
     title: str
@@ -45,6 +45,10 @@ class ReportContext:
     beside: Collection[str] = ()
     against: Record | None = None
     drawings: Drawings = field(default_factory=dict)
+
+
+ALONE = ReportContext()
+"""The context of a report that is made of its record alone."""
 
 
 def drawn_plots(name: str, record: Record, drawings: Drawings) -> tuple[DrawnPlot, ...]:
@@ -74,7 +78,7 @@ def render_picture(name: str, record: Record, drawings: Drawings) -> bytes:
     module = pictures()
     if name == "map":
         return bytes(module.render_map(record))
-    return bytes(module.render_together(name, [(plot.title, plot.svg) for plot in drawn_plots(name, record, drawings)]))
+    return bytes(module.render_together(name, drawn_plots(name, record, drawings)))
 
 
 def pictures() -> ModuleType:

@@ -44,7 +44,7 @@ from hypcheck.report.document import (
     bounded,
     plain,
 )
-from hypcheck.report.drawings import Drawings, ReportContext, drawn_plots
+from hypcheck.report.drawings import ALONE, Drawings, ReportContext, drawn_plots
 from hypcheck.report.messages import short_row
 from hypcheck.report.plots.colours import colour_rules
 from hypcheck.version import VERSION
@@ -83,10 +83,10 @@ class _TemplateBlock:
     missing: str = ""
 
 
-def render(record: Record, context: ReportContext | None = None) -> bytes:
+def render(record: Record, context: ReportContext = ALONE) -> bytes:
     """The page in UTF-8. Without matplotlib it has no plots."""
-    whole = content(record, context.against if context else None)
-    sections = list(_sections(whole.sections, record, context.drawings if context else {}))
+    whole = content(record, context.against)
+    sections = list(_sections(whole.sections, record, context.drawings))
     return _page(title=whole.title, verdict=whole.verdict, sections=sections, source="from the record alone")
 
 
@@ -152,12 +152,10 @@ def _template_block(block: Block, record: Record, drawings: Drawings) -> _Templa
 
 def _figures(block: Figures, record: Record, drawings: Drawings) -> _TemplateBlock:
     try:
-        plots = tuple(
-            {"title": plot.title, "svg": _trusted(plot.svg)} for plot in drawn_plots(block.name, record, drawings)
-        )
+        drawn = drawn_plots(block.name, record, drawings)
     except UnavailableError as error:
         return _TemplateBlock("figures", block, missing=f"The plots are missing: {error}")
-    return _TemplateBlock("figures", block, plots=plots)
+    return _TemplateBlock("figures", block, plots=tuple({"title": title, "svg": _trusted(svg)} for title, svg in drawn))
 
 
 WIDTH, HEIGHT = 96.0, 64.0

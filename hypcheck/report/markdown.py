@@ -27,7 +27,7 @@ from hypcheck.report.document import (
     Text,
     bounded,
 )
-from hypcheck.report.drawings import ReportContext
+from hypcheck.report.drawings import ALONE, ReportContext
 
 _SPECIAL = re.compile(r"[\\`*_\[\]~$|<>&]")
 _ENTITIES = {"|": "&#124;", "<": "&lt;", ">": "&gt;", "&": "&amp;"}
@@ -61,13 +61,17 @@ def table_lines(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Ite
     return [*(f"| {' | '.join(cells)} |" for cells in (head, rule, *rows)), ""]
 
 
-def render(record: Record, context: ReportContext | None = None) -> bytes:
+def render(record: Record, context: ReportContext = ALONE) -> bytes:
     """The report in UTF-8; it refers to the pictures among the files beside it."""
-    beside = context.beside if context else ()
-    return markdown_page(content(record, context.against if context else None), beside)
+    return _page(content(record, context.against), context.beside)
 
 
-def markdown_page(whole: Content, beside: Collection[str]) -> bytes:
+def render_overview(record: Record, context: ReportContext = ALONE) -> bytes:
+    """The overview in UTF-8; it refers to the pictures among the files beside it."""
+    return _page(overview(record, context.beside), context.beside)
+
+
+def _page(whole: Content, beside: Collection[str]) -> bytes:
     """A content in UTF-8; `beside` are the names of the files beside it."""
     lines = [f"# {running_text(whole.title)}", "", f"**{running_text(whole.verdict.sentence)}**", ""]
     for section in (section for section in whole.sections if not section.page):
@@ -126,9 +130,3 @@ def _table(block: TableBlock) -> Iterator[str]:
     numbers = [place for place, column in enumerate(block.columns) if column.number]
     rows = [[running_text(cell.text) for cell in row] for row in block.rows]
     yield from table_lines([running_text(column.title) for column in block.columns], rows, numbers)
-
-
-def render_overview(record: Record, context: ReportContext | None = None) -> bytes:
-    """The overview in UTF-8; it refers to the pictures among the files beside it."""
-    beside = context.beside if context else ()
-    return markdown_page(overview(record, beside), beside)

@@ -22,7 +22,7 @@ from hypcheck.report.changes import (
     ratio_changes,
     status_changes,
 )
-from hypcheck.report.drawings import ReportContext
+from hypcheck.report.drawings import ALONE, ReportContext
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.measured import NEAREST, MeasuredMethod, WayTotal, measured_methods, way_totals, workloads
 from hypcheck.report.messages import (
@@ -184,11 +184,11 @@ WIDTH = 160
 """Characters of a line on a terminal; longer ones are cut, but not the verdict, and nothing in a file or a pipe."""
 
 
-def render(record: Record, context: ReportContext | None = None) -> bytes:
+def render(record: Record, context: ReportContext = ALONE) -> bytes:
     """The summary as a file."""
-    return "".join(
-        f"{line}\n" for line in summary_lines(record, (), against=context.against if context else None)
-    ).encode("utf-8", "replace")
+    return "".join(f"{line}\n" for line in summary_lines(record, (), against=context.against)).encode(
+        "utf-8", "replace"
+    )
 
 
 def summary_lines(

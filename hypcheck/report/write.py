@@ -18,7 +18,7 @@ from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.report import csv, junit, markdown, summary, terminal
 from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
-from hypcheck.report.drawings import ReportContext, draw_ahead, pictures, render_picture
+from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, pictures, render_picture
 from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
 from hypcheck.report.model import drawn_way, implementations
 from hypcheck.tables.streams import remove_file, writing
@@ -33,6 +33,13 @@ FOR_PROGRAMS: Mapping[str, Callable[[Record], bytes]] = {
 }
 """What programs read: made of the record alone, whatever other reports there are."""
 
+AS_TEXT: Mapping[str, Callable[[Record, ReportContext], bytes]] = {
+    "terminal": terminal.render,
+    "markdown": markdown.render,
+    "overview": markdown.render_overview,
+}
+"""What people read as text."""
+
 
 def _html() -> ModuleType:
     """The module that makes the page. Raises UnavailableError if jinja2, which is an extra, is missing."""
@@ -46,22 +53,15 @@ def _html() -> ModuleType:
     return html
 
 
-def render(name: str, record: Record, context: ReportContext | None = None) -> bytes:
+def render(name: str, record: Record, context: ReportContext = ALONE) -> bytes:
     """The report of that format. Raises UnavailableError if it cannot be made here."""
-    context = context or ReportContext()
     if name in FOR_PROGRAMS:
         return FOR_PROGRAMS[name](record)
-    match name:
-        case "terminal":
-            return terminal.render(record, context)
-        case "markdown":
-            return markdown.render(record, context)
-        case "overview":
-            return markdown.render_overview(record, context)
-        case "html":
-            return bytes(_html().render(record, context))
-        case _:
-            return render_picture(name, record, context.drawings)
+    if name in AS_TEXT:
+        return AS_TEXT[name](record, context)
+    if name == "html":
+        return bytes(_html().render(record, context))
+    return render_picture(name, record, context.drawings)
 
 
 def import_all() -> None:
