@@ -42,7 +42,7 @@ from hypcheck.report.model import (
     under_test,
     worst_case,
 )
-from hypcheck.report.verdict import INCONCLUSIVE, MEASUREMENT, SLOWER, Failure, ended_badly, failures, verdict
+from hypcheck.report.verdict import MEASUREMENT, Failure, ended_badly, failures, verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,8 +150,8 @@ def _comparison(line: ComparisonLine, failed: Sequence[Failure]) -> JunitCase:
 
 def _kernel(line: KernelLine, failed: Sequence[Failure]) -> JunitCase:
     said = f"wanted {figure(line.wanted)}, measured {figure(line.measured)}: {'met' if line.met else 'not met'}"
-    missed = (_trouble(failed, kind, line.name, "target") for kind in (SLOWER, INCONCLUSIVE))
-    return JunitCase(f"{line.name}: {line.target}", next(filter(None, missed), None), (said, str(line.says)))
+    missed = _failure([each for each in failed if (each.name, each.group) == (line.name, "target")])
+    return JunitCase(f"{line.name}: {line.target}", missed, (said, str(line.says)))
 
 
 def _name(line: SpeedLine | UnmeasuredLine | RefusedLine | ComparisonLine) -> str:
@@ -163,8 +163,15 @@ def _where(line: SpeedLine | UnmeasuredLine | RefusedLine | ComparisonLine) -> s
 
 
 def _trouble(failed: Sequence[Failure], kind: str, name: str, group: str) -> JunitTrouble | None:
-    mine = [each for each in failed if (each.kind, each.name, each.group) == (kind, name, group)]
-    return JunitTrouble("failure", kind, mine[0].message, tuple(details(mine))) if mine else None
+    return _failure([each for each in failed if (each.kind, each.name, each.group) == (kind, name, group)])
+
+
+def _failure(mine: Sequence[Failure], message: str = "") -> JunitTrouble | None:
+    """The trouble of a case to which these failures belong, with their details; None without any."""
+    if not mine:
+        return None
+    said = message or "; ".join(each.message for each in mine)
+    return JunitTrouble("failure", mine[0].kind, said, tuple(details(mine)))
 
 
 _LONGEST_MS = 1e15
@@ -175,17 +182,8 @@ def junit_suites(record: Record) -> Iterator[JunitSuite]:
     """All suites of a record; some may be empty."""
     failed = failures(record)
     others = list(_others(record, failed))
-    yield JunitSuite("run", (replace(_ended(record, failed), milliseconds=_rest(record, others)),))
+    yield JunitSuite("run", (_ended(record, failed, total(suite.milliseconds for suite in others) or 0),))
     yield from others
-
-
-def _rest(record: Record, others: Iterable[JunitSuite]) -> int | None:
-    """The time of the run that no other case has; None if the run has no end, or no time."""
-    seconds = None if record.footer is None else record.footer.seconds
-    if seconds is None:
-        return None
-    whole: int = round(min(1000 * seconds, _LONGEST_MS))
-    return max(0, whole - (total(suite.milliseconds for suite in others) or 0))
 
 
 def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
@@ -208,15 +206,23 @@ def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
     yield from benchmark_suites(record, failed)
 
 
-def _ended(record: Record, failed: list[Failure]) -> JunitCase:
+def _ended(record: Record, failed: list[Failure], others: int) -> JunitCase:
     """The end of the run: an error if it was not reached, or if the exit code contradicts the record's lines.
 
-    Failures of other cases are not repeated here.
+    Its time is that of the run without the milliseconds of the `others`, if the run has an end and a time. Failures of
+    other cases are not repeated here.
     """
+    seconds = None if record.footer is None else record.footer.seconds
+    milliseconds = None if seconds is None else max(0, _milliseconds(seconds) - others)
     ended = ended_badly(record, failed)
     if ended is not None:
-        return JunitCase("ended", JunitTrouble("error", ended.kind, ended.message))
-    return JunitCase("ended", output=(verdict(record).sentence,))
+        return JunitCase("ended", JunitTrouble("error", ended.kind, ended.message), milliseconds=milliseconds)
+    return JunitCase("ended", output=(verdict(record).sentence,), milliseconds=milliseconds)
+
+
+def _milliseconds(seconds: float) -> int:
+    """Whole milliseconds; a time beyond _LONGEST_MS is cut."""
+    return round(min(1000 * seconds, _LONGEST_MS))
 
 
 def _proof(line: ProofLine) -> JunitCase:
@@ -227,10 +233,9 @@ def _proof(line: ProofLine) -> JunitCase:
 
 
 def _equation(line: EquationLine) -> JunitCase:
-    output = [f"{line.verdict}: {line.finding}", f"printed: {line.statement}"]
-    if not line.holds:
-        output.append(f"derived: {line.correction}")
-    return JunitCase(f"({line.number})", output=tuple(output))
+    derived = () if line.holds else (f"derived: {line.correction}",)
+    output = (f"{line.verdict}: {line.finding}", f"printed: {line.statement}", *derived)
+    return JunitCase(f"({line.number})", output=output)
 
 
 def _distinct_names(cases: Iterable[JunitCase]) -> Iterator[JunitCase]:
@@ -245,18 +250,16 @@ def _distinct_names(cases: Iterable[JunitCase]) -> Iterator[JunitCase]:
 def _oracle(line: OracleLine, failed: list[Failure]) -> JunitCase:
     stages = ", ".join(f"{stage} {number:,}" for stage, number in line.stages.items())
     output = (f"{counted(line.asked, 'case')}, {line.undecided:,} undecided: {stages}",)
-    milliseconds = round(min(1000 * line.seconds, _LONGEST_MS))
+    milliseconds = _milliseconds(line.seconds)
     place = ("oracle", line.oracle, line.family)
     mine = [each for each in failed if (each.subject, each.name, each.group) == place]
+    trouble = None
     if mine:
-        message = f"{counted(line.disagreeing, 'disagreement')} in {counted(line.asked, 'case')}"
-        trouble = JunitTrouble("failure", "disagreement", f"{message}; first: {mine[0].message}", tuple(details(mine)))
-        return JunitCase(line.family, trouble, output, milliseconds)
-    if line.undecided == line.asked:
-        return JunitCase(
-            line.family, JunitTrouble("skipped", "undecided", "no case could be decided"), output, milliseconds
-        )
-    return JunitCase(line.family, None, output, milliseconds)
+        counts = f"{counted(line.disagreeing, 'disagreement')} in {counted(line.asked, 'case')}"
+        trouble = _failure(mine, f"{counts}; first: {mine[0].message}")
+    elif line.undecided == line.asked:
+        trouble = JunitTrouble("skipped", "undecided", "no case could be decided")
+    return JunitCase(line.family, trouble, output, milliseconds)
 
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
@@ -264,8 +267,7 @@ def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
     yield from _distinct_names(map(_finding, record.of(FindingLine)))
     drifted = [each for each in failed if each.subject == "findings"]
     if drifted:
-        message = "; ".join(each.message for each in drifted)
-        yield JunitCase("known findings", JunitTrouble("failure", "drift", message, tuple(details(drifted))))
+        yield JunitCase("known findings", _failure(drifted))
     elif record.of(FindingLine):
         yield JunitCase("known findings", output=("the findings are the known ones",))
 
@@ -311,14 +313,10 @@ def _family_case(
             output.append(f"replay: {replays.command(group, worst)}")
     place = ("implementation", implementation.name, group.family)
     mine = [each for each in failed if (each.subject, each.name, each.group) == place and each.kind in counts]
-    if mine:
-        message = "; ".join(each.message for each in mine)
-        trouble = JunitTrouble("failure", mine[0].kind, message, tuple(details(mine)))
-        return JunitCase(group.family, trouble, tuple(output))
-    if set(counts) == {"skipped"}:
+    if not mine and set(counts) == {"skipped"}:
         message = f"all {counted(cases, 'case')} lie outside the method's domain or are no numbers of its format"
         return JunitCase(group.family, JunitTrouble("skipped", "skipped", message))
-    return JunitCase(group.family, None, tuple(output))
+    return JunitCase(group.family, _failure(mine), tuple(output))
 
 
 TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
