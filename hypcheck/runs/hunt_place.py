@@ -92,7 +92,8 @@ def _tilted_place(pair: TiltedPair) -> RowPlace:
         "z = 0": z == 0,
     }
     named = [name for name, holds in signs.items() if holds]
-    return RowPlace(next(iter(named), TILTED), ", ".join([TILTED, *named]), next(iter(named), TILTED))
+    kind = named[0] if named else TILTED
+    return RowPlace(kind, ", ".join([TILTED, *named]), kind)
 
 
 def _double_roots(lengths: Lengths, decision: Decision) -> Iterator[tuple[str, str]]:
@@ -142,15 +143,20 @@ def _planes(lengths: Lengths) -> Iterator[tuple[str, str]]:
 
 
 def _off_the_ring(lengths: Lengths) -> float | None:
-    """The rough distance of the centre from the circle z = 0, r² = (c² + 1)(a² + c²)/c², in radii; None if not near."""
+    """The rough distance of the centre from the ring, the circle z = 0, in radii; None if not near."""
     a, c = _a(lengths), _c(lengths)
-    if not a < c * c < math.inf:
+    radius = _ring_radius(a, c)
+    if radius is None:
         return None
-    radius = math.sqrt(c * c + 1) * math.hypot(a / c, 1)
     clearance = (c - a / c) ** 2 / (radius + a + 1)
     r = math.hypot(_ratio(lengths.x, lengths.b), _ratio(lengths.y, lengths.b))
     off = math.hypot(r - radius, _ratio(lengths.z, lengths.d))
     return off if clearance >= RING_CLEAR and off <= min(RING_NEAR, clearance / 2) else None
+
+
+def _ring_radius(a: float, c: float) -> float | None:
+    """The ring's radius √((c² + 1)(a² + c²))/c in radii of the spheroid; None where there is no ring."""
+    return math.sqrt(c * c + 1) * math.hypot(a / c, 1) if 0 < a < c * c < math.inf else None
 
 
 def _at_or_near(name: str, value: str, off: Fraction, what: str) -> str:
@@ -198,10 +204,9 @@ def way_place(row: tuple[float, ...]) -> RowPlace:
 def _crosses_the_ring(row: tuple[float, ...]) -> bool:
     """Whether an upright spheroid's centre comes to the ring, or nearly, on its way through the plane of the waist."""
     alpha, gamma, b, d, x, y, z, end_x, end_y, end_z = row
-    a, c = alpha / b, gamma / d
-    if not 0 < a < c * c < math.inf or z * end_z > 0:
+    radius = _ring_radius(alpha / b, gamma / d)
+    if radius is None or z * end_z > 0:
         return False
-    radius = math.sqrt(c * c + 1) * math.hypot(a / c, 1)
     low, high = (0.0, 1.0) if z == end_z else (z / (z - end_z),) * 2
     first, last = (math.hypot(x + t * (end_x - x), y + t * (end_y - y)) / b - radius for t in (low, high))
     return first * last <= 0 or min(abs(first), abs(last)) <= RING_NEAR

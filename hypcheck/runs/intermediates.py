@@ -23,12 +23,13 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.implementations.alternatives import DISTANCES, searched
 from hypcheck.implementations.description import Description
-from hypcheck.implementations.spec import Spec
+from hypcheck.implementations.implementation import Implementation
 
 DIGITS = 8
 _GUARD = 8
 
 Number = Fraction | Surd
+Row = tuple[float, ...]
 
 
 def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scalar of numpy
@@ -130,29 +131,23 @@ class Intermediate:
 
 @dataclass(frozen=True, slots=True)
 class FormulaComparison:
-    """All values of a formula on one row. `format` is the machine's; `answer` and `exact_answer` are the two results.
+    """All values of a formula on one row, by name; `format` is the machine's.
 
-    `first_wrong` names the first decision (a comparison) that exact arithmetic takes otherwise, or is None; `culprit`
-    names the number in that decision with the greatest absolute error.
+    `answer` and `exact_answer` are the two results. `first_wrong` names the first decision (a comparison) that exact
+    arithmetic takes otherwise, or is None; `culprit` names the number in that decision with the greatest absolute
+    error.
     """
 
     formula: Formula
     format: str
-    values: tuple[Intermediate, ...]
+    values: Mapping[str, Intermediate]
     answer: int
     exact_answer: int
     first_wrong: str | None
     culprit: str | None
 
-    def __getitem__(self, name: str) -> Intermediate:
-        """The value with that name; raises KeyError if there is none."""
-        for each in self.values:
-            if each.name == name:
-                return each
-        raise KeyError(name)
 
-
-def compare_formula(formula: Formula, format_name: str, row: tuple[float, ...]) -> FormulaComparison | None:
+def compare_formula(formula: Formula, format_name: str, row: Row) -> FormulaComparison | None:
     """The formula on a valid row in a format of float_arithmetic and exactly; None if it has no values.
 
     The dual form is evaluated at the λ that its method finds in that format; it has no values if that λ is not finite.
@@ -166,13 +161,12 @@ def compare_formula(formula: Formula, format_name: str, row: tuple[float, ...]) 
     said = {name: f"read as {format_name}" if name in COLUMNS else "from the search for λ" for name in program.inputs}
     said |= {step.name: line_of(step).partition(" = ")[2] for step in program.steps}
     decisions = _decisions(program)
-    values = tuple(
-        _intermediate(name, said[name], machine[name], exact[name], None if name in decisions else unit)
+    values = {
+        name: _intermediate(name, said[name], machine[name], exact[name], None if name in decisions else unit)
         for name in machine
-    )
+    }
     answer = "position" if formula.name == "dual" else formula.answer
-    by_name = {each.name: each for each in values}
-    wrong = next((step for step in program.steps if by_name[step.name].decided_otherwise), None)
+    wrong = next((step for step in program.steps if values[step.name].decided_otherwise), None)
     return FormulaComparison(
         formula=formula,
         format=format_name,
@@ -180,19 +174,19 @@ def compare_formula(formula: Formula, format_name: str, row: tuple[float, ...]) 
         answer=int(machine[answer]),
         exact_answer=int(exact[answer]),
         first_wrong=wrong.name if wrong else None,
-        culprit=_culprit(wrong, by_name) if wrong else None,
+        culprit=_culprit(wrong, values) if wrong else None,
     )
 
 
 Prepared = tuple[Program, Mapping[str, Any], Mapping[str, Any]]
 
 
-def _plain(formula: Formula, row: tuple[float, ...]) -> Prepared:
+def _plain(formula: Formula, row: Row) -> Prepared:
     columns = dict(zip(COLUMNS, row, strict=True))
     return formula.program, columns, columns
 
 
-def _dual(format_name: str, row: tuple[float, ...]) -> Prepared:
+def _dual(format_name: str, row: Row) -> Prepared:
     found = {
         name: values[0]
         for name, values in searched(dict(zip(COLUMNS, np.array([row]).T, strict=True)), format_name).items()
@@ -261,32 +255,23 @@ def require_formula(name: str | None) -> None:
         raise InputError(f"there is no formula {name!r} that takes a pair; there are {', '.join(SHOWN_FORMULAS)}")
 
 
-@dataclass(frozen=True, slots=True)
-class AskedImplementation:
-    """The implementation that was asked: its SPEC, its description as declared and as used, and its answer or None."""
-
-    spec: Spec
-    declared: Description
-    used: Description
-    answer: int | None
-
-
 def choose_formula(
-    subject: AskedImplementation, row: tuple[float, ...], truth: Position, name: str | None
+    implementation: Implementation, answer: int | None, row: Row, truth: Position, name: str | None
 ) -> FormulaChoice:
     """The formula to show for a valid row: the one with that name, or else the nearest to the implementation.
 
-    A built-in formula is shown in its own precision; other formulas in the precision of the description in use.
+    `answer` is the implementation's, None if there is none. A built-in formula is shown in its own precision; other
+    formulas in the precision of the description in use.
     """
-    own = _of_builtin(subject)
-    format_name, instead = format_of(subject.declared.precision if own else subject.used.precision)
+    own = _of_builtin(implementation)
+    format_name, instead = format_of((implementation.declared if own else implementation.description).precision)
     formula = FORMULAS[name] if name is not None else own
     if formula is None:
-        return _nearest(subject, row, truth, format_name, instead)
+        return _nearest(implementation.description, answer, row, truth, format_name, instead)
     comparison = compare_formula(formula, format_name, row)
     if comparison is None:
         return FormulaChoice(None, f"the search of {formula.name} finds no finite λ in {format_name}", formula is own)
-    why = "as --formula asks" if name is not None else f"which is what {subject.spec} evaluates"
+    why = "as --formula asks" if name is not None else f"which is what {implementation.spec} evaluates"
     return FormulaChoice(comparison, why + instead, formula is own)
 
 
@@ -300,31 +285,31 @@ def format_of(precision: str) -> tuple[str, str]:
     return instead, f"; numpy has no {precision}, so {instead} stands for it"
 
 
-def _of_builtin(subject: AskedImplementation) -> Formula | None:
-    if subject.spec.kind != "builtin":
+def _of_builtin(implementation: Implementation) -> Formula | None:
+    if implementation.spec.kind != "builtin":
         return None
-    return FORMULAS.get(subject.spec.words[0].removesuffix(f"-{subject.declared.precision}"))
+    return FORMULAS.get(implementation.spec.words[0].removesuffix(f"-{implementation.declared.precision}"))
 
 
 def _nearest(
-    subject: AskedImplementation, row: tuple[float, ...], truth: Position, format_name: str, instead: str
+    used: Description, answer: int | None, row: Row, truth: Position, format_name: str, instead: str
 ) -> FormulaChoice:
     """A formula with a comparable question that is right or wrong as the implementation is, table-2 first.
 
     A formula that errs in the same way explains a wrong answer. A "no" that leaves the truth open would explain
     nothing.
     """
-    question, answer = subject.used.question, subject.answer
-    found = [compared for formula in _comparable(question) if (compared := compare_formula(formula, format_name, row))]
+    comparable = _comparable(used.question)
+    found = [compared for formula in comparable if (compared := compare_formula(formula, format_name, row))]
     if answer is None:
         return FormulaChoice(found[0], f"there being no answer to compare formulas with{instead}")
-    meant = _positions(answer, question)
+    meant = _positions(answer, used.question)
     errs = truth not in meant
     for compared in found:
         left = _positions(compared.answer, compared.formula.question)
         if meant & left and (truth not in left) is errs:
-            return FormulaChoice(compared, f"which in {format_name} answers as {subject.used.name} does{instead}")
-    return FormulaChoice(found[0], f"though no formula in {format_name} answers as {subject.used.name} does{instead}")
+            return FormulaChoice(compared, f"which in {format_name} answers as {used.name} does{instead}")
+    return FormulaChoice(found[0], f"though no formula in {format_name} answers as {used.name} does{instead}")
 
 
 def _comparable(question: str) -> Iterator[Formula]:

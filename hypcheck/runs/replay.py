@@ -35,7 +35,7 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.reader import file_of, recorded_cases
 from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, Asked, Cause, Standing
-from hypcheck.runs.intermediates import AskedImplementation, FormulaChoice, choose_formula
+from hypcheck.runs.intermediates import FormulaChoice, choose_formula
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.judges import HIT, judge_of, passage_of, radii_off
 from hypcheck.runs.score import Score, score, status_of
@@ -221,8 +221,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     if isinstance(truth, ProvedTruth) and isinstance(truth.pair, Pair):
         causes = _causes(truth, judgement, criterion)
         answered = None if judgement.answer == CANNOT_SAY else judgement.answer
-        subject = AskedImplementation(implementation.spec, declared, used, answered)
-        choice = choose_formula(subject, truth.pair.row, truth.decision.position, formula)
+        choice = choose_formula(implementation, answered, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
         about = "a way" if case.layout is WAYS else "a tilted spheroid"
         raise InputError(f"--formula is {formula!r}, but {case.name} is about {about}, which no formula takes")

@@ -15,7 +15,7 @@ from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
 from hypcheck.runs.judges import LABELS, way_in_radii
-from hypcheck.runs.replay import ProvedTruth, Replay, ReplayJudgement, Row
+from hypcheck.runs.replay import ProvedTruth, Replay, Row
 from hypcheck.tables.numbers import hex_of
 from hypcheck.truth import passage_error
 from hypcheck.truth.swept import Passage
@@ -45,7 +45,12 @@ def replay_as_json(done: Replay) -> str:
                 "declared": _claims_json(done.declared),
                 "used": _claims_json(done.used),
                 "tolerance_u": float(done.criterion.tolerance),
-                **_judgement_json(judgement),
+                "status": judgement.status.value,
+                "answer": judgement.answer,
+                "reason": judgement.reason,
+                "mistake": None if judgement.mistake is None else judgement.mistake.value,
+                "backward_error": judgement.error,
+                "backward_error_u": judgement.error_u,
                 "skipped": done.skipped,
                 **more,
             }
@@ -82,24 +87,12 @@ def _claims_json(description: Description) -> dict[str, Any]:
     return {"name": description.name, "question": description.question, "precision": description.precision}
 
 
-def _judgement_json(judgement: ReplayJudgement) -> dict[str, Any]:
-    return {
-        "status": judgement.status.value,
-        "answer": judgement.answer,
-        "reason": judgement.reason,
-        "mistake": None if judgement.mistake is None else judgement.mistake.value,
-        "backward_error": judgement.error,
-        "backward_error_u": judgement.error_u,
-    }
-
-
 def _choice_json(choice: FormulaChoice) -> dict[str, Any]:
-    compared = choice.comparison
-    return {"why": choice.why, "own": choice.own, **({} if compared is None else _comparison_json(compared))}
-
-
-def _comparison_json(compared: FormulaComparison) -> dict[str, Any]:
+    compared, told = choice.comparison, {"why": choice.why, "own": choice.own}
+    if compared is None:
+        return told
     return {
+        **told,
         "formula": compared.formula.name,
         "question": compared.formula.question,
         "format": compared.format,
@@ -107,7 +100,7 @@ def _comparison_json(compared: FormulaComparison) -> dict[str, Any]:
         "exact_answer": compared.exact_answer,
         "first_wrong": compared.first_wrong,
         "culprit": compared.culprit,
-        "table": [_value(each) for each in compared.values],
+        "table": [_value(each) for each in compared.values.values()],
     }
 
 
@@ -254,14 +247,11 @@ def _choice_lines(choice: FormulaChoice, truth: Position, asked: str) -> Iterato
 
 def _table(compared: FormulaComparison) -> Iterator[str]:
     head = ("", "name", "computed as", compared.format, "exact", "error in u")
-    rows = [head, *(_row(compared, each) for each in compared.values)]
+    rows = [head, *(_row(compared, each) for each in compared.values.values())]
     widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
     for row in rows:
-        cells = [
-            text.rjust(width) if column == len(head) - 1 else text.ljust(width)
-            for column, (text, width) in enumerate(zip(row, widths, strict=True))
-        ]
-        yield "  ".join(cells).rstrip()
+        cells = [text.ljust(width) for text, width in zip(row[:-1], widths, strict=False)]
+        yield "  ".join([*cells, row[-1].rjust(widths[-1])]).rstrip()
 
 
 def _row(compared: FormulaComparison, each: Intermediate) -> Sequence[str]:
@@ -283,11 +273,11 @@ def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
     if compared.first_wrong is None:
         yield f"every decision of {compared.formula.name} in {compared.format} is the same in exact arithmetic"
     else:
-        wrong = compared[compared.first_wrong]
+        wrong = compared.values[compared.first_wrong]
         decided = f"is {number_text(wrong.value)}, in exact arithmetic {number_text(wrong.exact)}"
         yield f"{_FIRST} {wrong.name} ({wrong.operation}) {decided}"
         if compared.culprit is not None:
-            number = compared[compared.culprit]
+            number = compared.values[compared.culprit]
             exact = number_text(number.exact)
             yield f"{_CULPRIT} for {number.name} is {number_text(number.value)}, where {exact} is exact"
     rounded, exactly = (answer_said(answer, question) for answer in (compared.answer, compared.exact_answer))
