@@ -182,7 +182,7 @@ def _command(context: click.Context) -> list[str]:
     command = ["hypcheck", "emit"]
     for option in context.command.params:
         value = context.params[str(option.name)]
-        if option.name not in ("output", "proof") and value not in (None, option.default):
+        if option.name not in ("output", "proof") and value not in (None, False, option.default):
             command += [option.opts[0]] if value is True else [option.opts[0], value]
     return command
 
