@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any
 
 from hypcheck.errors import InputError, UnavailableError, system_reason
+from hypcheck.kernel.classify import kernel
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.report import csv, junit, markdown, summary, terminal
@@ -65,7 +66,11 @@ def render(name: str, record: Record, context: ReportContext = ALONE) -> bytes:
 
 
 def import_all() -> None:
-    """Import every module that makes a report, so that none is read from the disk after foreign code has run."""
+    """Import what makes reports, and the kernel that explains answers, which nothing reads after foreign code has run.
+
+    Raises InputError where the environment asks for a kernel that is not there.
+    """
+    kernel()
     for load in (pictures, _html):
         with suppress(UnavailableError):
             load()
