@@ -19,10 +19,9 @@ from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.runs import judge
 from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judges import truth_of
-from hypcheck.vectors import families
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import TiltedVector
-from hypcheck.vectors.families import FAMILIES, case_id
+from hypcheck.vectors.families import FAMILIES, case_id, family_of
 from hypcheck.vectors.family import BLOCK, Family
 
 _SMALLEST = 1e-300
@@ -58,7 +57,7 @@ def frozen_vectors(name: str) -> FrozenVectors:
     return _LOADED[name]
 
 
-def loaded_vectors() -> Mapping[str, FrozenVectors]:
+def loaded_vectors() -> dict[str, FrozenVectors]:
     """All vectors that this process has read, for another process: reading a file is slow, because it is checked."""
     return dict(_LOADED)
 
@@ -124,7 +123,7 @@ class CaseChunk:
     @property
     def movement(self) -> int:
         """How many consecutive cases follow one object from moment to moment; 1 if cases are independent."""
-        return 1 if self.seed is None else _family(self.family).movement
+        return 1 if self.seed is None else family_of(self.family).movement
 
     @property
     def part(self) -> int:
@@ -140,7 +139,7 @@ class CaseChunk:
         """The id of a case."""
         if self.seed is None:
             return frozen_vectors(self.family).ids[self.start + index]
-        return case_id(_family(self.family), self.seed, self.start + index)
+        return case_id(family_of(self.family), self.seed, self.start + index)
 
     def find(self, name: str) -> int | None:
         """The index of the case with that id, or None."""
@@ -207,7 +206,7 @@ def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
     if chunk.seed is None:
         known, part = frozen_vectors(chunk.family), slice(chunk.start, chunk.stop)
         return ChunkCases(chunk, known.rows[part], np.ascontiguousarray(known.rows[part].T), known.positions[part])
-    family = _family(chunk.family)
+    family = family_of(chunk.family)
     columns = family.columns_between(chunk.seed, chunk.start, chunk.stop)
     return ChunkCases(chunk, np.ascontiguousarray(columns.T), columns, truth_of(columns.T, family.layout))
 
@@ -243,8 +242,3 @@ def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np
     if len(unknown):  # none of tilted spheroids
         flips[unknown] = judge.flip_exponents(made.rows[measured[unknown]])
     return flips
-
-
-@lru_cache
-def _family(name: str) -> Family:
-    return families.family_of(name)

@@ -244,7 +244,7 @@ def execution_in_pool(
     A task raises StartError if the implementation describes itself otherwise there than here.
     """
     opener = replace(opener, declared=implementation.declared)
-    setup = partial(_opened, opener, rules, code_fingerprint(), dict(loaded_vectors()))
+    setup = partial(_opened, opener, rules, code_fingerprint(), loaded_vectors())
     with WorkerPool(workers, setup) as executor:
         yield TaskExecution(
             executor, _perform_opened, workers, implementation.allowance, implementation.max_rows, rules

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from importlib import resources
 
 import numpy as np
@@ -34,6 +35,7 @@ from hypcheck.runs.score import score
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision, cubic
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.tilted.exact import TiltedDecision
 from hypcheck.vectors.families import case_id
 from hypcheck.vectors.family import Family
 
@@ -70,39 +72,41 @@ class SelfCheckPlan:
 
 
 @dataclass(frozen=True)
-class FamilyBatch:
-    """The cases of one family: rows (n, 7), the exact decisions, and their positions as int8 (n,)."""
+class Batch:
+    """Cases of one family from `start` on: the ids by which they can be asked for again, rows, and exact decisions."""
 
     family: Family
-    seed: int
+    ids: tuple[str, ...]
     rows: Rows
-    decisions: tuple[Decision, ...]
-    positions: Positions
-
+    decisions: tuple[Decision | TiltedDecision, ...]
     start: int = 0
 
-    def head(self, count: int) -> FamilyBatch:
+    @cached_property
+    def positions(self) -> Positions:
+        """The exact positions, int8 (n,)."""
+        return np.array([decision.position for decision in self.decisions], dtype=np.int8)
+
+    def head(self, count: int) -> Batch:
         """The first `count` cases."""
-        return replace(self, rows=self.rows[:count], decisions=self.decisions[:count], positions=self.positions[:count])
+        return replace(self, ids=self.ids[:count], rows=self.rows[:count], decisions=self.decisions[:count])
 
     def name(self, index: int) -> str:
-        """The id by which a case can be asked for again."""
-        return case_id(self.family, self.seed, self.start + index)
+        """The id of a case."""
+        return self.ids[index]
 
     def place(self, index: int) -> CasePlace:
         """The place of a case in the family."""
         return 1, self.start + index
 
 
-def batch_of(family: Family, seed: int, start: int, stop: int) -> FamilyBatch:
+def batch_of(family: Family, seed: int, start: int, stop: int) -> Batch:
     """The cases of one family from `start` to `stop` − 1, decided exactly."""
     rows = np.ascontiguousarray(family.columns_between(seed, start, stop).T)
     decisions = tuple(exact.decide(Pair.from_row(row).lengths) for row in rows.tolist())
-    positions = np.array([decision.position for decision in decisions], dtype=np.int8)
-    return FamilyBatch(family, seed, rows, decisions, positions, start)
+    return Batch(family, tuple(case_id(family, seed, index) for index in range(start, stop)), rows, decisions, start)
 
 
-def mathematical_findings(formula: Formula, batch: FamilyBatch, plan: SelfCheckPlan) -> list[FindingLine]:
+def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -> list[FindingLine]:
     """A formula's errors in exact rationals on the first rows of a family, by cause, inside and outside its regimes.
 
     The lines have no reason yet. `asked` counts all rows inside or outside the regimes.
@@ -130,9 +134,10 @@ def mathematical_findings(formula: Formula, batch: FamilyBatch, plan: SelfCheckP
     ]
 
 
-def cause(batch: FamilyBatch, place: int) -> str:
+def cause(batch: Batch, place: int) -> str:
     """The special property of a case that printed statements often forget."""
-    if batch.decisions[place].kind is Kind.EXTERIOR_RING:
+    decision = batch.decisions[place]
+    if isinstance(decision, Decision) and decision.kind is Kind.EXTERIOR_RING:
         return "ring"
     g = cubic(Pair.from_row(batch.rows[place].tolist()).lengths)
     if g.n2 == 0 or g.n1 == 0:
@@ -145,7 +150,7 @@ def exact_formulas() -> list[Formula]:
     return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
 
 
-def method_group(method: Method, batch: FamilyBatch, exponents: NDArray[np.float64], plan: SelfCheckPlan) -> GroupLine:
+def method_group(method: Method, batch: Batch, exponents: NDArray[np.float64], plan: SelfCheckPlan) -> GroupLine:
     """The record's line about one method and one family; `exponents` as in Score.tally, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)

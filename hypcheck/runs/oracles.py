@@ -21,7 +21,7 @@ from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
-from hypcheck.runs.findings import FamilyBatch, SelfCheckPlan
+from hypcheck.runs.findings import Batch, SelfCheckPlan
 from hypcheck.truth import certificate, exact, mesh, nearest, nearest_exact, prove, roots
 from hypcheck.truth.mesh import MeshOutcome
 from hypcheck.truth.tilted import certificate as tilted_certificate
@@ -148,38 +148,16 @@ ORACLES = {
 }
 
 
-@dataclass(frozen=True)
-class TiltedBatch:
-    """Frozen vectors of one family of tilted spheroids: rows (n, 10), ids, and their proved labels."""
-
-    family: Family
-    rows: Rows
-    decisions: tuple[TiltedDecision, ...]
-    ids: tuple[str, ...]
-    start: int = 0
-
-    def name(self, index: int) -> str:
-        """The id of a case."""
-        return self.ids[index]
-
-
-Batch = FamilyBatch | TiltedBatch
-
-
 def tilted_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
     """All families of tilted spheroids but the extreme one; none where families were chosen."""
     return () if plan.families else tuple(each for each in TILTED_FAMILIES.values() if not each.extreme)
 
 
-def tilted_batch(family: Family, count: int) -> TiltedBatch:
+def tilted_batch(family: Family, count: int) -> Batch:
     """The first `count` frozen vectors of a family of tilted spheroids."""
     cases = frozen.load(family.name).cases[:count]
-    return TiltedBatch(
-        family,
-        np.asarray([case.row for case in cases]),
-        tuple(TiltedDecision(case.position, _limit_of(case)) for case in cases),
-        tuple(case.id for case in cases),
-    )
+    decisions = tuple(TiltedDecision(case.position, _limit_of(case)) for case in cases)
+    return Batch(family, tuple(case.id for case in cases), np.asarray([case.row for case in cases]), decisions)
 
 
 def _limit_of(case: TiltedVector) -> Position | None:
