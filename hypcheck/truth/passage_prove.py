@@ -13,13 +13,12 @@ from fractions import Fraction
 from hypcheck.geometry.pair import WAY_COLUMNS
 from hypcheck.truth import prove as upright
 from hypcheck.truth.certificate import Point
-from hypcheck.truth.journey import Journey, UprightJourney, piece, shortened
+from hypcheck.truth.journey import Journey, TiltedJourney, UprightJourney, piece, shortened
 from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, place
 from hypcheck.truth.polynomial_roots import value
 from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, reach, rounded
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted import prove as tilted
-from hypcheck.truth.tilted.journey import TiltedJourney
 
 Bounds = tuple[float, float]
 

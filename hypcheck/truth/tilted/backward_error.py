@@ -45,25 +45,23 @@ def goal_of(truth: Position, answer: Position) -> Goal:
     return Goal(truth, leave=True) if answer is Position.CONTACT else Goal(answer, leave=False)
 
 
-def is_limit(truth: TiltedDecision, answer: Position) -> bool:
-    """Whether an answer is right or the limit of right answers (the truth is a tangency from that side)."""
-    return answer in (truth.position, truth.limit_of)
+def _goal(row: Sequence[float], truth: TiltedDecision, answer: Position) -> Goal | float:
+    """The goal of an answer; the backward error itself where that is known at once: 0 or inf.
 
-
-def is_out_of_reach(row: Sequence[float], goal: Goal) -> bool:
-    """Whether no relative change up to 1 can do it: a centre on the hyperboloid's axis stays inside."""
-    return goal == Goal(Position.EXTERIOR, leave=False) and row[4] == row[5] == 0
+    It is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). No relative
+    change up to 1 brings a centre on the hyperboloid's axis outside.
+    """
+    if answer in (truth.position, truth.limit_of):
+        return 0.0
+    goal = goal_of(truth.position, answer)
+    return math.inf if goal == Goal(Position.EXTERIOR, leave=False) and row[4] == row[5] == 0 else goal
 
 
 def reached(row: Sequence[float], goal: Goal, change: Fraction) -> bool:
     """Whether a corner of the box of changes up to `change` (< 1) is found that attains the goal: proof from above."""
     if _stays_upright(row):
         return _reached_upright(row, goal, change)
-    start = tuple(map(Fraction, row))
-    return any(
-        (exact.position(TiltedLengths.of(each)) is goal.side) is not goal.leave
-        for each in _corners(start, goal, change)
-    )
+    return _attained(_corners(tuple(map(Fraction, row)), goal, change), goal)
 
 
 def excluded(row: Sequence[float], goal: Goal, change: Fraction, cuts: int = CUTS) -> bool:
@@ -93,13 +91,10 @@ def tolerated(
     """Whether a relative change up to `change` makes one of the wrong answers right; None where neither is proved."""
     if change == 0:
         return False
-    goals = []
-    for answer in answers:
-        if is_limit(truth, answer):
-            return True
-        goal = goal_of(truth.position, answer)
-        if not is_out_of_reach(row, goal):
-            goals.append(goal)
+    found = [_goal(row, truth, answer) for answer in answers]
+    if 0.0 in found:
+        return True
+    goals = [goal for goal in found if isinstance(goal, Goal)]
     if change >= 1:
         return bool(goals)
     if all(excluded(row, goal, change, cuts=0) for goal in goals):  # most wrong answers are wrong by far
@@ -118,11 +113,9 @@ def bracket(
     much), and often elsewhere; it is 1 where no smaller change was found. Fewer `cuts` of a box and fewer `steps` of
     halving take less time.
     """
-    if is_limit(truth, answer):
-        return Bracket(0.0, 0.0)
-    goal = goal_of(truth.position, answer)
-    if is_out_of_reach(row, goal):
-        return Bracket(math.inf, math.inf)
+    goal = _goal(row, truth, answer)
+    if isinstance(goal, float):
+        return Bracket(goal, goal)
     high = _reached_end(row, goal)
     low, high = _excluded_end(row, goal, high)
     if low:
@@ -141,10 +134,10 @@ def lower_ends(
     owners, goals = [], []
     for place, (row, truth, some) in enumerate(zip(rows, truths, answers, strict=True)):
         for answer in some:
-            goal = goal_of(truth.position, answer)
-            if is_limit(truth, answer):
-                ends[place] = 0.0
-            elif not is_out_of_reach(row, goal):
+            goal = _goal(row, truth, answer)
+            if isinstance(goal, float):
+                ends[place] = min(ends[place], goal)
+            else:
                 owners.append(place)
                 goals.append(goal)
     asked = np.array([rows[place] for place in owners]).reshape(len(owners), len(TILTED_COLUMNS))
@@ -155,11 +148,9 @@ def lower_ends(
 
 def lower_end(row: Sequence[float], truth: TiltedDecision, answer: Position) -> float:
     """A lower end for which 256 bits are taken, as for an answer wrong by little; 0 where none is found."""
-    if is_limit(truth, answer):
-        return 0.0
-    goal = goal_of(truth.position, answer)
-    if is_out_of_reach(row, goal):
-        return math.inf
+    goal = _goal(row, truth, answer)
+    if isinstance(goal, float):
+        return goal
     return _rounded(_excluded_end(row, goal, _estimate(tuple(map(Fraction, row)), goal))[0], -math.inf)
 
 
@@ -198,16 +189,18 @@ def _reached_above(row: Sequence[float], goal: Goal, low: Fraction) -> Fraction:
 def _reached_at(start: Row, goal: Goal, change: Fraction, patterns: Iterable[Signs]) -> bool:
     """Whether a corner of these signs attains the goal."""
     sizes = _moved(start[:4], goal.sizes, change)
-    rows = ((*sizes, *_moved(start[4:], signs, change)) for signs in patterns)
+    return _attained(((*sizes, *_moved(start[4:], signs, change)) for signs in patterns), goal)
+
+
+def _attained(rows: Iterable[Row], goal: Goal) -> bool:
+    """Whether one of these rows attains the goal, by exact decisions."""
     return any((exact.position(TiltedLengths.of(each)) is goal.side) is not goal.leave for each in rows)
 
 
 def estimate(row: Sequence[float], truth: TiltedDecision, answer: Position) -> float:
     """About the backward error, as derivatives at the row tell: fast, and no proof. It ranks answers."""
-    if is_limit(truth, answer):
-        return 0.0
-    goal = goal_of(truth.position, answer)
-    return math.inf if is_out_of_reach(row, goal) else float(_estimate(tuple(map(Fraction, row)), goal))
+    goal = _goal(row, truth, answer)
+    return goal if isinstance(goal, float) else float(_estimate(tuple(map(Fraction, row)), goal))
 
 
 def excluded_at_once(rows: Sequence[Sequence[float]], goals: Sequence[Goal], changes: Sequence[float]) -> list[bool]:
@@ -230,11 +223,9 @@ def is_bracket(
 
     `lower_holds` says that the lower end is proved already, as by excluded_at_once.
     """
-    if is_limit(truth, answer):
-        return ends == Bracket(0.0, 0.0)
-    goal = goal_of(truth.position, answer)
-    if is_out_of_reach(row, goal):
-        return ends == Bracket(math.inf, math.inf)
+    goal = _goal(row, truth, answer)
+    if isinstance(goal, float):
+        return ends == Bracket(goal, goal)
     low, high = ends.lower, ends.upper
     if not 0 <= low <= high <= 1 or high == 0:
         return False

@@ -15,8 +15,8 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact as upright
 from hypcheck.truth.float_filter import positions
+from hypcheck.truth.journey import Surd
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.journey import Surd
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
 from tests.truth.tilted.cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
+from hypcheck.truth.journey import Surd, _ring_between, _sign_at_root
 from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, tolerance
 from hypcheck.truth.swept import by_roots, by_steps, journey_of, passage
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import matrices
-from hypcheck.truth.tilted.journey import Surd, _ring_between, _sign_at_root
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
 from hypcheck.vectors.tilted import RINGS, TWO_POINTS
 
