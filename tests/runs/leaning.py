@@ -14,12 +14,14 @@ hypcheck = {"name": "leaning", "tilt": True, "refuses": True}
 
 def exact(rows):
     """Right, by integers; a row that is none is refused."""
-    return positions(rows, on_invalid="flag")
+    answers, valid = np.full(len(rows), REFUSED, dtype=np.int8), ~invalid(rows)
+    answers[valid] = positions(rows[valid])
+    return answers
 
 
 def upright(rows):
     """The answer about the spheroid that stands upright in its place."""
-    answers = positions(with_axis(rows[:, :7]), on_invalid="flag")
+    answers = exact(with_axis(rows[:, :7]))
     answers[invalid(rows)] = REFUSED
     return answers
 
