@@ -36,7 +36,7 @@ gc.disable()
 
 SLOW = {
     "": "action processes tutorial wheel",
-    "bench": "c_tier costs foreign kernel_targets plan_measure rounds run scenes",
+    "bench": "c_library claims foreign kernel_targets run scenes",
     "cli": "completion detach exits pytest_plugin settings startup",
     "derivation": "formulas proofs repaired_formulas rounding",
     "engines": "adapters cli findings placing scene",
@@ -71,7 +71,7 @@ SLOW = {
 
 THOROUGH = {
     "": "tutorial",
-    "bench": "c_tier costs foreign kernel_targets plan_measure scenes tilted",
+    "bench": "c_library claims foreign kernel_targets scenes tilted",
     "cli": "completion detach pytest_plugin",
     "derivation": "repaired_formulas rounding",
     "implementations": "fcl_naive",

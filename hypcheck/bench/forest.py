@@ -12,7 +12,7 @@ import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from math import hypot
 from time import perf_counter
 from types import MappingProxyType
@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.timing import Samples, TimingEntry, clocked_calls, estimate, measure, ratios
+from hypcheck.bench.timing import TimingEntry, clocked_calls, estimate, measure, ratios
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Lengths, Position, to_integers
 from hypcheck.implementations.meshes import FCL, grid_of
@@ -155,27 +155,25 @@ def _cylinders() -> list[Any]:
     return [fcl_module().Cylinder(alpha * hypot(1.0, WALKER.d / gamma), 2 * HEIGHT) for alpha, gamma in KINDS]
 
 
-def _by_fcl(shapes: Callable[[], list[Any]]) -> Callable[[Forest], Clear]:
-    def make(forest: Forest) -> Clear:
-        fcl, kinds = fcl_module(), shapes()
-        trees = [
-            fcl.CollisionObject(kinds[kind], fcl.Transform(np.array([x, y, 0.0])))
-            for kind, (x, y) in zip(forest.kinds.tolist(), forest.places.tolist(), strict=True)
-        ]
-        manager = fcl.DynamicAABBTreeCollisionManager()
-        manager.registerObjects(trees)
-        manager.setup()
-        walker = fcl.CollisionObject(fcl.Ellipsoid(WALKER.b, WALKER.b, WALKER.d))
+def _in_fcl(shapes: Callable[[], list[Any]], forest: Forest) -> Clear:
+    """FCL's broad phase with one of the shapes, of each kind, for every tree."""
+    fcl, kinds = fcl_module(), shapes()
+    trees = [
+        fcl.CollisionObject(kinds[kind], fcl.Transform(np.array([x, y, 0.0])))
+        for kind, (x, y) in zip(forest.kinds.tolist(), forest.places.tolist(), strict=True)
+    ]
+    manager = fcl.DynamicAABBTreeCollisionManager()
+    manager.registerObjects(trees)
+    manager.setup()
+    walker = fcl.CollisionObject(fcl.Ellipsoid(WALKER.b, WALKER.b, WALKER.d))
 
-        def clear(x: float, y: float, z: float, _kept: Any = (kinds, trees)) -> int:  # noqa: ANN401
-            walker.setTranslation(np.array([x, y, z]))
-            found = fcl.CollisionData()  # FCL keeps results between calls
-            manager.collide(walker, found, fcl.defaultCollisionCallback)
-            return int(not found.result.is_collision)
+    def clear(x: float, y: float, z: float, _kept: Any = (kinds, trees)) -> int:  # noqa: ANN401
+        walker.setTranslation(np.array([x, y, z]))
+        found = fcl.CollisionData()  # FCL keeps results between calls
+        manager.collide(walker, found, fcl.defaultCollisionCallback)
+        return int(not found.result.is_collision)
 
-        return clear
-
-    return make
+    return clear
 
 
 OURS = "hypcheck.Scene"
@@ -186,21 +184,13 @@ WALKERS: Mapping[str, Walker] = MappingProxyType(
             f"FCL: DynamicAABBTreeCollisionManager, trees as meshes of about {TRIANGLES} triangles, one for each of "
             f"{len(KINDS)} kinds; an Ellipsoid walks",
             TRIANGLES,
-            _by_fcl(_meshes),
+            partial(_in_fcl, _meshes),
         ),
-        "fcl-cylinders": Walker("FCL: the same with a bounding cylinder for each tree", None, _by_fcl(_cylinders)),
+        "fcl-cylinders": Walker(
+            "FCL: the same with a bounding cylinder for each tree", None, partial(_in_fcl, _cylinders)
+        ),
     }
 )
-
-
-def here() -> dict[str, Walker]:
-    """The candidates that can be asked here; FCL may be missing."""
-    return {name: each for name, each in WALKERS.items() if name == OURS or FCL.trouble() is None}
-
-
-def answers(clear: Clear, centres: list[Point]) -> list[int]:
-    """The answer to each centre."""
-    return [clear(*centre) for centre in centres]
 
 
 TREES = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
@@ -226,19 +216,33 @@ def run(recorder: Recorder, advance: Advance, seed: int, forests: Sequence[int],
 
 
 def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:
+    """A line for each candidate that can be asked here; FCL may be missing."""
     centres = walk(Scene(forest.model), forest, STEPS, seed)
     truth = [int(forest.clear(centre)) for centre in centres]
-    made = {name: _made(each, forest) for name, each in here().items()}
+    walkers = {name: each for name, each in WALKERS.items() if name == OURS or FCL.trouble() is None}
+    made = {name: _made(each, forest) for name, each in walkers.items()}
     wrong = {
-        name: sum(said != true for said, true in zip(answers(clear, centres), truth, strict=True))
+        name: sum(clear(*centre) != true for centre, true in zip(centres, truth, strict=True))
         for name, (clear, _) in made.items()
     }
-    entries = [TimingEntry(name, STEPS, clocked_calls(clear, centres)) for name, (clear, _) in made.items()]
-    samples = measure(entries, rounds)
-    ours = samples[0]
+    samples = measure([TimingEntry(name, STEPS, clocked_calls(made[name][0], centres)) for name in made], rounds)
     for each in samples:
-        built_s = made[each.name][1]
-        yield _line(each, ours, here()[each.name], len(forest.places), built_s, wrong[each.name])
+        step = estimate([each.samples_ns])
+        ratio = estimate(ratios([each.samples_ns], [samples[0].samples_ns]))
+        yield ForestLine(
+            method=each.name,
+            title=walkers[each.name].title,
+            exact=each.name == OURS,
+            trees=len(forest.places),
+            triangles=walkers[each.name].triangles,
+            asked=STEPS,
+            wrong=wrong[each.name],
+            build_s=made[each.name][1],
+            step_ns=step.median,
+            ci95_ns=(step.low, step.high),
+            ratio=ratio.median,
+            ratio_ci95=(ratio.low, ratio.high),
+        )
 
 
 def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
@@ -248,22 +252,3 @@ def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
     started = perf_counter()
     clear = walker.make(forest)
     return clear, perf_counter() - started
-
-
-def _line(each: Samples, ours: Samples, walker: Walker, trees: int, built_s: float, wrong: int) -> ForestLine:
-    step = estimate([each.samples_ns])
-    ratio = estimate(ratios([each.samples_ns], [ours.samples_ns]))
-    return ForestLine(
-        method=each.name,
-        title=walker.title,
-        exact=each.name == OURS,
-        trees=trees,
-        triangles=walker.triangles,
-        asked=STEPS,
-        wrong=wrong,
-        build_s=built_s,
-        step_ns=step.median,
-        ci95_ns=(step.low, step.high),
-        ratio=ratio.median,
-        ratio_ci95=(ratio.low, ratio.high),
-    )

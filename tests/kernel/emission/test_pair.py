@@ -3,6 +3,7 @@
 import ctypes
 import importlib.util
 import json
+import re
 import shutil
 import subprocess
 from fractions import Fraction
@@ -148,3 +149,19 @@ def test_emitted_pair_refuses_an_unknown_method():
     with pytest.raises(InputError, match="it must be exact, certified, dual or local-maximum"):
         emitted_pair("roots", "c", COMMAND)
     assert METHODS == ("exact", "certified", "dual", "local-maximum")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--method", "dual", "--language", "python"],
+        ["--method", "exact", "--language", "c", "--prefix", "mine"],
+        ["--scene", "tower", "--language", "c"],
+        ["--scene", "tower", "--language", "rust", "--precision", "float32", "--question", "exterior"],
+        ["--scene", "forest", "--language", "python", "--whole"],
+    ],
+)
+def test_emitted_code_names_the_command_with_the_options_that_were_given(capsys, words):
+    assert main(["emit", *words]) == 0
+    found = re.search("hypcheck emit [^`\n]*", capsys.readouterr().out)
+    assert found[0].split() == ["hypcheck", "emit", *words]

@@ -21,7 +21,7 @@ from hypcheck.vectors.families import FAMILIES, select
 from tests.support.records import GrowingText
 
 TIMED_ALONE = ("table-2-reciprocal-float64", "procedure-1-repaired-float64")
-"""Compiled for the claims about costs, and compared with numpy there (test_costs.py)."""
+"""Compiled for the claims about costs, and compared with numpy there (test_claims.py)."""
 
 NAMES = [f"{body.name}-c" for body in c_library.bodies() if body.name not in TIMED_ALONE]
 NUMPY = {"fast-c": "fast-numpy"}
