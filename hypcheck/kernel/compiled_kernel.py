@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from functools import cache
+from collections.abc import Callable, Sequence
+from functools import cache, partial
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,14 +45,18 @@ def prepared(sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
     """As classify.Kernel has it."""
-    ask, number = compiled().ask, NUMBER_OF[question]
+    ask, number, answers = compiled().ask, NUMBER_OF[question], np.empty(len(rows), dtype=np.int8)
+    return answers, _by_row(partial(ask, number), rows, (answers,), threads)
+
+
+def _by_row(ask: Callable[..., int], rows: Rows, told: Sequence[NDArray[Any]], threads: int | None) -> int:
+    """Ask about rows, and fill arrays, one place for each row, with what is told; the sum of what `ask` returns."""
     aligned = rows if rows.flags.aligned else rows.copy()
-    answers = np.empty(len(rows), dtype=np.int8)
 
     def part(start: int, stop: int) -> int:
-        return int(ask(number, aligned[start:stop], answers[start:stop]))
+        return ask(aligned[start:stop], *(each[start:stop] for each in told))
 
-    return answers, in_parts(part, len(rows), threads)
+    return in_parts(part, len(rows), threads)
 
 
 def answer_scene(
@@ -114,15 +119,8 @@ def fill_valid_scene(
 
 def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
     """As classify.Kernel has it."""
-    decide = compiled().passage
-    aligned = rows if rows.flags.aligned else rows.copy()
     hits, times = np.empty(len(rows), dtype=np.int8), np.empty(len(rows))
-
-    def part(start: int, stop: int) -> int:
-        decide(aligned[start:stop], hits[start:stop], times[start:stop])
-        return 0
-
-    in_parts(part, len(rows), threads)
+    _by_row(lambda *part: compiled().passage(*part) or 0, rows, (hits, times), threads)
     return hits, times
 
 
@@ -132,14 +130,8 @@ NEAR_NUMBERS = 11
 
 def near_rows(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
     """Positions (n,), 127 for invalid ones, and what hypcheck_clearance says of contiguous rows (n, 7): (n, 11)."""
-    decide = compiled().clearance
-    aligned = rows if rows.flags.aligned else rows.copy()
     positions, found = np.empty(len(rows), dtype=np.int8), np.empty((len(rows), NEAR_NUMBERS))
-
-    def part(start: int, stop: int) -> int:
-        return int(decide(aligned[start:stop], positions[start:stop], found[start:stop]))
-
-    in_parts(part, len(rows), threads)
+    _by_row(compiled().clearance, rows, (positions, found), threads)
     return positions, found
 
 

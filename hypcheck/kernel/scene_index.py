@@ -186,17 +186,12 @@ class PlaneGrid:
         """The same of many centres (n,): pairs of a centre's number and a hyperboloid's, centre by centre."""
         with np.errstate(over="ignore"):
             cells = np.floor(np.stack([x, y]) / self.side)
-        inside = (np.abs(cells) < WIDEST).all(axis=0)
-        column, row = np.where(inside, cells, 0.0).astype(np.int64)
-        place = _hashed(column, row, len(self.starts) - 1)
-        starts = np.frombuffer(self.starts, np.intc).astype(np.int64)
-        first, counts = starts[place], np.where(inside, starts[place + 1] - starts[place], 0)
-        query = np.repeat(np.arange(len(x)), counts)
-        step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-        member = np.frombuffer(self.members, np.intc).astype(np.int64)[np.repeat(first, counts) + step]
+        inside = np.flatnonzero((np.abs(cells) < WIDEST).all(axis=0))
+        column, row = cells[:, inside].astype(np.int64)
+        cell, member = self._members_of(column, row)
         always = np.tile(np.array(self.everywhere, np.int64), len(x))
         return (
-            np.concatenate([query, np.repeat(np.arange(len(x)), len(self.everywhere))]),
+            np.concatenate([inside[cell], np.repeat(np.arange(len(x)), len(self.everywhere))]),
             np.concatenate([member, always]),
         )
 
@@ -207,13 +202,22 @@ class PlaneGrid:
         """
         first, last = (np.floor(np.clip(each / self.side, -WIDEST, WIDEST)) for each in (low, high))
         column, row, box = _entries(first[:, 0], last[:, 0], first[:, 1], last[:, 1], np.arange(len(low)))
+        cell, member = self._members_of(column, row)
+        return box[cell], member
+
+    def _members_of(self, column: Indices, row: Indices) -> tuple[Indices, Indices]:
+        """What cells hold: pairs of a cell's number among these (n,) and a hyperboloid's, cell by cell."""
         place = _hashed(column, row, len(self.starts) - 1)
         starts, members = np.frombuffer(self.starts, np.intc), np.frombuffer(self.members, np.intc)
-        begin = starts[place].astype(np.int64)
-        counts = starts[place + 1] - begin
-        step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-        member = members[np.repeat(begin, counts) + step].astype(np.int64)
-        return np.repeat(box, counts), member
+        first = starts[place].astype(np.int64)
+        counts = starts[place + 1] - first
+        member = members[np.repeat(first, counts) + _counted(counts)]
+        return np.repeat(np.arange(len(place)), counts), member.astype(np.int64)
+
+
+def _counted(counts: Indices) -> Indices:
+    """0, 1, 2, … anew for each of the counts, one after the other."""
+    return np.asarray(np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts))
 
 
 def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
@@ -244,7 +248,7 @@ def _entries(
     across = (high_x - low_x)[chosen].astype(np.int64) + 1
     along = (high_y - low_y)[chosen].astype(np.int64) + 1
     counts = across * along
-    place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    place = _counted(counts)
     wide = np.repeat(across, counts)
     column = np.repeat(low_x[chosen].astype(np.int64), counts) + place % wide
     row = np.repeat(low_y[chosen].astype(np.int64), counts) + place // wide
@@ -322,7 +326,7 @@ def _beside_pieces(grid: PlaneGrid, starts: Rows, ends: Rows, pieces: Indices) -
     here, there = starts[way, :2], ends[way, :2]
     pad = PAD * (np.abs(here) + np.abs(there))
     if len(way) > len(cut):
-        number = np.arange(len(way)) - np.repeat(np.cumsum(pieces[cut]) - pieces[cut], pieces[cut])
+        number = _counted(pieces[cut])
         change, parts = there - here, pieces[way][:, None]
         here, there = here + change * (number[:, None] / parts), here + change * ((number[:, None] + 1) / parts)
     piece, body = grid.near_boxes(np.minimum(here, there) - pad, np.maximum(here, there) + pad)
