@@ -11,7 +11,7 @@ over a region, nearly every block is open, and along a path hardly any.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from math import isfinite
 
 import numpy as np
@@ -24,7 +24,6 @@ from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_ask
 from hypcheck.kernel.specialise.first_stages import CENTRE, Thresholds
 from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, LeaningSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
-from hypcheck.scene.model import Span
 
 INDENT = "    "
 
@@ -49,23 +48,6 @@ def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Diale
     axis = dialect.axis["axis"] if plan.free else ""
     begin = dialect.say("begin", place=place, number=dialect.number_of(plan.format.name), axis=axis)
     return "\n".join([begin, *indented, dialect.say("end")]).rstrip()
-
-
-def beyond_height(cut: Span, precision: str, literal: Callable[[float], str]) -> Iterator[str]:
-    """The conditions under which z is beyond the modelled height; an end that the format does not reach has none.
-
-    Rounding is monotone: no z within the height is beyond the rounded ends once it is rounded itself.
-    """
-    with np.errstate(over="ignore", under="ignore"):
-        ends = [float(np.dtype(precision).type(end)) for end in (cut.low, cut.high)]
-    for sign, end in zip("<>", ends, strict=True):
-        if isfinite(end):
-            yield f"z {sign} {literal(end)}"
-
-
-def beyond_threshold(position: Position, threshold: str) -> str:
-    """The condition under which R is on this position's side of its threshold."""
-    return f"R {'>' if position is Position.EXTERIOR else '<'} {threshold}"
 
 
 class _Statements:
@@ -93,6 +75,24 @@ class _Statements:
     def _literal(self, value: float) -> str:
         return self._dialect.literal(value, self._precision)
 
+    def _beyond_height(self) -> list[str]:
+        """The conditions under which z is beyond the modelled height; an end that the format does not reach has none.
+
+        Rounding is monotone: no z within the height is beyond the rounded ends once it is rounded itself.
+        """
+        cut = self._stages.setting.cut
+        if cut is None:
+            return []
+        with np.errstate(over="ignore", under="ignore"):
+            ends = [float(np.dtype(self._precision).type(end)) for end in (cut.low, cut.high)]
+        return [f"z {sign} {self._literal(end)}" for sign, end in zip("<>", ends, strict=True) if isfinite(end)]
+
+    def _beyond_thresholds(self) -> Iterator[tuple[str, int]]:
+        """The conditions under which R is on a position's side of its threshold, and the answer there."""
+        for position, threshold in thresholds_asked(self._stages, self._question):
+            sign = ">" if position is Position.EXTERIOR else "<"
+            yield f"R {sign} {self._literal(threshold)}", answer(position, self._question)
+
     def _side(self) -> Iterator[str]:
         """The step `outside`: on which side the centre is."""
         yield from self._constants(self._stages.centre)
@@ -113,7 +113,7 @@ class _Body(_Statements):
         stages = self._stages
         if stages.setting.cut is not None:
             yield self._note("beyond the modelled height")
-            for beyond in beyond_height(stages.setting.cut, self._precision, self._literal):
+            for beyond in self._beyond_height():
                 yield self._say("return if", condition=beyond, value=CANNOT_SAY)
         if isinstance(stages.last, Position):
             yield self._say("return", value=answer(stages.last, self._question))
@@ -123,11 +123,11 @@ class _Body(_Statements):
             yield from self._stages_in_turn(stages.last)
 
     def _thresholds(self) -> Iterator[str]:
-        asked = thresholds_asked(self._stages, self._question)
+        asked = list(self._beyond_thresholds())
         if asked:
             yield from self._entry(("R",))
-        for position, threshold in asked:
-            yield self._return_if(beyond_threshold(position, self._literal(threshold)), position)
+        for condition, value in asked:
+            yield self._say("return if", condition=condition, value=value)
         yield self._say("return", value=answer(Position.CONTACT, self._question))
 
     def _stages_in_turn(self, search: DualSearch | LeaningSearch) -> Iterator[str]:
@@ -239,14 +239,15 @@ class _Batch(_Statements):
 
     def first(self) -> Iterator[str]:
         """Everything that costs a few operations; what it leaves is OPEN."""
-        stages, choices, rest = self._stages, self._beyond_height(), OPEN
+        stages, choices, rest = self._stages, self._unmodelled(), OPEN
         yield from self._centre_read()
         if isinstance(stages.last, Position):
             rest = answer(stages.last, self._question)
         elif isinstance(stages.last, Thresholds):
-            if thresholds_asked(stages, self._question):
+            asked = list(self._beyond_thresholds())
+            if asked:
                 yield from self._entry(("R",))
-            choices += self._thresholds()
+            choices += asked
             rest = answer(Position.CONTACT, self._question)
         elif stages.lines or self._question in ONE_SIDED:
             yield from self._entry(("R", "zz"))
@@ -286,7 +287,7 @@ class _Batch(_Statements):
             rest = "told"
         yield f"const {self._number} now = touching ? {self.code(answer(Position.CONTACT, self._question))} : {rest};"
         yield f"const {self._number} here = before == {self.code(OPEN)} ? now : before;"
-        yield f"code[i] = {self._chosen(self._beyond_height(), 'here')};"
+        yield f"code[i] = {self._chosen(self._unmodelled(), 'here')};"
 
     @property
     def _truth(self) -> str:
@@ -297,16 +298,10 @@ class _Batch(_Statements):
             yield f"const {self._number} {name} = ({self._number}){name}s[i];"
         yield "(void)x; (void)y; (void)z;"
 
-    def _beyond_height(self) -> list[tuple[str, int]]:
-        cut = self._stages.setting.cut
-        if cut is None:
+    def _unmodelled(self) -> list[tuple[str, int]]:
+        if self._stages.setting.cut is None:
             return []
-        beyond = (f"({each})" for each in beyond_height(cut, self._precision, self._literal))
-        return [(" | ".join(beyond) or "0", CANNOT_SAY)]
-
-    def _thresholds(self) -> Iterator[tuple[str, int]]:
-        for position, threshold in thresholds_asked(self._stages, self._question):
-            yield beyond_threshold(position, self._literal(threshold)), answer(position, self._question)
+        return [(" | ".join(f"({each})" for each in self._beyond_height()) or "0", CANNOT_SAY)]
 
     def _chosen(self, choices: list[tuple[str, int]], rest: str) -> str:
         text = rest

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
 from fractions import Fraction
 from textwrap import wrap
@@ -86,8 +86,7 @@ FEW = 4
 
 def header(plan: ScenePlan, command: Sequence[str], prefix: str) -> str:
     """The lines of the comment, each after `prefix`."""
-    lines = [line for paragraph in _paragraphs(plan, command) for line in (*_wrapped(paragraph), "")]
-    return "\n".join(f"{prefix}{line}".rstrip() for line in lines[:-1])
+    return _comment(_paragraphs(plan, command), prefix)
 
 
 def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], prefix: str) -> str:
@@ -107,6 +106,10 @@ def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], pre
         _bound(plan),
         "`whole` asks each hyperboloid so, its offset from the mover rounded once: by a unit more.",
     )
+    return _comment(paragraphs, prefix)
+
+
+def _comment(paragraphs: Iterable[str], prefix: str) -> str:
     lines = [line for paragraph in paragraphs for line in (*_wrapped(paragraph), "")]
     return "\n".join(f"{prefix}{line}".rstrip() for line in lines[:-1])
 
