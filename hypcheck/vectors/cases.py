@@ -51,8 +51,8 @@ Flip = TypeVar("Flip", float, Bracket)
 class StoredCertificate:
     """A certificate as files hold it: one of a multiplier λ, a double root m, and points.
 
-    Points are offsets (s, t, w) from the spheroid's centre, (x + b s, y + b t, z + d w) of an upright spheroid, so that
-    s² + t² + w² ≤ 1 says that they belong to it; of a tilted one (x + b s, y + b t, z + b w). So short numbers do.
+    Points are offsets (s, t, w) from the spheroid's centre, so that short numbers do. Of an upright spheroid the point
+    is (x + b s, y + b t, z + d w), and belongs to it if s² + t² + w² ≤ 1. Of a tilted one it is (x, y, z) + b (s, t, w).
     """
 
     multiplier: Fraction | None = None
