@@ -52,7 +52,8 @@ class StoredCertificate:
     """A certificate as files hold it: one of a multiplier λ, a double root m, and points.
 
     Points are offsets (s, t, w) from the spheroid's centre, so that short numbers do. Of an upright spheroid the point
-    is (x + b s, y + b t, z + d w), and belongs to it if s² + t² + w² ≤ 1. Of a tilted one it is (x, y, z) + b (s, t, w).
+    is (x + b s, y + b t, z + d w), and belongs to it if s² + t² + w² ≤ 1.
+    Of a tilted one it is (x, y, z) + b (s, t, w).
     """
 
     multiplier: Fraction | None = None

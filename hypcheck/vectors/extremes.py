@@ -16,16 +16,17 @@ power and both limits of the format, a few exponents to each side.
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, FloatFormat
 from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import double_roots
+from hypcheck.vectors.coincidences import exact_maker
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gather
 from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, to_bits, turns
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, around, beside, heights, offsets, sizes
-from hypcheck.vectors.tangency import exact_maker, two_points_on_an_axis
 
 STIFF_RATIOS = (10, 40)
 """Exponents of 2. Ratios beyond 1e8 are outside the domain that an implementation has unless it declares more."""
@@ -223,7 +224,7 @@ _touching_on_zero = in_turn(
     exact_maker(double_roots.waist_points),
     exact_maker(double_roots.throat_circles),
     exact_maker(double_roots.osculations),
-    exact_maker(two_points_on_an_axis),
+    exact_maker(partial(double_roots.waist_roots_on_an_axis, ring=False)),
 )
 
 

@@ -10,7 +10,7 @@ from fnmatch import fnmatchcase
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout
 from hypcheck.messages import suggestion
-from hypcheck.vectors import borders, extremes, random_pairs, scenes, tangency, tilted, ways
+from hypcheck.vectors import coincidences, extremes, random_pairs, scenes, tilted, ways
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
 
@@ -34,22 +34,22 @@ FAMILIES = _table(
     Family("small-integers", random_pairs.small_integers, 240, version=2, by_place=True),
     Family("symmetric-images", random_pairs.symmetric_images, 160, by_place=True),
     Family("one-number-changed", random_pairs.one_number_changed, 168),
-    Family("tangent", tangency.tangent, 270),
-    Family("near-tangent-outside", tangency.near_tangent(outer=True), 240),
-    Family("near-tangent-inside", tangency.near_tangent(outer=False), 240),
-    Family("degenerate-crossing", tangency.degenerate_crossing, 120),
-    Family("degenerate-neighbourhood", tangency.degenerate_neighbourhood, 160),
-    Family("on-surface", tangency.on_surface, 120),
-    Family("tangent-ladder", tangency.ladder, 492),
-    Family("ring", tangency.ring, 240),
-    Family("ring-neighbourhood", tangency.ring_neighbourhood, 240),
-    Family("osculation", tangency.osculation, 240),
-    Family("near-axis", borders.near_axis, 200),
-    Family("coefficient-zero", borders.coefficient_zero, 240),
-    Family("axis", borders.axis, 160),
-    Family("waist", borders.waist, 160),
-    Family("regime-borders", borders.regime_borders, 240),
-    Family("out-of-regime", borders.out_of_regime, 240),
+    Family("tangent", coincidences.tangent, 270),
+    Family("near-tangent-outside", coincidences.near_tangent(outer=True), 240),
+    Family("near-tangent-inside", coincidences.near_tangent(outer=False), 240),
+    Family("degenerate-crossing", coincidences.degenerate_crossing, 120),
+    Family("degenerate-neighbourhood", coincidences.degenerate_neighbourhood, 160),
+    Family("on-surface", coincidences.on_surface, 120),
+    Family("tangent-ladder", coincidences.ladder, 492),
+    Family("ring", coincidences.ring, 240),
+    Family("ring-neighbourhood", coincidences.ring_neighbourhood, 240),
+    Family("osculation", coincidences.osculation, 240),
+    Family("near-axis", coincidences.near_axis, 200),
+    Family("coefficient-zero", coincidences.coefficient_zero, 240),
+    Family("axis", coincidences.axis, 160),
+    Family("waist", coincidences.waist, 160),
+    Family("regime-borders", coincidences.regime_borders, 240),
+    Family("out-of-regime", coincidences.out_of_regime, 240),
     Family("stiff-radial", extremes.stiff(radial=True, axial=False), 160),
     Family("stiff-axial", extremes.stiff(radial=False, axial=True), 160),
     Family("stiff-both", extremes.stiff(radial=True, axial=True), 160),

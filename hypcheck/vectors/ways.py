@@ -13,11 +13,11 @@ from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.passage_error import hits_at_size
 from hypcheck.vectors import double_roots, random_pairs, tilted
+from hypcheck.vectors.coincidences import tangent
 from hypcheck.vectors.double_roots import gather, in_metres
 from hypcheck.vectors.draw import Draw, in_turn, ldexp, turns
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, heights, offsets, sizes
 from hypcheck.vectors.scenes import BODY, TOWER
-from hypcheck.vectors.tangency import tangent
 
 CENTRE = slice(4, 7)
 """The columns of the centre, or of the first end of a way."""

@@ -20,11 +20,11 @@ from hypcheck.geometry.rows import invalid
 from hypcheck.vectors import cancellation, freezing
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import cases_text
+from hypcheck.vectors.coincidences import RUNGS
 from hypcheck.vectors.double_roots import ULPS
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.flags import DEFEATED
 from hypcheck.vectors.format import SCHEMA
-from hypcheck.vectors.tangency import RUNGS
 from tests.support.records import violations
 
 FOLDER = vectors.folder()

@@ -1,0 +1,354 @@
+"""What an argument must tell apart: exact tangencies, other double roots, the ring, and the borders of its cases.
+
+Beside a tangency there is a hair's breadth, and a ladder of ulps: every power of two from 1 to 2⁴⁰, on both sides, one
+after the other. On the ring Δ = 0 though nothing touches; where c² = a the sphere has the groove's own curvature. The
+borders are those of regimes, planes and lines of symmetry, and vanishing coefficients.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.vectors import double_roots
+from hypcheck.vectors.double_roots import (
+    ULPS,
+    DoubleRoots,
+    big_integers,
+    big_integers_of_any_length,
+    gather,
+    in_metres,
+    one_moved,
+    to_rows,
+    triples,
+    turned,
+)
+from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, stepped, turns
+from hypcheck.vectors.random_pairs import (
+    UNITS,
+    Sizes,
+    all_regimes,
+    around,
+    beside_surface,
+    centred,
+    heights,
+    offsets,
+    sizes,
+)
+
+
+def exact_maker(construction: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
+    """The generator of a construction of rows and which of them are usable."""
+    return lambda draw, n: in_metres(draw, gather(draw, n, construction))
+
+
+def reach(rows: Rows) -> Integers:
+    """The exponent of the longest of α/b, |x|/b, |y|/b and |z|/d: what a relative change is multiplied with in radii.
+
+    γ is left out: it moves the surface by no more than r and α together.
+    """
+    alpha, _, b, d, x, y, z = np.abs(rows).T
+    return np.maximum(exponent(np.maximum(np.maximum(alpha, x), y) / b), exponent(z / d))
+
+
+def _touching(
+    construction: Callable[[Draw, int], DoubleRoots], *, outer: bool, tangent: bool = True, farthest: float = np.inf
+) -> Maker:
+    """The generator of those double roots that are wanted, their lengths with a `reach` of `farthest` at most."""
+
+    def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+        found = construction(draw, n)
+        usable = found.usable & (found.outer == outer) & (found.tangent == tangent)
+        rows = np.where(usable[:, None], found.rows, 1.0)
+        return rows, usable & (reach(rows) <= farthest)
+
+    return exact_maker(attempt)
+
+
+tangent = in_turn(
+    _touching(double_roots.by_ratios, outer=True),
+    _touching(double_roots.by_angle, outer=False),
+    exact_maker(double_roots.osculations),
+    exact_maker(double_roots.throat_circles),
+    exact_maker(partial(double_roots.waist_roots, ring=False)),
+    exact_maker(double_roots.waist_points),
+    _touching(double_roots.by_angle, outer=True),
+    _touching(double_roots.by_ratios, outer=False),
+    exact_maker(partial(double_roots.waist_roots_on_an_axis, ring=False)),
+)
+
+degenerate_crossing = in_turn(
+    _touching(double_roots.by_angle, outer=False, tangent=False),  # nodes of the throat
+    _touching(double_roots.by_angle, outer=True, tangent=False),  # nodes of the groove and isolated points
+    exact_maker(double_roots.cusps),
+    _touching(double_roots.by_ratios, outer=True, tangent=False),
+)
+
+
+def ulps_away(draw: Draw, rows: Rows) -> Rows:
+    """The rows with one length each, any but a zero, moved by 1, 2, 4 … or 2^ULPS ulp to either side.
+
+    Fewer where so many would be more than about 2⁻⁸ radii, so that no row is carried right through the surface.
+    """
+    n = len(rows)
+    most = np.minimum(ULPS, 52 - 8 - 1 - reach(rows))
+    return one_moved(draw, rows, ldexp(draw.signs(n), draw.integers(n, 0, ULPS) % (most + 1)).astype(np.int64))
+
+
+def near_tangent(*, outer: bool) -> Maker:
+    """Tangencies of one side, half of them moved by ulps, half along the normal by 2⁻⁵⁰ to 2⁻⁹ radii, out or in."""
+
+    def beside(construction: Callable[[Draw, int], DoubleRoots]) -> Maker:
+        def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+            found = construction(draw, n)
+            usable = found.usable & (found.outer == outer) & found.tangent
+            rows = np.where(usable[:, None], found.rows, 1.0)
+            along = _along_the_normal(rows, found.sine, _small(draw, n), outer=outer)
+            by_ulps = draw.signs(n) < 0
+            return np.where(by_ulps[:, None], ulps_away(draw, rows), along), usable
+
+        return exact_maker(attempt)
+
+    return in_turn(beside(double_roots.by_ratios), beside(double_roots.by_angle))
+
+
+def _small(draw: Draw, n: int) -> Floats:
+    return draw.signs(n) * draw.log_uniform(n, -50, -9)
+
+
+def _along_the_normal(rows: Rows, sine: Floats, step: Floats, *, outer: bool) -> Rows:
+    """The centre moved by `step` radii away from the point it touches; its radius and height are ≥ 0."""
+    _, _, b, d, x, y, z = rows.T
+    cosine = np.sqrt(1 - sine * sine)
+    away = step if outer else -step
+    radius = np.sqrt(x * x + y * y)
+    stretch = np.where(radius > 0, away * cosine * b / np.where(radius > 0, radius, 1), 0)
+    moved = rows.copy()
+    moved[:, 4] = x + x * stretch
+    moved[:, 5] = y + y * stretch
+    moved[:, 6] = z - away * sine * d
+    return moved
+
+
+def degenerate_neighbourhood(draw: Draw, n: int) -> Rows:
+    """Degenerate crossings moved by ulps: contact on both sides, though Δ changes its sign."""
+    return ulps_away(draw, degenerate_crossing(draw, n))
+
+
+def centres_on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """The centre on the surface: r/α and z/γ are hypotenuse/leg and other leg/leg of one triple."""
+    leg, other, hypotenuse = triples(draw, n, 12)
+    x, y, turn = turned(draw, n)
+    unit, tall = big_integers_of_any_length(draw, n, 12), big_integers_of_any_length(draw, n, 12)
+    b, d = big_integers_of_any_length(draw, n, 24), big_integers_of_any_length(draw, n, 24)
+    return to_rows(
+        radial=(leg * unit * turn, b, hypotenuse * unit * x, hypotenuse * unit * y),
+        axial=(leg * tall, d, other * tall),
+    )
+
+
+on_surface = exact_maker(centres_on_surface)
+
+
+RUNGS = 2 * (ULPS + 1)
+"""Consecutive rows of one tangency: 1 ulp up, 1 down, 2 up, 2 down … 2^ULPS up, 2^ULPS down."""
+
+FARTHEST = 52 - 8 - 1 - ULPS
+"""The exponent of the longest ratio of a length to b or d at which 2^ULPS ulps of it are within about 2⁻⁸ radii."""
+
+
+_starts = in_turn(
+    _touching(double_roots.by_ratios, outer=True, farthest=FARTHEST),
+    _touching(double_roots.by_angle, outer=False, farthest=FARTHEST),
+    _touching(double_roots.by_angle, outer=True, farthest=FARTHEST),
+    _touching(double_roots.by_ratios, outer=False, farthest=FARTHEST),
+)
+
+
+def ladder(draw: Draw, n: int) -> Rows:
+    """RUNGS rows of each tangency in turn, one length of it moved, any but a zero."""
+    count = -(-n // RUNGS)
+    start = _starts(draw, count)
+    chosen = draw.integers(count, 0, start.shape[1] - 1)
+    index = np.arange(count)
+    chosen = np.where(start[index, chosen] == 0, chosen % 4, chosen)
+    rung = np.arange(n) % RUNGS
+    steps = (ldexp(1, rung // 2) * turns(n, 1.0, -1.0)).astype(np.int64)
+    rows = np.repeat(start, RUNGS, axis=0)[:n]
+    column = np.repeat(chosen, RUNGS)[:n]
+    place = np.arange(n)
+    rows[place, column] = stepped(rows[place, column], steps)
+    return rows
+
+
+ring = in_turn(
+    exact_maker(partial(double_roots.waist_roots, ring=True)),
+    exact_maker(partial(double_roots.waist_roots_on_an_axis, ring=True)),
+)
+
+
+def ring_neighbourhood(draw: Draw, n: int) -> Rows:
+    """Up to 2⁻⁴⁰ … 2⁻⁶ radii from the ring, in its plane or out of it; every fourth row has the tower's ratios."""
+    tower = turns(n, True, False, False, False)
+    a = np.where(tower, 8.0, draw.log_uniform(n, -3, 10))
+    c = np.where(tower, 17.8 / 0.15, np.sqrt(a) * draw.log_uniform(n, 1, 8))
+    radius = np.sqrt((c * c + 1) * (a * a / (c * c) + 1))
+    step = draw.signs(n) * draw.log_uniform(n, -40, -6)
+    height = np.where(turns(n, True, True, False), 0.0, draw.log_uniform(n, -40, -6))
+    return centred(draw, sizes(draw, a, c), radius + np.where(turns(n, True, False, True), step, 0), height)
+
+
+def osculation(draw: Draw, n: int) -> Rows:
+    """c² = a (1 ± 2⁻⁵⁰ … 2⁻³) and centres near r = a + 1 in or near the plane of the waist.
+
+    Half stand in the plane or above it at random, half one radius (1 ± a hair) off a point of the groove's bottom.
+    """
+    a = draw.log_uniform(n, -3, 12)
+    c = np.sqrt(a * (1 + draw.signs(n) * draw.log_uniform(n, -50, -3)))
+    height = np.where(turns(n, True, True, False, False, False), 0.0, draw.log_uniform(n, -24, -1))
+    hair = draw.signs(n) * draw.log_uniform(n, -50, -3)
+    free = a + 1 + hair, height
+    bound = beside_surface(a, c, height, 1 + hair)
+    here = turns(n, True, False)
+    return centred(draw, sizes(draw, a, c), np.where(here, free[0], bound[0]), np.where(here, free[1], bound[1]))
+
+
+def near_axis(draw: Draw, n: int) -> Rows:
+    """a = 1 ± 2⁻⁵⁰ … 2⁻³, r and z as small as a − 1 and √|a − 1| are, or 0: the ball all but fills the throat."""
+    gap = draw.log_uniform(n, -50, -3)
+    a = 1 + np.where(turns(n, True, False), gap, -gap)
+    c = draw.log_uniform(n, -2, 7)
+    radius = np.where(turns(n, False, True, True), gap * draw.between(n, 0, 2), 0.0)
+    height = np.where(turns(n, True, True, True, False), np.sqrt(gap) * draw.between(n, 0, 3) * np.sqrt(1 + c * c), 0)
+    return centred(draw, sizes(draw, a, c), radius, height)
+
+
+def axis(draw: Draw, n: int) -> Rows:
+    """x = y = 0, at the origin, at heights near the one where the ball begins to fit, and anywhere."""
+    a, c = all_regimes(draw, n)
+    fits = np.sqrt(np.maximum((a * a + c * c) * (1 - a * a), 0)) / a
+    hair = 1 + draw.signs(n) * draw.log_uniform(n, -50, -1)
+    kind = turns(n, 0, 1, 1, 2, 2)
+    height = np.where(kind == 0, 0.0, np.where(kind == 1, fits * hair, heights(draw, c)))
+    return centred(draw, sizes(draw, a, c), np.zeros(n), height)
+
+
+def waist(draw: Draw, n: int) -> Rows:
+    """z = 0: near r = a − 1, a + 1 and the radius where a sphere too round for the groove leaves it, or anywhere."""
+    a, c = all_regimes(draw, n)
+    both_flanks = np.sqrt((a * a + c * c) * (1 + 1 / (c * c)))
+    hair = draw.signs(n) * draw.log_uniform(n, -50, -1)
+    anywhere = 3 * a * draw.unit(n)
+    places = [np.abs(a - 1) + hair, a + 1 + hair, both_flanks * (1 + hair), a + offsets(draw, n), anywhere]
+    radius = np.choose(turns(n, *range(len(places))), places)
+    return centred(draw, sizes(draw, a, c), np.abs(radius), np.zeros(n))
+
+
+def regime_borders(draw: Draw, n: int) -> Rows:
+    """a = 1 and c² = a, exactly or one ulp of a size to either side, centres all around the surface."""
+    aim = turns(n, True, False)
+    b = draw.log_uniform(n, *UNITS)
+    top, bottom = draw.integers(n, 1, 4095).astype(np.float64), draw.integers(n, 1, 4095).astype(np.float64)
+    units = ldexp(1, draw.integers(n, -14, -10)), ldexp(1, draw.integers(n, -10, -6))
+    size = Sizes(
+        alpha=np.where(aim, b, top * top * units[0]),
+        gamma=np.where(aim, draw.log_uniform(n, *UNITS), top * units[1]),
+        b=np.where(aim, b, bottom * bottom * units[0]),
+        d=np.where(aim, draw.log_uniform(n, *UNITS), bottom * units[1]),
+    )
+    rows = around(draw, size)
+    # Six in a row: α and γ each exact, one ulp up, one ulp down; γ makes no difference to a = 1.
+    ulps = turns(n, 0, 0, 1, 1, -1, -1)
+    column = np.where(aim | (draw.signs(n) < 0), 0, 1)
+    index = np.arange(n)
+    rows[index, column] = stepped(rows[index, column], ulps)
+    return rows
+
+
+def out_of_regime(draw: Draw, n: int) -> Rows:
+    """a < 1 or c² < a or both: spheres stuck in the throat, spheres on both flanks of the groove, and clear ones."""
+    return in_turn(_throat, _groove, _neither_condition)(draw, n)
+
+
+def _throat(draw: Draw, n: int) -> Rows:
+    """a < 1: up to 1.2 times as far out, and twice as high, as a sphere is stuck."""
+    a, c = draw.log_uniform(n, -5, 0) * 0.999, draw.log_uniform(n, -4, 3)
+    stuck = np.sqrt((a * a + c * c) * (1 - a * a)) / a
+    radius = np.abs(1 - a) * draw.between(n, 0, 1.2)
+    return centred(draw, sizes(draw, a, c), radius, stuck * draw.between(n, 0, 2))
+
+
+def _groove(draw: Draw, n: int) -> Rows:
+    """c² < a: from the bottom of the groove to a little beyond where the sphere leaves its flanks."""
+    a = draw.log_uniform(n, -3, 8)
+    c = np.sqrt(a * draw.log_uniform(n, -8, 0) * 0.99)
+    leaves = np.sqrt((a * a + c * c) * (1 + 1 / (c * c)))
+    radius = a + 1 + (leaves - a - 1) * draw.between(n, -0.1, 1.5)
+    height = np.where(turns(n, True, False), 0.0, c * draw.between(n, 0, 0.5))
+    return centred(draw, sizes(draw, a, c), np.abs(radius), height)
+
+
+def _neither_condition(draw: Draw, n: int) -> Rows:
+    """a < 1 and c² < a, centres all around the surface."""
+    a = draw.log_uniform(n, -5, 0) * 0.999
+    return around(draw, sizes(draw, a, np.sqrt(a * draw.log_uniform(n, -6, 0) * 0.99)))
+
+
+def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """c2 = 0: (a − x)(a + x) = c² + y² + z² − 1, split as τ and the rest over τ."""
+    unit, t = big_integers(draw, n, 1, 40), big_integers(draw, n, 1, 40)
+    c, y, z = big_integers(draw, n, 1, 200), big_integers(draw, n, 0, 60), big_integers(draw, n, 0, 200)
+    y, z = np.where(turns(n, True, False), 0, y), np.where(turns(n, True, True, False), z, 0)
+    rest = c * c + y * y + z * z - unit * unit
+    return to_rows(
+        radial=(t * t + rest, 2 * unit * t, abs(t * t - rest), 2 * t * y),
+        axial=(c, unit, z),
+    )
+
+
+def first_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """c1 = 0: x² + y² = a² e² + 1 with c² e² = c² + z² − 1; both equations split like the one above."""
+    c, unit, t = big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60)
+    f = unit * unit - c * c - t * t  # c e = f/(2 unit t)
+    y, u, s = big_integers(draw, n, 0, 60), big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60)
+    k = u * u - y * y - s * s  # a e = k/(2 u s)
+    return to_rows(
+        radial=(
+            abs(k) * 2 * c * t,
+            2 * u * s * abs(f),
+            abs((s * s + u * u - y * y) * f),
+            2 * y * s * abs(f),
+        ),
+        axial=(2 * c * t, 2 * unit * t, abs(t * t + unit * unit - c * c)),
+    )
+
+
+def first_coefficient_zero_for_any_waist(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """c1 = 0 whatever a is: x² + y² = 1 and c² + z² = 1, e = 0 above."""
+    alpha, b = big_integers_of_any_length(draw, n, 20), big_integers_of_any_length(draw, n, 10)
+    alpha = np.where(turns(n, True, True, False), alpha + b, alpha)
+    x, y, turn = turned(draw, n)
+    c, z, unit = triples(draw, n, 10)
+    level = draw.signs(n) < 0
+    return to_rows(
+        radial=(alpha * turn, b * turn, b * x, b * y),
+        axial=(np.where(level, 1, c), np.where(level, 1, unit), np.where(level, 0, z)),
+    )
+
+
+def both_coefficients_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """c1 = c2 = 0, g = λ³ − a²c²: c² = a, z = 0 and x² + y² = (c² − 1)² + c²; always contact."""
+    c, unit = big_integers_of_any_length(draw, n, 12), big_integers_of_any_length(draw, n, 12)
+    zero = np.zeros(n, dtype=object)
+    return to_rows(radial=(c * c, unit * unit, abs(c * c - unit * unit), c * unit), axial=(c, unit, zero))
+
+
+coefficient_zero = in_turn(
+    exact_maker(second_coefficient_zero),
+    exact_maker(first_coefficient_zero),
+    exact_maker(first_coefficient_zero_for_any_waist),
+    exact_maker(both_coefficients_zero),
+)
