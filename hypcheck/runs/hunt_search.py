@@ -127,12 +127,7 @@ def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
     return moved(rows[owners], mask[owners], stepped(factors[owners], steps)), 2 * owners + side
 
 
-SURFACES = {
-    "z = 0": ("height",),
-    "r = 0": ("radius",),
-    "a = 1": ("alpha",),
-    "c² = a": ("alpha",),
-}
+SURFACES = {"z = 0": "height", "r = 0": "radius", "a = 1": "alpha", "c² = a": "alpha"}
 """The four surfaces, each with the mover that would leave it."""
 
 CROSSING_BLOCK = 96
@@ -219,7 +214,7 @@ def _nearly_one(draw: Draw, n: int) -> Floats:
 
 def _movers(surfaces: tuple[str, ...]) -> list[str]:
     """The movers that reach the border without leaving these surfaces."""
-    kept = {mover for surface in surfaces for mover in SURFACES[surface]}
+    kept = {SURFACES[surface] for surface in surfaces}
     return [mover for mover in ("radius", "height", "alpha") if mover not in kept]
 
 

@@ -85,13 +85,11 @@ def render(entries: Iterable[KnownFailure]) -> str:
 
 
 def _rendered(entry: KnownFailure) -> str:
-    lines = ["[[known_failure]]"]
-    lines.append(
-        f"case = {_quoted(entry.case)}" if entry.case is not None else f"family = {_quoted(entry.family or '')}"
-    )
+    names = (("case", entry.case), ("family", entry.family))
+    lines = [f"{key} = {_quoted(name)}" for key, name in names if name is not None]
     if entry.max_u != float("inf"):
         lines.append(f"max_u = {entry.max_u!r}")
-    return "\n".join([*lines, f"reason = {_quoted(entry.reason)}", ""])
+    return "\n".join(["[[known_failure]]", *lines, f"reason = {_quoted(entry.reason)}", ""])
 
 
 def _quoted(text: str) -> str:

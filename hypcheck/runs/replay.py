@@ -21,7 +21,6 @@ from hypcheck.geometry.pair import (
     REFUSED,
     TILTED_COLUMNS,
     TILTED_WAY_COLUMNS,
-    WAY_COLUMNS,
     Pair,
     Position,
     trouble_with_row,
@@ -107,7 +106,7 @@ def _from_record(path: Path, number: int) -> ReplayCase:
 
 
 def _given_row(text: str) -> Row:
-    """Seven or ten valid numbers, decimal or hexadecimal; or ten or thirteen, which are a valid way."""
+    """Seven or ten numbers, decimal or hexadecimal; or ten or thirteen of a way. of_question checks them together."""
     parts = text.split(",")
     if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS), len(TILTED_WAY_COLUMNS)):
         wanted = (
@@ -116,11 +115,7 @@ def _given_row(text: str) -> Row:
         )
         raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have {wanted}")
     layout = WAYS if len(parts) == len(TILTED_WAY_COLUMNS) else PAIRS
-    row = tuple(_number(name, part) for name, part in zip(layout.columns(len(parts)), parts, strict=True))
-    trouble = trouble_with_row(row, layout.upright)
-    if trouble is not None and (len(row) == len(COLUMNS) or trouble_with_row(row, WAY_COLUMNS) is not None):
-        raise InputError(trouble)
-    return row
+    return tuple(_number(name, part) for name, part in zip(layout.columns(len(parts)), parts, strict=True))
 
 
 def _number(name: str, text: str) -> float:

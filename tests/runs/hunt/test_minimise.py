@@ -12,11 +12,12 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.rows import PAIRS
 from hypcheck.implementations.description import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.runs.hunt import target_of
 from hypcheck.runs.judge import Status
-from hypcheck.runs.minimise import characters, complexity, minimise, rounded, simpler_than, small_pairs
+from hypcheck.runs.minimise import characters, complexity, minimise, rounded, same_query, simpler_than, small_pairs
 from hypcheck.runs.replay import ReplayCase
 from hypcheck.truth.exact import decide
 from hypcheck.truth.kinds import Kind
@@ -162,6 +163,13 @@ def test_roundings_of_a_value_are_ever_longer_numbers_around_it():
     values = list(rounded(2.718281828459045))
     assert values[:6] == [3, 4, 2, 2.7, 2.8, 2.6]
     assert all(abs(value - 2.718281828459045) < 2 for value in values)
+
+
+def test_the_same_pair_in_other_coordinates_has_the_same_position():
+    for row in map(tuple, FAMILIES["small-integers"].rows(4, 20).tolist()):
+        mirrored = list(same_query(row, PAIRS))[:8]  # radii and units are rounded
+        assert {exact_position(other) for other in mirrored} == {exact_position(row)}
+        assert all(min(other[4:7]) >= 0 for other in mirrored)
 
 
 def test_small_pairs_simpler_than_a_limit_are_distinct_and_sorted_by_complexity():
