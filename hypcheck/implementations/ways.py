@@ -5,9 +5,8 @@ contact as long as its centre is no farther than 1 from the surface. A method re
 float64 (n,), NaN where it sees no contact.
 
 Collision engines are asked too: FCL's continuous collision on meshes, and steps by an engine's distance, which coal's
-users must take.
-A scene has one inscribed mesh of the whole surface (meshes.py), as high as its ways. What FCL's solvers do with a mesh,
-as python-fcl 0.7.0.11 has them:
+users must take. A scene has one inscribed mesh of the whole surface (meshes.py), as high as its ways. What FCL's
+solvers do with a mesh, as python-fcl 0.7.0.11 has them:
 
 - *naive* asks `collide` at equally distant times, ten of them unless told otherwise. It takes every pairing; here it
   has the ellipsoid, in the caller's units.
