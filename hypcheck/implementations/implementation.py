@@ -6,8 +6,9 @@ A fault costs only the row that causes it, which is found by asking smaller part
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
-from types import MappingProxyType, TracebackType
+from collections.abc import Callable
+from functools import partial
+from types import TracebackType
 
 import numpy as np
 
@@ -329,15 +330,9 @@ def open_implementation(
     """
     spec = parse_spec(text)
     limits = limits or Limits()
-
-    def start(run: int) -> Session:
-        return STARTS[spec.kind](spec, limits, run)
-
-    def instead(declared: Description) -> Description:
-        return declared.overridden(precision, question, domain)
-
+    instead = partial(Description.overridden, precision=precision, question=question, domain=domain)
     try:
-        return Implementation(spec, start, limits, instead)
+        return Implementation(spec, partial(_session, spec, limits), limits, instead)
     except StartError as error:
         raise StartError(f"{spec} could not be started: {error}{_hint(str(error), limits)}") from None
 
@@ -348,17 +343,12 @@ def _hint(trouble: str, limits: Limits) -> str:
     return "; it was isolated, and --isolate off starts it without" if refused and limits.isolation.means.names else ""
 
 
-def _start_builtin(spec: Spec, limits: Limits, run: int) -> Session:  # noqa: ARG001 - ours, so it is not limited
-    from hypcheck.implementations.builtin import BuiltinSession  # noqa: PLC0415 - loads every formula
+def _session(spec: Spec, limits: Limits, run: int) -> Session:
+    """A session of what a SPEC names; `run` counts those before it."""
+    if spec.kind == "builtin":
+        from hypcheck.implementations.builtin import BuiltinSession  # noqa: PLC0415 - loads every formula
 
-    return BuiltinSession(spec.words[0])
-
-
-def _start_command(spec: Spec, limits: Limits, run: int) -> Session:  # noqa: ARG001 - nothing varies between runs
-    return CommandSession(spec.words, limits)
-
-
-STARTS: Mapping[str, Callable[[Spec, Limits, int], Session]] = MappingProxyType(
-    {"builtin": _start_builtin, "python": WorkerSession, "library": WorkerSession, "command": _start_command}
-)
-"""The session of each kind of SPEC."""
+        return BuiltinSession(spec.words[0])
+    if spec.kind == "command":
+        return CommandSession(spec.words, limits)
+    return WorkerSession(spec, limits, run)
