@@ -172,67 +172,47 @@ TRIGONOMETRIC = """
 def correction(root: int, others: tuple[int, int]) -> str:
     """Weierstrass's correction of an approximation z to one root, g(z)/((z − z')(z − z'')), in two real parts.
 
-    The next approximation, new, is z less the correction.
+    The next approximation, new, is z less the correction; g(z) = ((z + c2) z + c1) z + c0.
     """
-    name = f"_{root}"
+    x, y = here = f"x{root}", f"y{root}"
+    (first, second), end = others, f"_{root}"
     return (
-        _value_of_g(root)
-        + _product_of_differences(root, others)
+        f"a{end} = {x} + c2\n"
+        + _complex_product(f"square{end}", (f"a{end}", y), here)
+        + f"square_and_c1{end} = square{end}_re + c1\n"
+        + _complex_product(f"cube{end}", (f"square_and_c1{end}", f"square{end}_im"), here)
         + f"""
-    d_re_squared{name} = d_re{name} * d_re{name}
-    d_im_squared{name} = d_im{name} * d_im{name}
-    norm{name} = d_re_squared{name} + d_im_squared{name}
-    top_rr{name} = g_re{name} * d_re{name}
-    top_ii{name} = g_im{name} * d_im{name}
-    top_re{name} = top_rr{name} + top_ii{name}
-    top_ir{name} = g_im{name} * d_re{name}
-    top_ri{name} = g_re{name} * d_im{name}
-    top_im{name} = top_ir{name} - top_ri{name}
-    step_re{name} = top_re{name} / norm{name}
-    step_im{name} = top_im{name} / norm{name}
-    new_x{root} = x{root} - step_re{name}
-    new_y{root} = y{root} - step_im{name}
+    g_re{end} = cube{end}_re + c0
+    dx_first{end} = {x} - x{first}
+    dy_first{end} = {y} - y{first}
+    dx_second{end} = {x} - x{second}
+    dy_second{end} = {y} - y{second}
+"""
+        + _complex_product(f"d{end}", (f"dx_first{end}", f"dy_first{end}"), (f"dx_second{end}", f"dy_second{end}"))
+        + f"minus_d_im{end} = - d{end}_im\n"
+        + _complex_product(f"top{end}", (f"g_re{end}", f"cube{end}_im"), (f"d{end}_re", f"minus_d_im{end}"))
+        + f"""
+    d_re_squared{end} = d{end}_re * d{end}_re
+    d_im_squared{end} = d{end}_im * d{end}_im
+    norm{end} = d_re_squared{end} + d_im_squared{end}
+    step_re{end} = top{end}_re / norm{end}
+    step_im{end} = top{end}_im / norm{end}
+    new_{x} = {x} - step_re{end}
+    new_{y} = {y} - step_im{end}
 """
     )
 
 
-def _value_of_g(root: int) -> str:
-    """g(z) = ((z + c2) z + c1) z + c0."""
-    name = f"_{root}"
+def _complex_product(name: str, first: tuple[str, str], second: tuple[str, str]) -> str:
+    """The real and the imaginary part, ending in _re and _im, of a product of two numbers given by such parts."""
+    (a, b), (c, d) = first, second
     return f"""
-    a{name} = x{root} + c2
-    ax{name} = a{name} * x{root}
-    yy{name} = y{root} * y{root}
-    square_re{name} = ax{name} - yy{name}
-    square_re_c1{name} = square_re{name} + c1
-    ay{name} = a{name} * y{root}
-    xy{name} = x{root} * y{root}
-    square_im{name} = ay{name} + xy{name}
-    g_xx{name} = square_re_c1{name} * x{root}
-    g_yy{name} = square_im{name} * y{root}
-    g_re_less{name} = g_xx{name} - g_yy{name}
-    g_re{name} = g_re_less{name} + c0
-    g_xy{name} = square_re_c1{name} * y{root}
-    g_yx{name} = square_im{name} * x{root}
-    g_im{name} = g_xy{name} + g_yx{name}
-"""
-
-
-def _product_of_differences(root: int, others: tuple[int, int]) -> str:
-    """(z − z')(z − z'')."""
-    first, second = others
-    name = f"_{root}"
-    return f"""
-    dx_first{name} = x{root} - x{first}
-    dy_first{name} = y{root} - y{first}
-    dx_second{name} = x{root} - x{second}
-    dy_second{name} = y{root} - y{second}
-    dxx{name} = dx_first{name} * dx_second{name}
-    dyy{name} = dy_first{name} * dy_second{name}
-    d_re{name} = dxx{name} - dyy{name}
-    dxy{name} = dx_first{name} * dy_second{name}
-    dyx{name} = dy_first{name} * dx_second{name}
-    d_im{name} = dxy{name} + dyx{name}
+    {name}_ac = {a} * {c}
+    {name}_bd = {b} * {d}
+    {name}_re = {name}_ac - {name}_bd
+    {name}_ad = {a} * {d}
+    {name}_bc = {b} * {c}
+    {name}_im = {name}_ad + {name}_bc
 """
 
 

@@ -168,7 +168,7 @@ def _rotors() -> Iterator[PrintedClaim]:
     hyperboloid, sphere = pencil.scaled(pencil.hyperboloid()), pencil.scaled(pencil.spheroid())
     yield surface("16", "x²/(α/b_s)² + y²/(α/b_s)² − z²/(γ/d_s)² = 1", hyperboloid.subs(rotor))
     yield surface("17", "(x − x_i/b_s)² + (y − y_i/b_s)² + (z − z_i/d_s)² = 1", sphere.subs({**rotor, **at_rotor}))
-    yield PrintedClaim("18", "T1(g_i)² + T2(g_i)² = 2", ((read("T1² + T2²"), sympy.Integer(2)),), _symbols(means))
+    yield equality("18", "T1(g_i)² + T2(g_i)² = 2", **means)
     yield equality("18", "x_i² + y_i² = (x0 + l·√2/2·T1(g_i))² + (y0 + l·√2/2·T2(g_i))²", **means)
     yield equality("18", "x_i² + y_i² = x0² + y0² + l² + l·√2·(T1(g_i)·x0 + T2(g_i)·y0)", **means)
     yield equality("19", "c0_s = −(α/b_s)²·(γ/d_s)²", **means)
@@ -207,10 +207,6 @@ def _appendix() -> Iterator[PrintedClaim]:
     yield equality("A.6", "A2 = (α/b_s)² + 1 − (γ/d_s)² − (z0/d_s)² − (x0² + y0² + l²)/b_s²", **means)
     yield from _definitions("22", ("B1", "B2"), means)
     yield from _coefficients("23", means)
-
-
-def _symbols(means: dict[str, sympy.Expr]) -> Meanings:
-    return {symbol(name): value for name, value in means.items()}
 
 
 def _printed_row(text: str) -> sympy.Matrix:

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.truth import float_filter
-from hypcheck.truth.float_filter import positions as tilted_positions
 from hypcheck.vectors.families import TILTED_FAMILIES
 from tests.tools.attack import places, tilted_places
 from tests.tools.attack.places import Scene
@@ -47,7 +45,7 @@ def batches(seed: int, rows: int) -> Iterator[Batch]:
 
 def truth_of(rows: np.ndarray) -> np.ndarray:
     """The exact positions of rows of seven or ten."""
-    return tilted_positions(rows) if rows.shape[1] == len(TILTED_COLUMNS) else float_filter.positions(rows)
+    return float_filter.positions(rows)
 
 
 def drawn(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:
