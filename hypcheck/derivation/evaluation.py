@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, total_ordering
 from typing import Any
 
 from hypcheck.derivation.program import Program, needed, split
@@ -211,6 +211,7 @@ class Undefined:
 UNDEFINED = Undefined()
 
 
+@total_ordering
 @dataclass(frozen=True, slots=True, eq=False)
 class Surd:
     """The number p + q√h: p and q rational, q ≠ 0, and h > 0 rational and not the square of a rational.
@@ -271,18 +272,6 @@ class Surd:
     def __lt__(self, other: object) -> bool:
         sign = self._compare(other)
         return NotImplemented if sign is None else sign < 0
-
-    def __gt__(self, other: object) -> bool:
-        sign = self._compare(other)
-        return NotImplemented if sign is None else sign > 0
-
-    def __le__(self, other: object) -> bool:
-        sign = self._compare(other)
-        return NotImplemented if sign is None else sign <= 0
-
-    def __ge__(self, other: object) -> bool:
-        sign = self._compare(other)
-        return NotImplemented if sign is None else sign >= 0
 
     def __eq__(self, other: object) -> bool:
         sign = self._compare(other)

@@ -39,7 +39,7 @@ def double_root(lengths: Lengths) -> Fraction:
 def _multiplier(g: Cubic) -> Fraction:
     """The local maximum of g, rounded to the fewest bits (a power of two of them) at which g is still positive."""
     h = g.n2 * g.n2 - 3 * g.n3 * g.n1
-    for bits in _precisions():
+    for bits in precisions():
         shift = max(0, bits + 8 - h.bit_length() // 2)
         root = Fraction(math.isqrt(h << 2 * shift), 1 << shift)
         top = g.n1 / (root - g.n2) if g.n2 < 0 else -(g.n2 + root) / (3 * g.n3)  # the form that does not cancel
@@ -92,7 +92,7 @@ def _candidates(pair: Pair | PairAtTime, lengths: Lengths, outward: bool) -> Ite
         yield moved(Fraction(fifths[0], 5), Fraction(fifths[1], 5))
     if outward and abs(z) < d:  # right out from the waist, where a spheroid a little too wide for the throat sticks out
         yield moved(1 - (z / d) ** 2, Fraction(1))
-    for bits in _precisions(start=8):
+    for bits in precisions(start=8):
         near = _near_surface(lengths, bits)
         if near is None:
             continue
@@ -173,7 +173,8 @@ def _bisect(too_far: Callable[[Fraction], bool], low: Fraction, high: Fraction, 
     return (low + high) / 2
 
 
-def _precisions(start: int = 1) -> Iterator[int]:
+def precisions(start: int = 1) -> Iterator[int]:
+    """Numbers of bits, each twice the one before, without end."""
     return (start << doubling for doubling in count())
 
 

@@ -164,7 +164,7 @@ def test_pairs_a_hair_from_tangency_and_far_from_it_have_short_proofs_that_hold(
 )
 def test_multiplier_of_a_tall_spheroid_is_found_within_64_bits(monkeypatch, row):
     pair = Pair(*row)
-    monkeypatch.setattr(prove_module, "_precisions", lambda: (1, 2, 4, 8, 16, 32, 64))
+    monkeypatch.setattr(prove_module, "precisions", lambda: (1, 2, 4, 8, 16, 32, 64))
     certificate = prove(pair)
     assert certificate.multiplier is not None
     assert check_certificate(pair, certificate)

@@ -26,8 +26,9 @@ import numpy as np
 from hypcheck.geometry.pair import TILTED_COLUMNS, Pair, Position
 from hypcheck.truth import backward_error as upright
 from hypcheck.truth.tilted import exact, float_boxes
-from hypcheck.truth.tilted.box_certificate import Goal, Row, Signs, State, certified, fraction
+from hypcheck.truth.tilted.box_certificate import Goal, Row, Signs, State, certified
 from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
+from hypcheck.truth.tilted.nearest import fraction
 from hypcheck.truth.tilted.pair import TiltedLengths
 
 RATIO = Fraction(5, 4)

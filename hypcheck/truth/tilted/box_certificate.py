@@ -342,9 +342,3 @@ def across(v: Intervals, q: Intervals) -> Intervals:
 def cross(p: Intervals, q: Intervals) -> Intervals:
     """p × q."""
     return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-
-
-def fraction(number: mpf) -> Fraction:
-    """An mpf, exactly; its mantissa has no sign."""
-    size = Fraction(int(number.man)) * Fraction(2) ** int(number.exp)
-    return -size if number < 0 else size

@@ -88,7 +88,7 @@ def position(pair: TiltedPair) -> Position | None:
 
 def multiplier(row: Sequence[float | Fraction]) -> Fraction:
     """About the λ at which φ is largest, for ten valid numbers; a hint, of which nothing is proved."""
-    return _fraction(_Spectrum(row, STAGES[0], enclosed=False).optimum())
+    return fraction(_Spectrum(row, STAGES[0], enclosed=False).optimum())
 
 
 def _position(at: mpf, lower: mpf, upper: mpf) -> Position | None:
@@ -239,7 +239,7 @@ def _touches(pair: TiltedPair, near: mpf, bits: int) -> bool:
     Where G is singular, λ an end of the interval, X with no component in the kernel does, moved by some ±τ k, k in the
     kernel: the hyperboloid's equation at X + τk is h(X) + τ² kᵀDk, that of the spheroid s(X) + τ² kᵀMk, kᵀMk = −λ kᵀDk.
     """
-    at = _fraction(near).limit_denominator(1 << bits // 2 - 16)
+    at = fraction(near).limit_denominator(1 << bits // 2 - 16)
     alpha, gamma, b, d, *center = map(Fraction, pair.row[:7])
     v = [Fraction(each) for each in pair.axis]
     along = (1 / d**2 - 1 / b**2) / sum(each * each for each in v)
@@ -298,7 +298,7 @@ def _times(matrix: list[Vector], vector: Vector) -> Vector:
     return [_dot(row, vector) for row in matrix]
 
 
-def _fraction(number: mpf) -> Fraction:
+def fraction(number: mpf) -> Fraction:
     """An mpf, exactly; its mantissa has no sign."""
     size = Fraction(int(number.man)) * Fraction(2) ** int(number.exp)
     return -size if number < 0 else size

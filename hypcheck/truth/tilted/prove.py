@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import count
 
 from hypcheck.geometry.pair import Position
 from hypcheck.truth import prove as upright
@@ -45,7 +44,7 @@ def prove(pair: TiltedPair, decision: TiltedDecision | None = None) -> Certifica
 def _multiplier(F: Quartic) -> Fraction:
     """A λ at which F is positive between 0 and ℓ, rounded to the fewest bits (a power of two of them) that will do."""
     found = next(at for at in _toward_maximum(F) if inside(F, at) and exact.sign_at(F.coefficients, at) > 0)
-    for bits in _precisions():
+    for bits in upright.precisions():
         at = _round(found, bits)
         if inside(F, at) and exact.sign_at(F.coefficients, at) > 0:
             return at * F.side
@@ -223,10 +222,6 @@ def _derived(f: tuple[int, ...]) -> tuple[int, ...]:
 
 def _difference(f: tuple[int, ...], g: tuple[int, ...]) -> tuple[int, ...]:
     return tuple(a - b for a, b in zip(f, g, strict=True))
-
-
-def _precisions(start: int = 1) -> Iterator[int]:
-    return (start << doubling for doubling in count())
 
 
 def _exponent(value: Fraction) -> int:
