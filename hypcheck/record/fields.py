@@ -48,6 +48,8 @@ def as_json(value: LinePart) -> Any:  # noqa: ANN401 - whatever JSON holds
 
 def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
     """The value for JSON: infinities as the strings "inf" and "-inf", also inside mappings and sequences."""
+    if value is None or isinstance(value, (int, str)):  # most values: an abstract class is slow to ask
+        return value
     if isinstance(value, float):
         return value if math.isfinite(value) else str(value)
     if isinstance(value, Mapping):
