@@ -13,14 +13,15 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PatchCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, PathPatch, Rectangle
+from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from msgspec.structs import asdict
 
+from hypcheck.geometry.rows import Floats
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
@@ -80,14 +81,13 @@ def _heat_plot(name: str, title: str, width: float, found: Cells, limits: Sequen
     axes = drawn.subplots()
     axes.grid(visible=False)
     wrong = {place: counts for place, counts in found.items() if counts[1]}
-    right = [_square(place) for place in found if place not in wrong]
+    right = [place for place in found if place not in wrong]
     if right:  # as one shape: there are many, and nothing else to say of each
-        outlines = (square.get_patch_transform().transform_path(square.get_path()) for square in right)
-        shape = Path.make_compound_path(*outlines)
+        shape = Path.make_compound_path_from_polys(_squares(right))
         axes.add_patch(PathPatch(shape, facecolor=colour("share-0"), linewidth=0, clip_on=False))
     if wrong:
-        squares, colours = map(_square, wrong), [colour(step(*counts)) for counts in wrong.values()]
-        axes.add_collection(PatchCollection(squares, facecolors=colours, linewidths=0, gid=name, clip_on=False))
+        squares, colours = _squares(wrong), [colour(step(*counts)) for counts in wrong.values()]
+        axes.add_collection(PolyCollection(list(squares), facecolors=colours, linewidths=0, gid=name, clip_on=False))
     for axis, label, ends in zip("xy", SIZES, limits, strict=True):
         exponents = decades(10.0 ** (ends[0] * width), 10.0 ** (ends[1] * width), 4)
         ticks = [exponent / width for exponent in exponents]
@@ -100,8 +100,11 @@ def _heat_plot(name: str, title: str, width: float, found: Cells, limits: Sequen
     return Plot(name, title, said, drawn, tips)
 
 
-def _square(place: tuple[int, int]) -> Rectangle:
-    return Rectangle((place[0] + GAP / 2, place[1] + GAP / 2), 1 - GAP, 1 - GAP)
+def _squares(places: Iterable[tuple[int, int]]) -> Floats:
+    """The corners of these cells' squares, (n, 4, 2)."""
+    near, far = GAP / 2, 1 - GAP / 2
+    corners: Floats = np.array([[near, near], [far, near], [far, far], [near, far]])
+    return np.asarray(np.array(list(places), dtype=np.float64)[:, np.newaxis] + corners)
 
 
 def _tip(width: float, place: tuple[int, int], counts: tuple[int, int]) -> str:
