@@ -66,7 +66,7 @@ class Kernel(Protocol):
     ) -> tuple[Positions, int]:
         """Answers for valid sizes and the centres of three columns; None is upright, an invalid axis answers 127."""
 
-    def answer_ways(self, rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
+    def answer_ways(self, rows: Rows) -> tuple[Positions, Floats]:
         """Contact on straight ways, C-contiguous rows (n, 10) or (n, 13) as geometry.rows.WAYS has them.
 
         Hits, int8 (n,): 1 and 0 are exact, 2 is said where bounds do not tell, 127 of an invalid row. Times, float64

@@ -117,10 +117,10 @@ def fill_valid_scene(
     return True
 
 
-def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
+def answer_ways(rows: Rows) -> tuple[Positions, Floats]:
     """As classify.Kernel has it."""
     hits, times = np.empty(len(rows), dtype=np.int8), np.empty(len(rows))
-    _by_row(lambda *part: compiled().passage(*part) or 0, rows, (hits, times), threads)
+    _by_row(lambda *part: compiled().passage(*part) or 0, rows, (hits, times), None)
     return hits, times
 
 

@@ -142,7 +142,7 @@ def answer_scene(
     return _answers(positions_of_scene(sizes, *columns, axis), question)
 
 
-def answer_ways(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:  # noqa: ARG001
+def answer_ways(rows: Rows) -> tuple[Positions, Floats]:
     """As classify.Kernel has it, by the positions at both ends alone: it cannot say where these are clear and alike."""
     axis = [*range(len(WAYS.upright), rows.shape[1])]
     start, end = (positions(rows[:, [0, 1, 2, 3, *centre, *axis]]) for centre in ((4, 5, 6), (7, 8, 9)))

@@ -169,10 +169,12 @@ def test_compiled_passage_refuses_buffers_that_do_not_fit():
             compiled.passage(*given)
 
 
-def test_answers_about_ways_do_not_depend_on_the_number_of_threads():
+def test_answers_about_ways_do_not_depend_on_the_number_of_threads(monkeypatch):
     rows = np.tile(some_ways(3, 50), (20, 1))
     hits, times = compiled_kernel.answer_ways(rows)
-    for count in (1, 3):
-        again = compiled_kernel.answer_ways(rows, count)
+    monkeypatch.setattr(compiled_kernel, "ROWS_A_THREAD", 2 * compiled_kernel.BLOCK)
+    for count in ("1", "3"):
+        monkeypatch.setenv("HYPCHECK_THREADS", count)
+        again = compiled_kernel.answer_ways(rows)
         assert (again[0] == hits).all()
         np.testing.assert_array_equal(again[1], times)

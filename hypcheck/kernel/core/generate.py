@@ -123,6 +123,14 @@ def _constants() -> list[str]:
     return [f"#define HC_{name} {value!r} /* {value.hex()} */" for name, value in CONSTANTS.items()]
 
 
+def _set(names: Iterable[str]) -> list[str]:
+    return [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in names]
+
+
+def _loaded(columns: Iterable[str]) -> list[str]:
+    return [f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(columns)]
+
+
 def _first_stage(
     part: str, total: str, constants: Iterable[str], functions: Iterable[tuple[Program, str, str]]
 ) -> list[str]:
@@ -300,18 +308,14 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "TILTED_DISCRIMINANT": lambda: _pool_statements(DISCRIMINANT, ("delta",), "&pool"),
     "TILTED_LEVEL": lambda: _part("tilted_level.h").splitlines(),
     "NEAR_LEVEL": lambda: _part("near_level.h").splitlines(),
-    "TILTED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in tilted.CONSTANTS],
-    "TILTED_INPUTS": lambda: [
-        f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(tilted.ROW)
-    ],
+    "TILTED_CONSTANTS": lambda: _set(tilted.CONSTANTS),
+    "TILTED_INPUTS": lambda: _loaded(tilted.ROW),
     "PLANE_FUNCTIONS": _plane_functions,
     "TILTED_FORM": lambda: _tilted()[0],
     "TILTED_AT_MULTIPLIER": lambda: _tilted()[1],
     "CONSTANTS": _constants,
-    "CERTIFIED_CONSTANTS": lambda: [f"const HC_NUMBER {name} = HC_SET(HC_{name});" for name in certified.CONSTANTS],
-    "CERTIFIED_INPUTS": lambda: [
-        f"const HC_NUMBER {name} = HC_LOAD(columns + {k} * stride + at);" for k, name in enumerate(COLUMNS)
-    ],
+    "CERTIFIED_CONSTANTS": lambda: _set(certified.CONSTANTS),
+    "CERTIFIED_INPUTS": lambda: _loaded(COLUMNS),
     "CERTIFIED": lambda: statements(certified.CERTIFIED, ("exterior", "interior", "decided"), VECTOR),
     "LINE_FUNCTIONS": _line_functions,
     "FIXED_ERRORS": lambda: [f"#define HC_fixed_{name} {value}" for name, value in fixed.ERRORS.items()],

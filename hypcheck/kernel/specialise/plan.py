@@ -38,12 +38,13 @@ from hypcheck.kernel.specialise.settings import (
     Setting,
     axis_of,
     centres,
+    farthest,
     format_of,
     position_of_box,
     scaled,
     settings_of,
 )
-from hypcheck.scene.model import FREE, Point, SceneModel, Span
+from hypcheck.scene.model import FREE, Point, SceneModel
 
 MOST_SETTINGS = 64
 """Different pairs of sizes in a plan: a kernel must stay readable."""
@@ -250,12 +251,8 @@ def _corner(setting: Setting, reach: float = REACH) -> tuple[Fraction, Fraction]
     """The far corner of the box; where the box is open, so many times as far as the surface at the waist, or γ."""
     alpha, gamma, b, d = map(Fraction, setting.sizes)
     x, y, z = setting.box.spans
-    across = [_most(span) if span is not None else Fraction(reach) * (alpha + b) for span in (x, y)]
-    return max(across), _most(z) if z is not None else Fraction(reach) * (gamma + d)
-
-
-def _most(span: Span) -> Fraction:
-    return max(abs(Fraction(span.low)), abs(Fraction(span.high)))
+    across = [Fraction(reach) * (alpha + b) if span is None else Fraction(farthest(span)) for span in (x, y)]
+    return max(across), Fraction(reach) * (gamma + d) if z is None else Fraction(farthest(z))
 
 
 def _without_tests(setting: Setting, scale: ScaledSetting, position: Position) -> Stages:

@@ -100,9 +100,9 @@ def position_of_box(setting: Setting) -> Position | None:
     the spheroid leans, that is asked of the smallest ball about it.
     """
     x, y, z = setting.box.spans
-    if z is not None and _at(setting, (_least(x), _least(y), _most(z))) is Position.EXTERIOR:
+    if z is not None and _at(setting, (_least(x), _least(y), farthest(z))) is Position.EXTERIOR:
         return Position.EXTERIOR
-    if x is not None and y is not None and _at(setting, (_most(x), _most(y), _least(z))) is Position.INTERIOR:
+    if x is not None and y is not None and _at(setting, (farthest(x), farthest(y), _least(z))) is Position.INTERIOR:
         return Position.INTERIOR
     return None
 
@@ -116,7 +116,8 @@ def _least(span: Span | None) -> float:
     return 0.0 if span is None or span.holds(0) else min(abs(span.low), abs(span.high))
 
 
-def _most(span: Span) -> float:
+def farthest(span: Span) -> float:
+    """The greatest |v| of a span."""
     return max(abs(span.low), abs(span.high))
 
 
