@@ -35,7 +35,7 @@ _START = ("z", "radius", "margin")
 _WALK = ("start", "heading", "steps", "step", "largest_turn", "refused_turn")
 
 
-def flight_of(top: TomlTable) -> Flight | None:
+def _flight(top: TomlTable) -> Flight | None:
     """What [flight] says, None where it is not there. Raises InputError."""
     table = top.table("flight", _FLIGHT)
     if table is None:
@@ -72,7 +72,7 @@ def _start(flight: TomlTable) -> Start:
     return start
 
 
-def walk_of(top: TomlTable) -> Walk | None:
+def _walk(top: TomlTable) -> Walk | None:
     """What [walk] says, None where it is not there. Raises InputError."""
     table = top.table("walk", _WALK)
     if table is None:
@@ -128,7 +128,7 @@ def _scene(top: TomlTable) -> SceneModel:
     name = top.required("name", tables.text)
     question = top.optional("question", tables.one_of(*QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
-    scene = SceneModel(name, question, hyperboloids, _mover(top), _region(top), flight_of(top), walk_of(top))
+    scene = SceneModel(name, question, hyperboloids, _mover(top), _region(top), _flight(top), _walk(top))
     if scene.leaning:
         for key, moving in (("flight", scene.flight), ("walk", scene.walk)):
             if moving is not None:

@@ -326,11 +326,6 @@ class TextLines:
             yield _lines(block.data, self._name, block.first)
 
 
-def text_lines(reader: Reader) -> Iterator[str]:
-    """The lines of a text, as TextLines.each gives them."""
-    return TextLines(reader).each
-
-
 def _blocks(reader: Reader) -> Iterator[TextBlock]:
     number, rest = 1, b""
     while data := reader.read(BLOCK):

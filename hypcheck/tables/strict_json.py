@@ -17,7 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import first_double
 from hypcheck.tables.numbers import Literal, shown, shown_json
-from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, reading, text_lines
+from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextLines, reading
 
 _LONGEST_INTEGER = 400
 """Digits of an integer that is read as int; more are beyond float64, and beyond 4300 Python refuses them."""
@@ -113,7 +113,7 @@ def fields_of(value: Any, names: tuple[str, ...], place: JsonPlace, what: str) -
 
 
 def _bounded(reader: Reader) -> Iterator[str]:
-    for line in text_lines(reader):
+    for line in TextLines(reader).each:
         if reader.taken > LARGEST:
             raise InputError(f"{reader.name} has more than {LARGEST >> 20} MiB; it must be divided into smaller files")
         yield line
