@@ -144,14 +144,8 @@ def _target_failures(record: Record) -> Iterator[Failure]:
             yield Failure(MEASUREMENT, line.name, "target", kind, message)
 
 
-def benchmark_clauses(record: Record) -> Iterator[str]:
-    """Clauses about a benchmark in which nothing failed."""
-    yield from _method_clauses(record)
-    yield from _other_clauses(record)
-
-
 def _method_clauses(record: Record) -> Iterator[str]:
-    """Clauses about methods that were compared on rows."""
+    """Clauses about methods of a benchmark that were compared on rows."""
     found = [each for each in measured_methods(record) if each.asked or each.speed]
     if not found:
         return
@@ -316,20 +310,17 @@ def verdict(record: Record) -> Verdict:
         return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_failure_counts(found)}.")
     if code == 0:
         return _passed(record)
-    reason = "; ".join(
-        part for part in (MEANINGS.get(code, "") if code in EXITS_UNFINISHED else "", _failure_counts(found)) if part
-    )
-    reason = reason or MEANINGS.get(code, "no line of the record says why")
-    if code == EXIT_INCONCLUSIVE:
-        undecided = sum(line.counts.get("undecided", 0) for line in record.of(GroupLine))
-        if undecided:
-            between = "the tolerance lies between the two ends that are proved of the backward error"
-            left = f"{counted(undecided, 'answer')} undecided: {between}"
-            return Verdict(False, f"INCONCLUSIVE, exit code {code}: {left}.")
-        open_ = f"{counted(len(found), 'comparison')} too noisy to tell" if found else reason
-        what_helps = "A quieter machine or more --processes would tell."
-        return Verdict(False, f"INCONCLUSIVE, exit code {code}: {open_}. {what_helps}")
-    return Verdict(False, f"FAILED with exit code {code}: {reason}.")
+    parts = (MEANINGS[code] if code in EXITS_UNFINISHED else "", _failure_counts(found))
+    reason = "; ".join(filter(None, parts)) or MEANINGS.get(code, "no line of the record says why")
+    if code != EXIT_INCONCLUSIVE:
+        return Verdict(False, f"FAILED with exit code {code}: {reason}.")
+    undecided = sum(line.counts.get("undecided", 0) for line in record.of(GroupLine))
+    if undecided:
+        between = "the tolerance lies between the two ends that are proved of the backward error"
+        return Verdict(False, f"INCONCLUSIVE, exit code {code}: {counted(undecided, 'answer')} undecided: {between}.")
+    noisy = f"{counted(len(found), 'comparison')} too noisy to tell" if found else reason
+    what_helps = "A quieter machine or more --processes would tell."
+    return Verdict(False, f"INCONCLUSIVE, exit code {code}: {noisy}. {what_helps}")
 
 
 def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
@@ -346,14 +337,14 @@ def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
 def _failure_counts(found: list[Failure]) -> str:
     """The failures by subject: "2 disagreements of oracles and 1 failed proof"."""
     nouns = {
-        "oracle": "disagreement of oracles|disagreements of oracles",
-        "proof": "failed proof|failed proofs",
-        "implementation": "implementation failure|implementation failures",
-        "findings": "drift from what is known|drifts from what is known",
-        "measurement": "failed measurement|failed measurements",
+        "oracle": ("disagreement of oracles", "disagreements of oracles"),
+        "proof": ("failed proof",),
+        "implementation": ("implementation failure",),
+        "findings": ("drift from what is known", "drifts from what is known"),
+        "measurement": ("failed measurement",),
     }
-    counts = [(sum(each.count for each in found if each.subject == subject), noun) for subject, noun in nouns.items()]
-    return listed([f"{number:,} {noun.split('|')[number != 1]}" for number, noun in counts if number])
+    counts = {subject: sum(each.count for each in found if each.subject == subject) for subject in nouns}
+    return listed([counted(number, *nouns[subject]) for subject, number in counts.items() if number])
 
 
 def _passed(record: Record) -> Verdict:
@@ -373,7 +364,8 @@ def _passed(record: Record) -> Verdict:
         *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
         *(f"{each.name} right on all {counted(each.asked, 'case')}" for each in tested if each.exact),
         *(_gated_clause(each) for each in tested if each.gated),
-        *benchmark_clauses(record),
+        *_method_clauses(record),
+        *_other_clauses(record),
     ]
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
 

@@ -111,9 +111,9 @@ def curve_style(place: int) -> CurveStyle:
     )
 
 
-def legend_handles(names: Iterable[str], longest: int = 48) -> list[Line2D]:
+def legend_handles(names: Iterable[str]) -> list[Line2D]:
     """The entries of a legend for curves with these names, in order."""
-    looks = [(curve_style(place), escaped(name, longest)) for place, name in enumerate(names)]
+    looks = [(curve_style(place), escaped(name, 48)) for place, name in enumerate(names)]
     return [Line2D([], [], **look.line, marker=look.marker, label=label) for look, label in looks]
 
 
@@ -182,9 +182,9 @@ def _axis_number(value: float) -> str:
     return f"{digit * 10.0**exponent:g}" if -3 <= exponent <= 2 else f"{digit}·{power_of_ten(exponent)}"
 
 
-def ticks(low: float, high: float, most: int = 7) -> list[tuple[float, str]]:
+def ticks(low: float, high: float) -> list[tuple[float, str]]:
     """Places and names on a logarithmic axis: powers of ten, with twos and fives if those are few."""
-    powers = [10.0**exponent for exponent in decades(low, high, most)]
+    powers = [10.0**exponent for exponent in decades(low, high)]
     if len(powers) < 2:
         first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
         for digits in ((1, 2, 5), (1, 2, 3, 4, 5, 6, 8)):
@@ -202,9 +202,9 @@ def decades(low: float, high: float, most: int = 7) -> list[int]:
     return [exponent for exponent in range(first, last + 1) if exponent % step == 0]
 
 
-def log_axis(axes: Axes, name: str, low: float, high: float, most: int = 7) -> None:
+def log_axis(axes: Axes, name: str, low: float, high: float) -> None:
     """Make the axis "x" or "y" logarithmic, with named marks."""
-    marks = ticks(low, high, most)
+    marks = ticks(low, high)
     getattr(axes, f"set_{name}scale")("log")
     getattr(axes, f"set_{name}lim")(low, high)
     axis = getattr(axes, f"{name}axis")

@@ -29,8 +29,8 @@ _PAINT = {"fill": "f", "stroke": "s"}
 _NUMBER = re.compile(r"-?\d+\.\d{3,}")
 _AROUND_LETTERS = re.compile(r" ?([A-Za-z]) ?")
 _REFERENCE = re.compile(r"#([\w.-]+)")
-_APART = 24.0
-"""Points between two plots of one file."""
+_COLUMNS, _APART = 2, 24.0
+"""Plots side by side in one file, and the points between two of them."""
 
 _LONGEST = 1000
 """Characters of a title, a description or a tooltip."""
@@ -62,31 +62,26 @@ def standalone(plot: Plot) -> bytes:
     return _file(_element(plot))
 
 
-def together(name: str, title: str, plots: Sequence[tuple[str, str]], columns: int = 2) -> bytes:
+def together(name: str, title: str, plots: Sequence[tuple[str, str]]) -> bytes:
     """Several plots, each a title and its element, as one file: row by row under their titles."""
     parts = [Xml.fromstring(svg) for _, svg in plots]  # noqa: S314 - as inline made it
     sizes = [tuple(float(each) for each in part.get("viewBox", "0 0 0 0").split()[2:]) for part in parts]
-    rows = [range(first, min(first + columns, len(parts))) for first in range(0, len(parts), columns)]
-    width, top = max(size[0] for size in sizes), 0.0
+    widest, top = max(wide for wide, _ in sizes), 0.0
     whole = Xml.Element(f"{_SVG}svg")
-    for row in rows:
+    for first in range(0, len(parts), _COLUMNS):
+        row = range(first, min(first + _COLUMNS, len(parts)))
         for column, place in enumerate(row):
-            left = column * (width + _APART)
-            heading = Xml.SubElement(
-                whole, f"{_SVG}text", {"x": f"{left + 6:g}", "y": f"{top + 14:g}", "class": "f-ink"}
-            )
+            left = column * (widest + _APART)
+            look = {"class": "f-ink", "font-size": "12px", "font-weight": "bold"}
+            heading = Xml.SubElement(whole, f"{_SVG}text", {"x": f"{left + 6:g}", "y": f"{top + 14:g}", **look})
             heading.text = _shown(plots[place][0])
-            heading.set("font-size", "12px")
-            heading.set("font-weight", "bold")
-            part = parts[place]
-            part.set("x", f"{left:g}")
-            part.set("y", f"{top + 20:g}")
-            part.set("width", f"{sizes[place][0]:g}")
-            part.set("height", f"{sizes[place][1]:g}")
-            whole.append(part)
+            wide, tall = sizes[place]
+            for attribute, value in (("x", left), ("y", top + 20), ("width", wide), ("height", tall)):
+                parts[place].set(attribute, f"{value:g}")
+            whole.append(parts[place])
         top += max(sizes[place][1] for place in row) + 20 + _APART
-    across = width * min(columns, len(parts)) + _APART * (min(columns, len(parts)) - 1)
-    whole.set("viewBox", f"0 0 {across:g} {top - _APART:g}")
+    columns = min(_COLUMNS, len(parts))
+    whole.set("viewBox", f"0 0 {widest * columns + _APART * (columns - 1):g} {top - _APART:g}")
     _describe(whole, name, title, "; ".join(words for words, _ in plots))
     return _file(whole)
 
