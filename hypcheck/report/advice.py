@@ -106,7 +106,7 @@ def recommendations(record: Record) -> Recommendations:
         if not found:
             unmet.append(need)
             continue
-        errs = [name for name, line in found[0].accuracy.items() if float(line.reliable_above) > need.distance]
+        errs = [name for name, line in found[0].accuracy.items() if line.reliable_above > need.distance]
         new = Advice(need, found[0], tuple(found[1:]), timed[0], tuple(errs))
         if not any(_covers(old, new) for old in advice):
             advice.append(new)
@@ -174,7 +174,7 @@ def _reliable(
 
     def holds(each: MeasuredMethod) -> bool:
         lines = [line for name, line in each.accuracy.items() if names is None or name in names]
-        return bool(lines) and all(float(line.reliable_above) <= distance for line in lines)
+        return bool(lines) and all(line.reliable_above <= distance for line in lines)
 
     return [each for each in found if each.line.kind != "bounding" and holds(each)]
 
@@ -223,9 +223,7 @@ def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) ->
         return False
     if (each.exact and not other.exact) or each.accuracy.keys() != other.accuracy.keys():
         return False
-    if any(
-        float(other.accuracy[name].reliable_above) > float(line.reliable_above) for name, line in each.accuracy.items()
-    ):
+    if any(other.accuracy[name].reliable_above > line.reliable_above for name, line in each.accuracy.items()):
         return False
     shared = [name for name in timed if each.ratio(name) is not None and other.ratio(name) is not None]
     return bool(shared) and all(_interval(other, name, BATCH)[1] < _interval(each, name, BATCH)[0] for name in shared)
@@ -247,7 +245,7 @@ def advice_sections(record: Record) -> Iterator[Section]:
     if not chosen.advice:
         return
     known = workloads(record)
-    scenes = listed([str(known[name].title) for name in timed_workloads(record)])
+    scenes = listed([known[name].title for name in timed_workloads(record)])
     against = reference(record)
     said: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
     if against is not None:

@@ -122,7 +122,7 @@ def accuracy_changes(before: Record, after: Record) -> list[AccuracyChange]:
 
 
 def _errors(line: AccuracyLine) -> tuple[int, int, float]:
-    return line.wrong, line.asked, float(line.reliable_above)
+    return line.wrong, line.asked, line.reliable_above
 
 
 def ratio_changes(before: Record, after: Record) -> list[RatioChange]:
@@ -246,7 +246,7 @@ def _accuracy_table(changes: list[AccuracyChange]) -> TableBlock:
             Code(change.after.method),
             change.after.workload,
             *(TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)) for line in both),
-            *(measured(float(line.reliable_above)) for line in both),
+            *(measured(line.reliable_above) for line in both),
         )
         for change in changes
         for both in [(change.before, change.after)]

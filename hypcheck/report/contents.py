@@ -192,7 +192,7 @@ def _remarks(line: MethodLine) -> Iterator[str]:
     if line.accuracy_only:
         yield "not timed"
     if line.note:
-        yield str(line.note)
+        yield line.note
 
 
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (

@@ -113,7 +113,7 @@ def benchmark_suites(record: Record, failed: Sequence[Failure]) -> Iterator[Juni
 def _answer_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
     for each in measured_methods(record):
         for workload, line in each.accuracy.items():
-            reliable = figure(float(line.reliable_above))
+            reliable = figure(line.reliable_above)
             said = f"{line.wrong:,} of {counted(line.asked, 'answer')} wrong; reliable above {reliable}"
             yield JunitCase(f"{each.name} on {workload}", _trouble(failed, "wrong", each.name, workload), (said,))
 
@@ -151,7 +151,7 @@ def _comparison(line: ComparisonLine, failed: Sequence[Failure]) -> JunitCase:
 def _kernel(line: KernelLine, failed: Sequence[Failure]) -> JunitCase:
     said = f"wanted {figure(line.wanted)}, measured {figure(line.measured)}: {'met' if line.met else 'not met'}"
     missed = _failure([each for each in failed if (each.name, each.group) == (line.name, "target")])
-    return JunitCase(f"{line.name}: {line.target}", missed, (said, str(line.says)))
+    return JunitCase(f"{line.name}: {line.target}", missed, (said, line.says))
 
 
 def _name(line: SpeedLine | UnmeasuredLine | RefusedLine | ComparisonLine) -> str:
@@ -308,7 +308,7 @@ def _family_case(
         worst = worst_case([case for case in group.worst if case.status == status])
         if worst is not None:
             numbered = f" ({replays.place(worst)})" if implementation.gated else ""
-            error = figure(float(worst.backward_error_u))
+            error = figure(worst.backward_error_u)
             output.append(f"worst backward error: {error} u, case {worst.case}{numbered}")
             output.append(f"replay: {replays.command(group, worst)}")
     place = ("implementation", implementation.name, group.family)

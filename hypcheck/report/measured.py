@@ -48,12 +48,12 @@ class MeasuredMethod:
     @property
     def tier(self) -> str:
         """The language that it is written in."""
-        return str(self.line.tier)
+        return self.line.tier
 
     @property
     def exact(self) -> bool:
         """Whether it promises never to be wrong."""
-        return bool(self.line.exact)
+        return self.line.exact
 
     @property
     def asked(self) -> int:
@@ -73,17 +73,17 @@ class MeasuredMethod:
     @property
     def reliable_above(self) -> float:
         """The distance above which at most 1 answer in 1000 is wrong or missing, on every workload."""
-        return max((float(line.reliable_above) for line in self.accuracy.values()), default=math.inf)
+        return max((line.reliable_above for line in self.accuracy.values()), default=math.inf)
 
     def ratio(self, workload: str, mode: str = BATCH) -> float | None:
         """Its time divided by that of the reference method; None if it was not timed or not compared."""
         line = self.speed.get((workload, mode))
-        return None if line is None or line.ratio is None or lost(line) else float(line.ratio)
+        return None if line is None or line.ratio is None or lost(line) else line.ratio
 
 
 def lost(line: SpeedLine) -> bool:
     """Whether a speed line has no time, because a call took no longer than an empty one."""
-    return float(line.median_ns) <= LEAST_NS
+    return line.median_ns <= LEAST_NS
 
 
 def measured_methods(record: Record) -> list[MeasuredMethod]:
@@ -150,8 +150,8 @@ def _way_total(each: MeasuredMethod, speed: SpeedLine | None) -> WayTotal:
         false=sum(line.false_contact for line in lines),
         abstained=sum(line.abstained for line in lines),
         typical=_median_size([octave for line in lines for octave in line.octaves]),
-        worst=max((float(case.flip_distance) for line in lines for case in line.worst), default=0.0),
-        time_ns=None if timed is None else float(timed.median_ns),
+        worst=max((case.flip_distance for line in lines for case in line.worst), default=0.0),
+        time_ns=None if timed is None else timed.median_ns,
         ratio=None if timed is None else timed.ratio,
         ratio_ci95=None if timed is None else timed.ratio_ci95,
     )

@@ -91,15 +91,12 @@ def error_text(case: WrongAnswer) -> str:
     Of a time, the first contact and the way to it.
     """
     if case.time is UNSET or case.first is UNSET:
-        error = float(case.backward_error)
-        if error >= 1:
+        if case.backward_error >= 1:
             return "wrong at any distance"
-        return (
-            f"wrong by {figure(100 * error)} % of each number"
-            if error >= FAR
-            else (f"wrong by {figure(float(case.backward_error_u))} u")
-        )
-    radii = figure(float(case.backward_error))
+        if case.backward_error >= FAR:
+            return f"wrong by {figure(100 * case.backward_error)} % of each number"
+        return f"wrong by {figure(case.backward_error_u)} u"
+    radii = figure(case.backward_error)
     return f"at {case.time!r}, but the first contact is at {case.first[0]!r}, {radii} radii of the way from there"
 
 
@@ -199,7 +196,7 @@ class Replays:
         """The command that replays a case of a gated implementation, or decides and proves one of a built-in method."""
         if not group.tested:
             return classify_command(from_hex(numbers_of(case)))
-        return self.of_case(str(case.case), str(group.spec))
+        return self.of_case(case.case, str(group.spec))
 
     def of_case(self, case: str, spec: str) -> str:
         """The command that replays a case of an implementation."""

@@ -144,7 +144,7 @@ def oracle_totals(record: Record) -> list[OracleTotal]:
         by_name.setdefault(line.oracle, []).append(line)
     names = sorted(by_name, key=lambda name: (name != EXACT_ORACLE, -sum(line.asked for line in by_name[name])))
     asked = [_oracle_total(name, by_name[name]) for name in names]
-    missing = [OracleTotal(line.oracle, 0, 0, 0, 0, {}, 0.0, str(line.reason)) for line in record.of(UnavailableLine)]
+    missing = [OracleTotal(line.oracle, 0, 0, 0, 0, {}, 0.0, line.reason) for line in record.of(UnavailableLine)]
     return asked + missing
 
 
@@ -159,13 +159,13 @@ def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
 
 def unlisted(finding: FindingLine) -> bool:
     """Whether a formula errs within its stated regimes, and this is no known finding."""
-    return bool(finding.inside) and finding.reason is None
+    return finding.inside and finding.reason is None
 
 
 def explanation(finding: FindingLine) -> str:
     """Why a formula errs, as far as it is known."""
     if finding.reason is not None:
-        return str(finding.reason)
+        return finding.reason
     cause = f"cause: {finding.cause}"
     return f"not a known finding; {cause}" if unlisted(finding) else f"it claims nothing here; {cause}"
 
@@ -223,12 +223,12 @@ def _implementation(name: str, lines: list[GroupLine]) -> ImplementationTotal:
 
 def worst_case(cases: list[WrongAnswer]) -> WrongAnswer | None:
     """The case with the greatest backward error; the first of equals, None if there is none."""
-    return max(cases, key=lambda case: float(case.backward_error_u), default=None)
+    return max(cases, key=lambda case: case.backward_error_u, default=None)
 
 
 def worst_error_u(case: WrongAnswer | None) -> float:
     """The backward error of worst_case in units u; 0 if no answer was wrong."""
-    return 0.0 if case is None else float(case.backward_error_u)
+    return 0.0 if case is None else case.backward_error_u
 
 
 def timing_totals(record: Record) -> list[TimingTotal]:

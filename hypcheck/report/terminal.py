@@ -114,7 +114,7 @@ def benchmark_facts(record: Record) -> Iterator[str]:
     """Targets met, the price of other shapes, and the distances at which errors end."""
     kernels = record.of(KernelLine)
     if kernels:
-        missed = [str(line.name) for line in kernels if not line.met]
+        missed = [line.name for line in kernels if not line.met]
         named = f"; not met: {listed(missed)}" if missed else ""
         yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
     for line in record.of(BoundingLine):

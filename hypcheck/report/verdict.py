@@ -165,7 +165,7 @@ def _other_clauses(record: Record) -> Iterator[str]:
     """Clauses about measurements other than the comparison of methods on rows."""
     targets = record.of(KernelLine)
     if targets:
-        met = sum(bool(line.met) for line in targets)
+        met = sum(line.met for line in targets)
         yield f"{met:,} of {counted(len(targets), 'target')} of the kernels met"
     forests = record.of(ForestLine)
     if forests:
@@ -248,7 +248,7 @@ def _starts(record: Record) -> Iterator[Failure]:
     """Implementations that could not be started, or broke the protocol throughout."""
     for tested in under_test(record):
         if isinstance(tested.line, NotStartedLine):
-            yield Failure("implementation", tested.name, "start", "not-started", str(tested.line.trouble))
+            yield Failure("implementation", tested.name, "start", "not-started", tested.line.trouble)
         elif tested.line.broke_protocol_throughout:
             message = f"{tested.name} broke the protocol throughout"
             yield Failure("implementation", tested.name, "start", "protocol", message)
@@ -296,7 +296,7 @@ def _broken_promise(name: str, line: GroupLine, status: str, number: int, replay
 
 def _drift(record: Record) -> Iterator[Failure]:
     for line in record.of(DriftLine):
-        yield Failure("findings", "known findings", "drift", "drift", str(line.sentence))
+        yield Failure("findings", "known findings", "drift", "drift", line.sentence)
 
 
 def verdict(record: Record) -> Verdict:

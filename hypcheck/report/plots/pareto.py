@@ -232,7 +232,7 @@ def points(record: Record, workload: str, *, everywhere: bool = False) -> list[P
         if speed is None or lost(speed) or here is None:
             continue
         errors = each if everywhere else here
-        reliable_above, time_ns = float(errors.reliable_above), float(speed.median_ns)
+        reliable_above, time_ns = errors.reliable_above, speed.median_ns
         found.append(ParetoPoint(each.name, each.tier, time_ns, reliable_above, errors.asked, each.exact))
     return found
 
@@ -267,7 +267,7 @@ def front_plots(record: Record) -> Iterator[Plot]:
     known, name = workloads(record), principal(record)
     near, everywhere = points(record, name), points(record, name, everywhere=True)
     if near:
-        where = str(known[name].title)
+        where = known[name].title
         yield _plot("front-near", where.capitalize(), near, 400, timed=where)
         yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, timed=where)
 

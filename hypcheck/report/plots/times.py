@@ -61,7 +61,7 @@ def _speed_row(name: str, tier: str, line: SpeedLine) -> SpeedRow | None:
     if line.ratio is None or lost(line):
         return None
     low, high = line.ratio_ci95 or (line.ratio, line.ratio)
-    return SpeedRow(name, tier, float(line.ratio), float(low), float(high), float(line.median_ns))
+    return SpeedRow(name, tier, float(line.ratio), float(low), float(high), line.median_ns)
 
 
 def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | None, against: str) -> Plot:

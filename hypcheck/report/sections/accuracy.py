@@ -152,7 +152,7 @@ def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replay
         judge_of(group.question).truth_in_words(case.truth),
         str(case.answer),
         case.mistake,
-        measured(float(case.backward_error_u)),
+        measured(case.backward_error_u),
         _status(case),
         Code(replays.command(group, case)),
     )
@@ -208,7 +208,7 @@ def error_sections(record: Record) -> Iterator[Section]:
 
 
 def _workload_table(record: Record) -> Block:
-    titles = {name: str(line.title) for name, line in workloads(record).items()}
+    titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
         (Code(each.name), titles[name], *_workload_row(line))
         for each in measured_methods(record)
@@ -222,8 +222,8 @@ def _workload_table(record: Record) -> Block:
 
 
 def _workload_row(line: AccuracyLine) -> Row:
-    worst = max(line.worst, key=lambda case: float(case.flip_distance), default=None)
-    reliable = float(line.reliable_above)
+    worst = max(line.worst, key=lambda case: case.flip_distance, default=None)
+    reliable = line.reliable_above
     return (
         count(line.asked),
         count(line.wrong),

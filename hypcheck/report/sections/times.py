@@ -68,7 +68,7 @@ def _untimed(words: str, lines: Sequence[RefusedLine | UnmeasuredLine]) -> list[
 
 
 def _speed_table(record: Record) -> TableBlock:
-    titles = {name: str(line.title) for name, line in workloads(record).items()}
+    titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
         (Code(each.name), titles[line.workload], line.mode, *_time(record, line))
         for each in measured_methods(record)
@@ -85,7 +85,7 @@ def _time(record: Record, line: SpeedLine) -> Row:
     ends = (noise, count(line.rows), f"{line.timed_by}{dropped}")
     if lost(line):
         return (MISSING, "no more than an empty call", MISSING, *ends)
-    median = float(line.median_ns)
+    median = line.median_ns
     rate = measured(1e9 / median if median > 0 else None)
     return (measured(line.ratio, line.ratio_ci95), measured(median, line.ci95_ns), rate, *ends)
 
@@ -134,7 +134,7 @@ def _forest(lines: list[ForestLine]) -> TableBlock:
             measured(line.ratio, line.ratio_ci95),
             measured(line.build_s),
             count(line.asked),
-            count(line.wrong, bad=bool(line.exact)),
+            count(line.wrong, bad=line.exact),
         )
         for line in lines
     ]
@@ -266,7 +266,7 @@ def _kernels(lines: list[KernelLine]) -> TableBlock:
             TableCell("yes", tone="good") if line.met else TableCell(Strong("no"), tone="bad"),
             line.says,
         )
-        for line in sorted(lines, key=lambda line: bool(line.met))
+        for line in sorted(lines, key=lambda line: line.met)
     ]
     columns = "kernel | target | # wanted | # measured | met | which says"
     return table("targets of the kernels", columns, rows)
