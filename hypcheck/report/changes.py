@@ -200,8 +200,8 @@ _RATIOS = prose(
 )
 
 
-def change_sections(record: Record, against: Record) -> Iterator[Section]:
-    """The changes as a section; if nothing changed, it says so."""
+def change_section(record: Record, against: Record) -> Section:
+    """The changes; if nothing changed, it says so."""
     statuses, accuracies = status_changes(against, record), accuracy_changes(against, record)
     ratios = ratio_changes(against, record)
     began = against.header.started
@@ -217,7 +217,7 @@ def change_sections(record: Record, against: Record) -> Iterator[Section]:
         blocks.append(Paragraph("No case ended otherwise."))
     if ratios:
         blocks += [Paragraph(_RATIOS), _ratio_table(ratios)]
-    yield Section("What changed", tuple(blocks))
+    return Section("What changed", tuple(blocks))
 
 
 def _status_table(changes: list[StatusChange]) -> TableBlock:

@@ -195,9 +195,10 @@ def _remarks(line: MethodLine) -> Iterator[str]:
         yield line.note
 
 
+FAILING: tuple[Callable[[Record], Iterator[Section]], ...] = (cause_sections, failure_sections)
+"""The sections that come first: why answers are wrong, and what failed."""
+
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
-    cause_sections,
-    failure_sections,
     settings_sections,
     times.baseline_sections,
     advice.advice_sections,
@@ -218,7 +219,7 @@ PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     explorer_sections,
     run_sections,
 )
-"""The sections in reading order: why and what failed first, the run last.
+"""The other sections in reading order, the run last.
 
 A part is empty if the record has none of its lines.
 """
@@ -235,11 +236,10 @@ class Content:
 
 def content(record: Record, against: Record | None = None) -> Content:
     """The content of a report; with another record, the changes follow the failures."""
-    sections = [section for part in PARTS for section in part(record)]
-    if against is not None:
-        failing = sum(1 for part in (cause_sections, failure_sections) for _ in part(record))
-        sections[failing:failing] = changes.change_sections(record, against)
-    return Content(report_title(record), verdict(record), tuple(sections))
+    failing = [section for part in FAILING for section in part(record)]
+    changed = [] if against is None else [changes.change_section(record, against)]
+    others = [section for part in PARTS for section in part(record)]
+    return Content(report_title(record), verdict(record), (*failing, *changed, *others))
 
 
 def report_title(record: Record) -> str:

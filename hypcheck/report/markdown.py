@@ -16,7 +16,6 @@ from hypcheck.report.document import (
     Block,
     Bullets,
     Code,
-    Details,
     Either,
     Emphasis,
     Figures,
@@ -103,30 +102,20 @@ def _section(section: Section, beside: Collection[str]) -> Iterator[str]:
 
 
 def _block(block: Block, beside: Collection[str]) -> Iterator[str]:
-    if isinstance(block, Paragraph):
-        yield from (running_text(block.text), "")
-    elif isinstance(block, Bullets):
-        yield from _bullets(block)
-    elif isinstance(block, TableBlock):
-        yield from _table(block)
-    elif isinstance(block, Figures):
-        if block.file in beside:
-            yield from (f"![{block.alt}]({block.file})", "")
-    elif isinstance(block, Either):
-        yield from _block(block.text, beside)
-    elif not isinstance(block, Details):
-        raise TypeError(f"{type(block).__name__} is no block")
-
-
-def _bullets(block: Bullets) -> Iterator[str]:
-    for item in block.items:
-        yield f"- {running_text(item.text)}"
-        yield from (f"  - {running_text(each)}" for each in item.below)
-    if block.items:
-        yield ""
-
-
-def _table(block: TableBlock) -> Iterator[str]:
-    numbers = [place for place, column in enumerate(block.columns) if column.number]
-    rows = [[running_text(cell.text) for cell in row] for row in block.rows]
-    yield from table_lines([running_text(column.title) for column in block.columns], rows, numbers)
+    """The lines of a block; only the page has folded blocks and the explorer."""
+    match block:
+        case Paragraph(text):
+            yield from (running_text(text), "")
+        case Bullets(items) if items:
+            for item in items:
+                yield f"- {running_text(item.text)}"
+                yield from (f"  - {running_text(each)}" for each in item.below)
+            yield ""
+        case TableBlock(_, columns, rows):
+            numbers = [place for place, column in enumerate(columns) if column.number]
+            cells = [[running_text(cell.text) for cell in row] for row in rows]
+            yield from table_lines([running_text(column.title) for column in columns], cells, numbers)
+        case Figures(alt=alt, file=file) if file in beside:
+            yield from (f"![{alt}]({file})", "")
+        case Either(text=text):
+            yield from _block(text, beside)
