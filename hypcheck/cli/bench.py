@@ -101,17 +101,12 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         workloads=names_in(options["workloads"]),
         quick=quick,
         amounts=QUICK if quick else FULL,
-        seed=options["seed"],
         processes=options["processes"] or (3 if quick else 5),
         rounds=options["rounds"] or (3 if quick else 5),
         workers=options["workers"] or usable_processors(),
-        baseline=options["baseline"],
         max_slowdown=options["max_slowdown"] or MAX_SLOWDOWN,
-        kernel=options["kernel"],
-        forest=options["forest"],
-        tilted=options["tilted"],
-        question=options["question"],
         scenes=options["scene"],
+        **{name: options[name] for name in ("seed", "baseline", "kernel", "forest", "tilted", "question")},
     )
     bounds = isolated(plan.limits, options["isolate"], options["pass_env"], options["out"])
     plan, isolation = replace(plan, limits=bounds), isolation_of(specs, bounds)

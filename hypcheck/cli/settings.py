@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import operator
 import re
 import sys
 from collections.abc import Callable, Collection, Mapping
@@ -57,11 +58,6 @@ class ProjectSettings:
         return {command: dict(self.options) if command == "verify" else about_one for command in COMMANDS}
 
 
-_LARGER = ("tolerance", "max_abstained", "max_slowdown")
-_SMALLER = ("count", "judged", "roots", "meshes")
-_OTHER = ("fail_on", "oracles")
-"""Options that weaken a gate if their value is larger than their default, smaller, or different."""
-
 _UNSET: Mapping[str, Any] = MappingProxyType(
     {
         "families": "all but the extreme ones",
@@ -73,7 +69,7 @@ _UNSET: Mapping[str, Any] = MappingProxyType(
         "max_slowdown": 1.1,  # hypcheck.bench.plan.MAX_SLOWDOWN; its module is not loaded here
     }
 )
-"""What applies if an option has no value; any value of these except the last weakens a gate."""
+"""What applies if an option has no value."""
 
 
 def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsPart | None:
@@ -85,7 +81,8 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsP
     for option in context.command.params:
         name = str(option.name)
         value, default = context.params.get(name), _UNSET.get(name, option.default)
-        if name not in unused and _weakens(name, value, default):
+        weakens = _WEAKENS.get(name)
+        if name not in unused and weakens is not None and value is not None and weakens(value, default):
             from_file = context.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
             shown = {"value": _as_text(value), "default": _as_text(default)}
             weakened.append({"option": option.opts[0], **shown, "source": FILE if from_file else "command line"})
@@ -113,20 +110,6 @@ def print_file_settings() -> None:
         print_settings(replace(found, weakened=[each for each in found.weakened if each.source == found.file]))
 
 
-def _weakens(name: str, value: Any, default: Any) -> bool:  # noqa: ANN401 - any option's value
-    if value is None:
-        return False
-    if name in _LARGER:
-        return bool(value > default)
-    if name in _SMALLER:
-        return bool(value < default)
-    if name == "isolate":
-        return bool(value == "off")
-    if name == "families":
-        return _leaves_out_families(str(value))
-    return name in _UNSET or (name in _OTHER and value != default)
-
-
 def _leaves_out_families(value: str) -> bool:
     """Whether this choice lacks a family that is asked by default; a choice of nothing is refused later."""
     from hypcheck.vectors.families import select
@@ -135,6 +118,18 @@ def _leaves_out_families(value: str) -> bool:
         return not set(select()) <= set(select([name for name in map(str.strip, value.split(",")) if name]))
     except InputError:
         return True
+
+
+_WEAKENS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
+    {
+        **dict.fromkeys(("tolerance", "max_abstained", "max_slowdown"), operator.gt),
+        **dict.fromkeys(("count", "judged", "roots", "meshes"), operator.lt),
+        **dict.fromkeys(("fail_on", "oracles", "precision", "question", "domain", "known_failures"), operator.ne),
+        "isolate": lambda value, _: bool(value == "off"),
+        "families": lambda value, _: _leaves_out_families(value),
+    }
+)
+"""Whether an option with this value, instead of its default, weakens a gate."""
 
 
 def _as_text(value: object) -> str:
