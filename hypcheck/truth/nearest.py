@@ -38,7 +38,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import double_double
 from hypcheck.truth.double_double import DoubleDouble
-from hypcheck.truth.nearest_exact import NearestStage, Optimum, SquaredLengths, optimise
+from hypcheck.truth.nearest_exact import NearestStage, SquaredLengths, optimise
 
 _BOUND = 64.0 * double_double.ERROR
 _FLOOR = 2.0**-400
@@ -257,15 +257,6 @@ _CHUNK = 4096  # rows whose intermediate arrays fit in a core's second-level cac
 
 
 @dataclass(frozen=True, slots=True)
-class NearestPositions:
-    """For n rows: the positions (n,), whether tangent, bool (n,), and the Stage that decided each, uint8 (n,)."""
-
-    position: Positions
-    tangent: Mask
-    stage: NDArray[np.uint8]
-
-
-@dataclass(frozen=True, slots=True)
 class NearestBatch:
     """For n rows: clearances as in nearest_exact.Nearest (n,), positions (n,), and the Stage of each, uint8 (n,)."""
 
@@ -273,11 +264,18 @@ class NearestBatch:
     position: Positions
     stage: NDArray[np.uint8]
 
+    @property
+    def tangent(self) -> Mask:
+        """Which pairs are tangent, bool (n,)."""
+        return np.asarray(self.clearance == 0.0)
 
-def positions(rows: Rows) -> NearestPositions:
-    """The positions and tangencies of rows (n, 7). Raises InputError about the first invalid row."""
-    batch = _run(rows, clearances_wanted=False)
-    return NearestPositions(batch.position, batch.clearance == 0.0, batch.stage)
+
+def positions(rows: Rows) -> NearestBatch:
+    """The positions and tangencies of rows (n, 7). Raises InputError about the first invalid row.
+
+    Clearances are right to a factor alone, and 0 where tangent.
+    """
+    return _run(rows, clearances_wanted=False)
 
 
 def clearances(rows: Rows) -> NearestBatch:
@@ -286,7 +284,7 @@ def clearances(rows: Rows) -> NearestBatch:
 
 
 def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:
-    """Chunk by chunk; where only positions are wanted, clearances are right to a factor alone, and 0 where tangent."""
+    """Chunk by chunk, in double-double arithmetic as far as that can tell, else exactly."""
     require_valid(rows)
     batch = NearestBatch(
         np.empty(len(rows)), np.empty(len(rows), np.int8), np.full(len(rows), NearestStage.DOUBLE_DOUBLE, np.uint8)
@@ -298,12 +296,7 @@ def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:
         batch.position[chunk] = decided.position
         certain: Mask = decided.clearance_certain if clearances_wanted else decided.position_certain
         for index in (begin + np.flatnonzero(~certain)).tolist():
-            _store(batch, index, optimise(SquaredLengths.of(Pair.from_row(rows[index].tolist()))))
+            optimum = optimise(SquaredLengths.of(Pair.from_row(rows[index].tolist())))
+            batch.clearance[index], batch.position[index] = optimum.clearance, optimum.position
+            batch.stage[index] = optimum.stage
     return batch
-
-
-def _store(batch: NearestBatch, index: int, optimum: Optimum) -> None:
-    """Write one row's answer."""
-    batch.clearance[index] = optimum.clearance
-    batch.position[index] = optimum.position
-    batch.stage[index] = optimum.stage
