@@ -239,11 +239,6 @@ class Nearest:
     multiplier: float
     stage: str
 
-    @property
-    def tangent(self) -> bool:
-        """Whether the surfaces touch and the bodies do not overlap: clearance 0."""
-        return self.clearance == 0.0
-
 
 @dataclass(frozen=True, slots=True)
 class Optimum:

@@ -35,7 +35,6 @@ def check(row):
     assert ulps(found.clearance, truth) <= (1 if abs(found.clearance) == 5e-324 else 0.5000001), (row, found, truth)
     assert (found.clearance > 0) == (truth > 0)
     assert found.position == (side(row) if truth > 0 else 0)
-    assert found.tangent is (found.clearance == 0)
     assert found.stage in STAGES[NearestStage.PRECISE :]
     with mp.workprec(20000):
         x, y, z = (mpf(value) for value in row[4:])
@@ -156,7 +155,7 @@ def test_spheroid_centred_on_the_axis_has_a_circle_of_nearest_points(alpha, gamm
     found = check((float(alpha), float(gamma), float(b), float(d), 0.0, 0.0, float(z)))
     A, B, Q = Fraction(alpha, b) ** 2, Fraction(gamma, d) ** 2, Fraction(z, d) ** 2
     assert found.clearance == pytest.approx(math.sqrt(A + A * Q / (A + B)) - 1, rel=1e-12, abs=1e-15)
-    assert found.tangent is (A + A * Q / (A + B) == 1)
+    assert (found.clearance == 0) is (A + A * Q / (A + B) == 1)
     assert (found.circle, found.stage, found.multiplier) == (True, "exact", -float(A))
 
 
@@ -173,10 +172,10 @@ def test_spheroid_centred_in_the_waist_plane_has_one_or_two_nearest_points(alpha
     if A * P > (A + B) ** 2:
         squared = B * (P - A - B) / (A + B)
         assert (found.stage, len(found.points), found.multiplier) == ("exact", 2, float(B))
-        assert found.tangent is (squared == 1)
+        assert (found.clearance == 0) is (squared == 1)
     else:
         assert len(found.points) == 1
-        assert found.tangent is (P == (a + 1) ** 2 or (a >= 1 and P == (a - 1) ** 2))
+        assert (found.clearance == 0) is (P == (a + 1) ** 2 or (a >= 1 and P == (a - 1) ** 2))
 
 
 def test_spheroid_tangent_in_two_points_has_clearance_0_and_two_nearest_points():
@@ -236,7 +235,7 @@ def test_clearances_at_rational_tangents_and_beside_them_are_right(triple, k, v,
         assert step != 0 or tangency(SquaredLengths.of(Pair(*row))) is None
         return
     assert found.clearance == float(step)
-    assert found.tangent is (step == 0)
+    assert (found.clearance == 0) is (step == 0)
     assert found.position == (sign if step > 0 else 0)
     assert (found.stage == "exact") or step != 0
     batch = clearances(np.array([row], float))
