@@ -42,7 +42,7 @@ SLOW = {
     "engines": "adapters cli findings placing scene",
     "isolation": "isolation",
     "implementations": "commands fcl_naive functions libraries processes",
-    "kernel": "header parallel_lines printing_languages sanitizers",
+    "kernel": "header languages parallel_lines sanitizers",
     "kernel/emission": "conformance extremes foreign_text kernels limits prefix scenes text",
     "paper": "ledger_cli ledger_formats ledger_search motion simulate_cli tower",
     "record": "integrity",
