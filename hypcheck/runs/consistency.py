@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
@@ -65,7 +64,8 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     planned = planned_cases(plan, used)
     trouble = _difference(tallied, planned | fixed_sizes)
     for line in groups:
-        trouble = trouble or _of_sums(line.family, _Sums.of_line(line)) or _of_failing(line, plan)
+        numbers = (line.octaves, (line.size_bins, line.place_bins))
+        trouble = trouble or _of_sums(line.family, line, *numbers) or _of_failing(line, plan)
     if trouble or _lacks_trouble(whole, groups, plan):
         raise ValueError(
             trouble or "it abstained from more cases or changed more answers than allowed, and no line says that"
@@ -167,59 +167,40 @@ def _of_open(each: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRu
     return ""
 
 
-@dataclass(frozen=True)
-class _Sums:
-    """The numbers that a tally and a line about a family share; `worst` are the statuses of the worst cases."""
-
-    asked: int
-    counts: Mapping[str, int]
-    mistakes: Mapping[str, int]
-    exponents: Mapping[str, Mapping[str, int]]
-    bins: tuple[Sequence[Sequence[int]], ...]
-    worst: tuple[str, ...]
-
-    @classmethod
-    def of_line(cls, line: GroupLine) -> _Sums:
-        statuses = tuple(case.status for case in line.worst)
-        bins = (line.size_bins, line.place_bins)
-        return cls(line.asked, line.counts, line.mistakes, line.octaves, bins, statuses)
-
-    @classmethod
-    def of_tally(cls, tally: Tally) -> _Sums:
-        statuses = tuple(case.status for case in tally.worst)
-        bins = (tally.size_bins.as_lists(), tally.place_bins.as_lists())
-        return cls(tally.asked, tally.counts, tally.mistakes, tally.exponents, bins, statuses)
+Bins = Sequence[Sequence[int]]
 
 
-def _of_sums(family: str, sums: _Sums) -> str:
-    """The numbers about one family must agree with each other."""
+def _of_sums(
+    family: str, sums: GroupLine | Tally, exponents: Mapping[str, Mapping[str, int]], bins: tuple[Bins, Bins]
+) -> str:
+    """The numbers about one family, of a line or of a tally, must agree with each other."""
     counts = Counter(sums.counts)
     if not {*counts} <= {each.value for each in Status} or not {*sums.mistakes} <= {each.value for each in Mistake}:
         return f"{family} has a status or a mistake that does not exist"
     off, wrong = sum(counts[each.value] for each in _OFF), counts[Status.WRONG.value]
     asked = sums.asked == sum(counts.values()) - counts[Status.SKIPPED.value]
     if family in INVALID_CONTENTS:
-        agree = not (sums.mistakes or sums.exponents or any(sums.bins) or sums.worst)
+        agree = not (sums.mistakes or exponents or any(bins) or sums.worst)
     else:
         measured: Counter[str] = Counter()
-        for counted in sums.exponents.values():
+        for counted in exponents.values():
             measured.update(counted)
-        binned = {(sum(row[2] for row in rows), sum(row[3] for row in rows)) for rows in sums.bins}
+        binned = {(sum(row[2] for row in rows), sum(row[3] for row in rows)) for rows in bins}
         agree = (
             sum(sums.mistakes.values()) == off
             and binned == {(sums.asked, sums.asked - counts[Status.RIGHT.value])}
-            and all(0 <= row[3] <= row[2] for rows in sums.bins for row in rows)
+            and all(0 <= row[3] <= row[2] for rows in bins for row in rows)
             and measured <= counts
             and measured.total() <= EXPONENTS_OF
             and len(sums.worst) == min(WORST_KEPT, off)
-            and sums.worst.count(Status.WRONG.value) == min(WORST_KEPT, wrong)
+            and sum(case.status == Status.WRONG for case in sums.worst) == min(WORST_KEPT, wrong)
         )
     return "" if asked and agree else f"{family} has counts, mistakes, bins and worst cases that contradict each other"
 
 
 def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     counts = Counter(tally.counts)
-    trouble = _of_sums(family, _Sums.of_tally(tally))
+    trouble = _of_sums(family, tally, tally.exponents, (tally.size_bins.as_lists(), tally.place_bins.as_lists()))
     if trouble:
         return trouble
     if tally.dangerous > min(counts[Status.WRONG.value], sum(tally.mistakes.get(each.value, 0) for each in DANGEROUS)):
