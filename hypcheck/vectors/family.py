@@ -98,7 +98,7 @@ class Family:
 
     def block(self, seed: int, number: int) -> Rows:
         """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, len(columns)), all valid."""
-        return self.make(Draw(self.name, self.version, seed, number), BLOCK)
+        return self._blocks(seed, number, number + 1)
 
     def columns_between(self, seed: int, start: int, stop: int) -> NDArray[np.float64]:
         """Rows start to stop − 1 of the seed by columns, (len(columns), stop − start); those before are not made."""
@@ -117,8 +117,6 @@ class Family:
         return tuple(self.block(seed, number)[place].tolist())
 
     def _blocks(self, seed: int, first: int, last: int) -> Rows:
-        if last == first + 1:
-            return self.block(seed, first)
         names = [(self.name, self.version, seed, number) for number in range(first, last)]
         return self.make(Draw.of_blocks(names), (last - first) * BLOCK)
 
