@@ -27,9 +27,6 @@ from hypcheck.implementations.procedures import (
 )
 from hypcheck.kernel.printing.languages import C_SUFFIXES, c_statements
 
-NAMES = ("nothing", "procedure-2a", "procedure-2b", "certified", "procedure-2a-repaired", "procedure-2b-repaired")
-"""The procedures by their places in the driver's table; the first does nothing."""
-
 
 def procedures_source() -> str:
     """The functions and their driver; hypcheck.h and math.h must be included before."""

@@ -10,10 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from hypcheck.bench.c_library import InC, bodies_asked, place_of
-from hypcheck.bench.c_source import NAMES
-from hypcheck.bench.contender import InPython, PreparedWork
+from hypcheck.bench.contender import InPython, PreparedWork, prepared
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.timing import Estimate, SampleTable, clocked, estimate, ratios
+from hypcheck.bench.timing import Estimate, SampleTable, estimate, ratios
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, ROOTS_TRIGONOMETRIC, Formula, cost_of
 from hypcheck.derivation.program import Operations, count
@@ -32,7 +31,7 @@ PRINTED, RECIPROCALS = "Table 2 as printed", "Table 2 with 1/b² and 1/d kept ou
 TRIGONOMETRIC, EIGENVALUES = "the roots by cosines, where Δ > 0", "the roots by numpy.roots"
 
 BODIES = (PRINTED_A, PRINTED_B, OURS, REPAIRED_A, REPAIRED_B)
-"""The procedures for a body and its rotors, in the order of PROCEDURES and of NAMES."""
+"""The procedures for a body and its rotors, in the order of PROCEDURES; in C the first has the place 1 of of_bodies."""
 
 COST_OF = "cost of "
 """Begins the name of a claim, in place of a workload."""
@@ -68,8 +67,8 @@ def cost_claims(plan: BenchPlan) -> list[CostClaim]:
     """The claims of this run: all in numpy, and in C if that was compiled."""
     if plan.methods or plan.workloads or not plan.everyday:
         return []  # a run of a few methods is only about these, and the claims are about upright spheroids
-    tiers = ("numpy", "C") if plan.compiled is not None else ("numpy",)
-    return [make(tier) for make in (_procedures, _divisions, _roots) for tier in tiers]
+    libraries = (None,) if plan.compiled is None else (None, plan.compiled)
+    return [make(library) for make in (_procedures, _divisions, _roots) for library in libraries]
 
 
 def flight_of(seed: int, number: int) -> CraftPath:
@@ -91,91 +90,78 @@ def share_touching(flight: CraftPath) -> float:
     return asked / len(flight)
 
 
-def _procedures(tier: str) -> CostClaim:
-    where = "in numpy, 8,192 positions at a time" if tier == "numpy" else "in C, one position a call"
-    return CostClaim(
-        "procedures",
-        "Section 4: Δ(g_i) costs much, so asking the bounding spheroid first and the rotors only where Δ ≤ 0 "
-        "(Procedure 2.b) costs less than asking the four rotors (2.a)",
-        f"random flights in the cooling tower, {where}",
-        tier,
-        _procedures_in_numpy if tier == "numpy" else _procedures_in_c,
-        {PRINTED_A: cost_of(FORMULAS["procedure-2a"]).query},
-    )
-
-
 def hull_operations() -> Operations:
     """The operations of Procedure 2.b for every position, without the rotors."""
     return count(hull_programs()[1].steps)
 
 
-def _procedures_in_numpy(plan: BenchPlan) -> dict[str, PreparedWork]:
-    flight = flight_of(plan.seed, plan.amounts.bodies)
-    ways = zip(BODIES, PROCEDURES.values(), strict=True)
-    return {
-        name: PreparedWork(len(flight), clocked(work), work)
-        for name, procedure in ways
-        for work in [partial(procedure, flight)]
-    }
+def _procedures(library: Path | None) -> CostClaim:
+    where = "in numpy, 8,192 positions at a time" if library is None else "in C, one position a call"
+    return CostClaim(
+        "procedures",
+        "Section 4: Δ(g_i) costs much, so asking the bounding spheroid first and the rotors only where Δ ≤ 0 "
+        "(Procedure 2.b) costs less than asking the four rotors (2.a)",
+        f"random flights in the cooling tower, {where}",
+        _tier(library),
+        partial(_prepared_procedures, library),
+        {PRINTED_A: cost_of(FORMULAS["procedure-2a"]).query},
+    )
 
 
-def _procedures_in_c(plan: BenchPlan) -> dict[str, PreparedWork]:
-    flight = flight_of(plan.seed, plan.amounts.bodies)
-    places = enumerate(NAMES[1:], start=1)
-    return {name: bodies_asked(_library(plan), place, flight) for name, (place, _) in zip(BODIES, places, strict=True)}
-
-
-def _divisions(tier: str) -> CostClaim:
+def _divisions(library: Path | None) -> CostClaim:
     listed = {PRINTED: TABLE_2, RECIPROCALS: RECIPROCAL, REPAIRED_1: PROCEDURE_1}
     return CostClaim(
         "divisions",
         "Section 3.1: in Table 2 only additions or products are performed, so the computational cost is very low",
-        f"uniform around the cooling tower, in {tier}, in a batch",
-        tier,
-        partial(_formulas, tier=tier, listed=listed),
+        f"uniform around the cooling tower, in {_tier(library)}, in a batch",
+        _tier(library),
+        partial(_prepared_formulas, library, listed),
         {name: cost_of(formula).query for name, formula in listed.items()},
     )
 
 
-def _roots(tier: str) -> CostClaim:
+def _roots(library: Path | None) -> CostClaim:
     of_roots = cost_of(ROOTS_TRIGONOMETRIC).query
     return CostClaim(
         "roots",
         "Section 3.1: coefficients alone cost less than the roots of [13], which take trigonometric functions where "
         "Δ > 0",
-        f"uniform around the cooling tower, in {tier}, in a batch",
-        tier,
-        _roots_in_numpy if tier == "numpy" else _roots_in_c,
+        f"uniform around the cooling tower, in {_tier(library)}, in a batch",
+        _tier(library),
+        partial(_prepared_roots, library),
         # In C two of the roots are enough, and only if Δ > 0: a straight-line program cannot express that.
-        {PRINTED: cost_of(TABLE_2).query, **({TRIGONOMETRIC: of_roots} if tier == "numpy" else {})},
+        {PRINTED: cost_of(TABLE_2).query, **({TRIGONOMETRIC: of_roots} if library is None else {})},
     )
 
 
-def _roots_in_numpy(plan: BenchPlan) -> dict[str, PreparedWork]:
-    rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
-    found = _formulas(plan, tier="numpy", listed={PRINTED: TABLE_2, TRIGONOMETRIC: ROOTS_TRIGONOMETRIC})
-    return {**found, EIGENVALUES: InPython(alternatives.numpy_roots).batch(rows[:_ROOTS_TIMED])}
+def _tier(library: Path | None) -> str:
+    return "numpy" if library is None else "C"
 
 
-def _roots_in_c(plan: BenchPlan) -> dict[str, PreparedWork]:
+def _prepared_procedures(library: Path | None, plan: BenchPlan) -> dict[str, PreparedWork]:
+    flight = flight_of(plan.seed, plan.amounts.bodies)
+    if library is None:
+        procedures = zip(BODIES, PROCEDURES.values(), strict=True)
+        return {name: prepared(len(flight), partial(procedure, flight)) for name, procedure in procedures}
+    return {name: bodies_asked(library, place, flight) for place, name in enumerate(BODIES, start=1)}
+
+
+def _prepared_formulas(library: Path | None, listed: dict[str, Formula], plan: BenchPlan) -> dict[str, PreparedWork]:
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
+    if library is None:
+        ways = {name: (by_rows(each, "float64"), by_scene(each, "float64")) for name, each in listed.items()}
+        return {name: InPython(*way).batch(rows) for name, way in ways.items()}
+    places = {name: place_of(f"{each.name}-float64") for name, each in listed.items()}
+    return {name: InC(library, place).batch(rows) for name, place in places.items()}
+
+
+def _prepared_roots(library: Path | None, plan: BenchPlan) -> dict[str, PreparedWork]:
+    rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
+    if library is None:
+        found = _prepared_formulas(None, {PRINTED: TABLE_2, TRIGONOMETRIC: ROOTS_TRIGONOMETRIC}, plan)
+        return {**found, EIGENVALUES: InPython(alternatives.numpy_roots).batch(rows[:_ROOTS_TIMED])}
     names = {PRINTED: "table-2-float64", TRIGONOMETRIC: "trigonometric-float64"}
-    return {name: InC(_library(plan), place_of(body)).batch(rows) for name, body in names.items()}
-
-
-def _formulas(plan: BenchPlan, *, tier: str, listed: dict[str, Formula]) -> dict[str, PreparedWork]:
-    rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
-    if tier == "C":
-        places = {name: place_of(f"{formula.name}-float64") for name, formula in listed.items()}
-        return {name: InC(_library(plan), place).batch(rows) for name, place in places.items()}
-    ways = {name: (by_rows(each, "float64"), by_scene(each, "float64")) for name, each in listed.items()}
-    return {name: InPython(*way).batch(rows) for name, way in ways.items()}
-
-
-def _library(plan: BenchPlan) -> Path:
-    if plan.compiled is None:
-        raise ValueError("nothing was compiled")
-    return plan.compiled
+    return {name: InC(library, place_of(method)).batch(rows) for name, method in names.items()}
 
 
 HOLDS, DOES_NOT_HOLD, INCONCLUSIVE = "holds", "does not hold", "inconclusive"
