@@ -209,7 +209,7 @@ class InC(LoadedMethod):
 
 
 def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
-    """One of the quadcopter's procedures, by its place in the table of_bodies of the source, for each position of a flight."""
+    """A procedure of the quadcopter, by its place in the source's table of_bodies, for each position of a flight."""
     craft = np.array([flight.craft[name] for name in CRAFT])
     columns = [np.ascontiguousarray(flight.columns[name]) for name in MOVING]
     found = np.zeros(len(flight), dtype=np.int8)
