@@ -20,6 +20,7 @@ from hypcheck.geometry.pair import (
     Sizes,
     trouble_with,
     trouble_with_axis,
+    trouble_with_row,
 )
 from hypcheck.geometry.rows import (
     Columns,
@@ -192,7 +193,7 @@ def classify_scene(
         return out
     result, refused = kernel().answer_scene(four, (u, v, w), question, number, one)
     if refused and on_invalid == "raise":
-        _require_finite(u, v, w)
+        raise _not_finite((u, v, w))
     return _into(out, result)
 
 
@@ -257,17 +258,11 @@ def _sizes(sizes: Sizes) -> Sizes:
     return alpha, gamma, b, d
 
 
-def _require_finite(*columns: Floats) -> None:
-    finite = np.isfinite(columns[0])
-    for column in columns[1:]:
-        finite &= np.isfinite(column)
-    if finite.all():
-        return
-    index = int(np.argmin(finite))
-    for name, column in zip(CENTER, columns, strict=True):
-        trouble = trouble_with(name, float(column[index]))
-        if trouble is not None:
-            raise InputError(f"row {index}: {trouble}")
+def _not_finite(columns: Columns) -> InputError:
+    """What is wrong with the first centre that is not finite, of which there is one."""
+    index = int(np.argmin(np.isfinite(columns).all(axis=0)))
+    trouble = trouble_with_row([float(column[index]) for column in columns], CENTER)
+    return InputError(f"row {index}: {trouble}")
 
 
 def _require_fitting(out: object, count: int) -> None:

@@ -348,11 +348,10 @@ class Scene:
     @cached_property
     def _bodies(self) -> Bodies:
         bodies = bodies_of(self.model.hyperboloids)
-        if not (np.isfinite(bodies.axes).all() and (bodies.axes != 0).any(axis=1).all()):
-            for body in self.model.hyperboloids:
-                trouble = trouble_with_axis(body.axis)
-                if trouble is not None:
-                    raise InputError(f"the hyperboloid {body.name!r}: {trouble}")
+        invalid = ~(np.isfinite(bodies.axes).all(axis=1) & (bodies.axes != 0).any(axis=1))
+        for index in np.flatnonzero(invalid)[:1].tolist():
+            body = self.model.hyperboloids[index]
+            raise InputError(f"the hyperboloid {body.name!r}: {trouble_with_axis(body.axis)}")
         return bodies
 
 
