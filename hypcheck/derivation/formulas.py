@@ -58,7 +58,7 @@ class Formula:
 
     `question` is "position" (+1, 0, −1), "exterior" or "interior" (1 yes, 0 no). `source` says where it is printed or
     derived. `regimes` are conditions out of REGIMES, all of which must hold where the formula claims to be right; none
-    means everywhere. `as_printed` marks the paper's own.
+    means everywhere.
     """
 
     name: str
@@ -68,7 +68,6 @@ class Formula:
     answer: str
     source: str
     regimes: tuple[str, ...] = ()
-    as_printed: bool = False
 
     @property
     def classifies_pairs(self) -> bool:
@@ -99,7 +98,6 @@ _PRINTED_AND_DERIVED = (
         answer="valid",
         source="Table 2",
         regimes=("c2>=a",),
-        as_printed=True,
     ),
     Formula(
         name="procedure-1",
@@ -109,7 +107,6 @@ _PRINTED_AND_DERIVED = (
         answer="valid",
         source="Table 1, equations (13) and (14)",
         regimes=("c2>=a",),
-        as_printed=True,
     ),
     Formula(
         name="procedure-2a",
@@ -119,7 +116,6 @@ _PRINTED_AND_DERIVED = (
         answer="valid",
         source="Table 3, equations (13), (19), (20) and (21)",
         regimes=("a>=1",),
-        as_printed=True,
     ),
     Formula(
         name="procedure-2b",
@@ -138,7 +134,6 @@ _PRINTED_AND_DERIVED = (
         answer="valid",
         source="Table 4, equations (13), (14), (19), (20) and (21)",
         regimes=("a>=1",),
-        as_printed=True,
     ),
     Formula(
         name="procedure-2a-spheroid",
@@ -148,7 +143,6 @@ _PRINTED_AND_DERIVED = (
         answer="valid",
         source="Table 3, equations (13), (19), (20) and (21)",
         regimes=("a>=1",),
-        as_printed=True,
     ),
     Formula(
         name="procedure-2b-spheroid",
@@ -158,7 +152,6 @@ _PRINTED_AND_DERIVED = (
         answer="valid",
         source="Table 4, equations (13) and (14)",
         regimes=("a>=1",),
-        as_printed=True,
     ),
     Formula(
         name="coefficients",
