@@ -190,7 +190,10 @@ class Section:
 
 
 def table(name: str, columns: str | Iterable[Column], rows: Iterable[Row]) -> TableBlock:
-    """A table. Columns may be their titles with bars between them, "method | # rows": after a # come numbers."""
+    """A table. Columns may be their titles with bars between them: "method | # rows".
+
+    A # stands before the title of a column of numbers. Such titles are our own words; foreign text needs a Column.
+    """
     if isinstance(columns, str):
         columns = (Column(title.removeprefix("# "), title.startswith("# ")) for title in columns.split(" | "))
     cells = tuple(tuple(each if isinstance(each, TableCell) else TableCell(each) for each in row) for row in rows)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypcheck.errors import InputError
 from hypcheck.messages import counted
 from hypcheck.record.lines import DomainPart, FixedSizesPart, WrongAnswer
-from hypcheck.report.document import Code, Emphasis, Strong, plain
+from hypcheck.report.document import Code, Column, Emphasis, Strong, TableCell, measured, plain, share, table
 from hypcheck.report.messages import classify_command, domain_text, error_text, figure, from_hex, listed, short_row
 from tests.report import record_samples
 
@@ -87,3 +87,16 @@ def test_message_about_a_wrong_time_gives_the_first_contact_and_the_distance_bet
 
 def test_plain_text_omits_the_marks_of_strong_emphasised_and_code_parts():
     assert plain(("of ", Strong("all"), " that ", Emphasis(("is ", Code("here"))))) == "of all that is here"
+
+
+def test_table_columns_are_named_in_one_text_with_a_mark_before_numbers():
+    made = table("memory", "method | # growth, MB", [(Code("fast"), TableCell("2.5", 2.5))])
+    assert made.columns == (Column("method"), Column("growth, MB", number=True))
+    assert made.rows == ((TableCell(Code("fast")), TableCell("2.5", 2.5)),)
+    assert table("alike", made.columns, []).columns == made.columns
+
+
+def test_cell_of_a_value_or_share_that_is_not_known_is_a_dash_without_a_number():
+    assert measured(None) == share(0, 0) == TableCell("–")
+    assert measured(1.25, (1.0, 1.5)) == TableCell("1.25 (1 to 1.5)", 1.25)
+    assert share(1, 8) == TableCell("12.5 %", 0.125)
