@@ -192,18 +192,14 @@ def _fastest(record: Record, found: Iterable[MeasuredMethod], workload: str, mod
         return []
     best = ranked[0]
     limit = (best.ratio(workload, mode) or 0.0) * (1 + (noise_floor(record, workload, mode) or 0.0))
-    high = _interval(best, workload, mode)[1]
+    high = best.ratio_interval(workload, mode)[1]
     return [
         each
         for each in ranked
-        if each is best or (each.ratio(workload, mode) or 0.0) <= limit or _interval(each, workload, mode)[0] <= high
+        if each is best
+        or (each.ratio(workload, mode) or 0.0) <= limit
+        or each.ratio_interval(workload, mode)[0] <= high
     ]
-
-
-def _interval(each: MeasuredMethod, workload: str, mode: str) -> tuple[float, float]:
-    line = each.speed[workload, mode]
-    ratio = line.ratio or 0.0
-    return line.ratio_ci95 or (ratio, ratio)
 
 
 def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMethod]]:
@@ -226,7 +222,7 @@ def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) ->
     if any(other.accuracy[name].reliable_above > line.reliable_above for name, line in each.accuracy.items()):
         return False
     shared = [name for name in timed if each.ratio(name) is not None and other.ratio(name) is not None]
-    return bool(shared) and all(_interval(other, name, BATCH)[1] < _interval(each, name, BATCH)[0] for name in shared)
+    return bool(shared) and all(other.ratio_interval(name)[1] < each.ratio_interval(name)[0] for name in shared)
 
 
 _HOW = prose(

@@ -80,6 +80,12 @@ class MeasuredMethod:
         line = self.speed.get((workload, mode))
         return None if line is None or line.ratio is None or lost(line) else line.ratio
 
+    def ratio_interval(self, workload: str, mode: str = BATCH) -> tuple[float, float]:
+        """The interval of that ratio, or the ratio twice where it has no interval. The method must have been timed."""
+        line = self.speed[workload, mode]
+        ratio = line.ratio or 0.0
+        return line.ratio_ci95 or (ratio, ratio)
+
 
 def lost(line: SpeedLine) -> bool:
     """Whether a speed line has no time, because a call took no longer than an empty one."""

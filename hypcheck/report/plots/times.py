@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.measurements import BoundingLine, ConvergenceLine, ForestLine, SpeedLine
-from hypcheck.report.measured import TIERS, lost, measured_methods, noise_floor, reference, workloads
+from hypcheck.report.measured import TIERS, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.messages import figure
 from hypcheck.report.plots.style import (
     LIMIT,
@@ -43,25 +43,29 @@ class SpeedRow:
     high: float
     median_ns: float
 
+    @property
+    def tip(self) -> str:
+        """The tooltip of its mark."""
+        ends = f"{figure(self.low)} to {figure(self.high)}"
+        return f"{self.name}: {figure(self.ratio)} ({ends}), {figure(self.median_ns)} ns"
+
 
 def speed_plots(record: Record) -> Iterator[Plot]:
     """A plot for each workload and mode in which there are ratios."""
     found = measured_methods(record)
     keys = dict.fromkeys((line.workload, line.mode) for line in record.of(SpeedLine))
     for number, (workload, mode) in enumerate(keys):
-        rows = [_speed_row(each.name, each.tier, line) for each in found if (line := each.speed.get((workload, mode)))]
-        kept = sorted((row for row in rows if row is not None and row.ratio > 0), key=lambda row: row.ratio)
-        if len(kept) > 1:
+        rows = []
+        for each in found:
+            ratio = each.ratio(workload, mode)
+            if ratio:
+                ends, time = each.ratio_interval(workload, mode), each.speed[workload, mode].median_ns
+                rows.append(SpeedRow(each.name, each.tier, ratio, *ends, time))
+        if len(rows) > 1:
+            rows.sort(key=lambda row: row.ratio)
             title = f"{workloads(record)[workload].title}, {_MODES[mode]}"
             floor = noise_floor(record, workload, mode)
-            yield _speed_plot(f"speeds-{number}", title, kept, floor, reference(record) or "the reference")
-
-
-def _speed_row(name: str, tier: str, line: SpeedLine) -> SpeedRow | None:
-    if line.ratio is None or lost(line):
-        return None
-    low, high = line.ratio_ci95 or (line.ratio, line.ratio)
-    return SpeedRow(name, tier, float(line.ratio), float(low), float(high), line.median_ns)
+            yield _speed_plot(f"speeds-{number}", title, rows, floor, reference(record) or "the reference")
 
 
 def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | None, against: str) -> Plot:
@@ -79,7 +83,7 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
         if mine:
             own = colour(f"series-{number + 1}")
             axes.hlines([at for at, _ in mine], [row.low for _, row in mine], [row.high for _, row in mine], color=own)
-            marks = [Mark(row.ratio, at, _speed_tip(row)) for at, row in mine]
+            marks = [Mark(row.ratio, at, row.tip) for at, row in mine]
             look: dict[str, Any] = {"color": own, "marker": MARKERS[number], "markersize": 5, "label": tier}
             tips |= draw_marks(axes, f"{name}-{number}", marks, **look)
     axes.set_yticks(range(len(rows)), [escaped(row.name, 26) for row in rows])
@@ -87,12 +91,8 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
     axes.tick_params(axis="y", length=0, labelsize=9)
     axes.set_xlabel(f"time by that of {escaped(against, 26)}, 95 % interval")
     drawn.legend(loc="outside upper left", ncols=3, handlelength=1.4)
-    said = f"Ratios of times, the fastest first: {'; '.join(_speed_tip(row) for row in rows)}."
+    said = f"Ratios of times, the fastest first: {'; '.join(row.tip for row in rows)}."
     return Plot(name, title, said, drawn, tips)
-
-
-def _speed_tip(row: SpeedRow) -> str:
-    return f"{row.name}: {figure(row.ratio)} ({figure(row.low)} to {figure(row.high)}), {figure(row.median_ns)} ns"
 
 
 def _draw_curves(axes: Axes, name: str, curves: Mapping[str, Sequence[Mark]]) -> dict[str, list[str]]:
