@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.vectors.draw import Draw, Integers, exponent, ldexp, stepped
+from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, ldexp, stepped
 
 BigIntegers = NDArray[np.object_]
 
@@ -98,6 +98,11 @@ def gather(draw: Draw, n: int, attempt: Callable[[Draw, int], tuple[Rows, Mask]]
         if missing == 0:
             return np.concatenate(found)
     raise AssertionError(f"{ATTEMPTS} attempts of a construction left {missing} of {n} rows to be found")
+
+
+def gathered(attempt: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
+    """The generator of the wanted rows of a construction, as `gather` finds them."""
+    return lambda draw, n: gather(draw, n, attempt)
 
 
 def in_metres(draw: Draw, rows: Rows) -> Rows:

@@ -24,7 +24,7 @@ from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, FloatFormat
 from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import double_roots
 from hypcheck.vectors.coincidences import exact_maker
-from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gather
+from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gathered
 from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, to_bits, turns
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, around, beside, heights, offsets, sizes
 
@@ -61,12 +61,7 @@ TENS = np.asarray([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 
 """The powers of ten in the ordinary range, both ends among them, as a person types them."""
 
 
-def whole_domain(draw: Draw, n: int) -> Rows:
-    """Ratios and sizes log-uniform over the ordinary ranges, centres all around the surface or a hair off contact."""
-    return gather(draw, n, _attempt)
-
-
-def _attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+def _in_the_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """Half of the second ratios have nothing to do with the first; the others are like it, within 2⁴ of it."""
     octave = draw.integers(n, -DOMAIN_RATIOS, DOMAIN_RATIOS - 1)
     other = np.where(
@@ -78,6 +73,10 @@ def _attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
     offset = np.where(turns(n, True, True, False, False), offsets(draw, n), hair)
     rows = beside(draw, size, _heights(draw, size), offset)
     return rows, within(rows)
+
+
+whole_domain = gathered(_in_the_domain)
+"""Ratios and sizes log-uniform over the ordinary ranges, centres all around the surface or a hair off contact."""
 
 
 def _lengths(draw: Draw, octave: Integers) -> tuple[Floats, Floats]:

@@ -26,6 +26,7 @@ from hypcheck.vectors.double_roots import (
     BigIntegers,
     big_integers_of_any_length,
     gather,
+    gathered,
     one_moved,
     triples,
     turned,
@@ -340,14 +341,11 @@ def _anywhere(draw: Draw, rows: Rows) -> Rows:
     return rows + 0.0
 
 
-def tangent(draw: Draw, n: int) -> Rows:
-    """Exact tangencies."""
-    return gather(draw, n, lambda own, some: double_roots(own, some)[:2])
+tangent = gathered(lambda draw, n: double_roots(draw, n)[:2])
+"""Exact tangencies."""
 
-
-def crossing(draw: Draw, n: int) -> Rows:
-    """Double roots that are no tangencies."""
-    return gather(draw, n, lambda own, some: double_roots(own, some)[::2])
+crossing = gathered(lambda draw, n: double_roots(draw, n)[::2])
+"""Double roots that are no tangencies."""
 
 
 def moved_by_ulps(draw: Draw, rows: Rows) -> Rows:

@@ -14,7 +14,7 @@ from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.passage_error import hits_at_size
 from hypcheck.vectors import double_roots, random_pairs, tilted
 from hypcheck.vectors.coincidences import tangent
-from hypcheck.vectors.double_roots import gather, in_metres
+from hypcheck.vectors.double_roots import gather, gathered, in_metres
 from hypcheck.vectors.draw import Draw, in_turn, ldexp, turns
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, heights, offsets, sizes
 from hypcheck.vectors.scenes import BODY, TOWER
@@ -58,11 +58,8 @@ def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     return ways, exact & (radius < rows[:, 0])
 
 
-def grazing(draw: Draw, n: int) -> Rows:
-    """Exact tangency at one instant, clear before and after, outside and inside."""
-    return in_turn(
-        lambda own, some: gather(own, some, _exterior_graze), lambda own, some: gather(own, some, _interior_graze)
-    )(draw, n)
+grazing = in_turn(gathered(_exterior_graze), gathered(_interior_graze))
+"""Exact tangency at one instant, clear before and after, outside and inside."""
 
 
 def near_graze(draw: Draw, n: int) -> Rows:
@@ -74,10 +71,15 @@ def near_graze(draw: Draw, n: int) -> Rows:
     return rows
 
 
+def _ring_place(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Places on the ring at the waist, and which of them are usable."""
+    rows, usable = double_roots.waist_roots(draw, n, ring=True)
+    return in_metres(draw, np.where(usable[:, None], rows, 1.0)), usable
+
+
 def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """Ways across rings, and which of them have exact ends; some begin in contact, where the ring is near."""
-    rows, usable = double_roots.waist_roots(draw, n, ring=True)
-    rows = in_metres(draw, np.where(usable[:, None], rows, 1.0))
+    rows, usable = _ring_place(draw, n)
     share = ldexp(np.ones(n), draw.integers(n, -30, -5))
     pick = draw.integers(n, 0, 3)
     zero = np.zeros(n)
@@ -142,12 +144,6 @@ def at_an_end(draw: Draw, n: int) -> Rows:
     backward = turns(n, False, True)
     ways[backward, 4:7], ways[backward, 7:10] = away[backward] + 0.0, rows[backward, CENTRE]
     return ways
-
-
-def ring_place(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Places on the ring at the waist, and which of them are usable."""
-    rows, usable = double_roots.waist_roots(draw, n, ring=True)
-    return in_metres(draw, np.where(usable[:, None], rows, 1.0)), usable
 
 
 def tilted_end(draw: Draw, n: int) -> Rows:
@@ -254,7 +250,7 @@ def begun_in_contact(draw: Draw, n: int) -> Rows:
 
 def still(draw: Draw, n: int) -> Rows:
     """Both ends are one point: anywhere, at a tangency, on the ring."""
-    rows = in_turn(random_pairs.uniform, tangent, lambda own, some: gather(own, some, ring_place))(draw, n)
+    rows = in_turn(random_pairs.uniform, tangent, gathered(_ring_place))(draw, n)
     return between(rows, rows[:, CENTRE])
 
 
