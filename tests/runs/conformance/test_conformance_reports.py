@@ -52,7 +52,7 @@ def record(out):
 def test_record_of_verify_fits_its_schema(out):
     record = read(out / "record.jsonl")
     lines = [as_json(line) for line in (record.header, *record.lines, record.footer)]
-    assert {"header", "group", "implementation", "footer"} == {line["type"] for line in lines}
+    assert {"header", "group", "cause", "implementation", "footer"} == {line["type"] for line in lines}
     for line in lines:
         assert violations(line, RECORD, closed=True) == []
     faults = {fault["status"] for line in lines if line["type"] == "group" for fault in line["faults"]}
