@@ -27,6 +27,7 @@ from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, NO_DIRECTION, SIZES, P
 from hypcheck.messages import counted, escaped
 from hypcheck.truth.journey import Journey, TiltedJourney, UprightJourney, piece, shortened
 from hypcheck.truth.polynomial_roots import Interval, Polynomial, narrowed, roots_from_0_to_1, value
+from hypcheck.truth.tilted.pair import over_one_denominator
 
 WIDTH_BITS = 60
 """The enclosure of a first contact is at most 2^−60 of it wide."""
@@ -281,5 +282,4 @@ def _exact(name: str, number: Rational) -> Fraction:
 
 def integers(*numbers: Fraction) -> tuple[int, ...]:
     """The numbers multiplied by one positive number that makes each an integer."""
-    unit = math.lcm(*(number.denominator for number in numbers))
-    return tuple(int(number * unit) for number in numbers)
+    return tuple(over_one_denominator(numbers)[0])

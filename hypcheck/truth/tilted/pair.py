@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, NO_DIRECTION, TILTED_COLUMNS, Lengths, Pair, trouble_with
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Lengths, Pair, trouble_with_row
 
 Row = tuple[float, float, float, float, float, float, float, float, float, float]
 Vector = tuple[int, int, int]
@@ -39,13 +39,11 @@ class TiltedPair:
     axis_z: float
 
     def __post_init__(self) -> None:
+        trouble = trouble_with_row(self.row)
+        if trouble is not None:
+            raise InputError(trouble)
         for name, value in zip(TILTED_COLUMNS, self.row, strict=True):
-            trouble = trouble_with(name, value)
-            if trouble is not None:
-                raise InputError(trouble)
             object.__setattr__(self, name, float(value) + 0.0)  # + 0.0 turns −0.0 into 0.0
-        if not any(self.axis):
-            raise InputError(NO_DIRECTION)
 
     @classmethod
     def from_row(cls, row: Iterable[float]) -> TiltedPair:
@@ -113,11 +111,16 @@ class TiltedLengths:
 
 def _integers(values: Sequence[float | Fraction]) -> tuple[int, ...]:
     """The values over the largest number of which all are integer multiples, up to an odd factor; not all are 0."""
-    ratios = [value.as_integer_ratio() for value in values]
-    unit = math.lcm(*(denominator for _, denominator in ratios))
-    multiples = [numerator * (unit // denominator) for numerator, denominator in ratios]
+    multiples, _ = over_one_denominator(values)
     union = 0
     for multiple in multiples:
         union |= multiple
     shift = (union & -union).bit_length() - 1
     return tuple(multiple >> shift for multiple in multiples)
+
+
+def over_one_denominator(values: Sequence[float | Fraction]) -> tuple[list[int], int]:
+    """Numbers as integers over their least common denominator, and that."""
+    ratios = [value.as_integer_ratio() for value in values]
+    unit = math.lcm(*(denominator for _, denominator in ratios))
+    return [numerator * (unit // denominator) for numerator, denominator in ratios], unit

@@ -9,7 +9,7 @@ until its claim holds exactly, so each one ends.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Position
@@ -19,7 +19,7 @@ from hypcheck.truth.polynomial_roots import polynomial_product
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.certificate import Query
 from hypcheck.truth.tilted.exact import Quartic, TiltedDecision
-from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.truth.tilted.pair import TiltedPair, over_one_denominator
 
 Vector = list[int]
 Matrix = list[list[int]]
@@ -108,8 +108,8 @@ class _Forms:
     """
 
     def __init__(self, pair: Query) -> None:
-        lengths, self.unit = _over_one_denominator(pair.row[:7])
-        v, _ = _over_one_denominator(pair.axis)
+        lengths, self.unit = over_one_denominator(pair.row[:7])
+        v, _ = over_one_denominator(pair.axis)
         p, s, q, t = (each * each for each in lengths[:4])
         self.center = lengths[4:]
         self.V = _dot(v, v)
@@ -187,13 +187,6 @@ def _across_the_pole(
     way = _root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
     for sign in (1, -1):
         yield _plus(point, ([length * each for each in direction], square), sign * way - slope)
-
-
-def _over_one_denominator(values: Sequence[float | Fraction]) -> tuple[Vector, int]:
-    """Numbers as integers over one denominator."""
-    ratios = [value.as_integer_ratio() for value in values]
-    unit = math.lcm(*(denominator for _, denominator in ratios))
-    return [numerator * (unit // denominator) for numerator, denominator in ratios], unit
 
 
 def _dot(a: Vector, b: Vector) -> int:
