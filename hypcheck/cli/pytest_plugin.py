@@ -93,7 +93,7 @@ def _told(out: Path) -> str | None:
 def _worst(record: Record, failed: list[Failure]) -> Failure:
     """The failure with the greatest backward error; the first one where no answer was wrong."""
     from hypcheck.record.lines import GroupLine
-    from hypcheck.report.model import worst_case, worst_error_u
+    from hypcheck.report.model import worst_u
 
-    errors = {group.family: worst_error_u(worst_case(group.worst)) for group in record.of(GroupLine)}
+    errors = {group.family: worst_u(group) for group in record.of(GroupLine)}
     return max(failed, key=lambda each: errors.get(each.group, 0.0) if each.kind == "wrong" else 0.0)

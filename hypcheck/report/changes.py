@@ -28,7 +28,7 @@ from hypcheck.report.document import (
     table,
 )
 from hypcheck.report.messages import figure, listed
-from hypcheck.report.model import implementations, timing_totals, worst_case, worst_error_u
+from hypcheck.report.model import implementations, timing_totals, worst_u
 from hypcheck.report.verdict import verdict
 
 Key = TypeVar("Key", bound=Hashable)
@@ -94,11 +94,6 @@ def _bad(group: GroupLine) -> float:
     """The share of asked cases that did not end right."""
     asked = sum(cases for status, cases in group.counts.items() if status != "skipped")
     return 1 - group.counts.get("right", 0) / asked if asked else 0.0
-
-
-def worst_u(group: GroupLine) -> float:
-    """The greatest backward error of a family in units u; 0 if no answer was wrong."""
-    return worst_error_u(worst_case(group.worst))
 
 
 def status_changes(before: Record, after: Record) -> list[StatusChange]:

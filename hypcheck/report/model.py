@@ -231,6 +231,11 @@ def worst_error_u(case: WrongAnswer | None) -> float:
     return 0.0 if case is None else case.backward_error_u
 
 
+def worst_u(group: GroupLine) -> float:
+    """The greatest backward error of a family in units u; 0 if no answer was wrong."""
+    return worst_error_u(worst_case(group.worst))
+
+
 def timing_totals(record: Record) -> list[TimingTotal]:
     """Every contender in the order of the record."""
     lines = record.of(TimingLine)

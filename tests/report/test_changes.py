@@ -19,10 +19,10 @@ from hypcheck.report.changes import (
     only_in_one,
     ratio_changes,
     status_changes,
-    worst_u,
 )
 from hypcheck.report.drawings import ReportContext
 from hypcheck.report.messages import figure
+from hypcheck.report.model import worst_u
 from tests.report import bench_lines, record_samples
 
 

@@ -53,7 +53,7 @@ from hypcheck.report.measured import (
     workloads,
 )
 from hypcheck.report.messages import Replays, figure, from_hex
-from hypcheck.report.model import ImplementationTotal, implementations, worst_case, worst_error_u
+from hypcheck.report.model import ImplementationTotal, implementations, worst_u
 from hypcheck.report.plots.colours import MISTAKES, STEPS
 from hypcheck.runs.judge import Mistake, Status
 from hypcheck.runs.judges import judge_of
@@ -124,7 +124,7 @@ def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
 
 
 def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str]) -> Row:
-    error = worst_error_u(worst_case(group.worst))
+    error = worst_u(group)
     failing = _BAD if group.failing is UNSET else group.failing
     statuses = [count(group.counts.get(status, 0), bad=status in failing) for status in seen]
     mistakes = [count(group.mistakes.get(name, 0)) for name in names]
@@ -135,7 +135,7 @@ def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str]) -> 
 def _cases(found: Sequence[ImplementationTotal], replays: Replays) -> Iterator[TableBlock]:
     worst = [(each, group, case) for each in found for group in each.groups for case in group.worst]
     if worst:
-        worst.sort(key=lambda of: -float(of[2].backward_error_u))
+        worst.sort(key=lambda of: -of[2].backward_error_u)
         kept = [of for each in found for of in [one for one in worst if one[0] is each][:MOST_CASES]]
         columns = "case | method | truth | answer | mistake | # wrong by, u | status | look at it with"
         yield table("worst cases", columns, [_case(*of, replays) for of in kept])
