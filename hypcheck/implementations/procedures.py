@@ -55,7 +55,7 @@ class CraftPath:
 
 
 PRINTED, PUT_RIGHT = False, True
-"""Whether a procedure is as printed, or repaired (derivation/repaired_formulas.py)."""
+"""Whether a procedure is as printed, or repaired (REPAIRED in derivation/formulas.py)."""
 
 
 @cache
