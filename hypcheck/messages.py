@@ -14,13 +14,14 @@ def escaped(text: object, width: int | None = None) -> str:
     terminal, a parser or an encoding may not pass on: control and direction marks, lone surrogates and unassigned
     characters.
     """
-    shown = "".join(map(_escaped_character, " ".join(str(text).split())))
+    shown = printable(" ".join(str(text).split()))
     return shown if width is None else shortened(shown, width)
 
 
 def printable(line: object) -> str:
     """The text of one line with its blanks as they are; other characters are escaped as by escaped()."""
-    return "".join(map(_escaped_character, str(line)))
+    text = str(line)
+    return text if text.isprintable() else "".join(map(_escaped_character, text))
 
 
 LONGEST = 1000
