@@ -122,6 +122,8 @@ def test_a_process_that_does_not_end_is_killed_with_its_children(name, token):
     assert all_gone(token) == []
 
 
+# An interrupt may fall between the opening of a file of /proc and its `with`: Python closes it then, with a warning.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_an_interrupt_of_hypcheck_during_a_question_leaves_no_process(token):
     """As an interrupt from the keyboard, which reaches us alone, since they are in another group."""
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
