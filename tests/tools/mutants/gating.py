@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import tempfile
 from contextlib import ExitStack, redirect_stderr, redirect_stdout
 from dataclasses import dataclass, replace
@@ -78,6 +79,8 @@ def run(spec: str, options: Options) -> Ruling:
         folder = stack.enter_context(tempfile.TemporaryDirectory())
         for each in (redirect_stdout(said), redirect_stderr(said)):
             stack.enter_context(each)
+        # Many of them use modules of hypcheck, which an isolated program does not see.
+        stack.enter_context(patch.dict(os.environ, HYPCHECK_ISOLATE="off"))
         for module, name, kept in _KEPT:
             stack.enter_context(patch.object(module, name, kept))
         draw_nothing(stack.enter_context(pytest.MonkeyPatch.context()))  # a ruling is in the record alone
