@@ -18,6 +18,8 @@ exceeds FCL's safe range. It raises UnavailableError without FCL.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from math import cos, hypot, isqrt, pi, sqrt
 from typing import Any, NamedTuple, Protocol
@@ -66,9 +68,8 @@ class MeshLibrary:
     collides: Callable[[Any, str, float, float], ContactQuery]
     distance: Callable[[Any], Distance]
 
-    def question(self, pairing: str, mesh: tuple[Vertices, Triangles], b: float, d: float) -> ContactQuery | None:
-        """The query of one of PAIRINGS about a mesh; None if the engine refuses the mesh."""
-        built = self.mesh(*mesh)
+    def question(self, pairing: str, built: object | None, b: float, d: float) -> ContactQuery | None:
+        """The query of one of PAIRINGS about a mesh that the engine built; None if it refused the mesh."""
         if built is None:
             return None
         if pairing != "point":
@@ -260,7 +261,7 @@ def scene_mesh(engine: MeshLibrary, pairing: str, sizes: Sizes, height: float, t
     scaled = grid_of(alpha / b, gamma / d, height / d, triangles)
     whole = pairing == "ellipsoid"
     grid = MeshGrid(alpha, gamma, height, scaled.around, scaled.along) if whole else scaled
-    touches = engine.question(pairing, grid.mesh(), b, d)
+    touches = engine.question(pairing, engine.mesh(*grid.mesh()), b, d)
     return SceneMesh(sizes, (1.0, 1.0, 1.0) if whole else (b, b, d), scaled.deviation, grid.triangles, touches)
 
 
@@ -290,6 +291,29 @@ class _Body(NamedTuple):
     z: float
 
 
+_SHARED: ContextVar[dict[tuple[_Body, int], object] | None] = ContextVar("_SHARED", default=None)
+
+
+@contextmanager
+def shared_meshes() -> Iterator[None]:
+    """Within the block naive_fcl builds a mesh once for all pairings; times that are taken there would be too short."""
+    before = _SHARED.set({})
+    try:
+        yield
+    finally:
+        _SHARED.reset(before)
+
+
+def _built(body: _Body, triangles: int, mesh: tuple[Vertices, Triangles]) -> object | None:
+    shared, key = _SHARED.get(), (body, triangles)
+    if shared is not None and key in shared:
+        return shared[key]
+    built: object | None = FCL.mesh(*mesh)
+    if shared is not None:
+        shared[key] = built
+    return built
+
+
 def naive_fcl(rows: Rows, pairing: str, triangles: int = 2000) -> Positions:
     """Positions (n,) of rows (n, 7) by one of PAIRINGS and a mesh of about that many triangles for each row."""
     require_fcl()
@@ -314,7 +338,7 @@ def _position(body: _Body, pairing: str, triangles: int) -> int:
         return side
     if not max(np.abs(vertices).max(), *np.abs(body)) < LARGEST:
         return CANNOT_SAY
-    touches = FCL.question(pairing, (vertices, indices), body.b, body.d)
+    touches = FCL.question(pairing, _built(body, triangles, (vertices, indices)), body.b, body.d)
     if touches is None:
         return CANNOT_SAY
     return 0 if touches(body.rho, 0.0, body.z) else side

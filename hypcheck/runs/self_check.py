@@ -20,7 +20,7 @@ from hypcheck.errors import Exit, RunOutcome
 from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations.alternatives import numpy_roots
 from hypcheck.implementations.builtin import builtin, builtin_methods, fast_scene, methods_without_meshes
-from hypcheck.implementations.meshes import naive_fcl
+from hypcheck.implementations.meshes import naive_fcl, shared_meshes
 from hypcheck.implementations.method import Answers, Method
 from hypcheck.processes import Advance, Stage, in_order
 from hypcheck.record import Recorder, lines
@@ -170,9 +170,9 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
     ]
     head = batch.head(plan.judged)
     exponents = judge.flip_exponents(head.rows)
-    return FamilyLines(
-        found, [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)], opinions
-    )
+    with shared_meshes():
+        groups = [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)]
+    return FamilyLines(found, groups, opinions)
 
 
 def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
@@ -12,8 +13,10 @@ import pytest
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.meshes import PAIRINGS, naive_fcl
+from hypcheck.implementations import meshes
+from hypcheck.implementations.meshes import FCL, PAIRINGS, naive_fcl, shared_meshes
 from hypcheck.truth.mesh import verdict
+from hypcheck.vectors.families import FAMILIES
 from tests.support.fractions_truth import exact_position, near_contact_rows, tangent_row
 
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")
@@ -90,3 +93,17 @@ def test_naive_fcl_accepts_an_empty_array_and_reports_a_missing_fcl(method, monk
     monkeypatch.setitem(sys.modules, "fcl", None)
     with pytest.raises(UnavailableError, match="not available"):
         method(CLEAR_OF_DOUBT)
+
+
+def test_pairings_share_meshes_within_the_block_alone_and_answer_the_same(monkeypatch):
+    rows = FAMILIES["uniform"].rows(3, 12)
+    expected = {pairing: naive_fcl(rows, pairing).tolist() for pairing in PAIRINGS}
+    built = []
+    monkeypatch.setattr(meshes, "FCL", replace(FCL, mesh=lambda *mesh: built.append(mesh) or FCL.mesh(*mesh)))
+    with shared_meshes():
+        assert {pairing: naive_fcl(rows, pairing).tolist() for pairing in PAIRINGS} == expected
+        shared = len(built)
+    assert naive_fcl(rows, "point").tolist() == expected["point"]
+    once = len(built) - shared
+    assert once > 0
+    assert shared == 2 * once  # the sphere and the point have the scaled mesh, the ellipsoid the other
