@@ -38,13 +38,14 @@ SLOW = {
     "": "action processes tutorial wheel",
     "bench": "c_library claims foreign kernel_targets run scenes",
     "cli": "completion detach exits pytest_plugin settings startup",
-    "derivation": "formulas proofs repaired_formulas rounding",
+    "derivation": "chains formulas proofs repaired_formulas rounding",
     "engines": "adapters cli findings placing scene",
     "isolation": "isolation",
     "implementations": "commands fcl_naive functions libraries processes",
     "kernel": "header languages parallel_lines sanitizers",
     "kernel/emission": "conformance extremes foreign_text kernels limits prefix scenes text",
-    "paper": "ledger_cli ledger_formats ledger_search motion simulate_cli tower",
+    "paper": "ledger_cli ledger_formats ledger_leaning ledger_procedures ledger_search ledger_verdicts motion "
+    "simulate_cli tower",
     "record": "integrity",
     "report": "browser cli_report github hostile junit markdown page plots reference_bench scene_map "
     "simulation_pictures svg write",
@@ -65,7 +66,7 @@ SLOW = {
     "truth/tilted": "float_boxes",
     "truth": "mesh swept nearest nearest_bounds roots_table",
     "vectors": "razor",
-    "vectors/frozen": "cases_cli files labels reading",
+    "vectors/frozen": "cases_cli files labels metadata reading",
 }
 """Modules, by folder, that take two seconds of a processor or more, or wait for much: `make check` leaves them out."""
 
