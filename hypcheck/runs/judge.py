@@ -246,6 +246,7 @@ KEPT = 4096
 
 @lru_cache(KEPT)
 def _error(lengths: Lengths, answer: int, question: str) -> float:
+    """The backward error of an answer about an upright spheroid, to 4 significant digits."""
     truth = exact.decide(lengths)
     targets = right_positions(truth.position, answer, question)
     return min(backward_error.backward_error(lengths, truth, target) for target in targets)
@@ -253,7 +254,7 @@ def _error(lengths: Lengths, answer: int, question: str) -> float:
 
 @lru_cache(KEPT)
 def _exponent(lengths: Lengths, answer: int, question: str) -> float:
-    """floor(log2) of the same."""
+    """floor(log2) of that error, which takes a third of the decisions."""
     truth = exact.decide(lengths)
     targets = right_positions(truth.position, answer, question)
     return min(backward_error.backward_error_exponent(lengths, truth, target) for target in targets)

@@ -176,7 +176,10 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
 
 
 def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
-    """The tasks of all families, the longest first. Raises InputError naming a family that does not exist."""
+    """The tasks of all families; tilted ones, whose rows take longest, come first.
+
+    Raises InputError naming a family that does not exist.
+    """
     upright, tilted = select(plan.families), oracles.tilted_families(plan)
     shares = oracles.shares(plan, len(upright) + len(tilted))
     first = max(CASES, plan.judged, plan.exact_formulas)
