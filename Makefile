@@ -34,6 +34,8 @@ deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); r
 engines: $(VENV)/ready ## what collision engines get wrong, each installed apart (half an hour); reports in reports/engines/
 	$(BIN)/hypcheck engines install $(ENGINES)
 	$(BIN)/hypcheck engines verify $(ENGINES)
+	$(BIN)/hypcheck engines bench $(ENGINES)
+	$(BIN)/hypcheck report reports/engines/bench --format overview --out reports/engines/bench/README.md
 
 reference-bench: $(VENV)/ready ## every method on a quiet machine (under 5 minutes); reports in reports/reference/bench/
 	$(INSTALL) '.[report,peers]'

@@ -1,4 +1,4 @@
-"""Where a spheroid stands to a circular hyperboloid of one sheet: exactly, and with a proof.
+"""The position of a spheroid relative to a circular hyperboloid of one sheet: exact, and with a proof.
 
     hypcheck.classify(rows) -> int8 (n,)
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
@@ -16,6 +16,8 @@ from __future__ import annotations
 
 from importlib import import_module
 from typing import TYPE_CHECKING
+
+from hypcheck.float_environment import in_default_environment
 
 if TYPE_CHECKING:
     from hypcheck.errors import InputError
@@ -53,6 +55,7 @@ _HOMES = {
 }
 
 
+@in_default_environment  # numbers in a module are read, and computed, as it is loaded
 def __getattr__(name: str) -> object:
     """Load a public name when it is first asked for, and keep it: a call of position is shorter than a look-up here."""
     if name not in _HOMES:

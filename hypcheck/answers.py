@@ -119,7 +119,7 @@ def classify_table(
     if same_file(route.source, route.target):
         raise InputError(f"--output {route.target} is the input itself; name another file")
     workers = min(MOST_WORKERS, usable_processors())
-    with reading(route.source) as reader:
+    with reading(route.source, patient=True) as reader:
         table = _READ[route.source_format](reader, mark=mark)
         with (
             writing(route.target) as writer,

@@ -26,8 +26,6 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, handler)
 
-# Implementations of the tests import hypcheck and write files: they are not isolated, but where isolation is tested.
-os.environ["HYPCHECK_ISOLATE"] = "off"
 os.environ.pop("CI", None)  # with it set, verify asks fresh rows too, as many in each run as others of a seed
 
 # A worker holds all test modules, sympy and matplotlib. To look through them again and again for garbage would take a
@@ -35,23 +33,23 @@ os.environ.pop("CI", None)  # with it set, verify asks fresh rows too, as many i
 gc.disable()
 
 SLOW = {
-    "": "action processes tutorial wheel",
+    "": "action environment page_commands processes wheel",
     "bench": "c_library claims foreign kernel_targets run scenes",
-    "cli": "completion detach exits pytest_plugin settings startup",
+    "cli": "completion detach exits pytest_plugin refused settings startup",
     "derivation": "chains formulas proofs repaired_formulas rounding",
     "engines": "adapters cli findings placing scene",
-    "isolation": "isolation",
+    "isolation": "advice isolation",
     "implementations": "commands fcl_naive functions libraries processes",
-    "kernel": "header languages parallel_lines sanitizers",
-    "kernel/emission": "conformance extremes foreign_text kernels limits prefix scenes text",
+    "kernel": "float_environment header languages parallel_lines sanitizers",
+    "kernel/emission": "arithmetic conformance extremes foreign_text kernels limits prefix scenes text",
     "paper": "ledger_cli ledger_formats ledger_leaning ledger_procedures ledger_search ledger_verdicts motion "
-    "simulate_cli tower",
+    "simulate_cli tower witnesses",
     "record": "integrity",
     "report": "browser cli_report github hostile junit markdown page plots reference_bench scene_map "
     "simulation_pictures svg write",
     "runs": "self_check self_check_interrupted",
     "runs/cluster": "cluster cluster_interrupted cluster_refused cluster_versions local_cluster",
-    "runs/conformance": "conformance conformance_reports extremes fresh retest schedule unchanged workers",
+    "runs/conformance": "conformance conformance_reports extremes fresh not_asked retest schedule unchanged workers",
     "runs/hunt": "hunt_cli minimise search",
     "runs/replay": "replay",
     "runs/resume": "consistency interrupted resume resume_refused",
@@ -71,7 +69,6 @@ SLOW = {
 """Modules, by folder, that take two seconds of a processor or more, or wait for much: `make check` leaves them out."""
 
 THOROUGH = {
-    "": "tutorial",
     "bench": "c_library claims foreign kernel_targets scenes tilted",
     "cli": "completion detach pytest_plugin",
     "derivation": "repaired_formulas rounding",

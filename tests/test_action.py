@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -103,9 +104,27 @@ def test_pre_commit_accepts_the_manifest_of_the_hook():
     assert tool(TOOLS / "pre-commit", "validate-manifest", HOOKS)[0] == 0
 
 
-def test_the_pre_commit_hook_runs_verify_and_never_the_self_check():
+def test_the_pre_commit_hook_asks_the_same_rows_at_each_commit_and_leaves_no_file_that_git_would_add(tmp_path):
+    """As pre-commit runs it: the words of the entry, and the arguments behind them. It is never the self-check."""
     (hook,) = loaded(HOOKS)
-    assert hook["entry"] == "env CI=true hypcheck verify"
+    assert hook["entry"].startswith("env CI=true ")
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@example.org"]
+    for words in (["init", "--quiet"], ["commit", "--quiet", "--allow-empty", "--message", "begin"]):
+        subprocess.run([*git, *words], check=True)
+    words = [*shlex.split(hook["entry"]), "builtin:fast", "--families", "ring"]
+    environment = {**os.environ, "PATH": f"{TOOLS}{os.pathsep}{os.environ['PATH']}"}
+    runs = [
+        subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+        for _ in range(2)
+    ]
+    assert [run.returncode for run in runs] == [0, 0], runs[0].stderr
+    first, second = (re.search(r"fresh rows? of each family, of seed \d+", run.stderr) for run in runs)
+    assert first
+    assert second
+    assert first[0] == second[0]
+    left = subprocess.run([*git, "status", "--porcelain", "--ignored"], capture_output=True, text=True, check=True)
+    assert left.stdout == ""
+    assert (tmp_path / ".git" / "hypcheck" / "summary.json").exists()
 
 
 def test_inputs_of_the_action_reach_verify_as_single_words(tmp_path):
@@ -159,7 +178,7 @@ def test_actionlint_passes_a_workflow_that_uses_the_action(tmp_path):
     workflow.parent.mkdir(parents=True)
     shutil.copy(ACTION, tmp_path)
     assert tool("git", "init", "-q", cwd=tmp_path)[0] == 0
-    step = snippet("- uses: OWNER/hypcheck").replace("OWNER/hypcheck@v0.2.0", "./")
+    step = snippet("- uses: OWNER/hypcheck").replace("OWNER/hypcheck@COMMIT", "./")
     head = "on: push\njobs:\n  gate:\n    runs-on: ubuntu-latest\n    steps:\n      - uses: actions/checkout@v4\n"
     workflow.write_text(head + "".join(f"      {line}" for line in step.splitlines(keepends=True)), encoding="utf-8")
     assert tool("actionlint", cwd=tmp_path) == (0, "")

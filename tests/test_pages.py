@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+import doctest
 import re
-from pathlib import Path
+import subprocess
+import sys
 
 import pytest
 from ruamel.yaml import YAML
 
 import hypcheck
 from hypcheck import toml
+from tests.support.pages import PAGES, ROOT, Typed, parts
 
-ROOT = Path(__file__).parents[1]
 ARCHITECTURE = ROOT / "docs" / "architecture.md"
 CONTRIBUTING = ROOT / "CONTRIBUTING.md"
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("**/*.md"), *(ROOT / "cases").glob("*.md")])
+NOT_LISTED = {"reports/README.md"}
+"""A page for those who look into the folder; the index lists what is in it."""
+HELP = [ROOT / "hypcheck/cli/setup.py", ROOT / "hypcheck/scaffold/requirement.py", ROOT / "action.yml"]
+"""Texts beside the pages that say from where hypcheck is installed."""
+
+
+def named(page):
+    """The page's path in the repository."""
+    return page.relative_to(ROOT).as_posix()
 
 
 @pytest.mark.parametrize("page", [ARCHITECTURE, CONTRIBUTING], ids=lambda page: page.name)
@@ -51,14 +61,36 @@ def test_the_site_navigation_has_every_page_once_in_the_order_of_the_index():
     linked = [(ROOT / "docs" / link).resolve() for link in re.findall(r"\]\(([^)#]+)", index)]
     in_order = list(dict.fromkeys(path.relative_to(ROOT).as_posix() for path in linked))
     assert listed == ["README.md", "docs/README.md", *(page for page in in_order if page != "README.md")]
-    assert {page.relative_to(ROOT).as_posix() for page in PAGES} <= set(listed)
+    assert {named(page) for page in PAGES} - NOT_LISTED <= set(listed)
     assert len(listed) == len(set(listed))
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
-def test_every_link_on_a_page_of_the_project_leads_to_a_file(page):
-    links = re.findall(r"\]\((?!https?:|#)([^)#\s]+)", page.read_text(encoding="utf-8"))
-    assert [link for link in links if not (page.parent / link).is_file()] == []
+def links(page):
+    text = re.sub(r"```.*?```|`[^`\n]*`", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    return [link for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link]
+
+
+def anchors(page):
+    """The anchors of a page's headings, as GitHub makes them."""
+    heads = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
+def test_every_link_on_a_page_leads_to_an_existing_file_and_heading(page):
+    for link in links(page):
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        assert target.is_file(), link
+        assert not anchor or anchor in anchors(target), link
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if "```python\n>>>" in page.read_text("utf-8")], ids=named)
+def test_python_sessions_on_a_page_give_what_they_show(page):
+    blocks = re.findall(r"^```python\n(>>>.*?)^```$", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    session = doctest.DocTestParser().get_doctest("\n".join(blocks), {}, page.name, None, 0)
+    assert len(session.examples) > 3
+    assert doctest.DocTestRunner().run(session).failed == 0
 
 
 def test_the_page_of_the_python_interface_has_every_public_name():
@@ -66,8 +98,66 @@ def test_the_page_of_the_python_interface_has_every_public_name():
     assert sorted(described) == sorted(".".join(hypcheck._HOMES[name]) for name in hypcheck.__all__ if name[0] != "_")
 
 
-def test_the_pages_name_the_tag_of_the_newest_version_in_the_changelog():
-    newest = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)[0]
-    pages = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("ci.md", "tutorial.md")]
-    tags = [re.findall(r"(?:hypcheck@|rev: )v([\d.]+)\b", page) for page in pages]
-    assert tags == [[newest] * 2, [newest]]
+def versions_named(text):
+    """Versions of hypcheck from which a text says that it can be installed: tags, releases and files."""
+    places = r"hypcheck(?:\.git)?@(v?\d[\w.]*)|rev: (v?\d[\w.]*)|hypcheck(?:\[\w+\])?==(\d[\w.]*)|hypcheck-(\d[\d.]*\d)"
+    return {version for found in re.findall(places, text) for version in found if version}
+
+
+def tags():
+    """The tags of the repository; none where there is no git."""
+    try:
+        done = subprocess.run(["git", "tag"], cwd=ROOT, capture_output=True, text=True, check=False)  # noqa: S607
+    except OSError:
+        return set()
+    return set(done.stdout.split())
+
+
+def test_no_page_and_no_help_names_a_version_that_git_has_no_tag_of():
+    for path in [*PAGES, *HELP]:
+        released = {tag.lstrip("v") for tag in tags()}
+        assert {version.lstrip("v") for version in versions_named(path.read_text("utf-8"))} <= released, named(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("- uses: OWNER/hypcheck@v1", {"v1"}),
+        ("git+https://host/o/hypcheck.git@v0.2.0", {"v0.2.0"}),
+        ("rev: v0.2.0", {"v0.2.0"}),
+        ("pip install 'hypcheck[report]==1.2'", {"1.2"}),
+        ("hypcheck-1.2.0-py3-none-any.whl", {"1.2.0"}),
+        ("- uses: OWNER/hypcheck@COMMIT, actions/cache@v4, hypcheck==VERSION, hypcheck-VERSION.whl", set()),
+    ],
+)
+def test_versions_named_finds_tags_releases_and_files_of_hypcheck_alone(text, found):
+    assert versions_named(text) == found
+
+
+def test_the_readme_begins_with_the_two_commands_for_a_clone_and_then_pip():
+    typed = [part.words for part in parts((ROOT / "README.md").read_text("utf-8")) if isinstance(part, Typed)]
+    assert typed[:2] == ["make verify", "make test"]
+    assert next(words for words in typed if words.startswith("pip")) == "pip install ."
+
+
+def test_continuous_integration_calls_the_test_command_of_the_readme_and_builds_the_site():
+    lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    assert "make test" in lines
+    assert any(line.startswith("make docs ") for line in lines)
+
+
+def test_every_make_command_on_a_page_is_a_target_of_the_makefile():
+    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    for page in PAGES:
+        called = re.findall(r"(?:`|\$ )make ([a-z][\w-]*)", page.read_text(encoding="utf-8"))
+        assert set(called) <= targets, named(page)
+
+
+def test_first_sentences_say_position_relative_to_a_hyperboloid():
+    (about,) = re.findall(r'^description = "(.*)"', (ROOT / "pyproject.toml").read_text("utf-8"), re.MULTILINE)
+    helped = subprocess.run(
+        [sys.executable, "-m", "hypcheck", "--help"], capture_output=True, text=True, check=True
+    ).stdout
+    for text in (about, helped, *(page.read_text("utf-8") for page in (ROOT / "README.md", ROOT / "cases/README.md"))):
+        first = " ".join(text.split())[:400]
+        assert re.search(r"position of a spheroid .*relative to a (circular )?hyperboloid", first), first

@@ -11,160 +11,22 @@ from __future__ import annotations
 import json
 import os
 import re
-import shlex
 import shutil
-import subprocess
-import sys
 import tarfile
-import venv
 import zipfile
-from dataclasses import dataclass
-from functools import cache
-from importlib import metadata
 from pathlib import Path
 
 import pytest
 
 from hypcheck.cli.commands import COMMANDS
 from hypcheck.cli.scene import LANGUAGES
-from tests.support.shared_folders import made_once
-
-ROOT = Path(__file__).resolve().parents[1]
-ALL = os.environ.get("HYPCHECK_WHEEL") == "all"
-GIT = (shutil.which("git") or "git", "ls-files", "-z")
-REPORT = "report"
-"""The extra whose templates are package data."""
-
-
-@cache
-def tracked() -> frozenset[str]:
-    """The files of the repository, as git has them."""
-    try:
-        done = subprocess.run(GIT, cwd=ROOT, capture_output=True, check=True, text=True)
-    except (OSError, subprocess.CalledProcessError):
-        pytest.skip("this is no git checkout, so nobody knows which files are to be packaged")
-    return frozenset(name for name in done.stdout.split("\0") if name and (ROOT / name).exists())
-
-
-@dataclass(frozen=True)
-class Variant:
-    """What is installed, and whether building and running find a C compiler."""
-
-    source: str
-    compiler: bool
-
-    def __str__(self) -> str:
-        return f"{self.source}-{'compiled' if self.compiler else 'no-compiler'}"
-
-    @property
-    def environment(self) -> dict[str, str]:
-        """Of a user who has nothing of ours."""
-        own = {name: text for name, text in os.environ.items() if not name.startswith(("HYPCHECK", "PYTHON", "CI"))}
-        return own if self.compiler else own | {"CC": "false"}
-
-
-VARIANTS = [Variant(source, compiler) for compiler in (True, False) for source in ("wheel", "sdist")][: 4 if ALL else 1]
-
-
-@dataclass(frozen=True)
-class Installed:
-    """An environment with the package and its declared dependencies, and nothing else."""
-
-    variant: Variant
-    home: Path
-
-    @property
-    def python(self) -> Path:
-        """Its interpreter."""
-        return self.home / "environment/bin/python"
-
-    @property
-    def report_extra(self) -> Path:
-        """A folder with what the extra adds."""
-        return self.home / "report-extra"
-
-    def run(self, command: str, folder: Path, *paths: Path) -> subprocess.CompletedProcess[str]:
-        """Run a command line of hypcheck as the installed script."""
-        environment = self.variant.environment | ({"PYTHONPATH": os.pathsep.join(map(str, paths))} if paths else {})
-        words = [self.python.parent / "hypcheck", *shlex.split(command)]
-        return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
-
-
-def quietly(*words: object, **options: object) -> str:
-    """What a program prints; where it fails, what it said."""
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, **options)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
-def build(variant: Variant, home: Path) -> None:
-    """Build the wheel and the sdist of a clean tree into home/dist; of an sdist, a wheel from it alone."""
-    tree, dist = home / "tree", home / "dist"
-    for name in tracked():
-        (tree / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(ROOT / name, tree / name)
-    build = [sys.executable, "-m", "build", *([] if ALL else ["--no-isolation"]), "--outdir", dist]
-    forms = (
-        ["--sdist", "--wheel"] if variant.source == "wheel" else []
-    )  # without a form the wheel is made from the sdist
-    quietly(*build, *forms, tree, env=variant.environment)
-
-
-def make_environment(folder: Path, *, with_pip: bool) -> Path:
-    """Make an environment of the declared dependencies, linked from ours, and return its interpreter.
-
-    They are linked by name, not seen through --system-site-packages: what is not declared cannot be imported.
-    """
-    venv.create(folder, symlinks=True)
-    python = folder / "bin/python"
-    site = Path(quietly(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
-    link(dependencies("") | ({"pip"} if with_pip else set()), site)
-    return python
-
-
-def install(home: Path) -> None:
-    """Install the wheel into an environment that has its dependencies alone, and lay the extra's beside it."""
-    pip = (sys.executable, "-m", "pip", "--python", make_environment(home / "environment", with_pip=False))
-    (wheel,) = (home / "dist").glob("*.whl")
-    quietly(*pip, "install", "--no-deps", "--quiet", "--disable-pip-version-check", wheel)
-    quietly(*pip, "check", "--disable-pip-version-check")
-    (home / "report-extra").mkdir()
-    link(dependencies(REPORT) - dependencies(""), home / "report-extra")
-
-
-def dependencies(extra: str) -> set[str]:
-    """The distributions that an installation of the extra needs, with theirs."""
-    from packaging.requirements import Requirement
-
-    found: set[str] = set()
-    waiting = [("hypcheck", extra)]
-    while waiting:
-        name, wanted = waiting.pop()
-        needed = [Requirement(text) for text in metadata.requires(name) or ()]
-        for each in needed:
-            if each.name not in found and (each.marker is None or each.marker.evaluate({"extra": wanted})):
-                found.add(each.name)
-                waiting.append((each.name, ""))
-    return found
-
-
-def link(names: set[str], folder: Path) -> None:
-    for name in names:
-        distribution = metadata.distribution(name)
-        tops = {path.parts[0] for path in distribution.files or ()} - {"..", "__pycache__"}
-        for top in tops:
-            (folder / top).symlink_to(Path(str(distribution.locate_file(top))).resolve())
+from tests.support.installed import ALL, ROOT, VARIANTS, installation, make_environment, quietly, tracked
 
 
 @pytest.fixture(scope="session", params=VARIANTS, ids=str)
 def installed(request, tmp_path_factory):
-    """The installed package; made once, whatever number of processes run the tests."""
-
-    def make(home):
-        build(request.param, home)
-        install(home)
-
-    return Installed(request.param, made_once(tmp_path_factory, f"installed-{request.param}", make))
+    """The installed package."""
+    return installation(request.param, tmp_path_factory)
 
 
 def test_the_wheel_has_every_file_of_the_package_and_no_other(installed):
@@ -229,6 +91,7 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
         ("init --language c", 0, "Type next"),
         ("init --language go --from 1.2.0", 0, "added to"),
         ("completion bash", 0, "complete -o"),
+        ("explain ring", 0, "A < B²"),
         ("engines list", 0, "python-fcl"),
     ],
 }
@@ -258,7 +121,7 @@ def test_every_command_of_the_installed_package_ends_with_its_code_in_an_empty_f
 
 
 def test_the_installed_package_with_the_report_extra_writes_an_html_report_with_plots(installed, tmp_path):
-    done = installed.run(f"{GATED} --out run", tmp_path, installed.report_extra)
+    done = installed.run(f"{GATED} --out run", tmp_path, installed.user)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "</svg>" in (tmp_path / "run/report.html").read_text(encoding="utf-8")
 
@@ -279,7 +142,7 @@ def test_the_workflow_that_init_writes_runs_in_a_fresh_clone_for_two_languages(i
     settings = repository / "hypcheck.toml"
     settings.write_text(settings.read_text() + 'families = ["forest-type-1"]\ncount = 10\n')
     commit(repository, clone)
-    python = make_environment(environment, with_pip=True)
+    python = make_environment(environment, "pip")
     variables = installed.variant.environment | {
         "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}",
         "CI": "true",

@@ -14,7 +14,7 @@ from hypcheck.tables.numbers import number_of_text
 from hypcheck.tables.streams import FORMATS, route
 from hypcheck.truth.tilted.pair import TiltedPair
 
-_HELP = """Say where a spheroid stands to a hyperboloid: exterior, contact (tangency included) or interior.
+_HELP = """Give the position of a spheroid relative to a hyperboloid: exterior, contact (with tangency) or interior.
 
 Exact for every valid pair: decimals are rounded to the nearest float64 and taken as exact from there on. Lengths are in
 one unit of your choice. Clearance is in spheroid radii: 1 + clearance is the factor by which the spheroid, scaled about
@@ -32,7 +32,7 @@ is written as the rows come.
 """
 
 
-@click.command(help=_HELP, short_help="Say where a spheroid stands to a hyperboloid, and prove it.")
+@click.command(help=_HELP, short_help="Give the position of a spheroid relative to a hyperboloid, with a proof.")
 @click.option("--alpha", metavar="NUMBER", help="Radius of the hyperboloid's waist.")
 @click.option("--gamma", metavar="NUMBER", help="Its semi-axis along z.")
 @click.option("--b", metavar="NUMBER", help="Radius of the spheroid's equator.")

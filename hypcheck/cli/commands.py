@@ -123,6 +123,7 @@ COMMANDS = {
     "hunt": "hypcheck.cli.hunt:hunt",
     "minimise": "hypcheck.cli.hunt:minimise",
     "replay": "hypcheck.cli.hunt:replay",
+    "explain": "hypcheck.cli.explain:explain",
     "derive": "hypcheck.cli.paper:derive",
     "report": "hypcheck.cli.record:report",
     "record": "hypcheck.cli.record:record_",
@@ -172,7 +173,7 @@ class LazyGroup(CommandGroup):
 @click.option("--no-settings", is_flag=True, help="Ignore hypcheck.toml (before the command).")
 @click.pass_context
 def hypcheck(context: click.Context, /, no_settings: bool) -> None:
-    """Where a spheroid stands to a circular hyperboloid of one sheet: exact answers, proofs, tests of programs."""
+    """The position of a spheroid relative to a hyperboloid of one sheet: exact answers, proofs, tests of programs."""
     if no_settings or any(name in context.meta.get(_WORDS, ()) for name in context.help_option_names):
         return
     from hypcheck.cli import settings

@@ -57,6 +57,7 @@ def list_(cache: Path) -> None:
     """Show each engine: its name and version, what stands for a spheroid, and whether it is installed."""
     from hypcheck.engines.engine import ENGINES, is_installed, missing_tool
 
+    click.echo(f"{'engine':<14} {'version':<10} {'body':<12} state")
     for engine in ENGINES.values():
         state = "installed" if is_installed(engine, cache) else missing_tool(engine) or "not installed"
         click.echo(f"{engine.name:<14} {engine.version:<10} {engine.body:<12} {state}")
@@ -89,10 +90,10 @@ def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
     Writes into --out for each engine its record, a badge, and for its worst errors files that show them without
     hypcheck; and README.md, the page of all that was ever measured into --out.
     """
-    from hypcheck.engines.findings import read_findings, write_findings
+    from hypcheck.engines.findings import read_findings
     from hypcheck.engines.measure import record_of, write_record
     from hypcheck.engines.reduce import findings_of
-    from hypcheck.engines.report import write_page
+    from hypcheck.engines.report import write_findings, write_page
 
     for engine in _installed(names, cache):
         record = record_of(engine, cache, lambda text: click.echo(text, err=True))
@@ -121,9 +122,9 @@ def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: 
     from hypcheck.engines.placing import FAMILIES
     from hypcheck.engines.scene import surface_mesh, write_scene
 
-    scene = cache / "scenes" / f"body-{triangles}"
+    found, scene = _installed(names, cache), cache / "scenes" / f"body-{triangles}"
     sizes = FAMILIES["body"].sizes
     write_scene(scene, sizes, surface_mesh(sizes, triangles))
-    specs = [spec_of(command(engine, cache, scene.absolute())) for engine in _installed(names, cache)]
+    specs = [spec_of(command(engine, cache, scene.absolute())) for engine in found]
     with compare.make_context("bench", ["--quick", "--out", str(out), *specs], parent=context) as made:
         compare.invoke(made)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -122,8 +123,7 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     from hypcheck.paper.simulation_text import forest_lines
 
     plan = ForestPlan(_scene(name), seed, steps, flags["continuous"])
-    _prepare_folder("forest", out)
-    with watched(plan.count, "steps") as pace:
+    with _ready_folder("forest", out), watched(plan.count, "steps") as pace:
         result = simulate_forest(plan, pace.advance)
     _deliver(result, form, forest_lines(result), out)
 
@@ -185,9 +185,8 @@ def tower(
     each = (1000 if runs is None else runs) if flown else 0
     plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"], pitch)
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
-    _prepare_folder("tower", out)
     count = min(workers or usable_processors(), len(moves))
-    with processes(count) as executor, watched(sum(moves), "flights") as pace:
+    with _ready_folder("tower", out), processes(count) as executor, watched(sum(moves), "flights") as pace:
         result = simulate_tower(plan, executor, pace.advance)
     _deliver(result, form, tower_lines(result), out)
 
@@ -206,12 +205,13 @@ def _show(name: str) -> None:
     click.echo(shipped_text(name), nl=False)
 
 
-def _prepare_folder(kind: str, out: Path | None) -> None:
+def _ready_folder(kind: str, out: Path | None) -> AbstractContextManager[None]:
     """Make the folder for the files, before anything is simulated."""
-    if out is not None:
-        from hypcheck.report.write import make_ready
+    if out is None:
+        return nullcontext()
+    from hypcheck.report.write import ready_for
 
-        make_ready(kind, out)
+    return ready_for(kind, out)
 
 
 def _deliver(result: dict[str, Any], form: str, lines: Iterable[str], out: Path | None) -> None:

@@ -17,14 +17,15 @@ import click
 
 from hypcheck.cli.progress import summary_options, watched
 from hypcheck.cli.settings import print_settings
-from hypcheck.errors import Exit, HypcheckError, InputError, NothingJudgedError, system_reason
+from hypcheck.errors import Exit, HypcheckError, InputError, system_reason
 from hypcheck.messages import escaped, printable
-from hypcheck.tables.streams import same_file
+from hypcheck.tables.streams import made_folder, same_file
 
 if TYPE_CHECKING:
     from hypcheck.processes import Stage
     from hypcheck.record import Record, Recorder, RecordLine
     from hypcheck.record.writer import Provenance
+    from hypcheck.report.formats import WrittenReport
     from hypcheck.runs.plan import ConformancePlan
     from hypcheck.runs.resume import ResumedRun
 
@@ -53,40 +54,43 @@ def recording(
 ) -> Iterator[Recording]:
     """Write the record of a run to `out` while the block lasts; then write the reports, and print the summary.
 
-    When the run begins, its `title`, how implementations are isolated and its settings are printed, and reports of an
-    earlier run are removed; the record of the earlier run stays until the new one is complete. An interrupted run
-    leaves a truncated record with reports. `carried` are lines of the run that this one resumes; its record may be the
-    one in `out`. Raises InputError if `out` cannot be written, or another run is writing there.
+    When the run begins, its `title`, how implementations are isolated and its settings are printed. Its first result
+    removes reports of an earlier run, whose record stays until the new one is complete. A run that ends without any
+    result leaves an earlier run as it was. An interrupted run leaves a truncated record with reports. `carried` are
+    lines of the run that this one resumes; its record may be the one in `out`. Raises InputError if `out` cannot be
+    written, or another run is writing there.
     """
     from hypcheck.record import Recorder
     from hypcheck.record.reader import FILE, GROWING
     from hypcheck.record.writer import GrowingFile, folder_locked
-    from hypcheck.report.write import remove_reports
+    from hypcheck.report.write import holds_run, remove_reports, require_writable
 
     growing = out / GROWING
     with ExitStack() as stack:
         try:
-            out.mkdir(parents=True, exist_ok=True)
-            for file in (out / FILE, growing):
-                if file.is_dir():
-                    raise InputError(f"--out {out} cannot be written: {file.name} in it is a folder")
+            stack.enter_context(made_folder(out))
+            require_writable(out)
             stack.enter_context(folder_locked(out))
-            recorder = Recorder(stack.enter_context(GrowingFile(growing)), options, provenance, carried)
         except OSError as error:
             raise InputError(f"--out {out} cannot be written: {system_reason(error)}") from None
+        file = stack.enter_context(GrowingFile(growing))
+        recorder = Recorder(file, options, provenance, carried, begins=lambda: remove_reports(out))
         running = Recording(recorder)
         try:
-            remove_reports(out)
             _print_beginning(title, provenance)
             yield running
             running.record = recorder.close(running.exit_code)
         except BaseException as error:
             if isinstance(error, OSError):
                 _require_folder(out, error)
-            _ended_early(error, growing, recorder)
+            _ended_early(growing, recorder)
             if isinstance(error, OSError) and error.filename == str(growing):
                 raise InputError(f"cannot write {growing}: {system_reason(error)}") from error
             raise
+        if not recorder.has_results and holds_run(out):
+            _print_summary(running.record, _summary(running.record))
+            _print_note(f"nothing was judged; the earlier run in {escaped(out)} stays as it was")
+            return
         _settle(recorder, growing, out / FILE)
         try:
             report(running.record, out)
@@ -137,15 +141,13 @@ def _settle(recorder: Recorder, growing: Path, path: Path) -> None:
         raise InputError(f"cannot write {path}: {reason}; the finished part is in {growing}") from error
 
 
-def _ended_early(error: BaseException, growing: Path, recorder: Recorder) -> None:
-    """Keep what was finished, with reports, and print where it is; leave nothing of a run that proves nothing."""
+def _ended_early(growing: Path, recorder: Recorder) -> None:
+    """Keep what was finished, with reports, and print where it is; a run without a result has left nothing."""
     from hypcheck.record import read
     from hypcheck.record.reader import FILE
     from hypcheck.report.write import write_reports
 
-    if isinstance(error, NothingJudgedError) or (isinstance(error, HypcheckError) and not recorder.goes_on):
-        with suppress(OSError):  # the error that ended the run is the one to report
-            growing.unlink(missing_ok=True)
+    if not recorder.begun:
         return
     out, path = growing.parent, growing.with_name(FILE)
     _settle(recorder, growing, path)
@@ -167,10 +169,15 @@ def _print_note(sentence: str) -> None:
 
 def report(record: Record, out: Path) -> None:
     """Write the reports of a finished record, and print the summary."""
-    from hypcheck.report.terminal import summary_lines
     from hypcheck.report.write import write_reports
 
-    _print_summary(record, summary_lines(record, write_reports(record, out), **summary_options()))
+    _print_summary(record, _summary(record, write_reports(record, out)))
+
+
+def _summary(record: Record, written: Sequence[WrittenReport] = ()) -> Sequence[str]:
+    from hypcheck.report.terminal import summary_lines
+
+    return list(summary_lines(record, written, **summary_options()))
 
 
 def _print_summary(record: Record, lines: Sequence[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -152,7 +153,7 @@ def emit(
     from hypcheck.kernel.emission.kernel import require_prefix
     from hypcheck.kernel.emission.pair import emitted_pair
     from hypcheck.kernel.printing.coq import proof_of
-    from hypcheck.tables.streams import writing
+    from hypcheck.tables.streams import write_files
 
     command, proved = _command(context), None
     if method is not None:
@@ -170,11 +171,10 @@ def emit(
         asked = asked_scene(scene, question)
         plan, text = _kernel(asked, language, precision, command, prefix, whole=whole)
         proved = None if proof is None else proof_of(plan)
-    with writing(output) as stream:
-        stream.write(text.encode("utf-8"))
-    if proof is not None and proved is not None:
-        with writing(proof) as stream:
-            stream.write(proved.encode("utf-8"))
+    if proof is not None and os.path.realpath(proof) == os.path.realpath(output):
+        raise InputError(f"--proof {proof} is --output too; name another file")
+    proofs = {} if proof is None or proved is None else {proof: proved.encode()}
+    write_files({output: text.encode(), **proofs})
 
 
 def _command(context: click.Context) -> list[str]:

@@ -47,8 +47,8 @@ def init(language: str, directory: Path, stub: str, name: str | None, source: st
 
     \b
     hypcheck init --language c --directory engine
-    hypcheck init --language rust --from https://example.org/hypcheck.git@v1.2.0
-    hypcheck init --language go --from ./vendor/hypcheck-1.2.0-py3-none-any.whl
+    hypcheck init --language rust --from https://HOST/OWNER/hypcheck.git@COMMIT
+    hypcheck init --language go --from ./vendor/hypcheck-VERSION.whl
 
     The adapter has a folder of its own and needs no dependencies. The stub is the paper's Table 2, right in the paper's
     scenes and wrong elsewhere: replace it with a call of your predicate. docs/protocol.md says how the adapter speaks.

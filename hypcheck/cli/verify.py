@@ -30,7 +30,7 @@ from hypcheck.cli.progress import watched
 from hypcheck.cli.recording import label, recording, resumed, run_stages
 from hypcheck.cli.settings import FILE, ProjectSettings, in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
-from hypcheck.messages import escaped, printable
+from hypcheck.messages import counted, escaped, printable
 
 if TYPE_CHECKING:
     from hypcheck.record.lines import SettingsPart
@@ -74,25 +74,29 @@ def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformanceP
 
 def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> int:
     """Run or resume a conformance run, write its reports, and return the exit code. Raises InputError."""
+    from hypcheck.implementations.implementation import require_named
     from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
     from hypcheck.runs import conformance as run
-    from hypcheck.runs.fingerprint import FileSnapshot, fingerprints
+    from hypcheck.runs.fingerprint import FileSnapshot, fingerprints, not_hashed
     from hypcheck.runs.known_failures import update
     from hypcheck.runs.plan import planned_size
     from hypcheck.runs.resume import ResumedRun
 
+    require_named(specs)  # before the first of them is asked
     plan, out, resume = _plan_of(specs, options), options["out"], options["resume"]
     recorded = _recorded(plan, options)
     isolation = isolation_of(specs, plan.limits)
-    title += "" if plan.fresh is None else f"; as many fresh rows, of seed {plan.fresh}"
+    title += "" if plan.fresh is None else f"; {counted(plan.count, 'fresh row')} of each family, of seed {plan.fresh}"
+    unknown = not_hashed(plan.specs)
+    title += f"; not hashed: {', '.join(unknown)}" if unknown else ""
     cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
     import_all()
     unchanged = FileSnapshot(files)
     begun = ResumedRun() if resume is None else resumed(resume, out, plan, recorded, files, cases)
     if isinstance(begun, int):
         return begun
-    outcome, provenance = RunOutcome(), Provenance(files, unchanged.program, settings, isolation)
+    outcome, provenance = RunOutcome(), Provenance(files, unchanged.program, settings, isolation, unknown or None)
     with recording(out, recorded, title, provenance, begun.carried) as running:
         with watched(cases * len(plan.specs), label("gate"), "cases", begun.done(cases)) as pace:
             run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state, pace.expect)

@@ -26,7 +26,7 @@ def theorem_1() -> Chain:
     scaling = sympy.diag(1 / pencil.SMALL_B, 1 / pencil.SMALL_B, 1 / pencil.SMALL_D)
     return chain(
         "Theorem 1",
-        "The spheroid stands to the hyperboloid as the unit sphere stands to the scaled hyperboloid.",
+        "The spheroid's position relative to the hyperboloid is the unit sphere's relative to the scaled one.",
         link(
             "X̄ = A·X is one-to-one: A = diag(1/b, 1/b, 1/d) has a determinant above 0.",
             identity("det A = 1/(b²·d)", scaling.det()),

@@ -30,12 +30,24 @@ Manager = Literal["pip", "npm", "cargo"]
 
 
 @dataclass(frozen=True, slots=True)
+class Setting:
+    """What bounds an engine's accuracy, in its own words, and as a length in its own unit; None if it says none."""
+
+    words: str
+    tolerance: float | None
+
+
+NOT_OFFERED = Setting("it offers no setting", None)
+
+
+@dataclass(frozen=True, slots=True)
 class Engine:
     """An engine; `package` is its name for the package manager.
 
     `body` is what stands for a spheroid that is no ball: the engine's own ellipsoid, the convex hull of points on it,
     or the engine's ball in a space that is scaled for it, in which case no spheroid leans. A ball is always the
-    engine's own. `single` says that it computes in float32. `files` are the adapter's, from this folder.
+    engine's own. `single` says that it computes in float32. `files` are the adapter's, from this folder. An adapter
+    leaves the engine at its `default` settings, or takes the `tightest` that the engine offers.
     """
 
     name: str
@@ -45,20 +57,38 @@ class Engine:
     body: Literal["ellipsoid", "hull", "scaled ball"]
     files: tuple[str, ...]
     single: bool = False
+    default: Setting = NOT_OFFERED
+    tightest: Setting = NOT_OFFERED
 
     @property
     def tilts(self) -> bool:
         """Whether it can be asked about spheroids that lean."""
         return self.body != "scaled ball"
 
+    @property
+    def adjustable(self) -> bool:
+        """Whether it offers a setting that bounds its accuracy."""
+        return self.tightest != self.default
 
-def _in_python(name: str, version: str, body: Literal["ellipsoid", "hull"]) -> Engine:
-    return Engine(name, name, version, "pip", body, (f"{name}/adapter.py", "speaking/speak.py"))
+
+def _in_python(
+    name: str, version: str, body: Literal["ellipsoid", "hull"], default: Setting, tightest: Setting
+) -> Engine:
+    files = (f"{name}/adapter.py", "speaking/speak.py")
+    return Engine(name, name, version, "pip", body, files, default=default, tightest=tightest)
 
 
-def _in_javascript(name: str, version: str, body: Literal["hull", "scaled ball"], package: str = "") -> Engine:
+def _in_javascript(
+    name: str,
+    version: str,
+    body: Literal["hull", "scaled ball"],
+    package: str = "",
+    default: Setting = NOT_OFFERED,
+    tightest: Setting = NOT_OFFERED,
+) -> Engine:
     files = (f"{name}/adapter.mjs", "speaking/speak.mjs")
-    return Engine(name, package or name, version, "npm", body, files, single=name != "cannon-es")
+    single = name != "cannon-es"
+    return Engine(name, package or name, version, "npm", body, files, single, default, tightest)
 
 
 def _in_rust(name: str, version: str, *, single: bool) -> Engine:
@@ -66,21 +96,43 @@ def _in_rust(name: str, version: str, *, single: bool) -> Engine:
     return Engine(name, name, version, "cargo", "hull", files, single)
 
 
+_LIBCCD = Setting("libccd's tolerance 1e-6, which python-fcl does not expose", 1e-6)
+
 ENGINES = {
     engine.name: engine
     for engine in (
-        _in_python("python-fcl", "0.7.0.11", "ellipsoid"),
-        _in_python("coal", "3.0.3", "ellipsoid"),
-        _in_python("mujoco", "4.0.0", "ellipsoid"),
-        _in_python("pybullet", "3.2.7", "hull"),
+        _in_python("python-fcl", "0.7.0.11", "ellipsoid", _LIBCCD, _LIBCCD),
+        _in_python(
+            "coal", "3.0.3", "ellipsoid",
+            Setting("gjk_tolerance and epa_tolerance 1e-6", 1e-6),
+            Setting("gjk_tolerance and epa_tolerance 1e-10", 1e-10),
+        ),
+        _in_python(
+            "mujoco", "4.0.0", "ellipsoid",
+            Setting("ccd_tolerance 1e-6", 1e-6),
+            Setting("ccd_tolerance 1e-12", 1e-12),
+        ),
+        _in_python(
+            "pybullet", "3.2.7", "hull",
+            Setting("collisionMargin 0.001 for both bodies", 0.002),
+            Setting("collisionMargin 0 for both bodies", 0.0),
+        ),
         _in_rust("parry3d-f64", "0.31.1", single=False),
         _in_rust("parry3d", "0.31.1", single=True),
-        _in_javascript("jolt-physics", "1.1.0", "hull"),
+        _in_javascript(
+            "jolt-physics", "1.1.0", "hull",
+            default=Setting("convex radius 0.05; collision and penetration tolerance 1e-4", 1e-4),
+            tightest=Setting("convex radius 0; collision and penetration tolerance 1e-6", 1e-6),
+        ),
         _in_javascript("rapier3d", "0.21.0", "hull", "@dimforge/rapier3d-compat"),
-        _in_javascript("ammo.js", "0.0.10", "hull"),
+        _in_javascript(
+            "ammo.js", "0.0.10", "hull",
+            default=Setting("margin 0.04 of the hull", 0.04),
+            tightest=Setting("margin 0 of the hull", 0.0),
+        ),
         _in_javascript("cannon-es", "0.20.0", "scaled ball"),
     )
-}
+}  # fmt: skip
 
 
 def engines_of(names: Iterable[str]) -> list[Engine]:
@@ -143,7 +195,7 @@ def install(engine: Engine, cache: Path) -> None:
     (folder / _READY).write_text(_digest(engine))
 
 
-def command(engine: Engine, cache: Path, scene: Path) -> tuple[str, ...]:
+def command(engine: Engine, cache: Path, scene: Path, *, tightest: bool = False) -> tuple[str, ...]:
     """The words that start the engine's adapter on a scene. Raises InputError where it is not installed."""
     if not is_installed(engine, cache):
         raise InputError(f"{engine.name} is not installed; type: hypcheck engines install {engine.name}")
@@ -153,7 +205,7 @@ def command(engine: Engine, cache: Path, scene: Path) -> tuple[str, ...]:
         "npm": ("node", str(folder / "adapter.mjs")),
         "cargo": (str(folder / "target" / "release" / "adapter"),),
     }
-    return (*starts[engine.manager], str(scene))
+    return (*starts[engine.manager], str(scene), *(["tightest"] if tightest else []))
 
 
 def _python_of(folder: Path) -> Path:

@@ -1,8 +1,10 @@
 """Findings: one upright spheroid about the origin and one triangle, about which an engine is wrong, with a certificate.
 
-With one triangle there is no mesh that could explain the error. With S = diag(b², b², d²) and h(n) = √(nᵀSn), every
-direction n gives a lower bound s(n) = (min n·v − h(n)) / |n|, over the corners v, of the signed distance (how far
-bodies are apart, or minus the depth by which a move along n separates them at most). So the certificates are:
+An engine is wrong if its error stays at the tightest settings that it offers, and is beyond the tolerance that it
+states there; or if it contradicts itself: it says contact, and reports that the same bodies are apart. With one
+triangle there is no mesh that could explain the error. With S = diag(b², b², d²) and h(n) = √(nᵀSn), every direction n
+gives a lower bound s(n) = (min n·v − h(n)) / |n|, over the corners v, of the signed distance (how far bodies are apart,
+or minus the depth by which a move along n separates them at most). So the certificates are:
 
 - a *direction* n with s(n) > 0: the bodies are clear. With any s(n): no distance below it is right, no depth beyond
   −s(n).
@@ -20,7 +22,6 @@ how it ends (1 while the engine is wrong) is the same for all engines of a langu
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import sqrt
@@ -28,18 +29,21 @@ from pathlib import Path
 from string import Template
 
 import msgspec
-import numpy as np
 from msgspec import Struct
 
 from hypcheck.engines.engine import ENGINES, FOLDER, Engine
+
+KINDS = ("contradiction", "too near", "missed contact", "false contact", "too far")
+"""The kinds of findings, in the order in which the record shows them."""
 
 
 class Finding(Struct):
     """An engine's answer about the spheroid b, d about the origin and a triangle.
 
-    `kind` is "false contact", "missed contact", "too near" or "too far". `reported` is the signed distance that is
-    wrong, or None where its word contact or clear is. `error_mm` is proved, in millimetres at the 2 m tower;
-    `direction` and `shares` are the certificate.
+    `kind` is one of KINDS. `reported` is the signed distance that is wrong, or None where its word contact or clear is.
+    `error_mm` is proved, in millimetres at the 2 m tower, of which `millimetres` are one unit of the engine;
+    `direction` and `shares` are the certificate. `said` is the answer at the tightest settings, `by_default` that at
+    the default ones, empty if the engine offers none.
     """
 
     engine: str
@@ -57,6 +61,16 @@ class Finding(Struct):
     proved: str
     file: str
     picture: str
+    by_default: str = ""
+
+    @property
+    def of_body(self) -> float:
+        """The error as a share of the spheroid's least semi-axis."""
+        return self.error_mm / (self.millimetres * min(self.b, self.d))
+
+
+_BY_DIRECTION = {"contradiction", "false contact", "too near"}
+"""The kinds that a direction proves; shares of the corners prove the others."""
 
 
 def read_findings(folder: Path) -> list[Finding]:
@@ -68,7 +82,7 @@ def read_findings(folder: Path) -> list[Finding]:
 def proved(finding: Finding) -> bool:
     """Whether the certificate proves at least nine tenths of the error, in rationals."""
     error = Fraction(finding.error_mm) * 9 / 10 / Fraction(finding.millimetres)
-    if finding.kind in {"false contact", "too near"}:
+    if finding.kind in _BY_DIRECTION:
         return _direction_proves(finding, error)
     squares, shares, point = _squares(finding), _exactly(finding.shares), _shared_point(finding)
     if sum(shares) != 1 or min(shares) < 0:
@@ -135,13 +149,22 @@ def _root_and(value: Fraction, first: Fraction, second: Fraction) -> bool:
     return rest <= 0 or rest * rest <= 4 * value * value * first
 
 
-_PYTHON = """print("contact:", contact, " distance:", distance)
+_PYTHON = """
+
+for settings in ("default", "tightest"):
+    contact, distance = ask(settings == "tightest")
+    print(f"{{settings}} settings: contact: {{contact}}, distance: {{distance}}")
 sys.exit({wrong})
 """
-_JAVASCRIPT = """console.log('contact:', contact, ' distance:', distance);
+_JAVASCRIPT = """
+let contact, distance;
+for (const settings of ['default', 'tightest']) {{
+  [contact, distance] = ask(settings === 'tightest');
+  console.log(`${{settings}} settings: contact: ${{contact}}, distance: ${{distance}}`);
+}}
 process.exit(Number({wrong}));
 """
-_RUST = """    println!("contact: {{contact}}  distance: {{distance}}");
+_RUST = """    println!("contact: {{contact}}, distance: {{distance}}");
     std::process::exit(i32::from({wrong}));
 }}
 """
@@ -155,35 +178,21 @@ _INSTALLS = {
 }
 
 
-def _template_of(engine: Engine) -> Path:
+def template_of(engine: Engine) -> Path:
     """The engine's template, reproduction.ENDING.txt."""
     folder = FOLDER / Path(engine.files[1 if engine.manager == "cargo" else 0]).parent
     return next(folder.glob("reproduction.*.txt"))
 
 
-def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
-    """Write the findings' files anew, and findings.json; the findings with the names of their files."""
-    shutil.rmtree(folder / "findings", ignore_errors=True)
-    (folder / "findings").mkdir(parents=True)
-    named = []
-    for found in findings:
-        stem = f"findings/{found.engine}-{found.kind.replace(' ', '-')}"
-        file, picture = stem + Path(_template_of(ENGINES[found.engine]).stem).suffix, stem + ".svg"
-        (folder / file).write_text(reproduction(found), encoding="utf-8")
-        (folder / picture).write_text(drawing(found), encoding="utf-8")
-        named.append(msgspec.structs.replace(found, file=file, picture=picture))
-    (folder / "findings" / "findings.json").write_bytes(msgspec.json.format(msgspec.json.encode(named)) + b"\n")
-    return named
-
-
 def reproduction(found: Finding) -> str:
     """The text of a reproduction."""
     engine = ENGINES[found.engine]
-    path = _template_of(engine)
+    path = template_of(engine)
     comment, end, negated = _ENDS[Path(path.stem).suffix]
     install = _INSTALLS[engine.manager].format(package=engine.package, version=engine.version)
     lines = [
         f"{found.engine} {found.version} says {found.said}. Exact: {found.proved} (at a tower of 2 m).",
+        *_settings_of(found, engine),
         *_proof(found),
     ]
     head = "".join(f"{comment}{line}\n" for line in [*lines, f"Needs: {install}. Ends with 1 while it is wrong."])
@@ -192,8 +201,22 @@ def reproduction(found: Finding) -> str:
     return head + body + end.format(wrong=_wrong(found, negated))
 
 
+def _settings_of(found: Finding, engine: Engine) -> list[str]:
+    """What the engine says at which settings, in words, and its unit."""
+    unit = f"Lengths are in the engine's unit, {found.millimetres:g} mm of the tower; b = {found.b!r}, d = {found.d!r}."
+    if not engine.adjustable:
+        return [f"Settings: {engine.default.words}.", unit]
+    return [
+        f"That is at its tightest settings: {engine.tightest.words}.",
+        f"At its default settings it says {found.by_default}: {engine.default.words}.",
+        unit,
+    ]
+
+
 def _wrong(found: Finding, negated: str) -> str:
     """The condition that the engine is wrong, in all languages alike but for the word not."""
+    if found.kind == "contradiction":
+        return {"not ": "contact and distance > 0", "!": "contact && distance > 0.0"}[negated]
     if found.kind in {"false contact", "missed contact"}:
         return "contact" if found.kind == "false contact" else f"{negated}contact"
     sign, error = (1, "<") if found.kind == "too near" else (-1, ">")
@@ -203,7 +226,7 @@ def _wrong(found: Finding, negated: str) -> str:
 def _proof(found: Finding) -> list[str]:
     """The certificate in words."""
     n = f"n = ({', '.join(map(repr, found.direction))})"
-    if found.kind in {"false contact", "too near"}:
+    if found.kind in _BY_DIRECTION:
         least, half2, length2 = _along(found)
         return [
             f"Certificate: with {n}, every corner v of the triangle has n·v >= {float(least):.17g}, and every",
@@ -222,40 +245,3 @@ def _proof(found: Finding) -> list[str]:
         f"shares {shares} of the corners, is so near to the spheroid's point S n/sqrt(n·S n), S = diag(b², b², d²),",
         f"{n}.",
     ]
-
-
-def drawing(found: Finding) -> str:
-    """An SVG of the section by the plane through the spheroid's axis and the certificate's direction, or point."""
-    corners = np.array(found.corners)
-    toward = np.array(found.direction) if found.kind != "missed contact" else np.array(found.shares) @ corners
-    level = np.array([toward[0], toward[1], 0.0])
-    level = level / np.linalg.norm(level) if np.linalg.norm(level) > 0 else np.array([1.0, 0.0, 0.0])
-    across = np.cross([0.0, 0.0, 1.0], level)
-    cut = _section(corners @ across, np.stack([corners @ level, corners[:, 2]], axis=1))
-    zoom = 100.0 / max(found.b, found.d)
-    (u0, v0), (u1, v1) = (cut * zoom).tolist()
-    scale = found.millimetres
-    return "\n".join(
-        [
-            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-150 -150 300 330" font-size="10">',
-            '<rect x="-150" y="-150" width="300" height="330" fill="white"/>',
-            f'<ellipse rx="{found.b * zoom:.2f}" ry="{found.d * zoom:.2f}" fill="#cfe3f5" stroke="#1f6fb2"/>',
-            f'<line x1="{u0:.2f}" y1="{-v0:.2f}" x2="{u1:.2f}" y2="{-v1:.2f}" stroke="#b2361f" stroke-width="2"/>',
-            f'<text x="-145" y="-135">{found.engine} {found.version}: {found.said}</text>',
-            f'<text x="-145" y="160">exact: {found.proved}</text>',
-            f'<text x="-145" y="174">b = {found.b * scale:g} mm, d = {found.d * scale:g} mm; red: the triangle</text>',
-            "</svg>",
-            "",
-        ]
-    )
-
-
-def _section(beside: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Where a triangle meets the plane of the picture: the ends (2, 2) of its section, or of its nearest edge."""
-    ends = []
-    for i, j in ((0, 1), (1, 2), (2, 0)):
-        if (beside[i] < 0) != (beside[j] < 0):
-            share = beside[i] / (beside[i] - beside[j])
-            ends.append(points[i] + share * (points[j] - points[i]))
-    near = np.argsort(np.abs(beside))[:2]
-    return np.array(ends[:2] if len(ends) >= 2 else points[near])

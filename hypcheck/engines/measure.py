@@ -1,5 +1,7 @@
 """The record of engines: each asked about each family on each mesh; one file an engine, from which all else is made.
 
+An engine that offers settings is asked twice: at its default settings, and at the tightest that it offers.
+
 It says what an engine got wrong, by how much, and what its mesh explains of it. Lengths are millimetres at the tower
 of 2 m. An answer is *wrong* if it is not that of the surface; its error is the row's certified distance from contact
 (placing.py). It is the engine's *own* error if it is not that of its own mesh either, decided exactly (scene.py),
@@ -34,7 +36,7 @@ from hypcheck.implementations.session import Limits, Outcome, StartError, Timing
 from hypcheck.messages import escaped
 from hypcheck.version import VERSION
 
-SCHEMA = "1.0.0"
+SCHEMA = "2.0.0"
 
 EACH = 8
 """Clear rows and contacts of each decade of gaps."""
@@ -45,6 +47,9 @@ _LIMITS = Limits(startup_timeout=120.0, timeout=60.0, restarts=3)
 TIMED_ROWS = 64
 
 _PATIENCE_S = 300.0
+
+NO_DISTANCE = 1e300
+"""What some engines report as large as a float can be is no distance."""
 
 
 class Decade(Struct):
@@ -60,7 +65,9 @@ class Decade(Struct):
 class Reported(Struct):
     """Distances that the engine reported for so many `rows`, `missing` ones not; errors against the exact ones.
 
-    Of a ball the mesh's own distance is known: `own_worst_mm` is the worst error against that one.
+    Of a ball the mesh's own distance is known: `own_worst_mm` is the worst error against that one. `contradicted`
+    counts the rows of which the engine says contact, but reports a distance above 0; the one farthest above is
+    `contradicted_row`.
     """
 
     rows: int
@@ -69,6 +76,8 @@ class Reported(Struct):
     worst_mm: float | None
     worst_row: list[float] | None
     own_worst_mm: float | None
+    contradicted: int = 0
+    contradicted_row: list[float] | None = None
 
 
 class Measured(Struct):
@@ -164,8 +173,8 @@ def measure(
             if each and answered.count(each) + others.count(each)
         },
         decades=_decades(placed, error, wrong),
-        distance=_reported(reported, placed, distances, ~placed.contact),
-        penetration=_reported(reported, placed, distances, placed.contact),
+        distance=_reported(reported, placed, distances, ~placed.contact, said),
+        penetration=_reported(reported, placed, distances, placed.contact, said),
         microseconds=_microseconds(asked, placed.rows),
     )
 
@@ -200,10 +209,10 @@ def reported_distances(words: Sequence[str], rows: Rows) -> Floats:
     return np.array(numbers + [nan] * (len(rows) - len(numbers)))
 
 
-def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask) -> Reported:
-    """Errors of the distances of these rows; a distance of the wrong sign counts as it is."""
+def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask, said: Mask) -> Reported:
+    """Errors of the distances of these rows; a distance of the wrong sign counts as it is. `said`: contact or not."""
     family = placed.family
-    there = which & np.isfinite(reported)
+    there = which & (np.abs(reported) < NO_DISTANCE)  # false for NaN
     if not there.any():
         return Reported(0, int(which.sum()), None, None, None, None)
     errors = np.abs(reported - placed.gap)[there] * family.millimetres
@@ -212,7 +221,10 @@ def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask) 
         exact = (distances - 1.0) * family.sizes[2]
         own = float((np.abs(reported - exact)[there] * family.millimetres).max())
     missing, worst = int(which.sum() - there.sum()), placed.rows[there][int(errors.argmax())].tolist()
-    return Reported(int(there.sum()), missing, float(np.median(errors)), float(errors.max()), worst, own)
+    above = np.where(there & said, reported, 0.0)
+    against = placed.rows[int(above.argmax())].tolist() if (above > 0).any() else None
+    counts = (int((above > 0).sum()), against)
+    return Reported(int(there.sum()), missing, float(np.median(errors)), float(errors.max()), worst, own, *counts)
 
 
 def _microseconds(asked: Implementation, rows: Rows) -> float | None:
@@ -226,15 +238,24 @@ def _microseconds(asked: Implementation, rows: Rows) -> float | None:
 
 
 class EngineRecord(Struct):
-    """What one engine did: the record's file NAME.json. `skipped` are families that it cannot be asked, and why."""
+    """What one engine did: the record's file NAME.json. `skipped` are families that it cannot be asked, and why.
+
+    `tightest` is empty where the engine offers no settings: then `default` is all that it can do.
+    """
 
     schema: str
     hypcheck: str
     machine: str
     name: str
     version: str
-    measured: list[Measured]
+    default: list[Measured]
+    tightest: list[Measured]
     skipped: dict[str, str]
+
+    @property
+    def best(self) -> list[Measured]:
+        """What it did at the tightest settings that it offers."""
+        return self.tightest or self.default
 
 
 @cache
@@ -266,27 +287,44 @@ def record_of(
 ) -> EngineRecord:
     """Ask an installed engine everything. Raises InputError where it is not installed."""
     machine = f"{platform.system()} {platform.machine()}"
-    found = EngineRecord(SCHEMA, VERSION, machine, engine.name, engine.version, [], {})
+    found = EngineRecord(SCHEMA, VERSION, machine, engine.name, engine.version, [], [], {})
+    for tightest in (False, True) if engine.adjustable else (False,):
+        _ask_all(engine, cache_folder, found, progress, each, meshes, families, tightest=tightest)
+    return found
+
+
+def _ask_all(
+    engine: Engine,
+    cache_folder: Path,
+    found: EngineRecord,
+    progress: Callable[[str], None],
+    each: int,
+    meshes: Sequence[int],
+    families: Sequence[str],
+    *,
+    tightest: bool,
+) -> None:
+    """Ask an engine about all families on all meshes at one of its settings, and add it to the record."""
+    told, setting = (found.tightest, engine.tightest) if tightest else (found.default, engine.default)
     for name in families:
         if FAMILIES[name].leans and not engine.tilts:
             found.skipped[name] = "no spheroid leans"
             continue
         for triangles in meshes:
-            progress(f"{engine.name}: {name}, about {triangles} triangles")
+            progress(f"{engine.name}, {setting.words}: {name}, about {triangles} triangles")
             try:
-                found.measured.append(_asked(engine, cache_folder, name, each, triangles))
+                told.append(_asked(engine, cache_folder, name, each, triangles, tightest=tightest))
             except StartError as error:
                 found.skipped[name] = escaped(str(error).rpartition("stderr: ")[2], 200)
                 break
-    return found
 
 
-def _asked(engine: Engine, cache_folder: Path, name: str, each: int, triangles: int) -> Measured:
+def _asked(engine: Engine, cache_folder: Path, name: str, each: int, triangles: int, *, tightest: bool) -> Measured:
     mesh, apart, beside = _mesh(name, each, triangles)
     with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
         scene = Path(folder, "scene")
         write_scene(scene, FAMILIES[name].sizes, mesh)
-        words = command(engine, cache_folder, scene)
+        words = command(engine, cache_folder, scene, tightest=tightest)
         with open_implementation(spec_of(words), _LIMITS) as asked:
             return measure(engine, words, asked, _placed(name, each), mesh, apart, beside)
 

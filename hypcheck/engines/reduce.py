@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import floor, isfinite, log2, nan
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import msgspec
 import numpy as np
 
 from hypcheck.engines.engine import ENGINES, Engine, command
-from hypcheck.engines.findings import Finding, proved
-from hypcheck.engines.measure import EngineRecord, Measured
+from hypcheck.engines.findings import KINDS, Finding, proved
+from hypcheck.engines.measure import NO_DISTANCE, EngineRecord, Measured
 from hypcheck.engines.placing import FAMILIES
 from hypcheck.engines.scene import TRIANGLES, SurfaceMesh, seen_from, surface_mesh, to_triangles, write_scene
 from hypcheck.geometry.rows import Floats
@@ -40,12 +41,16 @@ class Said:
 
 @dataclass(frozen=True, slots=True)
 class Asker:
-    """An engine asked about an upright spheroid about the origin, of semi-axes b and d, and triangles."""
+    """An engine asked about an upright spheroid about the origin, of semi-axes b and d, and triangles.
+
+    It is asked at the tightest settings that it offers, or at its default ones.
+    """
 
     engine: Engine
     cache: Path
     b: float
     d: float
+    tightest: bool = True
 
     def __call__(self, corners: Floats) -> Said | None:
         """What it says of triangles (m, 3, 3); None where it ends without an answer."""
@@ -53,7 +58,7 @@ class Asker:
         mesh = SurfaceMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3), 0.0)
         with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
             write_scene(Path(folder), (1.0, 1.0, self.b, self.d), mesh)
-            words = command(self.engine, self.cache, Path(folder))
+            words = command(self.engine, self.cache, Path(folder), tightest=self.tightest)
             question = f"classify 1 1 tilted-text\n{row}distance 2 1 tilted-text\n{row}"
             done = subprocess.run(  # noqa: S603 - an adapter of ours
                 words, input=question, capture_output=True, text=True, check=False, timeout=120
@@ -80,18 +85,26 @@ class Asker:
         least = float(lower_bounds(corners, self.b, self.d, way[np.newaxis])[0])
         if kind == "false contact":
             return max(0.0, least) if said.contact else 0.0
-        if not isfinite(said.reported):
+        if not abs(said.reported) < NO_DISTANCE:
             return 0.0
+        if kind == "contradiction":
+            return max(0.0, least) if said.contact and said.reported > 0 else 0.0
         return max(0.0, least - said.reported if kind == "too near" else said.reported - least if least > 0 else 0.0)
 
 
 def findings_of(record: EngineRecord, cache: Path) -> Iterator[Finding]:
-    """The worst finding of each kind that an engine's record leads to, one in metres before any in other units."""
-    for kind in ("missed contact", "false contact", "too near", "too far"):
+    """The worst finding of each kind that an engine's record leads to, one in metres before any in other units.
+
+    The engine is asked at the tightest settings that it offers. What is within the tolerance it states there is none.
+    """
+    tolerance = ENGINES[record.name].tightest.tolerance or 0.0
+    for kind in KINDS:
         best: Finding | None = None
         for measured, row in _candidates(record, kind):
             found = _reduced(ENGINES[record.name], cache, kind, measured, np.array(row))
-            if found is not None and (best is None or _weight(found) > _weight(best)):
+            if found is None or found.error_mm <= tolerance * found.millimetres:
+                continue
+            if best is None or _weight(found) > _weight(best):
                 best = found
         if best is not None:
             yield best
@@ -105,7 +118,7 @@ def _candidates(record: EngineRecord, kind: str) -> list[tuple[Measured, list[fl
     """Rows that may show this kind of error, one a family, the worst first; upright ones outside the tower."""
     hull = ENGINES[record.name].body == "hull" and kind in {"missed contact", "too far"}
     worst: dict[str, tuple[float, Measured, list[float]]] = {}
-    for each in record.measured:
+    for each in record.best:
         family = FAMILIES[each.family]
         if family.leans or family.inside or (hull and family.b != family.d):
             continue
@@ -120,6 +133,8 @@ def _shown(each: Measured, kind: str) -> list[tuple[float, list[float] | None]]:
     """The worst rows of one mesh for a kind of error, with their errors in millimetres."""
     if kind in {"missed contact", "false contact"}:
         return [(each.own_worst_mm, each.own_worst_row)]
+    if kind == "contradiction":
+        return [(one.contradicted, one.contradicted_row) for one in (each.distance, each.penetration)]
     reported = [(one.worst_mm or 0.0, one.worst_row) for one in (each.distance, each.penetration)]
     return [(size, row) for size, row in reported if size > 1.5 * each.deviation_mm]
 
@@ -134,10 +149,14 @@ def _reduced(engine: Engine, cache: Path, kind: str, measured: Measured, row: Fl
     if not error > 0:
         return None
     small = _rounded(asker, kind, corners, error)
-    said = asker(small[np.newaxis])
+    said, default = asker(small[np.newaxis]), replace(asker, tightest=False)(small[np.newaxis])
     if said is None:
         return None
-    return _certified(asker, kind, small, said, family.millimetres)
+    found = _certified(asker, kind, small, said, family.millimetres)
+    if found is None or not engine.adjustable:
+        return found
+    words = "nothing" if default is None else _words(kind, default, 0.0, family.millimetres)[0]
+    return msgspec.structs.replace(found, by_default=words)
 
 
 def _near(measured: Measured, row: Floats) -> Floats:
@@ -172,6 +191,8 @@ def _mark(kind: str, said: Said | None) -> float:
         return -np.inf
     if kind == "false contact":
         return float(said.contact) if said.contact else -np.inf
+    if kind == "contradiction":
+        return said.reported if said.contact and said.reported > 0 else -np.inf
     return -said.reported if isfinite(said.reported) else -np.inf
 
 
@@ -218,14 +239,22 @@ def _foot(asker: Asker, way: Floats) -> Floats:
 
 def _words(kind: str, said: Said, error: float, scale: float) -> tuple[str, str]:
     if kind == "missed contact":
-        return "clear", f"in contact: {error * scale:.2g} mm less in radius still touches"
+        return (
+            "contact" if said.contact else "clear",
+            f"in contact: {error * scale:.2g} mm less in radius still touches",
+        )
     if kind == "false contact":
-        return "contact", f"clear by {error * scale:.2g} mm"
+        return "contact" if said.contact else "clear", f"clear by {error * scale:.2g} mm"
+    if kind == "contradiction":
+        both = f"{'contact' if said.contact else 'clear'}, and {_length(said.reported * scale)}"
+        return both, f"clear by {error * scale:.2g} mm"
     reported, exact = said.reported * scale, (said.reported + (error if kind == "too near" else -error)) * scale
     return _length(reported), f"{_length(exact)} at {'least' if exact > 0 and kind == 'too near' else 'most'}"
 
 
 def _length(millimetres: float) -> str:
+    if not abs(millimetres) < NO_DISTANCE:
+        return "no distance"
     return f"{millimetres:.3g} mm apart" if millimetres > 0 else f"{-millimetres:.3g} mm deep"
 
 

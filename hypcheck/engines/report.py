@@ -1,14 +1,18 @@
-"""The page of the record: the matrix of engines and families, what each got wrong by distance, and a badge for each."""
+"""The page of the record: findings, own errors by body, what default settings cost, and the files beside it."""
 
 from __future__ import annotations
 
+import shutil
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from json import dumps
 from pathlib import Path
 
+import msgspec
+
+from hypcheck.engines.drawings import chart, drawing, own_worst
 from hypcheck.engines.engine import ENGINES
-from hypcheck.engines.findings import Finding, read_findings
+from hypcheck.engines.findings import KINDS, Finding, read_findings, reproduction, template_of
 from hypcheck.engines.measure import EngineRecord, Measured, Reported, read_records
 from hypcheck.engines.placing import FAMILIES
 
@@ -17,30 +21,83 @@ READING = """## How to read this
 Every number is a length in millimetres at a cooling tower of 2 m radius. A wrong answer's error is how far the body
 is from the other answer, proved for each row; 0 means that no answer was wrong, not that none can be.
 
-**A mesh is not the surface, and that is nobody's fault.** All engines here but none of the truth see triangles, and
-the first number of a cell is mostly the mesh's: the row *an exact answer about the mesh* shows what the best possible
-engine would have in its place. Twice as fine a mesh makes it four times smaller. An engine without an ellipsoid was
-given the hull of 222 points on the spheroid, which is up to 2 % of a radius inside it; its first number has that in
-it, too. The second number is the engine's *own* error: its answer is not that of the very triangles it was given. It
-is the one to look at, and it is often far below what any simulation needs. Many engines are made for speed and for
-resting contacts, compute in float32, or keep a margin on purpose, in metres, which a scene in kilometres or
-millimetres turns into something else: the last two columns show that, and no engine promised otherwise.
+**A mesh is not the surface, and that is nobody's fault.** All engines here but none of the truth see triangles. Twice
+as fine a mesh makes that error four times smaller. So the tables below show an engine's *own* error: its answer is not
+that of the very triangles that it was given. It is often far below what any simulation needs.
+
+**Settings.** Each engine is asked at its default settings, and again at the tightest that it offers. Its own errors are
+those that stay at the tightest; what the defaults cost has a table of its own. Many engines are made for speed and for
+resting contacts, compute in float32, or keep a margin on purpose, in their own unit of length, which a scene in
+kilometres or millimetres turns into something else: the last two columns show that, and no engine promised otherwise.
+
+**Bodies are not alike.** An engine without an ellipsoid was given the hull of 222 points on the spheroid, which is up
+to 2 % of a radius inside it; what that explains is no error here. Engines with different bodies stand in different
+tables, and are not ranked against each other.
 
 Rows are drawn near contact, where answers are hard: how many are wrong says nothing about rows drawn elsewhere. Times
 are of one busy machine, through the engine's own language, and are there for the order of magnitude.
 """
 
+BODIES = {
+    "ellipsoid": ("Engines with an ellipsoid", "The spheroid is the engine's ellipsoid, a ball its own ball."),
+    "hull": (
+        "Engines given a hull",
+        "The spheroid is the convex hull of 222 points on it, a ball the engine's own ball.",
+    ),
+    "scaled ball": (
+        "An engine given a ball in a scaled space",
+        "The spheroid is the engine's ball in a space scaled by 1/b, 1/b, 1/d; no spheroid leans.",
+    ),
+}
+"""What stands for the spheroid: the heading of its table, and what it is."""
+
+NEIGHBOURS = """## Neighbours
+
+Reports of the same kinds in the engines' own trackers, and in one that is not asked here:
+
+- a depth that the bodies do not allow: [newton-physics/newton #3766](https://github.com/newton-physics/newton/pull/3766)
+  ("the correct penetration is `0.061719 m`", Newton "returns `58.826744 m`": a small cylinder on a large triangle);
+  [JoltPhysics #1008](https://github.com/jrouwe/JoltPhysics/issues/1008) (a cylinder at the edge of a mesh);
+- libccd, which FCL asks about ellipsoids: [#17](https://github.com/danfis/libccd/issues/17) (the location of a contact
+  where one body is much larger than the other), [#71](https://github.com/danfis/libccd/issues/71) (the direction of a
+  penetration);
+- named to us, and not read for this record: [bullet3 #4318](https://github.com/bulletphysics/bullet3/issues/4318),
+  [python-fcl #36](https://github.com/BerkeleyAutomation/python-fcl/issues/36).
+"""
+
 
 def write_page(folder: Path) -> None:
-    """Write README.md and a badge for each engine, from the records and findings in a folder."""
+    """Write README.md, and a badge and a chart for each engine, from the records and findings in a folder."""
     records = sorted(read_records(folder), key=lambda record: list(ENGINES).index(record.name))
-    findings = read_findings(folder)
+    findings = sorted(read_findings(folder), key=_rank)
     for record in records:
         badge = {"schemaVersion": 1, "label": record.name, "message": _message(record), "color": _colour(record)}
         (folder / f"{record.name}.badge.json").write_text(dumps(badge, ensure_ascii=False) + "\n")
-    parts = [_head(records), READING, _matrix(records), _found(findings), _by_distance(records)]
+        (folder / f"{record.name}.svg").write_text(chart(record), encoding="utf-8")
+    parts = [_head(records), READING, _found(findings), *_tables_of_own(records), _defaults(records)]
+    parts += [*_by_distance(records), NEIGHBOURS]
     parts += [_of_engine(record) for record in records]
     (folder / "README.md").write_text("\n".join(parts), encoding="utf-8")
+
+
+def _rank(found: Finding) -> tuple[int, float]:
+    """Contradictions first, then the greatest error relative to the body."""
+    return (found.kind != KINDS[0], -found.of_body)
+
+
+def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
+    """Write the findings' files anew, and findings.json; the findings with the names of their files."""
+    shutil.rmtree(folder / "findings", ignore_errors=True)
+    (folder / "findings").mkdir(parents=True)
+    named = []
+    for found in findings:
+        stem = f"findings/{found.engine}-{found.kind.replace(' ', '-')}"
+        file, picture = stem + Path(template_of(ENGINES[found.engine]).stem).suffix, stem + ".svg"
+        (folder / file).write_text(reproduction(found), encoding="utf-8")
+        (folder / picture).write_text(drawing(found), encoding="utf-8")
+        named.append(msgspec.structs.replace(found, file=file, picture=picture))
+    (folder / "findings" / "findings.json").write_bytes(msgspec.json.format(msgspec.json.encode(named)) + b"\n")
+    return named
 
 
 def _head(records: Sequence[EngineRecord]) -> str:
@@ -56,108 +113,193 @@ def _head(records: Sequence[EngineRecord]) -> str:
     return "\n".join([*lines, ""])
 
 
-def _matrix(records: Sequence[EngineRecord]) -> str:
-    exact = {each.family: each.mesh_worst_mm for each in records[0].measured}
-    rows = [["*an exact answer about the mesh*", *(f"{_mm(exact.get(name))} / 0" for name in FAMILIES)]]
-    for record in records:
-        cells = [_cell([each for each in record.measured if each.family == name]) for name in FAMILIES]
-        anchor = f"{record.name}-{record.version}".replace(".", "")
-        rows.append([f"[{record.name}](#{anchor}) {record.version}", *cells])
-    lines = [
-        "## Worst error in millimetres",
-        "",
-        "*on the finest mesh, against the surface* / *own, on any mesh*; – was not asked.",
-        "",
-        *_table(["engine", *FAMILIES], rows),
-        "",
-        *(f"- *{name}*: {family.text}" for name, family in FAMILIES.items()),
-        "",
-    ]
-    return "\n".join(lines)
-
-
-def _cell(measured: Sequence[Measured]) -> str:
-    if not measured:
-        return "–"
-    finest = max(measured, key=lambda each: each.triangles)
-    faults = sum(sum(each.faults.values()) for each in measured)
-    lost = f", {faults} lost" if faults else ""
-    return f"{_mm(finest.worst_mm)} / {_mm(max(each.own_worst_mm for each in measured))}{lost}"
-
-
 def _found(findings: Sequence[Finding]) -> str:
     rows = [
         [
-            each.engine,
+            f"{each.engine} {each.version}",
             each.said,
             each.proved,
-            _mm(each.error_mm),
-            f"[{each.file}]({each.file}), [picture]({each.picture})",
+            f"{each.error_mm:.2g}",
+            f"{each.of_body:.1e}",
+            _of_tolerance(each),
+            f"[file]({each.file}), [picture]({each.picture})",
         ]
         for each in findings
     ]
     lines = [
         "## Findings",
         "",
-        "One spheroid and one triangle each, so that no mesh explains it, with a certificate to be checked by hand.",
-        "Each file needs the engine alone, and ends with 1 while the engine is wrong.",
+        "An error that stays at the tightest settings that the engine offers and is beyond the tolerance that it",
+        "states there, or a contradiction in its own answers. One spheroid and one triangle each, so that no mesh",
+        "explains it, with a certificate to be checked by hand. Each file needs the engine alone, asks it at default",
+        "and at tightest settings, and ends with 1 while the engine is wrong.",
         "",
-        *_table(["engine", "what it says", "what is proved", "wrong by, mm", "file"], rows),
+        *_table(["engine", "what it says", "what is proved", "error, mm", "of the body", "of the tolerance", ""], rows),
+        "",
+        "*of the body*: the error as a share of the spheroid's least semi-axis. *of the tolerance*: as a multiple of",
+        "the length that the engine states at its tightest settings; – if it states none, or 0.",
+        "",
+        *_table(
+            ["engine", "default settings", "what it says there", "tightest settings", "one unit, mm"],
+            _settings(findings),
+        ),
         "",
     ]
     return "\n".join(lines)
 
 
-def _by_distance(records: Sequence[EngineRecord]) -> str:
-    """False contacts and false clears by distance from contact, of all families on the finest meshes."""
+def _settings(findings: Sequence[Finding]) -> list[list[str]]:
+    """The settings of each finding, and what the engine says at its default ones."""
+    rows = []
+    for each in findings:
+        engine = ENGINES[each.engine]
+        tightest = engine.tightest.words if engine.adjustable else "the same"
+        unit = f"{each.millimetres:g}"
+        rows.append([f"{each.engine}, {each.kind}", engine.default.words, each.by_default or each.said, tightest, unit])
+    return rows
+
+
+def _of_tolerance(found: Finding) -> str:
+    tolerance = ENGINES[found.engine].tightest.tolerance
+    return f"{found.error_mm / (tolerance * found.millimetres):.1e}" if tolerance else "–"
+
+
+def _tables_of_own(records: Sequence[EngineRecord]) -> Iterable[str]:
+    """A table of own errors for each kind of body: they are not compared with each other."""
+    for body, (heading, text) in BODIES.items():
+        chosen = [record for record in records if ENGINES[record.name].body == body]
+        if chosen:
+            rows = [[_link(record), *(_own_cell(record, name) for name in FAMILIES)] for record in chosen]
+            lines = [
+                f"## {heading}",
+                "",
+                text,
+                "Own worst error on any mesh, in millimetres, at the tightest settings.",
+            ]
+            yield "\n".join([*lines, "", *_table(["engine", *FAMILIES], rows), ""])
+    yield "\n".join([*(f"- *{name}*: {family.text}" for name, family in FAMILIES.items()), ""])
+
+
+def _link(record: EngineRecord) -> str:
+    anchor = f"{record.name}-{record.version}".replace(".", "")
+    return f"[{record.name}](#{anchor})"
+
+
+def _own_cell(record: EngineRecord, family: str) -> str:
+    measured = [each for each in record.best if each.family == family]
+    faults = sum(sum(each.faults.values()) for each in measured)
+    if not measured:
+        return "–"
+    return _mm(own_worst(measured, family)) + (f", {faults} lost" if faults else "")
+
+
+def _defaults(records: Sequence[EngineRecord]) -> str:
+    """What the default settings of adjustable engines cost, beside the tightest; families in metres alone."""
+    rows = []
+    for record in records:
+        engine = ENGINES[record.name]
+        if not engine.adjustable:
+            continue
+        for label, setting, told in (
+            ("default", engine.default, record.default),
+            ("tightest", engine.tightest, record.best),
+        ):
+            metres = [each for each in told if FAMILIES[each.family].unit == 1]
+            wrong = f"{sum(each.own for each in metres)} of {sum(each.own_rows for each in metres)}"
+            rows.append([record.name, label, setting.words, wrong, _mm(max(each.own_worst_mm for each in metres))])
+    lines = [
+        "## What the defaults cost",
+        "",
+        "Own errors in the families whose unit is a metre. A default is a choice for speed or stability, not a fault.",
+        "",
+        *_table(["engine", "", "settings", "own wrong", "own worst, mm"], rows),
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _by_distance(records: Sequence[EngineRecord]) -> Iterable[str]:
+    """False contacts, and false clears, by distance from contact, of all families on the finest meshes."""
     powers = sorted(
         {each.least_mm for record in records for one in _finest(record) for each in one.decades}, reverse=True
     )
-    rows = []
-    for record in records:
-        sums: dict[float, list[int]] = defaultdict(lambda: [0, 0, 0, 0])
-        for each in (decade for one in _finest(record) for decade in one.decades):
-            values = (each.false_contacts, each.clear, each.false_clears, each.contacts)
-            sums[each.least_mm] = [old + new for old, new in zip(sums[each.least_mm], values, strict=True)]
-        rows.append([record.name, *("{}/{} + {}/{}".format(*sums[power]) for power in powers)])
-    lines = [
-        "## Wrong answers by distance from contact",
-        "",
-        "*false contacts* + *false clears* of all families on the finest mesh, each of how many rows.",
-        "",
-        *_table(["engine", *(f"{power:.0e} mm" for power in powers)], rows),
-        "",
-    ]
-    return "\n".join(lines)
+    for what in ("false contacts", "false clears"):
+        rows = []
+        for record in records:
+            sums: dict[float, list[int]] = defaultdict(lambda: [0, 0])
+            for each in (decade for one in _finest(record) for decade in one.decades):
+                wrong = (
+                    (each.false_contacts, each.clear)
+                    if what == "false contacts"
+                    else (each.false_clears, each.contacts)
+                )
+                sums[each.least_mm] = [old + new for old, new in zip(sums[each.least_mm], wrong, strict=True)]
+            rows.append([record.name, *("{}/{}".format(*sums[power]) for power in powers)])
+        yield "\n".join(
+            [
+                f"## {what.capitalize()} by distance from contact",
+                "",
+                "Against the surface, on the finest mesh, of how many rows in all families; with the mesh's errors.",
+                "",
+                *_table(["engine, mm", *(f"{power:g}" for power in powers)], rows),
+                "",
+            ]
+        )
 
 
 def _finest(record: EngineRecord) -> list[Measured]:
-    most = max(each.triangles for each in record.measured)
-    return [each for each in record.measured if each.triangles == most]
+    most = max(each.triangles for each in record.best)
+    return [each for each in record.best if each.triangles == most]
 
 
 def _of_engine(record: EngineRecord) -> str:
     engine = ENGINES[record.name]
     ball = "its own ball, in float32" if engine.single else "its own ball"
+    settings = (
+        f"{engine.default.words}; tightest: {engine.tightest.words}" if engine.adjustable else engine.default.words
+    )
     lines = [
         f"## {record.name} {record.version}",
         "",
-        f"A spheroid is the engine's {engine.body}, a ball {ball}. Reported distances are compared with the surface's.",
+        f"A spheroid is the engine's {engine.body}, a ball {ball}. Settings: {settings}.",
         f"Record: [{record.name}.json]({record.name}.json).",
         "",
+        f"![Own worst error of {record.name} in each family]({record.name}.svg)",
+        "",
+        "At the tightest settings, in millimetres:",
+        "",
+        *_table(["family", "triangles", "own wrong", "own worst", "lost", "µs"], map(_own_row, record.best)),
+        "",
+        "Against the surface, so that the mesh's errors are in it; and the distances that it reports:",
+        "",
         *_table(
-            ["family", "triangles", "false contacts", "false clears", "worst", "own wrong", "own worst", "lost",
-             "clear: distance", "contact: depth", "µs"],
-            map(_measured_row, record.measured),
+            ["family", "triangles", "false contacts", "false clears", "worst", "distance, worst", "median",
+             "depth, worst", "median", "contact and apart"],
+            map(_surface_row, record.best),
         ),
         "",
-        *(f"Not asked: {name}, as no spheroid leans." for name in record.skipped),
+        *(f"Not asked: {name}, as {_skipped(reason)}." for name, reason in record.skipped.items()),
         "",
     ]  # fmt: skip
     return "\n".join(lines)
 
 
-def _measured_row(each: Measured) -> list[str]:
+def _skipped(reason: str) -> str:
+    return reason.rstrip(".")
+
+
+def _own_row(each: Measured) -> list[str]:
+    return [
+        each.family,
+        str(each.triangles),
+        f"{each.own} of {each.own_rows}",
+        _mm(each.own_worst_mm),
+        ", ".join(f"{count} {name}" for name, count in each.faults.items()) or "0",
+        "–" if each.microseconds is None else f"{each.microseconds:.3g}",
+    ]
+
+
+def _surface_row(each: Measured) -> list[str]:
     clear, contact = sum(one.clear for one in each.decades), sum(one.contacts for one in each.decades)
     return [
         each.family,
@@ -165,25 +307,22 @@ def _measured_row(each: Measured) -> list[str]:
         f"{each.false_contacts} of {clear}",
         f"{each.false_clears} of {contact}",
         _mm(each.worst_mm),
-        f"{each.own} of {each.own_rows}",
-        _mm(each.own_worst_mm),
-        ", ".join(f"{count} {name}" for name, count in each.faults.items()) or "0",
-        _shown(each.distance),
-        _shown(each.penetration),
-        "–" if each.microseconds is None else f"{each.microseconds:.3g}",
+        *_shown(each.distance),
+        *_shown(each.penetration),
+        str(each.distance.contradicted + each.penetration.contradicted),
     ]
 
 
-def _shown(reported: Reported) -> str:
-    return "–" if reported.worst_mm is None else f"{_mm(reported.worst_mm)} (median {_mm(reported.median_mm)})"
+def _shown(reported: Reported) -> tuple[str, str]:
+    return _mm(reported.worst_mm), _mm(reported.median_mm)
 
 
 def _worst(record: EngineRecord) -> float:
-    return max(each.own_worst_mm for each in record.measured if FAMILIES[each.family].unit == 1)
+    return max(each.own_worst_mm for each in record.best if FAMILIES[each.family].unit == 1)
 
 
 def _message(record: EngineRecord) -> str:
-    faults = sum(sum(each.faults.values()) for each in record.measured)
+    faults = sum(sum(each.faults.values()) for each in record.best)
     return f"own error {_mm(_worst(record))} mm" + (f", {faults} answers lost" if faults else "")
 
 

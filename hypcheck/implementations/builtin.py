@@ -264,6 +264,10 @@ class BuiltinSession:
             answers = [self.method.answer(part) for part in parts]
         return time.perf_counter_ns() - start, sum(int(each.sum(dtype=np.int64)) for each in answers)
 
+    def advice(self, reason: str) -> str:  # noqa: ARG002 - it is not isolated
+        """Nothing."""
+        return ""
+
     def close(self) -> None:
         """Do nothing: there is no process."""
 

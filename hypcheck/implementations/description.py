@@ -156,21 +156,34 @@ def in_regime(rows: Rows, regime: str) -> Mask:
     return np.asarray(holds)
 
 
-def representable(rows: Rows, precision: str) -> Mask:
-    """A mask (n,) of the rows in which every number is zero or normal in the declared precision."""
+def representable(rows: Rows, precision: str, *, subnormal: bool = False) -> Mask:
+    """A mask (n,) of the rows in which every number is zero or normal in the declared precision.
+
+    With `subnormal` also of those with subnormal numbers, if the precision holds these exactly.
+    """
     limits = NORMAL_RANGE.get(precision)
     if limits is None:
         return np.ones(len(rows), dtype=bool)
-    lengths = np.abs(rows)
-    return np.asarray((((lengths >= limits[0]) & (lengths <= limits[1])) | (rows == 0)).all(axis=1))
+    lengths, (least, greatest) = np.abs(rows), limits
+    held = ((lengths >= least) & (lengths <= greatest)) | (rows == 0)
+    if subnormal:
+        step = least * float(2 * UNIT_ROUNDOFF[precision])  # 2u is the distance from 1 to the next number
+        held |= (lengths < least) & (np.fmod(lengths, step) == 0)
+    return np.asarray(held.all(axis=1))
 
 
 def claimed(
-    rows: Rows, domain: Domain, precision: str, *, extreme: bool = False, layout: Layout = PAIRS
+    rows: Rows,
+    domain: Domain,
+    precision: str,
+    *,
+    extreme: bool = False,
+    subnormal: bool = False,
+    layout: Layout = PAIRS,
 ) -> NDArray[np.intp]:
     """The ascending indices of the rows that lie in the domain and are representable in the declared precision.
 
-    `extreme` is as in Domain.holds.
+    `extreme` is as in Domain.holds, `subnormal` as in representable.
     """
     with np.errstate(all="ignore"):
         if not domain.settings:
@@ -178,7 +191,7 @@ def claimed(
             if (domain.holds(corners, extreme=extreme, layout=layout) & representable(corners, precision)).all():
                 return np.arange(len(rows))
         inside = domain.holds(rows, extreme=extreme, layout=layout)
-        return np.flatnonzero(inside & representable(rows, precision))
+        return np.flatnonzero(inside & representable(rows, precision, subnormal=subnormal))
 
 
 def _corners(rows: Rows) -> Rows:

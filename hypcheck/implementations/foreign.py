@@ -33,7 +33,7 @@ import os
 import sys
 import time
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import ModuleType
 from typing import Any, Protocol
 
@@ -91,6 +91,7 @@ _INT64 = np.iinfo(np.int64)
 
 _OURS = os.path.dirname(os.path.dirname(__file__)) + os.sep
 _INSTALLED = os.path.dirname(os.path.dirname(np.__file__)) + os.sep
+_SEARCHED = frozenset(sys.path)
 _NOT_UNDER_TEST = ("<frozen", os.path.dirname(os.__file__) + os.sep)
 """The folders of lines of a traceback: this package, installed packages, Python itself."""
 
@@ -143,6 +144,8 @@ class PythonFunction:
 def error_text(error: BaseException) -> str:
     """The exception and its line, as the end of a sentence."""
     text = traceback.format_exception_only(type(error), error)[-1].strip()
+    if isinstance(error, ModuleNotFoundError):
+        text += "".join(f"; sys.path has {folder!r}, which is not there" for folder in _missing_folders())
     if isinstance(error, SyntaxError):
         return f"raised {text} ({os.path.basename(error.filename or '?')}, line {error.lineno})"
     files = [(each.filename, each.lineno) for each in traceback.extract_tb(error.__traceback__)]
@@ -153,6 +156,18 @@ def error_text(error: BaseException) -> str:
     # The last line of the code under test, not of packages that it calls: a line of numpy would not help.
     written = [each for each in foreign if not each[0].startswith(_INSTALLED)] or foreign[:1]
     return f"raised {text}" + (f" ({os.path.basename(written[-1][0])}, line {written[-1][1]})" if written else "")
+
+
+def _missing_folders() -> Iterator[str]:
+    """The folders that foreign code added to the path of modules, and that cannot be listed."""
+    for folder in sys.path:
+        if folder not in _SEARCHED and os.path.isabs(folder):
+            try:
+                os.listdir(folder)
+            except NotADirectoryError:
+                continue
+            except OSError:
+                yield folder
 
 
 def _of_name(name: str) -> ModuleType:

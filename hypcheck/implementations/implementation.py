@@ -6,7 +6,7 @@ A fault costs only the row that causes it, which is found by asking smaller part
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from types import TracebackType
 
@@ -334,13 +334,16 @@ def open_implementation(
     try:
         return Implementation(spec, partial(_session, spec, limits), limits, instead)
     except StartError as error:
-        raise StartError(f"{spec} could not be started: {error}{_hint(str(error), limits)}") from None
+        raise StartError(f"{spec} could not be started: {error}") from None
 
 
-def _hint(trouble: str, limits: Limits) -> str:
-    """The end of a sentence where isolation may be why an implementation did not start."""
-    refused = any(sign in trouble for sign in ("Read-only", "ermission denied", "not permitted", "No module named"))
-    return "; it was isolated, and --isolate off starts it without" if refused and limits.isolation.means.names else ""
+def require_named(specs: Iterable[str]) -> None:
+    """Raise InputError if one of these texts is no SPEC, or names a built-in method that does not exist."""
+    for spec in map(parse_spec, specs):
+        if spec.kind == "builtin":
+            from hypcheck.implementations.builtin import builtin  # noqa: PLC0415 - loads every formula
+
+            builtin(spec.words[0])
 
 
 def _session(spec: Spec, limits: Limits, run: int) -> Session:

@@ -26,6 +26,7 @@ from hypcheck.implementations.description import Description
 from hypcheck.implementations.frames import OutputTail, stderr_excerpt
 from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
+from hypcheck.isolation.advice import isolation_advice
 from hypcheck.isolation.launch import IsolationError, Launched
 
 STEP = 0.25
@@ -208,7 +209,7 @@ class Process:
             code = self._popen.wait(_LAST_WORDS)
         except subprocess.TimeoutExpired:
             return FaultError(Outcome.PROTOCOL, "it closed its standard output and did not end", fatal=True)
-        return FaultError(Outcome.CRASH, _end_of(code), fatal=True)
+        return FaultError(Outcome.CRASH, _end_of(code, isolated=self._launched.isolated), fatal=True)
 
     def mark(self) -> None:
         """Begin a question, and what `stderr` returns."""
@@ -275,7 +276,14 @@ class ProcessSession:
 
     def __init__(self, words: Sequence[str], limits: Limits, revealed: Sequence[str] = ()) -> None:
         self._limits = limits
-        self._process = Process(words, limits, revealed)
+        self._words = words
+        try:
+            self._begin(revealed)
+        except StartError as error:
+            raise StartError(f"{error}{self.advice(str(error))}") from None
+
+    def _begin(self, revealed: Sequence[str]) -> None:
+        self._process = Process(self._words, self._limits, revealed)
         try:
             self.description = self._meet()
         except BaseException:
@@ -290,6 +298,10 @@ class ProcessSession:
     def evidence(self) -> str:
         """Its output on standard error since the last question, as the end of a sentence."""
         return stderr_excerpt(self._process.stderr)
+
+    def advice(self, reason: str) -> str:
+        """What to do where isolation is the reason of a fault, as the end of a sentence."""
+        return isolation_advice(reason, self._words, self._limits.isolation)
 
     def close(self) -> None:
         """End the program by ending its input."""
@@ -335,18 +347,19 @@ def _not_run(program: str, error: OSError) -> str:
     return f"the system could not run the program {program!r}: {system_reason(error)}"
 
 
-_OTHER_CAUSES = {
-    int(signal.SIGKILL): "; the system does that too when memory runs out",
+_OTHER_CAUSES = {int(signal.SIGKILL): "; the system does that too when memory runs out"}
+_BY_ISOLATION = {
     31: "; isolation does that when it makes a system call that only an attack makes",
     25: "; isolation does that when it writes more than fits the scratch folder",
 }
 """Who else may have sent a signal; 31 and 25 are SIGSYS and SIGXFSZ."""
 
 
-def _end_of(code: int) -> str:
+def _end_of(code: int, *, isolated: bool) -> str:
     """How a process with this return code ended."""
     if code < 0:
-        return f"it was ended by {_signal_name(-code)}{_OTHER_CAUSES.get(-code, '')}"
+        others = _OTHER_CAUSES | (_BY_ISOLATION if isolated else {})
+        return f"it was ended by {_signal_name(-code)}{others.get(-code, '')}"
     by_shell = f", as a shell reports {_signal_name(code - 128)}" if code > 128 and _signal_name(code - 128) else ""
     return f"it ended by itself with exit status {code}{by_shell}"
 

@@ -119,6 +119,10 @@ class Session(Protocol):
         """Its output on standard error since the last question, as the end of a sentence."""
         ...
 
+    def advice(self, reason: str) -> str:
+        """What to do where isolation is the reason of a fault, as the end of a sentence."""
+        ...
+
     def close(self) -> None:
         """End the program."""
         ...
@@ -284,13 +288,19 @@ class Supervisor:
             self.left = replace(self.left, hangs=None)
 
     def note_fault(self, fault: FaultError) -> str:
-        """End the session if the fault is fatal; the reason of the fault, with the session's standard error."""
+        """End the session if the fault is fatal; the reason of the fault, with the session's standard error.
+
+        Where isolation is the reason, it ends with what to do.
+        """
         session = self._session
-        if not fault.fatal or session is None:
+        if session is None:
             return fault.reason
+        if not fault.fatal:
+            return fault.reason + session.advice(fault.reason)
         session.kill()
         self._session = None
         reason = fault.reason + session.evidence
+        reason += session.advice(reason)
         self._count_hang(fault, reason)
         return reason
 

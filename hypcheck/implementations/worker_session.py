@@ -33,7 +33,7 @@ main(sys.argv[2:])
 program removes it until hypcheck and numpy are loaded. `hypcheck` is the one that runs here, installed or not."""
 
 WORKER_MODULES = (
-    *("__init__", "errors", "messages", "geometry/__init__", "geometry/pair", "geometry/rows"),
+    *("__init__", "errors", "float_environment", "messages", "geometry/__init__", "geometry/pair", "geometry/rows"),
     *(f"implementations/{name}" for name in ("__init__", "foreign", "frames", "library", "spec", "worker")),
 )
 """What the worker imports of this package: nothing that could answer a question, or tell an answer."""

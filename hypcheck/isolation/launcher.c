@@ -155,6 +155,30 @@ static void drop_capabilities(void) {
     require((int)syscall(SYS_capset, &head, none), "cannot drop", "capabilities");
 }
 
+/* Run the program, looked for on PATH where its name has no slash. execvp would give a file that is no program to a shell,
+   and what starts would depend on whether it is isolated. Returns with errno where it cannot be run. */
+static void execute(char **words) {
+    const char *folder = getenv("PATH");
+    char path[4096];
+    int denied = 0;
+    if (strchr(words[0], '/') != NULL) {
+        execv(words[0], words);
+        return;
+    }
+    if (folder == NULL) folder = "/bin:/usr/bin";
+    for (;;) {
+        errno = ENOENT;
+        const size_t length = strcspn(folder, ":");
+        const int used = snprintf(path, sizeof path, "%.*s%s%s", (int)length, folder, length ? "/" : "", words[0]);
+        if (used > 0 && used < (int)sizeof path) execv(path, words);
+        if (errno == EACCES) denied = 1;
+        else if (errno != ENOENT && errno != ENOTDIR) return;
+        if (folder[length] == '\0') break;
+        folder += length + 1;
+    }
+    errno = denied ? EACCES : ENOENT;
+}
+
 static void become(char **words, long supervisor) {
     (void)setsid(); /* a signal to its group reaches no other */
     limit(RLIMIT_CORE, 0);
@@ -173,7 +197,7 @@ static void become(char **words, long supervisor) {
         require(landlock_end(rules), "cannot use", "Landlock");
     }
     if (plan.seccomp) require(install_filter(plan.namespaces ? 0 : plan.judge, plan.namespaces ? 0 : supervisor), "cannot use", "seccomp");
-    execvp(words[0], words);
+    execute(words);
     fail("exec %s: %s", words[0], strerror(errno));
 }
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
+from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import (
     AXIS,
     CENTER,
@@ -107,6 +108,7 @@ class Prepared:
     like: InitVar[tuple[ArrayLike, ArrayLike, ArrayLike]] = ((), (), ())
     kept: bytes = field(init=False, repr=False, compare=False)
 
+    @in_default_environment
     def __post_init__(self, like: tuple[ArrayLike, ArrayLike, ArrayLike]) -> None:
         sizes, axis = _sizes(self.sizes), self.axis
         if axis is not None:
@@ -124,6 +126,7 @@ class Prepared:
         return Prepared, (self.sizes, self.axis)
 
 
+@in_default_environment
 def classify(
     rows: ArrayLike,
     *,
@@ -154,6 +157,7 @@ def classify(
     return _into(out, result)
 
 
+@in_default_environment
 def classify_scene(
     sizes: Sizes | Prepared,
     x: ArrayLike,
@@ -274,9 +278,11 @@ def _require_fitting(out: object, count: int) -> None:
         found = f"an array of {out.dtype} and of shape {out.shape}"
     elif not out.flags.writeable:
         found = "read-only"
+    elif count > 1 and out.strides == (0,):
+        found = "an array whose elements share one byte"
     else:
         return
-    raise InputError(f"out is {found}; it must be a writable int8 array of shape ({count},)")
+    raise InputError(f"out is {found}; it must be a writable int8 array of shape ({count},), a byte for each position")
 
 
 def _lie_apart(out: Positions, columns: Columns) -> bool:

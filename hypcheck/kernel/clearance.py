@@ -27,6 +27,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import Floats, Indices, Integers, Mask, Positions, Rows, as_rows, invalid, require_valid
 from hypcheck.kernel import clearance_points as points
@@ -104,6 +105,7 @@ class Clearance:
         return cls(position, lower, upper, touch, touch_error, distance_lower, distance_upper, nearest)
 
 
+@in_default_environment
 def clearance(
     rows: ArrayLike, *, on_invalid: Literal["raise", "flag"] = "raise", threads: int | None = None
 ) -> Clearance:

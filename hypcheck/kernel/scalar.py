@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from hypcheck.errors import InputError
+from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import AXIS, COLUMNS, Pair, trouble_with_row
 from hypcheck.kernel import integers, tilted_integers
 from hypcheck.kernel.choice import choice, compiled
@@ -33,6 +34,7 @@ class PositionFunction(Protocol):
         """As exact_position."""
 
 
+@in_default_environment
 def exact_position(
     alpha: float,
     gamma: float,
@@ -83,6 +85,7 @@ def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
     return [float(each) for each in row]
 
 
+@in_default_environment
 def _looked_at(*numbers: float, axis: Sequence[float] | None = None) -> int:
     """What the compiled function asks where its arguments are no floats, or no valid pair."""
     if axis is None:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
+from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, trouble_with_axis
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, as_columns, as_numbers
 from hypcheck.kernel import scene_nearest
@@ -65,6 +66,7 @@ class Scene:
 
     model: SceneModel
 
+    @in_default_environment
     def __post_init__(self) -> None:
         if not self.model.hyperboloids:
             raise InputError("the scene has no hyperboloid; it must have one at least")
@@ -76,15 +78,18 @@ class Scene:
             raise InputError("the mover leans and has parts, whose places are known only where it is upright")
 
     @classmethod
+    @in_default_environment
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
         """The scene in a file, or a shipped scene by its name. Raises InputError naming key and line."""
         return cls(read_scene(os.fspath(path)))
 
     @classmethod
+    @in_default_environment
     def from_text(cls, text: str) -> Scene:
         """The scene that a TOML text describes. Raises InputError naming key and line."""
         return cls(parse_scene(text))
 
+    @in_default_environment
     def classify(
         self,
         x: ArrayLike,
@@ -114,6 +119,7 @@ class Scene:
         found[silent] = np.where(self._modelled(centres[silent]), EXTERIOR, CANNOT_SAY)
         return self._answers(found)
 
+    @in_default_environment
     def position(
         self, x: float, y: float, z: float, heading: float = 0.0, *, axis: Sequence[float] | None = None
     ) -> int:
@@ -141,6 +147,7 @@ class Scene:
                 found = max(found, _RANK[said])
         return self._answer(_OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR)
 
+    @in_default_environment
     def passage(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0) -> Positions:
         """Whether the mover meets contact on each straight way, its ends included, exactly; int8 (n,).
 
@@ -166,6 +173,7 @@ class Scene:
         result[query[hits]] = 1
         return result
 
+    @in_default_environment
     def nearest(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Nearest:
         """Which hyperboloid is nearest to the mover, its distance between proved numbers, and the nearest point.
 

@@ -306,10 +306,19 @@ def near_ways(
 
 
 def _pieces_of(grid: PlaneGrid, starts: Rows, ends: Rows) -> Indices:
-    """How many pieces each way, (n, 3), is cut into; 0 for one that is to be looked up alone."""
+    """How many pieces each way, (n, 3), is cut into; 0 for one that is to be looked up alone.
+
+    That is also one so far out that the padding of a piece, for its rounding, is wider than a cell.
+    """
     change = np.abs(ends - starts)
     pieces = np.ceil(np.maximum(change[:, 0], change[:, 1]) / grid.side)
-    return np.where(pieces <= MOST_PIECES, np.maximum(pieces, 1), 0).astype(np.int64)
+    fine = (_padding(starts[:, :2], ends[:, :2]) <= grid.side).all(axis=1)
+    return np.where((pieces <= MOST_PIECES) & fine, np.maximum(pieces, 1), 0).astype(np.int64)
+
+
+def _padding(here: Floats, there: Floats) -> Floats:
+    """More than the rounding of the ends of a piece, in each coordinate."""
+    return PAD * (np.abs(here) + np.abs(there))
 
 
 def in_batches(grid: PlaneGrid, pieces: Indices) -> list[slice]:
@@ -324,7 +333,7 @@ def _beside_pieces(grid: PlaneGrid, starts: Rows, ends: Rows, pieces: Indices) -
     cut = np.flatnonzero(pieces)
     way = np.repeat(cut, pieces[cut])
     here, there = starts[way, :2], ends[way, :2]
-    pad = PAD * (np.abs(here) + np.abs(there))
+    pad = _padding(here, there)
     if len(way) > len(cut):
         number = _counted(pieces[cut])
         change, parts = there - here, pieces[way][:, None]

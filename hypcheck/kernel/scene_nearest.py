@@ -1,7 +1,9 @@
 """Which hyperboloid of a scene is nearest to the mover: distances of pairs between proved numbers, and the least.
 
 A pair's distance is that of clearance.py for the rounded offset from the hyperboloid's centre to the mover's; each
-coordinate of the offset is rounded by u of its size at most, which _ROUNDED of their sum holds.
+coordinate of the offset is rounded by u of its size at most, which _ROUNDED of their sum holds. If one of two bodies is
+moved, their distance changes by no more than that. Whether a pair is in contact is decided from the exact offset, as
+Scene.position decides it: the upper bound is 0 in contact, and only there.
 
 A hyperboloid with a modelled height ends there. The distance to the endless one is a lower bound of that to the part
 which stands; it is the same where the nearest point is on that part. Else a point P at the near end gives the upper
@@ -16,14 +18,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck.geometry.pair import SIZES
-from hypcheck.geometry.rows import Floats, Indices, Mask
+from hypcheck.geometry.pair import SIZES, Position
+from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearance
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
+from hypcheck.kernel.scene_pairs import positions_beside
 from hypcheck.scene.model import Mover, leans
 
 PAIRS_AT_A_TIME = 1 << 18
 _ROUNDED = 2.0**-44
+_LEAST = 2.0**-1060
+"""More than the roundings of subnormal numbers. It also keeps the upper bound of a mover that is clear above 0."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +38,8 @@ class Nearest:
     `index` (n,): the number of the nearest hyperboloid in the scene's order, from 0. `tied` (n,): another one may be as
     near, as their distances are equal, both are in contact, or the bounds do not tell them apart.
     `distance_lower` ≤ distance ≤ `distance_upper` (n,): the Euclidean distance from the mover to the nearest of all.
-    `point` (n, 3): a point of that hyperboloid whose distance is `distance_upper` at most, but for its rounding.
+    `point` (n, 3): a point of that hyperboloid whose distance is `distance_upper` at most, but for its rounding; NaN
+    where the centres are so far apart that their difference overflows, of which only contact is known.
     """
 
     index: Indices
@@ -95,7 +101,8 @@ def _cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
         beside = np.maximum(across - wide * OUTWARD, 0)
         low, high = bodies.heights.T
         beyond = np.maximum(np.maximum(centres[:, 2, None] - high, low - centres[:, 2, None]), 0)
-        least = np.hypot(beside, beyond) * (1 - 2.0**-40) - max(mover.b, mover.d) - _ROUNDED * (across + wide)
+        lost = _LEAST + _ROUNDED * (across + wide)
+        least = np.hypot(beside, beyond) * (1 - 2.0**-40) - max(mover.b, mover.d) - lost
         least = np.where(np.isfinite(least), np.maximum(least, 0), 0)
         return np.asarray(np.where(low <= high, least, np.inf))
 
@@ -103,7 +110,10 @@ def _cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
 def _distances(bodies: Bodies, mover: Mover, centres: Floats, body: Indices) -> tuple[Floats, Floats, Floats]:
     """Lower and upper bounds of the distances of pairs, and a point that proves each upper one."""
     origins = bodies.origins[body]
-    offset = centres - origins
+    with np.errstate(over="ignore"):
+        offset = centres - origins
+    beyond = ~np.isfinite(offset).all(axis=1)  # of which nothing is known but whether there is contact
+    offset[beyond] = 0.0
     lean = leans(mover.axis)
     rows = np.empty((len(body), 10 if lean else 7))
     rows[:, : len(SIZES)] = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(body), 1))], axis=1)
@@ -112,22 +122,41 @@ def _distances(bodies: Bodies, mover: Mover, centres: Floats, body: Indices) -> 
         rows[:, 7:] = mover.axis
     said = clearance(rows)
     with np.errstate(all="ignore"):
-        rounded = _ROUNDED * (np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + rows[:, :4].sum(axis=1))
+        rounded = _LEAST + _ROUNDED * (
+            np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + rows[:, :4].sum(axis=1)
+        )
         low = np.maximum(said.distance_lower - rounded, 0)
-        low = np.where(said.position == 0, 0, low)
-        high = said.distance_upper + np.where(said.position == 0, 0, rounded)
+        doubtful = np.flatnonzero((low == 0) | beyond)  # the others are clear: moved so far, they do not touch
+        touching = np.zeros(len(body), np.bool_)
+        axes = rows[doubtful, 7:] if lean else None
+        position = positions_beside(rows[doubtful, :4], centres[doubtful], origins[doubtful], axes)
+        touching[doubtful] = position == Position.CONTACT
+        high = np.where(touching, 0, said.distance_upper + rounded)
         point, bottom, top = said.nearest.copy(), *bodies.heights[body].T
         level = point[:, 2] + origins[:, 2]
         cut = np.flatnonzero(~((level - rounded >= bottom) & (level + rounded <= top)) & np.isfinite(bodies.tall[body]))
         standing = np.clip(level[cut], bottom[cut], top[cut]) - origins[cut, 2]
-        radius = rows[cut, 0] * np.sqrt(1 + (standing / rows[cut, 1]) ** 2) / np.hypot(point[cut, 0], point[cut, 1])
-        point[cut] = np.stack([point[cut, 0] * radius, point[cut, 1] * radius, standing], axis=1)
-        way = point[cut] - offset[cut]
-        length = np.sqrt((way * way).sum(axis=1))
-        reached = length - min(mover.b, mover.d)
-        if not lean:
-            share = np.hypot(np.hypot(way[:, 0], way[:, 1]) / mover.b, way[:, 2] / mover.d)
-            reached = length * (1 - 1 / share)
-        high[cut] = np.maximum(reached, 0) + rounded[cut]
+        point[cut] = _at_height(rows[cut], point[cut], standing)
+        high[cut] = _reached(mover, lean, point[cut] - offset[cut])
+        steep = 1 + rows[cut, 0] / rows[cut, 1]
+        high[cut] += rounded[cut] * steep + _ROUNDED * np.abs(point[cut]).sum(axis=1)
+    low[beyond], point[beyond] = 0.0, np.nan
+    high[beyond] = np.where(touching[beyond] & ~np.isfinite(bodies.tall[body[beyond]]), 0.0, np.inf)
+    high[np.isnan(high)] = np.inf
     empty = bottom > top
     return np.where(empty, np.inf, low), np.where(empty, np.inf, high), point + origins
+
+
+def _at_height(rows: Rows, point: Rows, height: Floats) -> Rows:
+    """The points of the hyperboloids at these heights, in the half planes of some points."""
+    share = rows[:, 0] * np.hypot(1, height / rows[:, 1]) / np.hypot(point[:, 0], point[:, 1])
+    return np.stack([point[:, 0] * share, point[:, 1] * share, height], axis=1)
+
+
+def _reached(mover: Mover, lean: bool, way: Rows) -> Floats:
+    """How far points, `way` (n, 3) from the mover's centre, are from the mover at most."""
+    level = np.hypot(way[:, 0], way[:, 1])
+    length = np.hypot(level, way[:, 2])
+    if lean:
+        return np.maximum(length - min(mover.b, mover.d), 0)
+    return np.maximum(length * (1 - 1 / np.hypot(level / mover.b, way[:, 2] / mover.d)), 0)

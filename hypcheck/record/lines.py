@@ -10,7 +10,7 @@ scenes and forests; 1.4.0 adds to the header the settings of a run and the sha25
 adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 adds the question passage, the end of a
 way, times of first contact with the mistakes late and early, the axis of fixed sizes in a domain, and in a benchmark
 the end of a way and the kinds sampling and advancement; 1.7.0 adds to the header how implementations were isolated, and
-the causes of wrong answers.
+the causes of wrong answers; 1.8.0 adds why rows and families were not asked, and how many fresh rows were.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ from hypcheck.record.fields import (
     require_possible,
 )
 
-SCHEMA = "1.7.0"
+SCHEMA = "1.8.0"
 """The version of the records that are written."""
 
 
@@ -87,7 +87,8 @@ class HeaderLine(RecordLine, frozen=True, kw_only=True):
     """The first line: versions, machine and options of a run.
 
     Some runs add `files`, the sha256 of the files under test by path, since 1.3.0; `program`, that of the program's own
-    files, and `settings`, since 1.4.0; `isolation`, since 1.7.0.
+    files, and `settings`, since 1.4.0; `isolation`, since 1.7.0; `not_hashed`, what the implementations start besides
+    the files, since 1.8.0.
     """
 
     schema: Annotated[str, Meta(pattern=r"^1\.[0-9]+\.[0-9]+$")]
@@ -101,6 +102,7 @@ class HeaderLine(RecordLine, frozen=True, kw_only=True):
     program: str | UnsetType = UNSET
     settings: SettingsPart | UnsetType = UNSET
     isolation: IsolationPart | UnsetType = UNSET
+    not_hashed: list[str] | UnsetType = UNSET
 
 
 class FooterLine(RecordLine, frozen=True, kw_only=True):
@@ -219,7 +221,8 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
     """A method and a family; only implementations under test have `spec`, `faults` and `failing`.
 
     `octaves` are counts by the floor of log2 of the cases' distances to the other answer, `failing` the statuses that
-    fail the run.
+    fail the run. Since 1.8.0, `not_asked` counts the skipped rows by reason, and `fresh` the rows asked that nobody
+    knew before the run, of implementations under test.
     """
 
     method: str
@@ -230,6 +233,8 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
     precision: Precision
     family: str
     asked: Count
+    fresh: Count | UnsetType = UNSET
+    not_asked: Counts | UnsetType = UNSET
     counts: Counts
     mistakes: Counts
     octaves: dict[str, Counts]
@@ -300,7 +305,10 @@ class Retest(LinePart, frozen=True, kw_only=True):
 
 
 class ImplementationLine(RecordLine, frozen=True, kw_only=True):
-    """An implementation under test as a whole; `finished`, since 1.3.0, is false if its run was interrupted."""
+    """An implementation under test as a whole; `finished`, since 1.3.0, is false if its run was interrupted.
+
+    `not_asked`, since 1.8.0, are the families of which no row was asked, by reason, with their numbers of rows.
+    """
 
     spec: str
     name: str
@@ -311,6 +319,7 @@ class ImplementationLine(RecordLine, frozen=True, kw_only=True):
     again: Retest
     broke_protocol_throughout: bool
     troubles: list[str]
+    not_asked: dict[str, Counts] | UnsetType = UNSET
     finished: bool | UnsetType = UNSET
 
 

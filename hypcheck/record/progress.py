@@ -31,8 +31,8 @@ Total = Annotated[int, Meta(ge=0, le=1 << 60)]
 
 Totals = dict[str, Total]
 Label = Annotated[str, one_of("answered", "error", "crash", "timeout", "protocol", "not-run")]
-Place = tuple[Annotated[int, Meta(ge=0, le=1)], Total]
-"""0 and the number of a frozen vector in its family, or 1 and that of a generated row."""
+Place = tuple[Annotated[int, Meta(ge=0, le=2)], Total]
+"""0 and the number of a frozen vector in its family, or 1 and that of a generated row; 2 of one of a large seed."""
 
 SavedBin = Annotated[list[Annotated[int, Meta(ge=-(1 << 60), le=1 << 60)]], Meta(min_length=4, max_length=4)]
 """A Bin of numbers that fit into int64."""
@@ -115,6 +115,8 @@ class SavedTally(LinePart, frozen=True, kw_only=True):
     faults: list[SavedFault]
     explained: list[SavedExplained] = field(default_factory=list)
     denied: Totals = field(default_factory=dict)
+    fresh: Total = 0
+    not_asked: Totals = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         require_octaves(self.octaves)

@@ -1,5 +1,7 @@
 """The writer of a record: one run at a time owns the folder, and appends one JSON object a line.
 
+Nothing is written before the run has a first result: a run that is refused leaves its folder as it was.
+
 The first line is a header, the last a footer; a file without its footer was interrupted and is read as truncated.
 Numbers that must come back exactly are hexadecimal strings; infinity is the string "inf". The system keeps the lock of
 the folder and releases it however the run ends. Lines are added at the end of the file, and at times the whole file is
@@ -12,7 +14,7 @@ import os
 import platform
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from datetime import datetime, timezone
@@ -27,13 +29,16 @@ from hypcheck.record.integrity import sealed
 from hypcheck.record.lines import (
     SCHEMA,
     FooterLine,
+    GroupLine,
     HeaderLine,
     ImplementationLine,
     IsolationPart,
     Machine,
     NotStartedLine,
     SettingsPart,
+    UnavailableLine,
 )
+from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.record.progress import ProgressLine
 from hypcheck.record.reader import Record
 from hypcheck.version import VERSION
@@ -167,19 +172,43 @@ class Provenance:
     program: the sha256 of hypcheck's own files.
     settings: the settings file, and the options that weaken the gate.
     isolation: how the implementations are isolated.
+    not_hashed: what the implementations start besides the files, as far as that is known.
     """
 
     files: Mapping[str, str] | None = None
     program: str | None = None
     settings: SettingsPart | None = None
     isolation: IsolationPart | None = None
+    not_hashed: Sequence[str] | None = None
+
+
+_WITHOUT_RESULT = (
+    AbsentLine,
+    CompilerLine,
+    ImplementationLine,
+    MethodLine,
+    NotStartedLine,
+    UnavailableLine,
+    WorkloadLine,
+)
+"""Lines about what a run will ask, has not, or could not: they say nothing about an answer."""
+
+
+def is_result(line: RecordLine) -> bool:
+    """Whether the line says something about what was asked."""
+    if isinstance(line, GroupLine):
+        return line.asked > 0
+    if isinstance(line, ProgressLine):
+        return bool(line.state.total.open) or any(each.asked for each in line.state.total.tallies.values())
+    return not isinstance(line, _WITHOUT_RESULT)
 
 
 class Recorder:
     """Writes a record line by line; each line is flushed, so that an interrupted run keeps what it finished.
 
-    `provenance` goes into the header. `carried` are lines of the record that is resumed, written at once. Interrupts
-    wait while a line is written, so that no line is written twice, or half of one before another.
+    `provenance` goes into the header. `carried` are lines of the record that is resumed, written at once. With `begins`
+    nothing is written before the first new result; `begins` is called when that is in the file. Interrupts wait while a
+    line is written, so that no line is written twice, or half of one before another.
     """
 
     def __init__(
@@ -188,8 +217,12 @@ class Recorder:
         options: Mapping[str, Any],
         provenance: Provenance | None = None,
         carried: Sequence[RecordLine] = (),
+        begins: Callable[[], object] | None = None,
     ) -> None:
         self._file = file
+        self._begins = begins
+        self.begun = False
+        """Whether the file has been written."""
         self._started = datetime.now(timezone.utc)
         self._began = time.monotonic()  # the wall clock may be set during the run
         self._lines = [line for line in carried if not isinstance(line, ProgressLine)]
@@ -198,12 +231,18 @@ class Recorder:
         self._ending: tuple[FooterLine, ...] = ()
         self._check = 0
         self._header = header(options, self._started, provenance)
-        self._renew()
+        if begins is None:
+            self._begin()
+
+    @property
+    def has_results(self) -> bool:
+        """Whether a line says, or said, something about what was asked; else the run replaces no earlier run."""
+        return self.begun or any(map(is_result, self._kept()))
 
     @property
     def goes_on(self) -> bool:
         """Whether the record has something that --resume could continue."""
-        return self._progress is not None or self.concluded > 0
+        return self.begun and (self._progress is not None or self.concluded > 0)
 
     @property
     def concluded(self) -> int:
@@ -217,31 +256,51 @@ class Recorder:
 
     def add(self, line: RecordLine) -> None:
         """Add one line."""
-        self._write(line)
+        if self.begun:
+            self._write(line)
         self._lines.append(line)
+        if not self.begun and is_result(line):
+            self._begin()
 
     def keep(self, progress: ProgressLine) -> None:
         """Put a line of progress after the recorded lines, in place of the previous one."""
         self._progress, self._place = progress, len(self._lines)
-        self._renew()
+        if self.begun:
+            self._renew()
+        elif is_result(progress):
+            self._begin()
 
     def close(self, exit_code: int) -> Record:
-        """Write the footer; returns the record as it would be read back."""
+        """Write the footer, if the file has begun; returns the record as it would be read back."""
         seconds = time.monotonic() - self._began
         footer = FooterLine(lines=len(self._lines) + 2, exit_code=exit_code, seconds=seconds)
         self._ending = (footer,)
-        if self._progress is None:
+        finished, self._progress = self._progress, None
+        if self.begun and finished is None:
             self._write(footer)
-        else:
-            self._progress = None
+        elif self.begun:
             self._renew()
         return Record(self._header, tuple(self._lines), footer)
 
     def settle(self, path: Path) -> None:
-        """Move the file to its final place; if it was removed during the run, it is written again."""
-        if not self._file.is_there:
+        """Move the file to its final place; if it has not begun, or was removed during the run, it is written first."""
+        if not self.begun:
+            self._begin()
+        elif not self._file.is_there:
             self._renew()
         self._file.move(path)
+
+    def _begin(self) -> None:
+        with interrupts_deferred():
+            self._renew()
+            self.begun = True
+            if self._begins is not None:
+                self._begins()
+
+    def _kept(self) -> Iterable[RecordLine]:
+        """The lines between header and footer in their order."""
+        progress = [] if self._progress is None else [self._progress]
+        return (*self._lines[: self._place], *progress, *self._lines[self._place :])
 
     def _write(self, line: RecordLine) -> None:
         with interrupts_deferred():
@@ -250,9 +309,8 @@ class Recorder:
 
     def _renew(self) -> None:
         """Write all lines again."""
-        progress = [] if self._progress is None else [self._progress]
         data, check = b"", 0
-        for line in (self._header, *self._lines[: self._place], *progress, *self._lines[self._place :], *self._ending):
+        for line in (self._header, *self._kept(), *self._ending):
             text, check = sealed(as_json(line), check)
             data += text
         with interrupts_deferred():

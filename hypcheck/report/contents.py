@@ -33,7 +33,7 @@ from hypcheck.report.document import (
     table,
 )
 from hypcheck.report.measured import measured_methods
-from hypcheck.report.messages import Replays, error_text, families_text, figure, settings_facts
+from hypcheck.report.messages import Replays, error_text, families_text, figure, settings_facts, share_text
 from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
@@ -117,7 +117,8 @@ def _omitted_failures(left_out: int) -> list[Text]:
 
 _CAUSES = prose(
     "A cause is a rule that is known to be wrong: at each of these rows it gives the very answer that was given, and"
-    " where it errs no right answer denies it. *Unexplained* are those that no known rule gives."
+    " where it errs hardly any right answer denies it. `hypcheck explain CAUSE` says more. *Unexplained* are those that"
+    " no known rule gives."
 )
 
 
@@ -130,6 +131,8 @@ def cause_sections(record: Record) -> Iterator[Section]:
         (
             Code(line.method),
             count(line.cases, bad=True),
+            share_text(line, found),
+            Code(line.cause),
             line.sentence + (f" ({line.claim})" if line.claim else ""),
             families_text(line, len(line.families)),
             line.remedy,
@@ -137,7 +140,7 @@ def cause_sections(record: Record) -> Iterator[Section]:
         )
         for line in found
     ]
-    columns = "implementation | # wrong | why | where | what to do | the worst of them"
+    columns = "implementation | # wrong | # share | cause | why | where | what to do | the worst of them"
     yield Section("Why wrong answers are wrong", (Paragraph(_CAUSES), table("causes", columns, rows)))
 
 

@@ -11,6 +11,7 @@ import io
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from msgspec import UNSET
 from msgspec.structs import asdict
 
 from hypcheck.messages import escaped
@@ -81,6 +82,10 @@ def _named(
 
 
 def _group(line: GroupLine) -> Iterator[Measurement]:
+    if line.fresh is not UNSET:
+        yield line.method, line.family, line.spec or "", "fresh", line.fresh
+    for reason, number in (line.not_asked or {}).items():
+        yield line.method, line.family, line.spec or "", f"not asked: {reason}", number
     for counts in (line.counts, line.mistakes):
         for name, number in counts.items():
             yield line.method, line.family, line.spec or "", name, number

@@ -31,6 +31,7 @@ from hypcheck.report.messages import (
     figure,
     from_hex,
     implementation_claims,
+    rows_not_asked,
     settings_facts,
 )
 from hypcheck.report.model import (
@@ -304,7 +305,8 @@ def _family_case(
     counts, output = in_order(Counter(group.counts)), []
     cases = sum(counts.values())
     for status, number in counts.items():
-        output.append(f"{status}: {number:,} of {counted(cases, 'case')}")
+        why = rows_not_asked(group.not_asked or {}) if status == "skipped" else ""
+        output.append(f"{status}: {number:,} of {counted(cases, 'case')}{why and f': {why}'}")
         worst = worst_case([case for case in group.worst if case.status == status])
         if worst is not None:
             numbered = f" ({replays.place(worst)})" if implementation.gated else ""
@@ -314,8 +316,11 @@ def _family_case(
     place = ("implementation", implementation.name, group.family)
     mine = [each for each in failed if (each.subject, each.name, each.group) == place and each.kind in counts]
     if not mine and set(counts) == {"skipped"}:
-        message = f"all {counted(cases, 'case')} lie outside the method's domain or are no numbers of its format"
+        why = rows_not_asked(group.not_asked or {}) or "they lie outside the method's domain or its format's range"
+        message = f"all {counted(cases, 'case')} were not asked: {why}"
         return JunitCase(group.family, JunitTrouble("skipped", "skipped", message))
+    if group.fresh:
+        output.append(f"fresh rows: {group.fresh:,}")
     return JunitCase(group.family, _failure(mine), tuple(output))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,7 @@ from msgspec import UNSET, UnsetType
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES
+from hypcheck.implementations import not_asked
 from hypcheck.implementations.session import Limits
 from hypcheck.messages import counted
 from hypcheck.record import Record
@@ -124,12 +125,34 @@ def implementation_claims(line: ImplementationLine | NotStartedLine) -> Iterator
     yield f"declares {description_text(declared)}"
     if changed:
         yield f"judged as {listed([_declared_value(used, name) for name in changed])}, as the options say"
+    left_out = families_not_asked(line)
+    if left_out:
+        yield f"not asked: {left_out}"
     again, restarts = line.again, line.restarts
     other = again.within + again.beyond
     asked = f"asked again about {counted(again.asked, 'case')}, {other:,} answered otherwise"
     beyond = f" ({again.beyond:,} beyond the tolerance)"
     repeated = f"{asked}{beyond}" if again.asked else "nothing to ask again: no answer was judged"
     yield f"{repeated}; {counted(restarts, 'restart')}"
+
+
+def rows_not_asked(counts: Mapping[str, int]) -> str:
+    """Rows that were not asked, by reason: "120 rows not zero or normal in its precision"; "" without any."""
+    return listed(
+        [f"{counted(counts[reason], 'row')} {text}" for reason, text in not_asked.ROWS.items() if counts.get(reason)]
+    )
+
+
+def families_not_asked(line: ImplementationLine, reasons: Collection[str] = not_asked.FAMILIES) -> str:
+    """Families that were not asked, by reason: "5 families left out by --families"; "" without any."""
+    found = {reason: (line.not_asked or {}).get(reason) for reason in reasons}
+    return listed(
+        [
+            f"{counted(len(families), 'family', 'families')} {not_asked.FAMILIES[reason]}"
+            for reason, families in found.items()
+            if families
+        ]
+    )
 
 
 def description_text(description: DescriptionPart) -> str:
@@ -201,6 +224,13 @@ class Replays:
     def of_case(self, case: str, spec: str) -> str:
         """The command that replays a case of an implementation."""
         return shlex.join(["hypcheck", "replay", case, spec, *self.options])
+
+
+def share_text(line: CauseLine, lines: Sequence[CauseLine]) -> str:
+    """The share of an implementation's wrong answers that have this cause: "12 %", "under 1 %"."""
+    total = sum(other.cases for other in lines if other.spec == line.spec and other.method == line.method)
+    percent = 100 * line.cases / total if total else 0.0
+    return "under 1 %" if percent < 1 else f"{min(percent, 99 if line.cases < total else 100):.0f} %"
 
 
 def families_text(line: CauseLine, most: int = 3) -> str:

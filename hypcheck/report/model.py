@@ -88,6 +88,17 @@ class ImplementationTotal:
         return in_order(sum((Counter(group.counts) for group in self.groups), Counter()))
 
     @property
+    def fresh(self) -> int | None:
+        """The cases asked that nobody knew before the run; None if the record does not say."""
+        told = [group.fresh for group in self.groups if group.fresh is not UNSET]
+        return sum(told) if told else None
+
+    @property
+    def not_asked(self) -> dict[str, int]:
+        """Its skipped cases by reason; those of a record that gives no reasons are left out."""
+        return dict(sum((Counter(group.not_asked or {}) for group in self.groups), Counter()))
+
+    @property
     def mistakes(self) -> dict[str, int]:
         """Its wrong and tolerated answers by the kind of mistake."""
         total: Counter[str] = sum((Counter(group.mistakes) for group in self.groups), Counter())

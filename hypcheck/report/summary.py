@@ -1,4 +1,4 @@
-"""summary.json: the totals of a run for programs; its schema is schemas/summary-1.4.0.json beside this file."""
+"""summary.json: the totals of a run for programs; its schema is schemas/summary-1.5.0.json beside this file."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ from hypcheck.report.model import (
 )
 from hypcheck.report.verdict import failures, verdict
 
-SCHEMA = "1.4.0"
+SCHEMA = "1.5.0"
 
 Fields = dict[str, Any]
 
@@ -61,6 +61,8 @@ Units = Annotated[Unsigned, Meta(description="A backward error in units u of the
 CaseId = Annotated[str | None, Meta(description="Its case id; null: no answer was wrong.")]
 Exact = Annotated[bool, Meta(description="It promises never to be wrong; the run fails where it is.")]
 TimeMistakes = Annotated[int, Meta(ge=0, description="Of times of first contact, since 1.3.0; present if not 0.")]
+Fresh = Annotated[int, Meta(ge=0, description="Cases asked that nobody knew before the run; since 1.5.0.")]
+NotAsked = Annotated[Counts, Meta(description="Cases that were skipped, by reason; since 1.5.0.")]
 Nanoseconds = Annotated[float, Meta(ge=0, description="Nanoseconds a row.")]
 """Types with the descriptions that the schema gives."""
 
@@ -123,6 +125,8 @@ class FamilySummary(LinePart, frozen=True, kw_only=True):
     mistakes: Mistakes
     worst_backward_error_u: Units
     worst_case: CaseId
+    fresh: Fresh | UnsetType = UNSET
+    not_asked: NotAsked | UnsetType = UNSET
 
 
 class Claims(LinePart, frozen=True, kw_only=True):
@@ -167,6 +171,12 @@ class ImplementationSummary(LinePart, frozen=True, kw_only=True):
     restarts: Count | UnsetType = UNSET
     asked_again: Retest | UnsetType = UNSET
     causes: Annotated[list[CauseSummary], Meta(description="Since 1.4.0; present if any.")] | UnsetType = UNSET
+    fresh: Fresh | UnsetType = UNSET
+    not_asked: NotAsked | UnsetType = UNSET
+    families_not_asked: (
+        Annotated[dict[str, list[str]], Meta(description="Families of which no row was asked, by reason; since 1.5.0.")]
+        | UnsetType
+    ) = UNSET
 
 
 class TimingSummary(LinePart, frozen=True, kw_only=True):
@@ -346,6 +356,11 @@ def _implementation(each: ImplementationTotal, whole: Tested | None, causes: lis
         restarts=whole.restarts,
         asked_again=whole.again,
         causes=[_cause(line) for line in causes] or UNSET,
+        fresh=UNSET if each.fresh is None else each.fresh,
+        not_asked=each.not_asked,
+        families_not_asked=UNSET
+        if whole.not_asked is UNSET
+        else {why: [*some] for why, some in whole.not_asked.items()},
     )
 
 
@@ -361,7 +376,8 @@ def _cause(line: CauseLine) -> CauseSummary:
 
 
 def _family(group: GroupLine) -> FamilySummary:
-    return FamilySummary(**_counts(group.asked, group.counts, group.mistakes, worst_case(group.worst)))
+    counts = _counts(group.asked, group.counts, group.mistakes, worst_case(group.worst))
+    return FamilySummary(**counts, fresh=group.fresh, not_asked=group.not_asked)
 
 
 def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], worst: WrongAnswer | None) -> Fields:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 import click
@@ -32,7 +33,9 @@ from hypcheck.report.messages import (
     figure,
     implementation_claims,
     listed,
+    rows_not_asked,
     settings_facts,
+    share_text,
     tolerance_of,
 )
 from hypcheck.report.model import (
@@ -174,6 +177,9 @@ MOST_LINES = 25
 MOST_FAILURES = 8
 """Failures that are listed; report.md has more of them, and junit.xml all."""
 
+UNEXPLAINED = "unexplained"
+"""The cause of a line where none is known."""
+
 MOST_CAUSES = 6
 """Causes of wrong answers that are listed, three lines each; report.md has all."""
 
@@ -245,7 +251,9 @@ def _causes(record: Record) -> Iterator[str]:
     several = len({line.spec for line in found}) > 1
     for line in found[:MOST_CAUSES]:
         of = f" of {line.method}" if several else ""
-        yield f"  {line.cases:,} wrong{of}: {line.sentence}; {families_text(line)}"
+        command = "" if line.cause == UNEXPLAINED else f", hypcheck explain {line.cause}"
+        share = f"{share_text(line, found)} of all{command}"
+        yield f"  {line.cases:,} wrong{of}: {line.sentence}; {families_text(line)} ({share})"
         yield f"      fix: {line.remedy}"
         yield f"      {replays.of_case(line.worst.case, line.spec)}  ({error_text(line.worst)})"
     if len(found) > MOST_CAUSES:
@@ -276,9 +284,16 @@ def _changes(record: Record, against: Record) -> Iterator[str]:
 
 
 def _under_test(record: Record) -> Iterator[str]:
-    """What gated implementations declare, and what they were judged as."""
+    """What gated implementations declare, what they were judged as, and what a verdict that is no pass leaves out."""
+    held = verdict(record).passed
     for tested in under_test(record):
         yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line))
+        counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
+        fresh = sum(group.fresh or 0 for group in tested.groups)
+        parts = [counted(fresh, "fresh row")] if fresh else []
+        parts += [f"not asked: {rows_not_asked(counts)}"] if counts else []
+        if parts and not held:
+            yield f"{tested.name}: {'; '.join(parts)}"
 
 
 def _timings(record: Record) -> Iterator[str]:

@@ -19,7 +19,17 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, ForestLine, KernelLine, RefusedLine, SceneLine
 from hypcheck.report.measured import MeasuredMethod, measured_methods
-from hypcheck.report.messages import Replays, classify_command, error_text, figure, from_hex, listed, with_interval
+from hypcheck.report.messages import (
+    Replays,
+    classify_command,
+    error_text,
+    families_not_asked,
+    figure,
+    from_hex,
+    listed,
+    rows_not_asked,
+    with_interval,
+)
 from hypcheck.report.model import (
     ImplementationTotal,
     OracleTotal,
@@ -363,17 +373,42 @@ def _passed(record: Record) -> Verdict:
         *([_oracle_clause(totals)] if totals else []),
         *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
         *(f"{each.name} right on all {counted(each.asked, 'case')}" for each in tested if each.exact),
-        *(_gated_clause(each) for each in tested if each.gated),
+        *(_gated_clause(each, record) for each in tested if each.gated),
         *_method_clauses(record),
         *_other_clauses(record),
     ]
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
 
 
-def _gated_clause(each: ImplementationTotal) -> str:
-    """How the cases of a gated implementation ended, without skipped ones."""
+def _gated_clause(each: ImplementationTotal, record: Record) -> str:
+    """How the cases of a gated implementation ended, how many nobody knew before, and what was not asked."""
     ended = ", ".join(f"{number:,} {status}" for status, number in each.statuses.items() if status != "skipped")
-    return f"{each.name}: {ended}; worst backward error {figure(worst_error_u(each.worst))} u"
+    parts = [f"{each.name}: {ended}", f"worst backward error {figure(worst_error_u(each.worst))} u"]
+    if each.fresh is not None:
+        parts.append(counted(each.fresh, "fresh row") if each.fresh else "no fresh rows")
+    left_out = list(_not_asked(each, record))
+    return "; ".join([*parts, *([f"not asked: {', '.join(left_out)}"] if left_out else [])])
+
+
+def _not_asked(each: ImplementationTotal, record: Record) -> Iterator[str]:
+    """What a row or a family that was wanted was not asked for, and which families the run left out."""
+    rows = rows_not_asked(each.not_asked)
+    if rows:
+        yield rows
+    empty = [group.family for group in each.groups if group.counts and not group.asked]
+    if empty:
+        yield (
+            f"all of {listed(empty)}" if len(empty) <= _NAMED else f"all of {counted(len(empty), 'family', 'families')}"
+        )
+    lines = [tested.line for tested in under_test(record) if tested.groups == each.groups]
+    for line in lines if record.header.options.get("families") else ():
+        families = "" if isinstance(line, NotStartedLine) else families_not_asked(line)
+        if families:
+            yield families
+
+
+_NAMED = 3
+"""At most so many families without a row that was asked are named in a verdict."""
 
 
 def _oracle_clause(totals: list[OracleTotal]) -> str:

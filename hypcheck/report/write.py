@@ -1,4 +1,4 @@
-"""Reports of a record and results of a simulation, made and written: each beside its place, then into it.
+"""Reports of a record and results of a simulation, made and written: all beside their places, then into them.
 
 jinja2 and matplotlib, which are extras, are loaded for the reports that need them.
 """
@@ -6,9 +6,10 @@ jinja2 and matplotlib, which are extras, are loaded for the reports that need th
 from __future__ import annotations
 
 import json
+import os
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -17,12 +18,13 @@ from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.kernel.classify import kernel
 from hypcheck.messages import escaped
 from hypcheck.record import Record
+from hypcheck.record.reader import FILE, GROWING
 from hypcheck.report import csv, junit, markdown, summary, terminal
 from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
 from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, pictures, render_picture
 from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
 from hypcheck.report.model import drawn_way, implementations
-from hypcheck.tables.streams import remove_file, writing
+from hypcheck.tables.streams import made_folder, remove_file, write_files
 
 FOR_PROGRAMS: Mapping[str, Callable[[Record], bytes]] = {
     "json": summary.render,
@@ -88,10 +90,35 @@ def _has_content(report: ReportFormat, record: Record) -> bool:
     return report.shows is None or any(line.type == report.shows for line in record.lines)
 
 
+_OF_RUNS = (FILE, GROWING, *(REPORTS[name].file for name in kept_formats()))
+"""The files that every run writes."""
+
+
+def require_writable(directory: Path, names: Iterable[str] = _OF_RUNS) -> None:
+    """Raise InputError if a file of one of these names could not be written to the folder.
+
+    So no long run starts whose result would be lost.
+    """
+    try:
+        with tempfile.TemporaryFile(dir=directory):
+            pass
+    except OSError as error:
+        reason = system_reason(error)
+        raise InputError(f"--out {directory}: files cannot be written to it: {reason}") from error
+    for name in names:
+        if (directory / name).is_dir():
+            raise InputError(f"--out {directory} cannot be written: {name} in it is a folder")
+
+
 def remove_reports(directory: Path) -> None:
-    """Remove the reports of an earlier run, which do not show the run that begins. Raises InputError."""
+    """Remove the reports of an earlier run, once a new run has a result that they do not show. Raises InputError."""
     for name in kept_formats():
         remove_file(directory / REPORTS[name].file)
+
+
+def holds_run(directory: Path) -> bool:
+    """Whether the folder has a record, finished or not, or a report that every run writes."""
+    return any(os.path.lexists(directory / name) for name in _OF_RUNS)
 
 
 def write_reports(
@@ -99,39 +126,30 @@ def write_reports(
 ) -> list[WrittenReport]:
     """Write reports of the formats (by default those that every run writes) into a directory, which is made if needed.
 
-    A format that cannot be made here is skipped, and its file of an earlier run removed, since it shows another run.
-    Raises InputError if a file cannot be written; an earlier file then stays.
+    All are written or none. A format that cannot be made here is skipped, and its file of an earlier run removed, since
+    it shows another run. Raises InputError if a file cannot be written; the earlier files then stay.
     """
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"cannot make the folder {directory}: {system_reason(error)}") from error
     done: list[WrittenReport] = []
+    contents: dict[str, bytes] = {}
     wanted = [name for name in REPORTS if name in (kept_formats() if formats is None else formats)]
     drawings = draw_ahead(record) if "html" in wanted else {}
     for name in wanted:
-        report = REPORTS[name]
-        if not _has_content(report, record):
-            remove_file(directory / report.file)
+        path = directory / REPORTS[name].file
+        if not _has_content(REPORTS[name], record):
             continue
-        beside = {each.path.name for each in done if each.skipped is None}
-        done.append(_write(name, record, directory / report.file, ReportContext(beside, against, drawings)))
+        try:
+            contents[str(path)] = render(
+                name, record, ReportContext([*map(os.path.basename, contents)], against, drawings)
+            )
+            done.append(WrittenReport(path))
+        except UnavailableError as error:
+            done.append(WrittenReport(path, str(error)))
+    with made_folder(directory):
+        write_files(contents, follow=False)
+    for path in (directory / REPORTS[name].file for name in wanted):
+        if str(path) not in contents:
+            remove_file(path)
     return done
-
-
-def _write(name: str, record: Record, path: Path, context: ReportContext) -> WrittenReport:
-    try:
-        content = render(name, record, context)
-    except UnavailableError as error:
-        remove_file(path)
-        return WrittenReport(path, str(error))
-    _write_file(path, content)
-    return WrittenReport(path)
-
-
-def _write_file(path: Path, content: bytes) -> None:
-    with writing(str(path), follow=False) as file:
-        file.write(content)
 
 
 PICTURES = {
@@ -141,21 +159,15 @@ PICTURES = {
 """The names of all pictures that a simulation may have, by its name."""
 
 
-def make_ready(kind: str, directory: Path) -> None:
-    """Make the folder. Raises InputError if a file of the simulation could not be written there.
+@contextmanager
+def ready_for(kind: str, directory: Path) -> Iterator[None]:
+    """Within the block the folder is there; if the block fails, a new one is removed again.
 
-    So no long run starts whose result would be lost.
+    Raises InputError if a file of the simulation could not be written there.
     """
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=directory):
-            pass
-    except OSError as error:
-        reason = system_reason(error)
-        raise InputError(f"--out {directory}: files cannot be written to it: {reason}") from error
-    for name in (_json(kind), *map(_svg, PICTURES[kind])):
-        if (directory / name).is_dir():
-            raise InputError(f"--out {directory}: {name} cannot be written: it is a folder")
+    with made_folder(directory):
+        require_writable(directory, (_json(kind), *map(_svg, PICTURES[kind])))
+        yield
 
 
 def write_simulation(result: dict[str, Any], directory: Path) -> list[str]:
@@ -172,11 +184,10 @@ def write_simulation(result: dict[str, Any], directory: Path) -> list[str]:
         notes.append(f"no pictures: {error}")
     text = json.dumps(result, ensure_ascii=False) + "\n"
     files = {_json(kind): text.encode(), **{_svg(name): content for name, content in drawn.items()}}
+    write_files({str(directory / name): content for name, content in files.items()}, follow=False)
     for name in PICTURES[kind]:
         if name not in drawn:
             remove_file(directory / _svg(name))
-    for name, content in files.items():
-        _write_file(directory / name, content)
     return [f"wrote {directory / name}" for name in files] + notes
 
 

@@ -174,18 +174,25 @@ def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
     if known:
         yield CaseChunk(family.name, None, 0, known, min(known, measured))
         measured = max(0, measured - known)
-    start = first_unfrozen(family, seed)
-    stop = start + count
-    while start < stop:
-        end = min(stop, (start // CHUNK_ROWS + 1) * CHUNK_ROWS)
-        yield CaseChunk(family.name, seed, start, end, min(measured, end - start))
-        start, measured = end, 0
+    for start, stop in _generated_chunks(first_unfrozen(family, seed), count):
+        yield CaseChunk(family.name, seed, start, stop, min(measured, stop - start))
+        measured = 0
 
 
 def fresh_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
-    """`count` generated rows of a seed that nobody knew before the run."""
-    for start in range(0, count, CHUNK_ROWS):
-        yield CaseChunk(family.name, seed, start, min(count, start + CHUNK_ROWS))
+    """`count` generated rows of a seed that nobody knew before the run, none of them a frozen vector."""
+    first = first_unfrozen(family, seed) if seed < FRESH_SEEDS else 0
+    for start, stop in _generated_chunks(first, count):
+        yield CaseChunk(family.name, seed, start, stop)
+
+
+def _generated_chunks(start: int, count: int) -> Iterator[tuple[int, int]]:
+    """The first rows of chunks and those after their last: `count` rows from `start`."""
+    stop = start + count
+    while start < stop:
+        end = min(stop, (start // CHUNK_ROWS + 1) * CHUNK_ROWS)
+        yield start, end
+        start = end
 
 
 def frozen_count(name: str) -> int:

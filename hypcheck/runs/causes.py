@@ -75,6 +75,17 @@ class Asked:
         return np.where(positions == SILENT, SILENT, answers).astype(np.int8)
 
     @cached_property
+    def kinds(self) -> dict[int, Kind]:
+        """The kinds of rows (n, 7) by their place, of those that were decided exactly so far."""
+        return {}
+
+    def kind(self, place: int) -> Kind:
+        """The kind of a row (7,), decided exactly."""
+        if place not in self.kinds:
+            self.kinds[place] = exact.decide(Pair.from_row(self.rows[place].tolist()).lengths).kind
+        return self.kinds[place]
+
+    @cached_property
     def numbers(self) -> Numbers:
         """The numbers of the plain formula, in float64."""
         return Numbers.of(self.rows)
@@ -92,21 +103,31 @@ Rule = Callable[[Asked], Answers]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """A rule that is wrong: its name, what it does in a sentence without a full stop, and one line of remedy.
+    """A rule that is wrong: its name, the published id; what it does, why, and what to do, without a full stop.
 
-    `rule` gives its answers. `subject` says of which rows (subject_of). `claim` is a statement of the paper that is
-    the reason, as `hypcheck derive --claim` takes it. `slack` is how often, for each wrong answer that it explains, an
-    implementation with this cause may be right at a row where the rule errs.
+    Tests read `remedy` as code and apply it, so its formulas are those of A, B, P, Q, c1, c2 and Δ.
+
+    `rule` gives its answers. `subject` says of which rows (subject_of). `claim` is a statement of the paper that is the
+    reason, as `hypcheck derive --claim` takes it. `slack` is how often, for each wrong answer that it explains, an
+    implementation with this cause may be right at a row where the rule errs. `certain` says at which rows it cannot be
+    right by luck, whatever the order of its operations.
     """
 
     name: str
     sentence: str
+    why: str
     remedy: str
     rule: Rule
     standing: Standing
     subject: str = "upright"
     claim: str = ""
     slack: float = 0.02
+    certain: Callable[[Asked], Mask] | None = None
+
+    @property
+    def rounds(self) -> bool:
+        """Whether its rule explains whatever roundings may give, so that no right answer denies it."""
+        return self.standing is Standing.ROUNDING and self.subject == "upright"
 
 
 @cache
@@ -115,9 +136,18 @@ def _texts() -> dict[str, dict[str, str]]:
     return toml.parsed(text, "causes.toml")
 
 
-def cause(name: str, rule: Rule, standing: Standing, *, subject: str = "upright", slack: float = 0.02) -> Cause:
+def cause(
+    name: str,
+    rule: Rule,
+    standing: Standing,
+    *,
+    subject: str = "upright",
+    slack: float = 0.02,
+    certain: Callable[[Asked], Mask] | None = None,
+) -> Cause:
     """The cause with the texts of that name in causes.toml."""
-    return Cause(name=name, rule=rule, standing=standing, subject=subject, slack=slack, **_texts()[name])
+    texts = _texts()[name]
+    return Cause(name=name, rule=rule, standing=standing, subject=subject, slack=slack, certain=certain, **texts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,26 +174,47 @@ class Numbers:
             delta = -4 * c2**3 * c0 + (c2 * c1) ** 2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
             return cls(A, B, P, Q, c1, c2, delta, (3 * B + 2 * c2) * B + c1, (3 * A - 2 * c2) * A + c1)
 
-    def possible(self, unit: float, *, printed: bool = False) -> NDArray[np.bool_]:
+    def errors(self, unit: float, *, roots: bool = False) -> tuple[Floats, Floats, Floats]:
+        """The most that c0, c1 and c2 can be off where roundings are of this unit: 8 a term, with some to spare.
+
+        With `roots`, those of the cubic whose exact roots the computed ones are. Divided by powers of N, the largest of
+        |c2|, √|c1| and ∛|c0|, the companion matrix has numbers up to 1. Its computed eigenvalues are those of a matrix
+        with numbers off by 30 u at most, as QR of three rows leaves it. A coefficient is a sum of up to 6 products of
+        up to 3 of them, so the one of λ^(3 − k) is off by 6 · 3 · 30 u N^k, less than 1024 u N^k.
+        """
+        A, B, P, Q = self.A, self.B, self.P, self.Q
+        e0, e1 = 8 * unit * A * B, 12 * unit * (A * B + A + B + B * P + A * Q)
+        e2 = 8 * unit * (A + B + 1 + P + Q)
+        if roots:
+            N = _greatest(np.abs(self.c2), np.sqrt(np.abs(self.c1)), np.cbrt(A * B))
+            e0, e1, e2 = e0 + 1024 * unit * N**3, e1 + 1024 * unit * N**2, e2 + 1024 * unit * N
+        return e0, e1, e2
+
+    def delta_error(self, unit: float, *, roots: bool = False) -> Floats:
+        """The most that Δ can be off: 16 roundings a term, and what the coefficients' errors do to it."""
+        e0, e1, e2 = self.errors(unit, roots=roots)
+        m0, m1, m2 = self.A * self.B + e0, np.abs(self.c1) + e1, np.abs(self.c2) + e2
+        carried = (
+            (12 * m2**2 * m0 + 2 * m2 * m1**2 + 18 * m1 * m0) * e2
+            + (2 * m2**2 * m1 + 18 * m2 * m0 + 12 * m1**2) * e1
+            + (4 * m2**3 + 18 * m2 * m1 + 54 * m0) * e0
+        )
+        terms = 4 * m2**3 * m0 + m2**2 * m1**2 + 18 * m2 * m1 * m0 + 4 * m1**3 + 27 * m0**2
+        return np.asarray(carried + 16 * unit * terms)
+
+    def possible(self, unit: float, *, printed: bool = False, roots: bool = False) -> NDArray[np.bool_]:
         """Which of −1, 0, +1 a plain evaluation can give where its roundings are of this unit: (n, 3).
 
-        With `printed`, one of the rules of Propositions 3 and 5, which do not ask where the poles −A and B are.
+        With `printed`, one of the rules of Propositions 3 and 5, which do not ask where the poles −A and B are. With
+        `roots`, one of the roots, with or without the poles: a root at a pole is on either side of it.
 
-        The bounds are first-order ones with a factor to spare, so that any order of the operations is covered:
-        8 roundings a term of a coefficient, 16 a term of Δ, and what the coefficients' errors do to Δ.
+        The bounds are first-order ones with a factor to spare, so that any order of the operations is covered.
         """
         with np.errstate(all="ignore"):
-            A, B, P, Q, c1, c2 = self.A, self.B, self.P, self.Q, self.c1, self.c2
-            e0, e1 = 8 * unit * A * B, 12 * unit * (A * B + A + B + B * P + A * Q)
-            e2 = 8 * unit * (A + B + 1 + P + Q)
-            m0, m1, m2 = A * B + e0, np.abs(c1) + e1, np.abs(c2) + e2
-            carried = (
-                (12 * m2**2 * m0 + 2 * m2 * m1**2 + 18 * m1 * m0) * e2
-                + (2 * m2**2 * m1 + 18 * m2 * m0 + 12 * m1**2) * e1
-                + (4 * m2**3 + 18 * m2 * m1 + 54 * m0) * e0
-            )
-            terms = 4 * m2**3 * m0 + m2**2 * m1**2 + 18 * m2 * m1 * m0 + 4 * m1**3 + 27 * m0**2
-            error = carried + 16 * unit * terms
+            A, B, c1, c2 = self.A, self.B, self.c1, self.c2
+            e0, e1, e2 = self.errors(unit, roots=roots)
+            m1, m2 = np.abs(c1) + e1, np.abs(c2) + e2
+            error = self.delta_error(unit, roots=roots)
             at_B = 2 * B * e2 + e1 + 16 * unit * (3 * B * B + 2 * m2 * B + m1)
             at_A = 2 * A * e2 + e1 + 16 * unit * (3 * A * A + 2 * m2 * A + m1)
             beyond, above = c2 + 3 * B, 3 * A - c2
@@ -175,6 +226,9 @@ class Numbers:
             above_A = (above > -e2 - 16 * unit * (A + m2)) & (self.slope_at_minus_A > -at_A)
             none_above = (above < e2 + 16 * unit * (A + m2)) | (self.slope_at_minus_A < at_A)
             zero = apart & negative & ((np.abs(c1) <= e1) | (np.abs(c2) <= e2))
+            if roots:  # g(B) and g(−A) are sums of products without cancellation, and 0 where a pole is a root
+                none_below = none_below | (B * self.Q * (A + B) <= (e2 * B + e1) * B + e0)
+                none_above = none_above | (A * self.P * (A + B) <= (e2 * A + e1) * A + e0)
             contact = together | zero | (apart & ((positive & none_below) | (negative & none_above)))
             inner, outer = (negative, positive) if printed else (negative & above_A, positive & below_B)
             return np.column_stack([apart & inner, contact, apart & outer])
@@ -192,28 +246,24 @@ def silent(asked: Asked) -> Answers:
     return np.full(len(asked.rows), SILENT, dtype=np.int8)
 
 
-def _exactly_where(candidates: Mask, asked: Asked, holds: Callable[[Pair], bool], position: Position) -> Answers:
-    """The answer of a position at those candidates of which exact arithmetic says that something holds."""
+def where_kind(candidates: Mask, asked: Asked, kind: Kind, position: Position) -> Answers:
+    """The answer of a position at those candidates that are of this kind, in exact arithmetic."""
     positions = silent(asked)
     for place in np.flatnonzero(candidates).tolist():
-        if holds(Pair.from_row(asked.rows[place].tolist())):
+        if asked.kind(place) is kind:
             positions[place] = position
     return asked.said(positions)
-
-
-def _is(kind: Kind) -> Callable[[Pair], bool]:
-    return lambda pair: exact.decide(pair.lengths).kind is kind
 
 
 def _ring(asked: Asked) -> Answers:
     """Proposition 3 on the ring: Δ = 0 is contact."""
     at = (asked.truth == Position.EXTERIOR) & (asked.rows[:, 6] == 0) & asked.numbers.near_the_ring(2.0**-30)
-    return _exactly_where(at, asked, _is(Kind.EXTERIOR_RING), Position.CONTACT)
+    return where_kind(at, asked, Kind.EXTERIOR_RING, Position.CONTACT)
 
 
 def _unless_rounded(asked: Asked, answers: Answers) -> Answers:
     """The answers, but nothing where the answer given is right, and rounding may be what made it so."""
-    luck = asked.numbers.possible(2 * max(_unit(asked), _FLOAT64), printed=True)[:, 1]
+    luck = asked.numbers.possible(2 * max(unit_of(asked), FLOAT64), printed=True)[:, 1]
     right = asked.given == asked.said(asked.truth)
     return np.where(right & luck, SILENT, answers).astype(np.int8)
 
@@ -223,13 +273,13 @@ def _groove(asked: Asked) -> Answers:
     n = asked.numbers
     with np.errstate(all="ignore"):
         at = (asked.truth == Position.CONTACT) & (n.B**2 <= n.A * (1 + 2.0**-40)) & (n.c2 <= 0) & (n.c1 >= 0)
-    return _unless_rounded(asked, _exactly_where(at, asked, _is(Kind.CROSSING_GROOVE_TWO_CURVES), Position.EXTERIOR))
+    return _unless_rounded(asked, where_kind(at, asked, Kind.CROSSING_GROOVE_TWO_CURVES, Position.EXTERIOR))
 
 
 def _throat(asked: Asked) -> Answers:
     """Proposition 5 where a < 1: two negative roots are interior, though both are at −A or below."""
     at = (asked.truth == Position.CONTACT) & (asked.numbers.A < 1)
-    return _unless_rounded(asked, _exactly_where(at, asked, _is(Kind.CROSSING_THROAT_TWO_CURVES), Position.INTERIOR))
+    return _unless_rounded(asked, where_kind(at, asked, Kind.CROSSING_THROAT_TWO_CURVES, Position.INTERIOR))
 
 
 def _zero_coefficient(asked: Asked) -> Answers:
@@ -240,11 +290,44 @@ def _zero_coefficient(asked: Asked) -> Answers:
             np.abs(n.c2) <= 2.0**-40 * (1 + n.A + n.B + n.P + n.Q)
         )
 
-    def vanishes(pair: Pair) -> bool:
-        g = exact.cubic(pair.lengths)
-        return g.n1 == 0 or g.n2 == 0
+    positions = silent(asked)
+    for place in np.flatnonzero((asked.truth == Position.INTERIOR) & small).tolist():
+        g = exact.cubic(Pair.from_row(asked.rows[place].tolist()).lengths)
+        if g.n1 == 0 or g.n2 == 0:
+            positions[place] = Position.CONTACT
+    return asked.said(positions)
 
-    return _exactly_where((asked.truth == Position.INTERIOR) & small, asked, vanishes, Position.CONTACT)
+
+def _coefficients_are_exact(asked: Asked) -> Mask:
+    """Where every order of the operations gives c1 and c2 without a rounding (_on_a_grid)."""
+    n = asked.numbers
+    with np.errstate(all="ignore"):
+        size = n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q
+        return _on_a_grid(asked, 16 * (1 + size), 4)
+
+
+def _delta_is_exact(asked: Asked) -> Mask:
+    """Where every order of the operations, and every form of the discriminant, gives Δ without a rounding."""
+    n = asked.numbers
+    with np.errstate(all="ignore"):
+        m0, m1, m2 = n.A * n.B, n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q, 1 + n.A + n.B + n.P + n.Q
+        return _on_a_grid(asked, 128 * (m2**3 * m0 + m2**2 * m1**2 + m1**3 + m0**2), 12)
+
+
+def _on_a_grid(asked: Asked, size: Floats, power: int) -> Mask:
+    """Where numbers up to this size have all their digits in the declared precision.
+
+    They are polynomials of this degree in the lengths, which are divided by powers of two and are multiples of 1, ½, ¼
+    or 1/64 then.
+    """
+    alpha, gamma, b, d, x, y, z = asked.rows[:, : len(COLUMNS)].T
+    lengths = np.column_stack([alpha / b, gamma / d, x / b, y / b, z / d])
+    halved = (np.frexp(b)[0] == 0.5) & (np.frexp(d)[0] == 0.5)
+    exactly = np.zeros(len(asked.rows), dtype=bool)
+    for digits in (0, 1, 2, 6):
+        on_grid = (np.ldexp(lengths, digits) % 1 == 0).all(axis=1)
+        exactly |= halved & on_grid & (np.ldexp(size, power * digits) < 1 / max(unit_of(asked), FLOAT64))
+    return exactly
 
 
 def _tangency(kind: Kind, clear: Position) -> Rule:
@@ -252,23 +335,26 @@ def _tangency(kind: Kind, clear: Position) -> Rule:
 
     def rule(asked: Asked) -> Answers:
         at = (asked.truth == Position.CONTACT) & asked.numbers.possible(2.0**-50)[:, 1]
-        return _exactly_where(at, asked, _is(kind), clear)
+        return where_kind(at, asked, kind, clear)
 
     return rule
 
 
-_FLOAT64 = 2.0**-53
+FLOAT64 = 2.0**-53
+"""The unit of float64."""
 
 
-def _unit(asked: Asked) -> float:
+def unit_of(asked: Asked) -> float:
     """The unit of the declared precision; 0 where none is tolerated."""
     return float(UNIT_ROUNDOFF[asked.criterion.precision])
 
 
-def _rounded(asked: Asked, unit: float, at: Mask | bool = True, *, printed: bool = False) -> Answers:
+def rounded(
+    asked: Asked, unit: float, at: Mask | bool = True, *, printed: bool = False, roots: bool = False
+) -> Answers:
     """The answers given where roundings of this unit may turn them into these, at these rows (Numbers.possible)."""
     answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), asked.criterion.question)
-    possible = asked.numbers.possible(unit, printed=printed)
+    possible = asked.numbers.possible(unit, printed=printed, roots=roots)
     agrees = (possible & (answers[None, :] == asked.given[:, None])).any(axis=1)
     return np.where(agrees & at, asked.given, SILENT).astype(np.int8)
 
@@ -276,13 +362,13 @@ def _rounded(asked: Asked, unit: float, at: Mask | bool = True, *, printed: bool
 def _lost_beside_the_ring(asked: Asked) -> Answers:
     """Δ has no sign in floats beside the ring, and is taken for 0 or less."""
     at = (asked.truth == Position.EXTERIOR) & asked.numbers.near_the_ring(2.0**-12)
-    return _rounded(asked, 2 * max(_unit(asked), _FLOAT64), at)
+    return rounded(asked, 2 * max(unit_of(asked), FLOAT64), at)
 
 
 def _lost(asked: Asked) -> Answers:
     """A sign that the rounding errors of a plain evaluation may turn."""
-    unit = _unit(asked)
-    return _rounded(asked, 2 * unit) if unit >= _FLOAT64 else silent(asked)
+    unit = unit_of(asked)
+    return rounded(asked, 2 * unit) if unit >= FLOAT64 else silent(asked)
 
 
 def _lost_outside(asked: Asked) -> Answers:
@@ -290,17 +376,17 @@ def _lost_outside(asked: Asked) -> Answers:
     n = asked.numbers
     with np.errstate(all="ignore"):
         outside = (asked.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
-    return _rounded(asked, 2 * max(_unit(asked), _FLOAT64), outside, printed=True)
+    return rounded(asked, 2 * max(unit_of(asked), FLOAT64), outside, printed=True)
 
 
 def _lost_in_float64(asked: Asked) -> Answers:
     """A sign that float64 does not tell, where more is declared."""
-    return _rounded(asked, 2 * _FLOAT64) if _unit(asked) < _FLOAT64 else silent(asked)
+    return rounded(asked, 2 * FLOAT64) if unit_of(asked) < FLOAT64 else silent(asked)
 
 
 def _half_lost(asked: Asked) -> Answers:
     """A sign that half the digits of the precision do not tell."""
-    return _rounded(asked, 2 * max(_unit(asked), _FLOAT64) ** 0.5)
+    return rounded(asked, 2 * max(unit_of(asked), FLOAT64) ** 0.5)
 
 
 _RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128), "float64": (-1022, 1024)}
@@ -328,15 +414,16 @@ def _greatest(*values: Floats) -> Floats:
 
 
 PLACES: tuple[Cause, ...] = (
-    cause("ring", _ring, Standing.PLACE, slack=4),
+    cause("ring", _ring, Standing.PLACE, slack=4, certain=_delta_is_exact),
     cause("groove", _groove, Standing.PLACE),
     cause("throat", _throat, Standing.PLACE),
-    cause("zero-coefficient", _zero_coefficient, Standing.PLACE, slack=4),
+    cause("zero-coefficient", _zero_coefficient, Standing.PLACE, slack=4, certain=_coefficients_are_exact),
     *(
         Cause(
             name=kind.value,
             sentence=f"it takes a tangency for clear ({kind.contact_set} in common, {kind.value})",
-            remedy="a tangency is contact: exterior and interior ask for > 0, never for ≥ 0",
+            why=f"{kind.description} There Δ = 0, as the roots of g are: {kind.roots}. Touching is contact",
+            remedy="a tangency is contact: exterior and interior must also require: Δ > 0",
             rule=_tangency(kind, kind.limit_of),
             standing=Standing.PLACE,
         )
@@ -347,7 +434,11 @@ PLACES: tuple[Cause, ...] = (
     cause("lost-beside-the-ring", _lost_beside_the_ring, Standing.ROUNDING),
     cause("lost-to-rounding", _lost, Standing.ROUNDING),
     cause("lost-outside-the-regime", _lost_outside, Standing.ROUNDING),
+)
+"""The causes about places, those in exact arithmetic first."""
+
+WIDER_ROUNDINGS: tuple[Cause, ...] = (
     cause("float64-for-more", _lost_in_float64, Standing.ROUNDING),
     cause("half-the-digits", _half_lost, Standing.ROUNDING),
 )
-"""The causes about places, those in exact arithmetic first."""
+"""Roundings of a narrower format than the declared one, which explain what no other rounding does."""

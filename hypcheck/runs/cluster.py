@@ -45,6 +45,9 @@ Result = TypeVar("Result")
 CONNECT = 10
 """Seconds until a scheduler must answer, and until it must have a worker."""
 
+START_TRIES = 3
+"""How often workers may begin anew if one of them ends while it starts."""
+
 CLOSE, CLOSE_LOCAL = 5, 1
 """Seconds that a client has to close, and the workers of a local cluster: they hold nothing that could be lost."""
 
@@ -263,6 +266,14 @@ def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
 
 
 def _started(workers: int, security: Security) -> distributed.SpecCluster:
+    """The scheduler and its workers. If a worker's process ends while it starts, all begin anew, START_TRIES times."""
+    for _ in range(START_TRIES):
+        with suppress(RuntimeError, OSError):  # what dask raises if a process ended
+            return _start_once(workers, security)
+    raise UnavailableError(f"--cluster local:{workers}: workers ended while they started, {START_TRIES} times")
+
+
+def _start_once(workers: int, security: Security) -> distributed.SpecCluster:
     here = {"host": LOOPBACK, "protocol": "tls://", "security": security, "dashboard": False}
     scheduler = {**here, "port": 0, "allowed_failures": ALLOWED_FAILURES}
     worker = {**here, "worker_class": Worker, "nthreads": 1, "memory_limit": 0, "silence_logs": logging.CRITICAL}

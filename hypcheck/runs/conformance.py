@@ -17,12 +17,23 @@ from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
 from hypcheck.runs import tally
+from hypcheck.runs.causes import subject_of
 from hypcheck.runs.consistency import require_all_tallied
 from hypcheck.runs.diagnosis import UNEXPLAINED, causes_of
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
 from hypcheck.runs.judge import UNANSWERED, Status
 from hypcheck.runs.known_failures import no_longer_failing
-from hypcheck.runs.plan import ConformancePlan, known_failures_of, planned_cases, planned_size, rules_of, steps_of
+from hypcheck.runs.plan import (
+    ConformancePlan,
+    chosen_families,
+    families_not_asked,
+    known_failures_of,
+    planned_cases,
+    planned_size,
+    require_named,
+    rules_of,
+    steps_of,
+)
 from hypcheck.runs.results import CasesResult, JudgingRules, merged_result
 from hypcheck.runs.resume import ProgressWriter, recorded_description
 from hypcheck.runs.retest import RetestStep, result_without_retest
@@ -90,6 +101,7 @@ def _run_implementation(
     opener, size = plan.opener(number), planned_size(plan)
     with opener.open() as implementation:
         used = implementation.description
+        require_named(plan, used)
         rules, planned = rules_of(plan, used), planned_cases(plan, used)
         lines = ImplementationLines(plan, opener.spec, implementation.declared, used, rules)
         progress = ProgressWriter(recorder, number, implementation.declared, size)
@@ -134,12 +146,14 @@ def _task_execution(
 def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
     """Add to the outcome the codes that the lines of a run give a reason for.
 
-    Raises NothingJudgedError if no case at all was judged, which proves nothing.
+    An implementation of which nothing was judged is Exit.USAGE, whatever else was judged. Raises NothingJudgedError if
+    no case at all was asked, which proves nothing.
     """
-    judged = 0
+    asked, judged = 0, 0
     for line in recorded:
         if isinstance(line, GroupLine):
-            judged += line.asked
+            asked += line.asked
+            judged += judged_cases(line)
             undecided = Status.UNDECIDED.value
             outcome.codes |= {Exit.INCONCLUSIVE if each == undecided else Exit.WRONG for each in line.failing or ()}
         elif isinstance(line, DriftLine):
@@ -149,10 +163,17 @@ def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
         elif isinstance(line, ImplementationLine):
             outcome.codes |= {Exit.NOT_STARTED} if line.broke_protocol_throughout else set()
             outcome.codes |= {Exit.WRONG} if line.troubles else set()
-    if not judged and Exit.NOT_STARTED not in outcome.codes:
+            outcome.codes |= set() if judged or line.finished is False else {Exit.USAGE}
+            judged = 0
+    if not asked and Exit.NOT_STARTED not in outcome.codes:
         raise NothingJudgedError(
             "no case was judged: every case is outside the domain, or the declared precision cannot hold its numbers"
         )
+
+
+def judged_cases(group: GroupLine) -> int:
+    """The cases of a family that were asked, without those of which the implementation said that it cannot say."""
+    return group.asked - group.counts.get(Status.ABSTAINED.value, 0)
 
 
 _NOT_ASKED = {Status.SKIPPED.value}
@@ -177,7 +198,9 @@ class ImplementationLines:
         for line in [*groups, *self._causes(total.tallies)]:
             recorder.add(line)
         if finished:
-            for sentence in no_longer_failing(self.rules.known, total.excusing, {*total.tallies, *total.named}):
+            for sentence in no_longer_failing(
+                self.rules.known, total.excusing, {*total.tallies, *total.named}, self._subjects()
+            ):
                 recorder.add(DriftLine(sentence=f"{self.used.name}: {sentence}"))
         recorder.add(
             ImplementationLine(
@@ -188,10 +211,16 @@ class ImplementationLines:
                 restarts=self.plan.limits.restarts - state.left.restarts,
                 again=total.retest,
                 broke_protocol_throughout=total.broke_protocol_throughout,
-                troubles=list(self._troubles(total, groups)),
+                troubles=list(self._troubles(total, groups, finished=finished)),
+                not_asked=families_not_asked(self.plan, self.used),
                 finished=UNSET if finished else False,
             )
         )
+
+    def _subjects(self) -> set[str]:
+        """What all families that were asked are about, as causes have it; none if only some families were asked."""
+        widths = [family.columns for family in chosen_families(self.plan, self.used)]
+        return set() if self.plan.filtered else {subject_of(len(each), self.rules.criterion) for each in widths}
 
     def _group(self, family: str, tallied: Tally) -> GroupLine:
         wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in INVALID_CONTENTS
@@ -220,8 +249,12 @@ class ImplementationLines:
                 worst=tally.worst_line(worst, self.rules.criterion),
             )
 
-    def _troubles(self, total: CasesResult, groups: Sequence[GroupLine]) -> Iterator[str]:
+    def _troubles(self, total: CasesResult, groups: Sequence[GroupLine], *, finished: bool) -> Iterator[str]:
         """Reasons why the implementation fails as a whole, not in one family."""
+        if finished and not sum(map(judged_cases, groups)):
+            asked = sum(line.asked for line in groups)
+            why = f"it abstained from all {asked:,} cases" if asked else "it was asked none of them"
+            yield f"no case of {self.used.name} was judged: {why}"
         abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups)
         if abstained > self.plan.max_abstained:
             allowed = f"at most {self.plan.max_abstained} are allowed"

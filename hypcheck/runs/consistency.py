@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import islice
 
 import numpy as np
+from msgspec import UNSET
 
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.rows import CANNOT_SAY
@@ -27,6 +28,7 @@ from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
 from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT, Tally, WorstCase
+from hypcheck.vectors.families import ALL
 from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
 
@@ -66,6 +68,7 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     for line in groups:
         numbers = (line.octaves, (line.size_bins, line.place_bins))
         trouble = trouble or _of_sums(line.family, line, *numbers) or _of_failing(line, plan)
+        trouble = trouble or _of_fresh(line.family, line, plan)
     if trouble or _lacks_trouble(whole, groups, plan):
         raise ValueError(
             trouble or "it abstained from more cases or changed more answers than allowed, and no line says that"
@@ -77,6 +80,16 @@ def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan:
     abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups) > plan.max_abstained
     changed = plan.deterministic and whole.again.within > 0
     return bool(abstained or changed) and not whole.troubles
+
+
+def _of_fresh(family: str, sums: GroupLine | Tally, plan: ConformancePlan, *, unfinished: bool = False) -> str:
+    """The fresh rows that were asked must be those of the plan, but for skipped ones; no more in an unfinished run."""
+    generated = plan.fresh is not None and (family in ALL or MARK in family)
+    most = plan.count if generated else 0
+    least = 0 if unfinished else most - sums.counts.get(Status.SKIPPED.value, 0)
+    return (
+        "" if least <= (sums.fresh or 0) <= most else f"{family} has {sums.fresh} fresh rows, but {most} were planned"
+    )
 
 
 def _of_failing(line: GroupLine, plan: ConformancePlan) -> str:
@@ -99,6 +112,7 @@ def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan,
         _of_allowance(state, plan),
         *(_of_open(each, waiting, rules) for each in total.pending),
         *(_of_tally(family, each, rules) for family, each in total.tallies.items()),
+        *(_of_fresh(family, each, plan, unfinished=True) for family, each in total.tallies.items()),
         _of_result(total, rules),
     ):
         if trouble:
@@ -178,7 +192,9 @@ def _of_sums(
     if not {*counts} <= {each.value for each in Status} or not {*sums.mistakes} <= {each.value for each in Mistake}:
         return f"{family} has a status or a mistake that does not exist"
     off, wrong = sum(counts[each.value] for each in _OFF), counts[Status.WRONG.value]
-    asked = sums.asked == sum(counts.values()) - counts[Status.SKIPPED.value]
+    skipped = counts[Status.SKIPPED.value]
+    asked = sums.asked == sum(counts.values()) - skipped and (sums.fresh or 0) <= sums.asked
+    asked = asked and (sums.not_asked is UNSET or sum(sums.not_asked.values()) == skipped)
     if family in INVALID_CONTENTS:
         agree = not (sums.mistakes or exponents or any(bins) or sums.worst)
     else:

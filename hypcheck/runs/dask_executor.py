@@ -26,7 +26,7 @@ from distributed import KilledWorker, Worker, WorkerPlugin, get_worker
 from hypcheck.errors import InputError, system_reason
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import Allowance
-from hypcheck.runs.cluster import CLOSE, CONNECT, OTHER_FILES, call_with_timeout
+from hypcheck.runs.cluster import CLOSE, CONNECT, OTHER_FILES, START_TRIES, call_with_timeout
 from hypcheck.runs.executors import keep_freed_memory
 from hypcheck.runs.fingerprint import (
     ShippedFile,
@@ -73,10 +73,7 @@ def execution_on_cluster(
     plugin = ImplementationPlugin(name, opener, rules, files, module, code_fingerprint())
     workers = max(1, sum(client.nthreads().values()))
     with DaskExecutor(client) as executor:
-        try:
-            call_with_timeout(CONNECT, lambda: client.register_plugin(plugin))
-        except TimeoutError:
-            raise executor.lost(f"it did not answer within {CONNECT} s") from None
+        _register(client, plugin, executor)
         function = partial(_perform_opened, name)
         try:
             yield TaskExecution(executor, function, workers, implementation.allowance, implementation.max_rows, rules)
@@ -85,6 +82,23 @@ def execution_on_cluster(
             if client.status == "running":
                 with suppress(Exception):  # if it is lost meanwhile, workers close idle implementations themselves
                     call_with_timeout(CLOSE, lambda: client.unregister_worker_plugin(name))
+
+
+def _register(client: Client, plugin: ImplementationPlugin, executor: DaskExecutor) -> None:
+    """Give the plugin to all workers, again if a worker ended meanwhile: one that replaces it has it from the start."""
+    for _ in range(START_TRIES):
+        with suppress(ConnectionError):  # to a worker; see _registered
+            return _registered(client, plugin, executor)
+    raise executor.lost(f"workers ended while they started, {START_TRIES} times")
+
+
+def _registered(client: Client, plugin: ImplementationPlugin, executor: DaskExecutor) -> None:
+    try:
+        call_with_timeout(CONNECT, lambda: client.register_plugin(plugin))
+    except TimeoutError:
+        raise executor.lost(f"it did not answer within {CONNECT} s") from None
+    except OSError as error:  # as dask says that a connection closed
+        raise ConnectionError(str(error)) from None
 
 
 class DaskExecutor(Executor):

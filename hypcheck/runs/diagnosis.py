@@ -4,32 +4,39 @@ Of each chunk, every wrong answer is compared with what each cause's rule gives 
 very answer are a set, and wrong answers are counted by set. Of the right answers some are compared, too: a rule that
 errs at their rows is denied by them. Diagnoses of parts add up in any order, like tallies.
 
-At the end a cause stands where hardly any right answer denies it. One that is a whole rule has to give most of the
-wrong answers; it is asked first where it gives most of all, and more than the others together. Then come the causes
-about places that are wrong in exact arithmetic, then those about rounding, and whole rules for what is left. What none
-explains is unexplained.
+At the end a cause stands where hardly any right answer denies it. Several faults may be mixed, so what they explain is
+counted in parts: each wrong answer for one cause, the cause that explains most of what is left first. A whole rule
+comes first where it explains more than the others together. Then come the causes about places that are wrong in exact
+arithmetic, then those about rounding, then whole rules for what is left. What none explains is unexplained.
+
+Where floats are often right by luck, and where roundings may give any answer, right answers deny little. Such a cause
+explains most of what is left, or wrong answers are much more frequent at its rows than elsewhere.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from hypcheck.geometry.rows import WAYS, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS, Domain, claimed
 from hypcheck.runs import judge
-from hypcheck.runs.causes import PLACES, SILENT, Answers, Asked, Cause, Standing, subject_of
+from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, Answers, Asked, Cause, Standing, subject_of
 from hypcheck.runs.judge import Criterion, Status, WrongCase
+from hypcheck.runs.root_causes import ROOT_CAUSES
 from hypcheck.runs.slips import TILTED_SLIPS, UPRIGHT_SLIPS, WAY_SLIPS
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
-CAUSES: tuple[Cause, ...] = (*PLACES, *UPRIGHT_SLIPS, *TILTED_SLIPS, *WAY_SLIPS)
+PLACE_CAUSES: tuple[Cause, ...] = (*PLACES, *ROOT_CAUSES, *WIDER_ROUNDINGS)
+"""The causes about places of upright spheroids."""
+
+CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_SLIPS, *TILTED_SLIPS, *WAY_SLIPS)
 """All causes; a set of them is a number with a bit for each, in this order."""
 
 UNEXPLAINED = "unexplained"
@@ -40,11 +47,23 @@ _BITS = {cause.name: bit for bit, cause in enumerate(CAUSES)}
 WITNESSES = 256
 """The number of right answers of a chunk, evenly chosen, that are compared with the rules."""
 
-MOST = 0.8
-"""A whole rule has to give this share of the wrong answers that it should explain."""
+MIXED = 0.25
+"""A whole rule has to give this share of the wrong answers that are left for it."""
+
+PLACED = 0.5
+"""Causes about places stand together where they explain this share of the wrong answers."""
 
 ROUNDED = 0.9
-"""Roundings have to explain this share of what is left for them: else something else is wrong, and may be so there."""
+"""Causes about rounding stand together where they explain this share of what is left for them."""
+
+LIFT = 4.0
+"""Else wrong answers must be this many times as frequent at a cause's rows as at others: it may be chance otherwise."""
+
+CERTAIN = 200
+"""As many right answers that may be luck deny a cause as much as one that cannot be."""
+
+RIGHT = "right"
+"""Among the counts of right answers that deny a cause, the count of all right answers."""
 
 FAILING = (Status.WRONG, Status.UNDECIDED)
 """The statuses of the wrong answers that a diagnosis is about."""
@@ -111,22 +130,37 @@ def diagnose(
     share = len(right) / len(witnesses) if witnesses else 0.0
     places = [case.index for case, _ in failing]
     part = asked.part(places + witnesses)
-    sets, denied = [0] * len(failing), dict[str, int]()
+    sets, denied = [0] * len(failing), {RIGHT: len(right)}
     for bit, cause in enumerate(CAUSES):
         if cause.subject != asked.subject:
             continue
         answers = cause.rule(part)
         for place in np.flatnonzero(answers[: len(failing)] == part.given[: len(failing)]).tolist():
             sets[place] |= 1 << bit
-        against = _against(answers[len(failing) :], part.given[len(failing) :])
+        against = (
+            _exposed(cause, asked.part(witnesses)) if cause.rounds else _against(cause, part, answers, len(failing))
+        )
         if against:
             denied[cause.name] = round(against * share)
     explained = (Explained(1, at, name, case) for case, (at, name) in failing)
     return Diagnosis.of(zip(sets, explained, strict=True), denied)
 
 
-def _against(answers: Answers, given: Answers) -> int:
-    return int(((answers != SILENT) & (answers != given)).sum())
+def _against(cause: Cause, asked: Asked, answers: Answers, first: int = 0) -> int:
+    """How much the answers given, from this place on, deny a rule with these answers."""
+    other = (answers != SILENT) & (answers != asked.given)
+    other[:first] = False
+    certain = 0 if cause.certain is None or not other.any() else int((other & cause.certain(asked)).sum())
+    return int(other.sum()) + CERTAIN * certain
+
+
+def _exposed(cause: Cause, asked: Asked) -> int:
+    """At how many of these rows, which were answered rightly, a cause about rounding would explain another answer."""
+    exposed = np.zeros(len(asked.rows), dtype=bool)
+    for answer in (-1, 0, 1):
+        other = replace(asked, given=np.full(len(asked.rows), answer, dtype=np.int8))
+        exposed |= (cause.rule(other) == answer) & (asked.given != answer)
+    return int(exposed.sum())
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,6 +193,16 @@ class _Left:
         """How many one of these causes explains at least."""
         bits = _bits(some)
         return sum(each.cases for (_, causes), each in self.explained.items() if causes & bits)
+
+    def take_each(self, some: Sequence[Cause], *, least: float = 0.0, in_order: bool = False) -> None:
+        """Take what these explain, what explains most of the rest first, while that is this share of it at least."""
+        waiting = list(some)
+        while waiting and self.total:
+            cause = waiting[0] if in_order else max(waiting, key=self.number)
+            if self.number(cause) < least * self.total:
+                return
+            self.take(cause)
+            waiting.remove(cause)
 
     def take(self, cause: Cause | None) -> None:
         """Take what a cause explains, all without one."""
@@ -200,8 +244,8 @@ def causes_of(
     denied: Counter[str] = Counter()
     for asked in _right_answers(clean, criterion, domain):
         for cause in suspects:
-            if cause.subject == asked.subject:
-                denied[cause.name] += _against(cause.rule(asked), asked.given)
+            if cause.subject == asked.subject and not cause.rounds:
+                denied[cause.name] += _against(cause, asked, cause.rule(asked))
     named: dict[str, list[CountedCause]] = {}
     for part in by_subject.values():
         for one in _standing(part, denied):
@@ -250,22 +294,28 @@ def _standing(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) 
     def of(standing: Standing) -> list[Cause]:
         """The causes of this standing that explain something, and that right answers hardly deny."""
         some = ((cause, left.number(cause)) for cause in CAUSES if cause.standing is standing)
-        return [cause for cause, number in some if number and denied[cause.name] <= cause.slack * number]
+        return [
+            cause for cause, number in some if number and (cause.rounds or denied[cause.name] <= cause.slack * number)
+        ]
 
-    everywhere, places = of(Standing.EVERYWHERE), of(Standing.PLACE)
-    rounding = [cause for cause in CAUSES if cause.standing is Standing.ROUNDING]
-    best, known = max(everywhere, key=left.number, default=None), [*places, *rounding]
+    def stands_out(cause: Cause, others: Sequence[Cause]) -> bool:
+        """Whether wrong answers are much more frequent at its rows than where none of the others explains any."""
+        inside, outside = left.number(cause), left.total - left.number(*others)
+        right = denied[RIGHT] - denied[cause.name]
+        return inside * (outside + right) > LIFT * outside * (inside + denied[cause.name])
+
+    everywhere, places, rounding = of(Standing.EVERYWHERE), of(Standing.PLACE), of(Standing.ROUNDING)
+    known = [*places, *rounding]
+    first = max(everywhere, key=left.number, default=None)
     # A few families may hold nothing that denies a rule: what is known of their places explains as much then.
-    if best is not None and left.number(best) >= MOST * left.total and left.number(best) > left.number(*known):
-        left.take(best)
-    if 2 * left.number(*known) >= left.total:  # else something else is wrong, there too
-        for cause in places:
-            left.take(cause)
-    if left.number(*rounding) >= ROUNDED * left.total:
-        for cause in rounding:
-            left.take(cause)
-    rest = [cause for cause in everywhere if left.number(cause) >= MOST * left.total > 0]
-    if rest:
-        left.take(max(rest, key=left.number))
+    if first is not None and left.number(first) > max(MIXED * left.total, left.number(*known)):
+        left.take(first)
+    if left.number(*known) < PLACED * left.total:  # something else is wrong, and may be wrong by chance there too
+        places = [cause for cause in places if cause.slack < 1 or stands_out(cause, known)]
+    left.take_each(places)
+    if left.number(*rounding) < ROUNDED * left.total:
+        rounding = [cause for cause in rounding if stands_out(cause, rounding)]
+    left.take_each(rounding, in_order=True)
+    left.take_each(everywhere, least=MIXED)
     left.take(None)
     return left.taken

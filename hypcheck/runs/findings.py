@@ -24,6 +24,7 @@ from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, Formula, answering
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.implementations import not_asked
 from hypcheck.implementations.description import EVERYWHERE, claimed
 from hypcheck.implementations.method import Method
 from hypcheck.implementations.session import Answered
@@ -158,7 +159,14 @@ def method_group(method: Method, batch: Batch, exponents: NDArray[np.float64], p
     places = inside[: method.max_rows]
     rows = batch.rows[places]
     scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)
-    tallied = scored.tally(batch, places, exponents[places], skipped=len(batch.rows) - len(inside))
+    left_out = not_asked.reasons(
+        np.delete(batch.rows, inside, axis=0),
+        method.domain,
+        method.precision,
+        extreme=batch.family.extreme,
+        subnormal=False,
+    )
+    tallied = scored.tally(batch, places, exponents[places], left_out=left_out)
     return tally.group_line(
         tallied, batch.family.name, criterion, method=method.name, title=method.title, exact=method.exact
     )

@@ -28,16 +28,26 @@ from hypcheck.errors import InputError, system_reason
 from hypcheck.implementations.spec import is_file, parse_spec
 from hypcheck.record import Recorder
 from hypcheck.record.lines import DriftLine
+from hypcheck.runs.started_files import started_files
 from hypcheck.vectors.frozen import folder
 
 _BLOCK_BYTES = 1 << 20
 
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
-    """The sha256 of the files that SPECs name, and of other files, by path, as far as they exist."""
-    named = [each.path for spec in specs for each in files_of(spec)]
+    """The sha256 of the files that SPECs name or start, and of other files, by path, as far as they exist."""
+    named = [path for spec in specs for path in (*(each.path for each in files_of(spec)), *_started(spec))]
     paths = [*named, *(path for path in others if path is not None)]
-    return {str(path): sha256(path) for path in paths}
+    return {str(path): sha256(path) for path in dict.fromkeys(paths)}
+
+
+def _started(spec: str) -> list[Path]:
+    return [Path(path) for path in started_files(spec).paths]
+
+
+def not_hashed(specs: Iterable[str]) -> list[str]:
+    """What SPECs start that no look at them tells, in words without a full stop; once each."""
+    return list(dict.fromkeys(each for spec in specs for each in started_files(spec).missing))
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,63 +1,120 @@
-"""A project's list of known failures, in TOML: cases and families that may be wrong, each with a reason.
+"""A project's list of known failures, in TOML: cases, families and causes that may be wrong, each with a reason.
 
     [[known_failure]]
-    case = "ring-0007"              # or: family = "ring"
+    case = "ring-0007"              # or: family = "ring", of which it excuses the rows that stay; or: cause = "ring"
     max_u = 1e6                     # the largest backward error that is excused, in units u; none: any
     reason = "the ring; fixed in 2.0"
 
-An entry that no longer excuses a case fails the run too.
+A fresh row is excused by a cause alone, or by its own id: with a family excused as a whole, a table of the rows that
+stay would pass. A cause excuses an answer where its rule gives that very answer; it must have a `max_u`, which may be
+inf. Only causes about places and roundings are known failures: with a rule about every row excused, nothing would be
+tested.
+
+An entry that no longer excuses a case fails the run too. One that names no case, family or cause is refused.
 """
 
 from __future__ import annotations
 
 import math
+import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from hypcheck import toml
 from hypcheck.errors import InputError
+from hypcheck.messages import suggestion
 from hypcheck.record import Record
-from hypcheck.record.lines import GroupLine
+from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine
+from hypcheck.runs.cases import frozen_vectors
+from hypcheck.runs.causes import Asked, Cause, Standing
+from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.tables.streams import writing
+from hypcheck.vectors import frozen
+from hypcheck.vectors.families import family_of, parse_case_id
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 _LARGEST = sys.float_info.max
-_KEYS = ("case", "family", "max_u", "reason")
+_SUBJECTS = ("case", "family", "cause")
+_KEYS = (*_SUBJECTS, "max_u", "reason")
 
 
 @dataclass(frozen=True, slots=True)
 class KnownFailure:
-    """One entry: a case id or a family, the largest excused error in units u, and why."""
+    """One entry: a case id, a family or the id of a cause, the largest excused error in units u, and why."""
 
     case: str | None
     family: str | None
     max_u: float
     reason: str
+    cause: str | None = None
 
     @property
     def subject(self) -> str:
         """The subject of the entry in messages."""
-        return f"case {self.case}" if self.case is not None else f"family {self.family}"
+        return next(f"{key} {name}" for key in _SUBJECTS if (name := getattr(self, key)) is not None)
 
-    def names(self, case: str, family: str) -> bool:
-        """Whether this entry is about a case of a family. It excuses a wrong answer there up to `max_u`."""
-        return case == self.case or family == self.family
+    def names(self, case: str, family: str, *, fresh: bool) -> bool:
+        """Whether this entry is about a case by its id or its family. It excuses a wrong answer there up to `max_u`."""
+        return case == self.case or (family == self.family and not fresh)
+
+
+@cache
+def excusable_causes() -> Mapping[str, tuple[Cause, ...]]:
+    """The causes that an entry may name, by their ids: those about places and roundings."""
+    names = dict.fromkeys(cause.name for cause in CAUSES if cause.standing is not Standing.EVERYWHERE)
+    return {name: tuple(cause for cause in CAUSES if cause.name == name) for name in names}
+
+
+def entries_about(
+    known: Sequence[KnownFailure], cases: Sequence[tuple[int, str]], family: str, asked: Asked, *, fresh: bool
+) -> list[list[int]]:
+    """For each case of a family, given by its index among the rows asked and its id, the numbers of its entries."""
+    found = [
+        [number for number, entry in enumerate(known) if entry.names(name, family, fresh=fresh)] for _, name in cases
+    ]
+    if not cases:
+        return found
+    part = asked.part([index for index, _ in cases])
+    for number, entry in enumerate(known):
+        for cause in excusable_causes().get(entry.cause or "", ()):
+            if cause.subject == asked.subject:
+                for place in np.flatnonzero(cause.rule(part) == part.given).tolist():
+                    found[place].append(number)
+    return found
 
 
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
-    """The entries of a file. Raises InputError naming the file, the entry, and what would be right."""
+    """The entries of a file. Raises InputError naming the file, the line, the entry, and what would be right."""
     try:
-        content = toml.parsed(toml.text_of(str(path)), str(path))
+        text = toml.text_of(str(path))
     except FileNotFoundError:
         raise InputError(f"cannot read {path}: no such file or directory") from None
+    content = toml.parsed(text, str(path))
     unknown = [key for key in content if key != "known_failure"]
     entries = content.get("known_failure", [])
     if unknown or not isinstance(entries, list):
         raise InputError(f"{path}: {unknown[0] if unknown else 'known_failure'!s} is not an array of [[known_failure]]")
-    return tuple(_entry(item, f"{path}: known failure {number}") for number, item in enumerate(entries, start=1))
+    lines = _lines_of(text, len(entries))
+    return tuple(
+        _entry(item, f"{path}{lines[number - 1]}: known failure {number}")
+        for number, item in enumerate(entries, start=1)
+    )
+
+
+_BEGINS = re.compile(r"""\s*\[\[\s*["']?known_failure["']?\s*\]\]""")
+
+
+def _lines_of(text: str, entries: int) -> list[str]:
+    """The end of "FILE, line 3" for each entry; empty texts unless each begins with [[known_failure]] on a line."""
+    found = [f", line {number}" for number, line in enumerate(text.splitlines(), start=1) if _BEGINS.match(line)]
+    return found if len(found) == entries else [""] * entries
 
 
 def _entry(item: Any, where: str) -> KnownFailure:  # noqa: ANN401  whatever TOML holds
@@ -66,17 +123,66 @@ def _entry(item: Any, where: str) -> KnownFailure:  # noqa: ANN401  whatever TOM
     unknown = [key for key in item if key not in _KEYS]
     if unknown:
         raise InputError(f"{where} has the key {unknown[0]!r}; it may have {', '.join(_KEYS)}")
-    case, family, reason = (item.get(key) for key in ("case", "family", "reason"))
-    if (case is None) == (family is None):
-        raise InputError(f"{where} must name either a case or a family")
-    if not isinstance(case if family is None else family, str):
-        raise InputError(f"{where} names {case if family is None else family!r}; it must be a text")
+    named = [key for key in _SUBJECTS if key in item]
+    if len(named) != 1:
+        raise InputError(f"{where} must name either a case or a family or a cause")
+    subject, reason = item[named[0]], item.get("reason")
+    if not isinstance(subject, str):
+        raise InputError(f"{where} names {subject!r}; it must be a text")
     if not isinstance(reason, str) or not reason.strip():
         raise InputError(f"{where} has no reason; each entry must say why it is known")
     max_u = item.get("max_u", float("inf"))
     if isinstance(max_u, bool) or not isinstance(max_u, (int, float)) or not 0 <= max_u or _LARGEST < max_u < math.inf:
         raise InputError(f"{where} has max_u = {max_u!r}; it must be a number of units u, 0 or more")
-    return KnownFailure(case, family, float(max_u), reason)
+    _require_known(named[0], subject, where)
+    if "cause" in item and "max_u" not in item:
+        raise InputError(f"{where} names a cause and has no max_u; say how far off it may be, inf for any distance")
+    return KnownFailure(item.get("case"), item.get("family"), float(max_u), reason, item.get("cause"))
+
+
+def _require_known(key: str, name: str, where: str) -> None:
+    """Raise InputError if there is no case, family or cause of that name, or if it cannot be excused."""
+    try:
+        {"case": _require_case, "family": _require_family, "cause": _require_cause}[key](name)
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None
+
+
+_FROZEN_ID = re.compile(r"(?P<family>.+)-\d+", re.ASCII)
+
+
+def _require_case(name: str) -> None:
+    if "/" in name:
+        parse_case_id(name)
+        return
+    found = _FROZEN_ID.fullmatch(name)
+    family = found["family"] if found else name
+    if family not in frozen.ALL_NAMES or family in INVALID_CONTENTS:
+        raise InputError(f"there is no case {name!r}; {suggestion(family, _families(), otherwise='cases are of')}")
+    ids = frozen_vectors(family).ids
+    if name not in ids:
+        raise InputError(
+            f"there is no case {name!r}; those of {family} are {ids[0]} to {ids[-1]}; {suggestion(name, ids, most=1)}"
+        )
+
+
+def _require_family(name: str) -> None:
+    if name not in _families():
+        family_of(name)  # one for given sizes
+
+
+def _require_cause(name: str) -> None:
+    if name in excusable_causes():
+        return
+    if any(cause.name == name for cause in CAUSES):
+        raise InputError(
+            f"the cause {name!r} is about every row: with it excused nothing would be tested; name cases instead"
+        )
+    raise InputError(f"there is no cause {name!r} that may be known; {suggestion(name, excusable_causes())}")
+
+
+def _families() -> tuple[str, ...]:
+    return tuple(name for name in frozen.ALL_NAMES if name not in INVALID_CONTENTS)
 
 
 def render(entries: Iterable[KnownFailure]) -> str:
@@ -85,9 +191,9 @@ def render(entries: Iterable[KnownFailure]) -> str:
 
 
 def _rendered(entry: KnownFailure) -> str:
-    names = (("case", entry.case), ("family", entry.family))
+    names = ((key, getattr(entry, key)) for key in _SUBJECTS)
     lines = [f"{key} = {_quoted(name)}" for key, name in names if name is not None]
-    if entry.max_u != float("inf"):
+    if entry.max_u != float("inf") or entry.cause is not None:
         lines.append(f"max_u = {entry.max_u!r}")
     return "\n".join(["[[known_failure]]", *lines, f"reason = {_quoted(entry.reason)}", ""])
 
@@ -97,37 +203,74 @@ def _quoted(text: str) -> str:
     return f'"{escaped}"'
 
 
-def no_longer_failing(entries: Sequence[KnownFailure], used: AbstractSet[int], asked: AbstractSet[str]) -> list[str]:
-    """A sentence for each entry that excused no case, though its case or family was asked.
+def no_longer_failing(
+    entries: Sequence[KnownFailure], used: AbstractSet[int], asked: AbstractSet[str], subjects: AbstractSet[str]
+) -> list[str]:
+    """A sentence for each entry that excused no case, though its case, its family or what its cause is about was asked.
 
-    `used` are the numbers of the entries that excused a case; `asked` are the families and case ids that were asked.
+    `used` are the numbers of the entries that excused a case; `asked` are the families and case ids that were asked,
+    `subjects` what all families that were asked are about (causes.subject_of), none if only some families were asked.
     """
+
+    def was_asked(entry: KnownFailure) -> bool:
+        about = {cause.subject for cause in excusable_causes().get(entry.cause or "", ())}
+        return entry.case in asked or entry.family in asked or bool(about & subjects)
+
     return [
         f"the {entry.subject} no longer fails, but is listed as a known failure ({entry.reason})"
         for number, entry in enumerate(entries)
-        if number not in used and (entry.case in asked or entry.family in asked)
+        if number not in used and was_asked(entry)
     ]
+
+
+_BY_UPDATE = "not explained yet; recorded by --update"
+
+_WITHIN_OCTAVE = 2
+"""The worst of a cause is known up to its octave: another of its answers may be off by nearly twice as much."""
 
 
 def update(path: Path, record: Record) -> str:
     """Rewrite the file from a run of all families, and return a sentence about it.
 
-    Entries that still excuse a case stay, others are removed. New entries are by family, with the worst error of the
-    run, and their reason is to be written by a person.
+    Entries that still excuse a case stay, others are removed. New entries are by cause where one may be known, which
+    excuses fresh rows too, else by family; each with the worst error of the run. A person is to write their reasons.
     """
-    kept = {entry.subject: entry for entry in (read_known_failures(path) if path.exists() else ())}
     failing: dict[str, float] = {}
     for line in record.of(GroupLine):
         errors = [float(case.backward_error_u) for case in line.worst if case.status in ("wrong", "excused")]
         if errors:
             failing[line.family] = max(errors)
-    entries = [entry for entry in kept.values() if entry.case is not None or entry.family in failing]
-    known = {entry.family for entry in entries}
+    entries = [entry for entry in _listed(path) if _stays(entry, failing, record)]
+    causes = {line.cause: line for line in record.of(CauseLine) if line.cause in excusable_causes()}
+    others = {family for line in record.of(CauseLine) if line.cause not in causes for family in line.families}
+    known = {(entry.family, entry.cause) for entry in entries}
     entries += [
-        KnownFailure(None, family, float(f"{error:.2e}") * 1.01, "not explained yet; recorded by --update")
+        KnownFailure(None, family, _rounded_up(error), _BY_UPDATE)
         for family, error in failing.items()
-        if family not in known
+        if (family, None) not in known and family in others
+    ]
+    entries += [
+        KnownFailure(None, None, _rounded_up(_WITHIN_OCTAVE * float(line.worst.backward_error_u)), _BY_UPDATE, cause)
+        for cause, line in causes.items()
+        if (None, cause) not in known
     ]
     with writing(str(path)) as writer:
         writer.write(render(entries).encode())
     return f"{path}: {len(entries)} known failures"
+
+
+def _listed(path: Path) -> Iterator[KnownFailure]:
+    """The entries of the file, each subject once; none if there is no file yet."""
+    return iter({entry.subject: entry for entry in (read_known_failures(path) if path.exists() else ())}.values())
+
+
+def _stays(entry: KnownFailure, failing: Mapping[str, float], record: Record) -> bool:
+    """Whether an entry excused a case of some implementation in this run."""
+    if entry.family is not None:
+        return entry.family in failing
+    said = sum(f"the {entry.subject} no longer fails" in line.sentence for line in record.of(DriftLine))
+    return said < len(record.of(ImplementationLine))
+
+
+def _rounded_up(error: float) -> float:
+    return float(f"{error:.2e}") * 1.01

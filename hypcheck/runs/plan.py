@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS
+from hypcheck.geometry.rows import PAIRS, WAYS
+from hypcheck.implementations import not_asked
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
-from hypcheck.runs.cases import CaseChunk, family_chunks, fresh_chunks, frozen_count, searched_chunks
+from hypcheck.runs.cases import CaseChunk, family_chunks, fresh_chunks, frozen_count, frozen_vectors, searched_chunks
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.known_failures import KnownFailure, read_known_failures
 from hypcheck.runs.results import InvalidRows, JudgingRules
 from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
 from hypcheck.vectors import fixed_sizes
-from hypcheck.vectors.families import select
-from hypcheck.vectors.family import Family
+from hypcheck.vectors.families import ALL, select
+from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.invalid_rows import INVALID_NAMES
 
 FAIL_ON = ("wrong", "false-clear")
@@ -38,7 +40,7 @@ class ConformancePlan:
 
     `specs` name the implementations. `families` are names and globs (none: all families but the extreme ones); the
     frozen vectors and `count` generated rows of each family are asked. With `fresh`, a seed that nobody knew before, as
-    many rows of that seed are asked too, but of no family with a known failure: other rows there may fail alike.
+    many rows of that seed are asked of each family too.
     `precision`, `question` and `domain` replace what an implementation declares. `fail_on` is one of FAIL_ON: any wrong
     answer, or only "clear" in contact. `workers` processes ask; None: this process, or in a large run one for each
     processor. `cluster` is the address of a dask scheduler whose workers ask instead.
@@ -68,6 +70,8 @@ class ConformancePlan:
             raise InputError(f"--fail-on is {self.fail_on!r}; it must be one of {', '.join(FAIL_ON)}")
         if self.max_abstained < 0:
             raise InputError(f"--max-abstained is {self.max_abstained}; it must be 0 or more")
+        if self.fresh == self.seed:
+            raise InputError(f"--fresh is {self.fresh}, which is --seed too; fresh rows must be of another seed")
         if self.cluster is not None:
             check_cluster_address(self.cluster)
             if self.workers is not None:
@@ -142,26 +146,73 @@ def planned_size(plan: ConformancePlan) -> int:
 
 def _cases_of(plan: ConformancePlan, families: Iterable[Family]) -> dict[str, int]:
     """The number of frozen vectors and of generated rows of each family, fresh ones included."""
-    listed = _families_with_known_failures(plan)
-    return {each.name: frozen_count(each.name) + plan.count * len(_seeds(plan, each, listed)) for each in families}
-
-
-def _seeds(plan: ConformancePlan, family: Family, listed: frozenset[str]) -> tuple[int, ...]:
-    """The seed of a family's generated rows, and that of its fresh ones if it has any."""
-    return (plan.seed,) if plan.fresh is None or family.name in listed else (plan.seed, plan.fresh)
-
-
-def _families_with_known_failures(plan: ConformancePlan) -> frozenset[str]:
-    """The families of known failures: named as such, or by a case."""
-    if plan.fresh is None:
-        return frozenset()
-    ids = (each.family or each.case or "" for each in known_failures_of(plan))
-    return frozenset(name.partition("/")[0] if "/" in name else re.sub(r"-\d+$", "", name) for name in ids)
+    seeds = 1 if plan.fresh is None else 2
+    return {each.name: frozen_count(each.name) + plan.count * seeds for each in families}
 
 
 def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
     """The known failures that the plan lists. Raises InputError as read_known_failures does."""
     return read_known_failures(plan.known_failures) if plan.known_failures is not None else ()
+
+
+def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, dict[str, int]]:
+    """The families of which an implementation is asked no row, with their numbers of rows, by not_asked.FAMILIES."""
+    asked, found = planned_cases(plan, used), {reason: dict[str, int]() for reason in not_asked.FAMILIES}
+    chosen = {each.name for each in select(plan.families, tilted=True, layout=None)}
+    for name, cases in _cases_of(plan, ALL.values()).items():
+        if name in asked or not cases:
+            continue
+        other = ALL[name].layout is not used.asked.layout
+        unwanted = "filter" if plan.filtered else "extreme" if ALL[name].extreme else ""
+        reason = unwanted if name not in chosen and unwanted else "question" if other else "tilt"
+        found[reason][name] = cases
+    searched = () if not plan.filtered or used.asked.layout is not PAIRS else searched_chunks()
+    found["filter"] |= {chunk.family: len(chunk) for chunk in searched}
+    return {reason: families for reason, families in found.items() if families}
+
+
+def require_named(plan: ConformancePlan, used: Description) -> None:
+    """Raise InputError if a family was asked for by its full name, and no row of it can be asked.
+
+    A family whose rows are many is judged by its frozen vectors and its first rows.
+    """
+    rules = rules_of(plan, used)
+    for name in (name for name in plan.families if name in ALL):
+        family = ALL[name]
+        if family.layout is not used.asked.layout:
+            raise InputError(
+                f"--families names {name}, which has no cases for the question {used.question!r}; "
+                f"leave it out, or name an implementation whose question is {_QUESTION_ABOUT[family.layout]}"
+            )
+        if family.tilted and not used.tilt:
+            raise InputError(
+                f"--families names {name}, a family of tilted spheroids, and {used.name} takes none; leave it out, or "
+                'let its description say "tilt": true'
+            )
+        found = _reasons_for(plan, family, rules)
+        if found:
+            raise InputError(
+                f"--families names {name}, and {used.name} is asked no row of it: "
+                f"{' and '.join(f'{number:,} are {not_asked.ROWS[reason]}' for reason, number in found.items())}; "
+                "leave it out, or set --precision or --domain"
+            )
+
+
+_QUESTION_ABOUT = {PAIRS: "position", WAYS: "passage"}
+
+
+def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> dict[str, int]:
+    """Why none of a family's frozen vectors and first generated rows is asked; nothing if one is."""
+    some = [frozen_vectors(family.name).rows] if frozen_count(family.name) else []
+    if plan.count:
+        some.append(family.rows(plan.seed, min(plan.count, BLOCK)))
+    found: Counter[str] = Counter()
+    for rows in some:
+        inside, reasons = rules.asked_of(family.name, rows)
+        if len(inside):
+            return {}
+        found.update(reasons)
+    return dict(found)
 
 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
@@ -186,7 +237,8 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
 def rules_of(plan: ConformancePlan, used: Description) -> JudgingRules:
     """How an implementation with this description is judged. Raises InputError as known_failures_of does."""
     criterion = Criterion(used.question, used.precision, plan.tolerance)
-    return JudgingRules(criterion, used.domain, known_failures_of(plan), plan.seed)
+    named = frozenset(name for name in plan.families if name in ALL)
+    return JudgingRules(criterion, used.domain, known_failures_of(plan), plan.seed, plan.fresh, named)
 
 
 def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Description) -> Iterator[CaseChunk]:
@@ -198,9 +250,7 @@ def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Descripti
 
 
 def _chunks_of(plan: ConformancePlan, families: Iterable[Family]) -> Iterator[CaseChunk]:
-    listed = _families_with_known_failures(plan)
     for family in families:
-        seed, *fresh = _seeds(plan, family, listed)
-        yield from family_chunks(family, seed, plan.count)
-        for each in fresh:
-            yield from fresh_chunks(family, each, plan.count)
+        yield from family_chunks(family, plan.seed, plan.count)
+        if plan.fresh is not None:
+            yield from fresh_chunks(family, plan.fresh, plan.count)

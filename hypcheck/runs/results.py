@@ -9,12 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import Floats, Indices
+from hypcheck.geometry.rows import Floats, Indices, Rows
+from hypcheck.implementations import not_asked
 from hypcheck.implementations.description import Domain, claimed
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
@@ -25,7 +27,7 @@ from hypcheck.runs.causes import Asked
 from hypcheck.runs.diagnosis import CasePlace, Diagnosis, diagnose
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.judges import judge_of
-from hypcheck.runs.known_failures import KnownFailure
+from hypcheck.runs.known_failures import KnownFailure, entries_about
 from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
 from hypcheck.runs.tally import STATUS_CODES, Tally, counts_of
 from hypcheck.vectors import frozen
@@ -108,12 +110,31 @@ RETESTED_MOVEMENTS = 8
 
 @dataclass(frozen=True)
 class JudgingRules:
-    """How an implementation is judged: the criterion, its domain, the known failures, and the seed of the run."""
+    """How an implementation is judged: the criterion, its domain, the known failures, the seeds of the run.
+
+    `fresh` is the seed of the fresh rows, if there are any. `named` are the families that were asked for by their
+    names: of these, rows with subnormal numbers are asked too.
+    """
 
     criterion: Criterion
     domain: Domain
     known: tuple[KnownFailure, ...] = ()
     seed: int = 1
+    fresh: int | None = None
+    named: frozenset[str] = frozenset()
+
+    def asked_of(self, family: str, rows: Rows) -> tuple[Indices, dict[str, int]]:
+        """The ascending indices of the rows of a family that are asked, and how many others there are, by reason."""
+        precision, layout = self.criterion.precision, self.criterion.layout
+        extreme, subnormal = is_extreme(family), family in self.named
+        inside = claimed(rows, self.domain, precision, extreme=extreme, subnormal=subnormal, layout=layout)
+        return inside, not_asked.reasons(
+            np.delete(rows, inside, axis=0), self.domain, precision, extreme=extreme, subnormal=subnormal, layout=layout
+        )
+
+    def are_fresh(self, chunk: CaseChunk) -> bool:
+        """Whether the cases of a chunk are rows that nobody knew before the run."""
+        return chunk.seed is not None and chunk.seed == self.fresh
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,14 +163,9 @@ class InvalidRows:
 def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
     """Ask the cases of a chunk that lie in the domain. Most are judged; the last ones stay pending."""
     made = cases_of_chunk(chunk)
-    inside = claimed(
-        made.by_column,
-        rules.domain,
-        rules.criterion.precision,
-        extreme=is_extreme(chunk.family),
-        layout=rules.criterion.layout,
-    )
+    inside, left_out = rules.asked_of(chunk.family, made.by_column)
     indices = inside[: implementation.max_rows]
+    left_out |= {"slow": len(inside) - len(indices)} if len(indices) < len(inside) else {}
     rows = made.rows if len(indices) == len(made.rows) else made.rows[indices]
     answered = implementation.classify(rows)
     part = as_slice(indices)
@@ -158,7 +174,7 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
     tail = scored.answered[cut:]
     kept = cut + np.flatnonzero(tail)
     settled = np.append(np.arange(cut), cut + np.flatnonzero(~tail))
-    result = result_of_final(made, indices[settled], scored.part(settled), rules, skipped=len(made.rows) - len(indices))
+    result = result_of_final(made, indices[settled], scored.part(settled), rules, left_out=left_out)
     return replace(result, pending=_pending(chunk, indices[kept], scored.part(kept)), outcomes=answered.outcomes)
 
 
@@ -179,28 +195,35 @@ def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashe
 
 
 def result_of_final(
-    made: ChunkCases, indices: Indices, scored: Score, rules: JudgingRules, *, skipped: int = 0
+    made: ChunkCases,
+    indices: Indices,
+    scored: Score,
+    rules: JudgingRules,
+    *,
+    left_out: Mapping[str, int] = MappingProxyType({}),
 ) -> CasesResult:
-    """The result of the cases `indices` (n,) of a chunk, whose answers are final. Known failures are excused."""
-    excusing: set[int] = set()
-    wrong = []
-    for case in scored.judged():
-        found, used = _excused(case, made.chunk.name(int(indices[case.index])), made.chunk.family, rules)
-        wrong.append(found)
-        excusing.update(used)
-    tally = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), skipped=skipped, wrong=wrong)
+    """The result of the cases `indices` (n,) of a chunk, whose answers are final. Known failures are excused.
+
+    `left_out` counts rows of the chunk that were not asked, by reason.
+    """
+    asked = Asked(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
+    wrong, excusing = _excused(list(scored.judged()), made.chunk, indices, asked, rules)
+    tally = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), left_out=left_out, wrong=wrong)
+    fresh = len(indices) if rules.are_fresh(made.chunk) else 0
+    diagnosed = _diagnosed(made.chunk, indices, scored, asked, wrong)
     return CasesResult(
-        tallies={made.chunk.family: replace(tally, diagnosis=_diagnosed(made.chunk, indices, scored, wrong))},
+        tallies={made.chunk.family: replace(tally, diagnosis=diagnosed, fresh=fresh)},
         excusing=frozenset(excusing),
         named=frozenset(_named_cases(made.chunk, indices, rules.known)),
     )
 
 
-def _diagnosed(chunk: CaseChunk, indices: Indices, scored: Score, wrong: Sequence[WrongCase]) -> Diagnosis:
+def _diagnosed(
+    chunk: CaseChunk, indices: Indices, scored: Score, asked: Asked, wrong: Sequence[WrongCase]
+) -> Diagnosis:
     """Which causes explain the wrong answers to the cases `indices` (n,) of a chunk."""
     if not wrong:
         return Diagnosis()
-    asked = Asked(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
     right = np.flatnonzero(scored.status == STATUS_CODES[Status.RIGHT]).tolist()
     cases = [int(indices[case.index]) for case in wrong]
     return diagnose(asked, wrong, right, [(chunk.place(case), chunk.name(case)) for case in cases])
@@ -225,17 +248,24 @@ def _pending(chunk: CaseChunk, indices: Indices, scored: Score) -> tuple[Pending
     return (PendingRetest(chunk.between(first, last), indices - first, scored.answers, scored.times),)
 
 
-def _excused(case: WrongCase, name: str, family: str, rules: JudgingRules) -> tuple[WrongCase, list[int]]:
-    """The case, EXCUSED if known failures cover it, and the numbers of these."""
-    if case.status is not Status.WRONG or not rules.known:
-        return case, []
-    naming = [(number, entry) for number, entry in enumerate(rules.known) if entry.names(name, family)]
-    error_u = 0.0
-    if any(entry.max_u < math.inf for _, entry in naming):  # to measure takes a thousand times as long as to judge
-        measured = judge_of(rules.criterion.question).measured(case, rules.criterion)
-        error_u = judge.in_units(measured, rules.criterion.unit)
-    covering = [number for number, entry in naming if error_u <= entry.max_u]
-    return (replace(case, status=Status.EXCUSED) if covering else case), covering
+def _excused(
+    wrong: list[WrongCase], chunk: CaseChunk, indices: Indices, asked: Asked, rules: JudgingRules
+) -> tuple[list[WrongCase], set[int]]:
+    """These cases, those that known failures cover EXCUSED, and the numbers of these failures."""
+    places = [place for place, case in enumerate(wrong) if case.status is Status.WRONG and rules.known]
+    cases = [(wrong[place].index, chunk.name(int(indices[wrong[place].index]))) for place in places]
+    found, excusing = list(wrong), set[int]()
+    about = entries_about(rules.known, cases, chunk.family, asked, fresh=rules.are_fresh(chunk))
+    for place, numbers in zip(places, about, strict=True):
+        case, error_u = wrong[place], 0.0
+        if any(rules.known[each].max_u < math.inf for each in numbers):  # to measure takes a thousand times as long
+            measured = judge_of(rules.criterion.question).measured(case, rules.criterion)
+            error_u = judge.in_units(measured, rules.criterion.unit)
+        covering = [each for each in numbers if error_u <= rules.known[each].max_u]
+        if covering:
+            found[place] = replace(case, status=Status.EXCUSED)
+            excusing.update(covering)
+    return found, excusing
 
 
 def _named_cases(chunk: CaseChunk, indices: Indices, known: Sequence[KnownFailure]) -> Iterator[str]:

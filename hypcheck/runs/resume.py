@@ -301,12 +301,16 @@ def _saved_tally(tally: Tally, layout: Layout) -> SavedTally:
         faults=[SavedFault(**_saved_case(case, layout)) for case in tally.unanswered],
         explained=[_saved_explained(causes, each, layout) for causes, each in tally.diagnosis.explained.items()],
         denied=dict(tally.diagnosis.denied),
+        fresh=tally.fresh,
+        not_asked=dict(tally.not_asked),
     )
 
 
 def _restored_tally(content: SavedTally) -> Tally:
     return Tally(
         asked=content.asked,
+        fresh=content.fresh,
+        not_asked=content.not_asked,
         counts=content.counts,
         mistakes=content.mistakes,
         dangerous=content.dangerous,

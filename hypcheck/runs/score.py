@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
@@ -125,13 +126,13 @@ class Score:
         indices: Indices,
         exponents: NDArray[np.float64],
         *,
-        skipped: int = 0,
+        left_out: Mapping[str, int] = MappingProxyType({}),
         wrong: Sequence[WrongCase] | None = None,
     ) -> Tally:
         """The tally of these rows, which are the cases `indices` (n,) of a source.
 
-        `exponents` are floor(log2) of the distances of the first rows to the nearest other position. `skipped` rows
-        were not asked. `wrong` are the judged cases if some of them are excused.
+        `exponents` are floor(log2) of the distances of the first rows to the nearest other position. `left_out` counts
+        rows that were not asked, by reason. `wrong` are the judged cases if some of them are excused.
         """
         cases = list(self.judged()) if wrong is None else wrong
         status = self.status.copy()
@@ -140,7 +141,8 @@ class Score:
         amiss = status != STATUS_CODES[Status.RIGHT]
         return Tally(
             asked=len(self.rows),
-            counts=counts_of(status) | ({Status.SKIPPED.value: skipped} if skipped else {}),
+            counts=counts_of(status) | ({Status.SKIPPED.value: sum(left_out.values())} if left_out else {}),
+            not_asked=dict(left_out),
             mistakes=dict(Counter(case.mistake.value for case in cases)),
             dangerous=sum(case.status is Status.WRONG and case.mistake in DANGEROUS for case in cases),
             exponents=by_exponent(exponents, status[: len(exponents)]),

@@ -128,26 +128,31 @@ class SlippedRule:
 def _formula_slips() -> Iterator[Cause]:
     """Formulas with a sign or a term of a coefficient or of Δ wrong, or the decision."""
 
-    def slip(name: str, what: str, remedy: str, rule: Rule) -> Cause:
+    def slip(name: str, what: str, why: str, remedy: str, rule: Rule) -> Cause:
         sentence = f"it answers as if{what}"
-        return Cause(name=name, sentence=sentence, remedy=remedy, rule=rule, standing=Standing.EVERYWHERE)
+        return Cause(name=name, sentence=sentence, why=why, remedy=remedy, rule=rule, standing=Standing.EVERYWHERE)
 
+    why = "Equation (14) and Table 2 of the paper have these coefficients, which follow from the determinant of λH + S"
     for name, terms in _COEFFICIENTS.items():
         for term in terms:
             negated, left_out = (SlippedRule(factors={(name, term): factor}) for factor in (-1, 0))
-            yield slip(f"{name}-sign-{term}", f" the sign of {term} in {name} were wrong", _WRITTEN[name], negated)
+            yield slip(f"{name}-sign-{term}", f" the sign of {term} in {name} were wrong", why, _WRITTEN[name], negated)
             if name != "c0":
-                yield slip(f"{name}-without-{term}", f" {name} lacked the term {term}", _WRITTEN[name], left_out)
+                yield slip(f"{name}-without-{term}", f" {name} lacked the term {term}", why, _WRITTEN[name], left_out)
     right, factors = "Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²", tuple(_DELTA.values())
+    why = "Equation (13) of the paper is the discriminant of g: it is > 0 exactly where g has three distinct real roots"
     for place, term in enumerate(_DELTA):
         for name, what, other in (("sign", "the sign were wrong", -factors[place]), ("without", "nothing stood", 0)):
             rule = SlippedRule(delta=(*factors[:place], other, *factors[place + 1 :]))
-            yield slip(f"delta-{name}-{place + 1}", f", at the term {term} of Δ, {what}", right, rule)
-    yield slip("delta-negative", " Δ < 0 were asked for", right, SlippedRule(delta=tuple(-each for each in factors)))
-    right = "three roots are positive exactly if c2 < 0 and c1 > 0"
+            yield slip(f"delta-{name}-{place + 1}", f", at the term {term} of Δ, {what}", why, right, rule)
+    yield slip(
+        "delta-negative", " Δ < 0 were asked for", why, right, SlippedRule(delta=tuple(-each for each in factors))
+    )
+    right = "three roots are positive exactly where c2 < 0 and c1 > 0"
+    why = "With Δ > 0 and c0 < 0, Descartes' rule gives three positive roots exactly where c2 < 0 and c1 > 0"
     for name, signs in (("c1", (-1, -1)), ("c2", (1, 1))):
         what = f" the sign of {name} were asked for the other way"
-        yield slip(f"decision-{name}", what, right, SlippedRule(signs=signs))
+        yield slip(f"decision-{name}", what, why, right, SlippedRule(signs=signs))
 
 
 def _terms(**changed: Callable[[Lengths], Number]) -> Rule:

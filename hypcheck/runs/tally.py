@@ -186,15 +186,18 @@ class UnansweredCase:
 class Tally:
     """The results of some cases of one family, in numbers.
 
-    `asked` does not include skipped rows. `counts` are by status, SKIPPED included. `mistakes` count wrong and
-    tolerated answers by kind. `dangerous` counts answers that claim clear in contact, beyond the tolerance and not
-    excused. `exponents` count statuses by floor(log2) of the cases' distance to the nearest other position.
+    `asked` does not include skipped rows, of which `not_asked` counts the reasons (implementations.not_asked.ROWS).
+    `fresh` of those asked are rows that nobody knew before. `counts` are by status, SKIPPED included. `mistakes` count
+    wrong and tolerated answers by kind. `dangerous` counts answers that claim clear in contact, beyond the tolerance
+    and not excused. `exponents` count statuses by floor(log2) of the cases' distance to the nearest other position.
     `size_bins` and `place_bins` are histograms over sizes and places. `worst` are the worst cases, the worst first, and
     `unanswered` the first cases without a valid answer, by place. `diagnosis` says which causes explain wrong answers,
     of an implementation under test.
     """
 
     asked: int = 0
+    fresh: int = 0
+    not_asked: Mapping[str, int] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
     mistakes: Mapping[str, int] = field(default_factory=dict)
     dangerous: int = 0
@@ -215,6 +218,8 @@ def merged_tally(tallies: Iterable[Tally]) -> Tally:
             exponents[key] = _added((exponents.get(key, {}), counts))
     return Tally(
         asked=sum(part.asked for part in parts),
+        fresh=sum(part.fresh for part in parts),
+        not_asked=_added(part.not_asked for part in parts),
         counts=_added(part.counts for part in parts),
         mistakes=_added(part.mistakes for part in parts),
         dangerous=sum(part.dangerous for part in parts),
@@ -248,6 +253,8 @@ def group_line(
         precision=criterion.precision,
         family=family,
         asked=tallied.asked,
+        fresh=UNSET if failing is UNSET else tallied.fresh,
+        not_asked=dict(sorted(tallied.not_asked.items())),
         counts=dict(sorted(tallied.counts.items())),
         mistakes=dict(sorted(tallied.mistakes.items())),
         octaves={key: dict(sorted(tallied.exponents[key].items())) for key in sorted(tallied.exponents, key=float)},

@@ -13,15 +13,15 @@ import re
 import shlex
 import textwrap
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from hypcheck import toml
-from hypcheck.errors import InputError, system_reason
+from hypcheck.errors import InputError
 from hypcheck.messages import counted
 from hypcheck.scaffold.project import LANGUAGES, Project, filled
 from hypcheck.scaffold.requirement import Requirement
-from hypcheck.tables.streams import writing
+from hypcheck.tables.streams import made_folder, writing
 
 SETTINGS = "hypcheck.toml"
 WORKFLOW = ".github/workflows/hypcheck.yml"
@@ -155,7 +155,7 @@ def write_all(root: Path, texts: Mapping[str, str], *, force: bool, replaced: Co
     _refuse(there, force=force)
     with ExitStack() as stack:
         for target in targets:
-            stack.enter_context(_folder(target.parent))
+            stack.enter_context(made_folder(target.parent))
             stack.enter_context(_new(target))
         for target, text in targets.items():
             writer = stack.enter_context(writing(str(target)))
@@ -172,23 +172,6 @@ def _refuse(there: list[Path], *, force: bool) -> None:
         more = len(there) - 1
         others = f", and {counted(more, 'other file')} that init writes" if more else ""
         raise InputError(f"{there[0]} exists{others}; nothing was written; --force replaces existing files")
-
-
-@contextmanager
-def _folder(path: Path) -> Iterator[None]:
-    """Make a folder and those above it; after an error, remove those that were made."""
-    made = [each for each in (path, *path.parents) if not os.path.lexists(each)]
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"cannot make the folder {path}: {system_reason(error)}") from error
-    try:
-        yield
-    except BaseException:
-        for each in made:
-            with suppress(OSError):
-                each.rmdir()
-        raise
 
 
 @contextmanager

@@ -41,8 +41,8 @@ _SECONDS = 15.0
 """Time for a repository to answer which commit a name stands for."""
 
 RIGHT = (
-    "a git URL such as https://host/owner/hypcheck.git@v1.2.0, a wheel or sdist (a path, or a URL), "
-    "or one version on a package index, such as hypcheck==1.2.0"
+    "a git URL such as https://HOST/OWNER/hypcheck.git@COMMIT, a wheel or sdist (a path, or a URL), "
+    "or one version on a package index, such as hypcheck==VERSION"
 )
 
 

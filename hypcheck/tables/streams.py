@@ -11,10 +11,11 @@ from __future__ import annotations
 import io
 import os
 import secrets
+import select
 import stat
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -131,15 +132,46 @@ class Writer:
 
 
 @contextmanager
-def reading(path: str) -> Iterator[Reader]:
-    """The file at `path`, or standard input for "-". Raises InputError if it cannot be opened."""
+def reading(path: str, *, patient: bool = False) -> Iterator[Reader]:
+    """The file at `path`, or standard input for "-". Raises InputError if it cannot be opened.
+
+    A pipe to which nothing is written within PIPE_S seconds is refused. With `patient` it is waited for without end, as
+    a table is whose rows another program makes.
+    """
     if path == STREAM:
         yield Reader(_binary(sys.stdin, "standard input"), "standard input")
         return
     with _errors_name("read", path):
-        file = open(path, "rb")  # noqa: SIM115 - only errors of opening name the path, not those of the caller's block
+        # Only errors of opening name the path, not those of the caller's block.
+        file = open(path, "rb") if patient else open(_promptly_opened(path), "rb")  # noqa: SIM115
     with file:
         yield Reader(file, path)
+
+
+PIPE_S = 10
+"""Seconds until a pipe must have something to read, or a writer that has left."""
+
+
+def _promptly_opened(path: str) -> int:
+    """The descriptor of a file that is opened for reading. Raises InputError for a pipe that nobody writes to."""
+    if not hasattr(os, "O_NONBLOCK"):
+        return os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+    opened = os.open(path, os.O_RDONLY | os.O_NONBLOCK)  # to open a pipe would wait for a writer
+    try:
+        if stat.S_ISFIFO(os.fstat(opened).st_mode):
+            _require_writer(path, opened)
+        os.set_blocking(opened, True)
+    except BaseException:
+        os.close(opened)
+        raise
+    return opened
+
+
+def _require_writer(path: str, opened: int) -> None:
+    there = select.poll()
+    there.register(opened, select.POLLIN)
+    if not there.poll(PIPE_S * 1000):
+        raise InputError(f"cannot read {path}: it is a pipe, and nothing was written to it within {PIPE_S} s")
 
 
 def remove_file(path: Path) -> None:
@@ -172,6 +204,40 @@ def writing(path: str, *, follow: bool = True) -> Iterator[Writer]:
         return
     with _replacing(path, os.path.realpath(path) if follow else path, mode) as writer:
         yield writer
+
+
+def write_files(contents: Mapping[str, bytes], *, follow: bool = True) -> None:
+    """Write all of these files, by path, or none. Raises InputError if one cannot be written.
+
+    `follow` is as for `writing`.
+    """
+    with ExitStack() as stack:
+        writers = [stack.enter_context(writing(path, follow=follow)) for path in contents]
+        for writer, content in zip(writers, contents.values(), strict=True):
+            writer.write(content)
+        for writer in writers:  # before the first takes its place
+            writer.flush()
+
+
+@contextmanager
+def made_folder(path: Path) -> Iterator[None]:
+    """Within the block the folder is there, with those above it; if the block fails, new ones are removed if empty.
+
+    Raises InputError if it cannot be made.
+    """
+    made = [each for each in (path, *path.parents) if not os.path.lexists(each)]
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        reason = system_reason(error) if isinstance(error, OSError) else str(error)
+        raise InputError(f"cannot make the folder {path}: {reason}") from error
+    try:
+        yield
+    except BaseException:
+        for each in made:
+            with suppress(OSError):
+                each.rmdir()
+        raise
 
 
 def same_file(first: str, second: str) -> bool:

@@ -39,7 +39,7 @@ COMPLEX = "complex"
 
 
 class RootPlace(Enum):
-    """Where a root stands to −A, 0 and B; 0 itself is never a root, since g(0) = −A B."""
+    """The place of a root relative to −A, 0 and B; 0 itself is never a root, since g(0) = −A B."""
 
     BELOW = "<−A"
     AT_MINUS_A = "−A"

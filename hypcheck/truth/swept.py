@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.errors import InputError
+from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, NO_DIRECTION, SIZES, Position, trouble_with
 from hypcheck.messages import counted, escaped
 from hypcheck.truth.journey import Journey, TiltedJourney, UprightJourney, piece, shortened
@@ -143,16 +144,19 @@ class Passage:
         return self.first is not None
 
     @property
+    @in_default_environment
     def first_lower(self) -> float:
         """The largest float64 that is not above the time of first contact's enclosure; NaN where there is none."""
         return math.nan if self.first is None else rounded(self.first[0], -math.inf)
 
     @property
+    @in_default_environment
     def first_upper(self) -> float:
         """The least float64 that is not below the enclosure; NaN where there is none."""
         return math.nan if self.first is None else rounded(self.first[1], math.inf)
 
 
+@in_default_environment
 def passage(
     sizes: Sequence[Rational],
     start: Sequence[Rational],

@@ -1,4 +1,4 @@
-"""Turning in place: where a part on an arm stands to the hyperboloid all through a turn, by a bound that is proved.
+"""Turning in place: the position of a part on an arm relative to the hyperboloid all through a turn, by a proved bound.
 
 The part's centre goes along an arc of radius l about the mover's centre (x0, y0, z0), at one height. Only its squared
 distance from the axis changes, R(t) = x0² + y0² + l² + 2 l e(t), with

@@ -48,18 +48,23 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
             raise InputError(f"there are no frozen vectors {name!r}; there are {', '.join(ALL_NAMES)}")
     if not folder.is_dir():
         raise InputError(f"{folder} is no folder; create it, or name another folder with --into")
-    for name in wanted:
-        path = folder / f"{name}.json"
-        text = _text(name, path)
-        with writing(str(path)) as writer:
+    earlier = {name: _earlier(name, folder / f"{name}.json") for name in wanted}  # all of them, before one is replaced
+    for name, before in earlier.items():
+        text = _text(name, before)
+        with writing(str(folder / f"{name}.json")) as writer:
             writer.write(text.encode())
         done(name)
 
 
-def _text(name: str, path: Path) -> str:
+def _earlier(name: str, path: Path) -> CaseFile[Any] | None:
+    """The file of that name that is there. Raises InputError if it is not as it must be."""
     before = read_cases(str(path), _content_of(name)) if path.exists() else None
     if before is not None and before.head.name != name:
         raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
+    return before
+
+
+def _text(name: str, before: CaseFile[Any] | None) -> str:
     file = frozen_invalid_rows(name, before) if name in INVALID_CONTENTS else frozen(name, before)
     for fault in faults_of(file):
         raise DisagreementError(

@@ -15,7 +15,6 @@ from hypcheck.bench.workloads import WAY_WORKLOADS, frozen_ways, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, first_trouble
 from hypcheck.implementations.builtin import passage_methods
-from hypcheck.implementations.session import Limits
 from hypcheck.implementations.ways import WAY_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
@@ -29,7 +28,7 @@ from hypcheck.vectors.families import WAY_FAMILIES
 from tests.bench.test_run import RECORD, ended
 from tests.support.records import violations
 from tests.support.without_drawing import draw_nothing
-from tests.tools.miniatures import command
+from tests.tools.miniatures import NOT_ISOLATED, command
 
 
 @pytest.mark.parametrize("name", WAY_WORKLOADS)
@@ -139,9 +138,9 @@ def test_bench_of_ways_refuses_methods_and_workloads_that_ways_do_not_have(tmp_p
 
 @pytest.mark.slow
 def test_bench_takes_a_spec_only_if_it_answers_the_question_of_the_run():
-    found = foreign.foreign_method(command("passage", "binary"), Limits(), [], layout=WAYS)
+    found = foreign.foreign_method(command("passage", "binary"), NOT_ISOLATED, [], layout=WAYS)
     assert found.name in contenders(BenchPlan(question=PASSAGE, foreign=(found,)))
     with pytest.raises(InputError, match="answers the question passage; it is measured with --question passage"):
-        foreign.foreign_method(command("passage", "binary"), Limits(), [])
+        foreign.foreign_method(command("passage", "binary"), NOT_ISOLATED, [])
     with pytest.raises(InputError, match="answers the question position; it is measured without --question passage"):
-        foreign.foreign_method(command("right", "binary"), Limits(), [], layout=WAYS)
+        foreign.foreign_method(command("right", "binary"), NOT_ISOLATED, [], layout=WAYS)

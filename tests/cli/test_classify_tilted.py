@@ -5,14 +5,20 @@ from __future__ import annotations
 import json
 from fractions import Fraction
 
+import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from hypcheck.answer import answer, answer_as_json, answer_as_text
+from hypcheck.answers import answers
 from hypcheck.cli.main import main
+from hypcheck.kernel.classify import classify
 from hypcheck.tables.numbers import exact_text
 from hypcheck.truth.tilted.pair import TiltedPair
 from tests.cli.test_classify import number
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
+from tests.support.pairs import extreme_tilted_rows, nearly_touching_tilted_rows
 from tests.support.tilted_fractions import combined, derivative, exact_position, interpolated, matrices, value
 
 
@@ -172,3 +178,28 @@ def test_classify_refuses_an_axis_without_a_pair_or_with_a_table(capsys):
     assert "--alpha, --gamma, --b, --d, --center are missing" in capsys.readouterr().err
     assert main(["classify", "--axis", "1", "0", "0", "--input", "a.csv", "--output", "-"]) == 2
     assert "--axis is for one pair, and --input for a table" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("y", ["1e-165", "1e-170", "-1e-200", "5e-324"])
+def test_classify_answers_a_clearance_below_the_least_float64_with_the_least_that_has_its_sign(y, capsys):
+    assert main([*options([1, 2, 1, 1.5, 2, y, 0, 0, 1, 0]), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["position"], found["tangent"], found["clearance"]) == (1, False, 5e-324)
+
+
+def test_classify_answers_an_interior_pair_of_the_widest_range_of_lengths(capsys):
+    huge, gamma = float.fromhex("0x1.fffffffffffe9p+1023"), float.fromhex("0x1.f26de949a5ee1p-300")
+    d, z = float.fromhex("0x0.07602de4963fep-1022"), float.fromhex("-0x1.362e3227d0290p-300")
+    assert main([*options([huge, gamma, huge, d, 0, 0, z, 3, 0, -1]), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["position"], found["tangent"], found["clearance"]) == (-1, False, 5e-324)
+
+
+@settings(max_examples=25)
+@given(st.lists(st.one_of(nearly_touching_tilted_rows, extreme_tilted_rows), min_size=1, max_size=4))
+def test_clearance_is_0_exactly_for_tangencies_and_has_the_sign_of_the_position_at_any_exponents(rows):
+    found = answers(np.array(rows, dtype=np.float64))
+    assert found.positions.tolist() == classify(rows).tolist()
+    assert ((found.clearance == 0) == found.tangent).all()
+    assert ((found.clearance > 0) == (found.positions != 0)).all()
+    assert (found.clearance >= -1).all()

@@ -33,7 +33,7 @@ def test_info_json_has_the_kernel_the_header_and_the_oracles(run):
     found = json.loads(said)
     assert found["hypcheck"] == hypcheck.__version__
     assert found["kernel"] == {"name": "numpy", "level": None, "reason": "HYPCHECK_KERNEL asks for it", "threads": 1}
-    assert Path(found["header"]).read_text(encoding="utf-8").startswith("/* Where a spheroid stands")
+    assert Path(found["header"]).read_text(encoding="utf-8").startswith("/* The position of a spheroid")
     assert list(found["oracles"]) == ["exact", "nearest", "roots", "mesh"]
     assert found["oracles"]["exact"] == {"available": True, "reason": None}
     assert set(found["versions"]) >= {"numpy", "sympy", "click"}

@@ -15,7 +15,7 @@ from hypcheck.errors import InputError, SystemLimitError, limit_reached
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.record import Recorder
 from tests.support.records import GrowingText
-from tests.tools.miniatures import LIMITS, command, function, rows, truth
+from tests.tools.miniatures import NOT_ISOLATED, command, function, rows, truth
 
 LIMITED = """
 import resource, sys
@@ -54,7 +54,7 @@ def test_simulate_reports_missing_semaphores_with_shared_memory_as_the_reason(re
 def test_an_implementation_can_be_called_without_a_null_device(monkeypatch):
     monkeypatch.setattr(os, "devnull", "/missing/null")
     some = rows(lucky=True)
-    with open_implementation(command("right"), LIMITS) as it:
+    with open_implementation(command("right"), NOT_ISOLATED) as it:  # isolated, the launcher does what the guard does
         assert it.classify(some).answers.tolist() == truth(some).tolist()
         assert it._supervisor.session()._process._guard is not None
 

@@ -31,7 +31,7 @@ def asked(engine, folder, name, moved=0.0):
     mesh = surface_mesh(family.sizes, 5000)
     lifted = SurfaceMesh(mesh.vertices * [1 + moved, 1 + moved, 1], mesh.triangles, mesh.deviation)
     write_scene(folder, family.sizes, lifted)
-    words = command(engine, CACHE, folder)
+    words = command(engine, CACHE, folder, tightest=True)  # a margin by default is no error
     with open_implementation(spec_of(words)) as implementation:
         answered = implementation.classify(found.rows)
         timed = implementation.time(found.rows[:4], 2)

@@ -20,7 +20,8 @@ from tests.engines.test_adapters import CACHE
 
 def test_engines_list_names_every_engine_and_says_which_are_installed(capsys, tmp_path):
     assert main(["engines", "list", "--cache", str(tmp_path)]) == 0
-    lines = capsys.readouterr().out.splitlines()
+    header, *lines = capsys.readouterr().out.splitlines()
+    assert header.split() == ["engine", "version", "body", "state"]
     assert [line.split()[0] for line in lines] == list(ENGINES)
     assert all("installed" in line for line in lines)
 
@@ -69,7 +70,8 @@ def test_a_record_of_an_engine_is_written_read_and_shown_as_page_and_badge(tmp_p
     record = record_of(ENGINES["python-fcl"], CACHE, each=2, meshes=(500,), families=families)
     write_record(tmp_path, record)
     assert read_records(tmp_path) == [record]
-    ball, far = record.measured
+    assert record.tightest == []
+    ball, far = record.best
     assert ball.own == 0
     assert ball.false_clears + ball.false_contacts == ball.mesh_wrong > 0
     assert ball.distance.own_worst_mm < 1e-9
@@ -77,7 +79,8 @@ def test_a_record_of_an_engine_is_written_read_and_shown_as_page_and_badge(tmp_p
     assert sum(each.clear + each.contacts for each in far.decades) == far.rows
     write_page(tmp_path)
     page = (tmp_path / "README.md").read_text()
-    assert "| [python-fcl](#python-fcl-07011) 0.7.0.11 |" in page
+    assert "| [python-fcl](#python-fcl-07011) |" in page
+    assert (tmp_path / "python-fcl.svg").read_text().count("<circle") == 4
     assert all(f"*{name}*: {FAMILIES[name].text}" in page for name in FAMILIES)
     assert json.loads((tmp_path / "python-fcl.badge.json").read_text())["label"] == "python-fcl"
 
@@ -124,7 +127,7 @@ def test_each_manager_installs_the_pinned_version_into_the_engines_own_folder(mo
 
 
 def test_record_of_an_engine_skips_families_that_it_cannot_answer_with_the_reason(monkeypatch, tmp_path):
-    def refused(engine, cache, name, each, triangles):
+    def refused(engine, cache, name, each, triangles, *, tightest):
         asked.append(name)
         raise StartError("the program ended; stderr: no memory")
 
@@ -159,5 +162,5 @@ def test_an_adapter_that_hangs_or_has_no_clock_gets_neither_distances_nor_a_time
 def test_the_distance_error_of_an_engine_that_reports_no_distances_is_none():
     found = placed(FAMILIES["ball"], 1)
     none = np.full(len(found.rows), np.nan)
-    reported = measuring._reported(none, found, none, found.contact)
+    reported = measuring._reported(none, found, none, found.contact, found.contact)
     assert (reported.rows, reported.missing, reported.worst_mm) == (0, found.contact.sum(), None)

@@ -7,15 +7,10 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
+from hypcheck.engines.drawings import drawing
 from hypcheck.engines.engine import ENGINES, command, is_installed
-from hypcheck.engines.findings import (
-    Finding,
-    drawing,
-    proved,
-    read_findings,
-    reproduction,
-    write_findings,
-)
+from hypcheck.engines.findings import Finding, proved, read_findings, reproduction
+from hypcheck.engines.report import write_findings
 from tests.engines.test_adapters import CACHE
 
 REPORTS = Path(__file__).parents[2] / "reports" / "engines"

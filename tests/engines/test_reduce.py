@@ -40,7 +40,7 @@ def rows(mesh):
 
 
 def measured(mesh, row, **changes):
-    reported = Reported(1, 0, 10.0, 10.0, row, None)
+    reported = Reported(1, 0, 10.0, 10.0, row, None, 1, row)
     found = Measured(
         BALL.name, len(mesh.triangles), 1.0, 1, 0, 0, 0.0, None, 0, 0.0, 1, 1, 5.0, row, {}, [],
         Reported(0, 0, None, None, None, None), reported, None,
@@ -49,7 +49,7 @@ def measured(mesh, row, **changes):
 
 
 def record(name, *found):
-    return EngineRecord("1.0.0", "0", "here", name, "0", list(found), {})
+    return EngineRecord("2.0.0", "0", "here", name, "0", list(found), [], {})
 
 
 def engine_with(monkeypatch, contact=0.0, reported=0.0):
@@ -69,6 +69,7 @@ def engine_with(monkeypatch, contact=0.0, reported=0.0):
         ("missed contact", "contact", {"contact": -PLANTED}, 1.2, 7.5),
         ("too near", "clear", {"reported": -PLANTED}, 5.0, 10.001),
         ("too far", "clear", {"reported": PLANTED}, 5.0, 10.001),
+        ("contradiction", "clear", {"contact": PLANTED}, 1.2, 7.5),
     ],
 )
 def test_a_planted_engine_error_is_reduced_to_one_triangle_of_round_numbers_and_proved(
@@ -147,6 +148,9 @@ def test_an_engine_whose_body_is_a_hull_has_no_missed_contact_or_too_far_error(t
         ("too near", Said(False, nan), 0.0),
         ("too far", Said(False, 0.3), 0.05),
         ("too far", None, 0.0),
+        ("contradiction", Said(True, 0.2), 0.25),
+        ("contradiction", Said(True, -0.2), 0.0),
+        ("contradiction", Said(False, 0.2), 0.0),
     ],
 )
 def test_error_of_an_engine_is_the_difference_of_its_answer_from_the_true_distance(tmp_path, kind, said, error):
@@ -156,7 +160,7 @@ def test_error_of_an_engine_is_the_difference_of_its_answer_from_the_true_distan
 
 def test_asker_reads_the_answer_of_an_adapter_or_gives_none_if_it_ends_early(monkeypatch, tmp_path):
     script = tmp_path / "adapter.py"
-    monkeypatch.setattr(reduce, "command", lambda engine, cache, scene: (sys.executable, str(script), str(scene)))
+    monkeypatch.setattr(reduce, "command", lambda engine, cache, scene, tightest: (sys.executable, script, scene))
     asker = Asker(ENGINES["python-fcl"], tmp_path, 1.0, 0.25)
     script.write_text(
         "import sys; from pathlib import Path\n"

@@ -17,6 +17,7 @@ from hypcheck.implementations.worker import Leftovers, mode_in_use
 from tests.tools.miniatures import (
     HERE,
     LIMITS,
+    NOT_ISOLATED,
     QUICK,
     UNLUCKY,
     command,
@@ -93,11 +94,16 @@ def test_the_outcome_of_faults_does_not_depend_on_the_batch_size(monkeypatch, sp
     assert restarts_of(it) == restarts
 
 
-@pytest.mark.parametrize("name", ["right", "prints", "list_of_integers", "imports_us"])
+@pytest.mark.parametrize("name", ["right", "prints", "list_of_integers"])
 def test_a_function_may_print_and_return_integers_of_any_type(name):
     some = rows(5000)
     with open_implementation(function(name), LIMITS) as it:
         assert it.classify(some).answers.tolist() == truth(some).tolist()
+
+
+def test_a_function_beside_an_import_of_hypcheck_has_no_description_by_that():
+    with open_implementation(function("imports_us"), NOT_ISOLATED) as it:
+        assert it.classify(rows()).answers.tolist() == truth(rows()).tolist()
 
 
 def intruder(name):

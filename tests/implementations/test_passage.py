@@ -15,7 +15,7 @@ from hypcheck.implementations.description import Description, described
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome, StartError
 from hypcheck.truth.swept import passage
-from tests.tools.miniatures import LIMITS, command, compiled, function, rows
+from tests.tools.miniatures import LIMITS, NOT_ISOLATED, command, compiled, function, rows
 
 SHARED = ("-shared", "-fPIC")
 
@@ -44,7 +44,7 @@ def test_a_command_answers_ways_in_text_and_binary_with_and_without_times(words)
     some = ways()
     hits, times = truth(some)
     assert 0 < sum(hits) < len(hits)
-    with open_implementation(command("passage", *words), LIMITS) as it:
+    with open_implementation(command("passage", *words), NOT_ISOLATED) as it:
         for answered in (it.classify(some), it.classify(some, batch=7)):
             assert answered.answers.tolist() == hits
             assert (answered.times is None) == ("times" not in words)
@@ -54,7 +54,7 @@ def test_a_command_answers_ways_in_text_and_binary_with_and_without_times(words)
 
 def test_a_command_is_timed_on_ways():
     some = ways(8)
-    with open_implementation(command("passage", "times", "binary"), LIMITS) as it:
+    with open_implementation(command("passage", "times", "binary"), NOT_ISOLATED) as it:
         assert it.time(some, 3) == 3000
 
 
@@ -63,7 +63,7 @@ def test_a_python_function_returns_hits_and_times_and_refuses_an_invalid_way():
     hits, times = truth(some)
     bad = some.copy()
     bad[3, 8] = math.nan
-    with open_implementation(function("passage"), LIMITS) as it:
+    with open_implementation(function("passage"), NOT_ISOLATED) as it:
         answered = it.classify(some)
         refused = it.classify(bad)
         assert it.time(some[:3], 2) > 0
@@ -118,7 +118,7 @@ def test_a_library_for_ways_without_the_function_for_passage_is_refused(tmp_path
 def test_a_hit_without_a_time_from_0_to_1_breaks_the_protocol(words):
     some = ways()
     hits, _ = truth(some)
-    with open_implementation(command("passage", *words), LIMITS) as it:
+    with open_implementation(command("passage", *words), NOT_ISOLATED) as it:
         answered = it.classify(some)
     assert (~answered.answered).astype(int).tolist() == hits
     assert answered.reasons[hits.index(1)] == "it answered 1 with the time nan; it must be a number from 0 to 1"
@@ -139,7 +139,7 @@ def test_the_example_conversation_about_ways_on_the_protocol_page_is_right():
 
 
 def test_an_implementation_for_ways_refuses_rows_of_another_width():
-    with open_implementation(command("passage"), LIMITS) as it:
+    with open_implementation(command("passage"), NOT_ISOLATED) as it:
         with pytest.raises(InputError, match=r"shape \(24, 7\); it must be \(n, 10\): alpha, .*, z1$"):
             it.classify(ways()[:, :7])
         with pytest.raises(InputError, match=r"shape \(24, 13\)"):

@@ -18,16 +18,16 @@ from hypcheck.implementations import memory
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.process import ONE_THREAD, Process
 from hypcheck.implementations.session import FaultError, Limits, Outcome
-from tests.tools.miniatures import LIMITS, all_gone, command, function, living, needs_proc, rows
+from tests.tools.miniatures import LIMITS, NOT_ISOLATED, all_gone, command, function, living, needs_proc, rows
 
 
-@pytest.fixture
-def run():
+@pytest.fixture(params=[LIMITS, NOT_ISOLATED], ids=["isolated", "not isolated"])
+def run(request):
     """Starts a Python program, which is killed at the end of the test where it still lives."""
     started = []
 
     def start(code: str) -> Process:
-        started.append(Process((sys.executable, "-c", code), LIMITS))
+        started.append(Process((sys.executable, "-c", code), request.param))
         return started[-1]
 
     yield start
@@ -104,17 +104,16 @@ def test_a_small_question_reaches_a_process_in_one_read_and_a_large_one_complete
     assert int(hear(process, 14)[3:]) == zlib.crc32(b"".join((*small, *large)))
 
 
-def test_a_process_that_ends_at_the_end_of_its_input_is_not_killed(tmp_path, run):
-    left = tmp_path / "left"
-    code = f"import sys, pathlib; sys.stdin.read(); pathlib.Path({str(left)!r}).write_text('by itself')"
-    run(code).goodbye()
-    assert left.read_text() == "by itself"
+def test_a_process_that_ends_at_the_end_of_its_input_is_not_killed(run):
+    process = run("import sys; sys.stdin.read(); sys.stderr.write('by itself')")
+    process.goodbye()
+    assert process.stderr == ("by itself",)
 
 
 @needs_proc
 @pytest.mark.parametrize("name", ["ignores_goodbye", "detaches"])
 def test_a_process_that_does_not_end_is_killed_with_its_children(name, token):
-    with open_implementation(command(name), LIMITS) as it:
+    with open_implementation(command(name), NOT_ISOLATED) as it:  # isolated, the launcher does this: tests/isolation
         it.classify(rows())
         eventually(lambda: len(living(token)) == 5)  # the command, its child, the guard with its clock
         start = time.monotonic()
@@ -142,12 +141,11 @@ def test_an_interrupt_of_hypcheck_during_a_question_leaves_no_process(token):
 STOPS = """
 import os, signal, sys, time
 from hypcheck.implementations import process
-from hypcheck.implementations.session import Limits
 from hypcheck.implementations.implementation import open_implementation
-from tests.tools.miniatures import command, rows
+from tests.tools.miniatures import NOT_ISOLATED, command, rows
 
 process.LOOK = 0.1
-with open_implementation(command("stops_its_parent"), Limits()) as it:
+with open_implementation(command("stops_its_parent"), NOT_ISOLATED) as it:  # isolated, it reaches no parent
     assert it.classify(rows()).answered.all()
 print("answered")
 """
@@ -175,14 +173,15 @@ def test_an_implementation_that_stops_its_parent_does_not_hang_the_run(token):
 
 
 @needs_proc
+@pytest.mark.parametrize("limits", ["LIMITS", "NOT_ISOLATED"])
 @pytest.mark.parametrize("name", ["loops", "ignores_goodbye", "detaches"])
-def test_no_process_outlives_hypcheck_even_if_it_is_killed(name, token):
-    """An endless loop does not see that its input ended, nor does a child: the guard does."""
+def test_no_process_outlives_hypcheck_even_if_it_is_killed(name, limits, token):
+    """An endless loop does not see that its input ended, nor does a child: the guard does, or the launcher."""
     code = (
         "import sys\n"
         "from hypcheck.implementations.implementation import open_implementation\n"
-        "from tests.tools.miniatures import command, rows\n"
-        f"it = open_implementation(command({name!r}))\n"
+        "from tests.tools.miniatures import LIMITS, NOT_ISOLATED, command, rows\n"
+        f"it = open_implementation(command({name!r}), {limits})\n"
         "it.classify(rows(lucky=True))\n"
         "print('asked', flush=True)\n"
         "it.classify(rows())\n"

@@ -204,7 +204,7 @@ def test_an_isolated_implementation_that_does_not_start_gets_a_hint_about_isolat
     code = "open('/forged', 'w')"
     if not HERE.names:
         pytest.skip(f"a program here is {SAID}")
-    with pytest.raises(StartError, match=r"; it was isolated, and --isolate off starts it without$"):
+    with pytest.raises(StartError, match=r"; it runs isolated, and writes to its scratch folder alone, .*without$"):
         open_implementation("command:" + json.dumps([sys.executable, "-I", "-S", "-c", code]), Limits())
 
 

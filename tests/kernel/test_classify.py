@@ -95,6 +95,7 @@ def test_classify_scene_names_the_first_invalid_centre_and_leaves_out_unchanged(
         (np.empty((3, 1), np.int8), r"an array of int8 and of shape \(3, 1\)"),
         ([0, 0, 0], "of type list"),
         (np.broadcast_to(np.int8(0), 3), "read-only"),
+        (np.lib.stride_tricks.as_strided(np.zeros(1, np.int8), (3,), (0,)), "an array whose elements share one byte"),
     ],
 )
 def test_classify_refuses_an_out_array_of_another_shape_or_type(out, found):
@@ -103,7 +104,9 @@ def test_classify_refuses_an_out_array_of_another_shape_or_type(out, found):
         lambda: hypcheck.classify(ROWS, out=out, on_invalid="flag"),
         lambda: hypcheck.classify_scene((1, 2, 1, 1), [1, 2, 3], 0, 0, out=out),
     ):
-        with pytest.raises(InputError, match=rf"out is {found}; it must be a writable int8 array of shape \(3,\)"):
+        with pytest.raises(
+            InputError, match=rf"out is {found}; it must be a writable int8 array of shape \(3,\), a byte"
+        ):
             call()
 
 

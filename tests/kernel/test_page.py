@@ -1,8 +1,7 @@
-"""docs/kernel.md: its examples run as they stand, and its constants are those of the header."""
+"""docs/kernel.md: its C program runs as it is printed, and its constants are those of the header."""
 
 from __future__ import annotations
 
-import doctest
 import re
 import subprocess
 from pathlib import Path
@@ -26,13 +25,6 @@ def value_of(text: str) -> float:
     powers = re.sub("2([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda match: f"2.0**{match[1].translate(RAISED)}", text)
     python = powers.replace("−", "-").replace("·", "*").replace("u", "*u").replace("slack", "SLACK")
     return float(eval(python, {"u": certified.U, "SLACK": certified.SLACK}))  # noqa: S307 - the page is ours
-
-
-def test_python_sessions_on_the_kernel_page_give_what_they_show():
-    session = doctest.DocTestParser().get_doctest("\n".join(blocks("python")), {}, "docs/kernel.md", None, 0)
-    assert len(session.examples) > 5
-    results = doctest.DocTestRunner().run(session)
-    assert results.failed == 0
 
 
 @pytest.mark.slow

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import random
+from fractions import Fraction
+
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from hypcheck import Scene, clearance
 from hypcheck.errors import InputError
@@ -106,3 +111,103 @@ def test_the_cylinder_about_a_tree_bounds_the_distance_from_below():
     assert np.allclose(found[:, 0], expected, rtol=0, atol=1e-10)
     assert (found[:, 0] <= expected).all()
     assert not found[:, 1].any()
+
+
+@pytest.mark.parametrize("mover", [Mover(0.5, 0.5), Mover(0.5, 0.5, axis=(0.3, -0.2, 1.0)), Mover(0.5, 0.2)])
+@settings(max_examples=60)
+@given(
+    origin=st.floats(-100, 100),
+    alpha=st.floats(0.1, 10),
+    ulps=st.integers(-4, 4),
+    side=st.sampled_from([-1, 1]),
+)
+def test_distance_is_0_exactly_in_contact_and_its_interval_holds_the_truth_beside_the_waist(
+    mover, origin, alpha, ulps, side
+):
+    """A mover at the height of a wide waist touches it at its pole: the gap is a difference that rationals know."""
+    x = origin + side * (alpha + mover.b)
+    for _ in range(abs(ulps)):
+        x = float(np.nextafter(x, np.inf if ulps > 0 else -np.inf))
+    gap = abs(Fraction(x) - Fraction(origin)) - Fraction(alpha) - Fraction(mover.b)
+    tree = scene(Hyperboloid("tree", alpha, 4 * alpha, (origin, 0.0, 0.0)), mover=mover)
+    found = tree.nearest(x, 0.0, 0.0)
+    assert tree.position(x, 0.0, 0.0) == (1 if gap > 0 else 0)
+    assert (found.distance_upper[0] == 0) == (gap <= 0)
+    assert Fraction(found.distance_lower[0]) <= max(gap, 0) <= Fraction(found.distance_upper[0])
+
+
+def test_a_mover_that_is_clear_by_less_than_a_rounding_of_its_offset_is_not_at_distance_0():
+    tree = scene(Hyperboloid("tree", 1.0, 4.0, (-0.606107222535142, 0.0, 0.0)), mover=Mover(0.5, 0.5))
+    found = tree.nearest(0.8938927774648581, 0.0, 0.0)
+    assert tree.position(0.8938927774648581, 0.0, 0.0) == 1
+    assert found.distance_lower[0] <= 1.2e-16
+    assert found.distance_upper[0] >= 1.1e-16
+
+
+def sampled_distance(alpha, gamma, span, r, z):
+    """From a point at radius r and height z to the surface within the span of heights, by many of its points."""
+    away = np.geomspace(1e-13, 8, 20_001)
+    height = np.concatenate([np.linspace(*span, 20_001), away, -away])
+    height = height[(height >= span[0]) & (height <= span[1])]
+    return float(np.hypot(r - alpha * np.hypot(1, height / gamma), z - height).min())
+
+
+@pytest.mark.parametrize("exponent", [-1000, -560, -400, 0, 400, 560, 900])
+def test_scene_nearest_bounds_the_distance_from_the_standing_part_at_any_exponent(exponent):
+    """Squares of such lengths leave float64; the same numbers about 1 say what is right."""
+    draw = random.Random(exponent)  # noqa: S311
+    for _ in range(30):
+        alpha, gamma = draw.uniform(0.3, 3), draw.choice([draw.uniform(0.3, 5), 2.0 ** -draw.randint(3, 20)])
+        low, above, radius = draw.uniform(-3, 1), draw.uniform(0, 3), draw.uniform(0.2, 2)
+        x, z, level = draw.uniform(0, 8), draw.uniform(-6, 6), draw.choice([0.0, draw.uniform(-5, 5)])
+        sizes = [
+            float(np.ldexp(each, exponent)) for each in (alpha, gamma, radius, low, low + above, level, x, level + z)
+        ]
+        a, c, r, bottom, top, up, across, height = sizes
+        for axis in ((0.0, 0.0, 1.0), (1.0, 2.0, 3.0)):
+            tree = Hyperboloid("tree", a, c, (0.0, 0.0, up), Span(bottom, top))
+            found = scene(tree, mover=Mover(r, r, (), axis)).nearest(across, 0.0, height)
+            least, most = (np.ldexp(each[0], -exponent) for each in (found.distance_lower, found.distance_upper))
+            true = max(sampled_distance(alpha, gamma, (low, low + above), x, z) - radius, 0)
+            slack = 1e-3 * true + 1e-9 * (1 + alpha / gamma)
+            assert least <= true + slack
+            assert most >= true - slack
+            assert np.isfinite(most)
+
+
+def test_scene_nearest_of_centres_whose_difference_overflows_is_bounded_by_0_and_inf():
+    largest = 1.7976931348623157e308
+    found = scene(Hyperboloid("tree", 1.0, 4.0, (-largest, 0.0, 0.0))).nearest([largest, 1 - largest], 0.0, 0.0)
+    assert found.index.tolist() == [0, 0]
+    assert found.distance_lower.tolist() == [0, 0]
+    assert found.distance_upper[0] == np.inf
+
+
+_STEPS = st.tuples(*[st.integers(-2, 2)] * 3)
+
+
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.3, -0.2, 1.0)])
+@settings(max_examples=40)
+@given(st.tuples(*[st.floats(-4, 4)] * 3), st.floats(0, 6.3), st.floats(-2, 2), st.integers(-1030, 1000), _STEPS)
+def test_position_nearest_and_passage_agree_about_contact_a_hair_from_the_surface(axis, at, turn, z, exponent, ulps):
+    """Centres on both sides of the last that is in contact on a ray, and a few floats beside them."""
+    alpha, gamma, b, d, *at = (float(np.ldexp(each, exponent)) for each in (1.0, 3.0, 0.7, 1.2, *at))
+    tree = scene(Hyperboloid("tree", alpha, gamma, tuple(at)), mover=Mover(b, d, (), axis))
+
+    def place(distance):
+        way = (distance * np.cos(turn), distance * np.sin(turn), z)
+        return [float(each + np.ldexp(step, exponent)) for each, step in zip(at, way, strict=True)]
+
+    inner, outer = 1.0, 6.0
+    for _ in range(60):
+        middle = (inner + outer) / 2
+        inner, outer = (middle, outer) if tree.position(*place(middle)) == 0 else (inner, middle)
+    centres = np.array([place(inner), place(outer)])
+    for column, number in enumerate(ulps):
+        for _ in range(abs(number)):
+            centres[:, column] = np.nextafter(centres[:, column], np.inf * number)
+    position, found = tree.classify(*centres.T), tree.nearest(*centres.T)
+    assert position.tolist() == [tree.position(*centre) for centre in centres.tolist()]
+    assert ((found.distance_upper == 0) == (position == 0)).all()
+    assert (found.distance_lower <= found.distance_upper).all()
+    assert (tree.passage(centres, centres) == (position == 0)).all()

@@ -260,3 +260,13 @@ def test_a_way_whose_lengths_or_differences_leave_the_fast_range_is_decided_exac
     start[1, 1] = end[1, 1] = 2.5 * unit  # α + b and more beside the axis
     hits = scene_pairs.hits_beside(bodies, np.array([0, 0]), Mover(unit, unit), None, start, end)
     assert hits.tolist() == [True, False]
+
+
+def test_ways_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone():
+    """Padded for their rounding they would overlap billions of cells."""
+    far = 1.7976931348623157e308
+    bodies = (Hyperboloid("near", 1.0, 1.0), Hyperboloid("far", 1.0, 1.0, (far, 0.0, 0.0)))
+    trees = Scene(SceneModel("trees", "position", bodies, Mover(0.5, 0.5)))
+    ends = np.array([[far, 0.0, 0.0], [far, 1e300, 0.0], [1e30, 1.0, 0.0], [1.0, 0.0, 0.0]])
+    assert trees.passage(ends, ends).tolist() == [0, 0, 0, 1]
+    assert trees.classify(*ends.T).tolist() == [-1, 1, 1, 0]

@@ -7,6 +7,14 @@ import shutil
 import subprocess
 
 import pytest
+import sympy
+from sympy.parsing.sympy_parser import (
+    convert_xor,
+    implicit_multiplication,
+    parse_expr,
+    split_symbols,
+    standard_transformations,
+)
 
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit
@@ -21,17 +29,57 @@ def note():
 
 def test_the_erratum_has_every_value_filled_in_and_is_well_formed_latex(note):
     assert note.isascii()
-    assert not re.search(r"<[\w ]+>", note)
+    assert "<<" not in note
+    assert not re.search(r"<\s*[a-z][a-z0-9\s-]*>", note)  # a name of a value, broken over a line or not
     assert note.count("$") % 2 == 0
     assert note.count("{") - note.count(r"\{") == note.count("}") - note.count(r"\}")
-    assert note.count(r"\proof") == note.count(r"\qed") >= 8
+    assert note.count(r"\proofof{") == note.count(r"\qed") - 1 == 6  # and the command is defined
+    assert note.count(r"\newcommand{\proofof}") == 1
+
+
+def test_no_inline_formula_of_the_erratum_contains_the_punctuation_of_its_sentence(note):
+    text = re.sub(r"\\begin\{gather\*\}.*?\\end\{gather\*\}|\\\[.*?\\\]", "", note, flags=re.DOTALL)
+    formulas = re.findall(r"\$(.*?)\$", text, flags=re.DOTALL)
+    assert len(formulas) > 150
+    for formula in formulas:
+        assert formula[-1] not in ",;:.", formula
+        assert r",\ " not in formula, formula
+        assert not re.search(r"=[^,()\[\]]*,[^()\[\]]*=", formula), formula  # two equations are two formulas
+
+
+def test_the_erratum_calls_the_row_of_table_5_a_question_and_counts_no_operations(note):
+    _, item = note.split("9. Table 5, second row: a question.")
+    assert "inference" in item.split(r"\head{Proofs}")[0]
+    assert "division" not in note
+    assert "similar" not in note
+
+
+def test_a_name_without_a_value_in_the_erratum_is_an_error(monkeypatch):
+    monkeypatch.setattr(erratum, "_values", lambda _: {})
+    with pytest.raises(KeyError):
+        list(erratum.lines(Selection(())))
 
 
 def test_the_erratum_has_the_corrections_and_counterexamples_of_the_ledger(note):
-    assert r"f(\lambda) = g\,(a^{2} + \lambda)/(a^{4}\,c^{2})" in note
-    assert "centre $(5/2,0,0)$: exterior, $\\Delta=0,\\ c_2=-33/4,\\ c_1=18$" in note
-    assert "centre $(0,0,2)$: interior" in note
-    assert "11.7990, 10.9387, 10.3449, 9.6364, 8.9626, 8.5885" in note
+    words = " ".join(note.split())
+    assert "centre $(5/2,0,0)$: exterior, with $\\Delta=0$, $c_2=-33/4$ and $c_1=18$" in words
+    assert "centre $(0,0,2)$ is interior" in words
+    assert r"12.4708\,\% and 11.7990\,\%" in words
+    assert "$r>a+1$" in words
+    assert "thin shell" in words
+
+
+def test_the_displayed_corrections_of_the_erratum_are_what_the_derivation_gives(note):
+    display = re.search(r"\\begin\{gather\*\}(.*?)\\end\{gather\*\}", note, re.DOTALL)[1]
+    eleven, twelve, appendix = display.split("\\\\\n")
+    assert "".join(eleven.split()) == r"f(\lambda)=\frac{(a^2+\lambda)\,g(\lambda)}{a^4c^2},"
+    plain = twelve.replace(r"\lambda", "L").replace(r"\,", "").replace("_c", "").strip().rstrip(",").partition("=")[2]
+    transformations = (*standard_transformations, split_symbols, implicit_multiplication, convert_xor)
+    right = parse_expr(" ".join(plain.split()), transformations=transformations)
+    a, c, x, y, z, at = sympy.symbols("a c x y z L")
+    g = (a**2 + at) * (c**2 - at) * (x**2 + y**2 + z**2 - 1 - at) - a**2 * (x**2 + y**2) * (c**2 - at)
+    assert sympy.expand(right - g + c**2 * z**2 * (a**2 + at)) == 0
+    assert "l^2+l" not in appendix.split(r"\text{for}")[0]
 
 
 @pytest.mark.skipif(shutil.which(erratum.COMPILER) is None, reason="LaTeX is not installed here: nothing compiles")

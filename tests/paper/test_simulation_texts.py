@@ -11,7 +11,7 @@ from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.simulation_text import SHOWN, forest_lines, pitch_lines, tower_lines
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.report import write
-from hypcheck.report.write import make_ready, write_simulation
+from hypcheck.report.write import ready_for, write_simulation
 from hypcheck.scene.reading import read_scene
 
 LEANS = {
@@ -128,7 +128,8 @@ def test_a_file_of_a_simulation_that_could_not_be_written_or_removed_is_named(mo
 
     monkeypatch.setattr(write, "pictures", unavailable)
     (tmp_path / "tower-pitch.svg").mkdir()
-    with pytest.raises(InputError, match=r"tower-pitch\.svg cannot be written: it is a folder"):
-        make_ready("tower", tmp_path)
+    refused = pytest.raises(InputError, match=r"cannot be written: tower-pitch\.svg in it is a folder")
+    with refused, ready_for("tower", tmp_path):
+        pass
     with pytest.raises(InputError, match=r"cannot remove .*tower-pitch\.svg: is a directory"):
         write_simulation({"simulation": "tower"}, tmp_path)

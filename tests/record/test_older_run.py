@@ -7,6 +7,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.cli.recording import recording
 from hypcheck.record import Recorder
+from hypcheck.record.lines import DriftLine
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import GrowingFile
 
@@ -22,11 +23,13 @@ def held(tmp_path):
     return out
 
 
-def test_a_new_run_removes_reports_of_the_earlier_run_and_keeps_its_record(held):
+def test_the_first_result_of_a_new_run_removes_reports_of_the_earlier_run_and_keeps_its_record(held):
     before = (held / FILE).read_bytes()
     (held / "notes.txt").write_text("of the user")
     assert '"passed": true' in (held / "summary.json").read_text()
-    with recording(held, {}):
+    with recording(held, {}) as running:
+        assert {"summary.json", "report.md"} < {each.name for each in held.iterdir()}
+        running.recorder.add(DriftLine(sentence="a result"))
         found = {each.name: each.read_bytes() for each in held.iterdir()}
     assert set(found) == {FILE, GROWING, "notes.txt"}
     assert found[FILE] == before

@@ -11,23 +11,26 @@ import pytest
 from msgspec import structs
 
 from hypcheck.cli.recording import recording
-from hypcheck.errors import InputError, NothingJudgedError
+from hypcheck.errors import InputError, SystemLimitError
 from hypcheck.record import read
 from hypcheck.record.fields import as_json, decoded
-from hypcheck.record.lines import DescriptionPart, Retest, UnavailableLine
-from hypcheck.record.progress import ProgressLine, SavedAllowance, SavedResult, SavedState
+from hypcheck.record.lines import DescriptionPart, DriftLine, Retest
+from hypcheck.record.progress import ProgressLine, SavedAllowance, SavedResult, SavedState, SavedTally
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import GrowingFile
 from tests.record.test_reading import DESCRIPTION
 
-NOTHING = SavedResult(
-    tallies={}, open=[], again=Retest(asked=0, within=0, beyond=0), outcomes=[], excusing=[], named=[]
+ONE = SavedTally(
+    asked=1, counts={}, mistakes={}, dangerous=0, octaves={}, size_bins=[], place_bins=[], worst=[], faults=[]
 )
-BEGUN = SavedState(done=0, left=SavedAllowance(restarts=0), total=NOTHING)
+RESULT = SavedResult(
+    tallies={"ring": ONE}, open=[], again=Retest(asked=0, within=0, beyond=0), outcomes=[], excusing=[], named=[]
+)
+BEGUN = SavedState(done=1, left=SavedAllowance(restarts=0), total=RESULT)
 PROGRESS = ProgressLine(number=0, declared=decoded(DESCRIPTION, DescriptionPart), cases=1, state=BEGUN)
 
 
-@pytest.mark.parametrize("end", [None, KeyboardInterrupt, NothingJudgedError("nothing")])
+@pytest.mark.parametrize("end", [None, KeyboardInterrupt, SystemLimitError("no memory")])
 @pytest.mark.parametrize("gone", ["folder", "file", "another"])
 def test_a_record_that_is_removed_during_its_run_is_written_again(tmp_path, gone, end):
     out = tmp_path / "out"
@@ -42,14 +45,13 @@ def test_a_record_that_is_removed_during_its_run_is_written_again(tmp_path, gone
         if end:
             raise end
 
-    with contextlib.suppress(KeyboardInterrupt, NothingJudgedError), recording(out, {}) as running:
-        running.recorder.add(UnavailableLine(oracle="mesh", reason="before"))
+    with contextlib.suppress(KeyboardInterrupt, SystemLimitError), recording(out, {}) as running:
+        running.recorder.add(DriftLine(sentence="before"))
         removes()
     assert not (out / GROWING).exists()
-    if not isinstance(end, NothingJudgedError):
-        record = read(out / FILE)
-        assert [line.reason for line in record.lines] == ["before"]
-        assert bool(record.footer) is (end is None)
+    record = read(out / FILE)
+    assert [line.sentence for line in record.lines] == ["before"]
+    assert bool(record.footer) is (end is None)
 
 
 @pytest.mark.parametrize("keeps", [True, False])
@@ -89,7 +91,7 @@ def test_a_run_on_a_full_disk_ends_with_a_sentence_about_its_record_and_keeps_wh
             assert running.recorder.goes_on
             small_files((tmp_path / GROWING).stat().st_size + 9)
             if how == "add":
-                running.recorder.add(UnavailableLine(oracle="mesh", reason="r"))
+                running.recorder.add(DriftLine(sentence="r"))
             running.recorder.keep(structs.replace(PROGRESS, cases=10**12))
 
     with pytest.raises(InputError, match=f"cannot write {tmp_path / GROWING}: file too large"):

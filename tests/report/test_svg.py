@@ -83,9 +83,27 @@ def test_two_svg_plots_share_no_id():
 def test_a_standalone_plot_follows_the_colour_scheme_and_has_a_background():
     root = parsed(standalone(simple()))
     style = root.find(f"{SVG}style").text
-    assert "prefers-color-scheme:dark" in style
+    assert "@media screen and (prefers-color-scheme:dark){" in style
+    assert "text-rendering" not in {name for element in root.iter() for name in element.attrib}  # cairosvg cannot
+    for role, (_, dark) in ROLES.items():
+        assert f".f-{role}{{fill:{dark}}}.s-{role}{{stroke:{dark}}}" in style
     ground = root.find(f"{SVG}rect")
     assert (ground.get("width"), ground.get("height"), ground.get("class")) == ("100%", "100%", "f-surface")
+
+
+def test_marks_of_a_standalone_plot_carry_their_light_colours_as_attributes():
+    """A viewer without variables of style sheets, or without style sheets, shows the same picture as a browser."""
+    root = parsed(standalone(simple()))
+    assert "var(" not in standalone(simple()).decode()
+    found = {
+        (name, element.get("fill" if name[0] == "f" else "stroke"))
+        for element in root.iter()
+        for name in (element.get("class") or "").split()
+        if name != "plot"
+    }
+    expected = {"s-series-1", "f-series-2", "f-ink", "f-surface"}
+    assert {(name, ROLES[name[2:]][0]) for name in expected} <= found
+    assert all(colour == ROLES[name[2:]][0] for name, colour in found)
 
 
 @pytest.mark.parametrize("name", ["errors", "pareto", "front"])

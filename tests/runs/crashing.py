@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from hypcheck.implementations.session import Limits
+from hypcheck.isolation.launch import Isolation
 from hypcheck.runs import cases
 from hypcheck.runs.executors import execution_here
 from hypcheck.runs.judge import Criterion
@@ -13,7 +14,9 @@ from hypcheck.runs.resume import saved_result
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps, steps_of_chunks
 from hypcheck.vectors.families import FAMILIES
 
-KILLS = ImplementationOpener("python:tests.runs.faulty:kills_who_asks", Limits())
+KILLS = ImplementationOpener("python:tests.runs.faulty:kills_who_asks", Limits(isolation=Isolation("off")))
+"""Isolated, it could not kill the process that asks it."""
+
 UNLUCKY = cases.cases_of_chunk(cases.CaseChunk("uniform", 1, 2500, 2501)).rows
 ENVIRONMENT = {"GATE_TEST_KILLS": UNLUCKY.tobytes().hex()}
 """What tells it the case; where that is not set, there is none."""

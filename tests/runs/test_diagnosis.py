@@ -12,8 +12,8 @@ from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.description import EVERYWHERE
 from hypcheck.implementations.session import Answered
 from hypcheck.kernel.classify import classify
-from hypcheck.runs.causes import PLACES, SILENT, Asked, Standing
-from hypcheck.runs.diagnosis import CAUSES, Diagnosis, causes_of, diagnose, merged
+from hypcheck.runs.causes import SILENT, Asked, Standing
+from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import score
 from hypcheck.vectors.frozen import load
@@ -126,7 +126,7 @@ def test_rounding_causes_agree_with_every_right_clear_answer():
     found = load("uniform")
     sure = found.positions != 0
     asked = Asked(found.rows[sure], found.positions[sure], found.positions[sure], ORDINARY)
-    for cause in PLACES:
+    for cause in PLACE_CAUSES:
         said = cause.rule(asked)
         assert ((said == SILENT) | (said == asked.given)).all(), cause.name
 
@@ -159,3 +159,44 @@ def test_wrong_answers_that_no_rule_gives_at_all_are_counted_as_unexplained():
 def test_every_text_of_a_cause_belongs_to_one():
     text = resources.files("hypcheck.runs").joinpath("causes.toml").read_text(encoding="utf-8")
     assert toml.parsed(text, "causes.toml").keys() <= {cause.name for cause in CAUSES}
+
+
+def by_roots(*, poles, ignoring_pairs=False, tolerance=0.0):
+    """Code that computes roots: those that count as real are counted by sign, or between the poles."""
+
+    def one(A, B, c2, c1, c0):
+        roots = np.roots([1, c2, c1, c0])
+        real = roots[np.abs(roots.imag) <= tolerance].real
+        outside, inside = (real > 0) & ((real < B) | (not poles)), (real < 0) & ((real > -A) | (not poles))
+        if outside.all() if ignoring_pairs else outside.sum() == (2 if poles else 3):
+            return 1
+        return -1 if inside.sum() == 2 else 0
+
+    def implementation(rows):
+        alpha, gamma, b, d, x, y, z = rows.T
+        A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / b**2, (z / d) ** 2
+        c2, c1, c0 = A - B + 1 - P - Q, -A * B + A - B + B * P - A * Q, -A * B
+        return [one(*row) for row in np.column_stack([A, B, c2, c1, c0]).tolist()]
+
+    return implementation
+
+
+MIXED = (*FAMILIES, "waist", "axis", "small-integers", "tangent", "degenerate-crossing", "tangent-ladder")
+
+
+@pytest.mark.parametrize(
+    ("implementation", "expected"),
+    [
+        (by_roots(poles=False, ignoring_pairs=True), {"complex-pair-ignored", "throat", "groove"}),
+        (by_roots(poles=True), {"root-at-lower-pole", "root-at-upper-pole", "ring"}),
+        (by_roots(poles=True, tolerance=1e-6), {"root-at-lower-pole", "root-at-upper-pole", "ring"}),
+        (by_roots(poles=False, tolerance=1e-3), {"imaginary-part-tolerance", "repeated-root-beyond-a-pole", "throat"}),
+    ],
+    ids=["all real roots positive", "between the poles", "between the poles, 1e-6", "three real ones, 1e-3"],
+)
+def test_mixed_faults_of_code_that_computes_roots_are_explained_in_parts(implementation, expected):
+    causes, wrong = diagnosed(implementation, MIXED)
+    assert expected <= causes.keys()
+    assert causes.get(None, 0) <= 0.02 * wrong
+    assert sum(causes.values()) == wrong
+    assert "zero-coefficient" not in causes  # no code without c1 and c2 is blamed for Proposition 5

@@ -88,7 +88,7 @@ def test_answer_removed_from_a_score_is_no_longer_wrong(scored):
 
 def test_a_tally_names_worst_cases_and_faults_by_their_indices_in_the_family(scored):
     indices = np.array([10, 11, 12, 13, 14, 15, 99])
-    tally = scored.tally(Family(), indices, np.array([-1.0, -1.0, -np.inf]), skipped=5)
+    tally = scored.tally(Family(), indices, np.array([-1.0, -1.0, -np.inf]), left_out={"ratio": 2, "regime": 3})
     counts = {"right": 1, "wrong": 3, "tolerated": 1, "abstained": 1, "crash": 1, "skipped": 5}
     assert (tally.asked, tally.counts) == (7, counts)
     assert tally.mistakes == {"false-contact": 2, "false-clear": 2}

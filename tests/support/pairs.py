@@ -79,3 +79,36 @@ KINDS = [
     ((3, 3, 1, 1, 1, 0, 0), Kind.INTERIOR),
     ((2, 1, 1, 1, 4, 0, 0), Kind.EXTERIOR),
 ]
+
+
+_direction = st.tuples(*[st.one_of(st.sampled_from([0.0, 1.0, -1.0, 3.0]), _any_offset)] * 3).filter(any)
+_touching = st.sampled_from(
+    [
+        (1, 2, 1, 1.5, 2, 0, 0, 0, 1, 0),  # r − b = α, with the long axis along the circle of the waist
+        (1, 2, 1, 0.5, 1.5, 0, 0, -1, 0, 0),  # r − d = α
+        (4, 4, 4, 1, 0, 0, 0, 0, 0, 1),  # α = b: tangent along the circle of the waist
+        (4, 4, 2, 4, 0, 0, 0, 0, 1, 0),  # α = d
+        (2, 5, 1, 1, 3, 0, 0, 0, 0, 1),
+        (2, 1, 1, 1, 1, 0, 0, 0, 0, 1),
+    ]
+)
+
+
+def _displaced(row: tuple[float, ...], scale: int, steps: tuple[float, ...]) -> tuple[float, ...]:
+    """The row times a power of two, its coordinates that are 0 replaced."""
+    lengths = [math.ldexp(each, scale) for each in row[:7]]
+    return (*lengths[:4], *(x or step for x, step in zip(lengths[4:], steps, strict=True)), *row[7:])
+
+
+def _beside_0(most: int) -> st.SearchStrategy[float]:
+    power = st.builds(lambda sign, exponent: sign * 2.0**exponent, st.sampled_from([1, -1]), st.integers(-1074, most))
+    return st.one_of(st.just(0.0), power)
+
+
+nearly_touching_tilted_rows = st.integers(-1000, 1000).flatmap(
+    lambda scale: st.builds(_displaced, _touching, st.just(scale), st.tuples(*[_beside_0(scale)] * 3))
+)
+"""Rows (10,) that touch, of any size, but for coordinates of any exponent where there was 0: some lean, some do not."""
+
+extreme_tilted_rows = st.builds(lambda pair, axis: (*pair.row, *axis), extreme_pairs, _direction)
+"""Rows (10,) of any float64 at all."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import stat
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -221,3 +223,26 @@ def test_option_format_sets_the_format_of_a_file_name_without_an_ending(tmp_path
     assert (tmp_path / "out").read_text() == ANSWER
     assert classify(tmp_path / "in", tmp_path / "out.npy", "--format", "csv") == 0
     assert np.load(tmp_path / "out.npy").tolist() == [1]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
+@pytest.mark.parametrize(
+    "words", [("cases", "check"), ("report",), ("record", "check"), ("record", "repair", "--out", "new")], ids=" ".join
+)
+def test_a_pipe_that_nobody_writes_to_is_refused_where_a_file_is_read(monkeypatch, tmp_path, capsys, words):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(streams, "PIPE_S", 0.1)  # ten seconds a command are long for a test
+    os.mkfifo(tmp_path / "pipe")
+    assert main([*words, str(tmp_path / "pipe")]) == 2
+    said = capsys.readouterr().err
+    assert "it is a pipe, and nothing was written to it within" in said
+    assert len(said.splitlines()) == 1
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
+def test_a_record_is_read_from_a_pipe_that_a_program_writes_to(tmp_path, capfd):
+    os.mkfifo(tmp_path / "pipe")
+    record = Path(__file__).parents[2] / "reports" / "reference" / "bench" / "record.jsonl"
+    copy = "import shutil, sys; shutil.copyfileobj(open(sys.argv[1], 'rb'), open(sys.argv[2], 'wb'))"
+    with subprocess.Popen([sys.executable, "-c", copy, str(record), str(tmp_path / "pipe")]):
+        assert main(["record", "check", str(tmp_path / "pipe")]) == 0

@@ -2,10 +2,10 @@
 // btBvhTriangleMeshShape.
 //
 // Bullet has no ellipsoid. Contact is a point of btCollisionWorld.contactPairTest with a distance of 0 or less, and the
-// distance is the least of its points. The hull's margin is set to 0: by default Bullet pads it by 0.04.
+// distance is the least of its points. Bullet pads the hull by a margin of 0.04; the tightest settings set it to 0.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { readScene, serve } from './speak.mjs'; // first: it keeps standard output for replies
+import { readScene, serve, tightest } from './speak.mjs'; // first: it keeps standard output for replies
 
 const Ammo = createRequire(import.meta.url)('ammo.js');
 const version = JSON.parse(readFileSync(new URL('./node_modules/ammo.js/package.json', import.meta.url))).version;
@@ -30,7 +30,7 @@ function object(shape) {
 function bodyShape() {
   if (scene.round) return new Ammo.btSphereShape(scene.b);
   const hull = new Ammo.btConvexHullShape();
-  hull.setMargin(0);
+  if (tightest) hull.setMargin(0);
   scene.body.map(vector).forEach((point) => hull.addPoint(point));
   return hull;
 }

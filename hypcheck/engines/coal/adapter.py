@@ -10,7 +10,7 @@ from importlib.metadata import version
 
 import coal
 import numpy as np
-from speak import Point, Scene, matrix, serve  # first: it keeps standard output for replies
+from speak import TIGHTEST, Point, Scene, matrix, serve  # first: it keeps standard output for replies
 
 scene = Scene(sys.argv[1])
 mesh = coal.BVHModelOBBRSS()
@@ -20,6 +20,11 @@ mesh.addTriangles(np.array(scene.triangles))
 mesh.endModel()
 shape = coal.Sphere(scene.b) if scene.round else coal.Ellipsoid(scene.b, scene.b, scene.d)
 here, there = coal.Transform3s(), coal.Transform3s()
+collision, separation = coal.CollisionRequest(), coal.DistanceRequest()
+if TIGHTEST:
+    for request in (collision, separation):
+        request.gjk_tolerance = request.epa_tolerance = 1e-10
+        request.gjk_max_iterations = request.epa_max_iterations = 1000
 
 
 def _place(center: Point, turned: Point) -> None:
@@ -30,13 +35,13 @@ def _place(center: Point, turned: Point) -> None:
 def touches(center: Point, turned: Point) -> bool:
     """Whether coal reports a contact."""
     _place(center, turned)
-    return bool(coal.collide(shape, here, mesh, there, coal.CollisionRequest(), coal.CollisionResult()) > 0)
+    return bool(coal.collide(shape, here, mesh, there, collision, coal.CollisionResult()) > 0)
 
 
 def distance(center: Point, turned: Point) -> float:
     """The signed distance that coal reports."""
     _place(center, turned)
-    return float(coal.distance(shape, here, mesh, there, coal.DistanceRequest(), coal.DistanceResult()))
+    return float(coal.distance(shape, here, mesh, there, separation, coal.DistanceResult()))
 
 
 serve(scene, "coal", version("coal"), touches, distance)

@@ -1,9 +1,9 @@
 // Jolt by jolt-physics: the convex hull of points on the spheroid (a sphere where it is a ball) against a MeshShape.
 //
 // Jolt has no ellipsoid. Contact is a hit of NarrowPhaseQuery.CollideShape, back faces included; the distance is minus the
-// deepest penetration, with a largest separation of more than 0. The hull keeps Jolt's own convex radius.
+// deepest penetration, with a largest separation of more than 0. The tightest settings give the hull no convex radius.
 import { readFileSync } from 'node:fs';
-import { readScene, serve } from './speak.mjs'; // first: it keeps standard output for replies
+import { readScene, serve, tightest } from './speak.mjs'; // first: it keeps standard output for replies
 import initJolt from 'jolt-physics';
 
 const Jolt = await initJolt();
@@ -46,6 +46,7 @@ function bodyShape() {
   if (scene.round) return new Jolt.SphereShape(scene.b);
   const settings = new Jolt.ConvexHullShapeSettings();
   for (const [x, y, z] of scene.body) settings.mPoints.push_back(new Jolt.Vec3(x, y, z));
+  if (tightest) settings.mMaxConvexRadius = 0;
   return made(settings);
 }
 
@@ -56,6 +57,7 @@ physics.GetBodyInterface().CreateAndAddBody(still, Jolt.EActivation_DontActivate
 const body = bodyShape();
 const settings = new Jolt.CollideShapeSettings();
 settings.mBackFaceMode = Jolt.EBackFaceMode_CollideWithBackFaces;
+if (tightest) settings.mCollisionTolerance = settings.mPenetrationTolerance = 1e-6;
 const filters = [new Jolt.BroadPhaseLayerFilter(), new Jolt.ObjectLayerFilter(), new Jolt.BodyFilter(), new Jolt.ShapeFilter()];
 const scale = new Jolt.Vec3(1, 1, 1);
 const base = new Jolt.RVec3(0, 0, 0);

@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 
 import mujoco
-from speak import Point, Scene, serve  # first: it keeps standard output for replies
+from speak import TIGHTEST, Point, Scene, serve  # first: it keeps standard output for replies
 
 scene = Scene(sys.argv[1])
 
@@ -18,7 +18,8 @@ scene = Scene(sys.argv[1])
 POINTS = " ".join(repr(each) for vertex in scene.vertices for each in vertex)
 ELEMENTS = " ".join(str(each) for triangle in scene.triangles for each in triangle)
 BALL, ELLIPSOID = f'type="sphere" size="{scene.b!r}"', f'type="ellipsoid" size="{scene.b!r} {scene.b!r} {scene.d!r}"'
-model = mujoco.MjModel.from_xml_string(f"""<mujoco><worldbody>
+OPTIONS = '<option ccd_tolerance="1e-12" ccd_iterations="1000"/>' if TIGHTEST else ""
+model = mujoco.MjModel.from_xml_string(f"""<mujoco>{OPTIONS}<worldbody>
   <flexcomp name="surface" type="direct" dim="2" rigid="true" radius="0" point="{POINTS}" element="{ELEMENTS}">
     <contact selfcollide="none"/>
   </flexcomp>

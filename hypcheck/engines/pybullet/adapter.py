@@ -10,7 +10,7 @@ import sys
 from importlib.metadata import version
 
 import pybullet as bullet
-from speak import Point, Scene, serve  # first: it keeps standard output for replies
+from speak import TIGHTEST, Point, Scene, serve  # first: it keeps standard output for replies
 
 scene = Scene(sys.argv[1])
 bullet.connect(bullet.DIRECT)
@@ -24,6 +24,9 @@ _shape = (
     else bullet.createCollisionShape(bullet.GEOM_MESH, vertices=scene.body)
 )
 surface, body = bullet.createMultiBody(0, _mesh), bullet.createMultiBody(1, _shape)
+if TIGHTEST:
+    for each in (surface, body):
+        bullet.changeDynamics(each, -1, collisionMargin=0.0)
 _REACH = 4 * max(scene.b, scene.d)
 
 

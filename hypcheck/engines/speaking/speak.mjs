@@ -6,6 +6,9 @@
 import { readFileSync, readSync, writeSync } from 'node:fs';
 import { join } from 'node:path';
 
+// Whether the engine is asked at the tightest settings that it offers; else at those that it has by default.
+export const tightest = process.argv[3] === 'tightest';
+
 console.log = console.info = console.warn = console.error;
 
 // The scene in a folder: α, γ, b, d; the hyperboloid's mesh; points on the spheroid, for those that take its hull.

@@ -21,6 +21,9 @@ Point = Sequence[float]
 Answer = Callable[[Point, Point], float]
 """From the spheroid's centre and its rotation, a quaternion x, y, z, w."""
 
+TIGHTEST = sys.argv[2:] == ["tightest"]
+"""Whether the engine is asked at the tightest settings that it offers; else at those that it has by default."""
+
 _REPLIES = os.fdopen(os.dup(1), "wb")
 os.dup2(2, 1)
 

@@ -1,4 +1,4 @@
-/* Where a spheroid stands to a circular hyperboloid of one sheet: exact answers.
+/* The position of a spheroid relative to a circular hyperboloid of one sheet: exact answers.
 
    The hyperboloid x²/alpha² + y²/alpha² - z²/gamma² = 1 is centred at the origin; the spheroid has semi-axes b, b, d and
    centre (x, y, z). The position of the two surfaces is
@@ -1641,7 +1641,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_9d923f45aaa6c900
+#ifndef HC_EDITION_3ca4b52389fdff84
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3176,7 +3176,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_9d923f45aaa6c900
+#define HC_EDITION_3ca4b52389fdff84
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

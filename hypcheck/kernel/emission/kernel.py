@@ -100,6 +100,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "header": header(plan, command, dialect.comment),
         "prefix": prefix,
         "number": number,
+        "arithmetic": asked_of_compiler(dialect),
         "search": _searches_text(plan, dialect) + (dialect.filled("direction", {}) + "\n" if plan.free else ""),
         **_axis_parts(plan, dialect),
         "imports": "\n".join(
@@ -115,6 +116,11 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "description": description_in_language(description(plan, language), language),
     }
     return dialect.filled("kernel", parts).strip("\n") + "\n"
+
+
+def asked_of_compiler(dialect: Dialect) -> str:
+    """The options that a compiler must not be given; nothing in languages whose arithmetic no option changes."""
+    return DIALECTS["c"].filled("arithmetic", {}) if dialect.by_block else ""
 
 
 def description(plan: ScenePlan, language: str) -> dict[str, Any]:

@@ -2,8 +2,10 @@
 
 The method "exact" has two stages, both printed from the programs that the fast path runs. CERTIFIED decides in float64
 where a proved bound excludes that rounding changes a sign (kernel/programs/certified.py); INTEGERS decides the rest in
-whole numbers. The method "certified" is the first stage alone, and says 2, "cannot say", where it does not decide. So
-do "dual" and "local-maximum", whose proof is another (kernel/programs/dual.py).
+whole numbers, which are read from the bits of the row. No stage depends on the rounding mode, or on whether the program
+flushes subnormal numbers to zero. C and C++ refuse -ffast-math and its parts, which change the order of operations
+(templates/arithmetic.c.tmpl). The method "certified" is the first stage alone, and says 2, "cannot say", where it does
+not decide. So do "dual" and "local-maximum", whose proof is another (kernel/programs/dual.py).
 
 Python and JavaScript have integers of any size. C, C++ and Rust get some forty lines of them: each number of the
 straight-line program has room for the bits that are counted for it (`bits_counted`), so nothing is allocated in C.
@@ -19,7 +21,7 @@ from typing import Any
 from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import PREFIX, require_prefix
+from hypcheck.kernel.emission.kernel import PREFIX, asked_of_compiler, require_prefix
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
@@ -41,8 +43,12 @@ _SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offse
 
 _LIMB = 32
 
-_INPUT_BITS = 2150
-"""Bits of the largest float64 in units of 2⁻⁵³ times the power of two of the smallest, as C's frexp gives them."""
+_INPUT_BITS = 2098
+"""Bits of the largest float64 in units of the smallest, 2⁻¹⁰⁷⁴."""
+
+
+_GIVEN = {"rust": "row", "javascript": "...words"}
+"""What the last stage is given, where it is not the columns."""
 
 
 def require_method(method: str) -> None:
@@ -58,30 +64,32 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
     dialect, whole = DIALECTS[language], method == EXACT
     source = DIALECTS["c"] if language == "cpp" else dialect  # one text is C and C++
     number, (program, values) = dialect.number_of("float64"), _FLOATS[method]
+    steps = dialect.statements(program, ("exterior", "interior", "decided"), "float64")
     constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
     parts = {
-        "header": "\n".join(f"{dialect.comment}{line}".rstrip() for line in _head(method, command)),
+        "header": "\n".join(f"{dialect.comment}{line}".rstrip() for line in _head(method, language, command)),
         "prefix": prefix,
         "constants": "\n".join(constants),
-        "steps": "\n".join(dialect.statements(program, ("exterior", "interior", "decided"), "float64")),
+        "steps": "\n".join(steps),
+        "imports": "import math\n" if any("math." in step for step in steps) else "",
+        "arithmetic": asked_of_compiler(dialect),
         "description": _described(method, language),
         "last": _last(method, language),
         "can": "" if whole else "const CANNOT_SAY: i8 = 2;\n",
         "integers": "",
     }
     if whole:
-        steps = "\n".join(_whole(INTEGERS, language))
-        parts["integers"] = source.filled("integers", {"steps": steps})
+        parts["integers"] = source.filled("integers", {"steps": "\n".join(_whole(INTEGERS, language))})
     return source.filled("pair", parts)
 
 
 def _last(method: str, language: str) -> str:
     if method != EXACT:
         return "CANNOT_SAY"
-    return "exactly(row)" if language == "rust" else "exactly(alpha, gamma, b, d, x, y, z)"
+    return f"exactly({_GIVEN.get(language, 'alpha, gamma, b, d, x, y, z')})"
 
 
-def _head(method: str, command: Sequence[str]) -> Iterator[str]:
+def _head(method: str, language: str, command: Sequence[str]) -> Iterator[str]:
     yield f"Made by `{' '.join(command)}`, hypcheck {VERSION}."
     yield ""
     yield "A spheroid of semi-axes b, b, d at (x, y, z) against the hyperboloid (x² + y²)/alpha² − z²/gamma² = 1."
@@ -97,7 +105,11 @@ def _head(method: str, command: Sequence[str]) -> Iterator[str]:
         yield "2 where float64 cannot say; every other answer is right. phi(lambda) > e proves clear, e bounding the"
         yield "error. The tangent of phi, which is concave, proves contact, or a point of the hyperboloid at the"
         yield f"centre's height. lambda is found by {found}; a bad one makes the answer 2."
-    yield "Keep the order of the operations (no -ffast-math); FMA and every rounding mode are allowed."
+    if language == "javascript":
+        yield "Where the engine flushes subnormal numbers to zero, 2 is also the answer to a 0 that may have been one."
+    else:
+        yield "Keep the order of the operations (no -ffast-math); FMA, every rounding mode and flushing subnormal"
+        yield "numbers to zero are allowed."
 
 
 def _described(method: str, language: str) -> str:

@@ -28,6 +28,7 @@ from hypcheck.kernel.emission.functions import setting_function
 from hypcheck.kernel.emission.kernel import (
     PREFIX,
     SETTING,
+    asked_of_compiler,
     description,
     description_in_language,
     require_prefix,
@@ -158,6 +159,7 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
     parts = {
         "header": whole_header(plan, scene, command, dialect.comment),
         "prefix": prefix,
+        "arithmetic": asked_of_compiler(dialect),
         "number": dialect.number_of(plan.format.name),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
         "search": search_text(plan, dialect) if searched else "",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from sys import float_info
 from typing import Literal
 
 import numpy as np
@@ -60,6 +61,9 @@ LEANING_FORMAT = "float64"
 
 AFAR = 2.0**13
 """How far out a kernel has to answer where the region is open: in waist radii and heights γ."""
+
+SHORT = 2.0**-500
+"""Beside a longer axis, a subnormal part of it is less than leaning.LOST."""
 
 ONE_SIDED = ("exterior", "interior")
 
@@ -174,10 +178,23 @@ def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
     return _in_turn(setting, question, form)
 
 
+def _require_kept(axis: Point) -> None:
+    """Raise OverflowError where flushing subnormal numbers to zero would make another axis of this one."""
+    parts = [abs(part) for part in axis]
+    if max(parts) < SHORT and any(0 < part < float_info.min for part in parts):
+        raise OverflowError(
+            f"an axis shorter than {SHORT:.2g} must have no number below {float_info.min:.2g} but 0, as a program may "
+            "flush it to zero: take a longer axis of the same direction"
+        )
+
+
 def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
     """The lines of the ball about a spheroid that leans, the discriminant of the ball in it, the search; or its own."""
     axis = setting.axis
-    lean = None if axis is None else leaning_search(setting.sizes, None if axis == FREE else axis)
+    fixed = None if axis == FREE else axis
+    if fixed is not None:
+        _require_kept(fixed)
+    lean = None if axis is None else leaning_search(setting.sizes, fixed)
     inner, outer = (scaled(sizes, form) for sizes in setting.inner_and_outer)
     first, constants = entry(outer)
     R, zz = _sample(setting, first, constants, form)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from sys import float_info
 from typing import Literal
 
 import numpy as np
@@ -216,6 +217,9 @@ ORDINARY = {"float32": Fraction(2) ** 16, "float64": Fraction(2) ** 100}
 """Semi-axes between this and its reciprocal have squares, and products of squares, well inside the format."""
 
 
+ROOM = 2**10
+
+
 @dataclass(frozen=True, slots=True)
 class ScaledSetting:
     """A setting's squares, exactly, in the units of the kernel: radial lengths times `radial`, axial times `axial`.
@@ -235,7 +239,10 @@ class ScaledSetting:
 def scaled(sizes: Sizes, form: FloatFormat) -> ScaledSetting:
     """The squares of the sizes, scaled where the format asks for it (Theorem 1 allows any two factors).
 
-    Raises OverflowError where a factor is no number of the format.
+    A program may flush subnormal numbers to zero. A coordinate that is lost then moves the spheroid by less than
+    2^least, which b and d larger by a share u / ROOM hold, as they are 2^least ROOM / u at least. And α and γ are
+    normal numbers, for which no other number is taken. Raises OverflowError where a size is smaller, or a factor is no
+    number of the format.
     """
     alpha, gamma, b, d = map(Fraction, sizes)
     limit = ORDINARY[form.name]
@@ -243,4 +250,10 @@ def scaled(sizes: Sizes, form: FloatFormat) -> ScaledSetting:
     axial = Fraction(1) if all(1 / limit < each < limit for each in (gamma, d)) else 1 / power_of_two_near(d)
     for unit in (radial, axial):
         form.rounded(unit)
+    least = Fraction(2) ** (form.least + form.bits) * ROOM
+    if min(b, d) < least or min(alpha, gamma) < Fraction(float_info.min):
+        raise OverflowError(
+            f"b and d must be above {float(least):.2g} in {form.name}, alpha and gamma above {float_info.min:.2g}: "
+            "a program may flush smaller numbers to zero"
+        )
     return ScaledSetting((alpha / b) ** 2, (gamma / d) ** 2, (b * radial) ** 2, (d * axial) ** 2, radial, axial)

@@ -19,7 +19,7 @@ from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
 from hypcheck.paper.ledger.points import LeaningWitness, PointWitness
 from hypcheck.version import VERSION
 
-SCHEMA = "1.3.0"
+SCHEMA = "1.4.0"
 
 
 def lines(chosen: Selection) -> Iterator[str]:
@@ -91,6 +91,7 @@ def _entry(entry: LedgerEntry) -> dict[str, Any]:
         "printed": entry.printed or None,
         "correction": entry.correction or None,
         "harmless": entry.harmless or None,
+        "faults": list(entry.faults),
         "follows": entry.follows,
         "evidence": [_evidence(evidence) for evidence in entry.evidence],
     }

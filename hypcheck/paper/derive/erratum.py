@@ -1,81 +1,149 @@
-"""An erratum to the paper, in LaTeX: formulas, propositions and procedures put right, each with a short proof.
+"""An erratum to the paper, in LaTeX: misprints, and propositions and procedures put right, with short proofs.
 
-erratum.tex is the note, with names in angle brackets for what is computed elsewhere: corrected formulas from the
-derivation, the smallest counterexamples from the search, the figures of Table 5 from the ledger. The proofs are those
-of docs/mathematics.md, shortened.
+erratum.tex is the note; <<name>> in it stands for a value that is computed elsewhere: the simplest counterexamples from
+the ledger's search, the figures of Table 5. The proofs are those of docs/mathematics.md, shortened.
 """
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from importlib import resources
 from pathlib import Path
 
-from hypcheck.paper.derive.latex import formula, sentence
+from hypcheck.geometry.pair import Position
 from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.book import entries
+from hypcheck.paper.ledger.checks import by_12
+from hypcheck.paper.ledger.counts import figures
 from hypcheck.paper.ledger.entry import LedgerEntry
-from hypcheck.paper.ledger.points import PointFacts
+from hypcheck.paper.ledger.points import LeaningWitness, PointFacts, PointWitness
+from hypcheck.paper.ledger.statements import (
+    Quadcopter,
+    cleared_by_its_rotors,
+    part_beyond_the_wall,
+    refused_though_inside,
+)
 from hypcheck.paper.tower import PRINTED
 from hypcheck.tables.streams import writing
 from hypcheck.version import VERSION
 
 COMPILER = "pdflatex"
 
+_PLACE = re.compile(r"<<([a-z0-9-]+)>>")
+
 
 def lines(_: Selection) -> Iterator[str]:
-    """The whole note, whatever was chosen: an erratum is one."""
-    ledger = {entry.number: entry for entry in entries()}
+    """The whole note, whatever was chosen: an erratum is one. Raises KeyError for a name without a value."""
     text = resources.files("hypcheck.paper.derive").joinpath("erratum.tex").read_text(encoding="utf-8")
-    for name, value in _values(ledger).items():
-        text = text.replace(f"<{name}>", value)
-    yield from text.splitlines()
+    values = _values({entry.number: entry for entry in entries()})
+    yield from _PLACE.sub(lambda found: values[found[1]], text).splitlines()
 
 
 def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
     """What the note leaves to the ledger, by the names in it."""
-    ring, beyond = _witnesses(ledger["Proposition 3.1"])[0], _witnesses(ledger["Proposition 5.2"])[0]
-    without_c2, without_c1 = _witnesses(ledger["Proposition 5.1"])
-    rotor = _witnesses(ledger["Table 3"])[0]
-    hull, low = _witnesses(ledger["Table 4"])[0], _witnesses(ledger["Table 4, caption"])[0]
     return {
         "version": VERSION,
-        "equation 11": formula(ledger["(11)"].correction),
-        "equation 12": formula(_lambda_cubic(ledger["(12)"].correction)),
-        "equation A2": formula(ledger["A.2b"].correction),
-        "misled": _pair(_witnesses(ledger["(12)"])[0]),
-        "ring": _pair(ring),
-        "ring beyond": _pair(beyond),
-        "zero c2": _pair(without_c2),
-        "zero c1": _pair(without_c1),
-        "rotor": _pair(rotor),
-        "hull": _pair(hull),
-        "low hull": _pair(low),
-        "equal steps": sentence(ledger["Table 5, equal steps"].why),
-        "second row": ", ".join(f"{figure:.4f}" for figure in PRINTED[1]),
-        "t is": sentence(ledger["Table 5, t = 0.1"].why),
+        **_counterexamples(ledger),
+        **_quadcopters(ledger),
+        **_leaning(ledger["Section 3.2, pitch"]),
+        **_steps(),
+        "delta-axis": _times_a_power(figures()["delta_on_the_axis"]),
+        "delta-wall": _times_a_power(figures()["delta_near_the_wall"]),
     }
 
 
-def _witnesses(entry: LedgerEntry) -> list[PointFacts]:
-    return [witness.facts for evidence in entry.evidence for witness in evidence.witnesses]
+def _counterexamples(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
+    exterior, interior = (witness.facts for witness in _witnesses(ledger["(12)"]))
+    ring, beyond = _witnesses(ledger["Proposition 3.1"])[0].facts, _witnesses(ledger["Proposition 5.2"])[0].facts
+    without_c2, without_c1 = (witness.facts for witness in _witnesses(ledger["Proposition 5.1"]))
+    signs = _witnesses(ledger["Proposition 3, proof: signs"])[0].facts
+    return {
+        **_named("exterior-by-12", exterior, by_12(exterior)),
+        **_named("interior-by-12", interior, by_12(interior)),
+        **_named("ring", ring),
+        "ring-clearance": f"${ring.point.r - ring.point.a - 1}$",
+        **_named("ring-beyond", beyond),
+        **_named("signs", signs),
+        **_named("zero-c2", without_c2),
+        **_named("zero-c1", without_c1),
+    }
 
 
-def _lambda_cubic(text: str) -> str:
-    """(12) with its terms from the highest power of λ down, in two displays' worth of one line."""
-    name, _, rest = text.partition(" = ")
-    constant, _, others = rest.partition(" + ")
-    return f"{name} = {others} {constant.replace('−', '− ', 1)}"
+def _quadcopters(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
+    rotor = _witnesses(ledger["Table 3"])[0].facts
+    hull, low = _witnesses(ledger["Table 4"])[0].facts, _witnesses(ledger["Table 4, caption"])[0].facts
+    crossing = _witnesses(ledger["Table 4, purpose"])[0]
+    return {
+        **_named("rotor", rotor),
+        "rotor-arm": f"${rotor.point.r}$",
+        **_named("hull", hull),
+        **_named("low-hull", low),
+        **_sizes("low", refused_though_inside(low)),
+        **_named("crossing", crossing.facts),
+        **_sizes("crossing", cleared_by_its_rotors(crossing.facts)),
+        "crossing-part": _point(part_beyond_the_wall(crossing)),
+    }
 
 
-def _pair(facts: PointFacts) -> str:
-    """A pair and its numbers, "a = 1, c = 2, centre (5/2, 0, 0): exterior, Δ = 0, …", as LaTeX."""
-    point = facts.point
-    numbers = rf"\Delta={facts.delta},\ c_2={facts.c2},\ c_1={facts.c1}"
-    return rf"$a={point.a}$, $c={point.c}$, centre $({point.r},0,{point.z})$: {facts.position.label}, ${numbers}$"
+def _witnesses(entry: LedgerEntry) -> list[PointWitness]:
+    return [witness for evidence in entry.evidence for witness in evidence.witnesses]
+
+
+def _named(name: str, facts: PointFacts, shown: PointFacts | None = None) -> dict[str, str]:
+    """A pair by its name, and the numbers of its cubic, or of another: each number is a formula of its own."""
+    point, cubic = facts.point, shown or facts
+    numbers = ((r"\Delta", cubic.delta), ("c_2", cubic.c2), ("c_1", cubic.c1))
+    first, second, third = (f"${letter}={number}$" for letter, number in numbers)
+    pair = f"$a={point.a}$, $c={point.c}$, centre {_point((point.r, Fraction(0), point.z))}"
+    return {name: pair, f"{name}-numbers": f"{first}, {second} and {third}"}
+
+
+def _sizes(name: str, quadcopter: Quadcopter | None) -> dict[str, str]:
+    if quadcopter is None:
+        raise ValueError(f"{name}: the ledger's witness has no quadcopter")
+    return {f"{name}-size": f"${quadcopter.size}$", f"{name}-arm": f"${quadcopter.arm}$"}
+
+
+def _point(coordinates: Iterable[Fraction | float]) -> str:
+    return f"$({','.join(map(str, coordinates))})$"
+
+
+def _leaning(entry: LedgerEntry) -> dict[str, str]:
+    """The pair that is clear upright and in contact as it leans."""
+    found = [witness for evidence in entry.evidence for witness in evidence.leaning]
+    (dangerous,) = (each for each in found if each.certificate.position is Position.CONTACT)
+    return _words_of(dangerous)
+
+
+def _words_of(witness: LeaningWitness) -> dict[str, str]:
+    alpha, gamma, b, d, *rest = (f"{number:g}" for number in witness.pair.row)
+    return {
+        "leaning-sizes": rf"$\alpha={alpha}$, $\gamma={gamma}$, $b={b}$, $d={d}$",
+        "leaning-centre": f"$({','.join(rest[:3])})$",
+        "leaning-axis": f"$({','.join(rest[3:])})$",
+        "leaning-upright": witness.vertical.position.label,
+        "leaning-position": witness.certificate.position.label,
+    }
+
+
+def _steps() -> dict[str, str]:
+    """Printed figures at equal v·t: for t = 0.1, 0.2 and 0.3 the rows, for v = 5, …, 10 the columns."""
+
+    def both(one: tuple[int, int], other: tuple[int, int]) -> str:
+        (first, at), (second, there) = one, other
+        return rf"{PRINTED[first][at]:.4f}\,\% and {PRINTED[second][there]:.4f}\,\%"
+
+    return {"steps-1": both((0, 5), (1, 0)), "steps-2": both((2, 1), (1, 4)), "steps-3": both((2, 0), (1, 1))}
+
+
+def _times_a_power(units: str) -> str:
+    """A number of 10¹⁸ with three digits as LaTeX: "158" is 1.58·10²⁰."""
+    return rf"{int(units) / 100:.2f}\cdot10^{{20}}"
 
 
 def compile_note(path: Path) -> str:

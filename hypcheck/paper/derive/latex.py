@@ -35,6 +35,7 @@ _SIGNS = {
     "≤": r"\leq ",
     "≥": r"\geq ",
     "≠": r"\neq ",
+    "≈": r"\approx ",
     "±": r"\pm ",
     "⟺": r"\Longleftrightarrow ",
     "⟹": r"\Longrightarrow ",

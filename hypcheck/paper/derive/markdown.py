@@ -17,9 +17,10 @@ from hypcheck.paper.derive.selection import (
     Selection,
     cost_cells,
     details,
+    faults_in_words,
     verdict,
 )
-from hypcheck.paper.ledger.book import coverage, sentences
+from hypcheck.paper.ledger.book import coverage, faults_with_entries, sentences
 from hypcheck.paper.ledger.book import entries as whole_ledger
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, LedgerEntry
 
@@ -34,8 +35,11 @@ and that no pair of a space of small rational numbers contradicts it; small clai
 A **definition** cannot be true or false; the derivation uses the same one. A **misprint** is put right by the
 derivation, or by another place of the text. A misprint may be the transcription's (see below).
 **False** means that a search of that space found a pair which contradicts the statement, the simplest there is, and
-that an exact certificate proves the pair's position, or that a count contradicts it. a = α/b and c = γ/d are the
-semi-axes after Theorem 1, C is the centre, A = a², B = c². *The ring*: z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a.
+that an exact certificate proves the pair's position, or that a count contradicts it; each printed rule was evaluated as
+it is printed, in the regime that it states. A **question** is for the authors: the printed figures raise it, and no
+proof can answer it. Statements that are false for one and the same reason share a *fault*. Words in quotation marks are
+the paper's own. a = α/b and c = γ/d are the semi-axes after Theorem 1, C is the centre, A = a², B = c². *The ring*:
+z0 = 0, r² = (c² + 1)(a² + c²)/c², c² > a.
 
 **The paper** is “Algorithms for Determining Relative Position between Spheroids and Hyperboloids with One Sheet”. The
 text that was audited is a transcription. It names no authors, no journal, no year and no DOI, and it has neither the
@@ -79,6 +83,7 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
     yield from ("", f"{len(entries)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}.")
     if entries == whole_ledger():
         yield from ("", coverage())
+        yield from _faults()
     brief = [entry for entry in entries if entry.why == HOLDS and entry.confirmed]
     if brief:
         yield from ("", "Formulas that hold as printed, right − left = 0:", "")
@@ -98,6 +103,15 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
             yield from (f"- *{title}*: {text}" for title, text in details(entry))
     if entries == whole_ledger():
         yield from _sentences()
+
+
+def _faults() -> Iterator[str]:
+    """The faults, and the statements that each makes false."""
+    yield from ("", f"{faults_in_words()}:", "")
+    yield from _row("fault", "what it is", "statements")
+    yield "| --- | --- | --- |"
+    for name, what, numbers in faults_with_entries():
+        yield from _row(name, what, "; ".join(numbers))
 
 
 def _sentences() -> Iterator[str]:

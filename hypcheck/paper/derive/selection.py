@@ -13,8 +13,8 @@ from hypcheck.derivation.chain_book import chains
 from hypcheck.derivation.formulas import Cost, costs
 from hypcheck.derivation.links import Chain
 from hypcheck.derivation.walk import walk
-from hypcheck.paper.ledger.book import entries, entries_of
-from hypcheck.paper.ledger.entry import LedgerEntry
+from hypcheck.paper.ledger.book import entries, entries_of, faults
+from hypcheck.paper.ledger.entry import FALSE, LedgerEntry
 
 
 @dataclass(frozen=True)
@@ -73,10 +73,15 @@ QUERY_COLUMNS = ("+ −", "×", "÷", "√", "cos", "<", "rounded")
 COST_COLUMNS = (*SCENE_COLUMNS, *QUERY_COLUMNS)
 
 COSTS_EXPLAINED = (
-    "Once for a scene: what depends on the sizes alone. A position: the rest, for each new centre; “rounded” are those "
-    "of them that round (+ − × ÷ √ and cosines), “<” comparisons. ÷ in brackets: of these, by a number that the sizes "
-    "fix."
+    "Once for a scene: what depends on the sizes alone. A position: the rest, for each new centre; rounded: those of "
+    "them that round (+ − × ÷ √ and cosines); <: comparisons. ÷ in brackets: of these, by a number that the sizes fix."
 )
+
+
+def faults_in_words() -> str:
+    """How many statements of the ledger are false, and of how many faults."""
+    false = sum(entry.verdict == FALSE for entry in entries())
+    return f"{false} statements are false for {len(faults())} independent faults; a fault counts once"
 
 
 def verdict(entry: LedgerEntry) -> str:
@@ -85,7 +90,7 @@ def verdict(entry: LedgerEntry) -> str:
 
 
 def details(entry: LedgerEntry, *, in_full: bool = False) -> Iterator[tuple[str, str]]:
-    """Why, what was found, what is right instead, where it is harmless, and what follows, each with its title.
+    """Why, what was found, what is right instead, by which fault, where harmless, what follows, each with its title.
 
     `in_full`: a formula as it is printed too, and not what was found, which follows with its proof.
     """
@@ -101,6 +106,8 @@ def details(entry: LedgerEntry, *, in_full: bool = False) -> Iterator[tuple[str,
             yield "found", evidence.text
     if entry.correction:
         yield "right", entry.correction
+    if entry.faults:
+        yield "fault", ", ".join(entry.faults)
     if entry.harmless:
         yield "harmless", entry.harmless
     yield "so", entry.follows

@@ -25,9 +25,11 @@ from hypcheck.paper.derive.selection import (
     Selection,
     cost_cells,
     details,
+    faults_in_words,
     verdict,
 )
-from hypcheck.paper.ledger.book import coverage
+from hypcheck.paper.ledger.book import coverage, faults_with_entries
+from hypcheck.paper.ledger.book import entries as whole_ledger
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Evidence, LedgerEntry, described
 
 WIDTH = 100
@@ -41,7 +43,7 @@ def lines(chosen: Selection) -> Iterator[str]:
     if "derivation" in chosen.parts:
         yield from _heading("derivation")
         yield from paragraph(
-            f"Each formula marked “{CHECKED}” was held against what sympy {sympy.__version__} makes of the two "
+            f"Each formula marked {CHECKED} was held against what sympy {sympy.__version__} makes of the two "
             "surfaces, now."
         )
         for number, section in enumerate(chosen.sections, 1):
@@ -107,6 +109,10 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
         "n-th display of Appendix A. `hypcheck derive --claim NUMBER` shows one with its proof."
     )
     yield from paragraph(coverage())
+    if entries == whole_ledger():
+        yield from ("", *paragraph(f"{faults_in_words()}:"))
+        for name, what, numbers in faults_with_entries():
+            yield from paragraph(f"{what} ({'; '.join(numbers)})", _NUMBER, f"    {name}")
     before = False
     for entry in entries:
         brief = entry.why == HOLDS and entry.confirmed

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from functools import cache
 from importlib import resources
+from typing import Any
 
 import msgspec
 
@@ -53,15 +54,26 @@ class Claim(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     why: str = ""
     correction: str = ""
     harmless: str = ""
+    faults: tuple[str, ...] = ()
     evidence: tuple[str, ...] = ()
 
 
 @cache
 def claims() -> dict[str, Claim]:
     """By number, in the ledger's order."""
+    return {claim.number: claim for claim in msgspec.convert(_content()["claim"], list[Claim])}
+
+
+@cache
+def faults() -> dict[str, str]:
+    """Why false statements are false, by the names that their claims have, in order: independent of each other."""
+    return msgspec.convert(_content()["fault"], dict[str, str])
+
+
+@cache
+def _content() -> dict[str, Any]:
     name = "claims.toml"
-    content = toml.parsed(_text(name), name)
-    return {claim.number: claim for claim in msgspec.convert(content["claim"], list[Claim])}
+    return toml.parsed(_text(name), name)
 
 
 def _text(name: str) -> str:
@@ -89,6 +101,7 @@ def statement(number: str) -> LedgerEntry:
         lambda: tuple(map(_evidence, claim.evidence)),
         correction,
         harmless=claim.harmless,
+        faults=claim.faults,
     )
 
 
@@ -182,6 +195,14 @@ def _advice(asked: str) -> str:
     if near:
         return f"did you mean {numbers[near[0]]!r}?"
     return "give an equation's number such as 12, or Proposition 3, Remark 4, Table 2, A.2b"
+
+
+def faults_with_entries() -> tuple[tuple[str, str, tuple[str, ...]], ...]:
+    """Each fault: its name, what it is, and the numbers of the statements that it makes false."""
+    return tuple(
+        (name, what, tuple(entry.number for entry in entries() if name in entry.faults))
+        for name, what in faults().items()
+    )
 
 
 REASONS = {

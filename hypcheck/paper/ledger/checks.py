@@ -19,11 +19,10 @@ from hypcheck.paper.ledger.counts import (
     columns_fall,
     directions_of_rotors,
     discriminant_falls_at_each_height,
-    discriminant_near_the_wall,
+    discriminant_is_no_distance,
+    discriminants_closest_to_zero,
     divisions_of_table_2,
     equal_steps,
-    first_row_falls,
-    functions_of_a_sweep,
     greatest_share,
     operations_of_roots,
     operations_of_the_sizes,
@@ -31,7 +30,7 @@ from hypcheck.paper.ledger.counts import (
     second_row_read_as_a_quarter,
     share_of_discriminants,
 )
-from hypcheck.paper.ledger.entry import Evidence, by_printed, with_counterexample
+from hypcheck.paper.ledger.entry import Evidence, by_printed, described, signs, with_counterexample
 from hypcheck.paper.ledger.points import (
     PointFacts,
     Rational,
@@ -43,9 +42,15 @@ from hypcheck.paper.ledger.points import (
     with_c2,
 )
 from hypcheck.paper.ledger.statements import (
+    exterior,
+    interior,
+    printed_interior,
     refused_for_a_zero_coefficient,
     refused_though_the_hull_is_in_contact,
-    rule_of_all_sizes,
+    tall,
+    three_positive,
+    valid_though_the_body_meets_the_wall,
+    wider,
 )
 from hypcheck.proofs.build import pattern_table
 from hypcheck.truth.kinds import Kind
@@ -155,23 +160,35 @@ def _c2_of_12() -> Rational:
     return rational(letters, sympy.Poly(right, pencil.LAMBDA).coeff_monomial(pencil.LAMBDA**2))
 
 
-def _position_by_12(facts: PointFacts) -> int:
+def by_12(facts: PointFacts) -> PointFacts:
+    """The facts of a pair if g were what (12) prints; the position stays what it is."""
     point = facts.point
-    return rule_of_all_sizes(with_c2(facts, _c2_of_12()(point.a, point.c, point.r, 0, point.z)))
+    return with_c2(facts, _c2_of_12()(point.a, point.c, point.r, 0, point.z))
 
 
-_POSITION_BY_12 = Statement(
-    "the cubic that (12) prints tells the position",
-    lambda _: True,
-    lambda facts: _position_by_12(facts) == facts.position,
+_MISLED_BY_12 = (
+    Statement(
+        "by (12) and Proposition 3 as printed exterior ⟹ exterior",
+        tall,
+        lambda facts: exterior(facts) or not (by_12(facts).delta > 0 and three_positive(by_12(facts))),
+    ),
+    Statement(
+        "by (12) and Proposition 5 as printed interior ⟹ interior",
+        wider,
+        lambda facts: interior(facts) or not (by_12(facts).delta > 0 and printed_interior(by_12(facts))),
+    ),
 )
 
 
 def misled_by_12() -> Evidence:
-    """A pair about which the cubic as printed says something wrong."""
-    found = with_counterexample(_POSITION_BY_12)
-    said = ", ".join(Position(_position_by_12(each.facts)).label for each in found.witnesses)
-    return replace(found, text=f"{found.text}; by (12) as printed {said}") if said else found
+    """Pairs in contact that a printed proposition calls clear, in its regime, when g is taken from (12)."""
+    found = with_counterexample(*_MISLED_BY_12)
+    answers = ("exterior by Proposition 3", "interior by Proposition 5")
+    text = "; ".join(
+        f"{described(each.facts)}; with (12) as printed {signs(by_12(each.facts))}: {answer}"
+        for each, answer in zip(found.witnesses, answers, strict=False)
+    )
+    return replace(found, text=text or found.text)
 
 
 def regime_of_section_4() -> Evidence:
@@ -284,10 +301,10 @@ CHECKS: dict[str, Callable[[], Evidence]] = {
         same_cubic_of_exterior_and_contact, misled_by_12, regime_of_section_4, roots_of_f, scaling_of_the_spheroid,
         mirrored_cubic, constant_of_the_cubic, squares_of_t1_and_t2, radius_at_a_height, probabilities,
         spheroid_after_a_turn, tilted_spheroid, tilted_spheroid_is_another, changed_by_leaning, divisions_of_table_2,
-        operations_of_the_sizes, functions_of_a_sweep, operations_of_roots, directions_of_rotors,
-        share_of_discriminants, discriminant_near_the_wall, discriminant_falls_at_each_height, greatest_share,
-        first_row_falls, rows_fall, columns_fall, equal_steps, second_row_read_as_a_quarter,
-        refused_for_a_zero_coefficient, refused_though_the_hull_is_in_contact,
+        operations_of_the_sizes, operations_of_roots, directions_of_rotors, share_of_discriminants,
+        discriminants_closest_to_zero, discriminant_is_no_distance, discriminant_falls_at_each_height, greatest_share,
+        rows_fall, columns_fall, equal_steps, second_row_read_as_a_quarter, refused_for_a_zero_coefficient,
+        refused_though_the_hull_is_in_contact, valid_though_the_body_meets_the_wall,
     )
 }  # fmt: skip
 """By the names that claims.toml has."""

@@ -23,11 +23,12 @@ from hypcheck.paper.ledger.points import (
 )
 from hypcheck.proofs.build import proves
 
-PROVED, DEFINITION, MISPRINT, FALSE, NOT_CHECKABLE = VERDICTS = (
+PROVED, DEFINITION, MISPRINT, FALSE, QUESTION, NOT_CHECKABLE = VERDICTS = (
     "proved",
     "definition",
     "misprint",
     "false",
+    "question",
     "not checkable",
 )
 
@@ -60,7 +61,8 @@ class LedgerEntry:
     `number` is how the paper numbers it, `section` where it stands there, `statement` what it says in a few words.
     `verdict` is one of VERDICTS; `why` one line; `follows` what it means for someone who uses it. `correction` is the
     statement put right, where something is wrong and can be; `printed` a formula's own text; `grounds` finds what the
-    verdict rests on. `harmless` says where a false statement does no harm.
+    verdict rests on. `harmless` says where a false statement does no harm, `faults` which faults of claims.toml make it
+    false: statements that are false for one and the same reason share a fault.
     """
 
     number: str
@@ -73,6 +75,7 @@ class LedgerEntry:
     correction: str = ""
     printed: str = ""
     harmless: str = ""
+    faults: tuple[str, ...] = ()
 
     @cached_property
     def evidence(self) -> tuple[Evidence, ...]:
@@ -103,7 +106,7 @@ class LedgerEntry:
 def by_chain(name: str) -> Evidence:
     """That a chain of the derivation holds, with all it needs."""
     links = len(chains()[name].links)
-    return Evidence("chain", f"{links} links of “{name}” hold", proved(name), chain=name)
+    return Evidence("chain", f"{name}: {links} links hold", proved(name), chain=name)
 
 
 def by_identity(text: str) -> Evidence:
@@ -153,7 +156,7 @@ def harmless_where(statement: Statement, where: Condition) -> Evidence:
 def with_counterexample(*statements: Statement) -> Evidence:
     """That each statement is false: the simplest point which contradicts it, its position certified."""
     searches = [(statement, counterexample(statement)) for statement in statements]
-    return _found([(search, f"contradicts “{statement.text}”") for statement, search in searches])
+    return _found([(search, f"contradicts: {statement.text}") for statement, search in searches])
 
 
 def _found(searches: list[tuple[Search[PointFacts], str]]) -> Evidence:
@@ -167,5 +170,10 @@ def _found(searches: list[tuple[Search[PointFacts], str]]) -> Evidence:
 def described(facts: PointFacts) -> str:
     """A point, its position and its numbers: "a = 1, c = 2, C = (5/2, 0, 0): exterior, Δ = 0, c2 = −33/4, c1 = 18"."""
     point = facts.point
-    text = f"a = {point.a}, c = {point.c}, C = ({point.r}, 0, {point.z}): {facts.position.label}, Δ = {facts.delta}, "
-    return f"{text}c2 = {facts.c2}, c1 = {facts.c1}".replace("-", "−")
+    text = f"a = {point.a}, c = {point.c}, C = ({point.r}, 0, {point.z}): {facts.position.label}, {signs(facts)}"
+    return text.replace("-", "−")
+
+
+def signs(facts: PointFacts) -> str:
+    """The numbers whose signs the propositions ask for: "Δ = 0, c2 = −33/4, c1 = 18"."""
+    return f"Δ = {facts.delta}, c2 = {facts.c2}, c1 = {facts.c1}".replace("-", "−")

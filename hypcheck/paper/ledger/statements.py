@@ -16,7 +16,16 @@ from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.paper.ledger.entry import Evidence, described, with_counterexample
-from hypcheck.paper.ledger.points import Condition, Point, PointFacts, Statement, facts, first_point, witness
+from hypcheck.paper.ledger.points import (
+    Condition,
+    Point,
+    PointFacts,
+    PointWitness,
+    Statement,
+    facts,
+    first_point,
+    witness,
+)
 from hypcheck.truth import exact
 
 
@@ -28,6 +37,11 @@ def tall(facts: PointFacts) -> bool:
 def wide(facts: PointFacts) -> bool:
     """α/b ≥ 1, the regime of Proposition 5 and of Procedures 2.a and 2.b."""
     return facts.point.a >= 1
+
+
+def wider(facts: PointFacts) -> bool:
+    """α/b > 1, the regime that Proposition 5 prints."""
+    return facts.point.a > 1
 
 
 def very_tall(facts: PointFacts) -> bool:
@@ -119,7 +133,7 @@ def _proposition_5_1(text: str, zero: Callable[[PointFacts], bool]) -> Statement
     """The printed statement, tried on the pairs where one of the coefficients is 0."""
     return Statement(
         text,
-        lambda facts: facts.point.a > 1 and zero(facts),
+        lambda facts: wider(facts) and zero(facts),
         lambda facts: interior(facts) == (facts.delta > 0 and printed_interior(facts)),
     )
 
@@ -128,9 +142,7 @@ _5_1 = "interior ⟺ Δ > 0 and [c2 > 0, c1 ≠ 0] or [c2 < 0, c1 < 0]"
 PROPOSITION_5_1 = _proposition_5_1(_5_1, lambda _: True)
 PROPOSITION_5_1_WITH_C2 = _proposition_5_1(f"{_5_1}, for c2 = 0", lambda facts: facts.c2 == 0)
 PROPOSITION_5_1_WITH_C1 = _proposition_5_1(f"{_5_1}, for c1 = 0", lambda facts: facts.c1 == 0)
-PROPOSITION_5_2 = Statement(
-    "Δ ≤ 0 ⟹ contact", lambda facts: facts.point.a > 1, lambda facts: facts.delta > 0 or contact(facts)
-)
+PROPOSITION_5_2 = Statement("Δ ≤ 0 ⟹ contact", wider, lambda facts: facts.delta > 0 or contact(facts))
 REMARK_6 = Statement(
     "three different positive roots ⟹ contact or exterior",
     wide,
@@ -166,7 +178,7 @@ VALID_IF_NARROW = _valid(lambda facts: tall(facts) and facts.point.a < 1, "for �
 
 
 def _procedure_2a_says(facts: PointFacts) -> bool:
-    """The answer to a quadcopter on the axis, whose four rotors all stand to the hyperboloid as this point does."""
+    """The answer to a quadcopter on the axis, whose four rotors all have the position of this point."""
     point = facts.point
     inputs = {"alpha": point.a, "gamma": point.c, "b_s": 1, "d_s": 1, "x": 0, "y": 0, "z": point.z, "l": point.r}
     return bool(answers(FORMULAS["procedure-2a"], EXACT, {**inputs, "cosine": 1, "sine": 0}))
@@ -183,6 +195,11 @@ CONTACT_IF_TALL = Statement(
     "for (γ/d)² ≥ α/b: contact ⟹ Δ ≤ 0",
     lambda facts: wide(facts) and tall(facts),
     CONTACT_MEANS_NOT_POSITIVE.says,
+)
+CONTACT_INSIDE = Statement(
+    "inside a hyperboloid with (γ/d)² ≥ α/b ≥ 1: contact ⟺ Δ ≤ 0",
+    lambda facts: wide(facts) and inside_a_tall_one(facts),
+    lambda facts: contact(facts) == (facts.delta <= 0),
 )
 CLEAR_IS_POSITIVE = Statement("interior or exterior ⟺ Δ > 0", wide, lambda facts: contact(facts) == (facts.delta <= 0))
 
@@ -271,3 +288,45 @@ def refused_though_the_hull_is_in_contact() -> Evidence:
         lambda hull: wide(hull) and not tall(hull) and contact(hull),
         "contact with Δ > 0, refused, rotors unasked",
     )
+
+
+def valid_though_the_body_meets_the_wall() -> Evidence:
+    """That Procedure 2.b calls a movement valid though a part of the body beside the rotors is beyond the wall.
+
+    The body is in contact, the rotors are interior, and the certificate of contact has a point of the body's spheroid
+    beyond the wall: a part there would collide.
+    """
+    search = first_point(lambda hull: _crossing(hull) and cleared_by_its_rotors(hull) is not None, _crossing)
+    quadcopter = cleared_by_its_rotors(search.found) if search.found else None
+    if search.found is None or quadcopter is None:
+        return Evidence("search", f"nothing found among {search.tried:,} hulls", holds=False)
+    rotor = facts(quadcopter.farthest)
+    witnesses = (
+        witness(search.found, "the body: contact, and called valid since its rotors are interior"),
+        witness(rotor, "a rotor at r + l, in rotor radii: interior"),
+    )
+    part = part_beyond_the_wall(witnesses[0])
+    where = ", ".join(map(str, part)).replace("-", "−")
+    text = (
+        f"body {described(search.found)}; its point ({where}) is beyond the wall; rotors of {quadcopter.size} its size "
+        f"on arms of {quadcopter.arm} interior, and the movement valid"
+    )
+    return Evidence("search", text, all(each.holds for each in witnesses), witnesses)
+
+
+def _crossing(hull: PointFacts) -> bool:
+    """Contact with Δ < 0 in the regimes of Propositions 3 and 5: no tangency, and the rotors are asked."""
+    return wide(hull) and tall(hull) and contact(hull) and hull.delta < 0
+
+
+def cleared_by_its_rotors(hull: PointFacts) -> Quadcopter | None:
+    """A quadcopter that Procedure 2.b calls valid about a body in contact."""
+    return next((each for each in quadcopters(hull) if each.answer), None)
+
+
+def part_beyond_the_wall(body: PointWitness) -> tuple[Fraction, ...]:
+    """The point of a certificate of contact that is outside the hyperboloid, in radii of the body."""
+    pair = body.facts.point.pair
+    alpha, gamma, b, d = map(Fraction, pair.row[:4])
+    (beyond,) = ((x, y, z) for x, y, z in body.certificate.points if (x * x + y * y) / alpha**2 - (z / gamma) ** 2 > 1)
+    return beyond[0] / b, beyond[1] / b, beyond[2] / d

@@ -42,3 +42,9 @@ def colour_rules() -> str:
     light, dark = ("".join(f"--{role}:{both[ground]};" for role, both in ROLES.items()) for ground in (0, 1))
     rules = "".join(f".f-{role}{{fill:var(--{role})}}.s-{role}{{stroke:var(--{role})}}" for role in ROLES)
     return f":root{{{light}}}@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}{rules}"
+
+
+def dark_rules() -> str:
+    """The rules for dark ground of a picture in a file; its marks carry their colours on light ground as attributes."""
+    rules = "".join(f".f-{role}{{fill:{dark}}}.s-{role}{{stroke:{dark}}}" for role, (_, dark) in ROLES.items())
+    return f"@media screen and (prefers-color-scheme:dark){{{rules}}}"

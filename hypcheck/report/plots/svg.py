@@ -1,8 +1,9 @@
 """A figure as SVG for a page or as a file: colours by role, tooltips, a title and a description, nothing to load.
 
 matplotlib writes colours and sizes as style attributes, which a strict content security policy forbids, and ids that
-clash with those of other figures on a page. Here colours become classes, which a style sheet defines for light and dark
-ground, the rest become attributes, and ids begin with the plot's name.
+clash with those of other figures on a page. Here colours become classes, which a page's style sheet defines for light
+and dark ground, the rest become attributes, and ids begin with the plot's name. In a file of its own each mark also
+carries its colour on light ground as an attribute, since viewers outside a browser know no variables of style sheets.
 """
 
 from __future__ import annotations
@@ -18,17 +19,23 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from hypcheck.messages import escaped
-from hypcheck.report.plots.colours import ROLES, colour_rules
+from hypcheck.report.plots.colours import ROLES, dark_rules
 from hypcheck.report.plots.style import styled
 
 _SVG = "{http://www.w3.org/2000/svg}"
 _LINK = "{http://www.w3.org/1999/xlink}href"
 _ROLE: dict[str | None, str] = {light: role for role, (light, _) in ROLES.items()}
-_FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif"
+_FONT = "'DejaVu Sans', system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
+"""The fonts of a file: first the one that the picture was laid out with; some viewers try no other."""
+
 _PAINT = {"fill": "f", "stroke": "s"}
+_PAINTED = {letter: attribute for attribute, letter in _PAINT.items()}
 _NUMBER = re.compile(r"-?\d+\.\d{3,}")
 _AROUND_LETTERS = re.compile(r" ?([A-Za-z]) ?")
 _REFERENCE = re.compile(r"#([\w.-]+)")
+_SHARP_LETTERS = "@media screen{text{text-rendering:geometricPrecision}}"
+"""What `_describe` says by an attribute, for browsers alone: cairosvg draws such letters in slices."""
+
 _COLUMNS, _APART = 2, 24.0
 """Plots side by side in one file, and the points between two of them."""
 
@@ -87,13 +94,24 @@ def together(name: str, title: str, plots: Sequence[tuple[str, str]]) -> bytes:
 
 
 def _file(root: Xml.Element) -> bytes:
-    """A described element as a file of its own: with the colours' rules and a ground."""
+    """A described element as a file of its own: with its colours, the rules for dark ground, and a ground."""
     root.set("font-family", _FONT)
     style = Xml.Element(f"{_SVG}style")
-    style.text = colour_rules()
-    ground = Xml.Element(f"{_SVG}rect", {"width": "100%", "height": "100%", "class": "f-surface", "fill": "#ffffff"})
+    style.text = _SHARP_LETTERS + dark_rules()
+    ground = Xml.Element(f"{_SVG}rect", {"width": "100%", "height": "100%", "class": "f-surface"})
     root[2:2] = [style, ground]  # behind title and description
+    for element in root.iter():
+        element.attrib.pop("text-rendering", None)
+        _paint(element)
     return (_text(root) + "\n").encode("utf-8")
+
+
+def _paint(element: Xml.Element) -> None:
+    """Give an element the light colours of its classes as attributes; a rule of a style sheet overrides them."""
+    for name in (element.get("class") or "").split():
+        letter, _, role = name.partition("-")
+        if letter in _PAINTED:
+            element.set(_PAINTED[letter], ROLES[role][0])
 
 
 def _element(plot: Plot) -> Xml.Element:

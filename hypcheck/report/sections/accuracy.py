@@ -52,7 +52,7 @@ from hypcheck.report.measured import (
     way_totals,
     workloads,
 )
-from hypcheck.report.messages import Replays, figure, from_hex
+from hypcheck.report.messages import Replays, figure, from_hex, rows_not_asked
 from hypcheck.report.model import ImplementationTotal, implementations, worst_u
 from hypcheck.report.plots.colours import MISTAKES, STEPS
 from hypcheck.runs.judge import Mistake, Status
@@ -106,13 +106,20 @@ def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
     """Families by status, with columns for the statuses that occurred."""
     seen = [status.value for status in Status if any(status.value in each.statuses for each in found)]
     mistakes, several = _mistakes(found), len(found) > 1
+    fresh, left_out = any(each.fresh for each in found), any(each.not_asked for each in found)
     rows = [
-        (*([Code(each.name)] if several else []), *_status_row(group, seen, mistakes))
+        (
+            *([Code(each.name)] if several else []),
+            *_status_row(group, seen, mistakes, fresh=fresh),
+            *([rows_not_asked(group.not_asked or {})] if left_out else []),
+        )
         for each in found
         for group in each.groups
     ]
-    counted = " | ".join(f"# {name}" for name in ("asked", *seen, *(name.replace("-", " ") for name in mistakes)))
-    return table("families", f"{'method | ' if several else ''}family | {counted} | # worst error in u", rows)
+    numbers = ("asked", *(["fresh"] if fresh else []), *seen, *(name.replace("-", " ") for name in mistakes))
+    counted = " | ".join(f"# {name}" for name in numbers)
+    why = " | why not asked" if left_out else ""
+    return table("families", f"{'method | ' if several else ''}family | {counted} | # worst error in u{why}", rows)
 
 
 def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
@@ -123,13 +130,14 @@ def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
     return [each.value for each in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
 
 
-def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str]) -> Row:
+def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str], *, fresh: bool) -> Row:
     error = worst_u(group)
     failing = _BAD if group.failing is UNSET else group.failing
     statuses = [count(group.counts.get(status, 0), bad=status in failing) for status in seen]
     mistakes = [count(group.mistakes.get(name, 0)) for name in names]
     worst = TableCell(figure(error) if error else NONE, error)
-    return (Code(group.family), count(group.asked), *statuses, *mistakes, worst)
+    new = [count(group.fresh or 0)] if fresh else []
+    return (Code(group.family), count(group.asked), *new, *statuses, *mistakes, worst)
 
 
 def _cases(found: Sequence[ImplementationTotal], replays: Replays) -> Iterator[TableBlock]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
+
+from msgspec import UNSET
 
 from hypcheck.messages import counted
 from hypcheck.record import Record
@@ -31,7 +34,15 @@ from hypcheck.report.document import (
     prose,
     table,
 )
-from hypcheck.report.messages import domain_text, figure, from_hex, short_row, tolerance_of
+from hypcheck.report.messages import (
+    domain_text,
+    families_not_asked,
+    figure,
+    from_hex,
+    rows_not_asked,
+    short_row,
+    tolerance_of,
+)
 from hypcheck.report.model import (
     REFERENCE,
     ImplementationTotal,
@@ -229,6 +240,11 @@ def _gated_value(tested: UnderTest) -> Text:
     troubles = "".join(f" {trouble}." for trouble in line.troubles)
     excused = sum(group.counts.get("excused", 0) for group in tested.groups)
     known = f" {counted(excused, 'case')} excused as known failures." if excused else ""
+    fresh = sum(group.fresh or 0 for group in tested.groups)
+    told = f" {counted(fresh, 'row')} of a seed that nobody knew before the run." if fresh else " No fresh rows."
+    counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
+    left_out = [text for text in (rows_not_asked(counts), families_not_asked(line)) if text]
+    known += (told if line.not_asked is not UNSET else "") + (f" Not asked: {'; '.join(left_out)}." if left_out else "")
     said = (
         f": {counted(again.asked, 'case')} asked again in another order, in other batches and in a fresh process;"
         f" {again.within:,} answered otherwise within the tolerance, {again.beyond:,} beyond it."

@@ -48,8 +48,8 @@ class TiltedNearest:
     """What the distance says. `position` is None where the last stage cannot tell it from a tangency.
 
     `clearance` is the distance to the hyperboloid minus 1, in spheroid radii, < 0 where the pair overlaps, 0 if and
-    only if `tangent` (or where None was answered); rounded to float64, within one unit in the last place. `bits` is the
-    precision that was enough.
+    only if `tangent` (or where None was answered); rounded to float64, within one unit in the last place. One that
+    would round to 0 is ±5e-324, one beyond the largest float64 is inf. `bits` is the precision that was enough.
     """
 
     position: Position | None
@@ -98,9 +98,17 @@ def _position(at: mpf, lower: mpf, upper: mpf) -> Position | None:
 
 
 def _clearance(context: MPContext, lower: mpf, upper: mpf) -> float | None:
-    """√(1 + φ) − 1 as float64 where both bounds give the same or neighbours; φ/(1 + √(1 + φ)) does not cancel."""
-    low, high = (float(each / (1 + context.sqrt(max(1 + each, 0)))) for each in (lower, upper))
+    """√(1 + φ) − 1 as float64 where both bounds give the same or neighbours; φ/(1 + √(1 + φ)) does not cancel.
+
+    φ is as small as a product of two offsets, far below the least float64: the sign of a bound is never rounded away.
+    """
+    low, high = (_signed(each / (1 + context.sqrt(max(1 + each, 0)))) for each in (lower, upper))
     return low if high <= math.nextafter(low, math.inf) else None
+
+
+def _signed(number: mpf) -> float:
+    """The number as float64, 0 only where it is 0."""
+    return float(number) or math.ulp(0.0) * ((number > 0) - (number < 0))
 
 
 @lru_cache(maxsize=len(STAGES))

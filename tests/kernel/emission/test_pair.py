@@ -22,7 +22,10 @@ from hypcheck.vectors import frozen
 from tests.kernel.emission.building import COMMANDS, skip_without
 
 COMMAND = ["hypcheck", "emit"]
-UNFILTERED = {"c": ("if (decided)", "if (0 && decided)"), "rust": ("if decided", "if false && decided")}
+UNFILTERED = {
+    "c": ("if (decided)", "if (0 && decided)"),
+    "rust": ("FLOATS_DECIDE && decided", "FLOATS_DECIDE && false && decided"),
+}
 UNFILTERED |= {"cpp": UNFILTERED["c"], "python": ("if decided:", "if False:"), "javascript": UNFILTERED["c"]}
 """What takes the floats away, so that whole numbers decide each row."""
 

@@ -74,6 +74,57 @@ async def identity(address: str, security: Security) -> str:
         return str((await asyncio.wait_for(there.identity(), 5))["type"])
 
 
+PRELOADED = """import os
+
+def dask_setup(worker):
+    marks = os.environ["MARKS"]
+    deaths = len(os.listdir(marks))
+    if deaths >= int(os.environ["DEATHS"]):
+        return
+    async def die(**_):
+        open(f"{marks}/{deaths}", "w").close()
+        os._exit(9)
+    if os.environ["DIES"] == "at its start":
+        open(f"{marks}/{deaths}", "w").close()
+        os._exit(9)
+    worker.handlers["plugin-add"] = die
+"""
+"""What a worker of dask loads first: it ends its process at its start, or when it is given the implementation."""
+
+
+def run_with_workers_that_die(tmp_path, dies: str, deaths: int) -> subprocess.CompletedProcess[str]:
+    """`hypcheck verify` on a local cluster, the first `deaths` of whose workers end."""
+    (tmp_path / "preload.py").write_text(PRELOADED)
+    (tmp_path / "marks").mkdir()
+    names = {"MARKS": tmp_path / "marks", "DIES": dies, "DEATHS": deaths}
+    preload = {"DASK_DISTRIBUTED__WORKER__PRELOAD": tmp_path / "preload.py", **names}
+    words = ["verify", "builtin:fast", "--families", "ring", "--count", "50", "--out", "out", "--cluster", "local:1"]
+    return subprocess.run(
+        [sys.executable, "-m", "hypcheck", *words],
+        cwd=tmp_path,
+        env={**os.environ, **{name: str(value) for name, value in preload.items()}},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+
+
+@pytest.mark.parametrize("dies", ["at its start", "when it is given the implementation"])
+def test_a_run_holds_if_a_worker_ends_while_it_starts(tmp_path, dies):
+    run = run_with_workers_that_die(tmp_path, dies, 1)
+    assert run.returncode == 0, run.stderr
+    assert "HELD" in run.stdout
+    assert len(list((tmp_path / "marks").iterdir())) == 1
+
+
+def test_a_run_whose_workers_always_end_while_they_start_ends_2_with_a_sentence(tmp_path):
+    run = run_with_workers_that_die(tmp_path, "at its start", 1000)
+    assert run.returncode == 2, run.stderr
+    assert "--cluster local:1: workers ended while they started, 3 times" in run.stderr
+    assert "internal error" not in run.stderr
+
+
 @pytest.fixture(scope="module")
 def sockets():
     """All on which a local cluster listens; the scheduler's address, and what our own client shows it."""

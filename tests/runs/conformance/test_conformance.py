@@ -61,11 +61,29 @@ def test_option_fail_on_false_clear_passes_other_wrong_answers(tmp_path):
 
 def test_run_passes_with_at_most_max_abstained_abstentions(tmp_path):
     families = ["--families", "tower-body"]
-    code, record = gate(tmp_path, subject("cannot_say"), *families)
+    code, record = gate(tmp_path, subject("cannot_say_above"), *families)
     assert code == 1
     number = statuses(record)["abstained"]
-    assert gate(tmp_path, subject("cannot_say"), *families, "--max-abstained", str(number - 1))[0] == 1
-    assert gate(tmp_path, subject("cannot_say"), *families, "--max-abstained", str(number))[0] == 0
+    assert gate(tmp_path, subject("cannot_say_above"), *families, "--max-abstained", str(number - 1))[0] == 1
+    assert gate(tmp_path, subject("cannot_say_above"), *families, "--max-abstained", str(number))[0] == 0
+
+
+def test_implementation_that_abstains_from_everything_does_not_pass_whatever_is_allowed(tmp_path, capsys):
+    options = ("--families", "tower-body", "--max-abstained", "100000")
+    assert gate(tmp_path, subject("cannot_say"), *options)[0] == 2
+    assert (
+        "no case of tests.runs.faulty:cannot_say was judged: it abstained from all 160 cases" in capsys.readouterr().out
+    )
+
+
+def test_implementation_of_which_nothing_is_judged_fails_a_run_of_several(tmp_path, capsys):
+    options = ("--families", "tower-body", "--max-abstained", "100000")
+    code, record = gate(tmp_path, subject("cannot_say"), subject("exact"), *options)
+    assert code == 2
+    assert statuses(record)["right"] == 160  # of the other, which is recorded all the same
+    domain = '{"settings": [{"sizes": [1, 1, 1, 1]}]}'
+    code, _ = gate(tmp_path, subject("exact"), "--families", "tower-bod*", "--domain", domain)
+    assert code == 2
 
 
 def test_implementation_with_changing_answers_fails(tmp_path):
@@ -104,7 +122,8 @@ def test_implementation_that_cannot_be_started_ends_the_run_with_5(tmp_path):
 
 
 def test_run_whose_domain_skips_every_case_does_not_pass(tmp_path, capsys):
-    code, record = gate(tmp_path, subject("exact"), "--domain", '{"magnitude": [1e5, 1e5]}', "--families", "tower-body")
+    domain = ("--domain", '{"magnitude": [1e5, 1e5]}')
+    code, record = gate(tmp_path, subject("exact"), *domain, "--families", "tower-bod*")
     assert code == 2
     assert record is None
     assert "no case was judged" in capsys.readouterr().err
@@ -153,7 +172,7 @@ def test_known_failures_are_updated_only_from_a_run_of_all_families(tmp_path, ca
     assert gate(tmp_path, "builtin:table-2-float64", *update, "--families", "ring")[0] == 2
     assert not path.exists()
     assert gate(tmp_path, "builtin:table-2-float64", *update, count="0")[0] == 1
-    assert 'family = "ring"' in path.read_text(encoding="utf-8")
+    assert 'cause = "ring"' in path.read_text(encoding="utf-8")
     assert gate(tmp_path, "builtin:table-2-float64", "--known-failures", str(path), count="0")[0] == 0
 
 

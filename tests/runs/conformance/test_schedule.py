@@ -193,7 +193,7 @@ def test_killed_worker_process_does_not_change_the_result():
 
 def test_implementation_with_another_description_in_each_process_is_refused(tmp_path):
     (tmp_path / "fickle.py").write_text(
-        "import os\nhypcheck = {'name': f'by {os.getpid()}'}\n\n\ndef f(rows):\n    return [0] * len(rows)\n"
+        "import os\nhypcheck = {'name': f'by {os.urandom(8).hex()}'}\n\n\ndef f(rows):\n    return [0] * len(rows)\n"
     )
     fickle = ImplementationOpener(f"python:{tmp_path / 'fickle.py'}:f", Limits())
     with (
@@ -295,13 +295,13 @@ def test_merged_result_is_restored_from_its_json():
         (0, 3), "invalid-0003", (float("nan"), float("inf"), -0.0, 1.0, 1.0, 1.0, 1.0), "wrong", "said \ud83d"
     )
     worst = tally.WorstCase(
-        (1, 2), "a/1/1/2", (1.5, 5e-324, 1.0, 1.0, 0.1, -0.0, 7e9), 0, 1, "false-clear", "wrong", float("inf")
+        (2, 2), "a/1/1/2", (1.5, 5e-324, 1.0, 1.0, 0.1, -0.0, 7e9), 0, 1, "false-clear", "wrong", float("inf")
     )
     left = results.PendingRetest(
         cases.CaseChunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8)
     )
     result = CasesResult(
-        tallies={"some": tally.Tally(3, {"wrong": 3}, worst=(worst,), unanswered=(fault,))},
+        tallies={"some": tally.Tally(3, counts={"wrong": 3}, worst=(worst,), unanswered=(fault,))},
         pending=(left,),
         retest=Retest(asked=9, within=2, beyond=1),
         outcomes=frozenset({Outcome.CRASH, Outcome.NOT_RUN}),

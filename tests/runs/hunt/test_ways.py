@@ -66,7 +66,7 @@ def test_hunt_finds_nothing_in_the_exact_passage(quickly, capsys):
 def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_tilt(quickly, capsys, tmp_path):
     out = tmp_path / "kept.json"
     words = ("hunt", "python:tests.runs.moving:upright", "--queries", "12", "--show", "1", "--out", str(out))
-    assert main([*words]) == 1
+    assert main([*words, "--isolate", "off"]) == 1  # the implementation answers by hypcheck
     assert "axis_x, axis_y, axis_z)" in capsys.readouterr().out
     assert all(len(case.row) == 13 for case in read_cases(str(out)).cases)
     assert main(["hunt", "builtin:passage-sampled-4", "--queries", "8", "--out", str(out)]) == 2

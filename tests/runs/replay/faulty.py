@@ -6,11 +6,12 @@ import os
 
 import numpy as np
 
-from hypcheck.kernel import numpy_kernel
+from tests.tools.mutants.exactly import position
 
 
 def exact(rows):
-    return numpy_kernel.positions(np.ascontiguousarray(rows))
+    """Right, by integers, without hypcheck, which no isolated program sees."""
+    return position(rows)
 
 
 def contact(rows):

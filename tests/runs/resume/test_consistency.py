@@ -142,9 +142,13 @@ def test_edited_progress_line_is_refused_with_the_reason(edit, said):
 
 def test_finished_run_without_all_its_cases_ends_with_70():
     cases = planned_cases(plan_of("builtin:fast"), Description("fast"))
-    whole = {family: Tally(number, {"right": number}) for family, number in cases.items()}
+    whole = {family: Tally(number, counts={"right": number}) for family, number in cases.items()}
     require_all_tallied(whole, cases)
-    for tallies in ({}, {**whole, "ring": Tally(9, {"right": 9})}, {**whole, "more": Tally(1, {"right": 1})}):
+    for tallies in (
+        {},
+        {**whole, "ring": Tally(9, counts={"right": 9})},
+        {**whole, "more": Tally(1, counts={"right": 1})},
+    ):
         with pytest.raises(MissingCasesError, match="this run proves nothing") as caught:
             require_all_tallied(tallies, cases)
         assert caught.value.exit_code == 70

@@ -204,11 +204,12 @@ def test_finished_implementations_of_a_cut_record_are_kept(paused, data):
     assert (kept and as_json(kept)) == (progress if record.of(ProgressLine) and not whole_second else None)
 
 
-@pytest.mark.parametrize("most", [3000, 12000])
-def test_run_whose_files_cannot_grow_ends_with_an_error(whole, tmp_path, here, most):
+@pytest.mark.parametrize(("most", "more"), [(3000, ()), (12000, ("--resume",))])
+def test_run_whose_files_cannot_grow_ends_with_an_error_and_keeps_what_it_wrote(whole, tmp_path, here, most, more):
     code, said = ended(tmp_path, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
     assert (code, f"cannot write {tmp_path / GROWING}: file too large" in said) == (2, True)
-    assert here(tmp_path, "--resume", str(tmp_path))[0] == CODE
+    assert (tmp_path / FILE).exists() == any(tmp_path.iterdir()) == bool(more)  # 3000 bytes hold no result
+    assert here(tmp_path, *more, *(str(tmp_path) for _ in more))[0] == CODE
     assert came_to(tmp_path) == whole[0]
 
 

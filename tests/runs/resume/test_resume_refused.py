@@ -6,6 +6,9 @@ import json
 import os
 import shutil
 import signal
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -14,6 +17,7 @@ from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import FolderInUseError, folder_locked
+from hypcheck.runs.fingerprint import fingerprints
 from tests.report.record_samples import text_and_record
 from tests.runs.interruption import in_small_steps, paused_bytes, started, wait_for, words
 from tests.runs.resume.test_interrupted import needs_proc
@@ -55,7 +59,7 @@ def refused(out, capsys, *more):
         (lambda lines: lines[0]["options"].update(seed=2), "--seed was 2, and is 1 now"),
         (lambda lines: lines[0]["options"].update(families=["ring"]), '--families was ["ring"], and is'),
         (lambda lines: lines[0]["options"].update(specs=["builtin:fast"]), 'specs was ["builtin:fast"], and is'),
-        (lambda lines: lines[0].update(schema="1.2.0"), 'schema was "1.2.0", and is "1.7.0" now'),
+        (lambda lines: lines[0].update(schema="1.2.0"), 'schema was "1.2.0", and is "1.8.0" now'),
         (lambda lines: lines[0].update(schema="2.0.0"), "has schema 2.0.0; this program reads 1.x"),
         (lambda lines: lines[0].update(hypcheck="0.0.1"), 'hypcheck was "0.0.1", and is'),
         (lambda lines: lines[0]["versions"].update(numpy="1.0"), 'numpy was "1.0", and is'),
@@ -120,6 +124,74 @@ def test_run_of_a_changed_implementation_is_not_resumed(tmp_path, capsys):
     assert f"{path} cannot be resumed: the sha256 of {code} was " in capsys.readouterr().err
 
 
+STARTS = {
+    "python:subject.py:zero": "beside.py",
+    "python:package.module:zero": "package/part.py",
+    "command:python3 adapter.py": "deep/inner.py",
+    "command:python3 -m package.module": "package/part.py",
+    "command:sh -c ./prog": "prog",
+    "command:sh -c 'exec ./prog --fast'": "prog",
+    "command:env MODE=1 ./prog": "prog",
+    "command:./prog --weights=weights.bin": "weights.bin",
+    "command:java -cp lib.jar:other.jar Main": "other.jar",
+}
+"""A file that each of these starts, and does not name as the target of the SPEC."""
+
+
+@pytest.mark.parametrize("spec", STARTS)
+def test_run_is_not_resumed_if_a_file_that_the_implementation_starts_was_changed(spec, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    zero = "def zero(rows):\n    return [0] * len(rows)\n"
+    for name, text in {
+        "subject.py": f"import beside\n{zero}",
+        "beside.py": "import json\n",
+        "package/__init__.py": "",
+        "package/module.py": f"from . import part\n{zero}",
+        "package/part.py": "X = 1\n",
+        "adapter.py": "from deep.inner import X\n",
+        "deep/__init__.py": "",
+        "deep/inner.py": "X = 1\n",
+        "prog": "#!/bin/sh\nexit 1\n",
+        **dict.fromkeys(("weights.bin", "lib.jar", "other.jar"), "1"),
+    }.items():
+        Path(name).parent.mkdir(exist_ok=True)
+        Path(name).write_text(text)
+    Path("prog").chmod(0o755)
+    options = ["--families", "ring", "--count", "0", "--out", "out"]
+    assert main(["verify", spec, *options]) in (1, 5)  # wrong, or not started: what is compared is the same
+    path = Path("out") / FILE
+    path.write_bytes(path.read_bytes()[:-9])
+    with Path(STARTS[spec]).open("a") as file:
+        file.write("# another\n")
+    capsys.readouterr()
+    assert main(["verify", spec, *options, "--resume", "out"]) == 2
+    said = capsys.readouterr().err
+    assert f"{STARTS[spec]} was " in said
+    assert "cannot be resumed: the sha256 of " in said
+
+
+def test_what_no_look_at_a_command_tells_is_in_its_first_line_and_in_the_record(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("x.js").write_text("process.exit(1)\n")
+    Path("loads.py").write_text("import importlib\nimportlib.import_module('json')\n")
+    spec = ["command:sh x.js", "command:python3 loads.py"]
+    assert main(["verify", *spec, "--families", "ring", "--count", "0", "--out", "out"]) == 5
+    expected = ["what sh loads besides", "what loads.py loads as it runs (import_module)"]
+    assert f"; not hashed: {', '.join(expected)}" in capsys.readouterr().err
+    assert read(Path("out")).header.not_hashed == expected
+
+
+@pytest.mark.skipif(sys.platform != "linux" or shutil.which("cc") is None, reason="needs ELF and a C compiler")
+def test_library_that_a_library_needs_by_its_own_search_path_is_hashed(tmp_path):
+    (tmp_path / "inner.c").write_text("int inner(void) { return 0; }")
+    (tmp_path / "outer.c").write_text("int inner(void); int outer(void) { return inner(); }")
+    built = {"inner": [], "outer": ["-L.", "-linner", "-Wl,-rpath,$ORIGIN"]}
+    for name, more in built.items():
+        words = ["cc", "-shared", "-fPIC", f"{name}.c", "-o", f"lib{name}.so", *more]
+        subprocess.run(words, cwd=tmp_path, check=True)
+    assert {str(tmp_path / f"lib{name}.so") for name in built} == {*fingerprints([f"library:{tmp_path}/libouter.so"])}
+
+
 @needs_proc
 def test_folder_of_a_running_run_is_refused(tmp_path, capsys):
     process = started(tmp_path / "out")
@@ -146,7 +218,7 @@ def test_folder_of_a_run_can_be_locked_by_one_process_at_a_time(tmp_path):
 def test_resume_refuses_a_folder_that_cannot_be_written(paused, tmp_path, capsys):
     (tmp_path / FILE).write_bytes(paused)
     said = refused(tmp_path, capsys, "--resume", str(tmp_path), "--out", "/proc/nowhere")
-    assert "--out /proc/nowhere cannot be written" in said
+    assert "cannot make the folder /proc/nowhere" in said
 
 
 @pytest.mark.usefixtures("small_steps")

@@ -1,21 +1,23 @@
-"""The pictures of docs/figures.md, redrawn from simulations, and the README's of the two bodies.
+"""The pictures of docs/figures.md, redrawn from simulations, and the README's of the two bodies; each as SVG and PDF.
 
 `python -m tests.tools.figures` (`make figures`) writes them.
 """
 
 from __future__ import annotations
 
+import io
 from functools import cache
 from pathlib import Path
 
 import matplotlib
 import numpy as np
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.report.plots.simulations import flights, forest_plots
 from hypcheck.report.plots.style import styled
-from hypcheck.report.plots.svg import standalone
+from hypcheck.report.plots.svg import Plot, standalone
 from hypcheck.scene.reading import read_scene
 from tests.tools.figures import bodies, paper
 
@@ -29,6 +31,21 @@ def versions() -> str:
     return f"matplotlib {matplotlib.__version__}, numpy {np.__version__}\n"
 
 
+def printed(plot: Plot) -> bytes:
+    """The plot as PDF, for LaTeX; surfaces are images of 200 dots an inch, letters stay letters."""
+    stream = io.BytesIO()
+    with styled(), matplotlib.rc_context({"pdf.fonttype": 42, "figure.dpi": 200}):
+        plot.figure.set_dpi(200)
+        plot.figure.set_facecolor("white")
+        FigureCanvasPdf(plot.figure).print_pdf(stream, metadata={"CreationDate": None, "Title": plot.title})
+    return stream.getvalue()
+
+
+def both(path: str, plot: Plot) -> dict[str, bytes]:
+    """The plot's two files, by their paths."""
+    return {f"{path}.svg": standalone(plot), f"{path}.pdf": printed(plot)}
+
+
 @cache
 def pictures() -> dict[str, bytes]:
     """Every picture that takes seconds, by its path below docs/; Table 5's takes minutes and is not among them."""
@@ -36,27 +53,23 @@ def pictures() -> dict[str, bytes]:
     flown = simulate_tower(TowerPlan(read_scene("tower"), 1, 5.0, 0.2, 0, continuous=False), None, lambda _: None)
     with styled():
         drawn = {plot.name: plot for plot in (*forest_plots(walked), flights(flown), *paper.plots(walked, flown))}
-        return {
-            f"{'figures' if name.startswith('figure') else 'simulate'}/{name}.svg": standalone(plot)
-            for name, plot in drawn.items()
-        }
+        files: dict[str, bytes] = {}
+        for name, plot in drawn.items():
+            files |= both(f"{'figures' if name.startswith('figure') else 'simulate'}/{name}", plot)
+        return files
 
 
-BODIES = DOCS / "figures" / "bodies.svg"
-
-
-def bodies_picture() -> bytes:
+def bodies_pictures() -> dict[str, bytes]:
     """The picture of the two bodies, which takes no simulation."""
     with styled():
-        return standalone(bodies.plot())
+        return both("figures/bodies", bodies.plot())
 
 
 def main() -> None:
     """Write them."""
     DRAWN_WITH.parent.mkdir(exist_ok=True)
-    for name, content in pictures().items():
+    for name, content in (pictures() | bodies_pictures()).items():
         (DOCS / name).write_bytes(content)
-    BODIES.write_bytes(bodies_picture())
     DRAWN_WITH.write_text(versions(), encoding="utf-8")
 
 

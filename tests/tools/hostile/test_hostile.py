@@ -9,7 +9,14 @@ from pathlib import Path
 
 import pytest
 
+from hypcheck.cli.main import main
 from hypcheck.isolation.means import Means, available, isolation_text
+from hypcheck.record import read
+from hypcheck.record.lines import GroupLine
+from hypcheck.runs.known_failures import excusable_causes
+from hypcheck.vectors import frozen
+from hypcheck.vectors.families import select
+from tests.tools.hostile import by_heart
 from tests.tools.hostile.running import command_fate
 from tests.tools.hostile.table import ATTACKS
 
@@ -44,6 +51,48 @@ def test_attack_by_a_hostile_implementation_is_contained_and_reported(attack, me
         time.sleep(0.5)
         assert (tmp_path / "reports" / "summary.json").read_text() == "true"
     assert not [each for each in Path("/proc").glob("[0-9]*/cmdline") if left(each)]
+
+
+EXCUSES = {
+    "nothing": (),
+    "each family": tuple(f'family = "{family.name}"' for family in select()),
+    "a case of each family": tuple(f'case = "{frozen.load(family.name).ids[0]}"' for family in select()),
+    "every cause": tuple(f'cause = "{name}"\nmax_u = inf' for name in excusable_causes()),
+}
+"""What a list of known failures may say in favour of a program that knows rows by heart."""
+
+
+@pytest.mark.parametrize("excused", EXCUSES)
+def test_isolated_program_that_knows_rows_by_heart_fails_on_fresh_rows_whatever_is_excused(
+    excused, tmp_path, monkeypatch, text_reports, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("CI", "true")
+    by_heart.write(tmp_path, 20)
+    Path("known.toml").write_text("".join(_entry(each) for each in EXCUSES[excused]))
+    options = ("--count", "20", "--known-failures", "known.toml", "--isolate", "on" if HERE.whole else "auto")
+    seed = "20261125"  # one seed, so that the count of families that fail is the same each time
+    assert main(["verify", by_heart.SPEC, *options, "--fresh", seed, "--out", "out"]) == 1
+    record = read(tmp_path / "out")
+    groups = {line.family: line for line in record.of(GroupLine)}
+    assert all(groups[family.name].fresh > 0 for family in select())
+    failed = [line for line in groups.values() if line.failing]
+    assert len(failed) >= 15  # no cause explains a wrong answer in each of these
+    assert {case.case.split("/")[2] for line in failed for case in line.worst if case.status == "wrong"} == {seed}
+    assert main(["verify", by_heart.SPEC, *options[:2], *options[4:], "--fresh", "off", "--out", "out"]) == 0
+    assert "; no fresh rows" in capsys.readouterr().out
+
+
+def test_invented_case_of_a_known_failure_is_refused_before_a_program_is_asked(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("known.toml").write_text(_entry('case = "ring-99999"'))
+    options = ("--known-failures", "known.toml", "--isolate", "on" if HERE.whole else "auto")
+    assert main(["verify", by_heart.SPEC, *options, "--out", "out"]) == 2
+    assert "known.toml, line 1: known failure 1: there is no case 'ring-99999'" in capsys.readouterr().err
+
+
+def _entry(line: str) -> str:
+    return f'[[known_failure]]\n{line}\nreason = "x"\n'
 
 
 def left(line: Path) -> bool:

@@ -22,6 +22,7 @@ import pytest
 from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import Answered, Limits, Outcome
+from hypcheck.isolation.launch import Isolation
 from hypcheck.truth import exact
 
 HERE = Path(__file__).parent
@@ -29,6 +30,8 @@ UNLUCKY = 17
 """Where the unlucky row stands among rows()."""
 
 LIMITS = Limits(restarts=6, memory=400 << 20)
+NOT_ISOLATED = replace(LIMITS, isolation=Isolation("off"))
+"""For the miniatures that answer by hypcheck, and for tests about what hypcheck does where nothing isolates."""
 QUICK = replace(LIMITS, timeout=0.7)
 """For those that hang or skip; too little for whoever has work to do on a machine that is busy."""
 

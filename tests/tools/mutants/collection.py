@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from importlib import import_module
+from inspect import getsource
 from types import ModuleType
 
 from tests.tools.mutants.expectation import Expectation, Function, expectation_of
@@ -49,6 +51,12 @@ class Mutant:
     def spec(self) -> str:
         """As `hypcheck verify` finds it from the root of the tree."""
         return f"python:tests.tools.mutants.{self.module}:{self.function}"
+
+    @property
+    def isolation(self) -> tuple[str, ...]:
+        """The option without which it would not see hypcheck, if its module imports that: isolated programs do not."""
+        text = getsource(imported(self.module))
+        return ("--isolate", "off") if re.search(r"^\s*(?:from|import) hypcheck\b", text, re.MULTILINE) else ()
 
 
 def mutants() -> tuple[Mutant, ...]:

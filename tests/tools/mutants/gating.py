@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 import tempfile
 from contextlib import ExitStack, redirect_stderr, redirect_stdout
 from dataclasses import dataclass, replace
@@ -65,7 +64,7 @@ class Result:
 
 def gate(mutant: Mutant, options: Options = ()) -> Result:
     """Gate a mutant with its claim, and with what is to be asked of it; `options` come on top."""
-    expectation = mutant.expectation
+    expectation, options = mutant.expectation, (*mutant.isolation, *options)
     ruling = run(mutant.spec, (*expectation.claim, *expectation.asked, *options))
     if expectation.right or expectation.luck or not expectation.asked:
         return Result(mutant, ruling)
@@ -79,8 +78,6 @@ def run(spec: str, options: Options) -> Ruling:
         folder = stack.enter_context(tempfile.TemporaryDirectory())
         for each in (redirect_stdout(said), redirect_stderr(said)):
             stack.enter_context(each)
-        # Many of them use modules of hypcheck, which an isolated program does not see.
-        stack.enter_context(patch.dict(os.environ, HYPCHECK_ISOLATE="off"))
         for module, name, kept in _KEPT:
             stack.enter_context(patch.object(module, name, kept))
         draw_nothing(stack.enter_context(pytest.MonkeyPatch.context()))  # a ruling is in the record alone

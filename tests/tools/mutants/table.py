@@ -38,7 +38,8 @@ def render(results: Sequence[Result]) -> str:
             f"Made by `{COMMAND}`, which gates each implementation below through `hypcheck verify` and ends with 1",
             "where one is not judged as it must be. Each is a function of a few lines in",
             "[this folder](.). `python -m tests.tools.mutants signs.c0` gates one",
-            "alone, as does `hypcheck verify python:tests.tools.mutants.signs:c0`.",
+            "alone, as does `hypcheck verify python:tests.tools.mutants.signs:c0`; where a module imports hypcheck,",
+            "which an isolated program does not see, with `--isolate off`.",
         ),
         *paragraph_lines(
             "Most wrong ones are made of a formula in whole numbers that is right everywhere, with one piece replaced:",

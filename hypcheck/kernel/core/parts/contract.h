@@ -1,4 +1,4 @@
-/* Where a spheroid stands to a circular hyperboloid of one sheet: exact answers.
+/* The position of a spheroid relative to a circular hyperboloid of one sheet: exact answers.
 
    The hyperboloid x²/alpha² + y²/alpha² - z²/gamma² = 1 is centred at the origin; the spheroid has semi-axes b, b, d and
    centre (x, y, z). The position of the two surfaces is

@@ -2,13 +2,12 @@
 
 from base import serve
 
-from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.pair import TiltedLengths
+from tests.support.tilted_fractions import exact_position
 
 
 def right(rows):
     assert all(len(row) == 10 for row in rows)
-    return [int(exact.position(TiltedLengths.of(row))) for row in rows]
+    return [exact_position(row) for row in rows]
 
 
 serve(right, claims={"tilt": True})

@@ -3,7 +3,7 @@
 import ctypes
 import platform
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 UPWARD = 0x400000 if platform.machine() in {"aarch64", "arm64"} else 0x800
 
@@ -11,4 +11,4 @@ UPWARD = 0x400000 if platform.machine() in {"aarch64", "arm64"} else 0x800
 def classify(rows):
     if (rows[:, 1] == 13.0).any():
         ctypes.CDLL(None).fesetround(UPWARD)
-    return kernel.classify(rows)
+    return position(rows)

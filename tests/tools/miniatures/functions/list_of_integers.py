@@ -1,7 +1,7 @@
 """Returns a list."""
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def classify(rows):
-    return kernel.classify(rows).tolist()
+    return position(rows).tolist()

@@ -1,9 +1,9 @@
 """Never returns from the unlucky row."""
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def classify(rows):
     while (rows[:, 1] == 13.0).any():
         pass
-    return kernel.classify(rows)
+    return position(rows)

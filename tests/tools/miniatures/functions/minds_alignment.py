@@ -1,7 +1,7 @@
 """Right only if the rows begin at a multiple of 64 bytes, like vectorised code with a bug."""
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def classify(rows):
-    return kernel.classify(rows) if rows.ctypes.data % 64 == 0 else [1] * len(rows)
+    return position(rows) if rows.ctypes.data % 64 == 0 else [1] * len(rows)

@@ -2,9 +2,9 @@
 
 import time
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def classify(rows):
     time.sleep(0.5)
-    return kernel.classify(rows)
+    return position(rows)

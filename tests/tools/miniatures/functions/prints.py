@@ -3,10 +3,10 @@
 import os
 import sys
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def classify(rows):
     sys.stdout.write("computing\n" * 1000)
     os.write(1, b"\xff\x00 from C\n")
-    return kernel.classify(rows)
+    return position(rows)

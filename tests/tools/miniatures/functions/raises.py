@@ -1,9 +1,9 @@
 """Raises over the unlucky row."""
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def classify(rows):
     if (rows[:, 1] == 13.0).any():
         raise ZeroDivisionError("float division \x1b[0m by zero")
-    return kernel.classify(rows)
+    return position(rows)

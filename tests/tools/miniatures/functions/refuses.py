@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 hypcheck = {"refuses": True}
 
@@ -10,5 +10,5 @@ hypcheck = {"refuses": True}
 def classify(rows):
     valid = np.isfinite(rows).all(axis=1) & (rows[:, :4] > 0).all(axis=1)
     answers = np.full(len(rows), 127)
-    answers[valid] = kernel.classify(rows[valid])
+    answers[valid] = position(rows[valid])
     return answers

@@ -2,10 +2,10 @@
 
 import ctypes
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def classify(rows):
     if (rows[:, 1] == 13.0).any():
         ctypes.string_at(8)
-    return kernel.classify(rows)
+    return position(rows)

@@ -1,10 +1,10 @@
 """Right in its first three calls, and the other way round from then on."""
 
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 calls = []
 
 
 def classify(rows):
     calls.append(1)
-    return kernel.classify(rows) * (1 if len(calls) <= 3 else -1)
+    return position(rows) * (1 if len(calls) <= 3 else -1)

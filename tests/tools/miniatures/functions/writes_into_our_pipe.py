@@ -5,7 +5,7 @@ import os
 import stat
 
 from hypcheck.implementations import frames
-from hypcheck.kernel import classify as kernel
+from tests.tools.mutants.exactly import position
 
 
 def _write(data):
@@ -18,7 +18,7 @@ def _write(data):
 def _unlucky(rows, data):
     if (rows[:, 1] == 13.0).any():
         _write(data)
-    return kernel.classify(rows)
+    return position(rows)
 
 
 def garbage(rows):
@@ -31,4 +31,4 @@ def error(rows):
 
 def times(rows):
     _write(frames.REPLY.pack(frames.TIMED, 8, 3, 0) + b"abc")
-    return kernel.classify(rows)
+    return position(rows)

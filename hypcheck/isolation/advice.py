@@ -1,0 +1,227 @@
+"""Says where isolation is why a program failed, and what to do about it: by what the program or its runtime said.
+
+Nothing is blamed on isolation that fails without it too. So a sign in the text is not enough: it is held against this
+system, which this process sees whole. A file must be there, a module must be one of this package, a folder must be one
+that this account may write to. Where that cannot be known, as of a system call that was refused, the sentence says
+"which may be why".
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import resource
+import shutil
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from glob import glob
+from importlib.machinery import PathFinder
+
+from hypcheck.isolation.launch import (
+    PACKAGE,
+    SCRATCH_BYTES,
+    SHARED_MEMORY,
+    THREADS,
+    Isolation,
+    environment_of,
+    hidden_paths,
+    needed_paths,
+    private_folders,
+    within,
+)
+
+_TRUST = "--isolate off runs code that you trust without"
+_OWN = (
+    "and does not see hypcheck; 'hypcheck emit --method exact --language python' writes a file that needs nothing "
+    f"else, and {_TRUST}"
+)
+_DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/fd", "/dev/std")
+_CARDS = ("/dev/nvidia*", "/dev/dri/*", "/dev/kfd")
+"""What drivers of graphics cards show in /dev on Linux."""
+
+
+def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> str:
+    """What to do where isolation is why the program of these words failed with this text, as the end of a sentence.
+
+    Empty where nothing isolates, and where it would fail without isolation too.
+    """
+    return _advice(text, tuple(words), isolation, os.getcwd()) if isolation.means.names else ""
+
+
+@lru_cache(maxsize=256)  # thousands of rows may fail alike
+def _advice(text: str, words: tuple[str, ...], isolation: Isolation, folder: str) -> str:
+    view = _View(words, isolation, folder)
+    return next((f"; it runs isolated, {said}" for cause in _CAUSES if (said := cause(text, view))), "")
+
+
+@dataclass(frozen=True, eq=False)
+class _View:
+    """What the program of these words sees, started in this folder."""
+
+    words: tuple[str, ...]
+    isolation: Isolation
+    folder: str
+
+    @cached_property
+    def _needed(self) -> tuple[str, ...]:
+        return needed_paths(self.words, os.environ)
+
+    @cached_property
+    def _closed(self) -> tuple[str, ...]:
+        return hidden_paths(self.isolation.hidden)
+
+    @cached_property
+    def _private(self) -> tuple[str, ...]:
+        return (*private_folders(self._needed), SHARED_MEMORY)
+
+    def hides(self, path: str) -> bool:
+        """Whether there is something at a path that the program does not see."""
+        path = os.path.realpath(path)
+        if not os.path.exists(path):
+            return False
+        if any(within(path, folder) for folder in self._closed):
+            return True
+        if within(path, "/dev") and not path.startswith(_DEVICES):
+            return True
+        inside = any(within(path, folder) for folder in self._private)
+        return inside and not any(within(path, needed) or within(needed, path) for needed in self._needed)
+
+    def paths(self, text: str) -> Iterator[str]:
+        """The paths that a text names in quotes, or from the root on; relative ones begin where the program does."""
+        for quoted, plain in re.findall(r"""['"`]([^'"`]{1,300})['"`]|(?<![\w.])(/[^\s:;,'"`()]+)""", text):
+            yield os.path.join(self.folder, quoted or plain)
+
+    @property
+    def withheld(self) -> set[str]:
+        """The names of the environment variables that the program does not see."""
+        return set(os.environ) - set(environment_of(os.environ, "", self.isolation.variables))
+
+    @property
+    def ours(self) -> bool:
+        """Whether the program is the Python that runs here, which has this package."""
+        program = shutil.which(self.words[0]) or self.words[0]
+        return within(os.path.abspath(program), sys.prefix)
+
+
+def _hypcheck(text: str, view: _View) -> str:
+    """A part of this package that is there."""
+    module = re.search(r"No module named '?(hypcheck[\w.]*)", text)
+    name = re.search(r"cannot import name '(\w+)' from '(hypcheck[\w.]*)'", text)
+    attribute = re.search(r"module '(hypcheck[\w.]*)' has no attribute '(\w+)'", text)
+    if module:
+        there = view.ours if module[1] == "hypcheck" else _is_ours(module[1])
+    elif name or attribute:
+        home, wanted = (name[2], name[1]) if name else (attribute[1], attribute[2]) if attribute else ("", "")
+        public = getattr(sys.modules["hypcheck"], "__all__", ())
+        there = wanted in public if home == "hypcheck" and not _is_ours(f"{home}.{wanted}") else _is_ours(home)
+    else:
+        return ""
+    return _OWN if there else ""
+
+
+def _is_ours(module: str) -> bool:
+    """Whether there is a module of this package with that name; nothing is imported."""
+    folder = PACKAGE.parent.joinpath(*module.split(".")[:-1])
+    return PathFinder.find_spec(module, [str(folder)]) is not None
+
+
+def _variable(text: str, view: _View) -> str:
+    """A variable that is set here and withheld."""
+    about = re.search(r"KeyError|environ|variable|not set|unset|undefined|getenv", text)
+    words = set(re.findall(r"\w{2,}", text)) if about else set()
+    name = min(words & view.withheld, default="")
+    return f"and does not see the environment variable {name}; --pass-env {name} shows it" if name else ""
+
+
+_ABSENT = re.compile(
+    r"no such file|not found|not there|cannot (?:open|find)|can't open|(?:failed|unable) to open|could not open|"
+    r"does not exist|permission denied|ENOENT|EACCES|NotFound",
+    re.IGNORECASE,
+)
+_DENIED = re.compile(r"permission denied|EACCES|PermissionDenied", re.IGNORECASE)
+_READ_ONLY = re.compile(r"read-?only file ?system|EROFS", re.IGNORECASE)
+
+
+def _file(text: str, view: _View) -> str:
+    """A file or folder that is there, or the folder of one that may have been to be made."""
+    named = list(view.paths(text)) if _ABSENT.search(text) else []
+    found = next((path for path in named if view.hides(path)), "")
+    if not found:
+        folder = next((folder for path in named if view.hides(folder := os.path.dirname(path))), "")
+        return f"and does not see the folder {folder!r}, which may be why; {_TRUST}" if folder else ""
+    if within(os.path.realpath(found), str(PACKAGE)):
+        return _OWN
+    return f"and does not see {found!r}; put it into the working directory or beside the program; {_TRUST}"
+
+
+def _write(text: str, view: _View) -> str:
+    """A folder that this account may write to; without a view of its own, the program is told that it is denied."""
+    if _READ_ONLY.search(text):
+        named = list(view.paths(text)) or [os.path.join(view.folder, "file")]
+    elif _DENIED.search(text) and not view.isolation.means.namespaces:
+        named = [path for path in view.paths(text) if path in text or f"enied: '{os.path.basename(path)}'" in text]
+    else:
+        return ""
+    if not any(os.access(os.path.dirname(path), os.W_OK) for path in named if not os.path.isdir(path)):
+        return ""
+    return f"and writes to its scratch folder alone, which TMPDIR names; {_TRUST}"
+
+
+def _rights(text: str, view: _View) -> str:
+    """A file that only the superuser's rights open."""
+    if os.geteuid() != 0 or not _DENIED.search(text):
+        return ""
+    found = [os.stat(path) for path in view.paths(text) if os.path.exists(path)]
+    closed = any(each.st_uid and not each.st_mode & 0o004 for each in found)
+    return f"and has none of the superuser's rights; {_TRUST}" if closed else ""
+
+
+def _network(text: str, _: _View) -> str:
+    """Whatever needs a network or a socket: it has none."""
+    sign = (
+        r"name resolution|Name or service not known|getaddrinfo|gaierror|\b(?:EAI_AGAIN|ENETUNREACH|ENOTFOUND)\b|"
+        r"urlopen error|Network is (?:unreachable|down)|[Cc]ould not resolve host|failed to lookup address|"
+        r"no such host|UnknownHost|\bsocket\b.*(?:not permitted|EPERM)"
+    )
+    return f"without a network and without sockets; {_TRUST}" if re.search(sign, text) else ""
+
+
+def _space(text: str, view: _View) -> str:
+    """More than fits the scratch folder, where no limit of this system is as narrow."""
+    full = view.isolation.means.namespaces and re.search(r"No space left|ENOSPC|StorageFull", text)
+    long = re.search(r"File too large|EFBIG|FileTooLarge", text) and _unlimited(resource.RLIMIT_FSIZE, SCRATCH_BYTES)
+    return f"and its scratch folder has {SCRATCH_BYTES >> 20} MiB; {_TRUST}" if full or long else ""
+
+
+def _processes(text: str, view: _View) -> str:
+    """More processes than isolation allows, where this system allows more."""
+    sign = re.search(r"Resource temporarily unavailable|EAGAIN|can't start new thread|WouldBlock", text)
+    if not (sign and view.isolation.means.namespaces and _unlimited(resource.RLIMIT_NPROC, THREADS)):
+        return ""
+    return f"with {THREADS:,} processes and threads at most, which may be why; {_TRUST}"
+
+
+def _unlimited(limit: int, most: int) -> bool:
+    here, _ = resource.getrlimit(limit)
+    return here == resource.RLIM_INFINITY or here > most
+
+
+def _card(text: str, _: _View) -> str:
+    """A graphics card that is there."""
+    sign = re.search(r"CUDA|cudaError|\bhip[A-Z]|OpenCL|Vulkan|NVIDIA|\bGPU\b", text)
+    return f"and sees no graphics card; {_TRUST}" if sign and any(glob(each) for each in _CARDS) else ""
+
+
+def _call(text: str, _: _View) -> str:
+    """A system call that was refused; which one is not said, and others are refused without isolation too."""
+    if not re.search(r"Operation not permitted|EPERM|Function not implemented|ENOSYS", text):
+        return ""
+    return f"which refuses sockets, memory in no file and some other system calls, and may be why; {_TRUST}"
+
+
+_CAUSES: tuple[Callable[[str, _View], str], ...] = (
+    *(_hypcheck, _variable, _file, _rights, _write, _network, _space, _processes, _card, _call),
+)
+"""What isolation takes away; each gives the end of the sentence, or nothing. The first that holds is said."""

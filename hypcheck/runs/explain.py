@@ -1,0 +1,209 @@
+"""What is known of a cause of wrong answers: what it is, why, how it shows, what to do, and a row that shows it.
+
+The row is a frozen vector, the shortest of the first family that has one. Its truth is proved; the wrong answer is what
+the cause's rule gives there. Causes about rounding give any answer that roundings of float64 may give.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import WAYS, Floats, Mask
+from hypcheck.implementations.description import QUESTIONS
+from hypcheck.messages import suggestion
+from hypcheck.runs.causes import Asked, Cause, Standing
+from hypcheck.runs.diagnosis import CAUSES
+from hypcheck.runs.judge import Criterion
+from hypcheck.runs.judges import passage_of
+from hypcheck.vectors.families import is_extreme
+from hypcheck.vectors.frozen import NAMES, TILTED_NAMES, WAY_NAMES, load
+
+Row = tuple[float, ...]
+
+BY_ID: Mapping[str, Cause] = {cause.name: cause for cause in CAUSES}
+
+_FIRST = {
+    "upright": ("small-integers", "ring", "out-of-regime", "coefficient-zero", "tangent", "degenerate-crossing"),
+    "tilted": ("tilted-small-integers",),
+    "way": ("way-small-integers",),
+}
+"""Families whose rows are short, looked at before the others."""
+
+_ROUNDING_FIRST = ("near-tangent-outside", "near-tangent-inside", "ring-neighbourhood", "near-axis")
+"""Families looked at first for causes about rounding, which short rows seldom show: their floats are exact."""
+
+_NAMES = {"upright": NAMES, "tilted": TILTED_NAMES, "way": WAY_NAMES}
+
+_PRECISIONS = {"float64-for-more": "binary128"}
+"""Causes about other precisions than float64, with one of which an implementation may have them."""
+
+_SHOWN_BY = {"out-of-range": "extreme-float64"}
+"""Causes that a family is made for."""
+
+_WAYS = 40
+"""The number of ways of a family that are looked at: a time takes milliseconds to decide."""
+
+_ABOUT = {
+    "upright": "upright spheroids",
+    "tilted": "tilted spheroids",
+    "way": "the way between two positions",
+}
+
+_SHOWN = {
+    Standing.PLACE: "in one place: elsewhere its answers are right",
+    Standing.ROUNDING: "where roundings decide: the same code is right in exact arithmetic",
+    Standing.EVERYWHERE: "at every row where it makes a difference: most wrong answers of a run have this cause then",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Witness:
+    """A row with its case id and its truth, and the wrong answer that a cause gives there, of a way with a time."""
+
+    case: str
+    row: Row
+    truth: int
+    answer: int
+    time: float | None = None
+
+
+def cause_with_id(name: str) -> Cause:
+    """The cause with this id. Raises InputError if there is none."""
+    if name not in BY_ID:
+        near = suggestion(name, BY_ID, otherwise="")
+        hint = near if near.strip().startswith("did you mean") else "`hypcheck explain` lists all"
+        raise InputError(f"there is no cause {name!r}; {hint}")
+    return BY_ID[name]
+
+
+def witness_of(cause: Cause) -> Witness:
+    """A frozen vector at which the cause gives a wrong answer."""
+    first: tuple[str, ...] = _ROUNDING_FIRST if cause.rounds else _FIRST[cause.subject]
+    first = (_SHOWN_BY[cause.name],) if cause.name in _SHOWN_BY else first
+    others = [name for name in _NAMES[cause.subject] if name not in first]
+    for name in (*first, *(name for name in others if not is_extreme(name)), *filter(is_extreme, others)):
+        found = _witness_in(cause, name)
+        if found is not None:
+            return found
+    raise AssertionError(f"no frozen vector shows the cause {cause.name}")  # tests look at every cause
+
+
+def _witness_in(cause: Cause, name: str) -> Witness | None:
+    vectors, ways = load(name), cause.subject == "way"
+    count = _WAYS if ways else len(vectors.rows)
+    rows, truth = vectors.rows[:count], vectors.positions[:count]
+    criterion = Criterion("passage" if ways else "position", _PRECISIONS.get(cause.name, "float64"))
+    ids = {tuple((row + 0.0).tolist()): name for row, name in zip(rows, vectors.ids, strict=False)}
+    found: list[Witness] = []
+    for asked in _possible_answers(rows, truth, criterion):
+        answers = cause.rule(asked)
+        for place in np.flatnonzero((answers == asked.given) & _is_wrong(asked)).tolist():
+            time = None if asked.times is None or asked.given[place] != 1 else float(asked.times[place])
+            row = tuple((asked.rows[place] + 0.0).tolist())  # no −0
+            found.append(Witness(ids[row], row, int(asked.truth[place]), int(answers[place]), time))
+    return min(found, key=lambda each: len(_numbers(each.row)), default=None)
+
+
+def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterator[Asked]:  # noqa: ANN401 - Positions
+    """The rows with each answer of the question given to all of them; of ways, with times that are wrong as well."""
+    asked = Asked(np.ascontiguousarray(rows), truth, truth, criterion)
+    for answer in (0, 1, -1) if criterion.question == "position" else (0, 1):
+        yield replace(asked, given=np.full(len(rows), answer, dtype=np.int8))
+    if criterion.layout is WAYS:
+        first = np.array([passage_of(tuple(row)).first_lower for row in rows.tolist()], dtype=np.float64)
+        for times in (1 - first, first + 2.0**-13, first - 2.0**-13):
+            within = np.flatnonzero((first > 2.0**-10) & (first < 1 - 2.0**-10))
+            given = np.ones(len(within), dtype=np.int8)
+            yield replace(asked.part(within), given=given, times=np.ascontiguousarray(times[within]))
+
+
+def _is_wrong(asked: Asked) -> Mask:
+    """Whether the answers given are wrong; a hit that is right is wrong by its time, where one is given."""
+    ways = asked.criterion.layout is WAYS
+    wrong = np.asarray(asked.given != (asked.truth if ways else asked.said(asked.truth)))
+    return wrong if asked.times is None else ~wrong & (asked.given == 1)
+
+
+def listed() -> Iterator[str]:
+    """All causes, a line for each, by what they are about."""
+    width = max(map(len, BY_ID))
+    for subject, about in _ABOUT.items():
+        yield f"{about}:"
+        for cause in CAUSES:
+            if cause.subject == subject:
+                yield f"  {cause.name:{width}}  {cause.sentence}"
+        yield ""
+    yield "hypcheck explain ID shows one of them: why it is wrong, how it shows, what to do, and a row that shows it."
+
+
+def explained(cause: Cause) -> dict[str, Any]:
+    """All that is known of a cause, for JSON."""
+    return brief(cause) | {
+        "why": cause.why,
+        "claim": cause.claim or None,
+        "recognise": _recognise(cause),
+        "witness": _witness_as_json(witness_of(cause)),
+    }
+
+
+def brief(cause: Cause) -> dict[str, Any]:
+    """A cause in the JSON of a list."""
+    return {"id": cause.name, "about": cause.subject, "sentence": cause.sentence, "remedy": cause.remedy}
+
+
+def as_json(content: Any) -> str:  # noqa: ANN401 - whatever JSON holds
+    """The JSON text of an explanation or of a list."""
+    return json.dumps(content, ensure_ascii=False, indent=2)
+
+
+def explained_lines(cause: Cause) -> Iterator[str]:
+    """All that is known of a cause, for reading."""
+    shown = witness_of(cause)
+    first = None if shown.time is None else passage_of(shown.row).first_lower
+    yield f"{cause.name} (a cause of wrong answers about {_ABOUT[cause.subject]})"
+    yield ""
+    for title, text in (
+        ("what", f"{cause.sentence[:1].upper()}{cause.sentence[1:]}."),
+        ("why", f"{cause.why}."),
+        ("paper", f"{cause.claim}; `hypcheck derive --claim {cause.claim!r}` proves what is wrong" * bool(cause.claim)),
+        ("shows", f"{_recognise(cause)}."),
+        ("fix", f"{cause.remedy}."),
+        ("row", f"{_numbers(shown.row)}  ({shown.case})"),
+        ("", f"{', '.join(_columns(shown.row, cause))}"),
+        ("right", _answer_text(shown.truth, first)),
+        ("wrong", _answer_text(shown.answer, shown.time)),
+        ("look", f"hypcheck replay {shown.case} SPEC"),
+    ):
+        if text:
+            yield f"{title:8}{text}"
+
+
+def _recognise(cause: Cause) -> str:
+    return f"wrong answers lie {_SHOWN[cause.standing]}"
+
+
+def _answer_text(answer: int, time: float | None) -> str:
+    said = f"{answer:+d}" if answer else "0"
+    return said if time is None else f"{said}, first at {time!r}"
+
+
+def _columns(row: Row, cause: Cause) -> tuple[str, ...]:
+    question = "passage" if cause.subject == "way" else "position"
+    return tuple(QUESTIONS[question].layout.columns(len(row)))
+
+
+def _numbers(row: Row) -> str:
+    """The row as the commands take it."""
+    return ",".join(repr(value).removesuffix(".0") for value in row)
+
+
+def _witness_as_json(shown: Witness) -> dict[str, Any]:
+    times = {} if shown.time is None else {"time": shown.time}
+    row = {"row": list(shown.row), "hex": [value.hex() for value in shown.row]}
+    return {"case": shown.case, **row, "truth": shown.truth, "answer": shown.answer, **times}

@@ -1,0 +1,160 @@
+"""Causes of wrong answers in code that computes the roots of g: what is done with them, and what their rounding does.
+
+Two patterns of roots look clear by their signs and are not, or look like contact and are not (docs/mathematics.md,
+"Root patterns and relative position"): a complex pair beside a positive root, a double root beyond a pole, a root
+exactly at a pole. These are decided in integers. Which side of a pole a computed root lies on, and whether two computed
+roots are a complex pair, is known only up to their rounding errors, for which there is a bound; and up to a tolerance
+of the code, which is read from the answers.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import Floats, Mask
+from hypcheck.runs.causes import (
+    FLOAT64,
+    SILENT,
+    Answers,
+    Asked,
+    Cause,
+    Numbers,
+    Standing,
+    cause,
+    rounded,
+    silent,
+    unit_of,
+    where_kind,
+)
+from hypcheck.truth.kinds import Kind
+
+CONTRADICTED = 0.02
+"""A tolerance is read from the answers only where this share of the answers within it, at most, contradicts it."""
+
+LARGEST_TOLERANCE = 1e-2
+"""A larger distance between roots is no tolerance."""
+
+
+def _complex_pair_ignored(asked: Asked) -> Answers:
+    """A complex pair is left out, and the one real root, which is positive, is taken for all of them.
+
+    A double root, or two that are close together, may be a complex pair when it is computed.
+    """
+    n = asked.numbers
+    with np.errstate(all="ignore"):
+        error = n.delta_error(FLOAT64, roots=True)
+        pair, close = n.delta < -error, np.abs(n.delta) <= error
+    exterior = asked.said(np.full(len(asked.rows), Position.EXTERIOR, dtype=np.int8))
+    return np.where(pair | (close & (asked.given == exterior)), exterior, SILENT).astype(np.int8)
+
+
+_BEYOND = {
+    Kind.CROSSING_THROAT_NODE: Position.INTERIOR,
+    Kind.CROSSING_GROOVE_NODE: Position.EXTERIOR,
+    Kind.CROSSING_GROOVE_CUSP: Position.EXTERIOR,
+    Kind.CROSSING_GROOVE_ISOLATED_POINT: Position.EXTERIOR,
+}
+"""Contacts with a double root beyond a pole, and what the signs of the roots alone say."""
+
+
+def _repeated_beyond_a_pole(asked: Asked) -> Answers:
+    """A double root below −A or above B counts as two roots on the side of its sign."""
+    at = (asked.truth == Position.CONTACT) & asked.numbers.possible(2.0**-50, printed=True)[:, (0, 2)].any(axis=1)
+    answers = silent(asked)
+    for kind, position in _BEYOND.items():
+        answers = np.minimum(answers, where_kind(at, asked, kind, position))
+    return answers
+
+
+def _at_upper_pole(asked: Asked) -> Answers:
+    """Where z = 0, B itself is a root: an open interval (0, B) does not contain it, and one root is left.
+
+    Not beside the ring, where a root close to B is a reason of its own.
+    """
+    at = (asked.truth == Position.EXTERIOR) & (asked.rows[:, 6] == 0)
+    return _contact(asked, at & ~asked.numbers.near_the_ring(2.0**-12))
+
+
+def _at_lower_pole(asked: Asked) -> Answers:
+    """Where x = y = 0, −A itself is a root: an open interval (−A, 0) does not contain it, and one root is left."""
+    at = (asked.truth == Position.INTERIOR) & (asked.rows[:, 4:6] == 0).all(axis=1)
+    return _contact(asked, at)
+
+
+def _contact(asked: Asked, at: Mask) -> Answers:
+    positions = silent(asked)
+    positions[at] = Position.CONTACT
+    return asked.said(positions)
+
+
+def _computed_roots(asked: Asked) -> Answers:
+    """What the rounding errors of computed roots may make of the answer."""
+    return rounded(asked, max(unit_of(asked), FLOAT64), roots=True)
+
+
+def _roots(n: Numbers) -> NDArray[np.complex128]:
+    """The three roots of g (n, 3) in float64, sorted by their real parts; not a number where g overflows."""
+    c2, c1, c0 = n.c2, n.c1, -n.A * n.B
+    with np.errstate(all="ignore"):
+        finite = np.isfinite(c2) & np.isfinite(c1) & np.isfinite(c0)
+    found = np.full((len(c2), 3), complex(np.nan, np.nan))
+    companions = np.zeros((int(finite.sum()), 3, 3))
+    companions[:, 0] = -np.column_stack([c2, c1, c0])[finite]
+    companions[:, 1, 0] = companions[:, 2, 1] = 1
+    if len(companions):
+        found[finite] = np.sort_complex(np.linalg.eigvals(companions))
+    return found
+
+
+def _within(asked: Asked, sizes: Floats, answers: Answers) -> Answers:
+    """These answers where a size is within the tolerance; the tolerance is the largest size of an answer so given."""
+    with np.errstate(invalid="ignore"):
+        candidates = (answers != SILENT) & (sizes <= LARGEST_TOLERANCE)
+    agree = candidates & (answers == asked.given)
+    if not agree.any():
+        return np.full(len(sizes), SILENT, dtype=np.int8)
+    inside = candidates & (sizes <= sizes[agree].max())
+    if (inside & ~agree).sum() > CONTRADICTED * agree.sum():
+        return np.full(len(sizes), SILENT, dtype=np.int8)
+    return np.where(inside, answers, SILENT).astype(np.int8)
+
+
+def _imaginary_part(asked: Asked) -> Answers:
+    """A complex pair with a small imaginary part is taken for two real roots on the side of their real part."""
+    roots = _roots(asked.numbers)
+    apart = np.abs(roots.imag).max(axis=1)
+    pair = np.take_along_axis(roots, np.abs(roots.imag).argmax(axis=1)[:, None], axis=1)[:, 0].real
+    positions = np.where(pair > 0, Position.EXTERIOR, Position.INTERIOR).astype(np.int8)
+    at = (asked.truth == Position.CONTACT) & (apart > 0)
+    return _of_either_size(asked, apart, pair, np.where(at, asked.said(positions), SILENT).astype(np.int8))
+
+
+def _separation(asked: Asked) -> Answers:
+    """Two real roots that are close together are taken for one double root."""
+    roots = _roots(asked.numbers)
+    gaps = np.abs(np.diff(roots, axis=1))
+    nearest = gaps.argmin(axis=1)[:, None]
+    gap = np.take_along_axis(gaps, nearest, axis=1)[:, 0]
+    place = np.take_along_axis(roots, nearest, axis=1)[:, 0].real
+    return _of_either_size(asked, gap, place, _contact(asked, asked.truth != Position.CONTACT))
+
+
+def _of_either_size(asked: Asked, sizes: Floats, roots: Floats, answers: Answers) -> Answers:
+    """What an absolute tolerance explains, or one relative to the root, whichever explains more."""
+    with np.errstate(all="ignore"):
+        either = [_within(asked, some, answers) for some in (sizes, sizes / np.abs(roots))]
+    return max(either, key=lambda some: int((some == asked.given).sum()))
+
+
+ROOT_CAUSES: tuple[Cause, ...] = (
+    cause("complex-pair-ignored", _complex_pair_ignored, Standing.PLACE),
+    cause("repeated-root-beyond-a-pole", _repeated_beyond_a_pole, Standing.PLACE),
+    cause("root-at-upper-pole", _at_upper_pole, Standing.PLACE, slack=4),
+    cause("root-at-lower-pole", _at_lower_pole, Standing.PLACE, slack=4),
+    cause("computed-roots", _computed_roots, Standing.ROUNDING),
+    cause("imaginary-part-tolerance", _imaginary_part, Standing.ROUNDING),
+    cause("root-separation-tolerance", _separation, Standing.ROUNDING),
+)
+"""The causes of code that computes roots, those in exact arithmetic first."""

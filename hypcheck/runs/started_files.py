@@ -1,0 +1,250 @@
+"""The files that a SPEC starts besides those that it names, as far as they are known before anything is run.
+
+These are the files in the words of a command (of `sh -c './prog --fast'` too), the modules beside a Python file that it
+imports, and the libraries that a program or a library in ELF needs and that are found by its own search path. Nothing
+is imported or run to find them. What cannot be known is said: `not_hashed` of the record's header.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+import shlex
+import shutil
+import struct
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import hypcheck
+from hypcheck.implementations.spec import Spec, is_file, parse_spec
+
+_PACKAGE = Path(hypcheck.__file__).resolve().parent
+
+_PYTHON = (".py", ".pyw")
+
+MOST_FILES = 2000
+"""So many files of a SPEC are looked at; what has more is not hashed in whole."""
+
+_DYNAMIC = frozenset(
+    {"__import__", "import_module", "exec", "run_path", "run_module", "spec_from_file_location", "CDLL"}
+)
+"""Functions that load what a look at the source does not tell."""
+
+
+@dataclass
+class StartedFiles:
+    """Files in the order in which they were found, and sentences without a full stop about what was not found."""
+
+    paths: dict[str, None] = field(default_factory=dict)
+    missing: dict[str, None] = field(default_factory=dict)
+
+    def add(self, path: str, folders: Sequence[str]) -> None:
+        """Add a file and what it loads; Python looks for modules in these folders."""
+        if path in self.paths or not os.path.isfile(path):
+            return
+        if len(self.paths) >= MOST_FILES:
+            self.missing[f"what is beyond {MOST_FILES:,} files"] = None
+            return
+        self.paths[path] = None
+        with suppress(OSError):
+            if path.endswith(_PYTHON):
+                self._add_imports(path, folders)
+            elif Path(path).stat().st_size:
+                for needed in _needed(path):
+                    self.add(needed, folders)
+
+    def _add_imports(self, path: str, folders: Sequence[str]) -> None:
+        try:
+            tree = ast.parse(Path(path).read_bytes())
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            self.missing[f"what {path} imports, as it cannot be parsed"] = None
+            return
+        for node in ast.walk(tree):
+            for name in _imported(node, path):
+                for found in _modules(name, folders):
+                    self.add(found, folders)
+            if isinstance(node, ast.Call) and _name_of(node.func) in _DYNAMIC:
+                self.missing[f"what {path} loads as it runs ({_name_of(node.func)})"] = None
+
+
+def started_files(text: str) -> StartedFiles:
+    """The files of a SPEC that exist, with what they load. Raises InputError if the text is no SPEC."""
+    spec, found = parse_spec(text), StartedFiles()
+    if spec.kind == "library":
+        found.add(spec.words[0], ())
+    elif spec.kind == "python":
+        _add_function(spec, found)
+    elif spec.kind == "command":
+        _add_command(spec, found)
+    return found
+
+
+def _add_function(spec: Spec, found: StartedFiles) -> None:
+    target = spec.words[0]
+    if is_file(target):
+        found.add(target, [os.path.dirname(target), *_python_path()])
+        return
+    folders = [os.getcwd(), *_python_path()]
+    for path in _modules(target, folders):
+        found.add(path, folders)
+
+
+def _add_command(spec: Spec, found: StartedFiles) -> None:
+    """Add the files in the words; what a program from the PATH reads besides is not known, unless it is Python."""
+    program = spec.words[0]
+    known = program if os.sep in program else shutil.which(program)
+    python = os.path.basename(program).startswith("python")
+    if known is not None:
+        found.add(known, [os.path.dirname(known), *_python_path()])
+    for before, word in zip(spec.words, spec.words[1:], strict=False):
+        if python and before == "-m":
+            folders = [os.getcwd(), *_python_path()]
+            for path in (*_modules(word, folders), *_modules(f"{word}.__main__", folders)):
+                found.add(path, folders)
+            continue
+        for token in _tokens(word, first_is_program=before == "-c"):
+            if os.path.isdir(token) and token not in (".", ".."):
+                found.missing[f"the folder {token}"] = None
+            found.add(token, [os.path.dirname(token), *_python_path()])
+    interpreter = len(spec.words) > 1 and os.sep not in program
+    script = known is not None and not known.endswith(_PYTHON) and _is_script(known)
+    if not python and (interpreter or script):
+        found.missing[f"what {program} loads besides"] = None
+
+
+def _tokens(word: str, *, first_is_program: bool) -> Iterator[str]:
+    """What may be a file in a word: the word, its words as a shell reads them, values behind =, parts of a path."""
+    if os.path.exists(word):
+        yield word
+        return
+    try:
+        words = shlex.split(word)
+    except ValueError:
+        words = word.split()
+    for place, each in enumerate(words):
+        program = shutil.which(each) if first_is_program and not place and os.sep not in each else None
+        if program is not None:
+            yield program
+        for part in each.rpartition("=")[2].split(os.pathsep):
+            if part and (os.path.isfile(part) or os.path.isdir(part)):
+                yield part
+
+
+def _is_script(path: str) -> bool:
+    """Whether a file begins with #!."""
+    with suppress(OSError), open(path, "rb") as file:
+        return file.read(2) == b"#!"
+    return False
+
+
+def _python_path() -> list[str]:
+    return [each for each in os.environ.get("PYTHONPATH", "").split(os.pathsep) if each]
+
+
+def _imported(node: ast.AST, path: str) -> Iterator[str]:
+    """The names of modules that a statement may import: relative ones as paths from the file's folder."""
+    if isinstance(node, ast.Import):
+        yield from (each.name for each in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        stem = node.module or ""
+        if node.level:
+            folder = os.path.join(os.path.dirname(path), *[os.pardir] * (node.level - 1))
+            stem = os.path.normpath(os.path.join(folder, *stem.split("."))) + os.sep
+            yield stem
+            yield from (os.path.join(stem, each.name) for each in node.names)
+            return
+        yield stem
+        yield from (f"{stem}.{each.name}" for each in node.names)
+
+
+def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
+    """The files of a module and of the packages around it, in the first of the folders that has any of them."""
+    if os.sep in name:
+        yield from _existing(name.rstrip(os.sep))
+        return
+    parts = [part for part in name.split(".") if part]
+    for folder in folders:
+        found = [path for depth in range(1, len(parts) + 1) for path in _existing(os.path.join(folder, *parts[:depth]))]
+        if found:
+            yield from found
+            return
+
+
+def _existing(stem: str) -> Iterator[str]:
+    """The files of the module of that path, but for hypcheck's own, whose hashes the record has."""
+    for path in (f"{stem}.py", os.path.join(stem, "__init__.py"), *_extensions(stem)):
+        if os.path.isfile(path) and _PACKAGE not in Path(path).resolve().parents:
+            yield path
+
+
+def _extensions(stem: str) -> list[str]:
+    folder, name = os.path.split(stem)
+    with suppress(OSError):
+        entries = sorted(os.listdir(folder or "."))
+        found = (each for each in entries if each.startswith(f"{name}.") and each.endswith((".so", ".pyd")))
+        return [os.path.join(folder, each) for each in found]
+    return []
+
+
+def _name_of(function: ast.expr) -> str:
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+
+
+_LARGEST = 1 << 30
+_LOADED, _DYNAMIC_SEGMENT = 1, 2
+_NEEDED, _STRINGS, _RPATH, _RUNPATH = 1, 5, 15, 29
+
+
+def _needed(path: str) -> list[str]:
+    """The libraries that a file in ELF needs, in the folders that it or LD_LIBRARY_PATH names; none of the system's."""
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        head = file.read(64)
+        if head[:4] != b"\x7fELF" or len(head) < 64 or size > _LARGEST:
+            return []
+        content = head + file.read()
+    try:
+        tags = _dynamic_strings(content)
+    except (struct.error, ValueError):
+        return []
+    origin = os.path.dirname(path) or "."
+    searched = [each for kind in (_RPATH, _RUNPATH) for text in tags.get(kind, ()) for each in text.split(":")]
+    folders = [each.replace("${ORIGIN}", origin).replace("$ORIGIN", origin) for each in searched if each]
+    folders += [each for each in os.environ.get("LD_LIBRARY_PATH", "").split(":") if each]
+    found = []
+    for name in tags.get(_NEEDED, ()):
+        places = [name] if "/" in name else [os.path.join(folder, name) for folder in folders]
+        found += [os.path.normpath(place) for place in places if os.path.isfile(place)][:1]
+    return found
+
+
+def _dynamic_strings(content: bytes) -> dict[int, list[str]]:
+    """The texts of the dynamic section by tag: needed libraries and search paths. Raises struct.error or ValueError."""
+    wide, order = content[4] == 2, "<" if content[5] == 1 else ">"
+    offset, entry, number = (
+        struct.unpack_from(f"{order}Q", content, 32)[0] if wide else struct.unpack_from(f"{order}I", content, 28)[0],
+        *struct.unpack_from(f"{order}HH", content, 54 if wide else 42),
+    )
+    layout = f"{order}IIQQQQ" if wide else f"{order}IIIIII"
+    segments = []  # kind, offset in the file, address, bytes
+    for place in range(number):
+        values = struct.unpack_from(layout, content, offset + place * entry)
+        segments.append((values[0], values[2], values[3], values[5]) if wide else (*values[:3], values[4]))
+    pairs = []
+    for kind, start, _, length in segments:
+        if kind == _DYNAMIC_SEGMENT:
+            end = start + length - length % (16 if wide else 8)
+            pairs = list(struct.iter_unpack(f"{order}QQ" if wide else f"{order}II", content[start:end]))
+    address = next((value for tag, value in pairs if tag == _STRINGS), 0)
+    loaded = [(start, at, length) for kind, start, at, length in segments if kind == _LOADED]
+    table = next((address - at + start for start, at, length in loaded if at <= address < at + length), None)
+    if table is None:
+        return {}
+    found: dict[int, list[str]] = {}
+    for tag, value in pairs:
+        if tag in (_NEEDED, _RPATH, _RUNPATH):
+            end = content.index(b"\0", table + value)
+            found.setdefault(tag, []).append(os.fsdecode(content[table + value : end]))
+    return found

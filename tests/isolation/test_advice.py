@@ -1,0 +1,170 @@
+"""An error that isolation causes says so and what to do; an error that comes without isolation too does not."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.session import StartError
+from tests.isolation.test_isolation import both, isolated
+
+ROW = "2,5,1,0.5,2.5,0,0"
+ASKS_HYPCHECK = "def classify(rows):\n    import hypcheck\n    return hypcheck.classify(rows)\n"
+OWN = (
+    "; it runs isolated, and does not see hypcheck; 'hypcheck emit --method exact --language python' writes a file "
+    "that needs nothing else, and --isolate off runs code that you trust without"
+)
+WRITES = "it runs isolated, and writes to its scratch folder alone, which TMPDIR names; --isolate off runs code"
+
+
+def function_that(tmp_path, *lines: str) -> str:
+    """The SPEC of a Python function that does these lines before it answers."""
+    path = tmp_path / "code" / "function.py"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("".join(f"    {line}\n" for line in ("def classify(rows):", *lines, "return [0] * len(rows)"))[4:])
+    return f"python:{path}:classify"
+
+
+def reason_of(spec, limits) -> str:
+    """Why the implementation fails: when it is started, or asked about a row."""
+    try:
+        with open_implementation(spec, limits) as it:
+            answered = it.classify(np.ones((1, 7)))
+    except StartError as error:
+        return str(error)
+    assert answered.reasons, "it answered"
+    return answered.reasons[0]
+
+
+@both
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("import hypcheck.kernel.classify", OWN),
+        ("from hypcheck import classify", OWN),
+        ("open('forged', 'w')", WRITES),
+        (
+            "open({outside!r} + '/made', 'w')",
+            "and does not see the folder '{outside}', which may be why; --isolate off",
+        ),
+        ("open({outside!r} + '/data')", "it runs isolated, and does not see '{outside}/data'; put it into the working"),
+        ("import subprocess; subprocess.run([{outside!r} + '/data'])", "and does not see '{outside}/data'"),
+        ("import sys; sys.path.append({outside!r}); import beside", "and does not see '{outside}'; put it into"),
+        ("import urllib.request as u; u.urlopen('http://example.org')", "it runs isolated, without a network and"),
+        ("import socket; socket.socket()", "it runs isolated, which refuses sockets, memory in no file and some"),
+        ("import os; os.memfd_create('x')", "which refuses sockets, memory in no file and some other system calls"),
+        ("import os; os.environ['ENGINE_DATA']", "and does not see the environment variable ENGINE_DATA; --pass-env E"),
+    ],
+)
+def test_an_error_that_isolation_causes_says_so_and_what_to_do(ways, line, sentence, monkeypatch, tmp_path):
+    outside, here = tmp_path / "outside", tmp_path / "here"
+    for folder in (outside, here):
+        folder.mkdir()
+    (outside / "data").write_text("#!/bin/sh\n")
+    (outside / "data").chmod(0o755)
+    (outside / "beside.py").write_text("")
+    monkeypatch.setenv("ENGINE_DATA", "wanted")
+    monkeypatch.chdir(here)
+    spec = function_that(tmp_path, line.format(outside=str(outside)))
+    # The programs of a test lie below the folder for temporary files, of which an isolated program sees only its own.
+    reason = reason_of(spec, isolated(ways, monkeypatch))
+    assert sentence.format(outside=outside) in reason, reason
+
+
+@both
+def test_a_command_that_isolation_stops_says_so_in_any_language(ways, monkeypatch, tmp_path):
+    code = "import sys; sys.exit('Error: EROFS: read-only file system, open \\'cache.bin\\'')"
+    spec = "command:" + json.dumps([sys.executable, "-I", "-S", "-c", code])
+    assert WRITES in reason_of(spec, isolated(ways, monkeypatch))
+    code = "from hypcheck.kernel.classify import classify"
+    spec = "command:" + json.dumps([sys.executable, "-c", code])
+    assert reason_of(spec, isolated(ways, monkeypatch)).endswith(OWN)
+
+
+@both
+@pytest.mark.parametrize(
+    "line",
+    [
+        "import no_such_module",
+        "import hypcheck.no_such_module",
+        "from hypcheck import no_such_name",
+        "import hypcheck; hypcheck.no_such_name",
+        "import sys; sys.path.append('/no/such/folder'); import beside",
+        "open('/no/such/file')",
+        "open('no-such-file')",
+        "open('/no/such/folder/file', 'w')",
+        "import os; os.environ['NO_SUCH_VARIABLE']",
+        "import subprocess; subprocess.run(['no-such-program'])",
+        "raise ValueError('the ring has no normal')",
+    ],
+)
+def test_an_error_that_comes_without_isolation_too_does_not_blame_it(ways, line, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    reason = reason_of(function_that(tmp_path, line), isolated(ways, monkeypatch))
+    assert "it runs isolated" not in reason
+    assert "it raised " in reason
+
+
+def test_a_program_that_is_not_isolated_is_not_said_to_be(monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    spec = function_that(tmp_path, "import os, signal; os.kill(os.getpid(), signal.SIGSYS)")
+    main(["replay", ROW, spec, "--isolate", "off", "--restarts", "0"])
+    said = capsys.readouterr().out
+    assert "it was ended by SIGSYS" in said
+    assert "isolation" not in said
+    assert "it runs isolated" not in said
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (("verify", "SPEC", "--families", "ring", "--count", "1", "--out", "out"), 1),
+        (("replay", ROW, "SPEC"), 1),
+        (("hunt", "SPEC", "--queries", "4"), 1),
+        (("minimise", "SPEC", ROW), None),
+        (
+            (
+                "bench",
+                "python:imports.py:classify",
+                "--quick",
+                "--methods",
+                "table-2-*",
+                "--workloads",
+                "uniform",
+                "--out",
+                "out",
+            ),
+            5,
+        ),
+    ],
+    ids=lambda words: words[0] if isinstance(words, tuple) else "",
+)
+def test_every_command_says_that_isolation_hides_hypcheck(words, code, monkeypatch, tmp_path, capsys, text_reports):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "asks.py").write_text(ASKS_HYPCHECK)
+    (tmp_path / "imports.py").write_text("from hypcheck import classify\n")
+    assert main([word.replace("SPEC", "python:asks.py:classify") for word in words]) in ({code} if code else {1, 2, 5})
+    streams = capsys.readouterr()
+    assert OWN in " ".join((streams.out + streams.err).split())
+    if words[0] == "verify":
+        assert OWN in json.loads((tmp_path / "out" / "summary.json").read_text())["failures"][0]["message"]
+        assert "does not see hypcheck" in (tmp_path / "out" / "report.md").read_text()
+        assert json.dumps(OWN)[1:-1] in (tmp_path / "out" / "record.jsonl").read_text()
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only the superuser has rights to lose")
+@both
+def test_a_file_that_only_the_superuser_may_read_is_blamed_on_isolation(ways, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    closed = tmp_path / "closed"
+    closed.write_text("")
+    os.chown(closed, 12345, 12345)
+    closed.chmod(0o600)
+    reason = reason_of(function_that(tmp_path, "open('closed')"), isolated(ways, monkeypatch))
+    assert "it runs isolated, and has none of the superuser's rights" in reason

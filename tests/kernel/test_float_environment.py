@@ -1,0 +1,40 @@
+"""Public functions answer the same, and rightly, whatever the rounding mode and the treatment of subnormals is."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import subprocess
+import sys
+
+import pytest
+
+from hypcheck.kernel.choice import choice
+
+pytestmark = pytest.mark.skipif(
+    platform.machine() != "x86_64" or platform.libc_ver()[0] != "glibc",
+    reason="the test sets MXCSR of x86-64 in the fenv_t of glibc",
+)
+
+DOWNWARD_FLUSHED, UPWARD_FLUSHED = 3, 5
+
+
+@pytest.mark.parametrize(("kernel", "first"), [("compiled", DOWNWARD_FLUSHED), ("numpy", UPWARD_FLUSHED)])
+def test_public_functions_are_right_under_every_rounding_mode_and_without_subnormals_and_leave_both(kernel, first):
+    """`first` is the setting under which hypcheck is loaded, so that its constants are computed under it."""
+    if kernel == "compiled" and choice().kernel != "compiled":
+        pytest.skip(choice().reason)
+    run = subprocess.run(
+        [sys.executable, "-m", "tests.kernel.environment_calls", str(first)],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "HYPCHECK_KERNEL": kernel},
+        timeout=600,
+    )
+    assert run.returncode == 0, run.stderr
+    found = json.loads(run.stdout)
+    assert found["trouble"] == []
+    assert found["calls"] > 250
+    assert found["truths"] > 50

@@ -1,0 +1,191 @@
+"""Rows and families that are not asked: how many there are and why is in the verdict, the record and every report."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.implementations import not_asked
+from hypcheck.implementations.description import Domain, parse_domain
+from hypcheck.record import read
+from hypcheck.record.lines import GroupLine, ImplementationLine
+from hypcheck.vectors.frozen import load
+
+pytestmark = pytest.mark.usefixtures("text_reports")
+
+FLUSHES = """
+import numpy as np
+import hypcheck as gate
+hypcheck = {"name": "flushes", "precision": "float64"}
+def f(rows):
+    small = ((rows != 0) & (abs(rows) < 2.0**-1022)).any(axis=1)
+    answers = gate.classify(np.ascontiguousarray(rows))
+    answers[small] = 0
+    return answers
+"""
+"""Answers 0 to every row with a subnormal number; it asks hypcheck for the others, so it is not isolated."""
+
+
+@pytest.fixture
+def flushes(tmp_path, monkeypatch):
+    """The SPEC of FLUSHES."""
+    monkeypatch.chdir(tmp_path)
+    Path("flushes.py").write_text(FLUSHES)
+    return "python:flushes.py:f"
+
+
+def gate(*words):
+    return main(["verify", *words, "--isolate", "off", "--out", "out"])
+
+
+def subnormal_rows():
+    """The numbers of frozen rows with a number that is subnormal in float64, by family; none in others."""
+    found = {}
+    for name in ("extreme-subnormal", "extreme-float64", "extreme-magnitude", "extreme-hair"):
+        rows = np.abs(load(name).rows)
+        found[name] = int(((rows != 0) & (rows < 2.0**-1022)).any(axis=1).sum())
+    return found
+
+
+def test_subnormal_rows_that_a_pattern_names_are_counted_in_every_report(flushes, capsys):
+    expected = subnormal_rows()
+    assert gate(flushes, "--families", "extreme", "--count", "0") == 0
+    rows = sum(expected.values())
+    said = capsys.readouterr().out
+    sentence = f"; no fresh rows; not asked: {rows:,} rows not zero or normal in its precision, "
+    assert said.startswith("HELD: flushes: ")
+    assert sentence in said.splitlines()[0]
+    record = read(Path("out"))
+    found = {line.family: line.not_asked.get("precision", 0) for line in record.of(GroupLine)}
+    assert {name: found[name] for name in expected} == expected
+    summary = json.loads(Path("out/summary.json").read_text())
+    (whole,) = summary["implementations"]
+    assert whole["not_asked"] == {"precision": rows}
+    assert whole["fresh"] == 0
+    assert whole["families"]["extreme-subnormal"]["not_asked"] == {"precision": expected["extreme-subnormal"]}
+    assert sentence in summary["verdict"]
+    assert sentence in Path("out/report.md").read_text()
+    sarif = json.loads(Path("out/results.sarif").read_text())
+    assert sentence in sarif["runs"][0]["invocations"][0]["exitCodeDescription"]
+    cases = {case.get("name"): case for case in Xml.fromstring(Path("out/junit.xml").read_text()).iter("testcase")}  # noqa: S314
+    skipped = expected["extreme-subnormal"]
+    told = f"skipped: {skipped} of 120 cases: {skipped} rows not zero or normal in its precision"
+    assert told in cases["extreme-subnormal"].find("system-out").text
+    lines = Path("out/measurements.csv").read_text()
+    assert f"extreme-subnormal,python:flushes.py:f,not asked: precision,{expected['extreme-subnormal']}" in lines
+
+
+def test_verdict_names_a_family_of_which_no_row_was_asked(capsys):
+    options = ("--families", "tower-body,extreme-float6*", "--precision", "float16", "--count", "0")
+    assert gate("builtin:fast", *options) == 0
+    head = capsys.readouterr().out.splitlines()[0]
+    assert "180 rows not zero or normal in its precision, all of extreme-float64, " in head
+    cases = {case.get("name"): case for case in Xml.fromstring(Path("out/junit.xml").read_text()).iter("testcase")}  # noqa: S314
+    message = cases["extreme-float64"].find("skipped").get("message")
+    assert message == "all 180 cases were not asked: 180 rows not zero or normal in its precision"
+
+
+def test_run_that_fails_says_on_the_terminal_what_was_not_asked(capsys):
+    assert gate("builtin:table-2-float32", "--families", "extreme", "--count", "0") == 1
+    told = [line.not_asked for line in read(Path("out")).of(GroupLine)]
+    small, outside = (sum(each.get(reason, 0) for each in told) for reason in ("precision", "regime"))
+    assert min(small, outside) > 100
+    expected = f"{small} rows not zero or normal in its precision and {outside} rows outside the regimes of its domain"
+    assert f"table-2-float32: not asked: {expected}\n" in capsys.readouterr().out
+
+
+def test_family_of_subnormal_rows_that_is_asked_for_by_its_name_is_asked(flushes, capsys):
+    assert gate(flushes, "--families", "extreme-subnormal", "--count", "0") == 1
+    (group,) = read(Path("out")).of(GroupLine)
+    assert group.counts["wrong"] == 18
+    assert "skipped" not in group.counts
+    assert gate("builtin:fast", "--families", "extreme-subnormal", "--count", "0") == 0
+
+
+def test_subnormal_numbers_are_representable_only_if_the_precision_holds_them_exactly():
+    step = 2.0**-149
+    rows = np.array([[2.0, 1, 1, 1, 3, 0, step], [2.0, 1, 1, 1, 3, 0, 1.5 * step], [2.0, 1, 1, 1, 3, 0, 2.0**-126]])
+    from hypcheck.implementations.description import representable
+
+    assert representable(rows, "float32").tolist() == [False, False, True]
+    assert representable(rows, "float32", subnormal=True).tolist() == [True, False, True]
+
+
+@pytest.mark.parametrize(
+    ("domain", "reason"),
+    [
+        ('{"regimes": ["c2>=a"]}', "regime"),
+        ('{"ratio": [1, 8]}', "ratio"),
+        ('{"magnitude": [0.3, 1e6]}', "magnitude"),
+        ('{"settings": [{"sizes": [2, 17.8, 0.25, 0.15]}]}', "sizes"),
+    ],
+)
+def test_every_row_that_is_not_asked_has_one_reason(domain, reason):
+    rows, claims = load("uniform").rows, parse_domain(domain)
+    outside = rows[~claims.holds(rows)]
+    assert 0 < len(outside)
+    found = not_asked.reasons(outside, claims, "float64", extreme=False, subnormal=False)
+    assert found == {reason: len(outside)}
+    assert not_asked.reasons(rows[:0], Domain(), "float64", extreme=False, subnormal=False) == {}
+
+
+@pytest.mark.parametrize("domain", ['{"regimes": ["a>=1", "c2>=a"], "ratio": [0.01, 99], "magnitude": [0.01, 30]}'])
+def test_reasons_add_up_to_the_skipped_rows_of_each_family(domain):
+    assert gate("builtin:fast", "--families", "uniform,ring,small-integers", "--domain", domain, "--count", "50") == 0
+    for line in read(Path("out")).of(GroupLine):
+        assert sum(line.not_asked.values()) == line.counts.get("skipped", 0)
+        assert line.asked + line.counts.get("skipped", 0) == sum(line.counts.values())
+
+
+def test_pattern_that_names_families_which_are_not_asked_is_told_in_the_verdict(capsys):
+    assert gate("builtin:table-2-float64", "--families", "tower-body,tilted-*", "--count", "0") == 0
+    head = capsys.readouterr().out.splitlines()[0]
+    assert "15 families of tilted spheroids (it takes none)" in head
+    assert "4 families about another question" in head  # tilted-way-…
+    assert "families left out by --families" in head
+    (line,) = read(Path("out")).of(ImplementationLine)
+    assert {"tilted-uniform", "tilted-ring"} <= set(line.not_asked["tilt"])
+    assert "uniform" in line.not_asked["filter"]
+    summary = json.loads(Path("out/summary.json").read_text())
+    assert set(summary["implementations"][0]["families_not_asked"]) == {"filter", "tilt", "question"}
+
+
+def test_run_of_all_families_records_those_that_are_asked_only_on_request(capsys):
+    assert gate("builtin:fast", "--count", "0") == 0
+    assert "families" not in capsys.readouterr().out.splitlines()[0]
+    (line,) = read(Path("out")).of(ImplementationLine)
+    assert "extreme-float64" in line.not_asked["extreme"]
+    assert "filter" not in line.not_asked
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (
+            ("builtin:table-2-float64", "--families", "ring,tilted-uniform"),
+            "--families names tilted-uniform, a family of",
+        ),
+        (
+            ("builtin:fast", "--families", "ring,way-ring"),
+            "--families names way-ring, which has no cases for the question",
+        ),
+        (
+            ("builtin:fast", "--families", "ring,extreme-float64", "--precision", "float16"),
+            "--families names extreme-float64, and fast is asked no row of it: 180 are not zero or normal in its",
+        ),
+    ],
+)
+def test_family_that_is_named_in_full_and_cannot_be_asked_is_refused(words, said, capsys):
+    assert gate(*words, "--count", "0") == 2
+    assert said in capsys.readouterr().err
+    assert not Path("out/record.jsonl").exists()
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
