@@ -146,6 +146,16 @@ def test_continuous_integration_calls_the_test_command_of_the_readme_and_builds_
     assert any(line.startswith("make docs ") for line in lines)
 
 
+def test_no_committed_report_names_a_folder_of_the_machine_that_made_it():
+    made = [path for path in (ROOT / "reports").rglob("*") if path.suffix in {".md", ".json", ".jsonl"}]
+    known = subprocess.run(["git", "ls-files", "reports"], cwd=ROOT, capture_output=True, text=True, check=True).stdout  # noqa: S607
+    folder = re.compile(r"""["' `](/(?!usr/bin/)[a-z]+/[^"' `\\]*)""")
+    named_by = {
+        named(path): folder.findall(path.read_text("utf-8"))[:1] for path in made if named(path) in known.split()
+    }
+    assert {name: found for name, found in named_by.items() if found} == {}
+
+
 def test_every_make_command_on_a_page_is_a_target_of_the_makefile():
     targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
     for page in PAGES:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,6 +50,12 @@ def _installed(names: tuple[str, ...], cache: Path) -> list[Engine]:
         what = f"{missing[0]} is not installed" if missing else "no engine is installed"
         raise InputError(f"{what}; type: hypcheck engines install {missing[0] if missing else 'NAME'}")
     return found
+
+
+def _from_here(word: str) -> str:
+    """A path below the working directory without what leads there; every other word as it is."""
+    here = Path.cwd()
+    return os.path.relpath(word, here) if Path(word).is_relative_to(here) else word
 
 
 @engines.command("list", short_help="Show the engines, their versions, and which are installed.")
@@ -125,6 +132,7 @@ def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: 
     found, scene = _installed(names, cache), cache / "scenes" / f"body-{triangles}"
     sizes = FAMILIES["body"].sizes
     write_scene(scene, sizes, surface_mesh(sizes, triangles))
-    specs = [spec_of(command(engine, cache, scene.absolute())) for engine in found]
+    # Paths as seen from here: the overview prints them, and is committed.
+    specs = [spec_of([_from_here(word) for word in command(engine, cache, scene.absolute())]) for engine in found]
     with compare.make_context("bench", ["--quick", "--out", str(out), *specs], parent=context) as made:
         compare.invoke(made)
