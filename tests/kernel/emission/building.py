@@ -54,9 +54,14 @@ def built(folder, scene, language, precision="float64", *options):
     """The file of a kernel: a library, or the text itself where nothing compiles. Fails with the compiler's words."""
     path = folder / f"kernel.{DIALECTS[language].extension}"
     path.write_text(emitted(plan_of(scene, precision), language, COMMAND), encoding="utf-8")
+    return library_of(path, language, *options)
+
+
+def library_of(path, language, *options):
+    """The library that the code in this file makes; the file itself where nothing compiles."""
     if language not in COMMANDS:
         return path
-    library = folder / f"{language}-{uuid4().hex}.so"  # a library is loaded once for each name
+    library = path.with_name(f"{language}-{uuid4().hex}.so")  # a library is loaded once for each name
     command = [*COMMANDS[language], *options, str(path), *(["-lm"] if language == "c" else []), "-o", str(library)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

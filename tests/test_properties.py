@@ -1,0 +1,287 @@
+"""What holds for every right answer, asked of every decider: one table of properties, one of deciders.
+
+A property changes questions into others of which the answers are known from the first. Changes are exact: a question
+whose numbers would be rounded is left as it is.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import hypcheck
+from tests.support import fractions_truth, tilted_fractions
+from tests.support.corpus import Questions
+from tests.support.deciders import CANNOT_SAY, DECIDERS, Decider, answers_of
+from tests.support.strategies import rows_of
+
+Draw = Callable[..., object]
+
+
+@dataclass(frozen=True)
+class Property:
+    """A change of questions, and how each answer to those before it belongs to the answer to those after it.
+
+    `change` returns the questions before and after. `needs` are groups that the questions have, `lacks` those that they
+    do not have. `of_arrays` says that it is about how arrays are laid out, for deciders that take any.
+    """
+
+    name: str
+    change: Callable[[Questions, Draw], tuple[Questions, Questions]]
+    holds: Callable[[int, int], bool] = operator.eq
+    needs: str = ""
+    lacks: str = ""
+    of_arrays: bool = False
+
+    def __str__(self) -> str:
+        return self.name
+
+    def fits(self, decider: Decider, groups: str) -> bool:
+        """Whether questions with these groups can be changed so, for this decider."""
+        having = set(groups.split())
+        fitting = set(self.needs.split()) <= having and not set(self.lacks.split()) & having
+        return fitting and (decider.takes_any_array or not self.of_arrays)
+
+
+def changed(change: Callable[[Questions, Draw], Questions]) -> Callable[[Questions, Draw], tuple[Questions, Questions]]:
+    """Questions as they are, and after a change."""
+    return lambda questions, draw: (questions, change(questions, draw))
+
+
+def on_parts(questions: Questions, names: Sequence[str], change: Callable[[str, np.ndarray], np.ndarray]) -> Questions:
+    """The questions with a change of these columns, where they have them."""
+    parts = {name: getattr(questions, name) for name in names}
+    return replace(questions, **{name: part if part is None else change(name, part) for name, part in parts.items()})
+
+
+def turned(questions: Questions, matrix: Sequence[Sequence[int]]) -> Questions:
+    """Centres, ends and axes multiplied by a matrix of 0, 1 and −1."""
+    parts = {name: getattr(questions, name) for name in ("center", "end", "axis")}
+    return replace(
+        questions, **{name: part if part is None else part @ np.transpose(matrix) for name, part in parts.items()}
+    )
+
+
+def mirrored(questions: Questions, draw: Draw) -> Questions:
+    signs = draw(st.tuples(*[st.sampled_from([1.0, -1.0])] * 3))
+    return turned(questions, np.diag(signs))
+
+
+def spun(questions: Questions, draw: Draw) -> Questions:
+    return turned(
+        questions, draw(st.sampled_from([((0, -1, 0), (1, 0, 0), (0, 0, 1)), ((0, 1, 0), (1, 0, 0), (0, 0, 1))]))
+    )
+
+
+def multiplied(questions: Questions, radial: Fraction, axial: Fraction) -> Questions:
+    """Lengths across the axis times one factor, lengths along it times another, where nothing is rounded."""
+    across, along = (np.array(factors) for factors in ((1, 0, 1, 0), (0, 1, 0, 1)))
+    with np.errstate(over="ignore"):
+        sizes = questions.sizes * (float(radial) * across + float(axial) * along)
+        factor = np.array([float(radial), float(radial), float(axial)])
+        center, end = questions.center * factor, None if questions.end is None else questions.end * factor
+    after = replace(questions, sizes=sizes, center=center, end=end)
+    exact = np.array(
+        [
+            all(
+                np.isfinite(new) and Fraction(new) == Fraction(old) * (radial if column in RADIAL else axial)
+                for column, (old, new) in enumerate(zip(before, now, strict=True))
+            )
+            for before, now in zip(lengths_of(questions), lengths_of(after), strict=True)
+        ],
+        dtype=bool,
+    )[:, None]
+    return on_parts(
+        questions, ("sizes", "center", "end"), lambda name, part: np.where(exact, getattr(after, name), part)
+    )
+
+
+RADIAL = {0, 2, 4, 5, 7, 8}
+"""The columns of lengths across the axis: alpha, b, x, y, and x, y of the end."""
+
+
+def lengths_of(questions: Questions) -> list[list[float]]:
+    return replace(questions, axis=None, layout=np.ascontiguousarray).rows.tolist()
+
+
+factors = st.integers(-40, 40).map(lambda power: Fraction(2) ** power) | st.sampled_from([Fraction(3), Fraction(5, 4)])
+
+
+def scaled(questions: Questions, draw: Draw) -> Questions:
+    factor = draw(factors)
+    return multiplied(questions, factor, factor)
+
+
+def stretched(questions: Questions, draw: Draw) -> Questions:
+    return multiplied(questions, draw(factors), draw(factors))
+
+
+def with_axis_of_another_length(questions: Questions, draw: Draw) -> Questions:
+    power, sign = draw(st.integers(-300, 300)), draw(st.sampled_from([1.0, -1.0]))
+    with np.errstate(all="ignore"):
+        axis = np.ldexp(questions.axis, power)
+        exact = np.isfinite(axis).all(axis=1) & (np.ldexp(axis, -power) == questions.axis).all(axis=1)
+    return replace(questions, axis=sign * np.where(exact[:, None], axis, questions.axis))
+
+
+def upright(questions: Questions, draw: Draw) -> tuple[Questions, Questions]:
+    """An axis along the hyperboloid's, and no axis."""
+    length = draw(st.sampled_from([1.0, -1.0, 3.0, 5e-324, 1.7e308]))
+    along = np.tile([0.0, -0.0, length], (len(questions), 1))
+    return replace(questions, axis=along), replace(questions, axis=None)
+
+
+def of_spheres(questions: Questions, draw: Draw) -> tuple[Questions, Questions]:
+    """Spheres with an axis, and without one."""
+    spheres = replace(questions, sizes=questions.sizes[:, [0, 1, 2, 2]])
+    return spheres, replace(spheres, axis=None)
+
+
+def backwards(questions: Questions, draw: Draw) -> Questions:
+    return replace(questions, center=questions.end, end=questions.center)
+
+
+def enlarged(questions: Questions, draw: Draw) -> Questions:
+    """Spheroids that contain the others: neither b nor d is less."""
+    more = [1 + draw(st.sampled_from([0.0, 2.0**-52, 2.0**-20, 1.0])) for _ in range(2)]
+    with np.errstate(over="ignore"):
+        sizes = questions.sizes * np.array([1.0, 1.0, *more])
+    return replace(questions, sizes=np.where(np.isfinite(sizes), sizes, questions.sizes))
+
+
+def never_clear_again(before: int, after: int) -> bool:
+    return before != 0 or after == 0
+
+
+def not_missed_again(before: int, after: int) -> bool:
+    return before != 1 or after == 1
+
+
+LAYOUTS = (
+    np.asfortranarray,
+    lambda rows: rows.tolist(),
+    lambda rows: np.repeat(rows, 2, axis=0)[::2],
+    lambda rows: np.repeat(rows, 3, axis=1)[:, ::3],
+    lambda rows: rows.astype(rows.dtype.newbyteorder(">")),
+    lambda rows: rows[::-1].copy()[::-1],
+    lambda rows: rows.astype(np.longdouble),
+)
+"""Arrays of the same numbers: in another order of memory, strided, of another type, or lists."""
+
+
+def laid_out(questions: Questions, draw: Draw) -> Questions:
+    return replace(questions, layout=draw(st.sampled_from(LAYOUTS)))
+
+
+def of_whole_numbers(questions: Questions, draw: Draw) -> Questions:
+    """Whole numbers as integers, wherever all are whole."""
+    small = np.abs(questions.rows) < 2**30
+    whole = small.all() and (questions.rows == np.rint(questions.rows)).all()
+    return replace(questions, layout=lambda rows: rows.astype(np.int64)) if whole else questions
+
+
+PROPERTIES = (
+    Property("mirrored", changed(mirrored)),
+    Property("spun about the axis", changed(spun)),
+    Property("in another unit of length", changed(scaled)),
+    Property("with other units across and along", changed(stretched), lacks="axis"),
+    Property("with an axis of another length", changed(with_axis_of_another_length), needs="axis"),
+    Property("with an upright axis", upright, needs="axis"),
+    Property("of spheres with an axis", of_spheres, needs="axis"),
+    Property("in the other direction", changed(backwards), needs="end"),
+    Property("with a larger spheroid", changed(enlarged), never_clear_again, lacks="end"),
+    Property("with a larger spheroid on its way", changed(enlarged), not_missed_again, needs="end"),
+    Property("in another layout", changed(laid_out), of_arrays=True),
+    Property("as integers", changed(of_whole_numbers), of_arrays=True),
+)
+
+
+def asked(decider, groups, check):
+    """Run a check with drawn questions, as often as the decider allows."""
+    if decider.lacks():
+        pytest.skip(decider.lacks())
+
+    @settings(max_examples=min(decider.examples, settings.default.max_examples))
+    @given(st.data())
+    def run(data):
+        check(Questions.of(data.draw(st.lists(rows_of(groups), min_size=1, max_size=6)), groups), data.draw)
+
+    run()
+
+
+ASKED = [(decider, groups) for decider in DECIDERS if decider.drawn for groups in decider.takes]
+
+
+def named(*parts):
+    """A row of a table of tests, with its name."""
+    return pytest.param(*parts, id=": ".join(str(part) or "upright" for part in parts))
+
+
+@pytest.mark.parametrize(
+    ("decider", "groups", "known"),
+    [named(*asked, known) for asked in ASKED for known in PROPERTIES if known.fits(*asked)],
+)
+def test_answers_of_every_decider_have_every_property(decider, groups, known):
+    def check(questions, draw):
+        before, after = known.change(questions, draw)
+        for row, first, second in zip(
+            before.rows.tolist(), answers_of(decider, before), answers_of(decider, after), strict=True
+        ):
+            assert CANNOT_SAY in (first, second) or known.holds(first, second), row
+
+    asked(decider, groups, check)
+
+
+@pytest.mark.parametrize(("decider", "groups"), [named(*asked) for asked in ASKED])
+def test_answers_of_every_decider_do_not_depend_on_order_or_batches(decider, groups):
+    def check(questions, draw):
+        order = draw(st.permutations(range(len(questions))))
+        together = answers_of(decider, questions)
+        assert answers_of(decider, questions[order]) == [together[index] for index in order]
+        cut = draw(st.integers(0, len(questions) - 1))
+        assert answers_of(decider, questions[:cut]) + answers_of(decider, questions[cut:]) == together
+
+    asked(decider, groups, check)
+
+
+@pytest.mark.parametrize(("decider", "groups"), [named(*asked) for asked in ASKED])
+def test_every_decider_answers_drawn_questions_as_decisions_in_fractions(decider, groups):
+    def check(questions, draw):
+        for row, answer in zip(questions.rows.tolist(), answers_of(decider, questions), strict=True):
+            assert answer in (truth_of(tuple(row), groups), CANNOT_SAY), row
+
+    asked(decider, groups, check)
+
+
+@lru_cache(100_000)  # the same rows are drawn for each decider
+def truth_of(row, groups):
+    """The answer to a row, by decisions in fractions; about a way, at nine times, and then by hypcheck.passage."""
+    position = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
+    if "end" not in groups:
+        return position(row)
+    sizes, start, end, axis = row[:4], row[4:7], row[7:10], row[10:]
+    for time in (Fraction(eighths, 8) for eighths in range(9)):
+        place = [Fraction(a) + time * (Fraction(b) - Fraction(a)) for a, b in zip(start, end, strict=True)]
+        if position((*sizes, *place, *axis)) == 0:
+            return 1
+    return int(hypcheck.passage(sizes, start, end, axis or None).hit)
+
+
+@pytest.mark.parametrize(("decider", "groups"), [named(*asked) for asked in ASKED if "end" in asked[1]])
+def test_a_way_without_length_is_answered_as_the_position(decider, groups):
+    truth = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
+
+    def check(questions, draw):
+        still = replace(questions, end=questions.center)
+        for row, answer in zip(replace(still, end=None).rows.tolist(), answers_of(decider, still), strict=True):
+            assert answer in (int(truth(row) == 0), CANNOT_SAY), row
+
+    asked(decider, groups, check)
