@@ -64,6 +64,11 @@ class Finding(Struct):
     at_other: str = ""
 
     @property
+    def contradicts(self) -> bool:
+        """Whether the engine says contact, and reports that the same bodies are apart."""
+        return self.said.startswith("contact, and")
+
+    @property
     def of_body(self) -> float:
         """The error as a share of the spheroid's least semi-axis."""
         return self.error_mm / (self.millimetres * min(self.b, self.d))

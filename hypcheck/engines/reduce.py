@@ -243,11 +243,11 @@ def _words(kind: str, said: Said, error: float, scale: float) -> tuple[str, str]
             "contact" if said.contact else "clear",
             f"in contact: {error * scale:.2g} mm less in radius still touches",
         )
-    if kind == "false contact":
-        return "contact" if said.contact else "clear", f"clear by {error * scale:.2g} mm"
-    if kind == "contradiction":
-        both = f"{'contact' if said.contact else 'clear'}, and {_length(said.reported * scale)}"
-        return both, f"clear by {error * scale:.2g} mm"
+    if kind in {"false contact", "contradiction"}:
+        word = "contact" if said.contact else "clear"
+        contradicts = kind == "contradiction" or (said.contact and 0 < said.reported < NO_DISTANCE)
+        words = f"{word}, and {_length(said.reported * scale)}" if contradicts else word
+        return words, f"clear by {error * scale:.2g} mm"
     reported, exact = said.reported * scale, (said.reported + (error if kind == "too near" else -error)) * scale
     return _length(reported), f"{_length(exact)} at {'least' if exact > 0 and kind == 'too near' else 'most'}"
 

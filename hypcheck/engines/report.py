@@ -12,7 +12,7 @@ import msgspec
 
 from hypcheck.engines.drawings import chart, drawing, own_worst
 from hypcheck.engines.engine import ENGINES
-from hypcheck.engines.findings import KINDS, Finding, read_findings, reproduction, template_of
+from hypcheck.engines.findings import Finding, read_findings, reproduction, template_of
 from hypcheck.engines.measure import EngineRecord, Measured, Reported, read_records
 from hypcheck.engines.placing import FAMILIES
 
@@ -87,8 +87,8 @@ def write_page(folder: Path) -> None:
 
 
 def _rank(found: Finding) -> tuple[int, float]:
-    """Contradictions first, then the greatest error relative to the body."""
-    return (found.kind != KINDS[0], -found.of_body)
+    """Answers that contradict themselves first, then the greatest error relative to the body."""
+    return (not found.contradicts, -found.of_body)
 
 
 def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
