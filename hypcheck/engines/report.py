@@ -290,10 +290,24 @@ def _of_engine(record: EngineRecord) -> str:
             map(_surface_row, record.best),
         ),
         "",
+        *_of_the_other_setting(record),
         *(f"Not asked: {name}, as {_skipped(reason)}." for name, reason in record.skipped.items()),
         "",
     ]  # fmt: skip
     return "\n".join(lines)
+
+
+def _of_the_other_setting(record: EngineRecord) -> list[str]:
+    """How wrong the depths of an engine's other setting are, where that is no tighter one."""
+    engine = ENGINES[record.name]
+    depths: dict[str, float] = {}
+    for each in record.tightest:
+        depths[each.family] = max(depths.get(each.family, 0.0), each.penetration.worst_mm or 0.0)
+    if engine.tightens or not depths:
+        return []
+    worst = max(depths, key=lambda family: depths[family])
+    text = f"With its {engine.other} the depths that it reports are wrong by up to {_mm(depths[worst])} mm"
+    return [f"{text} (family {worst}).", ""]
 
 
 def _skipped(reason: str) -> str:
