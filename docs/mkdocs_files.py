@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 BESIDE = (
     "LICENSE",
     "CITATION.cff",
+    "docs/site.css",
     "docs/**/*.svg",
     "docs/**/*.txt",
     "cases/LICENSE",

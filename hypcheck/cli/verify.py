@@ -192,7 +192,11 @@ _COUNT = IntegerOption(1)
     help="Number of rows of each family for the built-in methods.",
 )
 @click.option(
-    "--roots", type=_COUNT, default=1500, show_default=True, help="Total number of rows for the roots oracle."
+    "--roots",
+    type=_COUNT,
+    default=20_000,
+    show_default=True,
+    help="Total number of rows for the roots oracle; a tilted one counts for ten.",
 )
 @click.option(
     "--meshes", type=_COUNT, default=2000, show_default=True, help="Total number of rows for the mesh oracle."

@@ -125,7 +125,7 @@ _LEAST, _MOST = -7, 3
 
 
 def chart(record: EngineRecord) -> str:
-    """An SVG of an engine's own worst error in each family: a ring at default settings, a dot at the tightest."""
+    """An SVG of an engine's own worst error in each family: a ring at default settings, a dot at the other ones."""
     names = [name for name in FAMILIES if any(each.family == name for each in record.default)]
     bottom = 22 * len(names) + 30
     marks = [f'<text x="10" y="16">{record.name} {record.version}: own worst error, mm at the tower of 2 m</text>']
@@ -137,11 +137,12 @@ def chart(record: EngineRecord) -> str:
     for place, name in enumerate(names):
         y = 22 * place + 40
         marks.append(f'<text x="10" y="{y + 4}">{name}</text>')
-        ring, dot = (_place(own_worst(one, name)) for one in (record.default, record.best))
+        ring, dot = (_place(own_worst(one, name)) for one in (record.default, record.tightest or record.default))
         marks.append(f'<line x1="{ring:.1f}" y1="{y}" x2="{dot:.1f}" y2="{y}" stroke="#888"/>')
         marks.append(f'<circle cx="{ring:.1f}" cy="{y}" r="5" fill="white" stroke="{_EDGE}"/>')
         marks.append(f'<circle cx="{dot:.1f}" cy="{y}" r="3" fill="{_EDGE}"/>')
-    what = "ring: default settings; dot: the tightest" if ENGINES[record.name].adjustable else "it offers no setting"
+    engine = ENGINES[record.name]
+    what = f"ring: default settings; dot: the {engine.other}" if engine.adjustable else "it offers no setting"
     marks.append(f'<text x="10" y="{bottom + 32}">{what}</text>')
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 {bottom + 40}" font-size="11">'
     return "\n".join([head, f'<rect width="520" height="{bottom + 40}" fill="white"/>', *marks, "</svg>", ""])

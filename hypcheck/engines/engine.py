@@ -47,7 +47,8 @@ class Engine:
     `body` is what stands for a spheroid that is no ball: the engine's own ellipsoid, the convex hull of points on it,
     or the engine's ball in a space that is scaled for it, in which case no spheroid leans. A ball is always the
     engine's own. `single` says that it computes in float32. `files` are the adapter's, from this folder. An adapter
-    leaves the engine at its `default` settings, or takes the `tightest` that the engine offers.
+    leaves the engine at its `default` settings, or takes the `tightest` that the engine offers. Where the other setting
+    is another way and no tighter one, `tightens` is False, and what the engine is judged by is its default.
     """
 
     name: str
@@ -59,6 +60,7 @@ class Engine:
     single: bool = False
     default: Setting = NOT_OFFERED
     tightest: Setting = NOT_OFFERED
+    tightens: bool = True
 
     @property
     def tilts(self) -> bool:
@@ -67,15 +69,31 @@ class Engine:
 
     @property
     def adjustable(self) -> bool:
-        """Whether it offers a setting that bounds its accuracy."""
+        """Whether it offers a setting that changes its accuracy."""
         return self.tightest != self.default
+
+    @property
+    def judged(self) -> Setting:
+        """The setting that it is judged by."""
+        return self.tightest if self.tightens else self.default
+
+    @property
+    def other(self) -> str:
+        """What the setting beside the default is, in a word or two."""
+        return "tightest" if self.tightens else "other solver"
 
 
 def _in_python(
-    name: str, version: str, body: Literal["ellipsoid", "hull"], default: Setting, tightest: Setting
+    name: str,
+    version: str,
+    body: Literal["ellipsoid", "hull"],
+    default: Setting,
+    tightest: Setting,
+    *,
+    tightens: bool = True,
 ) -> Engine:
     files = (f"{name}/adapter.py", "speaking/speak.py")
-    return Engine(name, name, version, "pip", body, files, default=default, tightest=tightest)
+    return Engine(name, name, version, "pip", body, files, default=default, tightest=tightest, tightens=tightens)
 
 
 def _in_javascript(
@@ -96,12 +114,13 @@ def _in_rust(name: str, version: str, *, single: bool) -> Engine:
     return Engine(name, name, version, "cargo", "hull", files, single)
 
 
-_LIBCCD = Setting("libccd's tolerance 1e-6, which python-fcl does not expose", 1e-6)
+_LIBCCD = Setting("solver GST_LIBCCD, whose tolerance 1e-6 it does not expose", 1e-6)
+_INDEP = Setting("GST_INDEP, whose tolerance 1e-6 it does not expose", 1e-6)
 
 ENGINES = {
     engine.name: engine
     for engine in (
-        _in_python("python-fcl", "0.7.0.11", "ellipsoid", _LIBCCD, _LIBCCD),
+        _in_python("python-fcl", "0.7.0.11", "ellipsoid", _LIBCCD, _INDEP, tightens=False),
         _in_python(
             "coal", "3.0.3", "ellipsoid",
             Setting("gjk_tolerance and epa_tolerance 1e-6", 1e-6),
@@ -121,8 +140,8 @@ ENGINES = {
         _in_rust("parry3d", "0.31.1", single=True),
         _in_javascript(
             "jolt-physics", "1.1.0", "hull",
-            default=Setting("convex radius 0.05; collision and penetration tolerance 1e-4", 1e-4),
-            tightest=Setting("convex radius 0; collision and penetration tolerance 1e-6", 1e-6),
+            default=Setting("convex radius 0.05, hull tolerance 1e-3, other tolerances 1e-4", 1e-3),
+            tightest=Setting("convex radius 0, hull tolerance 1e-5, other tolerances 1e-6", 1e-5),
         ),
         _in_javascript("rapier3d", "0.21.0", "hull", "@dimforge/rapier3d-compat"),
         _in_javascript(

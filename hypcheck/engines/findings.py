@@ -42,8 +42,8 @@ class Finding(Struct):
 
     `kind` is one of KINDS. `reported` is the signed distance that is wrong, or None where its word contact or clear is.
     `error_mm` is proved, in millimetres at the 2 m tower, of which `millimetres` are one unit of the engine;
-    `direction` and `shares` are the certificate. `said` is the answer at the tightest settings, `by_default` that at
-    the default ones, empty if the engine offers none.
+    `direction` and `shares` are the certificate. `said` is the answer at the setting that the engine is judged by,
+    `at_other` that at its other one, empty if it offers none.
     """
 
     engine: str
@@ -61,7 +61,12 @@ class Finding(Struct):
     proved: str
     file: str
     picture: str
-    by_default: str = ""
+    at_other: str = ""
+
+    @property
+    def contradicts(self) -> bool:
+        """Whether the engine says contact, and reports that the same bodies are apart."""
+        return self.said.startswith("contact, and")
 
     @property
     def of_body(self) -> float:
@@ -151,15 +156,15 @@ def _root_and(value: Fraction, first: Fraction, second: Fraction) -> bool:
 
 _PYTHON = """
 
-for settings in ("default", "tightest"):
-    contact, distance = ask(settings == "tightest")
+for settings in ("{first}", "{last}"):
+    contact, distance = ask(settings != "default")
     print(f"{{settings}} settings: contact: {{contact}}, distance: {{distance}}")
 sys.exit({wrong})
 """
 _JAVASCRIPT = """
 let contact, distance;
-for (const settings of ['default', 'tightest']) {{
-  [contact, distance] = ask(settings === 'tightest');
+for (const settings of ['{first}', '{last}']) {{
+  [contact, distance] = ask(settings !== 'default');
   console.log(`${{settings}} settings: contact: ${{contact}}, distance: ${{distance}}`);
 }}
 process.exit(Number({wrong}));
@@ -198,7 +203,8 @@ def reproduction(found: Finding) -> str:
     head = "".join(f"{comment}{line}\n" for line in [*lines, f"Needs: {install}. Ends with 1 while it is wrong."])
     values = {"b": repr(found.b), "d": repr(found.d), "corners": repr(found.corners)}
     body = Template(path.read_text(encoding="utf-8")).substitute(values)
-    return head + body + end.format(wrong=_wrong(found, negated))
+    first, last = ("default", engine.other) if engine.tightens else (engine.other, "default")
+    return head + body + end.format(wrong=_wrong(found, negated), first=first, last=last)
 
 
 def _settings_of(found: Finding, engine: Engine) -> list[str]:
@@ -206,9 +212,15 @@ def _settings_of(found: Finding, engine: Engine) -> list[str]:
     unit = f"Lengths are in the engine's unit, {found.millimetres:g} mm of the tower; b = {found.b!r}, d = {found.d!r}."
     if not engine.adjustable:
         return [f"Settings: {engine.default.words}.", unit]
+    if not engine.tightens:
+        return [
+            f"That is at its default settings: {engine.default.words}.",
+            f"With its {engine.other} it says {found.at_other}: {engine.tightest.words}.",
+            unit,
+        ]
     return [
         f"That is at its tightest settings: {engine.tightest.words}.",
-        f"At its default settings it says {found.by_default}: {engine.default.words}.",
+        f"At its default settings it says {found.at_other}: {engine.default.words}.",
         unit,
     ]
 

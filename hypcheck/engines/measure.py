@@ -26,7 +26,7 @@ import msgspec
 import numpy as np
 from msgspec import Struct
 
-from hypcheck.engines.engine import Engine, command
+from hypcheck.engines.engine import ENGINES, Engine, command
 from hypcheck.engines.placing import FAMILIES, Placed, drawn, placed
 from hypcheck.engines.scene import HULL, TRIANGLES, SurfaceMesh, distances, rows_near, surface_mesh, write_scene
 from hypcheck.errors import InputError
@@ -254,8 +254,8 @@ class EngineRecord(Struct):
 
     @property
     def best(self) -> list[Measured]:
-        """What it did at the tightest settings that it offers."""
-        return self.tightest or self.default
+        """What it did at the setting that it is judged by: the tightest that it offers."""
+        return self.tightest if self.tightest and ENGINES[self.name].tightens else self.default
 
 
 @cache

@@ -95,9 +95,9 @@ class Asker:
 def findings_of(record: EngineRecord, cache: Path) -> Iterator[Finding]:
     """The worst finding of each kind that an engine's record leads to, one in metres before any in other units.
 
-    The engine is asked at the tightest settings that it offers. What is within the tolerance it states there is none.
+    The engine is asked at the setting that it is judged by. What is within the tolerance it states there is none.
     """
-    tolerance = ENGINES[record.name].tightest.tolerance or 0.0
+    tolerance = ENGINES[record.name].judged.tolerance or 0.0
     for kind in KINDS:
         best: Finding | None = None
         for measured, row in _candidates(record, kind):
@@ -141,7 +141,7 @@ def _shown(each: Measured, kind: str) -> list[tuple[float, list[float] | None]]:
 
 def _reduced(engine: Engine, cache: Path, kind: str, measured: Measured, row: Floats) -> Finding | None:
     family = FAMILIES[measured.family]
-    asker = Asker(engine, cache, *family.sizes[2:])
+    asker = Asker(engine, cache, *family.sizes[2:], tightest=engine.tightens)
     corners = _alone(asker, kind, _near(measured, row))
     if corners is None:
         return None
@@ -149,14 +149,14 @@ def _reduced(engine: Engine, cache: Path, kind: str, measured: Measured, row: Fl
     if not error > 0:
         return None
     small = _rounded(asker, kind, corners, error)
-    said, default = asker(small[np.newaxis]), replace(asker, tightest=False)(small[np.newaxis])
+    said, other = asker(small[np.newaxis]), replace(asker, tightest=not engine.tightens)(small[np.newaxis])
     if said is None:
         return None
     found = _certified(asker, kind, small, said, family.millimetres)
     if found is None or not engine.adjustable:
         return found
-    words = "nothing" if default is None else _words(kind, default, 0.0, family.millimetres)[0]
-    return msgspec.structs.replace(found, by_default=words)
+    words = "nothing" if other is None else _words(kind, other, 0.0, family.millimetres)[0]
+    return msgspec.structs.replace(found, at_other=words)
 
 
 def _near(measured: Measured, row: Floats) -> Floats:
@@ -243,11 +243,11 @@ def _words(kind: str, said: Said, error: float, scale: float) -> tuple[str, str]
             "contact" if said.contact else "clear",
             f"in contact: {error * scale:.2g} mm less in radius still touches",
         )
-    if kind == "false contact":
-        return "contact" if said.contact else "clear", f"clear by {error * scale:.2g} mm"
-    if kind == "contradiction":
-        both = f"{'contact' if said.contact else 'clear'}, and {_length(said.reported * scale)}"
-        return both, f"clear by {error * scale:.2g} mm"
+    if kind in {"false contact", "contradiction"}:
+        word = "contact" if said.contact else "clear"
+        contradicts = kind == "contradiction" or (said.contact and 0 < said.reported < NO_DISTANCE)
+        words = f"{word}, and {_length(said.reported * scale)}" if contradicts else word
+        return words, f"clear by {error * scale:.2g} mm"
     reported, exact = said.reported * scale, (said.reported + (error if kind == "too near" else -error)) * scale
     return _length(reported), f"{_length(exact)} at {'least' if exact > 0 and kind == 'too near' else 'most'}"
 

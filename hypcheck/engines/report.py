@@ -12,7 +12,7 @@ import msgspec
 
 from hypcheck.engines.drawings import chart, drawing, own_worst
 from hypcheck.engines.engine import ENGINES
-from hypcheck.engines.findings import KINDS, Finding, read_findings, reproduction, template_of
+from hypcheck.engines.findings import Finding, read_findings, reproduction, template_of
 from hypcheck.engines.measure import EngineRecord, Measured, Reported, read_records
 from hypcheck.engines.placing import FAMILIES
 
@@ -26,9 +26,11 @@ as fine a mesh makes that error four times smaller. So the tables below show an 
 that of the very triangles that it was given. It is often far below what any simulation needs.
 
 **Settings.** Each engine is asked at its default settings, and again at the tightest that it offers. Its own errors are
-those that stay at the tightest; what the defaults cost has a table of its own. Many engines are made for speed and for
-resting contacts, compute in float32, or keep a margin on purpose, in their own unit of length, which a scene in
-kilometres or millimetres turns into something else: the last two columns show that, and no engine promised otherwise.
+those that stay at the tightest; what the defaults cost has a table of its own. python-fcl offers no tolerance, but a
+second solver, which errs more here: so it is judged by its default solver, and both are shown. Many engines are made
+for speed and for resting contacts, compute in float32, or keep a margin on purpose, in their own unit of length, which
+a scene in kilometres or millimetres turns into something else: the last two columns show that, and no engine promised
+otherwise.
 
 **Bodies are not alike.** An engine without an ellipsoid was given the hull of 222 points on the spheroid, which is up
 to 2 % of a radius inside it; what that explains is no error here. Engines with different bodies stand in different
@@ -56,12 +58,16 @@ NEIGHBOURS = """## Neighbours
 Reports of the same kinds in the engines' own trackers, and in one that is not asked here:
 
 - a depth that the bodies do not allow: [newton-physics/newton #3766](https://github.com/newton-physics/newton/pull/3766)
-  ("the correct penetration is `0.061719 m`", Newton "returns `58.826744 m`": a small cylinder on a large triangle);
+  ("the correct penetration is `0.061719 m`", Newton "returns `58.826744 m`": a small cylinder on a large triangle), and
+  the report that it answers, [#3773](https://github.com/newton-physics/newton/issues/3773);
+  [fcl #503](https://github.com/flexible-collision-library/fcl/issues/503) (depths of two boxes given as meshes);
   [JoltPhysics #1008](https://github.com/jrouwe/JoltPhysics/issues/1008) (a cylinder at the edge of a mesh);
 - libccd, which FCL asks about ellipsoids: [#17](https://github.com/danfis/libccd/issues/17) (the location of a contact
   where one body is much larger than the other), [#71](https://github.com/danfis/libccd/issues/71) (the direction of a
   penetration);
-- named to us, and not read for this record: [bullet3 #4318](https://github.com/bulletphysics/bullet3/issues/4318),
+- a contact where there is none: [bullet3 #4318](https://github.com/bulletphysics/bullet3/issues/4318) (two triangles of
+  GImpact, one behind the other; GImpact is not asked here);
+- named to us, and not read for this record:
   [python-fcl #36](https://github.com/BerkeleyAutomation/python-fcl/issues/36).
 """
 
@@ -81,8 +87,8 @@ def write_page(folder: Path) -> None:
 
 
 def _rank(found: Finding) -> tuple[int, float]:
-    """Contradictions first, then the greatest error relative to the body."""
-    return (found.kind != KINDS[0], -found.of_body)
+    """Answers that contradict themselves first, then the greatest error relative to the body."""
+    return (not found.contradicts, -found.of_body)
 
 
 def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
@@ -132,15 +138,16 @@ def _found(findings: Sequence[Finding]) -> str:
         "An error that stays at the tightest settings that the engine offers and is beyond the tolerance that it",
         "states there, or a contradiction in its own answers. One spheroid and one triangle each, so that no mesh",
         "explains it, with a certificate to be checked by hand. Each file needs the engine alone, asks it at default",
-        "and at tightest settings, and ends with 1 while the engine is wrong.",
+        "and at tightest settings, and ends with 1 while the engine is wrong. rapier3d is built on parry3d: what both",
+        "say alike is one error of one code.",
         "",
         *_table(["engine", "what it says", "what is proved", "error, mm", "of the body", "of the tolerance", ""], rows),
         "",
         "*of the body*: the error as a share of the spheroid's least semi-axis. *of the tolerance*: as a multiple of",
-        "the length that the engine states at its tightest settings; – if it states none, or 0.",
+        "the length that the engine states at these settings; – if it states none, or 0.",
         "",
         *_table(
-            ["engine", "default settings", "what it says there", "tightest settings", "one unit, mm"],
+            ["finding", "default settings", "what it says", "other settings", "what it says", "one unit, mm"],
             _settings(findings),
         ),
         "",
@@ -149,18 +156,21 @@ def _found(findings: Sequence[Finding]) -> str:
 
 
 def _settings(findings: Sequence[Finding]) -> list[list[str]]:
-    """The settings of each finding, and what the engine says at its default ones."""
+    """The settings of each finding, and what the engine says at them."""
     rows = []
     for each in findings:
-        engine = ENGINES[each.engine]
-        tightest = engine.tightest.words if engine.adjustable else "the same"
-        unit = f"{each.millimetres:g}"
-        rows.append([f"{each.engine}, {each.kind}", engine.default.words, each.by_default or each.said, tightest, unit])
+        engine, name, unit = ENGINES[each.engine], f"{each.engine}, {each.kind}", f"{each.millimetres:g}"
+        if not engine.adjustable:
+            rows.append([name, engine.default.words, each.said, "none", "–", unit])
+            continue
+        at_default, at_other = (each.at_other, each.said) if engine.tightens else (each.said, each.at_other)
+        other = f"{engine.other}: {engine.tightest.words}"
+        rows.append([name, engine.default.words, at_default, other, at_other, unit])
     return rows
 
 
 def _of_tolerance(found: Finding) -> str:
-    tolerance = ENGINES[found.engine].tightest.tolerance
+    tolerance = ENGINES[found.engine].judged.tolerance
     return f"{found.error_mm / (tolerance * found.millimetres):.1e}" if tolerance else "–"
 
 
@@ -202,7 +212,7 @@ def _defaults(records: Sequence[EngineRecord]) -> str:
             continue
         for label, setting, told in (
             ("default", engine.default, record.default),
-            ("tightest", engine.tightest, record.best),
+            (engine.other, engine.tightest, record.tightest),
         ):
             metres = [each for each in told if FAMILIES[each.family].unit == 1]
             wrong = f"{sum(each.own for each in metres)} of {sum(each.own_rows for each in metres)}"
@@ -234,7 +244,7 @@ def _by_distance(records: Sequence[EngineRecord]) -> Iterable[str]:
                     else (each.false_clears, each.contacts)
                 )
                 sums[each.least_mm] = [old + new for old, new in zip(sums[each.least_mm], wrong, strict=True)]
-            rows.append([record.name, *("{}/{}".format(*sums[power]) for power in powers)])
+            rows.append([record.name, *("{} of {}".format(*sums[power]) for power in powers)])
         yield "\n".join(
             [
                 f"## {what.capitalize()} by distance from contact",
@@ -256,7 +266,9 @@ def _of_engine(record: EngineRecord) -> str:
     engine = ENGINES[record.name]
     ball = "its own ball, in float32" if engine.single else "its own ball"
     settings = (
-        f"{engine.default.words}; tightest: {engine.tightest.words}" if engine.adjustable else engine.default.words
+        f"{engine.default.words}; {engine.other}: {engine.tightest.words}"
+        if engine.adjustable
+        else engine.default.words
     )
     lines = [
         f"## {record.name} {record.version}",
@@ -266,7 +278,7 @@ def _of_engine(record: EngineRecord) -> str:
         "",
         f"![Own worst error of {record.name} in each family]({record.name}.svg)",
         "",
-        "At the tightest settings, in millimetres:",
+        f"At the {'tightest' if engine.tightens else 'default'} settings, in millimetres:",
         "",
         *_table(["family", "triangles", "own wrong", "own worst", "lost", "µs"], map(_own_row, record.best)),
         "",
@@ -278,10 +290,24 @@ def _of_engine(record: EngineRecord) -> str:
             map(_surface_row, record.best),
         ),
         "",
+        *_of_the_other_setting(record),
         *(f"Not asked: {name}, as {_skipped(reason)}." for name, reason in record.skipped.items()),
         "",
     ]  # fmt: skip
     return "\n".join(lines)
+
+
+def _of_the_other_setting(record: EngineRecord) -> list[str]:
+    """How wrong the depths of an engine's other setting are, where that is no tighter one."""
+    engine = ENGINES[record.name]
+    depths: dict[str, float] = {}
+    for each in record.tightest:
+        depths[each.family] = max(depths.get(each.family, 0.0), each.penetration.worst_mm or 0.0)
+    if engine.tightens or not depths:
+        return []
+    worst = max(depths, key=lambda family: depths[family])
+    text = f"With its {engine.other} the depths that it reports are wrong by up to {_mm(depths[worst])} mm"
+    return [f"{text} (family {worst}).", ""]
 
 
 def _skipped(reason: str) -> str:

@@ -49,8 +49,8 @@ class SelfCheckPlan:
 
     `families` are names and globs (none: all families but the extreme ones). The exact and the nearest-point oracle are
     asked `count` rows of each family, and every method the first `judged` of these. The two slow oracles are asked
-    `roots` and `meshes` rows in total. Every formula is evaluated in exact arithmetic on `exact_formulas` rows of each
-    family. `workers` processes ask the oracles; 1 means this process.
+    `roots` and `meshes` rows in total, by default the roots oracle all that are upright. Every formula is evaluated in
+    exact arithmetic on `exact_formulas` rows of each family. `workers` processes ask the oracles; 1 means this process.
     """
 
     families: tuple[str, ...] = ALL_BUT_EXTREME
@@ -58,7 +58,7 @@ class SelfCheckPlan:
     count: int = 400
     judged: int = 400
     seed: int = 1
-    roots: int = 1500
+    roots: int = 20_000
     meshes: int = 2000
     exact_formulas: int = 60
     workers: int = 2

@@ -105,7 +105,7 @@ def _roots(row: list[float]) -> Opinion:
     The coefficient rule in exact rationals must read the same position from the coefficients.
     """
     pair = Pair.from_row(row)
-    found = roots.classify_by_roots(pair)
+    found = roots.classify_by_roots(pair, narrow=False)  # only the places of the roots are asked
     rule = _coefficient_rule()(dict(zip(COLUMNS, row, strict=True)))
     stage = "signs suffice" if found.literal is not None else "signs are ambiguous"
     if found.position != rule:
@@ -166,12 +166,16 @@ def _limit_of(case: TiltedVector) -> Position | None:
     return None if root is None else Position.EXTERIOR if root > 0 else Position.INTERIOR
 
 
-def shares(plan: SelfCheckPlan, families: int) -> dict[str, int]:
+TILTED_ROOTS = 10
+"""As many upright rows as one tilted one takes as long as in the roots oracle, which counts it so often."""
+
+
+def shares(plan: SelfCheckPlan, families: int, *, tilted: bool = False) -> dict[str, int]:
     """The number of each family's cases that each oracle of the plan is asked, if there are so many families."""
     every = {
         "exact": plan.count,
         "nearest": plan.count,
-        "roots": -(-plan.roots // families),
+        "roots": -(-plan.roots // (families * (TILTED_ROOTS if tilted else 1))),
         "mesh": -(-plan.meshes // families),
     }
     return {oracle: every[oracle] for oracle in plan.oracles}

@@ -72,12 +72,17 @@ def timed_methods(*, meshes: bool) -> list[TimedMethod]:
     if meshes and ORACLES["mesh"].available() is None:
         found += [
             TimedMethod(
-                "FCL point-mesh",
-                "distance to a mesh of 2,000 triangles built for each row",
+                "FCL point-mesh and building its mesh",
+                "distance to a mesh of 2,000 triangles, built for each row",
                 partial(naive_fcl, pairing="point"),
                 12,
             ),
-            TimedMethod("FCL certified", "two one-sided meshes built for each row; contact or clear only", _mesh, 60),
+            TimedMethod(
+                "FCL certified and building its meshes",
+                "two one-sided meshes, built for each row; contact or clear only",
+                _mesh,
+                60,
+            ),
         ]
     return found
 
@@ -181,12 +186,12 @@ def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
     Raises InputError naming a family that does not exist.
     """
     upright, tilted = select(plan.families), oracles.tilted_families(plan)
-    shares = oracles.shares(plan, len(upright) + len(tilted))
+    shares, of_tilted = (oracles.shares(plan, len(upright) + len(tilted), tilted=each) for each in (False, True))
     first = max(CASES, plan.judged, plan.exact_formulas)
     starts = (0, *range(first, plan.count, CASES))
     ranges = list(zip(starts, (*starts[1:], plan.count), strict=True))
     return [
-        *(partial(tilted_lines, family.name, plan, shares) for family in tilted),
+        *(partial(tilted_lines, family.name, plan, of_tilted) for family in tilted),
         *(partial(upright_lines, family.name, *cases, plan, shares) for cases in ranges for family in upright),
     ]
 

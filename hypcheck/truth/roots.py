@@ -194,20 +194,20 @@ class Invariants:
         )
 
 
-def classify_by_roots(pair: Pair) -> RootReport:
-    """The position and kind of a pair, by the roots of g.
+def classify_by_roots(pair: Pair, *, narrow: bool = True) -> RootReport:
+    """The position and kind of a pair, by the roots of g; without `narrow` enclosures are as wide as that allows.
 
     Raises AssertionError, naming the pair, where a proof fails or the pattern is not in the table.
     """
     try:
-        return classify_invariants(Invariants.of(pair))
+        return classify_invariants(Invariants.of(pair), narrow=narrow)
     except AssertionError as error:
         raise AssertionError(f"{error}, for {pair}") from error
 
 
-def classify_invariants(pair: Invariants) -> RootReport:
+def classify_invariants(pair: Invariants, *, narrow: bool = True) -> RootReport:
     """The same for a pair given by its invariants, which need not be those of float64 numbers."""
-    roots = real_roots(pair)
+    roots = real_roots(pair, narrow=narrow)
     pattern = pattern_of((root.place, root.multiplicity) for root in roots)
     occurs = _occurs(pair)
     possible = [kind for kind in Kind if occurs[kind.occurs]]
@@ -257,11 +257,11 @@ def coefficients(pair: Invariants) -> Polynomial:
     return primitive([cubic[0], cubic[1], cubic[2] - linear[0], cubic[3] - linear[1]])
 
 
-def real_roots(pair: Invariants) -> tuple[Root, ...]:
+def real_roots(pair: Invariants, *, narrow: bool = True) -> tuple[Root, ...]:
     """The distinct real roots of g in ascending order: proved, multiplicities and places exact."""
     g = coefficients(pair)
     known, rest = _divided_by_known_roots(g, (-pair.A, pair.B, *_repeated_root(g)))
-    enclosed = isolate(rest, (-pair.A, pair.B))
+    enclosed = isolate(rest, (-pair.A, pair.B), narrow=narrow)
     prove(rest, enclosed)
     _require_factors(g, known, rest)
     intervals = [((x, x), multiplicity) for x, multiplicity in known.items()]

@@ -1,4 +1,4 @@
-"""Words in quotation marks in the ledger's page and in the erratum are the paper's own.
+"""Words in curly quotation marks on our pages, and in quotation marks in the erratum, are the paper's own.
 
 The paper's text cannot be kept here. Where shared/paper.txt lies beside the repository each phrase is looked up in it;
 everywhere its digest must be among those in quoted_phrases.txt, which hold only phrases that were found there.
@@ -15,8 +15,8 @@ import pytest
 
 from hypcheck.paper.derive import erratum
 from hypcheck.paper.derive.selection import Selection
+from tests.support.pages import PAGES, ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 PAPER = ROOT.parent / "shared" / "paper.txt"
 DIGESTS = Path(__file__).with_name("quoted_phrases.txt")
 
@@ -25,18 +25,18 @@ NAMES |= {"ge": "≥", "neq": "≠", "pi": "π"}
 
 
 def normalised(text: str) -> str:
-    """The text without spaces, case and the marks of LaTeX, so that formulas in LaTeX and in Unicode are the same."""
+    """The text without spaces and the marks of LaTeX, so that formulas in LaTeX and in Unicode are the same."""
     text = re.sub(r"\\frac\s*\{(.*?)\}\{(.*?)\}", r"\1/\2", text)
     text = re.sub(r"\\(?:left|right|mathcal|mathrm|overline|bar|,|;|\\)(?![a-z])", "", text)
     text = re.sub(r"\\([A-Za-z]+)", lambda found: NAMES.get(found[1], ""), text)
-    return re.sub(r"[\s$_{}~\\]", "", text).casefold()
+    return re.sub(r"[\s$_{}~\\]", "", text)
 
 
 def quoted() -> set[str]:
-    """Every quoted phrase of docs/paper.md and of the erratum, normalised."""
-    page = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
+    """Every quoted phrase of the pages and of the erratum, normalised."""
+    pages = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
     note = "\n".join(erratum.lines(Selection(())))
-    phrases = re.findall(r"“(.*?)”", page, re.DOTALL) + re.findall(r"``(.*?)''", note, re.DOTALL)
+    phrases = re.findall(r"“(.*?)”", pages, re.DOTALL) + re.findall(r"``(.*?)''", note, re.DOTALL)
     return {normalised(phrase) for phrase in phrases}
 
 
@@ -65,9 +65,10 @@ def test_every_quoted_phrase_occurs_in_the_text_of_the_paper():
 
 def test_a_phrase_that_the_paper_does_not_have_is_found_and_one_in_latex_is_not():
     paper = r"detects contact, i.e. $\Delta \leq 0$, under $\left(\frac{a}{b}\right) \geq 1$"
-    phrases = {normalised(each) for each in ("contact, i.e. Δ ≤ 0", "(a/b) ≥ 1", r"Contact, i.e.\ $\Delta\le0$")}
+    phrases = {normalised(each) for each in ("contact, i.e. Δ ≤ 0", "(a/b) ≥ 1", r"contact, i.e.\ $\Delta\le0$")}
     assert invented(phrases, paper) == []
-    assert invented({normalised("contact means Δ ≤ 0")}, paper) == ["contactmeansδ≤0"]
+    assert invented({normalised(r"Contact, i.e.\ $\Delta\le0$")}, paper) == ["Contact,i.e.Δ≤0"]
+    assert invented({normalised("contact means Δ ≤ 0")}, paper) == ["contactmeansΔ≤0"]
 
 
 if __name__ == "__main__":

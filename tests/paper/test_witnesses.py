@@ -184,6 +184,22 @@ def test_there_is_contact_with_a_positive_discriminant_in_a_low_hyperboloid(numb
     assert printed.by_14(*row).delta > 0
 
 
+@pytest.mark.parametrize("number", ["Section 4, contact", "Section 4, discriminant"])
+def test_contact_about_a_narrow_waist_has_a_positive_discriminant_so_harmless_asks_for_a_wide_one(number):
+    row = tuple(map(Fraction, ("1/2", "1", "0", "0", "0")))
+    assert printed.in_regime_3(*row[:2])
+    assert position(row) == CONTACT
+    assert printed.by_14(*row).delta > 0
+    assert "(γ/d)² ≥ α/b ≥ 1" in ledger()[number].harmless
+
+
+def test_in_floats_table_2_refuses_a_thin_shell_about_the_ring_though_z0_is_not_0():
+    centre = 2.5, 0.0, 1e-12
+    assert position(tuple(map(Fraction, (1.0, 2.0, *centre)))) == EXTERIOR
+    assert printed.table_2(*map(Fraction, (1, 2, 1, 1, *centre)))
+    assert not printed.table_2(1.0, 2.0, 1.0, 1.0, *centre)
+
+
 def test_every_false_statement_names_its_faults_and_every_fault_has_a_statement():
     for entry in entries():
         assert bool(entry.faults) == (entry.verdict == FALSE), entry.number

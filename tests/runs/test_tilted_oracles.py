@@ -11,7 +11,7 @@ from hypcheck.runs import oracles
 from hypcheck.runs.findings import SelfCheckPlan, batch_of
 from hypcheck.runs.oracles import ORACLES, Opinion
 from hypcheck.vectors import frozen
-from hypcheck.vectors.families import FAMILIES, case_id
+from hypcheck.vectors.families import FAMILIES, case_id, select
 
 PLAN = SelfCheckPlan()
 ASKED = ("exact", "nearest", "roots", "mesh")
@@ -34,6 +34,12 @@ def test_tilted_oracles_are_asked_the_frozen_vectors_of_every_family_except_the_
     assert all(batch.rows.shape == (6, 10) for batch in batches)
     assert batches[0].name(3) == "tilted-uniform-0003"
     assert oracles.tilted_families(SelfCheckPlan(families=("ring",))) == ()
+
+
+def test_roots_oracle_is_asked_all_upright_rows_by_default_and_a_tenth_as_many_tilted_ones():
+    families = len(select(PLAN.families)) + len(oracles.tilted_families(PLAN))
+    assert oracles.shares(PLAN, families)["roots"] >= PLAN.count
+    assert oracles.shares(PLAN, families, tilted=True)["roots"] == 41
 
 
 @pytest.mark.slow

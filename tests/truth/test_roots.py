@@ -205,21 +205,21 @@ ROW = (1, 0.25, 1, 1, 2, 0, 0.5)  # three roots above B
 EXTREME = (1e-300, 1e-300, 5e-324, 3e299, 1e300, 7e-310, 1e200)  # three roots, coefficients of 10,000 bits
 
 
-def _shifted(f, cuts):
-    return [(upper, 2 * upper - lower) for lower, upper in polynomial_roots.isolate(f, cuts)]
+def _shifted(f, cuts, *, narrow):
+    return [(upper, 2 * upper - lower) for lower, upper in polynomial_roots.isolate(f, cuts, narrow=narrow)]
 
 
-def _one_missing(f, cuts):
-    return polynomial_roots.isolate(f, cuts)[1:]
+def _one_missing(f, cuts, *, narrow):
+    return polynomial_roots.isolate(f, cuts, narrow=narrow)[1:]
 
 
-def _merged(f, cuts):
-    found = polynomial_roots.isolate(f, cuts)
+def _merged(f, cuts, *, narrow):
+    found = polynomial_roots.isolate(f, cuts, narrow=narrow)
     return [(found[0][0], found[-1][1])]
 
 
-def _one_twice(f, cuts):
-    found = polynomial_roots.isolate(f, cuts)
+def _one_twice(f, cuts, *, narrow):
+    found = polynomial_roots.isolate(f, cuts, narrow=narrow)
     return [found[0], *found[:-1]]
 
 
@@ -242,9 +242,10 @@ def test_enclosed_root_is_within_an_interval_as_narrow_as_asked(root, others, be
     assert low == root == high or (low < root < high and high - low <= sign * min(low, high, key=abs) / 2**bits)
 
 
-def _beyond_its_place(f, cuts):
+def _beyond_its_place(f, cuts, *, narrow):
     """Enclosures that are right but reach over 0, where the sign of f at −1 and 0 is the same."""
-    return [(Fraction(-1), polynomial_roots.isolate(f, cuts)[0][1]), *polynomial_roots.isolate(f, cuts)[1:]]
+    first, *others = polynomial_roots.isolate(f, cuts, narrow=narrow)
+    return [(Fraction(-1), first[1]), *others]
 
 
 @pytest.mark.parametrize("row", [ROW, EXTREME])

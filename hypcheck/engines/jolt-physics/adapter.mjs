@@ -1,7 +1,8 @@
 // Jolt by jolt-physics: the convex hull of points on the spheroid (a sphere where it is a ball) against a MeshShape.
 //
 // Jolt has no ellipsoid. Contact is a hit of NarrowPhaseQuery.CollideShape, back faces included; the distance is minus the
-// deepest penetration, with a largest separation of more than 0. The tightest settings give the hull no convex radius.
+// deepest penetration, with a largest separation of more than 0. The tightest settings give the hull no convex radius,
+// and leave its points outside of it by 1e-5 at most.
 import { readFileSync } from 'node:fs';
 import { readScene, serve, tightest } from './speak.mjs'; // first: it keeps standard output for replies
 import initJolt from 'jolt-physics';
@@ -46,7 +47,10 @@ function bodyShape() {
   if (scene.round) return new Jolt.SphereShape(scene.b);
   const settings = new Jolt.ConvexHullShapeSettings();
   for (const [x, y, z] of scene.body) settings.mPoints.push_back(new Jolt.Vec3(x, y, z));
-  if (tightest) settings.mMaxConvexRadius = 0;
+  if (tightest) {
+    settings.mMaxConvexRadius = 0;
+    settings.mHullTolerance = 1e-5; // by how much points may lie outside of the hull; 0 fails
+  }
   return made(settings);
 }
 

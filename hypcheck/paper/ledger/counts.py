@@ -5,7 +5,8 @@ Costs that can be counted are counted from the programs; others are not judged.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -71,19 +72,19 @@ NEAR_THE_WALL = SquaredRatios(*TOWER, "33884041/390625", "126736/9")
 """z = 17.8 m, where the wall is 2.8284 m from the axis, and 2.3284 m from it: P = (2.3284/0.25)²."""
 
 
-NEAREST = (0.27, 0.43)
+NEAREST = (0.28, 0.46)
 """Within how many metres of the wall the centre is where Δ is among the least 1 % and 10 % of positions inside."""
 
 
 def discriminants_closest_to_zero() -> Evidence:
     """That the least values of Δ > 0 in the paper's tower are those near its wall."""
-    heights, areas = (np.arange(400) + 0.5) / 400 * 17.8, (np.arange(1000) + 0.5) / 1000  # evenly over the volume
-    walls = 2 * np.hypot(1, heights / 17.8)
-    radii = walls[:, None] * np.sqrt(areas)
+    # Evenly over the cylinder about the tower, so that those inside are evenly over the tower's volume.
+    heights, areas = (np.arange(400) + 0.5) / 400 * 17.8, (np.arange(1000) + 0.5) / 1000
+    walls, radii = 2 * np.hypot(1, heights / 17.8)[:, None], 2 * np.sqrt(2 * areas)
     A, B, P, Q = 64.0, (17.8 / 0.15) ** 2, (radii / 0.25) ** 2, (heights[:, None] / 0.15) ** 2
     values = _discriminants(A, B, P, Q)
-    inside = values > 0
-    distances = (walls[:, None] - radii)[inside][np.argsort(values[inside])]
+    inside = (radii < walls) & (values > 0)
+    distances = (walls - radii)[inside][np.argsort(values[inside])]
     found = [float(distances[: len(distances) // part].max()) for part in (100, 10)]
     near = all(far <= bound for far, bound in zip(found, NEAREST, strict=True))
     text = (
@@ -164,9 +165,19 @@ def equal_steps() -> Evidence:
 
 
 def second_row_read_as_a_quarter() -> Evidence:
-    """That equal steps have equal figures if t = 0.2 is a misprint for 0.25."""
+    """That equal steps have equal figures, and longer steps lower ones, if t = 0.2 is a misprint for 0.25."""
     near = abs(_figure(0.3, 5) - _figure(0.2, 6)) < 0.02
-    return Evidence("count", "t = 0.25 brings the two figures of v·t = 1.5 to within 0.02", near)
+    text = "t = 0.25 brings the two figures of v·t = 1.5 to within 0.02, and all figures fall as v·t grows"
+    return Evidence("count", text, near and _fall_with_steps((0.1, 0.25, 0.3)) and not _fall_with_steps(TIMES))
+
+
+def _fall_with_steps(times: Sequence[float]) -> bool:
+    """Whether the figures fall as v·t grows, if the rows are those of these times."""
+    steps: dict[float, list[float]] = defaultdict(list)
+    for time, figures_of_row in zip(times, PRINTED, strict=True):
+        for speed, figure in zip(SPEEDS, figures_of_row, strict=True):
+            steps[round(time * speed, 9)].append(figure)
+    return all(min(steps[one]) > max(steps[two]) for one, two in pairwise(sorted(steps)))
 
 
 def _volumes(share: float) -> float:

@@ -80,8 +80,8 @@ def not_exterior(facts: PointFacts) -> bool:
 
 
 def inside_a_tall_one(facts: PointFacts) -> bool:
-    """Whether the spheroid is not exterior to a hyperboloid of the regime of Proposition 3, as in the paper's tower."""
-    return tall(facts) and not exterior(facts)
+    """Whether the spheroid is not exterior to a hyperboloid of both regimes, as in the paper's tower."""
+    return tall(facts) and wide(facts) and not exterior(facts)
 
 
 def three_positive(facts: PointFacts) -> bool:
@@ -198,7 +198,7 @@ CONTACT_IF_TALL = Statement(
 )
 CONTACT_INSIDE = Statement(
     "inside a hyperboloid with (γ/d)² ≥ α/b ≥ 1: contact ⟺ Δ ≤ 0",
-    lambda facts: wide(facts) and inside_a_tall_one(facts),
+    inside_a_tall_one,
     lambda facts: contact(facts) == (facts.delta <= 0),
 )
 CLEAR_IS_POSITIVE = Statement("interior or exterior ⟺ Δ > 0", wide, lambda facts: contact(facts) == (facts.delta <= 0))

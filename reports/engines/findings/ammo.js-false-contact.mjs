@@ -41,7 +41,7 @@ function ask(tightest) {
 
 let contact, distance;
 for (const settings of ['default', 'tightest']) {
-  [contact, distance] = ask(settings === 'tightest');
+  [contact, distance] = ask(settings !== 'default');
   console.log(`${settings} settings: contact: ${contact}, distance: ${distance}`);
 }
 process.exit(Number(contact));

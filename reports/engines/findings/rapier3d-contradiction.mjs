@@ -24,7 +24,7 @@ function ask() {
 
 let contact, distance;
 for (const settings of ['default', 'tightest']) {
-  [contact, distance] = ask(settings === 'tightest');
+  [contact, distance] = ask(settings !== 'default');
   console.log(`${settings} settings: contact: ${contact}, distance: ${distance}`);
 }
 process.exit(Number(contact && distance > 0.0));

@@ -1,4 +1,4 @@
-// rapier3d 0.21.0 says contact. Exact: clear by 0.58 mm (at a tower of 2 m).
+// rapier3d 0.21.0 says contact, and 0.151 mm apart. Exact: clear by 0.58 mm (at a tower of 2 m).
 // Settings: it offers no setting.
 // Lengths are in the engine's unit, 1000 mm of the tower; b = 0.25, d = 0.01.
 // Certificate: with n = (-0.21, -0.57, 0.79), every corner v of the triangle has n·v >= 0.1526171875, and every
@@ -24,7 +24,7 @@ function ask() {
 
 let contact, distance;
 for (const settings of ['default', 'tightest']) {
-  [contact, distance] = ask(settings === 'tightest');
+  [contact, distance] = ask(settings !== 'default');
   console.log(`${settings} settings: contact: ${contact}, distance: ${distance}`);
 }
 process.exit(Number(contact));
