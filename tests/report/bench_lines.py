@@ -12,7 +12,7 @@ def lines():
     return sample("benchmark")
 
 
-def line(kind, of=None, **changes):
+def line(kind, of=None, /, **changes):
     """The first line of a kind, and of a method if one is named, with these changes."""
     found = (each for each in lines() if each["type"] == kind and of in (None, each.get("method")))
     return {**next(found), **changes}

@@ -119,7 +119,7 @@ DISAGREEMENT, UNPROVED, EXACT_WRONG, CRASHED, DRIFT = sample("failures")[:5]
 HEADER = {
     "type": "header",
     "schema": SCHEMA,
-    "hypcheck": "0.1.0",
+    "hypcheck": "0.0.9",
     "started": "2026-01-02T03:04:05+06:00",
     "python": "3.11.7",
     "versions": {"numpy": "2.4.6"},

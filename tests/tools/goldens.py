@@ -36,10 +36,10 @@ CHANGES = "changes"
 
 @dataclass(frozen=True)
 class GoldenRun:
-    """A recorded run: the command that records it, and with which run it is compared.
+    """A recorded run: the command that records it, and with which other it is compared.
 
-    `before` records that other run first, if it is none of RUNS. A run without a command has lines that no right
-    program writes: those of tests/report/samples/.
+    `before` records the baseline of the command first. A run without a command has lines that no right program writes:
+    those of tests/report/samples/.
     """
 
     command: str = ""
@@ -63,14 +63,13 @@ RUNS: Mapping[str, GoldenRun] = {
     ),
     "ways": GoldenRun(
         "verify python:mine.py:passage library:missing.so --isolate off --count 0"
-        " --families way-uniform,way-tunnelling,way-grazing,tilted-way-uniform,tilted-way-ring",
-        against="every-line",
+        " --families way-uniform,way-tunnelling,way-grazing,tilted-way-uniform,tilted-way-ring"
     ),
     "self": GoldenRun("verify --self --families ring,out-of-regime --count 20 --judged 20 --roots 10 --meshes 10"),
     "bench": GoldenRun(
         f"{_QUICK} --methods {_MEASURED} --workloads uniform,near-contact --baseline before",
         before=f"{_QUICK} --methods table-2-float64,fast --workloads uniform --seed 2",
-        against="before",
+        against="every-line",
     ),
     "every-line": GoldenRun(),
 }
@@ -92,9 +91,8 @@ def made(run: str) -> dict[str, str]:
     found = _written(run, [], [*REPORTS])
     against = RUNS[run].against
     if against:
-        earlier = FOLDER / run / f"{against}.jsonl"
-        words = ["--against", str(earlier if earlier.exists() else FOLDER / against)]
         with patch.dict(sys.modules, {"matplotlib": None}):
+            words = ["--against", str(FOLDER / against)]
             compared = _written(run, words, [name for name, report in REPORTS.items() if report.compares])
         found |= {f"{CHANGES}/{name}": text for name, text in compared.items()}
     return found
@@ -152,7 +150,7 @@ def words_of_plot(svg: str) -> str:
 
 
 def record(run: str, folder: Path) -> None:
-    """Make the record of a run anew, and that of the earlier run that it is compared with."""
+    """Make the record of a run anew."""
     if not RUNS[run].command:
         (folder / RECORD).write_bytes(every_line())
         return
@@ -160,12 +158,12 @@ def record(run: str, folder: Path) -> None:
         here = Path(scratch)
         for path in [*folder.glob("*.py"), *folder.glob("*.toml")]:
             shutil.copy(path, here)
-        for command, out, kept in ((RUNS[run].before, "before", "before.jsonl"), (RUNS[run].command, "after", RECORD)):
+        for command, out in ((RUNS[run].before, "before"), (RUNS[run].command, "after")):
             if command:
                 words = [sys.executable, "-m", "hypcheck", *command.split(), "--out", out]
                 environment = {name: value for name, value in os.environ.items() if name != "CI"}
                 subprocess.run(words, cwd=here, check=False, env=environment)  # it may fail: that is recorded
-                shutil.copy(here / out / RECORD, folder / kept)
+        shutil.copy(here / "after" / RECORD, folder)
 
 
 def write(run: str) -> None:
