@@ -17,8 +17,9 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from unittest.mock import patch
@@ -71,19 +72,26 @@ RUNS: Mapping[str, GoldenRun] = {
         before=f"{_QUICK} --methods table-2-float64,fast --workloads uniform --seed 2",
         against="every-line",
     ),
+    "bench-ways": GoldenRun(
+        "bench --question passage --quick --processes 2 --rounds 2 --workloads tower,tunnelling"
+        " --methods passage-exact,passage-certified,passage-sampled-4"
+    ),
     "every-line": GoldenRun(),
 }
 
 
-def names_of(run: str) -> list[str]:
-    """The names of the goldens that a run may have: those of all formats, and of those that compare."""
-    every = [_golden(report.file) for report in REPORTS.values()]
-    compared = [f"{CHANGES}/{_golden(report.file)}" for report in REPORTS.values() if report.compares]
-    return every + (compared if RUNS[run].against else [])
-
-
 def _golden(file: str) -> str:
     return f"{file}.txt" if file.endswith(".svg") else file
+
+
+_OTHERS = ("", ".py", ".pyc", ".toml", ".jsonl")
+"""Ends of names in the folder of a run that are no goldens: folders, the code under test, its settings, the record."""
+
+
+def kept(run: str) -> dict[str, str]:
+    """The goldens of a run by their names."""
+    paths = [path for path in sorted((FOLDER / run).rglob("*")) if path.suffix not in _OTHERS]
+    return {path.relative_to(FOLDER / run).as_posix(): path.read_bytes().decode("utf-8") for path in paths}
 
 
 def made(run: str) -> dict[str, str]:
@@ -101,7 +109,8 @@ def made(run: str) -> dict[str, str]:
 def _written(run: str, words: list[str], formats: list[str]) -> dict[str, str]:
     with TemporaryDirectory() as out, _working_in(FOLDER / run):
         chosen = [word for name in formats for word in ("--format", name)]
-        code = hypcheck(["report", RECORD, *words, *chosen, "--out", out])
+        with redirect_stdout(StringIO()):
+            code = hypcheck(["report", RECORD, *words, *chosen, "--out", out])
         if code:
             raise RuntimeError(f"hypcheck report ends with {code} for {run}")
         return {_golden(path.name): masked(path) for path in sorted(Path(out).iterdir())}
@@ -169,13 +178,12 @@ def record(run: str, folder: Path) -> None:
 def write(run: str) -> None:
     """Write the goldens of a run, and remove those of formats that are not written any more."""
     texts = made(run)
-    for name in names_of(run):
+    for name in kept(run).keys() - texts:
+        (FOLDER / run / name).unlink()
+    for name, text in texts.items():
         path = FOLDER / run / name
-        if name in texts:
-            path.parent.mkdir(exist_ok=True)
-            path.write_bytes(texts[name].encode("utf-8"))
-        else:
-            path.unlink(missing_ok=True)
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(text.encode("utf-8"))
 
 
 def main() -> None:
