@@ -11,12 +11,8 @@ import pytest
 
 from hypcheck.report import html, markdown
 from hypcheck.report.contents import IN_TABLE, LISTED
-from hypcheck.report.document import LONGEST
-from hypcheck.report.plots.pictures import PLOTS, draw_plots
 from tests.report import record_samples
-from tests.report.bench_lines import bench_record
 from tests.report.pages import page_of
-from tests.report.test_worst_way import THROUGH, case, ways
 
 VOID = {"meta", "link", "br", "img", "input", "rect", "use", "path", "image"}
 
@@ -95,16 +91,8 @@ def test_page_shows_hostile_names_as_text(pages):
     assert not any(tag in {"b", "img"} for tag, _ in elements.found)
     assert any("<script>alert(1)</script>" in text for text in elements.texts["code"])
     assert "{{7*7}}" in pages["hostile"]  # no template of ours runs what is in a name
-    assert not re.search(
-        r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u200e\u200f\ud800-\udfff]", pages["hostile"]
-    )
     assert r"\u202e" in pages["hostile"]
-
-
-def test_a_very_long_name_is_cut_with_its_length(pages):
-    assert "e" * (LONGEST + 1) not in pages["hostile"]
     assert f"{'e' * 50}… (1,000,000 characters)" in pages["hostile"]
-    assert len(pages["hostile"]) < 1_500_000
 
 
 @pytest.mark.parametrize("name", RECORDS)
@@ -130,20 +118,3 @@ def test_failures_beyond_the_length_of_the_table_or_of_the_list_are_counted():
     assert (
         f"… and {left_out} more failures; `junit.xml` and `summary.json` list them" in markdown.render(record).decode()
     )
-
-
-def test_every_registered_plot_is_drawn_for_a_sample_record(pages):
-    about_ways = ways(case("way-long/1/1/3", *THROUGH, 2.0))
-    records = (record_samples.record(), bench_record())
-    drawn = {
-        name: [
-            plot.name for record in ([about_ways] if name == "ways" else records) for plot in draw_plots(name, record)
-        ]
-        for name in PLOTS
-    }
-    assert all(drawn.values()), drawn
-    names = [each for found in drawn.values() for each in found]
-    assert len(names) == len(set(names))
-    shown = pages["verify"] + pages["bench"] + html.render(about_ways).decode("utf-8")
-    for each in names:
-        assert f'"{each}-title"' in shown

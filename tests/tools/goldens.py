@@ -60,7 +60,7 @@ RUNS: Mapping[str, GoldenRun] = {
     ),
     "wrong": GoldenRun(
         f"verify python:mine.py:position --families {_GATED},one-number-changed --count 3 --fresh 9 --tolerance 16"
-        " --known-failures known.toml --restarts 40"
+        " --known-failures known.toml --restarts 40 --timeout 20"
     ),
     "ways": GoldenRun(
         "verify python:mine.py:passage library:missing.so --isolate off --count 0"
