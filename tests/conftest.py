@@ -45,7 +45,7 @@ SLOW = {
     "paper": "ledger_cli ledger_formats ledger_leaning ledger_procedures ledger_search ledger_verdicts motion "
     "simulate_cli tower witnesses",
     "record": "integrity",
-    "report": "browser cli_report github hostile junit markdown page plots reference_bench scene_map "
+    "report": "browser cli_report github goldens hostile junit markdown page plots reference_bench scene_map "
     "simulation_pictures svg write",
     "runs": "self_check self_check_interrupted",
     "runs/cluster": "cluster cluster_interrupted cluster_refused cluster_versions local_cluster",

@@ -1,4 +1,4 @@
-"""Bench about ways: its workloads, a small run, what its reports say, and what is refused."""
+"""Bench about ways: its workloads, a small run, and what is refused."""
 
 from __future__ import annotations
 
@@ -18,11 +18,6 @@ from hypcheck.implementations.builtin import passage_methods
 from hypcheck.implementations.ways import WAY_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
-from hypcheck.report import markdown
-from hypcheck.report.advice import recommendations
-from hypcheck.report.measured import way_totals
-from hypcheck.report.plots.pictures import draw_plots
-from hypcheck.report.terminal import summary_lines
 from hypcheck.truth.passage_error import size_error
 from hypcheck.vectors.families import WAY_FAMILIES
 from tests.bench.test_run import RECORD, ended
@@ -99,27 +94,6 @@ def test_bench_of_ways_counts_missed_and_false_contacts_and_records_times(small)
     assert (PASSAGE_REFERENCE, "single") in timed
     assert ("passage-sampled-4", "batch") in timed
     assert not record.of(PlacesLine)
-
-
-def test_way_totals_are_the_sums_over_the_lines_of_the_record(small):
-    _, record = small
-    jumping = next(each for each in way_totals(record) if each.name == "passage-sampled-4")
-    lines = [line for line in record.of(AccuracyLine) if line.method == jumping.name]
-    assert jumping.missed == sum(line.false_clear for line in lines)
-    assert jumping.share(jumping.missed) == jumping.missed / sum(line.asked for line in lines)
-    assert 0 < jumping.typical <= jumping.worst
-    assert 0 < jumping.ratio < 1
-
-
-def test_reports_of_ways_show_missed_and_false_contacts_and_no_advice_about_positions(small):
-    _, record = small
-    text = markdown.render(record).decode()
-    assert "## Missed and false contacts against time" in text
-    assert "| `passage-sampled-4` |" in text
-    assert "Error against run time" not in text
-    assert [plot.title for plot in draw_plots("front", record)] == ["Missed contacts", "False contacts"]
-    assert any("passage-sampled-4: " in line and "% missed contacts" in line for line in summary_lines(record, ()))
-    assert recommendations(record).advice == ()
 
 
 @pytest.mark.parametrize(

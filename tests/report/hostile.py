@@ -44,7 +44,7 @@ def _spoil(value, number):
 
 def hostile_record():
     """A verification, a run about ways and a benchmark at once, with one name of a megabyte."""
-    kept = {each[0] for each in bench_lines.METHODS[:4]}
+    kept = [line["method"] for line in bench_lines.lines() if line["type"] == "method"][:4]
     few = [line for line in bench_lines.lines() if line.get("method") in (None, *kept) or line["type"] == "places"]
     about_ways = ways_group(case("way-long/1/1/3", *THROUGH, 2.0))
     lines = [spoilt(line, number) for number, line in enumerate([*record_samples.lines(), about_ways, *few])]

@@ -1,14 +1,15 @@
-"""A small record with every type of line, made through the Recorder, and ways to spoil it."""
+"""Small records of sample lines, made through the Recorder, builders of further lines, and ways to spoil them."""
 
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 from hypothesis import strategies as st
 
-from hypcheck.record import Record, Recorder, RecordLine, plain
+from hypcheck.record import SCHEMA, Record, Recorder, RecordLine, plain
 from hypcheck.record.reader import line_of
-from tests.support.records import GrowingText
+from tests.support.records import GrowingText, resealed
 
 FOREIGN = st.lists(
     st.one_of(
@@ -97,103 +98,42 @@ def disagreement(name, case="ring/1/1/3", opinion="contact, tangent: False, None
 
 
 def finding(formula, family, *, inside, reason, cause="ring"):
-    return {
-        "type": "finding",
-        "formula": formula,
-        "family": family,
-        "inside": inside,
-        "cause": cause,
-        "asked": 60,
-        "wrong": 12,
-        "first_case": f"{family}/1/1/0",
-        "first_row": hexes(ON_THE_RING),
-        "reason": reason,
-    }
+    first = next(line for line in lines() if line["type"] == "finding")
+    where = {"formula": formula, "family": family, "first_case": f"{family}/1/1/0"}
+    return {**first, **where, "inside": inside, "cause": cause, "reason": reason}
 
 
-def timing(name, samples):
-    return {
-        "type": "timing",
-        "workload": "tower-body",
-        "median_ns": sorted(samples)[len(samples) // 2],
-        "name": name,
-        "title": f"how {name} works",
-        "rows": 1000,
-        "loops": 3,
-        "samples_ns": list(samples),
-        "checksum": 12,
-    }
+def sample(name):
+    """The lines of a file beside this one: "verification", a run in which all held; "benchmark"; "failures"."""
+    text = Path(__file__).with_name("samples").joinpath(f"{name}.jsonl").read_text(encoding="utf-8")
+    return [json.loads(line) for line in text.splitlines()]
 
 
 def lines():
     """The lines between header and footer of a run in which all held."""
-    equation = {"type": "equation", "number": "1", "holds": True, "verdict": "holds", "statement": "x² = 1"}
-    misprint = {"type": "equation", "number": "12", "holds": False, "verdict": "misprint", "statement": "g = λ³ + x_c²"}
-    return [
-        {"type": "unavailable", "oracle": "mesh", "reason": "python-fcl cannot be imported"},
-        {**equation, "finding": "right − left = 0", "correction": ""},
-        {**misprint, "finding": "the coefficient of λ² lacks − z_c²", "correction": "g = λ³ + x_c² − z_c²"},
-        {
-            "type": "proof",
-            "formula": "table-2",
-            "quantity": "c2",
-            "holds": True,
-            "statement": "c2 is A − B + 1 − P − Q",
-        },
-        {"type": "proof", "formula": "table-2", "quantity": "c2", "holds": True, "statement": "c2 of A, B is …"},
-        oracle("exact", "ring", {"proved": 20}),
-        oracle("exact", "tower-body", {"proved": 20}),
-        oracle("nearest", "ring", {"double-double": 15, "exact": 5}),
-        oracle("nearest", "tower-body", {"double-double": 20}),
-        oracle("roots", "ring", {"signs suffice": 3, "undecided": 2}, undecided=2, seconds=0.0004),
-        finding("table-2", "ring", inside=True, reason="the ring: Δ = 0 without contact"),
-        finding("procedure-1", "ring", inside=True, reason="the ring: Δ = 0 without contact"),
-        finding("table-2", "out-of-regime", inside=False, reason=None, cause="none known"),
-        group("fast", "float64", "ring", {"right": 20}, exact=True),
-        group("fast", "float64", "tower-body", {"right": 20}, exact=True),
-        group(
-            "table-2-float32",
-            "float32",
-            "ring",
-            {"right": 9, "skipped": 1, "tolerated": 4, "wrong": 6},
-            [worst("ring/1/1/7", "wrong", "inf"), worst("ring/1/1/2", "wrong", 3.1e6)],
-            mistakes={"false-clear": 1, "false-contact": 9},
-        ),
-        group(
-            "table-2-float32",
-            "float32",
-            "tower-body",
-            {"right": 19, "tolerated": 1},
-            [worst("tower-body/1/1/5", "tolerated", 2.5)],
-            mistakes={"false-contact": 1},
-        ),
-        group("table-2-float64", "float64", "ring", {"right": 20}),
-        group("table-2-float64", "float64", "tower-body", {"skipped": 20}),
-        {
-            "type": "map",
-            "name": "cooling tower",
-            "method": "table-2-float32",
-            "sizes": list(TOWER),
-            "r": [0.0, 34.0],
-            "z": [-17.8, 17.8],
-            "wrong": 1,
-            "points": 15,
-            "lines": ["iceee", "iceEe", "iceee"],
-        },
-        {
-            "type": "map",
-            "name": "the ring",
-            "method": "table-2-float32",
-            "sizes": list(TOWER),
-            "r": [29.7, 29.8],
-            "z": [-0.05, 0.05],
-            "wrong": 4,
-            "points": 9,
-            "lines": ["eee", "EEE", "eEe"],
-        },
-        timing("fast path", [50.0, 90.0, 80.0]),
-        timing("plain numpy formula", [100.0, 100.0, 200.0]),
-    ]
+    return sample("verification")
+
+
+DISAGREEMENT, UNPROVED, EXACT_WRONG, CRASHED, DRIFT = sample("failures")[:5]
+
+HEADER = {
+    "type": "header",
+    "schema": SCHEMA,
+    "hypcheck": "0.0.9",
+    "started": "2026-01-02T03:04:05+06:00",
+    "python": "3.11.7",
+    "versions": {"numpy": "2.4.6"},
+    "machine": {"system": "Linux", "architecture": "x86_64", "processor": "a processor", "cores": None},
+    "options": {"seed": 1, "tolerance": 8.0, "baseline": "before/record.jsonl", "reference": "table-2-numpy-float32"},
+    "settings": {"file": "hypcheck.toml", "weakened": []},
+}
+
+
+def every_line():
+    """The bytes of a record with all these samples: what no right program writes, and a real run seldom."""
+    body = [line for name in ("verification", "benchmark", "failures") for line in sample(name)]
+    footer = {"type": "footer", "lines": len(body) + 2, "exit_code": 6, "seconds": 12.5}
+    return resealed([HEADER, *body, footer])
 
 
 def record(body=None, exit_code=0, options=None) -> Record:

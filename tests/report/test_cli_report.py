@@ -8,6 +8,7 @@ import os
 import pytest
 
 from hypcheck.cli.main import main
+from hypcheck.record import read
 from hypcheck.report.formats import REPORTS, kept_formats
 from hypcheck.report.write import render
 from tests.report import record_samples
@@ -31,8 +32,9 @@ def test_report_without_options_prints_the_summary(run, capsys):
 OF_OTHER_RUNS = ("errors", "pareto", "front", "ways")
 
 
-@pytest.mark.parametrize("name", OF_OTHER_RUNS)
+@pytest.mark.parametrize("name", [*OF_OTHER_RUNS, "map"])
 def test_report_refuses_a_picture_that_the_record_has_no_lines_for(run, name, tmp_path, capsys):
+    (run / "record.jsonl").write_text(record_samples.text_and_record([])[0], encoding="utf-8")
     assert main(["report", str(run), "--format", name, "--out", str(tmp_path / "a.svg")]) == 2
     assert "hypcheck: error: the record has no " in capsys.readouterr().err
     assert not (tmp_path / "a.svg").exists()
@@ -41,13 +43,7 @@ def test_report_refuses_a_picture_that_the_record_has_no_lines_for(run, name, tm
 @pytest.mark.parametrize("name", [name for name in REPORTS if name not in OF_OTHER_RUNS])
 def test_report_with_one_format_writes_it_to_standard_output(run, name, capfdbinary):
     assert main(["report", str(run / "record.jsonl"), "--format", name]) == 0
-    assert capfdbinary.readouterr().out == render(name, samples_read(run))
-
-
-def samples_read(run):
-    from hypcheck.record import read
-
-    return read(run / "record.jsonl")
+    assert capfdbinary.readouterr().out == render(name, read(run))
 
 
 def test_report_with_a_folder_writes_the_reports_of_a_run(run, tmp_path):
@@ -72,7 +68,7 @@ def test_report_with_a_folder_writes_the_reports_of_a_run(run, tmp_path):
 )
 def test_report_with_a_file_writes_the_format_of_its_name(run, tmp_path, file, name):
     assert main(["report", str(run), "--out", str(tmp_path / file)]) == 0
-    assert (tmp_path / file).read_bytes() == render(name, samples_read(run))
+    assert (tmp_path / file).read_bytes() == render(name, read(run))
 
 
 def test_report_with_a_format_writes_a_file_of_any_name(run, tmp_path):
@@ -113,6 +109,9 @@ def test_report_of_a_file_that_is_no_record_is_refused_in_one_sentence(run, caps
     assert "is no record" in capsys.readouterr().err
 
 
-def test_report_against_another_record_shows_the_changes(run, tmp_path, capsys):
-    assert main(["report", str(run), "--against", str(run)]) == 0
-    assert "against the run of " in capsys.readouterr().out
+def test_report_refers_to_the_pictures_of_the_run_only_beside_them(run, tmp_path):
+    (run / "map.svg").write_text("<svg/>", encoding="utf-8")
+    (tmp_path / "map.svg").write_text("of another run", encoding="utf-8")
+    for folder, refers in ((run, True), (tmp_path, False)):
+        assert main(["report", str(run), "--format", "overview", "--out", str(folder / "README.md")]) == 0
+        assert ("](map.svg)" in (folder / "README.md").read_text(encoding="utf-8")) == refers

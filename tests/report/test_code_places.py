@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
-import sys
 
 import msgspec
 import pytest
 from pydantic_sarif.model import StaticAnalysisResultsFormatSarifVersion210JsonSchema as Sarif
 
-from hypcheck.cli.main import main
-from hypcheck.record import Record
+from hypcheck.record import Record, read
 from hypcheck.report.code_hosts import UNKNOWN, Place, placed_failures, render_badge, render_gitlab, render_sarif
 from hypcheck.report.verdict import failures
 from tests.report import record_samples
-from tests.report.test_verdict import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
+from tests.report.record_samples import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
+from tests.tools.goldens import FOLDER, RUNS
 
 SEVERITIES = {"info", "minor", "major", "critical", "blocker"}
 SOURCE = """import numpy as np
@@ -49,7 +48,12 @@ def place_of(spec, files):
     return found.place
 
 
-@pytest.mark.parametrize("record", [made(exit_code=0), made(*FAILING, exit_code=6), made(exit_code=None)])
+@pytest.fixture(params=[*RUNS, None])
+def record(request):
+    """That of a recorded run, or one that was interrupted."""
+    return read(FOLDER / request.param) if request.param else made(exit_code=None)
+
+
 def test_every_failure_of_a_run_is_a_result_of_valid_sarif(record):
     log = json.loads(render_sarif(record))
     Sarif.model_validate(log)  # made from the published schema; unknown keys are refused
@@ -68,7 +72,6 @@ def test_sarif_validation_of_these_tests_refuses_an_unknown_key():
         Sarif.model_validate(log)
 
 
-@pytest.mark.parametrize("record", [made(exit_code=0), made(*FAILING, exit_code=6), made(exit_code=None)])
 def test_every_failure_of_a_run_is_an_issue_with_the_keys_that_gitlab_reads(record):
     issues = json.loads(render_gitlab(record))
     assert len(issues) == len(failures(record)) + (record.footer is None)
@@ -149,22 +152,3 @@ def test_a_path_in_sarif_is_a_uri():
 def test_badge_shows_how_the_run_ended(lines, exit_code, message, color):
     shown = json.loads(render_badge(made(*lines, exit_code=exit_code)))
     assert shown == {"schemaVersion": 1, "label": "hypcheck", "message": message, "color": color}
-
-
-@pytest.mark.slow
-def test_verify_writes_sarif_gitlab_and_badge_for_a_wrong_function_at_its_line(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
-    monkeypatch.setattr(sys, "path", [*sys.path])
-    words = ["--families", "ring", "--count", "0", "--out", "out"]
-    assert main(["verify", "python:mine.py:position", *words]) == 1
-    (run,) = json.loads((tmp_path / "out" / "results.sarif").read_bytes())["runs"]
-    place = run["results"][0]["locations"][0]["physicalLocation"]
-    assert place == {
-        "artifactLocation": {"uri": "mine.py", "uriBaseId": "%SRCROOT%"},
-        "region": {"startLine": 8},
-    }
-    assert "replay: hypcheck replay ring-0000 python:mine.py:position" in run["results"][0]["message"]["text"]
-    (issue, *_) = json.loads((tmp_path / "out" / "gl-code-quality-report.json").read_bytes())
-    assert issue["location"] == {"path": "mine.py", "lines": {"begin": 8}}
-    assert json.loads((tmp_path / "out" / "badge.json").read_bytes())["color"] == "red"

@@ -23,18 +23,16 @@ from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.implementations.method import by_rows
 from hypcheck.report import contents, html
-from hypcheck.report.document import Code, Explorer
+from hypcheck.report.document import Code
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.nearest_exact import nearest
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES
-from tests.report import record_samples
 
 FEW = 400
 ROWS = int(os.environ.get("HYPCHECK_EXPLORER", FEW))
 ROOM = Path(html.__file__).parent
-TOWER = (2.0, 17.8, 0.25, 0.15, 2.3, 0.0, 3.0)
 ANSWERS = Path(__file__).with_name("explorer_answers.mjs")
 
 
@@ -147,12 +145,3 @@ def test_small_picture_has_finite_coordinates_and_draws_thin_bodies_wide_enough_
     thin = html.small_picture((0.052, 4.4, 0.17, 9.6, 0.03, 0.0, -10.5))
     assert 'rx="24" ry="16"' in thin
     assert 'rx="16" ry="16"' in html.small_picture(contents.ON_THE_RING)
-
-
-def test_a_failing_case_is_drawn_in_the_table_of_failures_and_the_explorer_begins_with_it():
-    case = record_samples.worst("tower-body/1/1/5", "wrong", 40.0) | {"row": record_samples.hexes(TOWER)}
-    line = record_samples.group("mine", "float64", "tower-body", {"wrong": 1}, [case], failing=["wrong"], faults=[])
-    sections = contents.content(record_samples.record([line], exit_code=1)).sections
-    (failed,) = (each.blocks[0].page for each in sections if each.title == "What failed")
-    assert Code("tower-body/1/1/5", TOWER) in [cell.text for cell in failed.rows[0]]
-    assert [each.row for section in sections for each in section.blocks if isinstance(each, Explorer)] == [TOWER]

@@ -141,7 +141,3 @@ def test_on_github_is_true_only_if_github_actions_is_true_in_the_environment():
     assert code_hosts.on_github({"GITHUB_ACTIONS": "true"})
     assert not code_hosts.on_github({"GITHUB_ACTIONS": "1"})
     assert not code_hosts.on_github({})
-
-
-def test_a_record_without_failures_has_no_error_lines():
-    assert code_hosts.error_lines(record_samples.record()) == []

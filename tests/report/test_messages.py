@@ -10,10 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.messages import counted
-from hypcheck.record.lines import DomainPart, FixedSizesPart, WrongAnswer
-from hypcheck.report.document import Code, Column, Emphasis, Strong, TableCell, measured, plain, share, table
-from hypcheck.report.messages import classify_command, domain_text, error_text, figure, from_hex, listed, short_row
+from hypcheck.record.lines import DomainPart, FixedSizesPart
+from hypcheck.report.document import Code, Emphasis, Strong, plain
+from hypcheck.report.messages import classify_command, domain_text, figure, from_hex, listed, short_row
 from tests.report import record_samples
 
 
@@ -46,10 +45,6 @@ def test_lists_in_messages_are_joined_with_commas_and_and(items, text):
     assert listed(items) == text
 
 
-def test_counts_in_messages_have_a_noun_in_the_right_number():
-    assert [counted(number, "case") for number in (0, 1, 5600)] == ["0 cases", "1 case", "5,600 cases"]
-
-
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=7, max_size=7))
 def test_row_is_read_back_exactly_from_the_record_and_the_classify_command(row):
     assert list(from_hex(record_samples.hexes(row))) == row
@@ -77,26 +72,5 @@ def test_text_of_a_domain_names_four_fixed_sizes_and_counts_the_rest():
     assert "5, 2, 0.5" not in domain_text(domain)
 
 
-def test_message_about_a_wrong_time_gives_the_first_contact_and_the_distance_between_them():
-    case = WrongAnswer(
-        case="way/1", row=("0x1p+0",) * 7, truth=1, answer=1, mistake="late", status="wrong",
-        backward_error=3.25, backward_error_u=3.25, time=0.5, first=(0.125, 0.126),
-    )  # fmt: skip
-    assert error_text(case) == "at 0.5, but the first contact is at 0.125, 3.25 radii of the way from there"
-
-
 def test_plain_text_omits_the_marks_of_strong_emphasised_and_code_parts():
     assert plain(("of ", Strong("all"), " that ", Emphasis(("is ", Code("here"))))) == "of all that is here"
-
-
-def test_table_columns_are_named_in_one_text_with_a_mark_before_numbers():
-    made = table("memory", "method | # growth, MB", [(Code("fast"), TableCell("2.5", 2.5))])
-    assert made.columns == (Column("method"), Column("growth, MB", number=True))
-    assert made.rows == ((TableCell(Code("fast")), TableCell("2.5", 2.5)),)
-    assert table("alike", made.columns, []).columns == made.columns
-
-
-def test_cell_of_a_value_or_share_that_is_not_known_is_a_dash_without_a_number():
-    assert measured(None) == share(0, 0) == TableCell("–")
-    assert measured(1.25, (1.0, 1.5)) == TableCell("1.25 (1 to 1.5)", 1.25)
-    assert share(1, 8) == TableCell("12.5 %", 0.125)

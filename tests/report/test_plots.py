@@ -159,21 +159,14 @@ def test_axis_labels_show_powers_of_ten_as_plain_numbers_or_with_an_exponent():
 
 
 @pytest.mark.parametrize("name", PLOTS)
-def test_every_plot_has_named_axes_a_description_and_tooltips(name):
+def test_axes_of_every_plot_have_names(name):
     about_ways = ways(case("way-long/1/1/3", *THROUGH, 2.0))
     records = [about_ways] if name == "ways" else [record_samples.record(), bench_record()]
-    found = [plot for record in records for plot in draw_plots(name, record)]
+    found = [axes for record in records for plot in draw_plots(name, record) for axes in plot.figure.axes]
     assert found
-    for plot in found:
-        assert plot.title
-        assert plot.description.endswith(".")
-        assert any(character.isdigit() for character in plot.description)
-        for axes in plot.figure.axes:
-            assert axes.get_xlabel()
-            assert axes.get_ylabel() or len(axes.get_yticklabels()) > 1
-        assert plot.tips or name in ("map", "places", "fields", "ways")
-        for tips in plot.tips.values():
-            assert all(tips)
+    for axes in found:
+        assert axes.get_xlabel()
+        assert axes.get_ylabel() or len(axes.get_yticklabels()) > 1
 
 
 def test_no_plot_is_drawn_for_a_record_without_its_lines():

@@ -7,18 +7,14 @@ import sys
 from xml.etree import ElementTree
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from matplotlib.colors import to_rgb
 
-from hypcheck.errors import UnavailableError
 from hypcheck.record.fields import as_json
 from hypcheck.record.lines import MapLine
-from hypcheck.report.drawings import render_picture
 from hypcheck.report.plots import pictures, planes
 from hypcheck.report.plots.style import styled
 from tests.report import record_samples
-from tests.support.without_drawing import draw_nothing
 
 
 def maps(body=None):
@@ -28,13 +24,6 @@ def maps(body=None):
 def of_figure(body=None):
     with styled():
         return planes.maps_together(record_samples.record(body)).figure
-
-
-def test_scene_map_is_svg_without_date_and_version():
-    content = pictures.render_map(record_samples.record())
-    assert ElementTree.fromstring(content).tag == "{http://www.w3.org/2000/svg}svg"  # noqa: S314 - just written
-    assert b"<dc:date>" not in content
-    assert b"Matplotlib v" not in content
 
 
 def test_each_grid_point_of_the_scene_map_has_the_colour_of_its_position():
@@ -99,20 +88,6 @@ def test_matplotlib_settings_of_the_user_are_neither_used_nor_changed():
         before = dict(matplotlib.rcParams)
         assert pictures.render_map(record_samples.record()) == drawn
         assert dict(matplotlib.rcParams) == before
-
-
-def test_record_without_a_map_has_no_picture_of_it():
-    with pytest.raises(UnavailableError, match="has no map"):
-        pictures.render_map(record_samples.record([]))
-
-
-def test_without_matplotlib_the_picture_is_unavailable_with_a_reason(monkeypatch):
-    draw_nothing(monkeypatch)
-    with pytest.raises(UnavailableError) as caught:
-        render_picture("map", record_samples.record(), {})
-    assert "matplotlib" in str(caught.value)
-    assert "hypcheck[report]" in str(caught.value)
-    assert "\n" not in str(caught.value)
 
 
 def test_importing_the_writer_of_reports_loads_no_matplotlib():

@@ -13,7 +13,7 @@ from hypcheck.derivation.printed_equations import EquationCheck
 from hypcheck.derivation.proofs import Proof
 from hypcheck.errors import RunOutcome
 from hypcheck.record import SCHEMA as RECORD_SCHEMA
-from hypcheck.record import Recorder, measurements, plain, read
+from hypcheck.record import Recorder, plain, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import LINES
 from hypcheck.report import summary
@@ -23,6 +23,7 @@ from hypcheck.runs.self_check import TimedMethod, timing_line
 from hypcheck.vectors.families import FAMILIES
 from tests.report import bench_lines, record_samples
 from tests.support.records import GrowingText, violations
+from tests.tools.goldens import FOLDER, RUNS
 from tests.tools.published_schemas import PUBLISHED, text
 
 
@@ -32,14 +33,6 @@ def schema(name):
 
 RECORD = schema(f"record-{RECORD_SCHEMA}.json")
 SUMMARY = schema(f"summary-{summary.SCHEMA}.json")
-
-
-OF_A_BENCHMARK = {
-    kind.__struct_config__.tag
-    for kind in vars(measurements).values()
-    if isinstance(kind, type) and kind in LINES.values()
-}
-"""Lines that `hypcheck bench` writes, since schema 1.1.0."""
 
 
 def lines_of(text):
@@ -61,21 +54,16 @@ def test_published_schema_equals_the_one_generated_from_the_classes(file):
     assert file.read_text(encoding="utf-8") == text(PUBLISHED[file]()), "make schemas writes it anew"
 
 
-def test_every_line_of_the_sample_record_fits_its_schema():
-    text, _ = record_samples.text_and_record()
-    kinds = set()
-    for line in lines_of(text):
+@pytest.mark.parametrize("run", RUNS)
+def test_every_line_and_the_summary_of_a_recorded_run_fit_their_schemas(run):
+    for line in lines_of((FOLDER / run / "record.jsonl").read_text(encoding="utf-8")):
         assert violations(line, RECORD, closed=True) == []
-        kinds.add(line["type"])
-    assert kinds == set(LINES) - {"cause", "drift", "implementation", "progress"} - OF_A_BENCHMARK
+    assert violations(of_summary(read(FOLDER / run)), SUMMARY, closed=True) == []
 
 
-@pytest.mark.slow
-def test_every_line_of_a_benchmark_fits_its_schema():
-    found = [as_json(line) for line in bench_lines.bench_record().lines]
-    for line in found:
-        assert violations(line, RECORD, closed=True) == []
-    assert {line["type"] for line in found} == OF_A_BENCHMARK - {"refused", "unmeasured"}
+def test_recorded_runs_have_every_type_of_line_that_a_finished_record_can_have():
+    recorded = [line for run in RUNS for line in (FOLDER / run / "record.jsonl").read_text("utf-8").splitlines()]
+    assert {json.loads(line)["type"] for line in recorded} == set(LINES) - {"progress"}
 
 
 @pytest.mark.slow
@@ -144,8 +132,8 @@ def truncated_early():
     return replace(record_samples.record([], exit_code=None), lines=())
 
 
-@pytest.mark.parametrize("record", [record_samples.record(), record_samples.record(exit_code=None), truncated_early()])
-def test_summaries_of_samples_fit_their_schema(record):
+@pytest.mark.parametrize("record", [record_samples.record(exit_code=None), truncated_early()])
+def test_summary_of_an_interrupted_run_fits_its_schema(record):
     assert violations(of_summary(record), SUMMARY, closed=True) == []
 
 

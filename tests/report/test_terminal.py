@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
 from tests.report import bench_lines, record_samples
-from tests.report.test_verdict import DISAGREEMENT, EXACT_WRONG, UNPROVED
+from tests.report.record_samples import DISAGREEMENT, EXACT_WRONG, UNPROVED
 
 WRITTEN = [
     WrittenReport(Path("out/summary.json")),
@@ -25,40 +25,12 @@ def shown(*extra, exit_code=0, body=None, options=None, **how):
     return summary_lines(record_samples.record(lines, exit_code, options), WRITTEN, **how)
 
 
-def test_terminal_shows_a_run_without_failures():
-    assert shown() == [
-        record_samples.HELD,
-        "oracles in agreement: exact 40 of 40, nearest 40 of 40, roots 3 of 5",
-        "oracles not available: mesh (python-fcl cannot be imported)",
-        "equations of the paper: 1 of 2 hold; misprint: (12)",
-        "proofs: 2 of 2 hold",
-        "wrong in exact arithmetic: 2 inside the stated regimes (ring), 1 outside",
-        "float32: 1 of 1 method beyond the tolerance of 8 u; farthest off: table-2-float32, ∞ u at ring/1/1/7",
-        "float64: 0 of 1 method beyond the tolerance of 8 u; no answer is wrong",
-        "ns a row: fast path 80, plain numpy formula 100",
-        "reports in out/: summary.json, report.md",
-        "no map.svg: no matplotlib",
-    ]
-
-
-def test_terminal_shows_failures_with_their_cases_after_the_verdict():
-    lines = shown(DISAGREEMENT, UNPROVED, EXACT_WRONG, exit_code=6)
-    assert lines[0].startswith("FAILED with exit code 6: ")
-    said = "nearest: contact, tangent: False, None; exact decision: exterior, tangent: False, exterior"
-    assert lines[1] == f"  ✗ tangent/1/1/3: {said}"
-    assert lines[2] == "  ✗ hessian: not proved: it is 3Δ"
-    assert lines[3].startswith("  ✗ fast promises to be exact, but 1 of 5 cases ended as wrong; tangent/1/1/0 is ")
-
-
-def test_terminal_shows_truncated_first_for_an_interrupted_run():
-    assert shown(exit_code=None)[0].startswith("TRUNCATED: ")
-
-
 def test_the_terminal_shows_at_most_25_lines():
-    many = [bench_lines.cost(f"claim {name}", "holds") for name in "abcdefghijklmnop"]
+    many = [bench_lines.line("cost", claim=f"claim {name}") for name in "abcdefghijklmnop"]
     lines = shown(*many, {**UNPROVED, "statement": "x" * 1000}, *[UNPROVED] * 49, exit_code=6, width=WIDTH)
     assert len(lines) == MOST_LINES == 25
     assert lines[9] == "  ✗ and 42 more failures; junit.xml lists them all"
+    assert "claim holds, the tower: claim a" in lines
     assert lines[-2:] == ["reports in out/: summary.json, report.md", "no map.svg: no matplotlib"]
     assert max(map(len, lines)) == WIDTH + 2  # and the two spaces before a failure
 

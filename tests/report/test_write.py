@@ -7,49 +7,33 @@ from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
-from hypcheck.errors import InputError, UnavailableError
+from hypcheck.errors import InputError
 from hypcheck.record import read
 from hypcheck.record.lines import MapLine
-from hypcheck.report import csv, drawings, html, junit, markdown, summary, write
-from hypcheck.report.drawings import ReportContext
+from hypcheck.report import drawings, write
 from hypcheck.report.formats import REPORTS
 from hypcheck.report.plots import pictures
 from hypcheck.report.write import render, write_reports
 from tests.report import bench_lines, record_samples
+from tests.support.without_drawing import draw_nothing
 
-CODE = {"sarif": "results.sarif", "gitlab": "gl-code-quality-report.json", "badge": "badge.json"}
-FILES = {"summary.json", "junit.xml", "map.svg", "report.md", "report.html", "measurements.csv", *CODE.values()}
+FILES = {
+    *("summary.json", "junit.xml", "map.svg", "report.md", "report.html", "measurements.csv"),
+    *("results.sarif", "gl-code-quality-report.json", "badge.json"),
+}
+DRAWN = {"map.svg", "report.html"}
 TEXTS = ("json", "junit", "markdown", "csv")
 
 
-def test_write_reports_writes_every_format(tmp_path):
-    record = record_samples.record()
-    written = write_reports(record, tmp_path / "a" / "b")
+def test_a_record_read_from_its_file_makes_the_reports_of_the_record(tmp_path):
+    text, record = record_samples.text_and_record()
+    (tmp_path / "record.jsonl").write_text(text, encoding="utf-8")
+    written = write_reports(read(tmp_path), tmp_path / "a" / "b")
     assert {each.path.name for each in written} == FILES == set(os.listdir(tmp_path / "a" / "b"))
     assert {each.skipped for each in written} == {None}
-    contents = {each.path.name: each.path.read_bytes() for each in written}
-    assert contents == {
-        "summary.json": summary.render(record),
-        "junit.xml": junit.render(record),
-        "map.svg": pictures.render_map(record),
-        "report.md": markdown.render(record, ReportContext(["map.svg"])),
-        "report.html": html.render(record),
-        "measurements.csv": csv.render(record),
-        **{file: render(name, record) for name, file in CODE.items()},
-    }
-    assert b"](map.svg)" in contents["report.md"]
-
-
-def test_reports_of_a_record_read_from_its_file_are_the_same(tmp_path):
-    text, record = record_samples.text_and_record()
-    path = tmp_path / "record.jsonl"
-    path.write_text(text, encoding="utf-8")
-    kinds = {line.type for line in record.lines}
-    here = {name: report for name, report in REPORTS.items() if not report.ways}  # without that of ways
-    shown = {name: report for name, report in here.items() if report.shows in (None, *kinds)}
-    assert len(shown) == len(here) - 3  # the pictures of a benchmark
-    for name in shown:
-        assert render(name, read(path)) == render(name, record), name
+    for name, report in REPORTS.items():
+        if report.file in FILES - {"report.md"}:  # which refers to the map
+            assert (tmp_path / "a" / "b" / report.file).read_bytes() == render(name, record)
 
 
 def test_a_truncated_record_makes_reports_that_say_so(tmp_path):
@@ -71,27 +55,17 @@ def test_reports_are_written_for_a_run_interrupted_at_any_line(kept, tmp_path):
     assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of(MapLine)))
 
 
-def test_write_reports_without_matplotlib_writes_all_reports_without_plots(tmp_path, monkeypatch):
-    def unavailable(*_):
-        raise UnavailableError("matplotlib is not here")
-
-    write_reports(record_samples.record(), tmp_path)
-    monkeypatch.setattr(pictures, "render_map", unavailable)
-    monkeypatch.setattr(html, "render", unavailable)
+def test_without_matplotlib_and_jinja2_reports_are_written_without_what_they_draw(tmp_path, monkeypatch):
+    for name in DRAWN:
+        (tmp_path / name).write_text("of an earlier run", encoding="utf-8")
+    draw_nothing(monkeypatch)
     written = {each.path.name: each.skipped for each in write_reports(record_samples.record(), tmp_path)}
-    gone = {"map.svg", "report.html"}  # those of an earlier run would be of another record
-    assert {name for name, reason in written.items() if reason == "matplotlib is not here"} == gone
-    assert set(os.listdir(tmp_path)) == FILES - gone
+    skipped = {name: reason for name, reason in written.items() if reason}
+    assert set(skipped) == DRAWN == FILES - set(os.listdir(tmp_path))
+    for name, module in (("map.svg", "matplotlib"), ("report.html", "jinja2")):
+        assert skipped[name].startswith(f"{module} cannot be imported")
+        assert "pip install 'hypcheck[report]'" in skipped[name]
     assert "map.svg" not in (tmp_path / "report.md").read_text(encoding="utf-8")
-
-
-def test_plots_are_drawn_in_the_main_process_if_a_drawing_process_is_killed(monkeypatch):
-    def killed(*_):
-        raise BrokenProcessPool
-
-    monkeypatch.setattr(drawings, "MANY", 0)
-    monkeypatch.setattr(drawings, "perform", killed)
-    assert drawings.draw_ahead(record_samples.record()) == {}
 
 
 def test_write_reports_raises_an_error_naming_a_report_that_it_cannot_write(tmp_path):
@@ -113,7 +87,7 @@ def test_error_while_a_report_is_rendered_leaves_the_old_report(tmp_path, monkey
     def broken(record):
         raise RuntimeError("a defect")
 
-    monkeypatch.setattr(write, "FOR_PROGRAMS", {**write.FOR_PROGRAMS, "json": broken})
+    monkeypatch.setitem(write.FOR_PROGRAMS, "junit", broken)
     with pytest.raises(RuntimeError):
         write_reports(record_samples.record(), tmp_path)
     assert (tmp_path / "summary.json").read_text(encoding="utf-8") == "old"
@@ -139,8 +113,14 @@ def test_plots_of_a_large_record_drawn_ahead_equal_plots_drawn_later(monkeypatch
     for name, plots in ahead.items():
         assert plots == drawings.drawn_plots(name, record, {})
 
-    def unavailable():
-        raise UnavailableError("matplotlib is not here")
 
-    monkeypatch.setattr(drawings, "pictures", unavailable)
-    assert drawings.draw_ahead(record) == {}
+def test_plots_are_not_drawn_ahead_if_they_cannot_be_or_a_drawing_process_is_killed(monkeypatch):
+    def killed(*_):
+        raise BrokenProcessPool
+
+    monkeypatch.setattr(drawings, "MANY", 0)
+    with monkeypatch.context() as patched:
+        patched.setattr(drawings, "perform", killed)
+        assert drawings.draw_ahead(record_samples.record()) == {}
+    draw_nothing(monkeypatch)
+    assert drawings.draw_ahead(record_samples.record()) == {}
