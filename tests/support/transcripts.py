@@ -1,7 +1,7 @@
 """Transcripts of the command line: what a person types, what is printed on either stream, and the exit code.
 
-A transcript is a text file, tests/transcripts/COMMAND/SCENE.txt. A line at the margin is a remark. An indented line
-`$ ` is a command for bash, with its further lines behind `> `. Below it stand the lines that it printed, those of
+A transcript is a text file, tests/transcripts/COMMAND/SCENE.txt. A line at the margin is a remark. Behind an indented
+`$ ` stands a command for bash, with its further lines behind `> `. Below it stand the lines that it printed, those of
 standard error behind `2> `, then its exit code in brackets unless it is 0:
 
     An option that does not exist.
@@ -13,7 +13,7 @@ standard error behind `2> `, then its exit code in brackets unless it is 0:
 
 All commands of a transcript run in one folder, which is empty at first, in the environment of a user without the
 libraries that draw. MASKS lists what is no part of a transcript. `make transcripts` writes all anew, and a person reads
-the difference. A remark that begins with `Thorough` makes the test of its transcript one of `make thorough`.
+the difference. `each` gives hypcheck many lines in one process. A remark that begins with `Thorough` makes the test of its transcript one of `make thorough`.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def _output(command: str, folder: Path) -> str:
 def _environment(home: Path) -> dict[str, str]:
     """The variables of a user."""
     kept = {name: text for name, text in os.environ.items() if not name.startswith(OWN) or name == "HYPCHECK_COVERAGE"}
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    path = os.pathsep.join([str(Path(sys.executable).parent), str(TRANSCRIPTS), os.environ["PATH"]])
     return kept | {"PATH": path, "HOME": str(home), "TMPDIR": str(home), "LANG": "C.UTF-8", "PYTHONPATH": str(home)}
 
 
