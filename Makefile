@@ -17,7 +17,7 @@ COMPILED := $(BIN)/python -c 'from hypcheck.derivation import printed_equations,
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper figures mutants goldens evidence docs release format clean
+.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens evidence docs release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -77,6 +77,9 @@ schemas: $(VENV)/ready-dev ## the published schemas of what is written anew, fro
 
 goldens: $(VENV)/ready-dev ## what each format of reports says of the recorded runs anew; its diff is to be read; tests/report/goldens/
 	$(BIN)/python -m tests.tools.goldens
+
+transcripts: $(VENV)/ready-dev ## what the command line prints in each scene anew; tests/support/transcripts.py: read the difference
+	$(BIN)/python -m tests.support.transcripts
 
 figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; docs/figures.md
 	$(BIN)/python -m tests.tools.figures

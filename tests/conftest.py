@@ -33,7 +33,7 @@ os.environ.pop("CI", None)  # with it set, verify asks fresh rows too, as many i
 gc.disable()
 
 SLOW = {
-    "": "action corpus environment page_commands processes properties wheel",
+    "": "action corpus environment page_commands processes properties transcripts wheel",
     "bench": "c_library claims foreign kernel_targets run scenes",
     "cli": "completion detach exits pytest_plugin refused settings startup",
     "derivation": "chains formulas proofs repaired_formulas rounding",

@@ -48,13 +48,15 @@ def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Pa
     target = None if out is None else _file_format(out, wanted)
     if out is None and len(wanted) > 1:
         raise InputError(f"{len(wanted)} formats need a folder: --out FOLDER")
+    from hypcheck.record.reader import file_and_newer
+
     found, other = _read(record, record), None if against is None else _read(against, record)
     if out is None:
         _print(found, wanted[0] if wanted else "terminal", other)
     elif target is None:
         _into_folder(found, out, wanted or kept_formats(), other)
     else:
-        if any(same_file(str(out), str(each)) for each in (record, against) if each is not None):
+        if any(same_file(str(out), str(file_and_newer(each)[0])) for each in (record, against) if each is not None):
             raise InputError(f"--out {out} is a record that is being read; name another file")
         _into_file(found, record, out, target, other)
 

@@ -197,14 +197,14 @@ def _generated_chunks(start: int, count: int) -> Iterator[tuple[int, int]]:
 
 def frozen_count(name: str) -> int:
     """The number of frozen vectors of a family."""
-    return len(frozen_vectors(name).rows) if name in vectors.ALL_NAMES else 0
+    return vectors.count_of(name) if name in vectors.ALL_NAMES else 0
 
 
 def searched_chunks() -> Iterator[CaseChunk]:
     """The frozen vectors that no family generates: the worst cancellations, which a search found."""
     for name in vectors.NAMES:
         if name not in FAMILIES:
-            known = len(frozen_vectors(name).rows)
+            known = frozen_count(name)
             yield CaseChunk(name, None, 0, known, min(known, EXPONENTS_OF))
 
 

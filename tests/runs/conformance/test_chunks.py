@@ -72,3 +72,10 @@ def test_stored_flip_exponents_of_frozen_vectors_equal_computed_ones(name):
     made = cases_of_chunk(chunk)
     some = np.arange(0, len(chunk), 3)
     assert chunks.flip_exponents_of(made, some).tolist() == judge.flip_exponents(made.rows[some]).tolist()
+
+
+@pytest.mark.slow
+def test_number_of_frozen_vectors_is_known_without_reading_them():
+    assert {name: chunks.frozen_count(name) for name in vectors.ALL_NAMES} == {
+        name: len(vectors.load(name).cases) for name in vectors.ALL_NAMES
+    }
