@@ -45,9 +45,32 @@ def snippet(begins):
     return "".join(line.removeprefix("    ") for line in found.splitlines(keepends=True))
 
 
+def step_named(name):
+    (step,) = [each for each in loaded(ACTION)["runs"]["steps"] if each.get("name", "").startswith(name)]
+    return step
+
+
+def ended(name, folder, program="", **given):
+    """How the step's script ended with these inputs, and what it gave to later steps; `program` runs as hypcheck."""
+    step, output = step_named(name), folder / "output"
+    path = folder / "hypcheck/bin/hypcheck"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/sh\n{program}\n", encoding="utf-8")
+    path.chmod(0o755)
+    output.write_text("", encoding="utf-8")
+    inputs = {variable: given.get(variable, "") for variable in step["env"]}
+    runner = {"RUNNER_OS": given.get("RUNNER_OS", "Linux"), "RUNNER_TEMP": str(folder), "GITHUB_OUTPUT": str(output)}
+    script = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]]
+    run = subprocess.run(
+        script, env={**os.environ, **inputs, **runner}, cwd=folder, capture_output=True, text=True, check=False
+    )
+    told = dict(line.split("=", 1) for line in output.read_text(encoding="utf-8").splitlines())
+    return run.returncode, run.stdout, told
+
+
 def step_run(name, folder, **given):
     """The lines that programs recorded while the step's script ran with these inputs as its environment."""
-    (step,) = [each for each in loaded(ACTION)["runs"]["steps"] if each.get("name", "").startswith(name)]
+    step = step_named(name)
     told = folder / "told"
     for program in ("hypcheck/bin/hypcheck", "hypcheck/bin/python", "python3"):
         path = folder / program
@@ -56,7 +79,7 @@ def step_run(name, folder, **given):
         path.chmod(0o755)
     inputs = {variable: given.get(variable, "") for variable in step["env"]}
     path = f"{folder}{os.pathsep}{os.environ['PATH']}"
-    environment = {**inputs, "PATH": path, "TOLD": str(told), "RUNNER_TEMP": str(folder)}
+    environment = {**inputs, "PATH": path, "TOLD": str(told), "RUNNER_TEMP": str(folder), "GITHUB_OUTPUT": os.devnull}
     script = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]]
     subprocess.run(script, env=environment, check=True, cwd=folder)
     return told.read_text(encoding="utf-8").replace(f"{folder}/", "").splitlines()
@@ -143,6 +166,82 @@ def test_inputs_of_the_action_reach_verify_as_single_words(tmp_path):
 
 def test_inputs_of_the_action_that_are_left_out_leave_the_defaults_of_verify(tmp_path):
     assert step_run("Verify", tmp_path, OUT="out") == ["hypcheck/bin/hypcheck", "verify", "--out", "out"]
+
+
+WINDOWS = {
+    "SPEC": (
+        r"library:build\Release\collide.dll",
+        r"library:C:\build\collide.dll",
+        r"python:src\mine.py:position",
+        "python:c:/src/mine.py:position",
+        r"command:D:\build\adapter.exe --fast",
+        r"library:\\server\share\collide.dll",
+    ),
+    "FROM": (r"dist\hypcheck.whl", "C:/dist/hypcheck.whl"),
+    "OUT": (r"reports\latest", "d:/reports"),
+}
+
+
+@pytest.mark.parametrize(("name", "value"), [(name, value) for name, values in WINDOWS.items() for value in values])
+def test_the_action_refuses_a_path_of_windows_in_one_sentence(name, value, tmp_path):
+    given = {"OUT": "reports/latest", name: value}
+    code, said, _ = ended("Refuse Windows", tmp_path, **given)
+    sentence = "which is a path of Windows; write it with / and relative to the top folder of the repository"
+    assert (code, said) == (2, f"::error title=hypcheck::{name.lower()} is {value}, {sentence}\n")
+
+
+def test_the_action_refuses_a_runner_of_windows_in_one_sentence(tmp_path):
+    code, said, _ = ended("Refuse Windows", tmp_path, OUT="reports/latest", RUNNER_OS="Windows")
+    sentence = "hypcheck does not run on Windows; give the job runs-on: ubuntu-latest"
+    assert (code, said) == (2, f"::error title=hypcheck::{sentence}\n")
+
+
+@pytest.mark.parametrize(
+    "spec",
+    ["", "builtin:fast", "library:./libcollide.so", "python:a/b.py:f", r'command:["./mine", "a\"b"]', "command:a\\ b"],
+)
+def test_the_action_takes_paths_of_linux(spec, tmp_path):
+    given = {"SPEC": spec, "FROM": "git+https://example.org/h.git@v1", "OUT": "my reports"}
+    assert ended("Refuse Windows", tmp_path, **given) == (0, "", {})
+
+
+def test_each_job_of_a_matrix_and_each_call_in_a_job_uploads_under_a_name_of_its_own(tmp_path):
+    (tmp_path / "pyproject.toml").touch()
+    names = []
+    for number in ("0", "1"):
+        folder = tmp_path / number  # of its own for each job, as on the runner
+        folder.mkdir()
+        given = {"JOB": "gate", "NUMBER": number, "ACTION": str(tmp_path)}
+        names += [ended("Name the cache", folder, **given)[2]["artifact"] for _ in range(2)]
+    assert names == [
+        "hypcheck-report-gate-0",
+        "hypcheck-report-gate-0-2",
+        "hypcheck-report-gate-1",
+        "hypcheck-report-gate-1-2",
+    ]
+    upload = loaded(ACTION)["runs"]["steps"][-1]["with"]
+    assert upload["name"] == loaded(ACTION)["outputs"]["artifact"]["value"] == "${{ steps.names.outputs.artifact }}"
+    assert step_named("Name the cache")["env"]["NUMBER"] == "${{ strategy.job-index }}"
+
+
+def test_a_named_artifact_keeps_its_name(tmp_path):
+    (tmp_path / "pyproject.toml").touch()
+    given = {"JOB": "gate", "NUMBER": "3", "ACTION": str(tmp_path), "ARTIFACT": "mine"}
+    assert ended("Name the cache", tmp_path, **given)[2]["artifact"] == "mine"
+
+
+@pytest.mark.parametrize("code", [0, 1, 6])
+def test_the_exit_code_of_verify_is_that_of_the_step_and_an_output_of_the_action(code, tmp_path):
+    assert ended("Verify", tmp_path, f"exit {code}", OUT="out") == (code, "", {"exit-code": str(code)})
+    assert loaded(ACTION)["outputs"]["exit-code"]["value"] == "${{ steps.verify.outputs.exit-code }}"
+
+
+def test_each_output_of_the_action_is_of_an_input_or_of_a_step_that_has_it():
+    steps = {step["id"]: step["run"] for step in loaded(ACTION)["runs"]["steps"] if "id" in step}
+    for output in loaded(ACTION)["outputs"].values():
+        for step, name in re.findall(r"steps\.(\w+)\.outputs\.([\w-]+)", output["value"]):
+            assert f'echo "{name}=' in steps[step]
+        assert set(re.findall(r"inputs\.(\w+)", output["value"])) <= set(loaded(ACTION)["inputs"])
 
 
 def test_the_options_that_the_action_passes_are_options_of_verify():

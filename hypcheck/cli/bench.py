@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from hypcheck.cli import completing
 from hypcheck.cli.options import (
     ISOLATE,
     LARGEST_SEED,
@@ -23,15 +24,18 @@ from hypcheck.cli.recording import recording, run_stages
 from hypcheck.cli.settings import in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
 
+METHODS = completing.Names(completing.bench_methods, many=True)
+WORKLOADS = completing.Names(completing.workloads, many=True)
+
 
 @click.command(short_help="Compare methods by error and run time, and their speed with an earlier run.")
-@click.argument("specs", nargs=-1, metavar="[SPEC]...")
+@click.argument("specs", nargs=-1, metavar="[SPEC]...", type=completing.SPEC)
 @click.option("--out", type=OutputPath(), default=Path("reports/bench"), show_default=True)
 @click.option(
     "--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes; no scenes, no forest."
 )
-@click.option("--methods", help="Names and globs, separated by commas.  [default: all]")
-@click.option("--workloads", help="Names and globs, separated by commas.  [default: all]")
+@click.option("--methods", type=METHODS, help="Names and globs, separated by commas.  [default: all]")
+@click.option("--workloads", type=WORKLOADS, help="Names and globs, separated by commas.  [default: all]")
 @click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
 @click.option(
     "--processes", type=IntegerOption(1), help="Number of fresh processes that measure.  [default: 5; quick: 3]"
@@ -59,6 +63,7 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 @click.option(
     "--scene",
     multiple=True,
+    type=completing.SCENE,
     metavar="SCENE",
     help="Measure only what a kernel for this scene saves; may be repeated. If its mover leans: methods on its rows.",
 )

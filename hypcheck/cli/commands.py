@@ -3,13 +3,14 @@
 One table maps each error to its exit code and message. A closed pipe ends quietly with 141, as the system would end the
 program: a reader that stops early must not turn a failure into a pass, nor a run into an internal error. For completion
 the shell starts `hypcheck` at every press of the key with the variable COMPLETE set, so commands load as for --help,
-without numpy. The protocol and the scripts are click's.
+without numpy, and completing.py what has the names of one value. The protocol and the scripts are click's.
 """
 
 from __future__ import annotations
 
 import errno
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -212,7 +213,7 @@ def completion(shell: str) -> None:
 
     The script calls the hypcheck that is first on PATH. Open a new shell afterwards.
     """  # noqa: D301 - \b tells click not to fill what follows
-    click.echo(_completing(shell).source())
+    click.echo(_script(shell))
 
 
 def answer_shell(instruction: str) -> None:
@@ -223,7 +224,7 @@ def answer_shell(instruction: str) -> None:
         raise InputError(f"{COMPLETE} is {instruction!r}; it must be one of {known}, or not set")
     completing = _completing(shell)
     try:
-        click.echo(completing.source() if wanted == "source" else _completions(completing))
+        click.echo(_script(shell) if wanted == "source" else _completions(completing))
     except KeyError as error:
         raise InputError(f"{COMPLETE} is {instruction!r}, but {error.args[0]} is not set; the shell sets it") from None
     except ValueError:  # of COMP_CWORD
@@ -237,10 +238,37 @@ def _completing(shell: str) -> ShellComplete:
     return kind(hypcheck, {}, "hypcheck", COMPLETE)
 
 
+def _script(shell: str) -> str:
+    """The shell's script. That of click cuts fish's values off at their first comma."""
+    return _completing(shell).source().replace('string split ","', 'string split --max 1 ","')
+
+
 def _completions(completing: ShellComplete) -> str:
     """Completions of the unfinished word; if there are none, the shell offers files."""
-    words, unfinished = completing.get_completion_args()
+    words, part = completing.get_completion_args()
+    *words, unfinished = _unsplit([*words, part]) if completing.name == "bash" else [*words, part]
     found = completing.get_completions(words, unfinished)
     if not found and not unfinished.startswith("-"):
-        found = [CompletionItem(unfinished, type="file")]
+        return completing.format_completion(CompletionItem(part, type="file"))
+    option, equals, _ = unfinished.rpartition("=") if unfinished.startswith("--") else ("", "", "")
+    kept = unfinished if _SEPARATORS.fullmatch(part) else unfinished.removesuffix(part)  # the shell replaces the part
+    for item in (item for item in found if item.value):
+        item.value = f"{option}{equals}{item.value}".removeprefix(kept)
     return "\n".join(map(completing.format_completion, found))
+
+
+_SEPARATORS = re.compile("[:=]+")
+
+
+def _unsplit(words: Sequence[str]) -> list[str]:
+    """The words of a command line, which bash splits at : and = too: builtin:fast comes as three."""
+    whole: list[str] = []
+    open_ = False
+    for word in words:
+        separates = _SEPARATORS.fullmatch(word) is not None
+        if whole and (separates or open_):
+            whole[-1] += word
+        else:
+            whole.append(word)
+        open_ = separates
+    return whole

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from hypcheck.cli import completing
 from hypcheck.messages import printable
 
 _HELP = """\
@@ -19,27 +20,8 @@ hypcheck explain ring --format json
 """
 
 
-class _CauseId(click.ParamType[str]):
-    """An id of a cause, which shells complete."""
-
-    name = "id"
-
-    def shell_complete(
-        self,
-        ctx: click.Context,  # noqa: ARG002 - click's signature
-        param: click.Parameter,  # noqa: ARG002
-        incomplete: str,
-    ) -> list[click.shell_completion.CompletionItem]:
-        """The ids that begin so."""
-        from click.shell_completion import CompletionItem
-
-        from hypcheck.runs.explain import BY_ID
-
-        return [CompletionItem(name, help=BY_ID[name].sentence) for name in BY_ID if name.startswith(incomplete)]
-
-
 @click.command(help=_HELP, short_help="Explain a cause of wrong answers by its id.")
-@click.argument("name", metavar="[ID]", required=False, type=_CauseId())
+@click.argument("name", metavar="[ID]", required=False, type=completing.Names(completing.causes))
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True)
 def explain(name: str | None, form: str) -> None:
     """Explain, and print the result."""

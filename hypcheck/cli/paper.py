@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hypcheck.cli import completing
 from hypcheck.cli.commands import CommandGroup
 from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath, with_options
 from hypcheck.cli.progress import watched
@@ -107,7 +108,14 @@ def simulate() -> None:
 
 
 @simulate.command(short_help="A walker among many trees, by Procedure 1 in float32.")
-@click.option("--scene", "name", default="forest", show_default=True, help="A scene file, or a shipped scene.")
+@click.option(
+    "--scene",
+    "name",
+    type=completing.SCENE,
+    default="forest",
+    show_default=True,
+    help="A scene file, or a shipped scene.",
+)
 @click.option("--steps", type=IntegerOption(0), help="Steps to try.  [default: the scene's]")
 @common
 def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str, **flags: bool) -> None:
@@ -129,7 +137,14 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
 
 
 @simulate.command(short_help="A quadcopter in a cooling tower, by Procedures 2.a and 2.b; Table 5 reproduced.")
-@click.option("--scene", "name", default="tower", show_default=True, help="A scene file, or tower-simplest.")
+@click.option(
+    "--scene",
+    "name",
+    type=completing.SCENE,
+    default="tower",
+    show_default=True,
+    help="A scene file, or tower-simplest.",
+)
 @click.option("--table", type=click.Choice(["5"]), help="Reproduce the paper's Table 5.")
 @click.option("--runs", type=IntegerOption(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]")
 @click.option(

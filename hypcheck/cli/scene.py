@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hypcheck.cli import completing
 from hypcheck.messages import printable
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ hypcheck plan tower --measure
 
 
 @click.command(help=_PLAN_HELP, short_help="Show what a scene needs, and what can be left out.")
-@click.argument("scene")
+@click.argument("scene", metavar="SCENE", type=completing.SCENE)
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
 @click.option("--measure", is_flag=True, help="Compile the kernel, and time it beside Table 2 as printed.")
@@ -116,13 +117,14 @@ default names.
 """
 
 
-@click.command(help=_EMIT_HELP, short_help="Write code to take, for a scene or for one pair.")
+@click.command(help=_EMIT_HELP, short_help="Generate source code for a scene, or for one pair.")
 @click.option(
     "--method",
     metavar="METHOD",
+    type=completing.Names(completing.pair_methods),
     help="Of one pair, without a scene: exact, certified, dual or local-maximum.",
 )
-@click.option("--scene", metavar="SCENE", help="A scene file, or the name of a shipped scene.")
+@click.option("--scene", metavar="SCENE", type=completing.SCENE, help="A scene file, or the name of a shipped scene.")
 @click.option("--language", required=True, type=click.Choice(LANGUAGES), help="The language of the kernel.")
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")

@@ -32,7 +32,7 @@ _DEFAULT_NAME = "predicate"
     type=click.Choice(STUBS),
     default=STUBS[0],
     show_default=True,
-    help="What the stub answers: where a spheroid stands, or whether it meets contact on a way.",
+    help="What the stub answers: the position of a spheroid, or whether it meets contact on a way.",
 )
 @click.option("--name", help="The name of the implementation in reports; by default that of the directory.")
 @click.option(
@@ -87,6 +87,8 @@ def _print_next(project: Project, directory: Path) -> None:
         click.echo(printable(f"    {command}"))
     where = "where only the body touches, not its centre," if project.stub == "passage" else "on the ring for example,"
     click.echo(f"\nThe second passes. The third fails, {where} until {project.predicate} is yours.")
+    if project.emit:
+        click.echo(f"Code that is right for every row comes from:\n\n    {project.emit}")
 
 
 def _named(name: str | None, directory: Path) -> str:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
+from hypcheck.cli import completing
 from hypcheck.cli.options import (
     LARGEST_SEED,
     LIMITS,
@@ -169,12 +170,14 @@ _COUNT = IntegerOption(1)
 
 
 @click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
-@click.argument("specs", nargs=-1, metavar="[SPEC]...")
+@click.argument("specs", nargs=-1, metavar="[SPEC]...", type=completing.SPEC)
 @click.option(
     "--out", type=OutputPath(), default=Path("reports/latest"), show_default=True, help="The folder of the reports."
 )
 @click.option(
-    "--families", help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]"
+    "--families",
+    type=completing.FAMILIES,
+    help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]",
 )
 @click.option(
     "--count", type=IntegerOption(0), default=400, show_default=True, help="Number of generated rows of each family."

@@ -22,8 +22,10 @@ from hypcheck.errors import InputError, system_reason
 from hypcheck.implementations.spec import Spec, is_file, parse_spec
 from hypcheck.messages import counted, escaped, sentence
 from hypcheck.record import Record
+from hypcheck.record.lines import CauseLine
 from hypcheck.record.reader import FILE
 from hypcheck.report import markdown
+from hypcheck.report.messages import UNEXPLAINED
 from hypcheck.report.model import implementations, under_test
 from hypcheck.report.verdict import (
     EXIT_INCONCLUSIVE,
@@ -156,9 +158,17 @@ _SUBJECTS = {
 
 
 def render_sarif(record: Record) -> bytes:
-    """results.sarif, in SARIF 2.1.0, as JSON in UTF-8: a result for each failure, none if the run passed."""
+    """results.sarif, in SARIF 2.1.0, as JSON in UTF-8: a result for each failure, none if the run passed.
+
+    A note for each cause of wrong answers follows; its rule has the id that `hypcheck explain` takes.
+    """
     found = placed_failures(record)
-    rules = list(dict.fromkeys(each.rule for each in found))
+    causes = record.of(CauseLine) if found else []
+    known = dict.fromkeys(each.rule for each in found)
+    rules = [_rule(rule) for rule in known]
+    rules += {sentence(line.cause): _cause_rule(line) for line in causes}.values()
+    number = {rule["id"]: place for place, rule in enumerate(rules)}
+    places, names = dict(_places(record)), {each.line.spec: each.name for each in under_test(record)}
     ended, footer = verdict(record), record.footer
     invocation = {
         "executionSuccessful": footer is not None and not any(each.failure.subject == "run" for each in found),
@@ -170,12 +180,18 @@ def render_sarif(record: Record) -> bytes:
             "driver": {
                 "name": "hypcheck",
                 "version": sentence(record.header.hypcheck),
-                "rules": [_rule(rule) for rule in rules],
+                "rules": rules,
             }
         },
         "invocations": [invocation],
         "columnKind": "unicodeCodePoints",
-        "results": [_result(each, rules.index(each.rule)) for each in found],
+        "results": [
+            *(_result(each, number[each.rule]) for each in found),
+            *(
+                _cause_result(line, number[sentence(line.cause)], places.get(names.get(line.spec, ""), UNKNOWN))
+                for line in causes
+            ),
+        ],
     }
     log = {"$schema": SCHEMA, "version": VERSION, "runs": [run]}
     return (json.dumps(log, ensure_ascii=False, indent=2) + "\n").encode("utf-8", "replace")
@@ -194,6 +210,29 @@ def _result(each: PlacedFailure, rule: int) -> dict[str, Any]:
         "message": {"text": each.message},
         "locations": [{"physicalLocation": _location(each.place)}],
         "partialFingerprints": {"hypcheck/v1": each.fingerprint},
+    }
+
+
+def _cause_rule(line: CauseLine) -> dict[str, Any]:
+    about = "" if line.cause == UNEXPLAINED else f"; hypcheck explain {line.cause}"
+    return {
+        "id": sentence(line.cause),
+        "shortDescription": {"text": sentence(line.sentence)},
+        "help": {"text": sentence(f"{line.remedy}{about}")},
+    }
+
+
+def _cause_result(line: CauseLine, rule: int, place: Place) -> dict[str, Any]:
+    """A note: the failures that it explains are results of their own."""
+    digest = hashlib.sha256(f"cause\0{line.spec}\0{line.cause}".encode("utf-8", "replace")).hexdigest()
+    told = f"{line.cases:,} wrong: {line.sentence}; fix: {line.remedy}"
+    return {
+        "ruleId": sentence(line.cause),
+        "ruleIndex": rule,
+        "level": "note",
+        "message": {"text": sentence(told)},
+        "locations": [{"physicalLocation": _location(place)}],
+        "partialFingerprints": {"hypcheck/v1": digest},
     }
 
 

@@ -226,6 +226,10 @@ class Replays:
         return shlex.join(["hypcheck", "replay", case, spec, *self.options])
 
 
+UNEXPLAINED = "unexplained"
+"""The cause of wrong answers that no known cause gives."""
+
+
 def share_text(line: CauseLine, lines: Sequence[CauseLine]) -> str:
     """The share of an implementation's wrong answers that have this cause: "12 %", "under 1 %"."""
     total = sum(other.cases for other in lines if other.spec == line.spec and other.method == line.method)

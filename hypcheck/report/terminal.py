@@ -27,6 +27,7 @@ from hypcheck.report.drawings import ALONE, ReportContext
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.measured import NEAREST, MeasuredMethod, WayTotal, measured_methods, way_totals, workloads
 from hypcheck.report.messages import (
+    UNEXPLAINED,
     Replays,
     error_text,
     families_text,
@@ -176,9 +177,6 @@ MOST_LINES = 25
 
 MOST_FAILURES = 8
 """Failures that are listed; report.md has more of them, and junit.xml all."""
-
-UNEXPLAINED = "unexplained"
-"""The cause of a line where none is known."""
 
 MOST_CAUSES = 6
 """Causes of wrong answers that are listed, three lines each; report.md has all."""

@@ -24,6 +24,7 @@ from hypcheck import toml
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import WAYS, Floats, Indices, Mask, Positions, Rows
 from hypcheck.implementations.description import UNIT_ROUNDOFF
+from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import exact
@@ -123,6 +124,12 @@ class Cause:
     claim: str = ""
     slack: float = 0.02
     certain: Callable[[Asked], Mask] | None = None
+
+    def remedy_in(self, language: str) -> str:
+        """The remedy for an implementation in that language: a command in it can be typed as it stands."""
+        name = {"c++": "cpp"}.get(language.lower(), language.lower())
+        command = "hypcheck emit --method exact"
+        return self.remedy.replace(command, f"{command} --language {name}") if name in DIALECTS else self.remedy
 
     @property
     def rounds(self) -> bool:

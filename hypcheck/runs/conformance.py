@@ -242,7 +242,9 @@ class ImplementationLines:
                 method=self.used.name,
                 cause=each.cause.name if each.cause else UNEXPLAINED,
                 sentence=each.cause.sentence if each.cause else "no known cause gives these answers",
-                remedy=each.cause.remedy if each.cause else "look at the worst of them with replay",
+                remedy=each.cause.remedy_in(self.used.language)
+                if each.cause
+                else "look at the worst of them with replay",
                 claim=each.cause.claim if each.cause else "",
                 cases=each.cases,
                 families=dict(each.families),

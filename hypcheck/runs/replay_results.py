@@ -32,7 +32,7 @@ def replay_as_json(done: Replay) -> str:
     judgement = done.judgement
     more: dict[str, Any] = {"time": judgement.time, "radii_off": judgement.radii}
     if done.case.layout is not WAYS:
-        causes = [_cause_json(each) for each in done.causes]
+        causes = [_cause_json(cause, done.used.language) for cause in done.causes]
         more = {"causes": causes, "values": None if done.choice is None else _choice_json(done.choice)}
     return json.dumps(
         plain(
@@ -59,8 +59,9 @@ def replay_as_json(done: Replay) -> str:
     )
 
 
-def _cause_json(cause: Cause) -> dict[str, Any]:
-    return {"cause": cause.name, "sentence": cause.sentence, "remedy": cause.remedy, "claim": cause.claim or None}
+def _cause_json(cause: Cause, language: str) -> dict[str, Any]:
+    remedy = cause.remedy_in(language)
+    return {"cause": cause.name, "sentence": cause.sentence, "remedy": remedy, "claim": cause.claim or None}
 
 
 def _truth_json(truth: ProvedTruth | Passage) -> dict[str, Any]:
@@ -135,7 +136,7 @@ def replay_lines(done: Replay) -> Iterator[str]:
     yield ""
     yield from _judgement_lines(done)
     for cause in done.causes:
-        yield from _cause_lines(cause)
+        yield from _cause_lines(cause, done.used.language)
     if done.choice is not None and isinstance(done.truth, ProvedTruth):
         yield ""
         yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
@@ -171,7 +172,7 @@ def _regime(pair: Pair) -> str:
     return f"{wide}, {bent}; {'stated by Proposition ' + ' and '.join(stated) if stated else 'outside both regimes'}"
 
 
-def _cause_lines(cause: Cause) -> Iterator[str]:
+def _cause_lines(cause: Cause, language: str) -> Iterator[str]:
     """Why the answer is wrong, the paper's claim that is the reason with the ledger's verdict, and the right line."""
     yield from _titled("cause", cause.sentence)
     if cause.claim:
@@ -179,7 +180,7 @@ def _cause_lines(cause: Cause) -> Iterator[str]:
 
         entry = statement(cause.claim)
         yield from _titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
-    yield from _titled("fix", cause.remedy)
+    yield from _titled("fix", cause.remedy_in(language))
 
 
 def _judgement_lines(done: Replay) -> Iterator[str]:

@@ -27,7 +27,6 @@ class Language:
     build: the command line that builds the adapter.
     spec: the SPEC that verify is given after the build.
     products: the files that the build leaves behind.
-    links: what the build line of the stub for ways has at its end.
     """
 
     name: str
@@ -36,7 +35,6 @@ class Language:
     build: str
     spec: str
     products: tuple[str, ...]
-    links: str = ""
 
     @property
     def folder(self) -> str:
@@ -52,10 +50,9 @@ _LISTED = (
         name="c",
         files=("predicate.c", "adapter.c", "predicate.h"),
         predicate="predicate.c",
-        build="cc -std=c11 -O2 -ffp-contract=off -o hypcheck-c/adapter hypcheck-c/adapter.c hypcheck-c/predicate.c",
+        build="cc -std=c11 -O2 -ffp-contract=off -o hypcheck-c/adapter hypcheck-c/adapter.c hypcheck-c/predicate.c -lm",
         spec="command:hypcheck-c/adapter",
         products=("/adapter", "/predicate.so"),
-        links=" -lm",
     ),
     Language(
         name="cpp",
@@ -140,7 +137,7 @@ class Project:
     @property
     def build(self) -> str:
         """The command line that builds the adapter."""
-        return self.language.build + (self.language.links if self.stub == "passage" else "")
+        return self.language.build
 
     @property
     def right_on(self) -> str:
@@ -156,6 +153,15 @@ class Project:
     def commands(self) -> tuple[str, str, str]:
         """The commands to type next: build, verify where the stub is right, verify everywhere."""
         return self.build, f"{self.verify} --families {self.right_on}", self.verify
+
+    @property
+    def emit(self) -> str:
+        """The command line that writes a right predicate in the place of the stub; empty where there is none."""
+        from hypcheck.kernel.emission.dialects import DIALECTS  # noqa: PLC0415 - only what is printed last needs it
+
+        if self.stub != "position" or self.language.name not in DIALECTS:
+            return ""
+        return f"hypcheck emit --method exact --language {self.language.name} --output {self.predicate}"
 
     @property
     def predicate(self) -> str:

@@ -9,10 +9,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import click
 import pytest
 
 from hypcheck.cli import COMPLETE
-from hypcheck.cli.commands import SHELLS
+from hypcheck.cli.commands import SHELLS, hypcheck
+from hypcheck.cli.completing import Names
 from hypcheck.cli.main import main
 
 BASH = """
@@ -41,6 +43,8 @@ LINES = {
     "hypcheck verify --fail-on w": {"wrong"},
     "hypcheck simulate ''": {"forest", "tower"},
     "hypcheck completion z": {"zsh"},
+    "hypcheck verify --families tilted-t": {"tilted-t" + name for name in ("ower", "angent", "wins")},
+    "hypcheck plan tower-": {"tower-simplest"},
 }
 
 
@@ -141,3 +145,94 @@ def test_an_invalid_completion_variable_ends_2_with_one_sentence(instruction, mo
     monkeypatch.setenv(COMPLETE, instruction)
     assert main([]) == 2
     assert f"{COMPLETE} is {instruction!r}" in capsys.readouterr().err
+
+
+@pytest.fixture
+def offers(monkeypatch, capsys):
+    """The types and values that a shell is answered for the last word of a line."""
+
+    def answer(shell, line):
+        for name, value in asked(shell, line, {}).items():
+            monkeypatch.setenv(name, value)
+        assert main([]) == 0
+        lines = capsys.readouterr().out.splitlines()
+        if shell == "zsh":
+            return list(zip(lines[::3], lines[1::3], strict=True))
+        return [tuple(line.split("\t")[0].split(",", 1)) for line in lines]
+
+    return answer
+
+
+NAMES = {
+    "hypcheck verify --families extreme-ma": ["extreme-magnitude"],
+    "hypcheck verify --families ring,extreme-ma": ["ring,extreme-magnitude"],
+    "hypcheck verify --families=extreme-ma": ["--families=extreme-magnitude"],
+    "hypcheck verify builtin:fast-": ["builtin:fast-numpy"],
+    "hypcheck hunt builtin:fast-": ["builtin:fast-numpy"],
+    "hypcheck bench builtin:fast-": ["builtin:fast-numpy"],
+    "hypcheck replay ring-000": [f"ring-000{digit}" for digit in range(10)],
+    "hypcheck replay way-rin": [f"way-ring-{number:04}" for number in range(111)],
+    "hypcheck minimise builtin:fast ring-001": [f"ring-001{digit}" for digit in range(10)],
+    "hypcheck bench --methods fast,nearest": ["fast,nearest-point"],
+    "hypcheck bench --tilted --methods eig": ["eigh"],
+    "hypcheck bench --question passage --methods passage-cap": ["passage-capsule"],
+    "hypcheck bench --workloads uniform,ri": ["uniform,ring"],
+    "hypcheck bench --scene fo": ["forest"],
+    "hypcheck emit --scene fo": ["forest"],
+    "hypcheck emit --method e": ["exact"],
+    "hypcheck simulate tower --scene tower-": ["tower-simplest"],
+    "hypcheck explain thro": ["throat"],
+    "hypcheck cases show ring-023": [f"ring-023{digit}" for digit in range(10)],
+    "hypcheck cases generate extreme-ma": ["extreme-magnitude"],
+    "hypcheck cases freeze ring tower-b": ["tower-body"],
+    "hypcheck engines verify rapier": ["rapier3d"],
+}
+
+
+@pytest.mark.parametrize("line", NAMES)
+@pytest.mark.parametrize("shell", SHELLS)
+def test_completion_offers_the_names_that_a_value_may_have(shell, line, offers):
+    assert offers(shell, line) == [("plain", name) for name in NAMES[line]]
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_completion_offers_no_file_where_a_name_is_wanted(shell, offers):
+    for line in ("hypcheck verify --families zz", "hypcheck explain zz", "hypcheck replay zz"):
+        assert [kind for kind, _ in offers(shell, line)] == ["nothing"], line
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_completion_offers_files_where_a_scene_or_a_spec_may_be_one(shell, offers):
+    for line in ("hypcheck plan zz", "hypcheck verify python:zz", "hypcheck verify library:./zz"):
+        assert offers(shell, line) == [("file", line.split()[-1])], line
+
+
+@pytest.mark.parametrize(
+    ("words", "kind", "value"),
+    [
+        ("builtin : fast-", "plain", "fast-numpy"),
+        ("--families = extreme-ma", "plain", "extreme-magnitude"),
+        ("python : zz", "file", "zz"),
+        ("library :", "file", ":"),
+    ],
+)
+def test_completion_of_bash_offers_the_part_behind_the_colons_that_it_splits_words_at(words, kind, value, offers):
+    assert offers("bash", f"hypcheck verify {words}") == [(kind, value)]
+
+
+def test_every_value_with_a_table_of_names_is_completed_from_it():
+    """An option or argument of these names, in any command, is none that completes files."""
+    tables = {"specs", "spec", "case", "families", "family", "methods", "method", "workloads", "scene", "names"}
+    for path, command in every_command(hypcheck, ()):
+        for parameter in command.params:
+            if parameter.name in tables:
+                assert isinstance(parameter.type, Names), (path, parameter.name)
+
+
+def every_command(command, path):
+    if isinstance(command, click.Group):
+        context = click.Context(command)
+        for name in command.list_commands(context):
+            yield from every_command(command.get_command(context, name), (*path, name))
+    else:
+        yield path, command

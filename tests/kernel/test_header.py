@@ -92,6 +92,13 @@ def test_the_header_does_not_compile_with_options_that_void_the_proofs(option, c
     assert declared.returncode == 0  # files that only call may be compiled as they like
 
 
+@needs_gcc
+def test_the_header_does_not_compile_with_constants_in_single_precision(tmp_path):
+    done = compiled_source(tmp_path, IMPLEMENTATION, "-fsyntax-only", "-fsingle-precision-constant")
+    assert done.returncode != 0
+    assert "hc_constants_are_double" in done.stderr
+
+
 @needs_clang
 @pytest.mark.parametrize("option", PARTS)
 def test_the_header_undoes_options_that_clang_does_not_report(option, tmp_path):

@@ -65,6 +65,42 @@ def test_every_failure_of_a_run_is_a_result_of_valid_sarif(record):
         assert run["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
 
 
+def caused(cause, cases):
+    worst = {
+        "case": "ring-0000",
+        "row": ["0x1.0000000000000p+0"] * 7,
+        "truth": 1,
+        "answer": 0,
+        "mistake": "false-contact",
+        "status": "wrong",
+    }
+    worst |= {"backward_error": 0.25, "backward_error_u": 1e15}
+    texts = {"sentence": f"what {cause} does", "remedy": f"what mends {cause}", "claim": ""}
+    counts = {"cases": cases, "families": {"ring": cases}, "worst": worst}
+    return {"type": "cause", "spec": "library:./mine.so", "method": "mine", "cause": cause, **texts, **counts}
+
+
+def test_causes_are_rules_of_sarif_by_the_ids_that_explain_takes():
+    record = made(CRASHED, caused("ring", 331), caused("unexplained", 7))
+    log = json.loads(render_sarif(record))
+    Sarif.model_validate(log)
+    (run,) = log["runs"]
+    rules = {rule["id"]: rule for rule in run["tool"]["driver"]["rules"]}
+    assert rules["ring"]["shortDescription"] == {"text": "what ring does"}
+    assert rules["ring"]["help"] == {"text": "what mends ring; hypcheck explain ring"}
+    assert rules["unexplained"]["help"] == {"text": "what mends unexplained"}
+    notes = [result for result in run["results"] if result["level"] == "note"]
+    assert [note["ruleId"] for note in notes] == ["ring", "unexplained"]
+    assert notes[0]["message"] == {"text": "331 wrong: what ring does; fix: what mends ring"}
+    assert list(rules).index("ring") == notes[0]["ruleIndex"]
+    assert len({result["partialFingerprints"]["hypcheck/v1"] for result in run["results"]}) == len(run["results"])
+
+
+def test_causes_of_a_run_that_passed_are_no_results_of_sarif():
+    (run,) = json.loads(render_sarif(made(caused("ring", 331), exit_code=0)))["runs"]
+    assert run["results"] == []
+
+
 def test_sarif_validation_of_these_tests_refuses_an_unknown_key():
     log = json.loads(render_sarif(made(*FAILING, exit_code=6)))
     log["runs"][0]["results"][0]["mesage"] = {"text": "misspelt"}

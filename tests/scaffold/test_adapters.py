@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import re
 import shlex
 import shutil
@@ -18,6 +19,7 @@ from hypcheck.cli.main import main
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits
+from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.scaffold.project import LANGUAGES, Language, Project
 from hypcheck.vectors.families import FAMILIES
 from tests.support.without_drawing import COMMAND
@@ -342,7 +344,7 @@ def test_generated_predicate_can_be_built_and_verified_alone_as_a_library(built,
 
 
 def test_generated_stub_passes_on_the_scenes_of_the_paper_and_fails_on_the_ring(built, spec, text_reports):
-    _, passes, fails = (shlex.split(typed) for typed in built.typed)
+    _, passes, fails, *_ = (shlex.split(typed) for typed in built.typed)
     assert passes[0] == fails[0] == "hypcheck"
     assert main([*passes[1:], "--out", "passed"]) == 0
     assert main([*fails[1:], "--families", "ring", "--count", "100", "--out", "failed"]) == 1
@@ -350,6 +352,76 @@ def test_generated_stub_passes_on_the_scenes_of_the_paper_and_fails_on_the_ring(
     assert passed["implementations"][0]["right"] > 800
     assert failed["implementations"][0]["wrong"] > 10
     assert failed["implementations"][0]["name"] == "stub"
+
+
+@pytest.mark.parametrize("built", [name for name in LANGUAGES if name in DIALECTS], indirect=True)
+def test_the_last_command_that_init_prints_writes_a_predicate_that_passes_the_gate(
+    built, tmp_path, monkeypatch, text_reports
+):
+    other = replace(built, folder=tmp_path / "other")
+    shutil.copytree(built.folder, other.folder)
+    monkeypatch.chdir(other.folder)
+    build, _, gate, emit = built.typed
+    for command in (emit, build, f"{gate} --count 0 --families '*'"):
+        done = other.run(command)
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert "HELD: pair, exact" in done.stdout
+
+
+KERNELS = {
+    "certified": ("--method", "certified"),
+    "a scene": ("--scene", "tower", "--question", "position"),
+    "a whole scene": ("--scene", "tower", "--whole", "--question", "position"),
+    "any axis": ("--scene", "leaning.toml"),
+}
+LEANING = """name = "leaning"
+[mover]
+b = 0.25
+d = 0.15
+axis = "free"
+[[hyperboloid]]
+alpha = 2
+gamma = 17.8
+[region]
+x = [-3, 3]
+y = [-3, 3]
+z = [-9, 9]
+"""
+
+
+@pytest.mark.parametrize("built", ["c", "cpp", "rust"], indirect=True)
+@pytest.mark.parametrize("kernel", KERNELS)
+def test_every_kernel_that_emit_writes_fits_the_adapter(built, kernel, tmp_path, monkeypatch):
+    other = replace(built, folder=tmp_path / "other")
+    shutil.copytree(built.folder, other.folder)
+    monkeypatch.chdir(other.folder)
+    (other.folder / "leaning.toml").write_text(LEANING)
+    path = Path(built.language.folder, built.language.predicate)
+    words = ["--language", built.language.name, "--output", str(path)]
+    assert main(["emit", *KERNELS[kernel], *words]) == 0
+    done = other.run(built.typed[0])
+    assert done.returncode == 0, done.stderr
+    tilted = kernel == "any axis"
+    with asked(built.language.spec) as it:
+        assert it.declared.tilt is tilted
+        sizes = it.declared.domain.settings[0].sizes if it.declared.domain.settings else (2.0, 17.8, 0.25, 0.15)
+        row = [*sizes, 1.1 * sizes[0] + sizes[2], 0.0, 0.0, *([0.3, 0.0, 1.0] if tilted else [])]
+        assert it.classify(np.array([row])).answers.tolist() == [1]
+
+
+@pytest.mark.skipif(platform.system() != "Linux", reason="other linkers ask for both functions")
+@pytest.mark.parametrize("built", ["c", "cpp"], indirect=True)
+def test_adapter_says_that_the_predicate_lacks_the_function_that_its_description_asks_for(built, tmp_path):
+    other = replace(built, folder=tmp_path / "other")
+    shutil.copytree(built.folder, other.folder)
+    path = other.folder / built.language.folder / built.language.predicate
+    (before, after), _ = SWITCHED[built.language.name]
+    stub = path.read_text().replace(before, after, 1)
+    path.write_text(stub[: stub.index("void hypcheck_classify_tilted")])
+    assert other.run(f"{built.typed[0]} -w").returncode == 0
+    done = other.run(f"./{built.language.folder}/adapter")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith("the predicate lacks the function that its description asks for, see predicate.h")
 
 
 def test_git_ignores_the_build_products_of_a_generated_project(built, spec):

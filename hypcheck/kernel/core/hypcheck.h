@@ -142,6 +142,8 @@ int hypcheck_use_level(const char *name);
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "hypcheck: compile without -ffinite-math-only: NaN and infinities must be seen"
 #endif
+/* Compile without -fsingle-precision-constant: it changes the numbers that are written here. */
+typedef char hc_constants_are_double[sizeof(1.0) == sizeof(double) ? 1 : -1];
 
 #include <float.h>
 #include <string.h>
@@ -1641,7 +1643,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_3ca4b52389fdff84
+#ifndef HC_EDITION_4fea854f5d7070b7
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3176,7 +3178,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_3ca4b52389fdff84
+#define HC_EDITION_4fea854f5d7070b7
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -11,6 +11,7 @@ import json
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from hypcheck.derivation.program import Program
@@ -40,20 +41,28 @@ for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
 return text;"""
 
 
-def description_in_language(value: dict[str, Any], language: str) -> str:
-    """The description in a language. In C it is what the function does that returns it."""
+def description_in_language(value: dict[str, Any], language: str, prefix: str) -> str:
+    """The description in a language. In C it is what the function does that returns it; in Rust that function too."""
     if language == "python":
         return "\n    ".join(line.rstrip() for line in _lines(value, repr))
-    lines = list(_lines(value, json.dumps))
+    lines = list(_lines(value, partial(json.dumps, separators=(",", ":"))))  # adapters look for "tilt":true
     if language == "javascript":
         return "\n    ".join(line.rstrip() for line in lines)
     quoted = [json.dumps(line) for line in lines]  # C, C++ and Rust escape quotation marks and backslashes alike
     if language == "rust":
-        return ",\n        ".join(quoted)
+        return in_rust(quoted, prefix, tilted="tilt" in value)
     if language == "c" and sum(map(len, lines)) > LONGEST:
         size = sum(map(len, lines)) + 1
         return _BY_PARTS.format(parts=",\n    ".join(quoted), size=size, longest=LONGEST)
     return "return " + "\n    ".join(quoted) + ";"
+
+
+def in_rust(quoted: Sequence[str], prefix: str, *, tilted: bool = False) -> str:
+    """The description, and what the adapter of `hypcheck init` takes from a module: this and a function of one row."""
+    (asked, columns), (other, other_columns) = (("predicate", "7"), ("tilted", "10"))[:: -1 if tilted else 1]
+    named = {"asked": asked, "columns": columns, "other": other, "other_columns": other_columns}
+    parts = {"description": ",\n".join(quoted), "prefix": prefix, **named}
+    return DIALECTS["rust"].filled("description", parts).strip("\n")
 
 
 def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str]:
@@ -113,7 +122,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "open": dialect.literal(float(OPEN), plan.format.name),
         "choose": "\n".join(_choices(plan, dialect)),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
-        "description": description_in_language(description(plan, language), language),
+        "description": description_in_language(description(plan, language), language, prefix),
     }
     return dialect.filled("kernel", parts).strip("\n") + "\n"
 

@@ -21,7 +21,7 @@ from typing import Any
 from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import PREFIX, asked_of_compiler, require_prefix
+from hypcheck.kernel.emission.kernel import PREFIX, asked_of_compiler, in_rust, require_prefix
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
@@ -73,7 +73,7 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
         "steps": "\n".join(steps),
         "imports": "import math\n" if any("math." in step for step in steps) else "",
         "arithmetic": asked_of_compiler(dialect),
-        "description": _described(method, language),
+        "description": _described(method, language, prefix),
         "last": _last(method, language),
         "can": "" if whole else "const CANNOT_SAY: i8 = 2;\n",
         "integers": "",
@@ -112,7 +112,7 @@ def _head(method: str, language: str, command: Sequence[str]) -> Iterator[str]:
         yield "numbers to zero are allowed."
 
 
-def _described(method: str, language: str) -> str:
+def _described(method: str, language: str, prefix: str) -> str:
     told: dict[str, Any] = {
         "protocol": 1,
         "name": f"pair, {method} ({language})",
@@ -126,7 +126,9 @@ def _described(method: str, language: str) -> str:
     if language == "python":
         return repr(told)
     text = json.dumps(told)
-    return text if language == "javascript" else json.dumps(text)
+    if language == "javascript":
+        return text
+    return in_rust([json.dumps(text)], prefix) if language == "rust" else json.dumps(text)
 
 
 def _whole(program: Program, language: str) -> Iterator[str]:

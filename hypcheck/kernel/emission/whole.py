@@ -175,7 +175,7 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
         "yes": str(POSITION_OF.get(scene.question, NO_POSITION)),
         "of_parts": _of_parts(scene, plan, dialect),
         "constants": ", ".join(f"constants_{place}" for place in range(len(shapes.texts))) + ",",
-        "description": description_in_language(description(plan, language), language),
+        "description": description_in_language(description(plan, language), language, prefix),
     }
     return dialect.filled("whole", parts).strip("\n") + "\n"
 

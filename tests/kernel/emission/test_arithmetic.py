@@ -276,6 +276,16 @@ def test_no_emitted_kernel_compiles_with_options_that_void_its_bounds(tmp_path, 
         assert re.search('error: .*"?compile without -f', done.stderr), (name, done.stderr)
 
 
+@needs_gcc
+@pytest.mark.parametrize("language", SUFFIXES)
+def test_no_emitted_kernel_compiles_with_constants_in_single_precision(tmp_path, language):
+    for name, text in every_kind(language):
+        words = ("-fsyntax-only", "-fsingle-precision-constant")
+        done = compiled_source(tmp_path, text, *words, suffix=SUFFIXES[language])
+        assert done.returncode != 0, name
+        assert "constants_are_double" in done.stderr
+
+
 @needs_clang
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="clang takes options back on x86-64 and on aarch64 alone")
 @pytest.mark.parametrize("option", ["-funsafe-math-optimizations", *PARTS[2:]])

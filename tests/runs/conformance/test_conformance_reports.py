@@ -24,6 +24,9 @@ from tests.support.without_drawing import draw_nothing
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
+CALLS_US = ("--isolate", "off")
+"""For functions that call hypcheck, which an isolated one does not see."""
+
 SPECS = (
     "builtin:fast",
     "builtin:table-2-float64",
@@ -105,7 +108,10 @@ def test_two_implementations_with_the_same_name_are_distinguished_in_reports(tmp
         (tmp_path / path).parent.mkdir()
         text = f"def classify(rows):\n    return {answer} + 0 * rows[:, 0].astype(int)\n"
         (tmp_path / path).write_text(f"from hypcheck.kernel import numpy_kernel\n{text}", encoding="utf-8")
-    assert main(["verify", *specs, "--families", "tower-body", "--count", "3", "--out", str(tmp_path / "out")]) == 1
+    assert (
+        main(["verify", *specs, "--families", "tower-body", "--count", "3", "--out", str(tmp_path / "out"), *CALLS_US])
+        == 1
+    )
     made = read(tmp_path / "out" / "record.jsonl")
     found = implementations(made)
     assert [each.name for each in found] == [f"same.py:classify ({spec})" for spec in specs]

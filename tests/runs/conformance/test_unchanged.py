@@ -18,6 +18,9 @@ from hypcheck.record.lines import DriftLine
 from hypcheck.record.reader import FILE
 from hypcheck.runs.fingerprint import code_fingerprint
 
+REACHES_US = ("--isolate", "off")
+"""Isolated, none of these implementations could write over a file, or call hypcheck."""
+
 SUBJECT = """
 from pathlib import Path
 from hypcheck import classify as right
@@ -42,7 +45,7 @@ def gated(site, folder, attack, *options):
     """The run that gates who attacks: its code, what it said, and its folder."""
     folder.mkdir()
     (folder / "subject.py").write_text(SUBJECT.format(attack=attack), encoding="utf-8")
-    words = ["verify", "python:subject.py:attacks", "--families", "tower-body", "--count", "20", *options]
+    words = ["verify", "python:subject.py:attacks", "--families", "tower-body", "--count", "20", *REACHES_US, *options]
     code = (
         "import sys; sys.modules['matplotlib'] = sys.modules['jinja2'] = None\n"
         "from hypcheck.cli.main import main\n"
@@ -52,7 +55,7 @@ def gated(site, folder, attack, *options):
     done = subprocess.run(
         [sys.executable, "run.py", *words, "--out", "out"],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": str(site)},
+        env={**os.environ, "PYTHONPATH": str(site), "PYTHONDONTWRITEBYTECODE": ""},
         capture_output=True,
         text=True,
         check=False,
@@ -147,7 +150,7 @@ def test_known_failures_that_change_during_a_run_fail_it_and_are_not_updated(tmp
         "    open('known.toml', 'w').write('# nothing\\n')\n"
         "    return hypcheck.classify(rows)\n"
     )
-    words = ["verify", "python:subject.py:f", "--count", "0", "--known-failures", "known.toml", "--update"]
+    words = ["verify", "python:subject.py:f", "--count", "0", "--known-failures", "known.toml", "--update", *REACHES_US]
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.setitem(sys.modules, "jinja2", None)
     assert main([*words, "--out", "out"]) == 1

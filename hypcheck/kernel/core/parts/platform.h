@@ -6,6 +6,8 @@
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "hypcheck: compile without -ffinite-math-only: NaN and infinities must be seen"
 #endif
+/* Compile without -fsingle-precision-constant: it changes the numbers that are written here. */
+typedef char hc_constants_are_double[sizeof(1.0) == sizeof(double) ? 1 : -1];
 
 #include <float.h>
 #include <string.h>

@@ -18,6 +18,17 @@
 #include <io.h>
 #endif
 
+/* A predicate has the function that its description asks for; the other may be missing. */
+#ifdef __ELF__
+@position@
+#pragma weak hypcheck_classify
+#pragma weak hypcheck_classify_tilted
+@passage@
+#pragma weak hypcheck_passage
+#pragma weak hypcheck_passage_tilted
+@end@
+#endif
+
 @position@
 enum { MOST_COLUMNS = 10, MOST = 65536, MOST_REPEATS = 999999999, LINE = 1024 };
 @passage@
@@ -188,6 +199,14 @@ int main(void) {
     times = strstr(hypcheck_describe(), "\"times\":true") != NULL;
 @end@
     if (tilt) columns = MOST_COLUMNS;
+@position@
+    if (!(tilt ? hypcheck_classify_tilted : hypcheck_classify)) {
+@passage@
+    if (!(tilt ? hypcheck_passage_tilted : hypcheck_passage)) {
+@end@
+        fputs("the predicate lacks the function that its description asks for, see predicate.h\n", stderr);
+        return 1;
+    }
     puts(hypcheck_describe());
     fflush(stdout);
     while (read_line(line)) {

@@ -21,6 +21,17 @@
 #include <io.h>
 #endif
 
+// A predicate has the function that its description asks for; the other may be missing.
+#ifdef __ELF__
+@position@
+#pragma weak hypcheck_classify
+#pragma weak hypcheck_classify_tilted
+@passage@
+#pragma weak hypcheck_passage
+#pragma weak hypcheck_passage_tilted
+@end@
+#endif
+
 namespace {
 
 constexpr std::size_t most = 65536;
@@ -186,6 +197,14 @@ void answer(const Words &words) {
 } // namespace
 
 int main() {
+@position@
+    if (!(tilt ? hypcheck_classify_tilted : hypcheck_classify)) {
+@passage@
+    if (!(tilt ? hypcheck_passage_tilted : hypcheck_passage)) {
+@end@
+        std::cerr << "the predicate lacks the function that its description asks for, see predicate.hpp\n";
+        return 1;
+    }
     std::ios::sync_with_stdio(false);
     std::setlocale(LC_NUMERIC, "C");
 #ifdef _WIN32
