@@ -16,7 +16,7 @@ from hypcheck.bench import scene as scene_kernel
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.cli.bench import bench
 from hypcheck.cli.main import main
-from hypcheck.errors import InputError, NothingJudgedError
+from hypcheck.errors import NothingJudgedError
 from hypcheck.implementations.meshes import FCL
 from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.specialise.plan import plan_of
@@ -147,29 +147,6 @@ def test_bench_scene_ends_with_1_if_the_emitted_kernel_is_wrong(small, tmp_path,
     assert "the kernel of the scene answers" in report
 
 
-@pytest.mark.parametrize(
-    ("options", "sentence"),
-    [
-        ({"forest": True, "kernel": True}, "--kernel measures only the fast path"),
-        ({"forest": True, "methods": ("fast",)}, "--forest measures only a walker's step"),
-        ({"forest": True, "scenes": ("tower",)}, "--forest measures only a walker's step"),
-    ],
-)
-def test_kernel_forest_and_scene_options_exclude_other_choices(options, sentence):
-    with pytest.raises(InputError, match=sentence):
-        BenchPlan(**options)
-
-
-def test_bench_scene_with_an_upright_scene_refuses_a_choice_of_methods(tmp_path):
-    with pytest.raises(InputError, match="--scene measures only scenes"):
-        ended(tmp_path, "--scene", "tower", "--methods", "fast")
-
-
-def test_bench_scene_refuses_a_missing_scene_file_before_measuring():
-    with pytest.raises(InputError, match="there is no such file"):
-        scene_kernel.plans_of(("nowhere.toml",))
-
-
 def test_bench_scene_with_a_broken_compiler_raises_nothing_judged(tmp_path, monkeypatch):
     monkeypatch.setenv("CC", "false")
     with pytest.raises(NothingJudgedError, match=r"no scene was measured: .*false does not compile"):
@@ -203,10 +180,3 @@ def test_plan_measure_prints_one_sentence_for_each_setting_below_the_plan(few, c
     assert plan[0] == "cooling tower: interior or not, in float32"
     assert body.startswith("1. In C")
     assert rotors.startswith("2. In C")
-
-
-def test_plan_measure_without_a_compiler_ends_2_with_one_sentence(monkeypatch, capsys):
-    monkeypatch.setenv("PATH", "")
-    monkeypatch.delenv("CC", raising=False)
-    assert main(["plan", "tower", "--measure"]) == 2
-    assert "no C compiler is found" in capsys.readouterr().err

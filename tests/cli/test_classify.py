@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from fractions import Fraction
 
 import pytest
@@ -50,22 +49,6 @@ def test_classify_of_one_pair_gives_the_answer_computed_by_hand(row, known, caps
     if clearance is not None:
         shown = clearance if clearance == "inf" else f"{clearance:g}"
         assert lines[1].startswith(f"clearance  {shown} spheroid radi")
-
-
-def test_classify_reads_negative_centers_in_every_notation(capsys):
-    for center in (("-2.5", "-0", "-0.0"), ("-.25e1", "0", "-1e-400"), ("0", "-25e-1", "+0")):
-        assert main([*options(1, 2, 1, 1, *center), "--json"]) == 0
-        assert json.loads(capsys.readouterr().out)["clearance"] == 0.5
-
-
-def test_classify_prints_a_valid_proof_for_the_example_of_the_readme(capsys):
-    assert main(options(1, 2, 1, 1, 2.5, 0, 0)) == 0
-    text = " ".join(capsys.readouterr().out.split())
-    at, value = re.search(r"λ = (\S+) lies in \(0, B\) and g\(λ\) = (\S+) is above 0", text).groups()
-    assert "A = (α/b)² = 1, B = (γ/d)² = 4, P = (x₀²+y₀²)/b² = 25/4, Q = (z₀/d)² = 0" in text
-    t = Fraction(at)
-    assert 0 < t < 4
-    assert Fraction(value) == (1 + t) * (4 - t) * (Fraction(25, 4) - 1 - t) - Fraction(25, 4) * (4 - t) > 0
 
 
 def check_printed_proof(pair: Pair, printed: dict) -> None:
@@ -149,53 +132,6 @@ def test_exact_text_writes_integers_and_fractions_of_any_length(power):
 def test_readable_text_marks_a_rounded_number():
     assert readable_text(Fraction(25, 4)) == "25/4"
     assert readable_text(Fraction(1, 3) ** 80).startswith("≈ 6.765")
-
-
-@pytest.mark.parametrize("left_out", ["--alpha", "--gamma", "--b", "--d", "--center"])
-def test_classify_names_the_missing_option_of_one_pair(left_out, capsys):
-    words = options(1, 2, 1, 1, 2.5, 0, 0)
-    place = words.index(left_out)
-    del words[place : place + (4 if left_out == "--center" else 2)]
-    assert main(words) == 2
-    assert capsys.readouterr().err.startswith(f"hypcheck: error: {left_out} is missing; ")
-
-
-@pytest.mark.parametrize(
-    ("row", "sentence"),
-    [
-        ((0, 2, 1, 1, 2, 0, 0), "--alpha is 0; a semi-axis must be greater than 0"),
-        ((1, -2, 1, 1, 2, 0, 0), "--gamma is -2; a semi-axis must be greater than 0"),
-        ((1, 2, "1e-999", 1, 2, 0, 0), "--b is 1e-999, which is too small for float64; it must be greater than 0"),
-        ((1, 2, 1, "inf", 2, 0, 0), "--d is 'inf'; it must be finite"),
-        ((1, 2, 1, 1, "nan", 0, 0), "--center: x is 'nan'; it must be finite"),
-        (("0e-9", 2, 1, 1, 0, 0, 0), "--alpha is 0e-9; a semi-axis must be greater than 0"),
-        ((1, 2, 1, 1, 0, "-1e999", 0), "--center: y is -1e999, which is too large for float64"),
-        ((1, 2, 1, 1, 0, 0, "1_0"), "--center: z is '1_0'; it must be a decimal number such as 2.5 or -1e-3"),
-        (("٣", 2, 1, 1, 0, 0, 0), "--alpha is '٣'; it must be a decimal number such as 2.5 or -1e-3"),
-        (("", 2, 1, 1, 0, 0, 0), "--alpha is empty; it must be a number"),
-    ],
-)
-def test_classify_refuses_an_invalid_number_and_says_what_its_option_takes(row, sentence, capsys):
-    assert main(options(*row)) == 2
-    assert capsys.readouterr().err == f"hypcheck: error: {sentence}\n"
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        (["classify"], "nothing to classify"),
-        (["classify", "--input", "a.csv"], "--output is missing"),
-        (["classify", "--output", "a.csv"], "--output is for tables"),
-        ([*options(1, 2, 1, 1, 0, 0, 0), "--format", "csv"], "--format is for tables"),
-        ([*options(1, 2, 1, 1, 0, 0, 0), "--on-invalid", "flag"], "--on-invalid is for tables"),
-        ([*options(1, 2, 1, 1, 0, 0, 0), "--input", "a.csv", "--output", "-"], "--alpha is for one pair"),
-        (["classify", "--input", "a.csv", "--output", "b.csv", "--json"], "--json is for one pair"),
-        (["classify", "--input", "a.csv", "--output", "b.csv", "--center", "1", "2", "3"], "--center is for one pair"),
-    ],
-)
-def test_classify_refuses_options_that_exclude_each_other(words, sentence, capsys):
-    assert main(words) == 2
-    assert sentence in capsys.readouterr().err
 
 
 def test_classify_ends_with_6_if_the_oracles_disagree(monkeypatch, capsys):

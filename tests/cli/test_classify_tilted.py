@@ -135,51 +135,6 @@ def test_a_proof_for_a_leaning_pair_fails_its_check_if_one_number_is_changed(row
                 check_printed_proof(row, proof | {"proof": proof["proof"] | {name: changed}})
 
 
-@pytest.mark.parametrize("axis", [("0", "0", "1"), ("-0", "0", "-5e-324")])
-def test_classify_with_an_axis_along_z_answers_as_without_an_axis(axis, capsys):
-    without = [
-        "classify",
-        "--alpha",
-        "1",
-        "--gamma",
-        "2",
-        "--b",
-        "1",
-        "--d",
-        "0.5",
-        "--center",
-        "2.5",
-        "0",
-        "0",
-        "--json",
-    ]
-    assert main(without) == 0
-    upright = capsys.readouterr().out
-    assert main([*without, "--axis", *axis]) == 0
-    assert capsys.readouterr().out == upright
-
-
-@pytest.mark.parametrize(
-    ("axis", "sentence"),
-    [
-        (("0", "0", "-0"), "--axis: axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"),
-        (("1", "inf", "0"), "--axis: axis_y is 'inf'; it must be finite"),
-        (("1", "0", "up"), "--axis: axis_z is 'up'; it must be a decimal number"),
-        (("1e999", "0", "0"), "--axis: axis_x is 1e999, which is too large for float64"),
-    ],
-)
-def test_classify_refuses_an_invalid_axis_in_one_sentence(axis, sentence, capsys):
-    assert main(options([1, 2, 1, 1, 2.5, 0, 0, *axis])) == 2
-    assert sentence in capsys.readouterr().err
-
-
-def test_classify_refuses_an_axis_without_a_pair_or_with_a_table(capsys):
-    assert main(["classify", "--axis", "1", "0", "0"]) == 2
-    assert "--alpha, --gamma, --b, --d, --center are missing" in capsys.readouterr().err
-    assert main(["classify", "--axis", "1", "0", "0", "--input", "a.csv", "--output", "-"]) == 2
-    assert "--axis is for one pair, and --input for a table" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("y", ["1e-165", "1e-170", "-1e-200", "5e-324"])
 def test_classify_answers_a_clearance_below_the_least_float64_with_the_least_that_has_its_sign(y, capsys):
     assert main([*options([1, 2, 1, 1.5, 2, y, 0, 0, 1, 0]), "--json"]) == 0

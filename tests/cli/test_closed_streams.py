@@ -6,16 +6,6 @@ import os
 import subprocess
 import sys
 
-import pytest
-
-
-@pytest.mark.slow
-def test_an_error_with_standard_error_closed_is_not_written_to_standard_output():
-    words = [sys.executable, "-m", "hypcheck", "classify", "--input", "no-such-file.csv", "--output", "-"]
-    done = subprocess.run(words, stdout=subprocess.PIPE, preexec_fn=lambda: os.close(2), check=False)
-    assert (done.returncode, done.stdout) == (2, b"")
-
-
 TELLS = """
 import os
 from hypcheck.cli import main

@@ -90,39 +90,11 @@ def test_completion_in_fish_offers_files_where_a_value_is_free_text(environment,
     assert completed("fish", "hypcheck classify --input tab", environment) == ["table.csv"]
 
 
-@pytest.mark.parametrize("shell", SHELLS)
-def test_the_completion_variable_of_click_prints_the_same_script_as_the_command(shell, monkeypatch, capsys):
-    assert main(["completion", shell]) == 0
-    script = capsys.readouterr().out
-    assert f"{COMPLETE}={shell}_complete" in script
-    monkeypatch.setenv(COMPLETE, f"{shell}_source")
-    assert main([]) == 0
-    assert capsys.readouterr().out == script
-
-
 def asked(shell: str, line: str, environment: dict[str, str]) -> dict[str, str]:
     """The variables by which a shell asks, in click's protocol."""
     words = line.split()
     place = words[-1] if shell == "fish" else str(len(words) - 1)
     return environment | {COMPLETE: f"{shell}_complete", "COMP_WORDS": line, "COMP_CWORD": place}
-
-
-@pytest.mark.parametrize("shell", SHELLS)
-def test_completion_answers_the_protocol_of_each_shell_without_that_shell(shell, environment):
-    done = answered(asked(shell, "hypcheck mini", environment))
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "minimise" in done.stdout
-
-
-def answered(environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
-    """What hypcheck says to a shell."""
-    words = [sys.executable, "-m", "hypcheck"]
-    return subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
-
-
-def test_completion_after_an_unknown_command_raises_no_error(environment):
-    done = answered(asked("bash", "hypcheck bogus wo", environment))
-    assert (done.returncode, done.stdout, done.stderr) == (0, "file,wo\n", "")
 
 
 def test_completion_loads_neither_numpy_nor_other_large_modules(environment):
@@ -137,14 +109,6 @@ print(json.dumps([name for name in {heavy!r} if name in sys.modules]), file=sys.
         variables = asked("bash", line, environment)
         done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, check=True)
         assert json.loads(done.stderr) == [], line
-
-
-@pytest.mark.parametrize("instruction", ["tcsh_source", "bash", "bash_", "1", "bash_complete"])
-def test_an_invalid_completion_variable_ends_2_with_one_sentence(instruction, monkeypatch, capsys):
-    monkeypatch.delenv("COMP_WORDS", raising=False)
-    monkeypatch.setenv(COMPLETE, instruction)
-    assert main([]) == 2
-    assert f"{COMPLETE} is {instruction!r}" in capsys.readouterr().err
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 from io import StringIO
-from itertools import permutations, takewhile
+from itertools import permutations
 
 import click
 import pytest
@@ -31,7 +31,6 @@ from hypcheck.errors import (
 )
 
 HYPCHECK = [sys.executable, "-m", "hypcheck"]
-PAIR = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
 TABLE = ["classify", "--input", "-", "--format", "csv"]
 BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
 
@@ -76,41 +75,6 @@ def test_error_messages_escape_control_characters():
 def test_a_full_disk_ends_2_and_is_not_reported_as_an_internal_error():
     assert ending_of(OSError(28, "No space left on device")).code == Exit.USAGE
     assert ending_of(OSError("something else")).code == Exit.INTERNAL
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (["classify", "--fromat", "csv"], "there is no option '--fromat'; did you mean --format?"),
-        (["classify", "--utterly-other", "csv"], "there is no option '--utterly-other'"),
-        (["clasify"], "did you mean classify?"),
-        (["nothing-like-it"], "there are classify, verify"),
-        ([], "missing command; there are classify, verify"),
-        (["cases"], "missing command; there are check, freeze"),
-        (["cases", "chek"], "there is no command 'chek'; did you mean check?"),
-        (["classify", "--center", "1", "2"], "--center"),
-        (["hunt", "builtin:fast", "--budget", "0"], "'0' must be a number, greater than 0"),
-        (["bench", "--max-slowdown", "0.9"], "'--max-slowdown': '0.9' must be a number, at least 1"),
-        (["bench", "--max-slowdown", "nan"], "'--max-slowdown': 'nan' must be a number, at least 1"),
-        (["simulate", "tower", "--speed", "1e7"], "'1e7' must be a number, at least 1e-06 and at most 1e+06"),
-        (["classify", "--format", "xml"], "'xml'"),
-        (["classify", "extra"], "extra"),
-    ],
-)
-def test_wrong_usage_prints_one_sentence_and_the_help_command(arguments, sentence, capsys):
-    assert main(arguments) == Exit.USAGE
-    output, errors = capsys.readouterr()
-    message, hint = errors.splitlines()
-    assert output == ""
-    assert message.startswith("hypcheck: error: ")
-    assert sentence in message
-    assert hint == f"hypcheck: '{' '.join(['hypcheck', *_commands(arguments)])} --help' shows what is possible"
-
-
-def _commands(arguments):
-    """The commands that are named, of which the last one is at fault."""
-    named = takewhile(lambda word: word in ("classify", "bench", "hunt", "cases", "simulate", "tower"), arguments)
-    return list(named)
 
 
 @pytest.mark.parametrize("stream", ["stdout", "stderr"])
@@ -171,12 +135,6 @@ def test_an_unexpected_error_or_interrupt_ends_without_a_traceback(error, code, 
     assert ("please report it" in errors) is (code == 70)
 
 
-def test_debug_option_shows_the_traceback_of_an_error(monkeypatch, capsys):
-    monkeypatch.setattr(commands.LazyGroup, "get_command", lambda *_: broken(ZeroDivisionError("by zero")))
-    assert main(["--debug", "classify"]) == Exit.INTERNAL
-    assert "Traceback" in capsys.readouterr().err
-
-
 def test_main_restores_the_handler_of_sigterm():
     before = signal.signal(signal.SIGTERM, signal.SIG_IGN)
     try:
@@ -210,31 +168,6 @@ def test_an_interrupt_inside_the_del_method_of_an_object_is_not_lost(name, error
     assert capsys.readouterr().err == ""
 
 
-def test_a_command_can_end_with_an_exit_code_that_it_chooses(monkeypatch, capsys):
-    @click.command()
-    @click.pass_context
-    def command(context: click.Context) -> None:
-        context.exit(4)
-
-    monkeypatch.setattr(commands.LazyGroup, "get_command", lambda *_: command)
-    assert main(["classify"]) == Exit.INCONCLUSIVE
-    assert capsys.readouterr().err == ""
-
-
-@pytest.mark.parametrize("arguments", [PAIR, [*TABLE, "--output", "-"], ["--help"]])
-@pytest.mark.parametrize(
-    "environment", [BUFFERED, BUFFERED | {"PYTHONUNBUFFERED": "1"}], ids=["buffered", "unbuffered"]
-)
-def test_a_closed_output_pipe_ends_141_without_a_message(arguments, environment):
-    read, write = os.pipe()
-    os.close(read)
-    rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
-    words = [*HYPCHECK, *arguments]
-    done = subprocess.run(words, env=environment, input=rows, stdout=write, stderr=subprocess.PIPE, check=False)
-    os.close(write)
-    assert (done.returncode, done.stderr) == (Exit.CLOSED_PIPE, b"")
-
-
 def test_a_closed_output_pipe_adds_nothing_to_the_message_of_another_error():
     """What was printed before the error and could not be written is not tried again when the interpreter ends."""
     code = """
@@ -256,18 +189,6 @@ sys.exit(main(["classify"]))
     os.close(write)
     assert done.returncode == Exit.USAGE
     assert len(done.stderr.splitlines()) == 2
-
-
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
-@pytest.mark.parametrize("arguments", [PAIR, [*TABLE, "--output", "-"]])
-def test_writing_to_a_full_device_ends_2_with_a_one_line_message(arguments):
-    rows = b"alpha,gamma,b,d,x,y,z\n1,2,1,1,2.5,0,0\n"
-    with open("/dev/full", "wb") as full:
-        words = [*HYPCHECK, *arguments]
-        done = subprocess.run(words, env=BUFFERED, input=rows, stdout=full, stderr=subprocess.PIPE, check=False)
-    assert done.returncode == Exit.USAGE
-    assert done.stderr.count(b"\n") == 1
-    assert b"no space left" in done.stderr
 
 
 def test_a_reached_system_limit_ends_2_and_is_not_reported_as_an_internal_error():
@@ -295,9 +216,3 @@ def test_an_interrupted_classify_leaves_the_old_output_file_and_no_partial_one(n
     assert errors.count(b"\n") == 1
     assert os.listdir(tmp_path) == ["answers.csv"]
     assert target.read_text() == "what was there"
-
-
-def test_classify_writes_escapes_if_the_output_encoding_has_no_greek():
-    environment = os.environ | {"PYTHONIOENCODING": "latin-1"}
-    done = subprocess.run([*HYPCHECK, *PAIR], env=environment, capture_output=True, check=True)
-    assert b"\\u03bb" in done.stdout

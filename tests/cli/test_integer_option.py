@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.cli.main import main
 from hypcheck.cli.options import integer_of
 from hypcheck.runs.cases import family_chunks, searched_chunks
 from hypcheck.runs.plan import ConformancePlan, planned_size
@@ -42,26 +41,6 @@ def test_integer_option_refuses_texts_that_are_not_whole_numbers(text):
 def test_integer_option_reads_digits_with_and_without_underscores_as_python_does(number):
     assert integer_of(str(number)) == number
     assert integer_of(f"{number:_}") == number
-
-
-@pytest.mark.parametrize(
-    ("option", "text", "wanted"),
-    [
-        ("--count", "1.5", "at least 0 and at most 1e15"),
-        ("--count", "1e16", "at least 0 and at most 1e15"),
-        ("--workers", "0", "at least 1 and at most 1024"),
-        ("--seed", "9223372036854775808", "at least 0 and at most 9223372036854775807"),
-    ],
-)
-def test_verify_refuses_a_whole_number_out_of_range_in_one_sentence(option, text, wanted, capsys):
-    assert main(["verify", "builtin:fast", option, text]) == 2
-    said = capsys.readouterr().err.splitlines()[0]
-    assert said == f"hypcheck: error: invalid value for '{option}': '{text}' must be a whole number, {wanted}"
-
-
-def test_verify_takes_a_count_written_with_an_exponent(tmp_path, capsys, text_reports):
-    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "1.2e2", "--out", str(tmp_path)]) == 0
-    assert "360 right" in capsys.readouterr().out
 
 
 @pytest.mark.slow

@@ -104,52 +104,6 @@ def test_every_key_of_the_settings_file_is_an_option_of_the_commands_that_read_i
     assert set(read_settings(Path(FILE)).options) | {"specs"} == set(_KEYS)
 
 
-def test_the_command_line_takes_precedence_over_the_settings_file(project):
-    project('specs = ["builtin:hessian-float64"]\nfamilies = "ring"\ncount = 3\nseed = 4\n')
-    assert main(["verify", "builtin:fast", "--families", "tower-body", "--seed", "5", "--out", "here"]) == 0
-    said = options("here")
-    assert (said["specs"], said["families"], said["count"], said["seed"]) == (["builtin:fast"], ["tower-body"], 3, 5)
-
-
-def test_no_settings_option_ignores_an_invalid_settings_file(project):
-    project("count = 'many'")
-    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
-    assert main(["--no-settings", "verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 0
-
-
-@pytest.mark.parametrize(
-    "words", [["--help"], ["verify", "--help"], ["replay", "-h"], ["cases", "list"], ["--version"]]
-)
-def test_commands_without_settings_do_not_read_an_invalid_settings_file(project, words):
-    project("nonsense")
-    assert main(words) == 0
-
-
-def test_specs_of_the_settings_file_are_read_by_verify_alone(project, capsys):
-    project('specs = ["builtin:table-2-float64"]')
-    assert main(["replay", "ring-0001"]) == 2
-    assert "SPEC" in capsys.readouterr().err
-    assert main(["verify", "--oracles", "exact"]) == 2
-    assert "--self ignores it" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("value", ["true", "1", "yes"])
-def test_verify_without_spec_ends_2_in_ci(project, monkeypatch, capsys, value):
-    monkeypatch.setenv("CI", value)
-    project("tolerance = 4\n")
-    assert main(["verify"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert "no implementation is named" in line
-    assert line.endswith("hypcheck verify --self")
-    assert not Path("reports").exists()
-
-
-def test_verify_with_self_and_spec_ends_2(project, capsys):
-    project("")
-    assert main(["verify", "--self", "builtin:fast"]) == 2
-    assert "--self verifies hypcheck itself and takes no SPEC; builtin:fast is one" in capsys.readouterr().err
-
-
 QUICK = ["--families", "tower-body", "--count", "1", "--judged", "1", "--oracles", "exact,nearest"]
 
 
@@ -214,29 +168,10 @@ def test_families_setting_counts_as_weaker_only_if_it_leaves_out_a_default_famil
     assert [each.option for each in (found.weakened if found else [])] == ["--families"] * weaker
 
 
-def test_replay_shows_the_settings_that_are_weaker_than_the_defaults(project, capsys):
-    project("tolerance = 1e9\n")
-    main(["replay", "ring-0001", "builtin:fast", "--question", "exterior"])
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("hypcheck: settings are those of hypcheck.toml; weaker than the default: ")
-    assert line.endswith(": --tolerance 1000000000, not 8 (hypcheck.toml)")
-
-
 def test_the_assumed_default_of_max_slowdown_is_that_of_bench(project):
     from hypcheck.bench.plan import MAX_SLOWDOWN
 
     assert _UNSET["max_slowdown"] == MAX_SLOWDOWN
-
-
-def test_replay_takes_precision_and_tolerance_from_the_settings_file_as_verify_does(project, capsys):
-    project(
-        'precision = "float32"\nquestion = "exterior"\ntolerance = 3\nspecs = ["builtin:nothing"]\nout = "x"\nseed = 3'
-    )
-    main(["replay", "ring-0001", "builtin:table-2-float64", "--json"])
-    found = json.loads(capsys.readouterr().out)
-    assert (found["used"]["precision"], found["tolerance_u"]) == ("float32", 3)
-    main(["replay", "ring-0001", "builtin:table-2-float64", "--json", "--precision", "float64"])
-    assert json.loads(capsys.readouterr().out)["used"]["precision"] == "float64"
 
 
 def test_hunt_ignores_seed_and_out_of_the_settings_file(project):
@@ -244,74 +179,6 @@ def test_hunt_ignores_seed_and_out_of_the_settings_file(project):
     found = read_settings(Path(FILE)).default_map
     assert set(found["hunt"]) == set(found["minimise"]) == set(found["replay"]) == set(ABOUT_ONE)
     assert set(found["verify"]) == set(_KEYS) - {"specs"}
-
-
-def test_verify_without_a_settings_file_uses_the_defaults(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert read_settings(Path(FILE)) is None
-    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 0
-    assert options()["seed"] == 1
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (
-            "count = 3\nmax-abstained = 1",
-            "hypcheck.toml, line 2: there is no setting 'max-abstained'; did you mean max_abst",
-        ),
-        ("toleranse = 1", "did you mean tolerance?"),
-        ("[verify]\ncount = 1", "line 1: there is no setting 'verify'; there are specs, out,"),
-        ("\n\ncount = -1", "line 3: count is -1; it must be a whole number, at least 0"),
-        ("count = 2.5", "count is 2.5; it must be a whole number, at least 0 and at most 1e15"),
-        ("count = true", "count is true; it must be a whole number"),
-        ('count = "3"', 'count is "3"; it must be a whole number'),
-        ("seed = 9223372036854775808", "at most 9223372036854775807"),
-        ("tolerance = nan", "tolerance is NaN; it must be a number, 0 or more"),
-        ("tolerance = inf", "it must be a number, 0 or more"),
-        ("tolerance = '8'", "it must be a number"),
-        ("timeout = 0", "it must be a number above 0"),
-        ("specs = 'builtin:fast'", "it must be a list of texts"),
-        ("specs = []", "it must be a list of texts"),
-        ("specs = ['builtin:fast', 3]", "it must be a list of texts"),
-        ("families = 3", "it must be names and globs"),
-        ("families = ['']", "it must be names and globs"),
-        ("precision = 'float8'", 'precision is "float8"; it must be one of float16, bfloat16,'),
-        ("question = ['position']", "it must be one of position, exterior"),
-        ("fail_on = 'never'", "it must be one of wrong, false-clear"),
-        ("deterministic = 1", "it must be true or false"),
-        ("domain = '{}'", "it must be a table such as"),
-        ("domain = { regimes = ['a>1'] }", "line 1: the domain names the regime 'a>1'"),
-        ("[domain]\nratios = [1, 2]", "line 1: the domain has the key 'ratios'"),
-        ("memory = '4 G'", "it must be a size such as"),
-        ("memory = 0", "it must be a size such as"),
-        ("memory = 1.5", "it must be a size such as"),
-        ("out = ''", "it must be the text of a path"),
-        ("known_failures = 1979-05-27", "it must be the text of a path"),
-        ("restarts = -1", "it must be a whole number, at least 0"),
-        ("count = 1\ncount = 2", "is no TOML"),
-        ("count", "is no TOML"),
-        ("a = " + "[" * 100_000, "cannot be read as TOML: it is nested too deeply"),
-    ],
-)
-def test_an_invalid_settings_file_is_refused_with_the_line_and_key(project, capsys, text, message):
-    project(text)
-    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2"]) == 2
-    said = capsys.readouterr().err
-    assert message in said
-    assert said.startswith("hypcheck: error: hypcheck.toml")
-    assert len(said.splitlines()) == 1
-
-
-def test_a_settings_file_that_cannot_be_read_is_refused(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    Path(FILE).write_bytes(b"out = '\xff'")
-    assert main(["verify", "builtin:fast"]) == 2
-    assert "is not UTF-8 text" in capsys.readouterr().err
-    Path(FILE).unlink()
-    Path(FILE).mkdir()
-    assert main(["verify", "builtin:fast"]) == 2
-    assert "cannot read hypcheck.toml: " in capsys.readouterr().err
 
 
 @given(

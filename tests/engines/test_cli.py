@@ -18,26 +18,6 @@ from hypcheck.implementations.session import StartError, TimingError
 from tests.engines.test_adapters import CACHE
 
 
-def test_engines_list_names_every_engine_and_says_which_are_installed(capsys, tmp_path):
-    assert main(["engines", "list", "--cache", str(tmp_path)]) == 0
-    header, *lines = capsys.readouterr().out.splitlines()
-    assert header.split() == ["engine", "version", "body", "state"]
-    assert [line.split()[0] for line in lines] == list(ENGINES)
-    assert all("installed" in line for line in lines)
-
-
-@pytest.mark.parametrize("words", [["verify", "coal"], ["verify"], ["bench"]])
-def test_engines_run_of_a_missing_engine_ends_2_with_the_install_command(capsys, tmp_path, words):
-    assert main(["engines", *words, "--cache", str(tmp_path), "--out", str(tmp_path / "out")]) == 2
-    assert "installed; type: hypcheck engines install" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
-
-
-def test_engines_install_of_an_unknown_name_ends_2_with_a_suggestion(capsys):
-    assert main(["engines", "install", "cole"]) == 2
-    assert "there is no engine 'cole'; did you mean" in capsys.readouterr().err
-
-
 def test_engines_install_names_a_missing_program_and_writes_nothing(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     for name, program in (("cannon-es", "node"), ("parry3d", "cargo")):

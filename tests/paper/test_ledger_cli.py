@@ -64,29 +64,6 @@ def test_ledger_entry_is_found_by_its_number():
         assert entry in entries_of(entry.number)
 
 
-@pytest.mark.parametrize(
-    ("claim", "advice"),
-    [
-        ("Proposition 7", "did you mean 'Proposition"),
-        ("Lemma", "give an equation's number"),
-        ("", "give an equation's"),
-    ],
-)
-def test_derive_refuses_an_unknown_claim_in_one_sentence(capsys, claim, advice):
-    code, output, errors = told(capsys, "--claim", claim)
-    assert code == Exit.USAGE
-    assert output == ""
-    assert errors.count("\n") == 1
-    assert errors.startswith(f"hypcheck: error: there is no claim {claim!r} in the ledger; ")
-    assert advice in errors
-
-
-def test_derive_refuses_claim_and_only_together(capsys):
-    code, _, errors = told(capsys, "--claim", "12", "--only", "costs")
-    assert code == Exit.USAGE
-    assert "use one of them" in errors
-
-
 def test_derive_output_appears_only_as_a_complete_file(capsys, tmp_path):
     target = tmp_path / "derivation.json"
     code, output, _ = told(capsys, "--only", "costs", "--format", "json", "--output", str(target))

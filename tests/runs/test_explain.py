@@ -72,21 +72,6 @@ def test_claim_of_a_cause_is_one_of_the_ledger_that_does_not_hold(capsys):
     assert all(statement(claim).verdict for claim in claims.values())
 
 
-@pytest.mark.parametrize(
-    ("name", "end"),
-    [
-        ("rign", "there is no cause 'rign'; did you mean ring?"),
-        ("Throat", "there is no cause 'Throat'; did you mean throat?"),
-        ("qqqqqq", "there is no cause 'qqqqqq'; `hypcheck explain` lists all"),
-        ("", "there is no cause ''; `hypcheck explain` lists all"),
-    ],
-)
-def test_unknown_id_ends_with_2_and_one_sentence_with_near_ids(name, end, capsys):
-    assert main(["explain", name]) == 2
-    out, error = capsys.readouterr()
-    assert (out, error) == ("", f"hypcheck: error: {end}\n")
-
-
 def test_row_of_the_ring_is_one_where_table_2_says_contact(capsys):
     witness = as_json(capsys, "ring")["witness"]
     assert witness["truth"] == 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import json
-import os
 import re
 import subprocess
 import sys
@@ -139,21 +138,6 @@ def test_init_counts_a_dangling_link_as_an_existing_file(tmp_path, capsys):
     assert not (tmp_path / "nowhere").exists()
 
 
-def test_init_does_not_replace_a_folder_even_if_forced(tmp_path, capsys):
-    (tmp_path / "hypcheck.toml").mkdir()
-    assert init("--language", "c", "--directory", tmp_path, "--force") == 2
-    assert f"{tmp_path / 'hypcheck.toml'} is in the way; it must be a file" in capsys.readouterr().err
-    assert tree(tmp_path) == {}
-
-
-@pytest.mark.parametrize("taken", [".github", "hypcheck-c"])
-def test_init_writes_nothing_if_a_file_stands_in_place_of_a_folder(taken, tmp_path, capsys):
-    (tmp_path / taken).write_text("mine")
-    assert init("--language", "c", "--directory", tmp_path / "") == 2
-    assert f"cannot make the folder {tmp_path / taken}" in capsys.readouterr().err
-    assert os.listdir(tmp_path) == [taken]
-
-
 @pytest.mark.parametrize("fails_at", [1, 3, 7, 8, 9, 14])
 @pytest.mark.parametrize("error", [OSError(errno.ENOSPC, "No space left on device"), KeyboardInterrupt()])
 def test_init_leaves_all_files_as_they_were_on_a_full_disk_or_an_interrupt(
@@ -192,12 +176,6 @@ def test_init_refuses_a_name_without_safe_characters_and_reports_a_changed_name(
     (tmp_path / "δ").mkdir()
     assert init("--language", "c", "--directory", tmp_path / "δ") == 0
     assert r"\"name\":\"predicate\"" in (tmp_path / "δ/hypcheck-c/predicate.c").read_text()
-
-
-def test_init_refuses_an_unknown_or_missing_language(tmp_path, capsys):
-    assert init("--language", "fortran", "--directory", tmp_path) == 2
-    assert "'fortran' is not one of" in capsys.readouterr().err
-    assert init("--directory", tmp_path) == 2
 
 
 def test_init_help_loads_no_heavy_library(tmp_path):

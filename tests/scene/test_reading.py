@@ -49,7 +49,6 @@ LEANING = (
     "hyperboloid = [{ alpha = 1, gamma = 2, axis = [0, -1, 3] }, { alpha = 1, gamma = 2 }]\n"
     "mover = { b = 1, d = 1, axis = [0.5, 0, 2] }\n"
 )
-WALK = "[walk]\nstart = [0, 0, 0]\nheading = 0\nsteps = 1\nstep = 1\nlargest_turn = 1\nrefused_turn = 1\n"
 
 
 def refusal(text, source="s.toml"):
@@ -110,78 +109,6 @@ def changed(old, new):
     return WHOLE.replace(old, new)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (changed("alpha = 0.5", "alpha = -1"), "line 6: hyperboloid 1: alpha is -1; it must be a finite number above"),
-        (changed("alpha = 0.5", "alpha = 0.0"), "line 6: hyperboloid 1: alpha is 0.0; "),
-        (changed("alpha = 0.5", "alpha = nan"), "line 6: hyperboloid 1: alpha is nan; "),
-        (changed("alpha = 0.5", "alpha = inf"), "line 6: hyperboloid 1: alpha is inf; "),
-        (changed("alpha = 0.5", "alpha = 1e400"), "line 6: hyperboloid 1: alpha is inf; "),
-        (changed("alpha = 0.5", "alpha = 1e-400"), "line 6: hyperboloid 1: alpha is 0.0; "),
-        (changed("alpha = 0.5", "alpha = true"), "line 6: hyperboloid 1: alpha is true; "),
-        (changed("alpha = 0.5", 'alpha = "0.5"'), 'line 6: hyperboloid 1: alpha is "0.5"; '),
-        (changed("alpha = 0.5", "alpha = 1979-05-27"), 'line 6: hyperboloid 1: alpha is "1979-05-27"; '),
-        (changed("alpha = 0.5", "alpha = 1" + "0" * 400), "that float64 holds"),
-        (changed("alpha = 0.5", ""), "line 4: hyperboloid 1 has no alpha; it must be a finite number above 0"),
-        (changed("alpha = 0.5", "aplha = 1"), 'line 6: hyperboloid 1 has the key "aplha", which is not known; did'),
-        (changed("alpha = 0.5", "Alpha = 1"), "did you mean alpha?"),
-        (changed("alpha = 0.5", "thick = 1"), "it may have name, alpha, gamma, center, height, axis"),
-        (
-            changed("alpha = 0.5", "alpha = 0.5\naxis = [0, 0, 0]"),
-            "line 7: hyperboloid 1: axis is [0, 0, 0]; it must be three finite numbers, [x, y, z], not all 0",
-        ),
-        (changed("alpha = 0.5", "alpha = 0.5\naxis = [1, nan, 0]"), "line 7: hyperboloid 1: axis is [1, nan, 0]; "),
-        (changed("alpha = 0.5", 'alpha = 0.5\naxis = "free"'), 'line 7: hyperboloid 1: axis is "free"; '),
-        (
-            LEANING.replace("[0.5, 0, 2]", "[0, 0, -0.0]"),
-            'line 3: [mover]: axis is [0, 0, -0.0]; it must be three finite numbers, [x, y, z], not all 0, or "free"',
-        ),
-        (LEANING.replace("[0.5, 0, 2]", '"any"'), 'line 3: [mover]: axis is "any"; '),
-        (
-            changed("d = 0.15", "d = 0.15\naxis = [1, 0, 4]"),
-            "line 18: [mover]: axis is [1.0, 0.0, 4.0], and the mover has parts, whose places are known only where",
-        ),
-        (changed("d = 0.15", 'd = 0.15\naxis = "free"'), 'line 18: [mover]: axis is "free", and the mover has parts'),
-        (LEANING + WALK, "line 4: [walk] is of a scene in which something leans; simulations fly and walk upright"),
-        (changed("[-1, 6.25]", "[6, -1]"), "line 9: hyperboloid 1: height is [6, -1]; it must be two finite numbers"),
-        (changed("[-1, 6.25]", "[2, 2.0]"), "line 9: hyperboloid 1: height is [2, 2.0]; "),
-        (changed("[-1, 6.25]", "[2]"), "line 9: hyperboloid 1: height is [2]; "),
-        (changed("[-1, 6.25]", "[2, nan]"), "line 9: hyperboloid 1: height is [2, nan]; "),
-        (changed("[-1, 6.25]", "4"), "line 9: hyperboloid 1: height is 4; "),
-        (changed("[1, -2.5, 0]", "[1, 2]"), "line 8: hyperboloid 1: center is [1, 2]; it must be three finite numbers"),
-        (changed("[1, -2.5, 0]", "[1, 2, true]"), "line 8: hyperboloid 1: center is [1, 2, true]; "),
-        (changed("[1, -2.5, 0]", "{ x = 1 }"), "line 8: hyperboloid 1: center is "),
-        (changed('name = "oak"', 'name = " "'), "line 5: hyperboloid 1: name is "),
-        (changed('name = "oak"', 'name = "hyperboloid 2"'), "line 11: hyperboloid 2 is called "),
-        (changed("b = 0.25\n", ""), "line 15: [mover] has no b"),
-        (changed("arm = 0.135", "arm = -1"), "line 22: [mover] part 1: arm is -1; it must be a finite number, 0 or"),
-        (changed("arm = 0.135", "arm = 0.1500001"), "line 19: mover part 1 reaches beyond the mover"),
-        (changed("angle = -45", "angle = nan"), "line 23: [mover] part 1: angle is nan; it must be a finite number"),
-        (changed("x = [-10, 10]", "x = [10, -10]"), "line 26: [region]: x is [10, -10]; "),
-        (changed("x = [-10, 10]", 'x = "ten"'), "line 26: [region]: x is "),
-        (changed("z = -0.0", "w = 0"), 'line 27: [region] has the key "w", which is not known; it may have x, y, z'),
-        (changed('question = "exterior"', 'question = "inside"'), "line 2: the scene: question is "),
-        (changed('name = "yard"', ""), "s.toml: the scene has no name; it must be a text that is not empty"),
-        (WHOLE + "[weather]\n", 'line 28: the scene has the key "weather", which is not known'),
-        (WHOLE.replace("[mover]", "[mover]\nb = 1"), "s.toml: is no TOML: "),
-        ('name = "a"\nmover = { b = 1, d = 1 }', "it must have one [[hyperboloid]] at least"),
-        (LEAST.replace("[{ alpha = 1, gamma = 2 }]", "[]"), "line 2: the scene has no hyperboloid"),
-        (LEAST.replace("[{ alpha = 1, gamma = 2 }]", "3"), "line 2: hyperboloid is 3; it must be an array of tables"),
-        (LEAST.replace("[{ alpha = 1, gamma = 2 }]", "[3]"), "line 2: hyperboloid 1 is 3; it must be a table with"),
-        (LEAST.replace("{ b = 1, d = 1 }", "[1]"), "line 3: [mover] is [1]; it must be a table with b, d, part"),
-        (LEAST.replace("mover = { b = 1, d = 1 }", ""), "the scene has no [mover]; "),
-        ("", "the scene has no name"),
-        ("name", "is no TOML"),
-        (LEAST + "x = " + "9" * 5000, "too many digits"),
-        (LEAST + "x = " + "[" * 5000 + "]" * 5000, "is nested too deeply"),
-        ("name = " + "[" * 300 + "]" * 300, "line 1: the scene: name is "),
-    ],
-)
-def test_invalid_scene_is_refused_naming_key_and_line(text, message):
-    assert message in refusal(text)
-
-
 def test_fault_in_one_of_many_trees_is_reported_with_the_line_of_that_tree():
     rows = [f"  {{ alpha = {n}, gamma = 9 }},  # tree {n}" for n in (1, 2, 0, 4)]
     text = 'name = "wood"\nhyperboloid = [\n' + "\n".join(rows) + "\n]\nmover = { b = 1, d = 1 }\n"
@@ -217,31 +144,6 @@ def test_read_scene_reads_a_file(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"name = \"a\"\nx = '\xff'", "line 2: is not UTF-8 text: invalid start byte at byte 16; save it as UTF-8"),
-        (WHOLE.encode("utf-16"), "line 1: is not UTF-8 text"),
-        (b"name = 'a\x00b'", "is no TOML"),
-        (b"\x7fELF\x02\x01", "is no TOML"),
-    ],
-)
-def test_read_scene_refuses_a_file_that_is_no_text(tmp_path, content, message):
-    path = tmp_path / "s.toml"
-    path.write_bytes(content)
-    with pytest.raises(InputError) as caught:
-        read_scene(str(path))
-    assert str(caught.value).startswith(str(path))
-    assert message in str(caught.value)
-
-
-def test_scene_file_of_more_than_a_mebibyte_is_refused_unread(tmp_path):
-    path = tmp_path / "s.toml"
-    path.write_text(LEAST + "#" * (1 << 20))
-    with pytest.raises(InputError, match="has more than 1 MiB; it must be smaller"):
-        read_scene(str(path))
-
-
-@pytest.mark.parametrize(
     ("text", "message"),
     [
         (
@@ -259,15 +161,6 @@ def test_scene_file_of_more_than_a_mebibyte_is_refused_unread(tmp_path):
 def test_scene_with_more_bodies_or_parts_than_allowed_is_refused(text, message):
     with pytest.raises(InputError, match=message):
         parse_scene(text)
-
-
-def test_read_scene_refuses_a_file_that_cannot_be_opened(tmp_path):
-    with pytest.raises(InputError, match="is a directory"):
-        read_scene(str(tmp_path))
-    with pytest.raises(InputError, match=r"there is no such file; it must be one, or a shipped scene: .*tower"):
-        read_scene(str(tmp_path / "towre"))
-    with pytest.raises(InputError, match="cannot read"):
-        read_scene("a\0b.toml")
 
 
 def test_each_shipped_scene_is_read_by_its_name_and_from_its_text():

@@ -12,8 +12,9 @@ standard error behind `2> `, then its exit code in brackets unless it is 0:
       [2]
 
 All commands of a transcript run in one folder, which is empty at first, in the environment of a user without the
-libraries that draw. MASKS lists what is no part of a transcript. `make transcripts` writes all anew, and a person reads
-the difference. `each` gives hypcheck many lines in one process. A remark that begins with `Thorough` makes the test of its transcript one of `make thorough`.
+libraries that draw. `each` gives hypcheck many lines in one process. MASKS lists what is no part of a transcript.
+`make transcripts` writes all anew, and a person reads the difference. A remark that begins with `Thorough` makes the
+test of its transcript one of `make thorough`.
 """
 
 from __future__ import annotations

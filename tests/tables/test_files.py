@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import os
 import stat
-import subprocess
-import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
@@ -93,15 +90,6 @@ def test_an_output_that_is_a_link_is_written_at_its_target(tmp_path, source):
         assert (tmp_path / "far" / "out.csv").read_text() == ANSWER
 
 
-def test_an_output_that_names_the_input_is_refused(tmp_path, source, capsys):
-    (tmp_path / "soft.csv").symlink_to(source)
-    os.link(source, tmp_path / "hard.csv")
-    for target in (source, tmp_path / "soft.csv", tmp_path / "hard.csv", tmp_path / "." / "in.csv"):
-        assert classify(source, target) == 2
-        assert "is the input itself" in capsys.readouterr().err
-    assert source.read_text() == f"{HEADER}\n{GOOD}\n"
-
-
 def test_an_output_that_is_a_pipe_is_written_directly(tmp_path, source):
     """A pipe stands for every device: a failure would destroy a real one."""
     pipe = tmp_path / "pipe.csv"
@@ -132,23 +120,6 @@ def test_an_output_on_a_full_disk_is_named_with_the_reason_and_nothing_is_left(t
     small_files(None)
     assert said == f"cannot write {out}: file too large"
     assert sorted(os.listdir(tmp_path)) == ["in.csv"]
-
-
-def test_table_that_cannot_be_opened_is_refused_with_the_reason(tmp_path, source, capsys, monkeypatch):
-    out = tmp_path / "out.csv"
-    assert refused(capsys, tmp_path / "no.csv", out) == f"cannot read {tmp_path / 'no.csv'}: no such file or directory"
-    (tmp_path / "d.csv").mkdir()
-    assert refused(capsys, tmp_path / "d.csv", out) == f"cannot read {tmp_path / 'd.csv'}: is a directory"
-    assert refused(capsys, source, tmp_path / "d.csv") == f"cannot write {tmp_path / 'd.csv'}: it is a folder"
-    away = tmp_path / "no" / "out.csv"
-    assert refused(capsys, source, away) == f"cannot write {away}: no such file or directory"
-    below = source / "out.csv"
-    assert refused(capsys, source, below) == f"cannot write {below}: not a directory"
-    no_name = refused(capsys, source, "a\0b.csv")  # in the words of each Python
-    assert no_name.startswith("cannot write a\\x00b.csv: ")
-    assert "embedded null" in no_name
-    assert refused(capsys, f"{'n' * 300}.csv", out).endswith(": file name too long")
-    assert sorted(os.listdir(tmp_path)) == ["d.csv", "in.csv"]
 
 
 def test_classify_leaves_files_alone_that_it_may_not_read_or_write(tmp_path, source, capsys, monkeypatch):
@@ -185,64 +156,3 @@ def test_files_without_permission_are_refused_naming_the_reason(tmp_path, source
     tmp_path.chmod(0o500)
     assert refused(capsys, source, tmp_path / "out.csv").endswith("out.csv: permission denied")
     tmp_path.chmod(0o700)
-
-
-@pytest.mark.parametrize(
-    ("source", "target", "more", "sentence"),
-    [
-        (
-            "in",
-            "out.csv",
-            [],
-            "--input in: its name must end in .csv, .jsonl or .npy, or --format must name one of them",
-        ),
-        ("-", "out.csv", [], "--input -: its name must end in .csv, .jsonl or .npy, or --format must name one of them"),
-        (
-            "in.csv",
-            "out.txt",
-            [],
-            "--output out.txt: its name must end in .csv, .jsonl or .npy, or --format must name one of them",
-        ),
-        ("in.csv", "out.jsonl", [], "csv cannot become jsonl, "),
-        ("in.jsonl", "-", ["--format", "csv"], "jsonl cannot become csv, "),
-        (
-            "in.csv",
-            "out.csv",
-            ["--format", "npy"],
-            "--format npy contradicts the names in.csv and out.csv; leave it out",
-        ),
-    ],
-)
-def test_classify_refuses_table_formats_that_are_unclear_or_do_not_match(source, target, more, sentence, capsys):
-    assert refused(capsys, source, target, *more).startswith(sentence)
-
-
-def test_option_format_sets_the_format_of_a_file_name_without_an_ending(tmp_path, source):
-    source.rename(tmp_path / "in")
-    assert classify(tmp_path / "in", tmp_path / "out", "--format", "csv") == 0
-    assert (tmp_path / "out").read_text() == ANSWER
-    assert classify(tmp_path / "in", tmp_path / "out.npy", "--format", "csv") == 0
-    assert np.load(tmp_path / "out.npy").tolist() == [1]
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
-@pytest.mark.parametrize(
-    "words", [("cases", "check"), ("report",), ("record", "check"), ("record", "repair", "--out", "new")], ids=" ".join
-)
-def test_a_pipe_that_nobody_writes_to_is_refused_where_a_file_is_read(monkeypatch, tmp_path, capsys, words):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(streams, "PIPE_S", 0.1)  # ten seconds a command are long for a test
-    os.mkfifo(tmp_path / "pipe")
-    assert main([*words, str(tmp_path / "pipe")]) == 2
-    said = capsys.readouterr().err
-    assert "it is a pipe, and nothing was written to it within" in said
-    assert len(said.splitlines()) == 1
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
-def test_a_record_is_read_from_a_pipe_that_a_program_writes_to(tmp_path, capfd):
-    os.mkfifo(tmp_path / "pipe")
-    record = Path(__file__).parents[2] / "reports" / "reference" / "bench" / "record.jsonl"
-    copy = "import shutil, sys; shutil.copyfileobj(open(sys.argv[1], 'rb'), open(sys.argv[2], 'wb'))"
-    with subprocess.Popen([sys.executable, "-c", copy, str(record), str(tmp_path / "pipe")]):
-        assert main(["record", "check", str(tmp_path / "pipe")]) == 0

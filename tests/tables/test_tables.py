@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import subprocess
 import sys
 from pathlib import Path
@@ -58,15 +57,6 @@ def test_answers_about_a_table_equal_answers_about_each_pair_to_the_last_bit(som
     assert found.positions.tolist() == [int(one.decision.position) for one in alone]
     assert found.tangent.tolist() == [one.decision.tangent for one in alone]
     assert found.clearance.tolist() == [one.clearance for one in alone]
-
-
-def test_csv_rows_get_four_cells_with_the_answer(tmp_path):
-    source, target = tmp_path / "in.csv", tmp_path / "out.csv"
-    source.write_text("\n".join([HEADER, *map(text_of, ROWS)]))  # no end of line at the end
-    assert classify(source, target) == 0
-    expected = [f"{HEADER},{ADDED}"]
-    expected += [f"{text_of(row)},{','.join(said)}" for row, said in zip(ROWS, ANSWERS, strict=True)]
-    assert target.read_text() == "\n".join(expected) + "\n"
 
 
 def test_classify_copies_every_byte_of_a_csv_outside_its_own_columns(tmp_path):
@@ -143,64 +133,6 @@ def test_npy_becomes_text_and_text_becomes_npy(tmp_path):
 def run(words: list[str], data: bytes) -> subprocess.CompletedProcess[bytes]:
     program = [sys.executable, "-m", "hypcheck", "classify"]
     return subprocess.run([*program, *words], input=data, capture_output=True, check=False)
-
-
-def test_standard_input_and_output_are_read_and_written(tmp_path):
-    np.save(tmp_path / "in.npy", ROWS)
-    text = f"{HEADER}\n{text_of(ROWS[0])}\n".encode()
-    answered = f"{HEADER},{ADDED}\n{text_of(ROWS[0])},1,exterior,false,0.5\n".encode()
-    done = run(["--input", "-", "--output", "-", "--format", "csv"], text)
-    assert (done.returncode, done.stdout, done.stderr) == (0, answered, b"")
-    done = run(["--input", "-", "--output", "-", "--format", "npy"], (tmp_path / "in.npy").read_bytes())
-    assert (done.returncode, done.stderr) == (0, b"")
-    assert np.load(io.BytesIO(done.stdout)).tolist() == [1, 0, 0, -1, 1]
-    done = run(["--input", str(tmp_path / "in.npy"), "--output", "-", "--format", "jsonl"], b"")
-    assert [json.loads(line)["label"] for line in done.stdout.splitlines()][:2] == ["exterior", "contact"]
-    (tmp_path / "in.csv").write_bytes(text)
-    assert run(["--input", str(tmp_path / "in.csv"), "--output", "-"], b"").stdout == answered
-
-
-def test_npy_stream_shorter_or_longer_than_its_header_says_is_refused(tmp_path):
-    np.save(tmp_path / "in.npy", ROWS)
-    data = (tmp_path / "in.npy").read_bytes()
-    words = ["--input", "-", "--format", "npy", "--output", str(tmp_path / "out.npy")]
-    for damaged, sentence in ((data[:-1], b"ends after 4 of them"), (data + b"x", b"goes on after its 5 rows")):
-        done = run(words, damaged)
-        assert done.returncode == 2
-        assert sentence in done.stderr
-    np.save(tmp_path / "columns.npy", np.asfortranarray(ROWS))
-    done = run(words, (tmp_path / "columns.npy").read_bytes())
-    assert done.returncode == 2
-    assert b"stored by columns" in done.stderr
-    assert not (tmp_path / "out.npy").exists()
-
-
-def test_with_on_invalid_flag_rows_that_are_no_pairs_are_marked_127(tmp_path):
-    good, bad = text_of(ROWS[3]), ["1,2,1,1,nan,0,0", "1,2,0,1,1,0,0", "1,2,,1,1,0,0", "1,2,1,1,1,0,zero"]
-    (tmp_path / "in.csv").write_text("\n".join([HEADER, bad[0], good, *bad[1:]]) + "\n")
-    assert classify(tmp_path / "in.csv", tmp_path / "out.csv", "--on-invalid", "flag") == 0
-    lines = (tmp_path / "out.csv").read_text().splitlines()[1:]
-    assert lines == [
-        f"{bad[0]},127,refused,,",
-        f"{good},-1,interior,false,3.0",
-        *(f"{row},127,refused,," for row in bad[1:]),
-    ]
-    assert classify(tmp_path / "in.csv", tmp_path / "out.npy", "--on-invalid", "flag") == 0
-    assert np.load(tmp_path / "out.npy").tolist() == [127, -1, 127, 127, 127]
-
-    objects = [dict(zip(COLUMNS, ROWS[1], strict=True)) | change for change in ({}, {"b": None}, {"x": "1"}, {"d": -1})]
-    (tmp_path / "in.jsonl").write_text("\n".join(map(json.dumps, objects)))
-    assert classify(tmp_path / "in.jsonl", tmp_path / "out.jsonl", "--on-invalid", "flag") == 0
-    found = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
-    assert [one["position"] for one in found] == [0, 127, 127, 127]
-    assert found[1] == objects[1] | {"position": 127, "label": "refused", "tangent": None, "clearance": None}
-
-    rows = np.array(ROWS[:3])
-    rows[0, 4], rows[2, 2] = math.nan, -1
-    np.save(tmp_path / "in.npy", rows)
-    assert classify(tmp_path / "in.npy", tmp_path / "out.jsonl", "--on-invalid", "flag") == 0
-    found = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
-    assert [(one["position"], one["x"], one["b"]) for one in found] == [(127, None, 1), (0, 2, 1), (127, 1.5, -1)]
 
 
 @pytest.mark.thorough

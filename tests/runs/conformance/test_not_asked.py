@@ -163,29 +163,6 @@ def test_run_of_all_families_records_those_that_are_asked_only_on_request(capsys
     assert "filter" not in line.not_asked
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (
-            ("builtin:table-2-float64", "--families", "ring,tilted-uniform"),
-            "--families names tilted-uniform, a family of",
-        ),
-        (
-            ("builtin:fast", "--families", "ring,way-ring"),
-            "--families names way-ring, which has no cases for the question",
-        ),
-        (
-            ("builtin:fast", "--families", "ring,extreme-float64", "--precision", "float16"),
-            "--families names extreme-float64, and fast is asked no row of it: 180 are not zero or normal in its",
-        ),
-    ],
-)
-def test_family_that_is_named_in_full_and_cannot_be_asked_is_refused(words, said, capsys):
-    assert gate(*words, "--count", "0") == 2
-    assert said in capsys.readouterr().err
-    assert not Path("out/record.jsonl").exists()
-
-
 @pytest.fixture(autouse=True)
 def _here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -12,9 +12,6 @@ from hypcheck.errors import Exit
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import faults_of
 
-RIGHT = "from tests.tools.mutants.exactly import position as classify"
-"""It asks nothing of hypcheck, which an isolated function does not see."""
-
 OTHERS = """
 import os
 import numpy as np
@@ -86,57 +83,6 @@ def test_hunt_options_replace_what_the_implementation_declares(capsys):
     assert "1e+06 u" in output
 
 
-def test_hunt_without_wrong_answers_ends_with_0(capsys, tmp_path):
-    (tmp_path / "right.py").write_text(RIGHT)
-    code, output, _ = told(
-        capsys, "hunt", f"python:{tmp_path}/right.py:classify", "--queries", "2000", "--tolerance", "0"
-    )
-    assert (code, output.splitlines()[1][:9]) == (Exit.HELD, "0 answers")
-
-
-@pytest.mark.parametrize(
-    ("name", "code", "sentence"),
-    [
-        ("contact", Exit.WRONG, "false-contact"),
-        ("seven", Exit.NOT_STARTED, "protocol: "),
-        ("silent", Exit.USAGE, ""),
-        ("dies", Exit.WRONG, "crash: "),
-        ("missing", Exit.NOT_STARTED, ""),
-    ],
-)
-def test_hunt_ends_with_the_exit_code_of_each_kind_of_fault(capsys, others, name, code, sentence):
-    found, output, errors = told(capsys, "hunt", others(name), "--queries", "200", "--restarts", "2")
-    assert found == code
-    assert sentence in output
-    isolation = (" is isolated by ", " is not isolated (")
-    refusals = [line for line in errors.splitlines() if not any(part in line for part in isolation)]
-    assert (code in (Exit.USAGE, Exit.NOT_STARTED) and not sentence) == bool(refusals)
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("hunt",),
-        ("hunt", "table-2-float64"),
-        ("hunt", "builtin:none-such"),
-        ("hunt", "builtin:fast", "--queries", "0"),
-        ("hunt", "builtin:fast", "--budget", "0"),
-        ("hunt", "builtin:fast", "--regimes", "b>=1"),
-        ("hunt", "builtin:fast", "--memory", "much"),
-        ("hunt", "builtin:fast", "--domain", "here"),
-        ("hunt", "builtin:fast", "--domain", '{"magnitude": [1e300, 1e301]}', "--queries", "5"),
-        ("minimise", "builtin:table-2-float64"),
-        ("minimise", "builtin:table-2-float64", "1,2,3"),
-        ("minimise", "builtin:table-2-float64", "nothing/1/0/0"),
-        ("minimise", "builtin:table-2-float64", "1,2,1,1,5,0,0"),
-    ],
-)
-def test_wrong_usage_of_hunt_ends_with_2_and_one_sentence(capsys, arguments):
-    code, _, errors = told(capsys, *arguments)
-    assert code == Exit.USAGE
-    assert errors.startswith("hypcheck: error: ")
-
-
 def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, tmp_path):
     path = str(tmp_path / "ours.json")
     hunt = ("hunt", "builtin:table-2-float64", "--queries")
@@ -153,22 +99,6 @@ def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, tmp_path):
     assert after.cases[: len(before.cases)] == before.cases
     assert len(after.cases) > len(before.cases)
     assert after.head == before.head
-
-
-def test_hunt_asks_nothing_if_its_vector_file_cannot_be_written(capsys, tmp_path):
-    for path in (tmp_path / "none" / "ours.json", tmp_path):
-        code, output, errors = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "10", "--out", str(path))
-        assert (code, output) == (Exit.USAGE, "")
-        assert str(path) in errors
-
-
-def test_hunt_refuses_and_keeps_an_output_file_that_is_no_vector_file(capsys, tmp_path):
-    path = tmp_path / "notes.json"
-    path.write_text("not vectors")
-    code, output, errors = told(capsys, "hunt", "builtin:table-2-float64", "--queries", "2500", "--out", str(path))
-    assert (code, output) == (Exit.USAGE, "")  # nothing was asked in vain
-    assert str(path) in errors
-    assert path.read_text() == "not vectors"
 
 
 def test_hunt_loads_no_library_that_it_does_not_use(others):

@@ -68,11 +68,6 @@ def test_minimised_row_of_a_tilted_failure_is_tilted_and_short(capsys):
     assert "the right answer: contact" in said
 
 
-def test_a_tilted_row_is_not_simplified_for_an_implementation_without_tilt(capsys):
-    assert main(["minimise", "builtin:table-2-float64", "tilted-uniform/1/1/5"]) == 2
-    assert 'the row has an axis, and the implementation does not declare "tilt": true' in capsys.readouterr().err
-
-
 def test_the_same_tilted_pair_in_other_coordinates_has_the_same_position():
     for row in TILTED_FAMILIES["tilted-uniform"].rows(4, 6).tolist():
         position = exact_position(row)

@@ -102,25 +102,6 @@ def test_the_simplest_way_that_fails_alike_is_short_and_its_answer_is_proved(mon
     assert "proof       contact at t " in said
 
 
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        (("builtin:passage-sampled-4", "2,5,1,1,3,0,0"), "the given row is a position, and passage-sampled-4 answers"),
-        (
-            ("builtin:passage-sampled-4", "ring-0007"),
-            "ring-0007 is a position, and passage-sampled-4 answers 'passage'",
-        ),
-        (("builtin:table-2-float64", "way-ring-0007"), "way-ring-0007 is a way between two positions, and table-2"),
-        (("builtin:passage-sampled-4", "way-ring-0007"), "answer to this row is not wrong; there is nothing to"),
-        (("builtin:passage-sampled-4", "tilted-way-ring-0007"), 'the implementation does not declare "tilt": true'),
-        (("builtin:passage-sampled-4", "way-invalid-0007"), "way-invalid-0007: gamma is inf; it must be finite"),
-    ],
-)
-def test_minimise_refuses_ways_that_it_cannot_simplify_in_one_sentence(words, sentence, capsys):
-    assert main(["minimise", *words]) == 2
-    assert sentence in capsys.readouterr().err
-
-
 def test_way_in_other_coordinates_has_the_same_answer():
     for row in [THROUGH, *map(tuple, WAY_FAMILIES["tilted-way-uniform"].rows(4, 2).tolist())]:
         hit = hits_at_size(row)

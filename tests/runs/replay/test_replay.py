@@ -53,15 +53,6 @@ def test_replay_shows_the_backward_error_of_a_wrong_answer(capsys):
     assert found["truth"]["flips"]["interior"] > found["backward_error"]
 
 
-def test_replay_says_tolerated_within_the_tolerance_and_wrong_beyond(capsys):
-    row = f"1,2,1,1,{2 + 2**-50!r},0,0"
-    found = replayed(capsys, row, subject("contact"))
-    assert found["status"] == "tolerated"
-    assert 0.5 < found["backward_error_u"] < 2.1
-    assert replayed(capsys, row, subject("contact"), "--tolerance", "0", code=1)["status"] == "wrong"
-    assert replayed(capsys, row, subject("contact"), "--precision", "x87", code=1)["backward_error_u"] > 1000
-
-
 def test_replay_of_a_yes_no_question_shows_its_answer_in_words(capsys):
     words = (subject("never_interior"), "--question", "exterior")
     assert replayed(capsys, FREE, *words)["answer"] == 1
@@ -110,19 +101,6 @@ def test_replay_shows_values_in_a_format_for_every_precision(capsys, precision, 
     assert ("stands for it" in found["values"]["why"]) is (precision != "float16")
 
 
-def test_replay_of_cannot_say_does_not_pass(capsys):
-    found = replayed(capsys, FREE, subject("cannot_say"), code=1)
-    assert (found["status"], found["answer"]) == ("abstained", 2)
-
-
-def test_replay_reports_a_crash_with_its_reason(capsys):
-    found = replayed(capsys, FREE, subject("dies"), code=1)
-    assert (found["status"], found["answer"]) == ("crash", None)
-    assert "3" in found["reason"]
-    assert found["truth"]["label"] == "exterior"
-    assert found["values"]["formula"] == "table-2"
-
-
 def test_replay_finds_an_answer_that_depends_on_other_rows(capsys):
     found = replayed(capsys, FREE, subject("forgets_the_tail"), code=1)
     assert found["status"] == "nondeterministic"
@@ -133,13 +111,6 @@ def test_replay_keeps_the_sign_of_a_zero(capsys):
     assert replayed(capsys, HIT, subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
     assert replayed(capsys, HIT.replace("-0.0", "0"), subject("minds_the_sign_of_zero"))["answer"] == 0
     assert replayed(capsys, HIT.replace("-0.0", "-0x0p+0"), subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
-
-
-def test_row_outside_the_domain_is_judged_and_the_skip_is_noted(capsys):
-    found = replayed(capsys, FREE, "builtin:fast", "--domain", '{"magnitude": [1e-3, 4]}')
-    assert found["status"] == "right"
-    assert "domain" in found["skipped"]
-    assert "float16" in replayed(capsys, "1,2,1,1,1e6,0,0", "builtin:fast", "--precision", "float16")["skipped"]
 
 
 def test_replay_judges_answers_to_invalid_rows(capsys):
@@ -178,19 +149,6 @@ def test_replay_finds_the_cases_of_a_record_by_their_number(tmp_path, capsys, te
     assert f"they are 1 to {len(kept)}" in capsys.readouterr().err
 
 
-def test_text_of_replay_marks_the_first_wrong_decision(capsys):
-    assert main(["replay", "ring-0003", "builtin:table-2-float32"]) == 0
-    text = capsys.readouterr().out
-    assert [line for line in text.splitlines() if line.startswith(">>")] == [
-        ">>  distinct         delta > 0                        yes             no"
-    ]
-    (number,) = [line for line in text.splitlines() if line.startswith(" > ")]
-    assert number.split()[1] == "delta"
-    assert "judged      right" in text
-    assert "0x1.34p-3" in text
-    assert "proof       λ = 1/16" in text
-
-
 @pytest.mark.parametrize(
     ("words", "about", "own"),
     [
@@ -215,38 +173,6 @@ def test_replay_prints_the_text_of_every_formula(capsys):
     for name in ("shared", "local-maximum", "dual", "procedure-2a-spheroid"):
         assert main(["replay", "tangent/1/1/5", "builtin:fast", "--formula", name, "--precision", "float32"]) == 0
         assert f"of {name}, as --formula asks" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ([FREE, "builtin:nothing"], "there is no built-in method"),
-        (["1,2,3", "builtin:fast"], "has 3 numbers; it must have 7"),
-        (["0,2,1,1,5,0,0", "builtin:fast"], "alpha is 0"),
-        (["0x0p+0,2,1,1,5,0,0", "builtin:fast"], "alpha is 0.0"),
-        (
-            ["builtin:fast", "ring-0007"],
-            "CASE is 'builtin:fast', which is a SPEC; the order is replay CASE SPEC",
-        ),
-        (["0x1p+2000,2,1,1,5,0,0", "builtin:fast"], "too large for float64"),
-        (["0xg,2,1,1,5,0,0", "builtin:fast"], "it must be a number"),
-        (["nan,2,1,1,5,0,0", "builtin:fast"], "it must be finite"),
-        (["ring-9999", "builtin:fast"], "there is no case"),
-        (["ring/99/1/1", "builtin:fast"], "this version of hypcheck has generator"),
-        (["nowhere.jsonl:1", "builtin:fast"], "cannot read nowhere.jsonl: no such file"),
-        ([FREE, "builtin:fast", "--formula", "table-3"], "there is no formula 'table-3'"),
-        ([FREE, "builtin:fast", "--formula", "procedure-2b"], "there is no formula 'procedure-2b'"),
-        ([FREE, "builtin:fast", "--memory", "much"], "--memory"),
-        ([FREE, "builtin:fast", "--question", "where"], "the question"),
-    ],
-)
-def test_replay_with_bad_input_ends_with_2(words, message, capsys):
-    assert main(["replay", *words]) == 2
-    assert message in capsys.readouterr().err
-
-
-def test_implementation_that_cannot_be_started_ends_the_run_with_5():
-    assert main(["replay", FREE, "command:/nowhere/at/all"]) == 5
 
 
 def test_record_with_an_invalid_row_is_refused(tmp_path, capsys):

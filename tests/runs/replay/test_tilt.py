@@ -59,34 +59,3 @@ def test_invalid_tilted_row_is_replayed_by_its_id(capsys):
     code, said = replayed(capsys, "tilted-invalid-0000", f"{SPEC}refuses_upright_rows_alone")
     assert code == 1
     assert "an invalid row must be refused with 127" in said.out
-
-
-@pytest.mark.parametrize(
-    ("case", "spec", "sentence"),
-    [
-        ("tilted-invalid-0000", "builtin:fast", "tilted-invalid-0000 has an axis, but fast takes only upright"),
-        (BESIDE, "builtin:fast", "the given row has an axis, but fast takes only upright spheroids; its description"),
-        (
-            "2,5,1,0.5,2.5,0,0,0,0,0",
-            f"{SPEC}exact",
-            "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction",
-        ),
-        ("2,5,1,0.5,2.5,0,0,1", f"{SPEC}exact", "has 8 numbers; it must have 7: alpha, gamma"),
-        (
-            "2,5,1,0.5,2.5,0,0,1",
-            f"{SPEC}exact",
-            "a way has x1, y1, z1 after z, so it has 10, or 13 with an axis",
-        ),
-    ],
-)
-def test_case_that_cannot_be_replayed_is_refused_in_one_sentence(case, spec, sentence, capsys):
-    code, said = replayed(capsys, case, spec)
-    assert code == 2
-    assert sentence in said.err
-
-
-@pytest.mark.slow
-def test_replay_refuses_a_formula_for_a_tilted_row(capsys):
-    code, said = replayed(capsys, BESIDE, f"{SPEC}exact", "--formula", "table-2")
-    assert code == 2
-    assert "the given row is about a tilted spheroid, which no formula takes" in said.err

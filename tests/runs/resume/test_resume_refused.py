@@ -78,28 +78,6 @@ def test_record_of_a_run_with_other_options_is_not_resumed(paused, tmp_path, cap
     assert said in refused(tmp_path, capsys, "--resume", str(tmp_path))
 
 
-def test_record_with_an_edited_line_is_not_resumed(paused, tmp_path, capsys):
-    (tmp_path / "other.jsonl").write_bytes(paused.replace(b'"number": 1', b'"number": 0'))
-    assert "is damaged in line 6, at byte" in refused(tmp_path, capsys, "--resume", str(tmp_path / "other.jsonl"))
-
-
-def test_file_that_is_no_record_is_not_resumed(tmp_path, capsys):
-    (tmp_path / "empty").touch()
-    (tmp_path / "notes").write_text("all is well\n", encoding="utf-8")
-    for name, said in (
-        ("empty", "is empty; a record begins with a header"),
-        ("notes", "is no record: its first line is no header"),
-        ("nowhere", "no such file"),
-        ("", "record.jsonl: no such file"),
-        ("/dev/null", "/dev/null is empty"),
-    ):
-        assert said in refused(tmp_path, capsys, "--resume", str(tmp_path / name)).lower()
-
-
-def test_resume_refuses_standard_input(tmp_path, capsys):
-    assert "--resume - " in refused(tmp_path, capsys, "--resume", "-")
-
-
 def test_record_of_another_command_is_not_resumed(tmp_path, capsys):
     (tmp_path / "ours.jsonl").write_text(text_and_record()[0], encoding="utf-8")
     said = refused(tmp_path, capsys, "--resume", str(tmp_path / "ours.jsonl"))
@@ -262,14 +240,6 @@ def test_finished_record_is_reported_and_stays_unchanged(tmp_path, capsys):
     assert main([*words, "--resume", str(tmp_path)]) == 0
     assert sorted(path.name for path in tmp_path.glob("record*")) == [FILE]
     assert os.path.getmtime(tmp_path / "summary.json") >= os.path.getmtime(tmp_path / FILE)
-
-
-@pytest.mark.parametrize("name", [FILE, GROWING])
-def test_folder_at_the_path_of_the_record_is_refused_before_the_run(tmp_path, capsys, name):
-    (tmp_path / name).mkdir()
-    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path)]) == 2
-    assert f"--out {tmp_path} cannot be written: {name} in it is a folder" in capsys.readouterr().err
-    assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
 def test_folder_that_appears_at_the_path_of_the_record_during_the_run_loses_nothing(tmp_path, capsys, monkeypatch):
