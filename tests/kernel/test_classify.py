@@ -54,6 +54,12 @@ def test_classify_fills_the_given_out_array_and_returns_it():
 def test_classify_accepts_an_out_array_that_overlaps_the_rows():
     rows = np.array(ROWS)
     assert hypcheck.classify(rows, out=rows.view(np.int8)[0, :3]).tolist() == [1, 0, -1]
+    x, y, z = np.ascontiguousarray(np.tile([[9, 0, 0], [2, 0, 0], [0, 0, 9.0]], (500, 1)).T)
+    for column in (x, y, z):
+        kept, out = column.copy(), column.view(np.int8)[:1500]
+        for threads in (None, 2):
+            assert hypcheck.classify_scene((3, 9, 1, 2), x, y, z, out, threads=threads).tolist() == [1, 0, -1] * 500
+            column[:] = kept
 
 
 BAD = {

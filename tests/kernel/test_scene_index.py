@@ -122,9 +122,13 @@ def test_scene_classify_is_exact_for_a_tower_wider_than_the_grid_and_a_region_wi
 
 
 def test_scene_classify_is_exact_for_centres_outside_the_region():
-    scene = forest(30, 2)
+    scene = replace(forest(30, 2), region=Region(z=Span(-0.01, 0.01)))
+    asked, centres = Scene(scene), centres_about(scene, 60, 3)
+    expected = [whole(scene, centre) for centre in centres.tolist()]
+    assert asked.classify(*centres.T).tolist() == [asked.position(*each) for each in centres.tolist()] == expected
+    assert len(set(expected)) > 1
     for z in (-9.0, 2.5, 400.0):
-        assert Scene(scene).classify(5.0, 5.0, z)[0] == whole(scene, (5.0, 5.0, z))
+        assert asked.classify(5.0, 5.0, z)[0] == whole(scene, (5.0, 5.0, z))
 
 
 def test_scene_classify_asks_the_parts_of_a_mover_that_is_in_contact():

@@ -79,9 +79,11 @@ def test_scene_answers_are_exact_if_a_difference_of_centres_overflows():
 def test_scene_answers_are_exact_for_the_smallest_subnormal_lengths():
     tiny = 5e-324
     body = Hyperboloid("tiny", tiny, tiny)
-    scene = model.SceneModel("s", "position", (body,), Mover(tiny, tiny), Region(z=Span(-1, 1)))
-    for x in (0.0, tiny, 2 * tiny, 3 * tiny, 4 * tiny, 1.0, 1e308):
-        assert both(Scene(scene), (x, 0.0, 0.0)) == truth_about(body, scene.mover, (x, 0.0, 0.0))
+    for region in (Region(z=Span(-1, 1)), Region(z=Span(0, 0))):  # all are asked; cells of a grid are tiny
+        scene = model.SceneModel("s", "position", (body,), Mover(tiny, tiny), region)
+        for x in (0.0, tiny, 2 * tiny, 3 * tiny, 4 * tiny, 1.0, 1e308):
+            for centre in ((x, 0.0, 0.0), (0.0, x, 0.0)):
+                assert both(Scene(scene), centre) == truth_about(body, scene.mover, centre)
 
 
 def test_the_grid_finds_the_same_hyperboloids_for_one_centre_as_for_a_batch():

@@ -14,7 +14,18 @@ from hypcheck.errors import InputError
 from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.scene_pairs import is_within_height, position_leaning, within_height
-from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span, leans
+from hypcheck.scene.model import (
+    FREE,
+    QUESTIONS,
+    UPRIGHT,
+    Hyperboloid,
+    Mover,
+    MoverPart,
+    Region,
+    SceneModel,
+    Span,
+    leans,
+)
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import TiltedLengths
 from tests.support.tilted_fractions import exact_position
@@ -46,36 +57,45 @@ def direction(draw, most=3):
             return axis
 
 
-def leaning_forest(count, seed, heights=True):
-    """Hyperboloids of which two in three lean, with sizes and places of few bits."""
+def leaning_forest(count, seed, unit=1.0):
+    """Hyperboloids of which two in three lean, one as the mover may, with sizes and places of few bits."""
     draw = random.Random(seed)  # noqa: S311 - nothing is secret
+    mover = Mover(
+        unit * draw.randint(1, 6) / 8,
+        unit * draw.randint(1, 6) / 8,
+        axis=draw.choice([UPRIGHT, (1.0, -2.0, 3.0), FREE]),
+    )
     trees = []
     for number in range(count):
-        place = tuple(draw.randint(-24, 24) / 4 for _ in range(3))
-        height = Span(-draw.randint(1, 9) / 2, draw.randint(1, 9) / 2) if heights and draw.random() < 0.7 else None
-        axis = UPRIGHT if number % 3 == 0 else direction(draw)
-        trees.append(
-            Hyperboloid(f"tree {number}", draw.randint(1, 8) / 8, draw.randint(2, 16) / 4, place, height, axis)
-        )
-    mover = Mover(draw.randint(1, 6) / 8, draw.randint(1, 6) / 8, axis=draw.choice([UPRIGHT, (1.0, -2.0, 3.0), FREE]))
-    return SceneModel("forest", "position", tuple(trees), mover, Region(z=Span(-8.0, 8.0)))
+        place = tuple(unit * draw.randint(-24, 24) / 4 for _ in range(3))
+        span = Span(-unit * draw.randint(1, 9) / 2, unit * draw.randint(1, 9) / 2) if draw.random() < 0.7 else None
+        axis = UPRIGHT if number % 3 == 0 else (2.0, -4.0, 6.0) if number == 1 else direction(draw)
+        sizes = unit * draw.randint(1, 8) / 8, unit * draw.randint(2, 16) / 4
+        trees.append(Hyperboloid(f"tree {number}", *sizes, place, span, axis))
+    return SceneModel("forest", "position", tuple(trees), mover, Region(z=Span(-8.0 * unit, 8.0 * unit)))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(10))
 def test_scene_classify_of_a_leaning_forest_answers_as_exact_fractions_about_each_tree(seed):
-    scene = leaning_forest(6, seed)
-    draw = random.Random(seed + 100)  # noqa: S311 - nothing is secret
-    centres = [tuple(draw.randint(-64, 64) / 8 for _ in range(3)) for _ in range(25)]
-    axes = [direction(draw) if scene.mover.axis == FREE else scene.mover.axis for _ in centres]
-    given = {"axis": np.array(axes)} if scene.mover.axis == FREE else {}
-    asked = Scene(scene)
-    found = asked.classify(*np.array(centres).T, **given)
+    """In units of any size, for each question, with centres where trees stand and beyond the region."""
+    unit, question = (1.0, 2.0**-300, 2.0**300)[seed % 3], QUESTIONS[seed % 4]
+    scene = leaning_forest(6, seed, unit)
+    free, draw = scene.mover.axis == FREE, random.Random(seed + 100)  # noqa: S311 - nothing is secret
+    centres = [tuple(unit * draw.randint(-80, 80) / 8 for _ in range(3)) for _ in range(16)]
+    centres += [tuple(at + unit * draw.randint(-8, 8) / 8 for at in tree.center) for tree in scene.hyperboloids]
+    axes = [direction(draw) if free else scene.mover.axis for _ in centres]
     expected = [truth(scene, centre, axis) for centre, axis in zip(centres, axes, strict=True)]
-    assert found.tolist() == expected
-    alone = [
-        asked.position(*centre, **({"axis": axis} if given else {})) for centre, axis in zip(centres, axes, strict=True)
-    ]
-    assert alone == expected
+    assert len(set(expected)) > 1
+    if question != "position":
+        yes = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}[question]
+        expected = [said if said == SILENT else int(said == yes) for said in expected]
+    asked = Scene(replace(scene, question=question))
+    for scale in (1.0, -(2.0**500)):  # the length and the sense of an axis say nothing
+        turned = scale * np.array(axes)
+        found = asked.classify(*np.array(centres).T, **({"axis": turned} if free else {}))
+        assert found.tolist() == expected
+    given = [{"axis": axis} if free else {} for axis in axes]
+    assert [asked.position(*at, **axis) for at, axis in zip(centres, given, strict=True)] == expected
 
 
 def test_the_leaning_forests_of_these_tests_have_centres_with_every_answer():
@@ -202,6 +222,32 @@ def test_a_leaning_scene_answers_contact_at_a_tangency_and_exterior_at_the_next_
     assert scene.position(float(np.nextafter(12.0, 13.0)), 0.0, 0.0) == EXTERIOR
     assert scene.position(8.0, 0.0, 0.0) == CONTACT
     assert scene.position(float(np.nextafter(8.0, 7.0)), 0.0, 0.0) == EXTERIOR
+
+
+ROOT_3 = 1.7320508075688774
+"""The float above √3; the float before it is below √3."""
+
+
+@pytest.mark.parametrize(
+    ("axis", "span", "centre", "inside"),
+    [
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (3.0, 7.0, 4.0), True),  # 25/5 along the axis
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (float(np.nextafter(3.0, 4.0)), 7.0, 4.0), False),
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (-3.0, 7.0, -4.0), True),
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (-3.0, 7.0, float(np.nextafter(-4.0, -5.0))), False),
+        ((1.0, 1.0, 1.0), (0.0, ROOT_3), (1.0, 1.0, 1.0), True),
+        ((1.0, 1.0, 1.0), (0.0, float(np.nextafter(ROOT_3, 1.0))), (1.0, 1.0, 1.0), False),
+        ((-1.0, -1.0, -1.0), (-ROOT_3, 0.0), (1.0, 1.0, 1.0), True),
+        ((0.0, 0.0, 5.0), (-1.0, 2.0), (9.0, 0.0, 2.0), True),
+        ((0.0, 0.0, -5.0), (-1.0, 2.0), (9.0, 0.0, 2.0), False),
+        ((0.0, 0.0, -5.0), (-1.0, 2.0), (9.0, 0.0, -2.0), True),
+    ],
+)
+def test_the_modelled_height_ends_exactly_and_is_measured_in_the_direction_of_the_axis(axis, span, centre, inside):
+    body = Hyperboloid("b", 1.0, 1.0, (0.0, 0.0, 0.0), Span(*span), axis)
+    scene = Scene(SceneModel("s", "position", (body,), Mover(0.25, 0.25)))
+    assert (scene.position(*centre) != SILENT) == inside
+    assert scene.classify(*centre).tolist() == [scene.position(*centre)]
 
 
 def test_the_modelled_height_of_a_leaning_tree_is_measured_in_the_direction_of_its_axis():
