@@ -112,7 +112,7 @@ Poles = Callable[[Floats, Floats, Floats, Floats], tuple[Floats, Floats]]
 def upright_touches(rows: Rows, *, poles_of: Poles = poles, rounding: float = _ROUNDED) -> Touches:
     """The touches of valid rows (n, 7).
 
-    Their error holds for any τ and σ that `poles_of` finds, where what is computed is off by less than `rounding` of it.
+    Their error holds for any τ and σ that `poles_of` finds, if what is computed is off by less than `rounding` of it.
     """
     alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
     a, c, r, h = alpha / b, gamma / d, np.hypot(x, y) / b, np.abs(z) / d

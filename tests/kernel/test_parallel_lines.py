@@ -123,16 +123,3 @@ def test_a_scene_beyond_single_precision_has_lines_in_double_precision(unit, tow
     assert lines is not None
     assert lines.parallel is None
     assert len(lines_left(unit * tower, four)) < 0.005 * len(tower[0])
-
-
-def test_thresholds_of_lines_that_prove_nothing_decide_no_centre():
-    nothing = dict.fromkeys(("beyond", "under", "within", "above"))
-    found = scene_lines.thresholds(nothing, 1.0)
-    assert found is not None
-    assert [found[f"K_{side}"] for side in ("beyond", "under", "within", "above")] == [np.inf, -np.inf, -np.inf, np.inf]
-
-
-def test_a_multiplier_parallel_to_a_chord_is_never_0_where_a_line_has_no_constant():
-    """With A = B = 1 a chord of slope 1 is parallel to the tangent of λ = 0."""
-    for side in (1, -1):
-        assert scene_lines._parallel_multiplier((1.0, 1.0, 1.0, 1.0), (0.5, 1.0), 1.0, side) > 0
