@@ -83,6 +83,7 @@ def test_parallel_lines_decide_no_centre_near_contact_wrongly():
 
 @pytest.mark.parametrize("margin", [0.0, -scene_lines.FLOAT32_MARGIN])
 def test_parallel_lines_without_their_margin_decide_centres_near_contact_wrongly(margin, monkeypatch):
+    """The rows above are near enough to tell a margin that is too small."""
     scenes = near()
     monkeypatch.setattr(scene_lines, "FLOAT32_MARGIN", margin)
     assert any(wrong(scene) for scene in scenes)

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 from hypcheck import Scene, clearance
 from hypcheck.errors import InputError
+from hypcheck.kernel import scene_nearest
+from hypcheck.kernel.scene_index import bodies_of
 from hypcheck.scene.model import Hyperboloid, Mover, SceneModel, Span
 
 MOVER = Mover(0.3, 0.2)
@@ -98,6 +100,20 @@ def test_the_nearest_point_at_the_end_of_a_tree_is_on_its_surface_and_at_the_upp
     beside = found.point - tree.center
     assert np.allclose(np.hypot(*beside[:, :2].T), 0.5 * np.sqrt(1 + (beside[:, 2] / 2) ** 2), rtol=1e-13, atol=0)
     assert np.allclose(found.distance_upper, np.linalg.norm(found.point - centres, axis=1) - 0.3, rtol=0, atol=1e-9)
+
+
+def test_the_cylinder_about_a_tree_bounds_the_distance_from_below():
+    """Of radius √2/2 from −1 to 1, or without end; the mover's longer semi-axis is 0.3.
+
+    A bound that is too low asks about more trees, and shows in no answer.
+    """
+    bodies = bodies_of([Hyperboloid("a", 0.5, 1.0, (0, 0, 0), Span(-1, 1)), Hyperboloid("b", 0.5, 1.0)])
+    centres = np.array([[3.0, 4.0, 0.0], [1.2, 0.0, 0.5], [0.1, 0.0, 4.0], [0.1, 0.0, 0.5], [0.5**0.5 + 3, 0.0, 5.0]])
+    expected = [5 - 0.5**0.5 - 0.3, 1.2 - 0.5**0.5 - 0.3, 3 - 0.3, 0, 5 - 0.3]
+    found = scene_nearest.cylinders(bodies, MOVER, centres)
+    assert np.allclose(found[:, 0], expected, rtol=0, atol=1e-10)
+    assert (found[:, 0] <= expected).all()
+    assert not found[:, 1].any()
 
 
 @pytest.mark.parametrize("mover", [Mover(0.5, 0.5), Mover(0.5, 0.5, axis=(0.3, -0.2, 1.0)), Mover(0.5, 0.2)])

@@ -224,6 +224,7 @@ def test_scene_passage_of_no_ways_is_an_empty_array():
 
 
 def test_a_way_farther_from_an_axis_than_the_reach_does_not_pass_it():
+    """To ask about more is slow, and shows in no answer."""
     starts, ends = np.array([[-9.0, 0.0, 0.0], [-1.0, 1.0, 0.0]]), np.array([[9.0, 0.0, 0.0], [1.0, -1.0, 0.0]])
     origins = np.array([[0.0, 1.5, 0.0], [0.0, 1.0, 0.0], [3.0, 3.0, 0.0], [2.0, -2.0, 0.0]])
     query, reach = np.array([0, 0, 1, 1]), np.array([1.0, 1.0, 2.0, 2.0])
@@ -231,6 +232,7 @@ def test_a_way_farther_from_an_axis_than_the_reach_does_not_pass_it():
 
 
 def test_a_way_straight_through_a_tree_needs_no_exact_decision(monkeypatch):
+    """An exact decision is slow, and shows in no answer."""
     bodies = bodies_of([Hyperboloid("h", 1.0, 2.0)])
     monkeypatch.setattr(scene_pairs, "exact_way", None)
     start, end = np.array([[-5.0, 0.5, 0.0]]), np.array([[9.0, 0.5, 0.0]])

@@ -9,9 +9,8 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
-from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.kernel.emission.pair import METHODS, emitted_pair
+from hypcheck.kernel.emission.pair import emitted_pair
 from hypcheck.kernel.programs import dual
 from hypcheck.vectors import frozen
 from tests.kernel.emission.building import asking_pairs, built_of, skip_without
@@ -94,12 +93,6 @@ def test_the_dual_form_program_bounds_the_errors_of_phi_and_of_its_slope(vectors
 def test_emit_for_one_pair_refuses_wrong_or_missing_options_in_one_sentence(capsys, words, said):
     assert main(["emit", "--language", "python", *words]) == 2
     assert said in capsys.readouterr().err
-
-
-def test_emitted_pair_refuses_an_unknown_method():
-    with pytest.raises(InputError, match="it must be exact, certified, dual or local-maximum"):
-        emitted_pair("roots", "c", COMMAND)
-    assert METHODS == ("exact", "certified", "dual", "local-maximum")
 
 
 @pytest.mark.parametrize(
