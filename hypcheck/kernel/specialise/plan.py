@@ -256,6 +256,7 @@ def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
 
 
 def decided_by(delta: Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
+    """Which centres the discriminant tells: within its region, and larger than its bound."""
     values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
     inside = (R <= delta.widest) & (zz <= delta.highest)
     beyond = values["delta_3"] < -delta.bound
