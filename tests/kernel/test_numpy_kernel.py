@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -45,14 +47,31 @@ def test_lines_of_the_numpy_kernel_decide_most_centres_near_the_surface_and_none
     lines = scene_lines.lines_of(sizes, z)
     numbers = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
     for ask, constants, buffers, shares in (
-        (numpy_kernel._by_parallel_lines, lines.parallel, Buffers(numbers, count, np.float32), parallel),
-        (numpy_kernel._by_two_lines, lines.two, Buffers(chunks.TWO_LINES_BUFFERS, count, np.float64), two),
+        (numpy_kernel.by_parallel_lines, lines.parallel, Buffers(numbers, count, np.float32), parallel),
+        (numpy_kernel.by_two_lines, lines.two, Buffers(chunks.TWO_LINES_BUFFERS, count, np.float64), two),
     ):
         found, decided = np.empty(count, np.int8), np.ones(count, np.bool_)
         decided[ask(constants, columns, buffers, found)] = False
         assert (found[decided] == truth[decided]).all()
         for position, share in zip((-1, 0, 1), shares, strict=True):
             assert not share or decided[truth == position].mean() >= share
+
+
+def test_lines_of_is_none_for_extreme_sizes_and_gives_lines_for_heights_of_zero():
+    assert scene_lines.lines_of((1.0, 1e300, 1.0, 1.0), np.array([1.0])) is None
+    for z in (np.zeros(3), np.array([5e-324]), np.array([np.nan, np.inf, 1e200])):
+        lines = scene_lines.lines_of((2.0, 17.8, 0.25, 0.15), z)
+        assert lines.two["reach"] > 0
+        assert lines.parallel is None
+
+
+@pytest.mark.parametrize("up", [False, True])
+def test_a_shortened_height_has_a_square_without_rounding(up):
+    """A step of the proof that heights up to the top are within the reach of the lines."""
+    for value in (1.0, 0.1, 17.8 * 1.0625, 2.0**-60 / 3, 2.0**90 / 7):
+        short = scene_lines.shortened(value, up=up)
+        assert Fraction(short) ** 2 == Fraction(short * short)
+        assert (value <= short <= value * (1 + 2.0**-24)) if up else (value * (1 - 2.0**-24) <= short <= value)
 
 
 def test_thresholds_of_lines_are_on_the_safe_side_of_the_lines_at_both_ends():

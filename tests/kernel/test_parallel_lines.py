@@ -44,7 +44,7 @@ def edge_of(four: tuple[float, ...], T: float, side: int) -> float:
     """R of the border at that T."""
     alpha, gamma, b, d = four
     A, B, Q = (alpha / b) ** 2, (gamma / d) ** 2, T / d**2
-    at = side * scene_lines._multiplier(four, T, side)
+    at = side * scene_lines.multiplier(four, T, side)
     return b * b * ((A + at) * (1 + 1 / at) + Q * (A + at) / (B - at))
 
 
@@ -62,7 +62,7 @@ def wrong(scene: Scene) -> int:
     columns = scene.x, scene.y, scene.z
     for start in range(0, COUNT, 1024):  # so that one chunk in which too much is left does not end the stage
         part = slice(start, start + 1024)
-        rest = numpy_kernel._by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
+        rest = numpy_kernel.by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
         answers[start + rest] = 99
     return int(((answers != 99) & (answers != float_filter.positions(scene.rows))).sum())
 
@@ -99,7 +99,7 @@ def lines_left(columns, four=TOWER):
     lines = scene_lines.lines_of(four, columns[2])
     answers = np.zeros(len(columns[0]), np.int8)
     with np.errstate(all="ignore"):
-        return numpy_kernel._by_lines(lines, tuple(columns), answers)
+        return numpy_kernel.by_lines(lines, tuple(columns), answers)
 
 
 def test_parallel_lines_decide_most_centres(tower):
@@ -124,3 +124,9 @@ def test_a_scene_beyond_single_precision_has_lines_in_double_precision(unit, tow
     assert lines is not None
     assert lines.parallel is None
     assert len(lines_left(unit * tower, four)) < 0.005 * len(tower[0])
+
+
+def test_a_multiplier_parallel_to_a_chord_is_never_0_where_a_line_has_no_constant():
+    """With A = B = 1 a chord of slope 1 is parallel to the tangent of λ = 0."""
+    for side in (1, -1):
+        assert scene_lines.parallel_multiplier((1.0, 1.0, 1.0, 1.0), (0.5, 1.0), 1.0, side) > 0
