@@ -157,7 +157,7 @@ def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None)
 
 def _answers(rows: Rows, threads: int | None) -> Clearance:
     """The answers about rows that all lean, (n, 10), or that are all upright, (n, 7)."""
-    rows, shift = _scaled(rows)
+    rows, shift = scaled(rows)
     leans = rows.shape[1] > len(COLUMNS)
     position = _positions(rows, threads)
     touches = points.leaning_touches(rows) if leans else points.upright_touches(rows)
@@ -183,7 +183,7 @@ def _answers(rows: Rows, threads: int | None) -> Clearance:
     return Clearance(position, lower, upper, touch, error, least, most, nearest)
 
 
-def _scaled(rows: Rows) -> tuple[Rows, Integers]:
+def scaled(rows: Rows) -> tuple[Rows, Integers]:
     """The rows with all lengths times 2^shift, exactly: the longest about 1, or longer where b or d would be subnormal.
 
     The shift is 0 where the longest is ordinary, and where a length would be rounded.
@@ -195,9 +195,9 @@ def _scaled(rows: Rows) -> tuple[Rows, Integers]:
     shift = np.where(small, 900 - exponents, shift)
     moved = np.ldexp(lengths, shift[:, None])
     shift = np.where((np.ldexp(moved, -shift[:, None]) == lengths).all(axis=1), shift, 0)
-    scaled = rows.copy()
-    scaled[:, : len(COLUMNS)] = np.where(shift[:, None] == 0, lengths, moved)
-    return scaled, shift
+    found = rows.copy()
+    found[:, : len(COLUMNS)] = np.where(shift[:, None] == 0, lengths, moved)
+    return found, shift
 
 
 def _lowered(length: Floats, shift: Integers, towards: float) -> Floats:

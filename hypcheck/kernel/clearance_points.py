@@ -30,6 +30,7 @@ hyperboloid a meridian plane is convex, and inside it the far side is. G' = 0 sa
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,39 +89,7 @@ class Gaps:
     here: Floats
 
 
-def upright_touches(rows: Rows) -> Touches:
-    """The touches of valid rows (n, 7)."""
-    alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
-    a, c, r, h = alpha / b, gamma / d, np.hypot(x, y) / b, np.abs(z) / d
-    A, B = a * a, c * c
-    tau, sigma = _poles(A, B, a * r, c * h)
-    lesser = tau < sigma
-    tau, sigma = np.where(lesser, tau, A + B - sigma), np.where(lesser, A + B - tau, sigma)
-    radius, height = A * r / tau, B * h / sigma
-    low, high = a * np.sqrt(1 + (height / c) ** 2), c * np.sqrt(np.maximum((radius / a) ** 2 - 1, 0))
-    rounded = _ROUNDED * B * (radius / a) ** 2 / high
-    by_low = (np.abs(low - radius) + _ROUNDED * (low + radius)) ** 2 * (tau / A)
-    by_high = (np.abs(high - height) + _ROUNDED * (high + height) + rounded) ** 2 * (sigma / B)
-    least = np.fmin(by_low, by_high)
-    across, up = np.sqrt(least * (A / tau)), np.sqrt(least * (B / sigma))
-    off_low = d * up + b * (A * (height + up) / (B * low)) * up
-    off_high = b * across + d * ((B / A) * (2 * radius + across) * across / high + rounded)
-    other = off_high < off_low
-    radius, height = np.where(other, radius, low), np.where(other, high, height)
-    point = _placed(rows, radius * b, height * d)
-    error = _MORE * (np.fmin(off_low, off_high) + _ROUNDED * np.abs(point).sum(axis=1))
-    return Touches(np.hypot(radius - r, height - h), point, _known(rows, error))
-
-
-def _known(rows: Rows, error: Floats) -> Floats:
-    """The errors where their bounds hold, else inf."""
-    size = np.abs(rows[:, :7])
-    usual = (size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1)
-    usual &= np.abs(np.log2(rows[:, 2] / rows[:, 3])) <= _RATIO
-    return np.where(usual & (error >= 0), error, np.inf)
-
-
-def _poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
+def poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
     """τ and σ, by Newton's method from λ = 0."""
     W = A + B
     p, q = np.maximum(p, _LEAST), np.maximum(q, _LEAST)
@@ -134,6 +103,45 @@ def _poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
         if (np.abs(step) <= _TOUCH_SETTLED * np.minimum(tau, sigma)).all():
             break
     return np.maximum(tau, 2.0**-1000), np.maximum(sigma, _LEAST_SHARE * W)
+
+
+Poles = Callable[[Floats, Floats, Floats, Floats], tuple[Floats, Floats]]
+"""What finds τ and σ from A, B, a r and c h."""
+
+
+def upright_touches(rows: Rows, *, poles_of: Poles = poles, rounding: float = _ROUNDED) -> Touches:
+    """The touches of valid rows (n, 7).
+
+    Their error holds for any τ and σ that `poles_of` finds, if what is computed is off by less than `rounding` of it.
+    """
+    alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
+    a, c, r, h = alpha / b, gamma / d, np.hypot(x, y) / b, np.abs(z) / d
+    A, B = a * a, c * c
+    tau, sigma = poles_of(A, B, a * r, c * h)
+    lesser = tau < sigma
+    tau, sigma = np.where(lesser, tau, A + B - sigma), np.where(lesser, A + B - tau, sigma)
+    radius, height = A * r / tau, B * h / sigma
+    low, high = a * np.sqrt(1 + (height / c) ** 2), c * np.sqrt(np.maximum((radius / a) ** 2 - 1, 0))
+    rounded = rounding * B * (radius / a) ** 2 / high
+    by_low = (np.abs(low - radius) + rounding * (low + radius)) ** 2 * (tau / A)
+    by_high = (np.abs(high - height) + rounding * (high + height) + rounded) ** 2 * (sigma / B)
+    least = np.fmin(by_low, by_high)
+    across, up = np.sqrt(least * (A / tau)), np.sqrt(least * (B / sigma))
+    off_low = d * up + b * (A * (height + up) / (B * low)) * up
+    off_high = b * across + d * ((B / A) * (2 * radius + across) * across / high + rounded)
+    other = off_high < off_low
+    radius, height = np.where(other, radius, low), np.where(other, high, height)
+    point = _placed(rows, radius * b, height * d)
+    error = _MORE * (np.fmin(off_low, off_high) + rounding * np.abs(point).sum(axis=1))
+    return Touches(np.hypot(radius - r, height - h), point, _known(rows, error))
+
+
+def _known(rows: Rows, error: Floats) -> Floats:
+    """The errors where their bounds hold, else inf."""
+    size = np.abs(rows[:, :7])
+    usual = (size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1)
+    usual &= np.abs(np.log2(rows[:, 2] / rows[:, 3])) <= _RATIO
+    return np.where(usual & (error >= 0), error, np.inf)
 
 
 def _placed(rows: Rows, radius: Floats, height: Floats) -> Floats:
@@ -174,20 +182,25 @@ def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
     return Gaps(gap, v / n, there, here)
 
 
-def leaning_touches(rows: Rows) -> Touches:
-    """The touches of valid rows (n, 10) whose axis leans."""
+def leaning_touches(rows: Rows, at: Floats | None = None) -> Touches:
+    """The touches of valid rows (n, 10) whose axis leans.
+
+    Their error holds for any multipliers λ (n,) that are given as `at`; else they are found here.
+    """
     alpha, gamma, b, d = np.ascontiguousarray(rows[:, :4].T)
     unit, centre = _unit(rows[:, 7:]), rows[:, 4:7] / b[:, None]
     stretch = (b / d) ** 2 - 1
-    at = np.concatenate([numpy_kernel.multipliers(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK)])
+    turns = POLISHED if at is None else 0
+    if at is None:
+        at = np.concatenate([numpy_kernel.multipliers(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK)])
     form = np.stack([(b / alpha) ** 2, (b / alpha) ** 2, -((b / gamma) ** 2)], axis=1)
     outer = stretch[:, None, None] * (unit[:, :, None] * unit[:, None, :])
     own = centre + (stretch * (unit * centre).sum(axis=1))[:, None] * unit
-    for turn in range(POLISHED + 1):
+    for turn in range(turns + 1):
         matrix = np.eye(3) * (1 + at[:, None, None] * form[:, None, :]) + outer
         adjugate, determinant = _adjugate(matrix)
         place = (adjugate * own[:, :, None]).sum(axis=1) / determinant[:, None]
-        if turn == POLISHED:
+        if turn == turns:
             break
         normal = form * place
         bend = ((adjugate * normal[:, :, None]).sum(axis=1) * normal).sum(axis=1) / determinant

@@ -101,7 +101,7 @@ def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis
         return result
     lines = scene_lines.lines_of(sizes, z) if len(x) >= LINES_FROM else None
     with np.errstate(all="ignore"):
-        left = np.arange(len(x)) if lines is None else _by_lines(lines, (x, y, z), result)
+        left = np.arange(len(x)) if lines is None else by_lines(lines, (x, y, z), result)
     for start in range(0, len(left), CHUNK):
         rest = left[start : start + CHUNK]
         rows = np.empty((len(rest), 7))
@@ -176,7 +176,7 @@ class Buffers(Generic[Number]):
         return [each[:rows] for each in self._numbers], [each[:rows] for each in self._truths]
 
 
-def _by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Indices:
+def by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Indices:
     """Fill in what the scene's half planes prove, and return the places of the rest."""
     numbers, truths = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
     singles = Buffers((numbers, truths), LINES_CHUNK, np.float32)
@@ -187,16 +187,16 @@ def _by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Indices
         x, y, z = (column[start : start + LINES_CHUNK] for column in columns)
         answers, rest = result[start : start + LINES_CHUNK], None
         if few_left and lines.parallel is not None:
-            rest = _by_parallel_lines(lines.parallel, (x, y, z), singles, answers)
+            rest = by_parallel_lines(lines.parallel, (x, y, z), singles, answers)
             few_left = rest is None or len(rest) <= TOO_MANY_LEFT
         if rest is None:
-            rest = _by_two_lines(lines.two, (x, y, z), doubles, answers)
+            rest = by_two_lines(lines.two, (x, y, z), doubles, answers)
         if len(rest):
             left.append(rest + start)
     return np.concatenate(left) if left else np.empty(0, dtype=np.intp)
 
 
-def _by_parallel_lines(
+def by_parallel_lines(
     constants: dict[str, float], columns: Columns, buffers: Buffers[np.float32], result: Positions
 ) -> Indices | None:
     """The same for one chunk, in single precision; None, and nothing is filled in, where a centre has no room in it."""
@@ -208,9 +208,10 @@ def _by_parallel_lines(
     return _filled_in(*found, result)
 
 
-def _by_two_lines(
+def by_two_lines(
     constants: dict[str, float], columns: Columns, buffers: Buffers[np.float64], result: Positions
 ) -> Indices:
+    """What two lines a side leave, in double precision; fills the answers that they prove."""
     sums, exterior, interior, decided = chunks.two_lines(*columns, constants, *buffers.of(len(result)))
     rest = _filled_in(exterior, interior, decided, result)
     return rest if sums.max() < CAP else np.arange(len(result))  # so with NaN

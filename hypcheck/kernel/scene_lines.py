@@ -113,8 +113,8 @@ def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
     for part in (1, 2):  # the lower and the upper heights
         middle = (heights[part - 1] ** 2 + heights[part] ** 2) / 2
         made = {
-            "beyond": _beyond(sizes, _multiplier(sizes, middle, side=1)),
-            "within": _within(sizes, _multiplier(sizes, middle, side=-1)),
+            "beyond": _beyond(sizes, multiplier(sizes, middle, side=1)),
+            "within": _within(sizes, multiplier(sizes, middle, side=-1)),
             "under": _chord("under", under[part - 1], under[part]),
             "above": _chord("above", above[part - 1], above[part]),
         }
@@ -122,8 +122,8 @@ def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
             two[f"K_{side}_{part}"], two[f"M_{side}_{part}"] = made[side] or PROVES_NOTHING[side]
     chords = {"under": _chord("under", under[0], under[2]), "above": _chord("above", above[0], above[2])}
     parallel = {
-        "beyond": _beyond(sizes, _parallel_multiplier(sizes, chords["under"], heights[1], side=1)),
-        "within": _within(sizes, _parallel_multiplier(sizes, chords["above"], heights[1], side=-1)),
+        "beyond": _beyond(sizes, parallel_multiplier(sizes, chords["under"], heights[1], side=1)),
+        "within": _within(sizes, parallel_multiplier(sizes, chords["above"], heights[1], side=-1)),
         **chords,
     }
     return SceneLines(thresholds(parallel, top), two)
@@ -137,18 +137,18 @@ def _heights(z: Floats) -> tuple[float, float, float]:
     sample = np.abs(z[:: len(z) // SAMPLE + 1])
     sample = sample[sample < GREATEST_HEIGHT]
     least, greatest = (float(sample.min()), float(sample.max())) if len(sample) else (0.0, 0.0)
-    top = _short(1.0625 * greatest, up=True) if greatest > LEAST_HEIGHT else LEAST_HEIGHT
-    return 0.0, _short(max(0.55 * top, 0.999 * least if least < greatest else 0.0), up=False), top
+    top = shortened(1.0625 * greatest, up=True) if greatest > LEAST_HEIGHT else LEAST_HEIGHT
+    return 0.0, shortened(max(0.55 * top, 0.999 * least if least < greatest else 0.0), up=False), top
 
 
-def _short(value: float, *, up: bool) -> float:
+def shortened(value: float, *, up: bool) -> float:
     """The value cut, or raised, to 25 significant bits: its square is a float64."""
     mantissa, exponent = math.frexp(value)
     whole = mantissa * 2**25
     return math.ldexp(math.ceil(whole) if up else math.floor(whole), exponent - 25)
 
 
-def _multiplier(sizes: Sizes, T: float, side: int) -> float:
+def multiplier(sizes: Sizes, T: float, side: int) -> float:
     """About where (A+λ)(1+1/λ) + Q(A+λ)/(B−λ) is least (side 1), or with −μ for λ greatest (side −1)."""
     A, B, Q = _ratios(sizes, T)
     low, high = 0.0, min(math.sqrt(A), B) if side > 0 else math.sqrt(A)
@@ -161,7 +161,7 @@ def _multiplier(sizes: Sizes, T: float, side: int) -> float:
     return (low + high) / 2  # never 0
 
 
-def _parallel_multiplier(sizes: Sizes, chord: Line | None, height: float, side: int) -> float:
+def parallel_multiplier(sizes: Sizes, chord: Line | None, height: float, side: int) -> float:
     """λ (side 1) or μ (side −1) of the tangent parallel to the chord; without a chord, of that at the height."""
     if chord is not None:
         A, B, Q_slope = _ratios(sizes, 1.0)
@@ -169,7 +169,7 @@ def _parallel_multiplier(sizes: Sizes, chord: Line | None, height: float, side: 
         at = side * (slope * B - A) / (1 + slope)
         if 0 < at < (B if side > 0 else A):
             return at
-    return _multiplier(sizes, height**2, side)
+    return multiplier(sizes, height**2, side)
 
 
 def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
@@ -180,12 +180,12 @@ def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
 def _known_point(sizes: Sizes, height: float, side: int) -> KnownPlace | None:
     """A point close to the edge at that height whose position is not exterior (side 1), or not interior (side −1)."""
     A, B, Q = _ratios(sizes, height**2)
-    at = side * _multiplier(sizes, height**2, side)
+    at = side * multiplier(sizes, height**2, side)
     edge = (A + at) * (1 + 1 / at) + Q * (A + at) / (B - at)
     if not edge < CAP:
         return None
     for step in STEPS:
-        x = _short(sizes[2] * math.sqrt(max(edge * (1 - side * step), 0.0)), up=side < 0)
+        x = shortened(sizes[2] * math.sqrt(max(edge * (1 - side * step), 0.0)), up=side < 0)
         if exact_position(*sizes, x, 0.0, height) != side:
             return KnownPlace(height * height, x * x)
     return None

@@ -62,7 +62,7 @@ def nearest(bodies: Bodies, mover: Mover, centres: Floats) -> Nearest:
 
 
 def _fill(found: Nearest, bodies: Bodies, mover: Mover, centres: Floats, places: Indices) -> None:
-    least = _cylinders(bodies, mover, centres[places])
+    least = cylinders(bodies, mover, centres[places])
     first = np.argmin(least, axis=1)
     _ask(found, bodies, mover, centres, places, first)
     query, body = np.nonzero(least <= found.distance_upper[places, None])
@@ -93,7 +93,7 @@ def _ask(found: Nearest, bodies: Bodies, mover: Mover, centres: Floats, query: I
     found.tied[asked] = reaching[asked] > 1
 
 
-def _cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
+def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
     """A lower bound of each distance, (n, m), by the cylinder about the standing part; inf where nothing stands."""
     with np.errstate(all="ignore"):
         across = np.hypot(*(centres[:, k, None] - bodies.origins[:, k] for k in (0, 1)))

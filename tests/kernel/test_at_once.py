@@ -192,6 +192,10 @@ def test_classify_scene_with_prepared_sizes_answers_as_with_the_sizes(axis, know
         assert step_by_step.classify_scene(prepared, x, y, z).tolist() == expected
 
 
+def test_what_is_prepared_depends_on_the_centres_that_will_be_asked(columns):
+    assert hypcheck.Prepared(SIZES, like=columns).kept != hypcheck.Prepared(SIZES).kept
+
+
 def test_prepared_sizes_sent_to_another_process_are_prepared_there_again():
     """What is kept means something to the build that made it alone: another, given it, would answer wrongly."""
     prepared = hypcheck.Prepared(SIZES, (0.3, 0.1, 0.9))

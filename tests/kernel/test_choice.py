@@ -12,8 +12,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel import choice as module
-from hypcheck.kernel.choice import LEVELS, KernelChoice, choice, most_threads
+from hypcheck.kernel.choice import EXTENSION, LEVELS, KernelChoice, choice, most_threads
 
 CPUINFO = Path("/proc/cpuinfo")
 
@@ -32,12 +31,12 @@ WITHOUT = "it was not built at install, which takes a C compiler and Python's he
 
 
 def test_kernel_choice_without_a_compiled_kernel_is_numpy_with_the_reason(fresh):
-    fresh.setattr(module, "EXTENSION", "hypcheck.kernel._not_there")
+    fresh.setitem(sys.modules, EXTENSION, None)
     assert choice() == KernelChoice("numpy", None, f"there is no compiled kernel: {WITHOUT}")
 
 
 def test_forcing_a_missing_kernel_raises_an_input_error(fresh):
-    fresh.setattr(module, "EXTENSION", "hypcheck.kernel._not_there")
+    fresh.setitem(sys.modules, EXTENSION, None)
     fresh.setenv("HYPCHECK_KERNEL", "compiled")
     with pytest.raises(InputError, match=f"HYPCHECK_KERNEL is 'compiled', but there is no compiled kernel: {WITHOUT}"):
         choice()
@@ -66,7 +65,7 @@ def test_forcing_an_instruction_set_that_this_machine_lacks_is_refused(fresh):
         use_level = staticmethod(lambda name: name == "sse2")
         level = staticmethod(lambda: "sse2")
 
-    fresh.setattr(module, "compiled", lambda: Old)
+    fresh.setitem(sys.modules, EXTENSION, Old)
     fresh.setenv("HYPCHECK_LEVEL", "avx512")
     with pytest.raises(InputError, match="'avx512', but this machine or build has no more than sse2"):
         choice()

@@ -4,35 +4,14 @@ from __future__ import annotations
 
 import re
 import warnings
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.errors import InputError
-from hypcheck.kernel import classify
-from hypcheck.truth import exact
-from tests.support.pairs import pairs
 
 ROWS = [[1, 2, 1, 1, 2.5, 0, 0], [1, 2, 1, 1, 2, 0, 0], [4, 4, 1, 1, 0, 0, 0]]
-
-
-@pytest.mark.slow
-@settings(max_examples=60)
-@given(st.lists(pairs, max_size=10))
-def test_classify_and_classify_scene_give_exact_positions(some):
-    rows = np.array([pair.row for pair in some]).reshape(len(some), 7)
-    found = hypcheck.classify(rows)
-    assert (found.dtype, found.shape) == (np.int8, (len(some),))
-    assert found.tolist() == [int(exact.position(pair.lengths)) for pair in some]
-    if some:
-        sizes, (x, y, z) = some[0].row[:4], rows[:, 4:].T
-        moved = rows.copy()
-        moved[:, :4] = sizes
-        assert hypcheck.classify_scene(sizes, x, y, z).tolist() == hypcheck.classify(moved).tolist()
 
 
 def test_classify_takes_lists_and_other_types_of_numbers():
@@ -54,6 +33,12 @@ def test_classify_fills_the_given_out_array_and_returns_it():
 def test_classify_accepts_an_out_array_that_overlaps_the_rows():
     rows = np.array(ROWS)
     assert hypcheck.classify(rows, out=rows.view(np.int8)[0, :3]).tolist() == [1, 0, -1]
+    x, y, z = np.ascontiguousarray(np.tile([[9, 0, 0], [2, 0, 0], [0, 0, 9.0]], (500, 1)).T)
+    for column in (x, y, z):
+        kept, out = column.copy(), column.view(np.int8)[:1500]
+        for threads in (None, 2):
+            assert hypcheck.classify_scene((3, 9, 1, 2), x, y, z, out, threads=threads).tolist() == [1, 0, -1] * 500
+            column[:] = kept
 
 
 BAD = {
@@ -180,19 +165,3 @@ def test_classify_refuses_an_unknown_on_invalid():
         hypcheck.classify(ROWS, on_invalid="ignore")
     with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):
         hypcheck.classify_scene((1, 2, 1, 1), 1, 2, 3, on_invalid="ignore")
-
-
-def test_prepared_shows_the_kernel_the_centres_it_was_given(monkeypatch):
-    seen = []
-    monkeypatch.setattr(classify, "kernel", lambda: SimpleNamespace(prepared=lambda *asked: seen.append(asked)))
-    hypcheck.Prepared((2, 4, 1, 1), like=([1.0, 2.0], [3.0, 4.0], [5.0, 6.0]))
-    ((_, columns, _),) = seen
-    assert [each.tolist() for each in columns] == [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
-
-
-def test_columns_that_share_memory_with_out_or_are_not_contiguous_do_not_lie_apart():
-    room = np.zeros(64)
-    out, apart, strided = room.view(np.int8)[:8], room[32:40], room[32:48:2]
-    assert classify._lie_apart(out, (apart, apart, apart))
-    assert not classify._lie_apart(out, (apart, room[:8], apart))
-    assert not classify._lie_apart(out, (apart, apart, strided))

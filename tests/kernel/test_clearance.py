@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import sys
 
 import numpy as np
 import pytest
@@ -54,7 +55,7 @@ def test_clearance_intervals_stay_right_if_the_guess_of_the_touch_is_wrong(rows,
     choice.choice.cache_clear()
     true = nearest.clearances(rows[::8]).clearance
     assert ((other.lower <= true) & (true <= other.upper)).all()
-    assert (other.upper - other.lower <= 2.0**-29 * np.maximum(1, 1 + other.lower)).all()
+    assert (other.upper - other.lower <= (2.0**-30 + 2.0**-50) * np.maximum(1, 1 + other.lower)).all()
 
 
 def test_clearance_intervals_stay_right_if_the_gap_is_measured_at_another_point(rows, monkeypatch):
@@ -83,9 +84,9 @@ def test_clearance_intervals_stay_right_if_the_gap_is_measured_at_another_point(
 def test_clearance_of_the_numpy_kernel_agrees_with_each_instruction_set(rows, monkeypatch):
     module = pytest.importorskip("hypcheck.kernel._compiled")
     some = rows[::2]
-    with monkeypatch.context() as numpy_kernel:
-        numpy_kernel.setenv("HYPCHECK_KERNEL", "numpy")
-        numpy_kernel.setattr(module, "clearance", None)
+    with monkeypatch.context() as environment:
+        environment.setenv("HYPCHECK_KERNEL", "numpy")
+        environment.setitem(sys.modules, choice.EXTENSION, None)
         choice.choice.cache_clear()
         found = hypcheck.clearance(some)
     choice.choice.cache_clear()
@@ -151,18 +152,6 @@ def test_sampled_points_of_both_bodies_are_no_nearer_than_distance_lower():
         assert found.distance_lower[k] <= gaps.min()
         assert gaps[-1].min() <= found.distance_upper[k] + 0.01 * max(b, d)  # the sampled points are that far apart
         assert np.isclose(np.hypot(*found.nearest[k, :2]), rho[-1], rtol=1e-14)
-
-
-def test_an_enlarged_spheroid_contains_the_layer_around_the_smaller_one():
-    rng = np.random.default_rng(8)
-    b, d, v, delta = np.exp(rng.normal(0, 2, (4, 1000)))
-    angle = rng.uniform(0, np.pi, 1000)
-    half = [np.hypot(p * np.cos(angle), q * np.sin(angle)) for p, q in ((b, d), _enlarged(b, d, v, delta))]
-    assert (half[0] + delta <= half[1] * (1 + 1e-14)).all()
-
-
-def _enlarged(b, d, v, delta):
-    return [np.sqrt((v + delta) * (size**2 / v + delta)) for size in (b, d)]
 
 
 def test_clearance_refuses_invalid_rows_or_marks_them_with_127():

@@ -94,26 +94,6 @@ def test_the_c_function_answers_the_position_to_an_unknown_question(scene):
         assert (answers == float_filter.positions(scene.rows)).all()
 
 
-def test_the_compiled_kernel_shares_many_rows_among_threads(monkeypatch):
-    monkeypatch.setattr(compiled_kernel, "ROWS_A_THREAD", 1000)
-    monkeypatch.setenv("HYPCHECK_THREADS", "3")
-    seen = set()
-    ask = compiled.ask_scene
-
-    class Watched:
-        @staticmethod
-        def ask_scene(*arguments):
-            seen.add(threading.current_thread().name)
-            return ask(*arguments)
-
-    monkeypatch.setattr(compiled_kernel, "compiled", lambda: Watched)
-    x, y, z = np.random.default_rng(1).uniform(-4, 4, (3, 10_001))
-    answers, refused = compiled_kernel.answer_scene(SIZES, (x, y, z), "position")
-    assert len(seen) == 3
-    assert refused == 0
-    assert (answers == numpy_kernel.positions_of_scene(SIZES, x, y, z)).all()
-
-
 def test_python_threads_run_while_the_compiled_kernel_computes():
     """A second thread counts while the first is in C; with the interpreter held it would stand still until the end."""
     rows = np.tile([1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0], (400_000, 1))  # tangencies: some 0.2 s for the integers
@@ -138,31 +118,33 @@ def test_python_threads_run_while_the_compiled_kernel_computes():
     assert len(middle) > 100
 
 
-@pytest.mark.parametrize("bad", ["hypcheck-1", threading.current_thread().name])
-def test_an_error_in_a_thread_of_the_compiled_kernel_is_raised_in_the_caller(bad, monkeypatch):
-    class Failing:
-        @staticmethod
-        def ask_scene(*arguments):
-            if threading.current_thread().name == bad:
-                raise MemoryError("no room")
-            return compiled.ask_scene(*arguments)
+@pytest.mark.parametrize("bad", [0, 320])
+def test_an_error_in_a_part_is_raised_in_the_caller_after_the_other_parts(bad):
+    done = []
 
-    monkeypatch.setattr(compiled_kernel, "compiled", lambda: Failing)
+    def part(start, _):
+        if start == bad:
+            raise MemoryError("no room")
+        done.append(start)
+        return 0
+
     with pytest.raises(MemoryError, match="no room"):
-        hypcheck.classify_scene(SIZES, np.zeros(1000), 0, 0, threads=3)
+        compiled_kernel.in_parts(part, 1000, 3)
+    assert sorted([bad, *done]) == [0, 320, 640]
 
 
-def test_classify_scene_is_exact_for_columns_of_any_stride_type_and_alignment(scene, monkeypatch):
-    monkeypatch.setattr(compiled_kernel, "CHUNK", 999)
-    truth = float_filter.positions(scene.rows)
-    table = np.column_stack([scene.x, scene.y, scene.z])
+def test_classify_scene_is_exact_for_columns_of_any_stride_type_and_alignment(scene):
+    """Of so many rows that copies of strided columns are made in two parts."""
+    count = compiled_kernel.CHUNK // len(scene.x) + 1
+    truth = np.tile(float_filter.positions(scene.rows), count)
+    table = np.tile(np.column_stack([scene.x, scene.y, scene.z]), (count, 1))
+    x, y, z = np.ascontiguousarray(table.T)
     assert (hypcheck.classify_scene(scene.sizes, *table.T) == truth).all()
-    assert (hypcheck.classify_scene(scene.sizes, scene.x[::-1], scene.y[::-1], scene.z[::-1]) == truth[::-1]).all()
-    swapped = [column.astype(">f8") for column in (scene.x, scene.y, scene.z)]
-    assert (hypcheck.classify_scene(scene.sizes, *swapped) == truth).all()
-    shifted = np.frombuffer(b"\0" + np.ascontiguousarray(scene.x).tobytes(), np.float64, len(scene.x), 1)
+    assert (hypcheck.classify_scene(scene.sizes, x[::-1], y[::-1], z[::-1]) == truth[::-1]).all()
+    assert (hypcheck.classify_scene(scene.sizes, *(each.astype(">f8") for each in (x, y, z))) == truth).all()
+    shifted = np.frombuffer(b"\0" + x.tobytes(), np.float64, len(x), 1)
     assert not shifted.flags.aligned
-    assert (hypcheck.classify_scene(scene.sizes, shifted, scene.y, scene.z) == truth).all()
+    assert (hypcheck.classify_scene(scene.sizes, shifted, y, z) == truth).all()
 
 
 def test_classify_is_exact_for_rows_of_any_alignment(rows):
@@ -191,11 +173,12 @@ def test_the_compiled_extension_refuses_wrong_buffers_in_one_sentence():
         compiled.position(1.0, 2.0)
 
 
-def test_few_rows_are_one_part_and_parts_are_whole_blocks_of_about_equal_size():
-    parts = []
+def test_few_rows_are_one_part_and_parts_are_whole_blocks_of_about_equal_size_on_threads(monkeypatch):
+    parts, threads = [], set()
 
     def part(start, stop):
         parts.append((start, stop))
+        threads.add(threading.current_thread().name)
         return stop - start
 
     assert compiled_kernel.in_parts(part, 1000, None) == 1000
@@ -203,3 +186,10 @@ def test_few_rows_are_one_part_and_parts_are_whole_blocks_of_about_equal_size():
     parts.clear()
     assert compiled_kernel.in_parts(part, 1000, 3) == 1000
     assert sorted(parts) == [(0, 320), (320, 640), (640, 1000)]
+    assert len(threads) == 3
+    many = 5 * compiled_kernel.ROWS_A_THREAD
+    for most in (2, 9):
+        monkeypatch.setenv("HYPCHECK_THREADS", str(most))
+        parts.clear()
+        assert compiled_kernel.in_parts(part, many, None) == many
+        assert len(parts) == min(most, 5)

@@ -77,40 +77,6 @@ def test_every_step_printed_in_c_gives_the_same_bits_as_its_program(number, name
     assert_same_bits(program, FORMATS[number], inputs, found)
 
 
-def test_c_statements_prints_one_declaration_per_step_in_the_order_of_the_program():
-    assert c_statements(EVERYTHING, ("number", "truth", "r")) == (
-        "const double d = x - (-3.0);",
-        "const double q = x / y;",
-        "const double four = -(-4.0);",
-        "const double a = fabs(d);",
-        "const double r = sqrt(a);",
-        "const int gt = x > y;",
-        "const int lt = x < y;",
-        "const int ge = x >= y;",
-        "const int le = x <= y;",
-        "const int eq = x == y;",
-        "const int ne = x != 0.0;",
-        "const int both = gt & ge;",
-        "const int either = lt | eq;",
-        "const int neither = !either;",
-        "const double number = neither ? q : four;",
-        "const int truth = both ? ne : le;",
-    )
-
-
-def test_c_statements_prints_literals_and_functions_of_the_chosen_type():
-    assert c_statements(EVERYTHING, ("r",), number="float") == (
-        "const float d = x - (-3.0F);",
-        "const float a = fabsf(d);",
-        "const float r = sqrtf(a);",
-    )
-    assert c_statements(EVERYTHING, ("m",), number="long double") == ("const long double m = 2048.0L * y;",)
-
-
-def test_c_statements_prints_nothing_for_an_input():
-    assert c_statements(EVERYTHING, ("x",)) == ()
-
-
 def test_printing_a_step_that_does_not_exist_or_reads_a_reserved_name_raises_an_error():
     with pytest.raises(KeyError, match="has no nothing"):
         c_statements(EVERYTHING, ("nothing",))
@@ -220,14 +186,6 @@ def test_every_step_printed_in_python_gives_the_same_bits_as_its_program(name):
         found.append([float(scope[each]) for each in steps])
     assert len(kept) > 100
     assert_same_bits(program, "float64", inputs[:, kept], np.array(found).T)
-
-
-def test_one_step_is_printed_as_expected_in_each_language():
-    wanted = ("number", "r")
-    assert statements_in("cpp", EVERYTHING, wanted)[-1] == "const double number = neither ? q : four;"
-    assert statements_in("rust", EVERYTHING, wanted)[-1] == "let number: f64 = if neither { q } else { four };"
-    assert statements_in("javascript", EVERYTHING, wanted, number="float32")[0] == "const d = Math.fround(x - (-3.0));"
-    assert statements_in("python", EVERYTHING, wanted)[-1] == "number = q if neither else four"
 
 
 @pytest.mark.parametrize(

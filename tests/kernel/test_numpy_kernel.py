@@ -6,70 +6,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import integers, numpy_kernel, scene_lines
+from hypcheck.kernel import numpy_kernel, scene_lines
 from hypcheck.kernel.numpy_kernel import Buffers, chunks
 from hypcheck.truth import float_filter
-from hypcheck.truth.certificate import check_certificate
-from hypcheck.truth.prove import prove
-from tests.support.pairs import WITNESSES, pairs
-
-
-@pytest.mark.parametrize(("row", "position", "clearance", "why"), WITNESSES)
-def test_the_numpy_kernel_is_right_on_known_witnesses(row, position, clearance, why):
-    rows = np.array([row], dtype=float)
-    assert numpy_kernel.positions(rows).tolist() == [position], why
-    assert integers.position(Pair.from_row(row).lengths) is position, why
-
-
-@pytest.mark.thorough
-@given(st.lists(pairs, min_size=1, max_size=20))
-def test_every_answer_of_the_numpy_kernel_has_a_certificate_that_holds(some):
-    rows = np.array([pair.row for pair in some])
-    for pair, position in zip(some, numpy_kernel.positions(rows).tolist(), strict=True):
-        certificate = prove(pair)
-        assert certificate.position == position
-        assert check_certificate(pair, certificate)
-
-
-@pytest.mark.slow
-@given(pairs, st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 3), min_size=1, max_size=20))
-def test_the_numpy_kernel_answers_a_scene_as_its_rows(pair, centers):
-    x, y, z = np.array(centers).T
-    rows = np.column_stack([*(np.full(len(x), size) for size in pair.row[:4]), x, y, z])
-    found = numpy_kernel.positions_of_scene(pair.row[:4], x, y, z)
-    assert found.tolist() == numpy_kernel.positions(rows).tolist()
-
-
-@pytest.mark.parametrize("spread", [1, 5, 12, 30])
-def test_the_numpy_kernel_is_right_on_random_rows_of_all_regimes(spread):
-    rows = 2.0 ** np.random.default_rng(spread).uniform(-spread, spread, (4000, 7))
-    expected = [integers.position(Pair.from_row(row).lengths) for row in rows.tolist()]
-    assert numpy_kernel.positions(rows).tolist() == expected
-
-
-@pytest.mark.parametrize("exponent", range(-52, -20, 4))
-@pytest.mark.parametrize("sign", [-1, 0, 1])
-def test_the_numpy_kernel_is_exact_within_a_few_units_of_a_tangency(exponent, sign):
-    """r − a = 1 + sign 2^exponent at the waist; the walls are steep, so the nearest point is there."""
-    a = np.arange(1.0, 200.0)
-    x = a + 1 + sign * 2.0**exponent
-    kept = x - a - 1 == sign * 2.0**exponent
-    rows = np.zeros((kept.sum(), 7))
-    rows[:, 0], rows[:, 1], rows[:, 2:4], rows[:, 4] = a[kept], 1000.0, 1.0, x[kept]
-    assert set(numpy_kernel.positions(rows).tolist()) <= {1 if sign > 0 else 0}
-
-
-def test_the_numpy_kernel_answers_rows_of_several_chunks():
-    count = 2 * numpy_kernel.CHUNK + 3
-    rows = np.tile([2.0, 5.0, 1.0, 1.0, 9.0, 0.0, 0.0], (count, 1))
-    rows[-1, 4] = 0.5
-    found = numpy_kernel.positions(rows)
-    assert found[:-1].tolist() == [1] * (count - 1)
-    assert found[-1] == -1
 
 
 @pytest.mark.thorough
@@ -107,8 +47,8 @@ def test_lines_of_the_numpy_kernel_decide_most_centres_near_the_surface_and_none
     lines = scene_lines.lines_of(sizes, z)
     numbers = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
     for ask, constants, buffers, shares in (
-        (numpy_kernel._by_parallel_lines, lines.parallel, Buffers(numbers, count, np.float32), parallel),
-        (numpy_kernel._by_two_lines, lines.two, Buffers(chunks.TWO_LINES_BUFFERS, count, np.float64), two),
+        (numpy_kernel.by_parallel_lines, lines.parallel, Buffers(numbers, count, np.float32), parallel),
+        (numpy_kernel.by_two_lines, lines.two, Buffers(chunks.TWO_LINES_BUFFERS, count, np.float64), two),
     ):
         found, decided = np.empty(count, np.int8), np.ones(count, np.bool_)
         decided[ask(constants, columns, buffers, found)] = False
@@ -127,8 +67,9 @@ def test_lines_of_is_none_for_extreme_sizes_and_gives_lines_for_heights_of_zero(
 
 @pytest.mark.parametrize("up", [False, True])
 def test_a_shortened_height_has_a_square_without_rounding(up):
+    """A step of the proof that heights up to the top are within the reach of the lines."""
     for value in (1.0, 0.1, 17.8 * 1.0625, 2.0**-60 / 3, 2.0**90 / 7):
-        short = scene_lines._short(value, up=up)
+        short = scene_lines.shortened(value, up=up)
         assert Fraction(short) ** 2 == Fraction(short * short)
         assert (value <= short <= value * (1 + 2.0**-24)) if up else (value * (1 - 2.0**-24) <= short <= value)
 

@@ -44,7 +44,7 @@ def edge_of(four: tuple[float, ...], T: float, side: int) -> float:
     """R of the border at that T."""
     alpha, gamma, b, d = four
     A, B, Q = (alpha / b) ** 2, (gamma / d) ** 2, T / d**2
-    at = side * scene_lines._multiplier(four, T, side)
+    at = side * scene_lines.multiplier(four, T, side)
     return b * b * ((A + at) * (1 + 1 / at) + Q * (A + at) / (B - at))
 
 
@@ -62,7 +62,7 @@ def wrong(scene: Scene) -> int:
     columns = scene.x, scene.y, scene.z
     for start in range(0, COUNT, 1024):  # so that one chunk in which too much is left does not end the stage
         part = slice(start, start + 1024)
-        rest = numpy_kernel._by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
+        rest = numpy_kernel.by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
         answers[start + rest] = 99
     return int(((answers != 99) & (answers != float_filter.positions(scene.rows))).sum())
 
@@ -83,6 +83,7 @@ def test_parallel_lines_decide_no_centre_near_contact_wrongly():
 
 @pytest.mark.parametrize("margin", [0.0, -scene_lines.FLOAT32_MARGIN])
 def test_parallel_lines_without_their_margin_decide_centres_near_contact_wrongly(margin, monkeypatch):
+    """The rows above are near enough to tell a margin that is too small."""
     scenes = near()
     monkeypatch.setattr(scene_lines, "FLOAT32_MARGIN", margin)
     assert any(wrong(scene) for scene in scenes)
@@ -98,7 +99,7 @@ def lines_left(columns, four=TOWER):
     lines = scene_lines.lines_of(four, columns[2])
     answers = np.zeros(len(columns[0]), np.int8)
     with np.errstate(all="ignore"):
-        return numpy_kernel._by_lines(lines, tuple(columns), answers)
+        return numpy_kernel.by_lines(lines, tuple(columns), answers)
 
 
 def test_parallel_lines_decide_most_centres(tower):
@@ -125,14 +126,7 @@ def test_a_scene_beyond_single_precision_has_lines_in_double_precision(unit, tow
     assert len(lines_left(unit * tower, four)) < 0.005 * len(tower[0])
 
 
-def test_thresholds_of_lines_that_prove_nothing_decide_no_centre():
-    nothing = dict.fromkeys(("beyond", "under", "within", "above"))
-    found = scene_lines.thresholds(nothing, 1.0)
-    assert found is not None
-    assert [found[f"K_{side}"] for side in ("beyond", "under", "within", "above")] == [np.inf, -np.inf, -np.inf, np.inf]
-
-
 def test_a_multiplier_parallel_to_a_chord_is_never_0_where_a_line_has_no_constant():
     """With A = B = 1 a chord of slope 1 is parallel to the tangent of λ = 0."""
     for side in (1, -1):
-        assert scene_lines._parallel_multiplier((1.0, 1.0, 1.0, 1.0), (0.5, 1.0), 1.0, side) > 0
+        assert scene_lines.parallel_multiplier((1.0, 1.0, 1.0, 1.0), (0.5, 1.0), 1.0, side) > 0

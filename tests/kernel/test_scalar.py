@@ -4,29 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
 
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.kernel.scalar import exact_position
-from hypcheck.truth import exact, float_filter
-from tests.support.pairs import pairs
-from tests.tools.attack.places import near_contact, on_the_ring
 
 FUNCTIONS = pytest.mark.parametrize("function", [hypcheck.position, exact_position], ids=["public", "plain-python"])
-
-
-@FUNCTIONS
-@given(pair=pairs)
-def test_position_of_one_pair_of_any_sizes_is_exact(function, pair):
-    assert function(*pair.row) == exact.position(pair.lengths)
-
-
-@FUNCTIONS
-def test_position_of_one_pair_is_exact_near_contact_and_on_the_ring(function):
-    random = np.random.default_rng(6)
-    rows = np.concatenate([near_contact(random, 3000), on_the_ring(random, 500)])
-    assert [function(*row) for row in rows.tolist()] == float_filter.positions(rows).tolist()
 
 
 @FUNCTIONS

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import random
 from dataclasses import replace
 from fractions import Fraction
@@ -12,11 +11,17 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.kernel.scene import Scene
-from hypcheck.kernel.scene_index import bodies_of, reaches
-from hypcheck.kernel.scene_pairs import is_within_height, position_leaning, within_height
-from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span, leans
-from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.pair import TiltedLengths
+from hypcheck.scene.model import (
+    FREE,
+    QUESTIONS,
+    UPRIGHT,
+    Hyperboloid,
+    Mover,
+    MoverPart,
+    Region,
+    SceneModel,
+    Span,
+)
 from tests.support.tilted_fractions import exact_position
 
 CONTACT, EXTERIOR, INTERIOR, SILENT = 0, 1, -1, 2
@@ -46,59 +51,45 @@ def direction(draw, most=3):
             return axis
 
 
-def leaning_forest(count, seed, heights=True):
-    """Hyperboloids of which two in three lean, with sizes and places of few bits."""
+def leaning_forest(count, seed, unit=1.0):
+    """Hyperboloids of which two in three lean, one as the mover may, with sizes and places of few bits."""
     draw = random.Random(seed)  # noqa: S311 - nothing is secret
+    mover = Mover(
+        unit * draw.randint(1, 6) / 8,
+        unit * draw.randint(1, 6) / 8,
+        axis=draw.choice([UPRIGHT, (1.0, -2.0, 3.0), FREE]),
+    )
     trees = []
     for number in range(count):
-        place = tuple(draw.randint(-24, 24) / 4 for _ in range(3))
-        height = Span(-draw.randint(1, 9) / 2, draw.randint(1, 9) / 2) if heights and draw.random() < 0.7 else None
-        axis = UPRIGHT if number % 3 == 0 else direction(draw)
-        trees.append(
-            Hyperboloid(f"tree {number}", draw.randint(1, 8) / 8, draw.randint(2, 16) / 4, place, height, axis)
-        )
-    mover = Mover(draw.randint(1, 6) / 8, draw.randint(1, 6) / 8, axis=draw.choice([UPRIGHT, (1.0, -2.0, 3.0), FREE]))
-    return SceneModel("forest", "position", tuple(trees), mover, Region(z=Span(-8.0, 8.0)))
+        place = tuple(unit * draw.randint(-24, 24) / 4 for _ in range(3))
+        span = Span(-unit * draw.randint(1, 9) / 2, unit * draw.randint(1, 9) / 2) if draw.random() < 0.7 else None
+        axis = UPRIGHT if number % 3 == 0 else (2.0, -4.0, 6.0) if number == 1 else direction(draw)
+        sizes = unit * draw.randint(1, 8) / 8, unit * draw.randint(2, 16) / 4
+        trees.append(Hyperboloid(f"tree {number}", *sizes, place, span, axis))
+    return SceneModel("forest", "position", tuple(trees), mover, Region(z=Span(-8.0 * unit, 8.0 * unit)))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(10))
 def test_scene_classify_of_a_leaning_forest_answers_as_exact_fractions_about_each_tree(seed):
-    scene = leaning_forest(6, seed)
-    draw = random.Random(seed + 100)  # noqa: S311 - nothing is secret
-    centres = [tuple(draw.randint(-64, 64) / 8 for _ in range(3)) for _ in range(25)]
-    axes = [direction(draw) if scene.mover.axis == FREE else scene.mover.axis for _ in centres]
-    given = {"axis": np.array(axes)} if scene.mover.axis == FREE else {}
-    asked = Scene(scene)
-    found = asked.classify(*np.array(centres).T, **given)
+    """In units of any size, for each question, with centres where trees stand and beyond the region."""
+    unit, question = (1.0, 2.0**-300, 2.0**300)[seed % 3], QUESTIONS[seed % 4]
+    scene = leaning_forest(6, seed, unit)
+    free, draw = scene.mover.axis == FREE, random.Random(seed + 100)  # noqa: S311 - nothing is secret
+    centres = [tuple(unit * draw.randint(-80, 80) / 8 for _ in range(3)) for _ in range(16)]
+    centres += [tuple(at + unit * draw.randint(-8, 8) / 8 for at in tree.center) for tree in scene.hyperboloids]
+    axes = [direction(draw) if free else scene.mover.axis for _ in centres]
     expected = [truth(scene, centre, axis) for centre, axis in zip(centres, axes, strict=True)]
-    assert found.tolist() == expected
-    alone = [
-        asked.position(*centre, **({"axis": axis} if given else {})) for centre, axis in zip(centres, axes, strict=True)
-    ]
-    assert alone == expected
-
-
-def test_the_leaning_forests_of_these_tests_have_centres_with_every_answer():
-    said = set()
-    for seed in range(6):
-        scene = leaning_forest(3, seed)
-        axis = (1.0, 0.0, 1.0)
-        scene = replace(scene, mover=replace(scene.mover, axis=axis))
-        grid = np.array(list(itertools.product(np.linspace(-9, 9, 12), repeat=3)))
-        said |= set(Scene(scene).classify(*grid.T).tolist())
-    assert said == {CONTACT, EXTERIOR, INTERIOR, SILENT}
-
-
-def test_a_leaning_pair_turned_by_a_quarter_turn_keeps_its_position():
-    """Quarter turns about y take z to x exactly: no rounding, and a position that must not change."""
-    draw = random.Random(7)  # noqa: S311 - nothing is secret
-    for _ in range(60):
-        sizes = [draw.randint(1, 12) / 4 for _ in range(4)]
-        x, y, z = (draw.randint(-16, 16) / 4 for _ in range(3))
-        v = direction(draw)
-        upright = position_leaning(sizes, (x, y, z), (0, 0, 0), v, UPRIGHT)
-        turned = position_leaning(sizes, (z, y, -x), (0, 0, 0), (v[2], v[1], -v[0]), (5.0, 0.0, 0.0))
-        assert upright == turned == exact_position((*sizes, x, y, z, *v))
+    assert len(set(expected)) > 1
+    if question != "position":
+        yes = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}[question]
+        expected = [said if said == SILENT else int(said == yes) for said in expected]
+    asked = Scene(replace(scene, question=question))
+    for scale in (1.0, -(2.0**500)):  # the length and the sense of an axis say nothing
+        turned = scale * np.array(axes)
+        found = asked.classify(*np.array(centres).T, **({"axis": turned} if free else {}))
+        assert found.tolist() == expected
+    given = [{"axis": axis} if free else {} for axis in axes]
+    assert [asked.position(*at, **axis) for at, axis in zip(centres, given, strict=True)] == expected
 
 
 def turned(quaternion):
@@ -110,52 +101,6 @@ def turned(quaternion):
         (2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d),
     )
     return rows, a * a + b * b + c * c + d * d
-
-
-def test_a_leaning_hyperboloid_has_the_position_of_the_same_pair_turned_upright():
-    """A rational rotation turns the hyperboloid upright; the exact decision of ten numbers shares nothing with D."""
-    draw = random.Random(11)  # noqa: S311 - nothing is secret
-    said = []
-    for _ in range(1500):
-        quaternion = [draw.randint(-3, 3) for _ in range(4)]
-        if not any(quaternion):
-            continue
-        rows, size = turned(quaternion)
-        alpha, gamma, b, d = (draw.randint(2, 24) for _ in range(4))
-        height, away = draw.randint(-20, 20), draw.uniform(-1.3, 1.3) * max(b, d)
-        reach = round(alpha * np.hypot(1, height / gamma) + away)
-        upright, axis = (reach, draw.randint(-3, 3), height), [int(each) for each in direction(draw)]
-        centre, mover = ([sum(row[i] * at[i] for i in range(3)) for row in rows] for at in (upright, axis))
-        expected = exact.position(TiltedLengths.of([*map(float, (alpha, gamma, b, d, *upright, *axis))]))
-        sizes = [size * each for each in (alpha, gamma, b, d)]
-        found = position_leaning(sizes, centre, (0, 0, 0), mover, [row[2] for row in rows])
-        assert found == expected
-        said.append(found)
-    assert min(said.count(each) for each in (CONTACT, EXTERIOR, INTERIOR)) > 40
-
-
-def test_the_position_of_a_leaning_pair_ignores_the_length_and_sense_of_its_axes():
-    draw = random.Random(8)  # noqa: S311 - nothing is secret
-    for _ in range(40):
-        sizes = [draw.randint(1, 12) / 4 for _ in range(4)]
-        centre = [draw.randint(-16, 16) / 4 for _ in range(3)]
-        v, w = direction(draw), direction(draw)
-        first = position_leaning(sizes, centre, (0, 0, 0), v, w)
-        scaled = [-each * 1e150 for each in v], [each * 2.0**-1000 for each in w]
-        assert position_leaning(sizes, centre, (0, 0, 0), *scaled) == first
-
-
-def test_a_leaning_pair_of_parallel_axes_or_with_a_sphere_has_the_upright_position():
-    draw = random.Random(9)  # noqa: S311 - nothing is secret
-    for _ in range(40):
-        alpha, gamma, b, d = (draw.randint(1, 12) / 4 for _ in range(4))
-        centre = [draw.randint(-16, 16) / 4 for _ in range(3)]
-        w = direction(draw)
-        doubled = [-2 * each for each in w]
-        expected = exact_position((alpha, gamma, b, d, *centre, *w), w)
-        assert position_leaning((alpha, gamma, b, d), centre, (0, 0, 0), doubled, w) == expected
-        expected = exact_position((alpha, gamma, b, b, *centre, *UPRIGHT), w)
-        assert position_leaning((alpha, gamma, b, b), centre, (0, 0, 0), direction(draw), w) == expected
 
 
 def test_a_leaning_scene_is_exact_if_the_difference_of_centres_is_rounded():
@@ -184,82 +129,30 @@ def test_a_leaning_scene_sees_a_clearance_that_rounding_of_the_difference_loses(
     assert truth(scene.model, (2 * unit, 0.0, 0.0), (0.0, 1.0, 0.0)) == expected
 
 
-def test_a_leaning_mover_above_a_widening_wall_has_contact_at_its_lower_side():
-    """At height 2 the surface is 8 from the axis, at height 1.2 it is 5: under the mover's centre."""
-    body = Hyperboloid("bowl", 1.0, 0.25, (0.0, 0.0, 0.0), None, (2.0, 0.0, 0.0))
-    scene = Scene(SceneModel("s", "position", (body,), Mover(1.0, 0.75, axis=(1.0, 1.0, 0.0))))
-    places = [(2.0, y, 0.0) for y in np.linspace(0.0, 16.0, 33).tolist()]
-    found = scene.classify(*np.array(places).T).tolist()
-    assert found == [truth(scene.model, place, (1.0, 1.0, 0.0)) for place in places]
-    assert set(found) == {INTERIOR, CONTACT, EXTERIOR}
+ROOT_3 = 1.7320508075688774
+"""The float above √3; the float before it is below √3."""
 
 
-def test_a_leaning_scene_answers_contact_at_a_tangency_and_exterior_at_the_next_float():
-    """Upright hyperboloid: α = γ = 1, a ball of radius 1 at (2, 0, 0) touches it however its axis points."""
-    body = Hyperboloid("waist", 1.0, 4.0, (10.0, 0.0, 0.0), None, (0.0, 3.0, 0.0))
-    scene = Scene(SceneModel("s", "position", (body,), Mover(1.0, 1.0, axis=(1.0, 2.0, 3.0))))
-    assert scene.position(12.0, 0.0, 0.0) == CONTACT
-    assert scene.position(float(np.nextafter(12.0, 13.0)), 0.0, 0.0) == EXTERIOR
-    assert scene.position(8.0, 0.0, 0.0) == CONTACT
-    assert scene.position(float(np.nextafter(8.0, 7.0)), 0.0, 0.0) == EXTERIOR
-
-
-def test_the_modelled_height_of_a_leaning_tree_is_measured_in_the_direction_of_its_axis():
-    low, high = -1.0, 2.0
-    for axis, sense in (((0.0, 0.0, 5.0), 1), ((0.0, 0.0, -5.0), -1)):
-        body = Hyperboloid("b", 1.0, 1.0, (0.0, 0.0, 3.0), Span(low, high), axis)
-        scene = Scene(SceneModel("s", "position", (body,), Mover(0.25, 0.25)))
-        assert scene.position(9.0, 0.0, 3.0 + sense * high) == EXTERIOR
-        assert scene.position(9.0, 0.0, 3.0 + sense * low) == EXTERIOR
-        assert scene.position(9.0, 0.0, 3.0 + sense * high + sense * 1e-9) == SILENT
-        assert scene.position(9.0, 0.0, 3.0 + sense * low - sense * 1e-9) == SILENT
-
-
-def test_within_height_along_a_leaning_axis_is_exact_at_its_end():
-    """Axis (3, 0, 4): 5 along it is 25/5, no rounding; the next float is beyond."""
-    span, axis = (-5.0, 5.0), (3.0, 0.0, 4.0)
-    for x, inside in ((3.0, True), (float(np.nextafter(3.0, 4.0)), False), (float(np.nextafter(3.0, 2.0)), True)):
-        columns = (np.array([each]) for each in (span, (x, 7.0, 4.0), (0.0, 0.0, 0.0), axis))
-        assert within_height(*columns).tolist() == [inside]
-        assert is_within_height(span, (x, 7.0, 4.0), (0.0, 0.0, 0.0), axis) is inside
-    assert not is_within_height((1.0, 2.0), (0.0, 0.0, -1.5), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-    root = (1.0, 1.0, 1.0)  # |w| = √3 is irrational: 3/√3 < 1.7320508075688774, and > the float before it
-    above, below = 1.7320508075688774, 1.7320508075688772
-    assert is_within_height((0.0, above), root, (0.0, 0.0, 0.0), root)
-    assert not is_within_height((0.0, below), root, (0.0, 0.0, 0.0), root)
-
-
-def test_within_height_of_many_centres_is_that_of_exact_fractions():
-    random_ = np.random.default_rng(2)
-    axes = random_.integers(-3, 4, (400, 3)).astype(float)
-    axes[(axes == 0).all(axis=1)] = 1.0
-    centres, origins = random_.integers(-8, 9, (400, 3)) / 2, random_.integers(-8, 9, (400, 3)) / 2
-    spans = np.sort(random_.integers(-6, 7, (400, 2)) / 2, axis=1)
-    found = within_height(spans, centres, origins, axes)
-    expected = [
-        is_within_height(*(each.tolist() for each in row)) for row in zip(spans, centres, origins, axes, strict=True)
-    ]
-    assert found.tolist() == expected
-    assert 0 < sum(expected) < 400
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_the_reach_of_a_leaning_hyperboloid_contains_every_centre_in_contact(seed):
-    scene = leaning_forest(8, seed, heights=True)
-    scene = replace(scene, mover=replace(scene.mover, axis=(1.0, 0.0, 1.0)))
-    bodies = bodies_of(scene.hyperboloids)
-    far = reaches(bodies, scene.mover, scene.region.z)
-    draw = random.Random(seed)  # noqa: S311 - nothing is secret
-    beyond = 0
-    for body, reach in zip(scene.hyperboloids, far.tolist(), strict=True):
-        assert (reach == np.inf) == (body.height is None and leans(body.axis))
-        for _ in range(20 if reach < np.inf else 0):
-            angle = draw.uniform(0, 2 * np.pi)
-            x, y = body.center[0] + 1.001 * reach * np.cos(angle), body.center[1] + 1.001 * reach * np.sin(angle)
-            centre = (round(x * 64) / 64, round(y * 64) / 64, draw.randint(-8, 8) * 1.0)
-            beyond += np.hypot(centre[0] - body.center[0], centre[1] - body.center[1]) > reach
-            assert truth_beside(body, scene.mover, scene.mover.axis, centre) in (EXTERIOR, SILENT)
-    assert beyond > 40
+@pytest.mark.parametrize(
+    ("axis", "span", "centre", "inside"),
+    [
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (3.0, 7.0, 4.0), True),  # 25/5 along the axis
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (float(np.nextafter(3.0, 4.0)), 7.0, 4.0), False),
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (-3.0, 7.0, -4.0), True),
+        ((3.0, 0.0, 4.0), (-5.0, 5.0), (-3.0, 7.0, float(np.nextafter(-4.0, -5.0))), False),
+        ((1.0, 1.0, 1.0), (0.0, ROOT_3), (1.0, 1.0, 1.0), True),
+        ((1.0, 1.0, 1.0), (0.0, float(np.nextafter(ROOT_3, 1.0))), (1.0, 1.0, 1.0), False),
+        ((-1.0, -1.0, -1.0), (-ROOT_3, 0.0), (1.0, 1.0, 1.0), True),
+        ((0.0, 0.0, 5.0), (-1.0, 2.0), (9.0, 0.0, 2.0), True),
+        ((0.0, 0.0, -5.0), (-1.0, 2.0), (9.0, 0.0, 2.0), False),
+        ((0.0, 0.0, -5.0), (-1.0, 2.0), (9.0, 0.0, -2.0), True),
+    ],
+)
+def test_the_modelled_height_ends_exactly_and_is_measured_in_the_direction_of_the_axis(axis, span, centre, inside):
+    body = Hyperboloid("b", 1.0, 1.0, (0.0, 0.0, 0.0), Span(*span), axis)
+    scene = Scene(SceneModel("s", "position", (body,), Mover(0.25, 0.25)))
+    assert (scene.position(*centre) != SILENT) == inside
+    assert scene.classify(*centre).tolist() == [scene.position(*centre)]
 
 
 def test_the_scene_index_finds_a_leaning_tower_at_its_top():
@@ -281,13 +174,6 @@ def test_an_upright_mover_with_parts_asks_them_near_a_leaning_hyperboloid():
     assert Scene(SceneModel("s", "position", (body,), replace(mover, parts=()))).position(3.5, 0.0, 0.0) == CONTACT
     assert scene.position(3.5, 0.0, 0.0, heading=180.0) == INTERIOR
     assert scene.position(3.5, 0.0, 0.0, heading=0.0) == CONTACT
-
-
-def test_a_leaning_scene_answers_a_yes_or_no_question():
-    body = Hyperboloid("wall", 4.0, 4.0, (0.0, 0.0, 0.0), Span(-2.0, 2.0), (0.0, 1.0, 0.0))
-    scene = SceneModel("s", "interior", (body,), Mover(0.5, 0.25, axis=(1.0, 1.0, 0.0)))
-    found = Scene(scene).classify([0.0, 4.0, 0.0], [0.0, 0.0, 3.0], 0.0)
-    assert found.tolist() == [1, 0, 2]
 
 
 FREELY = SceneModel("s", "position", (Hyperboloid("h", 1.0, 1.0),), Mover(0.5, 0.25, axis=FREE))

@@ -15,7 +15,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.description import representable
 from hypcheck.kernel.specialise.first_stages import entry, line_at, thresholds
-from hypcheck.kernel.specialise.last_stages import _begin, backward_bound, discriminant, search
+from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant, search, search_begin
 from hypcheck.kernel.specialise.settings import FORMATS, Box, ScaledSetting, Setting, position_of_box, scaled
 from hypcheck.scene.model import Span
 from hypcheck.truth import exact, float_filter
@@ -199,5 +199,5 @@ def test_a_search_begins_where_the_distance_to_the_pole_changes_nothing():
     """Ten bits beyond the format's of the pole, and no farther than the steepest side allows."""
     form = FLOAT_FORMATS["float64"]
     for pole in (Fraction(1), Fraction(2) ** 70):
-        assert _begin(pole, Fraction(0), form) == min(pole / 2 ** (form.bits + 10), Fraction(1, 2))
-    assert _begin(Fraction(2) ** 70, Fraction(7), form) == Fraction(1, 16)
+        assert search_begin(pole, Fraction(0), form) == min(pole / 2 ** (form.bits + 10), Fraction(1, 2))
+    assert search_begin(Fraction(2) ** 70, Fraction(7), form) == Fraction(1, 16)

@@ -14,7 +14,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.kernel import scene_index, scene_pairs
 from hypcheck.kernel.scene import Scene
-from hypcheck.kernel.scene_index import bodies_of, grid_of
+from hypcheck.kernel.scene_index import bodies_of
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 
 
@@ -116,12 +116,6 @@ def test_scene_passage_of_a_leaning_mover_is_exact_with_its_fixed_axis():
 
 
 TREE = Hyperboloid("tree", 2.0, 3.0)
-
-
-@pytest.mark.parametrize(("axis", "x", "hit"), [((1.0, 0.0, 0.0), 2.6, 1), ((0.0, 1.0, 0.0), 2.6, 0)])
-def test_scene_passage_uses_the_width_of_a_leaning_mover_along_its_axis(axis, x, hit):
-    scene = SceneModel("tree", "position", (TREE,), Mover(0.3, 0.9, axis=axis), Region(z=Span(-1, 1)))
-    assert Scene(scene).passage((x, -1.0, 0.0), (x, 1.0, 0.0)).tolist() == [hit]
 
 
 def test_scene_passage_is_exact_if_the_difference_of_centres_is_rounded():
@@ -230,36 +224,19 @@ def test_scene_passage_of_no_ways_is_an_empty_array():
 
 
 def test_a_way_farther_from_an_axis_than_the_reach_does_not_pass_it():
+    """To ask about more is slow, and shows in no answer."""
     starts, ends = np.array([[-9.0, 0.0, 0.0], [-1.0, 1.0, 0.0]]), np.array([[9.0, 0.0, 0.0], [1.0, -1.0, 0.0]])
     origins = np.array([[0.0, 1.5, 0.0], [0.0, 1.0, 0.0], [3.0, 3.0, 0.0], [2.0, -2.0, 0.0]])
     query, reach = np.array([0, 0, 1, 1]), np.array([1.0, 1.0, 2.0, 2.0])
     assert scene_index.passed(starts, ends, query, origins, reach).tolist() == [False, True, False, True]
 
 
-def test_batches_of_ways_follow_each_other_and_none_has_too_many_pieces():
-    grid = grid_of(np.zeros(3), np.zeros(3), np.ones(3))
-    half = scene_index.AT_A_TIME // 2
-    pieces = np.array([half] * 5 + [1] * 3)
-    batches = scene_index.in_batches(grid, pieces)
-    assert np.concatenate([np.arange(8)[each] for each in batches]).tolist() == list(range(8))
-    assert len(batches) > 2
-    assert max(pieces[each].sum() for each in batches) < 2 * scene_index.AT_A_TIME
-
-
 def test_a_way_straight_through_a_tree_needs_no_exact_decision(monkeypatch):
+    """An exact decision is slow, and shows in no answer."""
     bodies = bodies_of([Hyperboloid("h", 1.0, 2.0)])
     monkeypatch.setattr(scene_pairs, "exact_way", None)
     start, end = np.array([[-5.0, 0.5, 0.0]]), np.array([[9.0, 0.5, 0.0]])
     assert scene_pairs.hits_beside(bodies, np.array([0]), Mover(0.5, 0.25), None, start, end).tolist() == [True]
-
-
-@pytest.mark.parametrize(("unit", "far", "origin"), [(1e-70, 5e-70, 0.0), (1.0, 1e308, 1e308), (1.0, 1e308, -1e308)])
-def test_a_way_whose_lengths_or_differences_leave_the_fast_range_is_decided_exactly(unit, far, origin):
-    bodies = bodies_of([Hyperboloid("h", unit, unit, (origin, 0.0, 0.0))])
-    start, end = np.array([[-far, 0.0, 0.0]] * 2), np.array([[far, 0.0, 0.0]] * 2)
-    start[1, 1] = end[1, 1] = 2.5 * unit  # α + b and more beside the axis
-    hits = scene_pairs.hits_beside(bodies, np.array([0, 0]), Mover(unit, unit), None, start, end)
-    assert hits.tolist() == [True, False]
 
 
 def test_ways_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone():

@@ -15,7 +15,6 @@ from hypcheck.kernel.classify import kernel
 from hypcheck.kernel.scalar import exact_position
 from hypcheck.scene.model import QUESTIONS
 from hypcheck.truth.float_filter import positions
-from hypcheck.vectors import frozen
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
 
 KERNELS = [numpy_kernel, kernel()] if choice().kernel == "compiled" else [numpy_kernel]
@@ -61,47 +60,6 @@ def test_rows_of_ten_numbers_are_answered_exactly_by_every_kernel(each, question
     yes = {"position": truth, "exterior": truth == 1, "interior": truth == -1, "contact": truth == 0}
     found, refused = each.answer_rows(rows, question)
     assert (found.tolist(), refused) == (yes[question].astype(int).tolist(), 0)
-
-
-@pytest.mark.parametrize("name", frozen.TILTED_NAMES)
-def test_every_kernel_answers_frozen_tilted_vectors_as_they_are_labelled(name):
-    vectors = frozen.load(name)
-    for each in KERNELS:
-        assert (
-            each.answer_rows(np.ascontiguousarray(vectors.rows), "position")[0].tolist() == vectors.positions.tolist()
-        )
-
-
-@pytest.mark.parametrize("each", KERNELS)
-def test_every_kernel_answers_127_for_the_frozen_invalid_tilted_rows(each):
-    rows = frozen.load("tilted-invalid").rows
-    assert rows.shape[1] == 10
-    found, refused = each.answer_rows(rows, "position")
-    assert set(found.tolist()) == {127}
-    assert refused == len(rows) > 100
-
-
-def test_position_with_an_axis_answers_as_classify_about_its_row(rows, truth):
-    for row, position in zip(rows.tolist(), truth.tolist(), strict=True):
-        assert hypcheck.position(*row[:7], axis=row[7:]) == position
-        assert exact_position(*row[:7], axis=tuple(row[7:])) == position
-    assert hypcheck.position(1, 2, 1, 1, 2.5, 0, 0, axis=np.array([1, 0, 0])) == 1
-    assert hypcheck.position(1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, axis=None) == 1
-
-
-def test_classify_ignores_the_length_and_the_sign_of_an_axis(rows, truth):
-    for factor in (-1.0, 3.0, 2.0**-500, -(2.0**900)):
-        scaled = np.column_stack([rows[:404, :7], rows[:404, 7:] * factor])
-        assert (hypcheck.classify(scaled) == truth[:404]).all()
-
-
-def test_classify_with_an_axis_along_z_gives_the_upright_answer(rows):
-    upright = hypcheck.classify(rows[:, :7])
-    for s in (1.0, -3.0, 5e-324, 1.7e308):
-        assert (
-            hypcheck.classify(np.column_stack([rows[:, :7], *np.zeros((2, len(rows))), np.full(len(rows), s)]))
-            == upright
-        ).all()
 
 
 @pytest.mark.parametrize("each", KERNELS)
@@ -195,17 +153,6 @@ def test_classify_refuses_an_invalid_axis_or_marks_it_with_127(sentence, axis, d
             assert (found[1], refused) == (127, 1)
             found, refused = each.answer_scene(sizes, tuple(rows[:, 4:7].T), question, None, axis)
             assert (found.tolist(), refused) == ([127] * 3, 3)
-
-
-@pytest.mark.parametrize("column", range(7))
-def test_classify_refuses_nan_in_another_column_of_a_row_with_an_axis(column):
-    for axis in ((0.0, 0.0, 1.0), (1.0, 2.0, 3.0)):
-        rows = np.array([[2, 3, 0.5, 1.5, 1, 0, 0, *axis]] * 2)
-        rows[1, column] = np.nan
-        assert hypcheck.classify(rows, on_invalid="flag").tolist()[1] == 127
-        assert numpy_kernel.positions(rows).tolist()[1] == 127
-        with pytest.raises(InputError, match=r"^row 1: .* is nan; it must be finite"):
-            hypcheck.classify(rows)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,6 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import ways
 from hypcheck.kernel import compiled_kernel, numpy_kernel
 from hypcheck.truth.passage_error import hits_at_size, scaled_passage
-from hypcheck.vectors.families import WAY_FAMILIES
 from hypcheck.vectors.frozen import WAY_NAMES, load
 from tests.tools.attack.rounding import DIRECTED, rounded
 
@@ -86,15 +85,6 @@ def test_the_compiled_kernel_answers_no_way_wrongly_in_any_rounding_mode(mode):
         assert ((hits == CANNOT_SAY) | (hits == cases.positions)).all()
 
 
-@pytest.mark.parametrize("family", ["way-near-graze", "way-long"])
-def test_the_compiled_kernel_answers_ways_near_the_surface_rightly(family):
-    rows = WAY_FAMILIES[family].rows(3, 40)
-    hits, _ = compiled_kernel.answer_ways(rows)
-    decided = hits != CANNOT_SAY
-    assert decided.sum() > 25
-    assert hits[decided].tolist() == [scaled_passage(row).hit for row in rows[decided].tolist()]
-
-
 @pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
 @pytest.mark.parametrize("column", range(10))
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.0, -1.0])
@@ -106,19 +96,6 @@ def test_an_invalid_way_is_refused_and_changes_no_other_answer(answer_ways, colu
     assert (hits[1] != REFUSED) == valid
     assert hits[[0, 2]].tolist() == answer_ways(rows[:1])[0].tolist() * 2
     assert valid or math.isnan(times[1])
-
-
-def test_answers_about_ways_ignore_the_length_of_the_axis_and_a_vertical_axis_is_upright():
-    rows = some_ways(4, 60, leaning=True)
-    hits, times = compiled_kernel.answer_ways(rows)
-    for factor in (-1.0, 2.0**500, 2.0**-600):
-        again = compiled_kernel.answer_ways(rows * ([1.0] * 10 + [factor] * 3))
-        assert (again[0] == hits).all()
-    upright = np.concatenate([rows[:, :10], np.tile((0.0, -0.0, -3.0), (60, 1))], axis=1)
-    np.testing.assert_array_equal(
-        compiled_kernel.answer_ways(upright), compiled_kernel.answer_ways(rows[:, :10].copy())
-    )
-    assert np.isfinite(times).any()
 
 
 @pytest.mark.parametrize("axis", [(0.0, -0.0, 0.0), (math.nan, 0.0, 1.0), (0.0, 1.0, -math.inf)])
@@ -167,14 +144,3 @@ def test_compiled_passage_refuses_buffers_that_do_not_fit():
     for given in ((rows, hits[:1]), (rows, hits, np.empty(1)), (rows, hits, hits), (hits, hits)):
         with pytest.raises(ValueError, match=r"ten or thirteen numbers for each hit|a buffer of format d is needed"):
             compiled.passage(*given)
-
-
-def test_answers_about_ways_do_not_depend_on_the_number_of_threads(monkeypatch):
-    rows = np.tile(some_ways(3, 50), (20, 1))
-    hits, times = compiled_kernel.answer_ways(rows)
-    monkeypatch.setattr(compiled_kernel, "ROWS_A_THREAD", 2 * compiled_kernel.BLOCK)
-    for count in ("1", "3"):
-        monkeypatch.setenv("HYPCHECK_THREADS", count)
-        again = compiled_kernel.answer_ways(rows)
-        assert (again[0] == hits).all()
-        np.testing.assert_array_equal(again[1], times)

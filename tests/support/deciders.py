@@ -23,10 +23,12 @@ import numpy as np
 
 import hypcheck
 from hypcheck.cli.main import main
+from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
+from hypcheck.kernel import integers, numpy_kernel, scalar, tilted_integers
 from hypcheck.runs.oracles import ORACLES
 from tests.kernel.compiling import COMPILER, shared_library
-from tests.kernel.emission.building import answers, asking, library_of, missing
+from tests.kernel.emission.building import asking_pairs, library_of, missing
 from tests.support import checkers, fractions_truth, tilted_fractions
 from tests.support.corpus import Questions
 
@@ -98,6 +100,21 @@ def of_rows(questions: Questions) -> list[int]:
 
 def of_position(sizes, center, axis=None) -> int:
     return hypcheck.position(*sizes, *center, axis=axis)
+
+
+def of_python(sizes, center, axis=None) -> int:
+    return scalar.exact_position(*sizes, *center, axis=axis)
+
+
+def of_integers(sizes, center, axis=None) -> int:
+    """The last stage in Python, which decides alone here."""
+    if axis is None:
+        return int(integers.position(Pair(*sizes, *center).lengths))
+    return int(tilted_integers.position((*sizes, *center, *axis)))
+
+
+def of_ways_in_numpy(questions: Questions) -> list[int]:
+    return numpy_kernel.answer_ways(np.ascontiguousarray(questions.rows))[0].tolist()
 
 
 def of_scene_call(sizes, center, axis=None) -> int:
@@ -234,8 +251,7 @@ def emitted(method: str, language: str) -> Callable[[np.ndarray], np.ndarray]:
     suffix = {"c": "c", "cpp": "cpp", "rust": "rs", "javascript": "mjs", "python": "py"}[language]
     file = folder() / f"{method}.{suffix}"
     assert main(["emit", "--method", method, "--language", language, "--output", str(file)]) == 0
-    built = library_of(file, language)
-    return partial(answers, built) if built != file else asking(built, language)
+    return asking_pairs(library_of(file, language), language)
 
 
 def of_emitted(method: str, language: str, questions: Questions) -> list[int]:
@@ -280,6 +296,8 @@ PROCESSES = {"javascript": 4}
 DECIDERS = (
     Decider("hypcheck.classify", of_rows, takes_any_array=True),
     Decider("hypcheck.position", partial(by_row, of_position)),
+    Decider("hypcheck.position, in Python", partial(by_row, of_python)),
+    Decider("whole numbers in Python", partial(by_row, of_integers), refuses=False),
     Decider("hypcheck.classify_scene", partial(by_row, of_scene_call)),
     Decider("hypcheck.Prepared", partial(by_row, of_prepared)),
     Decider("hypcheck.Scene.classify", partial(by_row, of_scene)),
@@ -327,5 +345,6 @@ DECIDERS = (
     Decider("hypcheck.Scene.passage", partial(by_row, of_scene_passage), takes=WAYS),
     Decider("builtin:passage-certified", partial(of_method, "passage-certified"), takes=("end",), refuses=False),
     Decider("the C header, ways", of_header, takes=WAYS, abstains=0.1, lacks=lacks_compiler),
+    Decider("the numpy kernel, ways", of_ways_in_numpy, takes=WAYS, abstains=0.7),
     Decider("certificates of ways", checkers.check_ways, takes=WAYS, every=3, refuses=False, drawn=False),
 )

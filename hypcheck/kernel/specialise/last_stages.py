@@ -251,15 +251,15 @@ def search(scaled: ScaledSetting, form: FloatFormat, corner: tuple[Fraction, Fra
         "QZ": 1 / dd,
     }
     constants = {name: form.rounded(value) for name, value in exact.items()}
-    constants["low_a"] = form.rounded(_begin(A, highest / dd / B, form), "down")
-    constants["low_b"] = form.rounded(_begin(B, widest / bb / A, form), "down")
+    constants["low_a"] = form.rounded(search_begin(A, highest / dd / B, form), "down")
+    constants["low_b"] = form.rounded(search_begin(B, widest / bb / A, form), "down")
     # a r = (α/b²) √R and c z = (γ/d²) |z|: square roots of A/b² and B/d², rounded to nearest.
     constants["AR"], constants["CZ"] = _root(A / bb, form), _root(B / dd, form)
     ends = (form.rounded(widest, "down"), form.rounded(highest, "down"))
     return DualSearch(constants, GEOMETRIC_STEPS + form.bits + 3, *ends)
 
 
-def _begin(pole: Fraction, steepest: Fraction, form: FloatFormat) -> Fraction:
+def search_begin(pole: Fraction, steepest: Fraction, form: FloatFormat) -> Fraction:
     """The distance to 0 or to a pole at which the search begins; `steepest` is the largest P/A or Q/B (Beginning)."""
     beside_pole: Fraction = pole / Fraction(2) ** (form.bits + SPARE)
     return min(beside_pole, 1 / (2 * (1 + steepest)))

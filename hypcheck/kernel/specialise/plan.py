@@ -202,17 +202,17 @@ def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
     sides = centre_constants(outer, form)
     by_lines = by_lines | _by_centre(question, sides, form, R, zz)
     left = np.flatnonzero(~by_lines)
-    delta = discriminant(inner, form, first, constants, _corner(setting))
+    delta = discriminant(inner, form, first, constants, far_corner(setting))
     if delta is not None and lean is not None:
         delta = replace(delta, clear_where_positive=False)
-    by_delta = np.zeros(len(left), dtype=bool) if delta is None else _decided(delta, form, R[left], zz[left])
+    by_delta = np.zeros(len(left), dtype=bool) if delta is None else decided_by(delta, form, R[left], zz[left])
     if by_delta.sum() < (USEFUL if lean is None else USEFUL_LEANING) * len(left):
         delta, by_delta = None, np.zeros(len(left), dtype=bool)
     if lean is None:
         bound = last_stages.backward_bound()
     else:
         bound = first_stages.CENTRE_BOUND if question in ONE_SIDED else leaning.BOUND_U
-    last = search(outer, form, _corner(setting, AFAR)) if lean is None else lean
+    last = search(outer, form, far_corner(setting, AFAR)) if lean is None else lean
     omitted = _omissions(setting, question, delta, constants)
     shares = _shares(by_lines, by_delta)
     return Stages(setting, first, constants, last, shares, omitted, bound, lines, sides, delta)
@@ -255,7 +255,8 @@ def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
     }
 
 
-def _decided(delta: Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
+def decided_by(delta: Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
+    """Which centres the discriminant tells: within its region, and larger than its bound."""
     values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
     inside = (R <= delta.widest) & (zz <= delta.highest)
     beyond = values["delta_3"] < -delta.bound
@@ -264,7 +265,7 @@ def _decided(delta: Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> M
     return np.asarray(inside & beyond)
 
 
-def _corner(setting: Setting, reach: float = REACH) -> tuple[Fraction, Fraction]:
+def far_corner(setting: Setting, reach: float = REACH) -> tuple[Fraction, Fraction]:
     """The far corner of the box; where the box is open, so many times as far as the surface at the waist, or γ."""
     alpha, gamma, b, d = map(Fraction, setting.sizes)
     x, y, z = setting.box.spans

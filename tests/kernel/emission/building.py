@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections import defaultdict
 from fractions import Fraction
+from functools import partial
 from uuid import uuid4
 
 import numpy as np
@@ -52,8 +53,13 @@ def skip_without(language):
 
 def built(folder, scene, language, precision="float64", *options):
     """The file of a kernel: a library, or the text itself where nothing compiles. Fails with the compiler's words."""
+    return built_of(folder, emitted(plan_of(scene, precision), language, COMMAND), language, *options)
+
+
+def built_of(folder, text, language, *options):
+    """The file of a kernel with this text."""
     path = folder / f"kernel.{DIALECTS[language].extension}"
-    path.write_text(emitted(plan_of(scene, precision), language, COMMAND), encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
     return library_of(path, language, *options)
 
 
@@ -97,6 +103,11 @@ def asking(path, language):
         return found
 
     return ask
+
+
+def asking_pairs(path, language):
+    """What answers rows of any sizes: a library has no entry for scenes then."""
+    return partial(answers, path) if language in COMMANDS else asking(path, language)
 
 
 def load_module(path):

@@ -104,7 +104,10 @@ def positions(rows):
 
 @pytest.fixture(scope="module")
 def control(tmp_path_factory):
-    return shared_library(tmp_path_factory.mktemp("control"), CONTROL, "-frounding-math", "-std=gnu99")
+    folder = tmp_path_factory.mktemp("control")
+    library = shared_library(folder, CONTROL, "-frounding-math", "-std=gnu99")
+    library.file = str(folder / "library.so")
+    return library
 
 
 def library(folder, language, text, *options, compiler=None):
@@ -212,7 +215,7 @@ def test_emitted_javascript_pair_code_is_never_wrong_where_subnormal_numbers_are
     path.write_text(emitted_pair(method, "javascript", COMMAND), encoding="utf-8")
     script = tmp_path / "ask.mjs"
     script.write_text(_ASK, encoding="utf-8")
-    environment = {**os.environ, "LD_PRELOAD": control._name, "FLUSHED_FROM_THE_START": "1"}
+    environment = {**os.environ, "LD_PRELOAD": control.file, "FLUSHED_FROM_THE_START": "1"}
     node = [str(shutil.which("node")), str(script)]
     done = subprocess.run(node, input=rows.tobytes(), capture_output=True, env=environment, check=False)
     assert done.returncode == 0, done.stderr

@@ -18,8 +18,8 @@ from hypcheck.kernel.scene import Scene
 from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from tests.kernel.emission.building import (
     COMMAND,
-    COMMANDS,
     asking,
+    built_of,
     load_module,
     pointer,
     skip_without,
@@ -40,15 +40,7 @@ def forest(trees, question="position", parts=PARTS, region=None):
 
 
 def built(folder, scene, language, plan):
-    path = folder / f"kernel.{DIALECTS[language].extension}"
-    path.write_text(whole(scene, plan, language, COMMAND), encoding="utf-8")
-    if language not in COMMANDS:
-        return path
-    library = folder / f"{language}-whole.so"
-    command = [*COMMANDS[language], str(path), *(["-lm"] if language == "c" else []), "-o", str(library)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return library
+    return built_of(folder, whole(scene, plan, language, COMMAND), language)
 
 
 def told(path, language, columns):
