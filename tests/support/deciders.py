@@ -323,8 +323,16 @@ DECIDERS = (
         for language in LANGUAGES
     ),
     *(
-        Decider(f"emitted {method}", partial(of_emitted, method, "python"), takes=UPRIGHT, abstains=0.5)
+        Decider(
+            f"emitted {method}, {language}",
+            partial(of_emitted, method, language),
+            takes=UPRIGHT,
+            abstains=0.5,
+            examples=PROCESSES.get(language, 6),
+            lacks=partial(lacks_language, language),
+        )
         for method in ("certified", "dual", "local-maximum")
+        for language in LANGUAGES
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),
     Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=6, refuses=False),
