@@ -9,8 +9,8 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, check_passage, clear_until, contact_at
-from hypcheck.truth.passage_prove import _simplest, _within, prove
+from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, clear_until, contact_at
+from hypcheck.truth.passage_prove import prove
 from hypcheck.vectors.tilted import TWO_POINTS
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
@@ -54,24 +54,6 @@ def test_bounds_of_a_first_contact_are_neighbouring_floats(row):
     if first and first[0]:
         assert math.nextafter(first[0], 1.0) == first[1]
         assert certificate.pieces[-1][1] == first[0]
-
-
-@pytest.mark.parametrize(
-    ("axis", "offset", "held"),
-    [
-        ((0, 0, 1), (0, 0, Fraction(1, 2)), True),
-        ((0, 0, 1), (0, 0, Fraction(51, 100)), False),
-        ((0, 0, 1), (Fraction(3, 5), Fraction(4, 5), 0), True),
-        ((0, 0, 1), (Fraction(3, 5), Fraction(81, 100), 0), False),
-        ((3, 0, 4), (Fraction(3, 10), 0, Fraction(4, 10)), True),
-        ((3, 0, 4), (Fraction(31, 100), 0, Fraction(41, 100)), False),
-        ((3, 0, 4), (Fraction(-4, 5), 0, Fraction(3, 5)), True),
-        ((3, 0, 4), (Fraction(-4, 5), Fraction(1, 100), Fraction(3, 5)), False),
-    ],
-)
-def test_offset_is_within_the_spheroid_up_to_its_surface_and_not_beyond(axis, offset, held):
-    numbers = [Fraction(each) for each in (5, 7, 3, Fraction(3, 2), 1, 2, 3)]  # b = 3, d = b/2
-    assert _within(PairAtTime(tuple(numbers), tuple(map(Fraction, axis))), offset) is held
 
 
 def test_a_grazing_way_is_proved_by_the_double_root_of_one_time():
@@ -150,15 +132,3 @@ def test_damaged_proof_of_contact_on_a_way_is_refused():
 def test_a_proof_whose_minors_are_1_holds():
     row = (1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 4.0, 0.0, 0.0, 5.0)
     assert clear_until(row, PassageCertificate(((Fraction(-1, 2), Fraction(1)),))) == 1
-
-
-@pytest.mark.parametrize(
-    ("low", "high"),
-    [("3/10", "4/10"), ("0/1", "1/9"), ("314/100", "315/100"), ("7/3", "7/3"), ("2/7", "5/17"), ("5/2", "7/2")],
-)
-def test_the_simplest_fraction_of_a_stretch_has_the_least_denominator(low, high):
-    low, high = Fraction(low), Fraction(high)
-    found = _simplest(low, high)
-    assert low <= found <= high
-    for denominator in range(1, found.denominator):
-        assert math.ceil(low * denominator) > high * denominator

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 
-import mpmath
 import numpy as np
 import pytest
 from sympy import ZZ
 from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact as upright
-from hypcheck.truth.float_filter import positions
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.journey import Surd
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
@@ -115,42 +111,6 @@ def test_double_root_at_a_pole_is_a_tangency_unless_a_simple_root_lies_before_it
     assert decision == exact.TiltedDecision(position, limit_of)
 
 
-def test_vertical_axis_and_sphere_have_the_upright_position():
-    for row in random_rows(200):
-        vertical = [*row[:7], 0.0, 0.0, row[9]]
-        sphere = [*row[:3], row[2], *row[4:]]
-        for changed in (vertical, sphere):
-            assert exact.position(TiltedLengths.of(changed)) is upright.position(Pair.from_row(changed[:7]).lengths)
-
-
-def test_position_ignores_length_and_sign_of_the_axis_and_the_unit_of_length():
-    for row in random_rows(100):
-        expected = exact.decide(TiltedLengths.of(row))
-        for factor in (-1.0, 2.0**-900, 2.0**900, Fraction(-3, 7)):
-            assert exact.decide(TiltedLengths.of([*row[:7], *(each * factor for each in row[7:])])) == expected
-        assert exact.decide(TiltedLengths.of([*(Fraction(each) / 3 for each in row[:7]), *row[7:]])) == expected
-
-
-def test_positions_of_an_array_are_those_of_its_rows():
-    rows = random_rows(50)
-    expected = [exact.position(TiltedLengths.of(row)) for row in rows]
-    assert positions(np.array(rows)).tolist() == expected
-    assert len(set(expected)) == 3
-
-
-def test_positions_refuse_invalid_rows():
-    good = [1.0, 2.0, 1.0, 0.5, 5.0, 0.0, 0.0, 1.0, 0.0, 1.0]
-    rows = np.array([good] * 5)
-    rows[1, 7:] = 0.0
-    rows[2, 8] = np.nan
-    rows[3, 7] = np.inf
-    rows[4, 2] = 0.0
-    with pytest.raises(InputError, match=r"^row 1: axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction$"):
-        positions(rows)
-    with pytest.raises(InputError, match=r"^row 1: axis_y is nan; it must be finite$"):
-        positions(rows[[0, 2]])
-
-
 def test_pair_refuses_an_axis_without_direction():
     with pytest.raises(InputError, match="must have a direction"):
         TiltedPair(1, 1, 1, 1, 0, 0, 0, 0.0, -0.0, 0.0)
@@ -162,29 +122,6 @@ def test_lengths_and_axis_each_come_in_the_largest_unit_of_which_they_are_multip
     assert (found.alpha, found.y, found.axis) == (1, -8, (3, 5, -7))
     for lengths, axis in ((8.0, 1.0), (0.125, 4.0), (2.0**-1000, 2.0**900)):
         assert TiltedLengths.of([*(each * lengths for each in row[:7]), *(each * axis for each in row[7:])]) == found
-
-
-@pytest.mark.parametrize("w", [1, 2, 9, 10**30 + 1])
-def test_the_sign_of_a_number_with_a_root_is_exact(w):
-    for u in (-(10**15), -4, -3, -1, 0, 1, 3, 4, 10**15):
-        for r in (-3, -1, 0, 1, 3):
-            value = u if not r else (1 if r > 0 else -1) if (r > 0) == (u > 0) or not u else None
-            if value is None:
-                larger = u * u - r * r * w
-                value = (larger > 0) - (larger < 0) if u > 0 else (larger < 0) - (larger > 0)
-            assert exact._sign_with_root(u, r, w) == (value > 0) - (value < 0), (u, r)
-
-
-def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_digits():
-    with mpmath.workprec(400):
-        for row in random_rows(60, seed=4):
-            F = exact.quartic(TiltedLengths.of(row))
-            end = (F.e1 + mpmath.sqrt(F.e1**2 + 4 * F.e0 * F.e2)) / (2 * F.e2)
-            expected = []
-            for order in (1, 2, 3):
-                derived = [math.comb(4 - k, order) * each for k, each in enumerate(F.coefficients) if 4 - k >= order]
-                expected.append(int(mpmath.sign(mpmath.polyval(derived, end))))
-            assert exact._signs_at_second(F) == expected
 
 
 def test_powers_of_a_number_with_a_root_are_its_products():
