@@ -274,3 +274,11 @@ def test_nearest_of_one_pair_loads_no_numpy():
         "nearest(Pair(1, 2, 1, 1, 2.5, 0, 0)); sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
+
+
+def test_clearance_of_a_row_does_not_depend_on_the_other_rows_of_its_batch():
+    rows = mixed_rows(5000, seed=3)
+    rows[7] = (1e-300, 1e300, 1e300, 1e-300, 1, 2, 3)
+    forward, backward = clearances(rows), clearances(rows[::-1])
+    assert (forward.clearance == backward.clearance[::-1]).all()
+    assert (forward.stage == backward.stage[::-1]).all()

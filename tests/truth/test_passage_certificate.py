@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 
 from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, clear_until, contact_at
-from hypcheck.truth.passage_prove import prove
+from hypcheck.truth.passage_prove import _simplest, prove
 from hypcheck.vectors.tilted import TWO_POINTS
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
@@ -132,3 +132,15 @@ def test_damaged_proof_of_contact_on_a_way_is_refused():
 def test_a_proof_whose_minors_are_1_holds():
     row = (1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 4.0, 0.0, 0.0, 5.0)
     assert clear_until(row, PassageCertificate(((Fraction(-1, 2), Fraction(1)),))) == 1
+
+
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [("3/10", "4/10"), ("0/1", "1/9"), ("314/100", "315/100"), ("7/3", "7/3"), ("2/7", "5/17"), ("5/2", "7/2")],
+)
+def test_the_simplest_fraction_of_a_stretch_has_the_least_denominator(low, high):
+    low, high = Fraction(low), Fraction(high)
+    found = _simplest(low, high)
+    assert low <= found <= high
+    for denominator in range(1, found.denominator):
+        assert math.ceil(low * denominator) > high * denominator
