@@ -6,6 +6,7 @@ import math
 import random
 from fractions import Fraction
 
+import mpmath
 import pytest
 
 from hypcheck.geometry.pair import Pair
@@ -80,3 +81,19 @@ def test_a_multiplier_is_moved_to_the_nearest_one_strictly_between_the_poles(siz
     inside = [L for L in range(-200, 200) if -Fraction(alpha, b) < Fraction(L, K) < Fraction(gamma, d)]
     for L in range(-150, 150):
         assert nearest_exact._within(squares, L, K) == min(inside, key=lambda each: abs(each - L))
+
+
+def test_first_tau_of_newton_is_never_below_the_root():
+    """τ √(1 + (q/σ)²) ≥ p at it, for p, q and W far apart, equal and nearly equal."""
+    dice = random.Random(7)  # noqa: S311
+    with mpmath.workprec(1500):
+        for _ in range(600):
+            W, spread = mpmath.mpf(1), dice.choice([0.5, 3, 100])
+            p = 1 + dice.choice([-1, 1]) * 10 ** mpmath.mpf(dice.uniform(-spread, 0)) * dice.choice([0, 1, 1])
+            p = p if p > 0 and dice.random() < 0.6 else 10 ** mpmath.mpf(dice.uniform(-spread, spread))
+            q = 10 ** mpmath.mpf(dice.uniform(-2 * spread, spread))
+            tau, sigma = nearest_exact._above(p, q, W, p - W)
+            assert 0 < tau <= W * (1 + mpmath.mpf(2) ** -60)
+            assert sigma > 0
+            assert tau * mpmath.sqrt(1 + (q / sigma) ** 2) >= p * (1 - mpmath.mpf(2) ** -100), (p, q)
+            assert math.isfinite(tau)

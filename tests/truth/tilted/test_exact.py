@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
+import mpmath
 import numpy as np
 import pytest
 from sympy import ZZ
@@ -131,3 +133,26 @@ def test_powers_of_a_number_with_a_root_are_its_products():
     assert number.power(3) == number * number * number
     assert (number * number).u == Fraction(1, 4) + Fraction(9, 16) * 5
     assert (number / number) == Surd(Fraction(1), Fraction(0), Fraction(5))
+
+
+@pytest.mark.parametrize("w", [1, 2, 9, 10**30 + 1])
+def test_the_sign_of_a_number_with_a_root_is_exact(w):
+    for u in (-(10**15), -4, -3, -1, 0, 1, 3, 4, 10**15):
+        for r in (-3, -1, 0, 1, 3):
+            value = u if not r else (1 if r > 0 else -1) if (r > 0) == (u > 0) or not u else None
+            if value is None:
+                larger = u * u - r * r * w
+                value = (larger > 0) - (larger < 0) if u > 0 else (larger < 0) - (larger > 0)
+            assert exact._sign_with_root(u, r, w) == (value > 0) - (value < 0), (u, r)
+
+
+def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_digits():
+    with mpmath.workprec(400):
+        for row in random_rows(60, seed=4):
+            F = exact.quartic(TiltedLengths.of(row))
+            end = (F.e1 + mpmath.sqrt(F.e1**2 + 4 * F.e0 * F.e2)) / (2 * F.e2)
+            expected = []
+            for order in (1, 2, 3):
+                derived = [math.comb(4 - k, order) * each for k, each in enumerate(F.coefficients) if 4 - k >= order]
+                expected.append(int(mpmath.sign(mpmath.polyval(derived, end))))
+            assert exact._signs_at_second(F) == expected

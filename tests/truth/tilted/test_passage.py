@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.journey import Surd
+from hypcheck.truth.journey import Surd, _ring_between, _sign_at_root
 from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, tolerance
 from hypcheck.truth.swept import by_roots, by_steps, journey_of, passage
 from hypcheck.truth.tilted import exact
@@ -181,3 +181,36 @@ def test_sums_products_and_signs_of_surds_are_exact(u, v, s, t, w):
             assert found.sign == (1 if value > 0 else -1)
     if second.sign:
         assert (first / second * second - first).sign == 0
+
+
+def rationals(*numbers):
+    return [Surd(Fraction(each)) for each in numbers]
+
+
+@pytest.mark.parametrize("roots", [(Fraction(1, 3), 2), (-2, Fraction(1, 3)), (Fraction(1, 3),) * 2, (Fraction(1, 3),)])
+@pytest.mark.parametrize("g", [(1, -1, 0), (0, 3, 2), (-5, 4, 1), (2, 1, -1), (0, 0, -3), (3, -7, 2)])
+def test_sign_at_the_one_root_between_two_times_is_that_of_the_value_there(roots, g):
+    """f has the root 1/3, once or twice, alone or with another; where no root is between, the sign is 0."""
+    total = (1, -sum(roots), roots[0] * roots[1]) if len(roots) > 1 else (0, 1, -roots[0])
+    time = Fraction(1, 3)
+    there = (g[0] * time + g[1]) * time + g[2]
+    expected = (there > 0) - (there < 0)
+    for sign in (1, -1):
+        f = rationals(*(sign * each for each in total))
+        for low, high in (
+            (Fraction(0), Fraction(1)),
+            (Fraction(3, 10), Fraction(1, 2)),
+            (Fraction(-1), Fraction(3, 4)),
+        ):
+            assert _sign_at_root(f, rationals(*g), low, high) == expected
+        for low, high in ((Fraction(1, 2), Fraction(1)), (Fraction(0), Fraction(1, 4))):
+            assert _sign_at_root(f, rationals(*g), low, high) == 0
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "ring"), [(0, 1, True), (Fraction(1, 2), 1, False), (-1, Fraction(1, 4), False)]
+)
+def test_ring_is_seen_only_at_a_time_between_the_two(low, high, ring):
+    """F(ℓ) = (3 t − 1)², F′(ℓ) = 3 t − 1 and F″(ℓ) = 1 > 0: the ring at 1/3."""
+    at_pole, slope, curvature = rationals(9, -6, 1), rationals(0, 3, -1), rationals(0, 0, 1)
+    assert _ring_between(at_pole, slope, curvature, Fraction(low), Fraction(high)) is ring
