@@ -13,7 +13,7 @@ from hypcheck.truth.nearest_exact import nearest as nearest_of
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
-from tests.truth.tilted.test_float_boxes_parts import phi
+from tests.truth.tilted.cases import phi
 
 
 def drawn(count, width, seed=3):

@@ -27,6 +27,8 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
 from hypcheck.kernel import integers, numpy_kernel, scalar, tilted_integers
 from hypcheck.runs.oracles import ORACLES
+from hypcheck.truth import float_filter
+from hypcheck.truth.swept import by_roots, journey_of
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
 from tests.support import checkers, fractions_truth, tilted_fractions
@@ -189,9 +191,25 @@ def of_method(name: str, questions: Questions) -> list[int]:
 
 
 def of_oracle(name: str, questions: Questions) -> list[int]:
+    """The positions of an oracle; where it says them, a case's tangency and kind must be those of its label."""
     oracle = ORACLES[name]
     opinions = (oracle.ask_tilted if questions.groups else oracle.ask)(questions.rows)
+    for case, opinion in zip(questions.cases, opinions, strict=False):
+        assert opinion.tangent in (None, case["tangent"]), case["id"]
+        assert opinion.kind is None or opinion.kind == case["kind"], case["id"]
     return [CANNOT_SAY if opinion.position is None else int(opinion.position) for opinion in opinions]
+
+
+def of_float_filter(questions: Questions) -> list[int]:
+    return float_filter.positions(np.ascontiguousarray(questions.rows)).tolist()
+
+
+def of_discriminant(questions: Questions) -> Times:
+    """The passage by the roots of the discriminant, which is asked where steps do not decide."""
+    ways = [journey_of(row[:4], row[4:7], row[7:10], row[10:] or None) for row in questions.rows.tolist()]
+    found = [by_roots(way) for way in ways]
+    first = [(passage.first_lower, passage.first_upper) if passage.hit else (np.nan, np.nan) for passage in found]
+    return Times([int(passage.hit) for passage in found], np.array(first).reshape(-1, 2))
 
 
 def of_fractions(questions: Questions) -> list[int]:
@@ -335,6 +353,7 @@ DECIDERS = (
         for language in LANGUAGES
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),
+    Decider("the float filter", of_float_filter),
     Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=6, refuses=False),
     Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=6, refuses=False),
     Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=6, refuses=False),
@@ -350,6 +369,7 @@ DECIDERS = (
     Decider("fractions", of_fractions, every=4, refuses=False, drawn=False),
     Decider("certificates", checkers.check_positions, every=2, refuses=False, drawn=False),
     Decider("hypcheck.passage", of_passage, takes=WAYS, every=3),
+    Decider("passage by the discriminant", of_discriminant, takes=WAYS, every=36, refuses=False, drawn=False),
     Decider("hypcheck.Scene.passage", partial(by_row, of_scene_passage), takes=WAYS),
     Decider("builtin:passage-certified", partial(of_method, "passage-certified"), takes=("end",), refuses=False),
     Decider("the C header, ways", of_header, takes=WAYS, abstains=0.1, lacks=lacks_compiler),

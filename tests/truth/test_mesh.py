@@ -11,56 +11,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck.errors import UnavailableError
-from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.pair import Pair
 from hypcheck.truth import mesh
 from hypcheck.truth.mesh import MeshOutcome, availability, verdict
 from tests.support.fractions_truth import (
     everyday,
     exact_position,
     grown,
-    near_contact_rows,
     rows_of,
     steps_at,
     tangent_rows,
 )
 
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")
-
-
-def test_reference_position_of_the_mesh_tests_is_right_on_witnesses():
-    ring, slipped, crossing = (
-        (1, 2, 1, 1, Fraction(5, 2), 0, 0),
-        (3, 3, 1, 1, 1, 0, 0),
-        (2, Fraction(1, 2), 1, 1, 4, 0, 0),
-    )
-    assert [exact_position(row) for row in (ring, slipped, crossing)] == [1, -1, 0]
-    assert [exact_position((4, 2, 1, 1, 5 + e, 0, 0)) for e in (Fraction(1, 10**9), 0, -Fraction(1, 10**9))] == [
-        1,
-        0,
-        0,
-    ]
-    assert [exact_position((1 + e, 1, 1, 1, 0, 0, 0)) for e in (Fraction(1, 10**9), 0)] == [-1, 0]
-
-
-@pytest.mark.parametrize(
-    ("row", "position"),
-    [
-        ((1, 2, 1, 1, 2.5, 0, 0), Position.EXTERIOR),  # Δ = 0 on the ring, clear by 1/2
-        ((7, 7, 1, 1, 10, 0, 0), Position.EXTERIOR),  # Δ = 0 on the ring, clear by 2
-        ((3, 3, 1, 1, 1, 0, 0), Position.INTERIOR),  # clear by 1 at the waist
-        ((4, 1, 1, 1, 1, 0, 0), Position.INTERIOR),
-        ((2, 0.5, 1, 1, 4, 0, 0), Position.CONTACT),  # crosses above and below, free at the waist
-        ((1, 0.25, 1, 1, 2, 0, 0.5), Position.CONTACT),
-        ((2, 17.8, 0.25, 0.15, 1.7, 0, 0), Position.INTERIOR),  # 0.05 from the tower's wall
-        ((2, 17.8, 0.25, 0.15, 1.8, 0, 0), Position.CONTACT),
-        ((2, 17.8, 0.25, 0.15, 2.2, 0, 0), Position.CONTACT),
-        ((2, 17.8, 0.25, 0.15, 2.3, 0, 0), Position.EXTERIOR),
-        ((1, 1, 1, 1, 1, 0, 0), Position.CONTACT),  # the centre is on the surface
-        ((1, 1, 10, 10, 0, 0, 0), Position.CONTACT),  # the waist is inside the spheroid
-    ],
-)
-def test_mesh_oracle_decides_pairs_checked_by_hand(row, position):
-    assert verdict(Pair(*row)).position is position
 
 
 @pytest.mark.parametrize(
@@ -112,14 +75,8 @@ def check_against_exact(row):
 
 
 @settings(max_examples=400)
-@given(rows_of(*everyday()))
+@given(rows_of(*everyday()) | rows_of(*everyday(-1, 1)))
 def test_the_mesh_oracle_is_right_on_everyday_rows(row):
-    check_against_exact(row)
-
-
-@settings(max_examples=300)
-@given(rows_of(*everyday(-1, 1)))
-def test_the_mesh_oracle_is_right_on_rows_of_like_sizes(row):
     check_against_exact(row)
 
 
@@ -134,18 +91,6 @@ def test_the_mesh_oracle_is_right_or_undecided_on_any_valid_row(row):
     check_against_exact(row)
 
 
-@pytest.mark.parametrize("sizes", [(5e-324, 1.7e308, 1.7e308, 5e-324), (1.7e308, 5e-324, 5e-324, 1.7e308)])
-@pytest.mark.parametrize("center", [(1.7e308, 0, 0), (5e-324, 0, 5e-324), (0, 0, 1.7e308), (1, 1, 1)])
-def test_the_mesh_oracle_is_right_or_undecided_on_the_most_extreme_rows(sizes, center):
-    check_against_exact((*sizes, *center))
-
-
-def test_the_mesh_oracle_decides_rows_near_contact_rightly():
-    rows = near_contact_rows(500)
-    assert [verdict(Pair(*row)).position for row, _ in rows] == [position for _, position in rows]
-    assert {position for _, position in rows} == {-1, 0, 1}
-
-
 @pytest.mark.parametrize(
     ("row", "said"),
     [((1, 1, 1, 1, 2.125, 0, 0), 0.5), ((1, 1, 1, 1, 1.5, 0, 0), 1.5), ((1, 1, 1, 1, 1.5, 0, 0), math.nan)],
@@ -157,13 +102,6 @@ def test_mesh_oracle_is_undecided_if_fcl_contradicts_it(monkeypatch, row, said):
     assert found.outcome is MeshOutcome.UNDECIDED
     assert "FCL" in found.reason
     assert found.triangles > 0
-
-
-def test_mesh_oracle_is_undecided_if_too_many_cells_stay_open(monkeypatch):
-    monkeypatch.setattr(mesh, "MOST_CELLS", 100)
-    found = verdict(Pair(4, 2, 1, 1, 5, 0, 0))
-    assert found.outcome is MeshOutcome.UNDECIDED
-    assert "too many cells" in found.reason
 
 
 def test_mesh_oracle_calls_a_surface_out_of_reach_clear_without_a_mesh():

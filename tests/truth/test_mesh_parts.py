@@ -12,12 +12,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import mesh
 from hypcheck.truth.mesh import (
     REACH,
     UNIT,
     _facets,
-    bounds_of,
     cell_of,
     distance_to_mesh,
     halves,
@@ -103,43 +101,6 @@ def test_fcl_measures_a_ribbon_as_exact_arithmetic_does(points, scale):
     assert distance_to_mesh(*ribbon(segments)) == pytest.approx(
         math.sqrt(min(map(squared, segments))), rel=0, abs=1e-14
     )
-
-
-def test_mesh_ribbon_omits_segments_without_length():
-    vertices, triangles = ribbon([((0.5, 0.5), (0.5, 0.5))])
-    assert len(vertices) == len(triangles) == 0
-    assert distance_to_mesh(vertices, triangles) == math.inf
-
-
-def test_bounds_of_a_mesh_cell_around_the_centre_decide_nothing():
-    meridian = meridian_of(Pair(1, 1, 1, 1, 1.01, 0, 0))
-    found = bounds_of(cell_of(meridian, *window_of(meridian)), outside=True)
-    assert found.lower < 0.02
-    assert found.upper > 0
-
-
-@settings(max_examples=100)
-@given(rows_of(*everyday(-3, 3)))
-def test_side_of_the_surface_on_which_the_centre_lies_is_exact(row):
-    alpha, gamma, _, _, x, y, z = map(Fraction, row)
-    level = (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
-    assert meridian_of(Pair(*row)).side == (level > 0) - (level < 0)
-    assert meridian_of(Pair(*row[:4], row[0], 0.0, 0.0)).side == 0
-
-
-@pytest.mark.parametrize(
-    ("ends", "nearest"),
-    [
-        (((1.0, -1.0), (1.0, 3.0)), (1.0, 0.0)),
-        (((3.0, 1.0), (-1.0, 1.0)), (0.0, 1.0)),
-        (((2.0, 0.0), (0.0, 2.0)), (1.0, 1.0)),
-        (((1.0, 2.0), (3.0, 4.0)), (1.0, 2.0)),
-        (((3.0, 4.0), (1.0, 2.0)), (1.0, 2.0)),
-        (((1.0, 2.0), (1.0, 2.0)), (1.0, 2.0)),
-    ],
-)
-def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
-    assert mesh._nearest_on(*ends) == nearest
 
 
 def test_facets_are_the_chords_of_cells_or_else_their_tangents():

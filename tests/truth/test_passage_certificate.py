@@ -9,8 +9,8 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, check_passage, clear_until, contact_at
-from hypcheck.truth.passage_prove import _simplest, _within, prove
+from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, clear_until, contact_at
+from hypcheck.truth.passage_prove import _simplest, prove
 from hypcheck.vectors.tilted import TWO_POINTS
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
@@ -54,24 +54,6 @@ def test_bounds_of_a_first_contact_are_neighbouring_floats(row):
     if first and first[0]:
         assert math.nextafter(first[0], 1.0) == first[1]
         assert certificate.pieces[-1][1] == first[0]
-
-
-@pytest.mark.parametrize(
-    ("axis", "offset", "held"),
-    [
-        ((0, 0, 1), (0, 0, Fraction(1, 2)), True),
-        ((0, 0, 1), (0, 0, Fraction(51, 100)), False),
-        ((0, 0, 1), (Fraction(3, 5), Fraction(4, 5), 0), True),
-        ((0, 0, 1), (Fraction(3, 5), Fraction(81, 100), 0), False),
-        ((3, 0, 4), (Fraction(3, 10), 0, Fraction(4, 10)), True),
-        ((3, 0, 4), (Fraction(31, 100), 0, Fraction(41, 100)), False),
-        ((3, 0, 4), (Fraction(-4, 5), 0, Fraction(3, 5)), True),
-        ((3, 0, 4), (Fraction(-4, 5), Fraction(1, 100), Fraction(3, 5)), False),
-    ],
-)
-def test_offset_is_within_the_spheroid_up_to_its_surface_and_not_beyond(axis, offset, held):
-    numbers = [Fraction(each) for each in (5, 7, 3, Fraction(3, 2), 1, 2, 3)]  # b = 3, d = b/2
-    assert _within(PairAtTime(tuple(numbers), tuple(map(Fraction, axis))), offset) is held
 
 
 def test_a_grazing_way_is_proved_by_the_double_root_of_one_time():

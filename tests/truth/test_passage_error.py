@@ -42,15 +42,6 @@ def test_size_error_is_infinite_if_the_centre_meets_the_surface_or_stays_far_awa
     assert size_error((2.0, 3.0, 1.0, 1.0, 9.0, 0.0, 0.0, 8.0, 0.0, 0.0), True).lower == math.inf
 
 
-@pytest.mark.parametrize(
-    "least", [0.3, 0.25, 2.0**-9, 2.0**-10, 1.01 * 2.0**-11, 1e-7, 1e-12, 2.0**-60, 1.5 * 2.0**-300]
-)
-def test_search_encloses_the_least_sufficient_change_between_neighbouring_powers_of_two(least):
-    low, high = passage_error._octave(lambda change: change >= least)
-    assert low < least <= high
-    assert high == 2 * low
-
-
 _sizes = st.tuples(*[st.integers(64, 4096).map(lambda n: n / 1024)] * 4)
 _centers = st.tuples(*[st.integers(-6144, 6144).map(lambda n: n / 1024)] * 3)
 
@@ -143,3 +134,12 @@ def test_time_window_has_no_upper_end_if_the_smaller_spheroid_is_clear():
 def test_the_tolerance_is_the_one_worked_out_by_hand(axis, roundoff, expected):
     row = (7.0, 3.0, 2.0, 4.0, 1.0, 2.0, 4.0, 0.0, 5.0, -8.0, *axis)
     assert tolerance(row, 1, roundoff) == expected
+
+
+@pytest.mark.parametrize(
+    "least", [0.3, 0.25, 2.0**-9, 2.0**-10, 1.01 * 2.0**-11, 1e-7, 1e-12, 2.0**-60, 1.5 * 2.0**-300]
+)
+def test_search_encloses_the_least_sufficient_change_between_neighbouring_powers_of_two(least):
+    low, high = passage_error._octave(lambda change: change >= least)
+    assert low < least <= high
+    assert high == 2 * low

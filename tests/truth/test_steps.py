@@ -12,7 +12,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.truth import exact
 from hypcheck.truth.journey import piece, shortened
 from hypcheck.truth.polynomial_roots import discriminant, value
-from hypcheck.truth.swept import WIDTH_BITS, _between, journey_of, reach, steps
+from hypcheck.truth.swept import WIDTH_BITS, journey_of, reach, steps
 from hypcheck.truth.tilted import exact as tilted
 from tests.truth.test_passage_certificate import INSIDE, OUTSIDE, THROUGH, TUNNEL, random_ways
 
@@ -166,28 +166,3 @@ def test_each_piece_of_a_proof_is_positive_over_its_whole_stretch(row):
         last = end
     assert found.contact is None or found.contact > last
     assert found.contact is not None or last == 1
-
-
-def test_special_time_of_a_way_is_where_its_height_or_distance_from_the_axis_is_least():
-    rising = journey((2.0, 3.0, 1.0, 1.0, -6.0, 5.0, -1.5, 8.0, 3.25, 4.0))
-    assert rising._special_time() == Fraction(3, 11)
-    for row in (
-        (2.0, 3.0, 1.0, 1.0, -6.0, 5.0, 0.0, 8.0, 3.25, 0.0),
-        (2.0, 3.0, 1.0, 1.0, 1.0, 5.0, 0.0, 1.0, -3.0, 0.0),
-        (2.0, 3.0, 1.0, 1.0, 7.0, 0.5, 0.0, -1.0, 0.25, 0.0),
-    ):
-        start, way = [[*map(Fraction, part)] for part in (row[4:6], (row[7] - row[4], row[8] - row[5]))]
-        time = journey(row)._special_time()
-        here = [a + time * b for a, b in zip(start, way, strict=True)]
-        assert here[0] * way[0] + here[1] * way[1] == 0
-
-
-def test_a_time_between_two_roots_is_beside_neither():
-    halves = [Fraction(each, 20) for each in range(21)]
-    roots = [(halves[3], halves[4]), (halves[11], halves[11]), (halves[13], halves[19])]
-    first, second, third, last = _between(roots)
-    assert 0 < first < halves[3]
-    assert halves[4] < second < halves[11] < third < halves[13]
-    assert halves[19] < last < 1
-    zero, one = (Fraction(0), Fraction(0)), (Fraction(1), Fraction(1))
-    assert list(_between([zero, one])) == [None, Fraction(1, 2), None]

@@ -11,10 +11,13 @@ import pytest
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.passage_error import hits_at_size
 from hypcheck.vectors import coincidences, double_roots
 from hypcheck.vectors.double_roots import gather
 from hypcheck.vectors.draw import Draw
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.family import BLOCK
+from hypcheck.vectors.ways import more_than_a_radius_away, ring_attempt
 from tests.vectors.case_rows import COUNT, fractions, kinds, lengths_of, ratios
 
 EXTERIOR, CONTACT, INTERIOR = Position
@@ -179,3 +182,15 @@ def test_osculation_and_near_axis_families_approach_their_borders_from_both_side
         assert max(map(abs, gaps)) < Fraction(1, 4)
         assert sum(0 < abs(value) < Fraction(1, 2**40) for value in gaps) > 80
         assert min(sum(value > 0 for value in gaps), sum(value < 0 for value in gaps)) > 200
+
+
+def test_generated_ways_across_a_ring_are_clear_where_rings_beside_the_surface_were_replaced() -> None:
+    rows = WAY_FAMILIES["way-ring"].rows(1, BLOCK)
+    before = gather(Draw("way-ring", 1, 1, 0), BLOCK, ring_attempt)
+    replaced = (rows != before).any(axis=1)
+    assert 0 < replaced.sum() < 0.05 * BLOCK
+    assert all(hits_at_size(row) for row in before[replaced].tolist())
+    assert not any(hits_at_size(row) for row in rows[:64].tolist())
+    near = ~more_than_a_radius_away(rows)
+    assert near.any()
+    assert not any(hits_at_size(row) for row in rows[near].tolist())

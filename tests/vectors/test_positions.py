@@ -8,7 +8,7 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.truth import float_filter
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.vectors.case_rows import COUNT
 
 EXTERIOR, CONTACT, INTERIOR = Position
@@ -28,6 +28,10 @@ LIMITED = {
     "near-axis": {CONTACT, INTERIOR},
     "axis": {CONTACT, INTERIOR},
     "coefficient-zero": {CONTACT, INTERIOR},
+    # tilted
+    "tilted-tangent": {CONTACT},
+    "tilted-crossing": {CONTACT},
+    "tilted-ring": {EXTERIOR, INTERIOR},
 }
 """Families that the geometry keeps from some position; all others show all three."""
 
@@ -38,3 +42,10 @@ def test_each_family_has_at_least_10_percent_of_every_position_that_it_allows(na
     expected = LIMITED.get(name, set(Position))
     assert set(found) == {int(position) for position in expected}
     assert all(count >= 0.1 * COUNT for count in found.values()), found
+
+
+@pytest.mark.parametrize("name", TILTED_FAMILIES)
+def test_a_tilted_family_meets_every_position_that_it_promises(name: str) -> None:
+    found = Counter(float_filter.positions(TILTED_FAMILIES[name].rows(5, 300)).tolist())
+    assert set(found) == set(map(int, LIMITED.get(name, set(Position))))
+    assert min(found.values()) >= 10, found

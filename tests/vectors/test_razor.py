@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-import sys
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
@@ -29,35 +26,26 @@ def position(sizes, x, z):
 
 
 @pytest.mark.parametrize("sizes", SIZES)
-@pytest.mark.parametrize("z", [0.0, -1.0, 17.8])
-def test_edge_for_fixed_sizes_is_the_last_float_before_the_position_changes(sizes, z):
-    for side in SIDES:
-        x = fixed_sizes._edge(sizes, z, side)
-        assert is_beyond(sizes, x, z, side) or (
-            x == fixed_sizes.FARTHEST and not is_beyond(sizes, sys.float_info.max, z, side)
-        )
-        assert x == 0.0 or not is_beyond(sizes, math.nextafter(x, 0.0), z, side)
+def test_razor_rows_lie_at_most_six_floats_from_the_first_one_after_the_position_changes(sizes):
+    """They are drawn up to six to either side of it: about another float some would be seven away."""
+    centres = np.abs(fixed_sizes.family_at(f"razor@{','.join(map(repr, sizes))}").rows(1, 300)[:, [4, 6]])
+    moved = np.isclose(centres, fixed_sizes.FARTHEST, rtol=1e-14, atol=0)  # inwards, to what is asked at most
+    inner = centres[~moved.any(axis=1)].tolist()
+    for x, z in inner:
+        outwards = [x]
+        for _ in range(6):
+            outwards = [math.nextafter(outwards[0], 0.0), *outwards, math.nextafter(outwards[-1], math.inf)]
+        before = math.nextafter(outwards[0], 0.0)
+        assert any(
+            is_beyond(sizes, outwards[-1], z, side) and (before == 0.0 or not is_beyond(sizes, before, z, side))
+            for side in SIDES
+        ), (x, z)
+    assert len(inner) > 50
 
 
 def is_beyond(sizes, x, z, side):
     """Whether it is exterior, or no longer interior."""
     return (position(sizes, x, z) is side) == (side is Position.EXTERIOR)
-
-
-@pytest.mark.parametrize("sizes", SIZES)
-def test_edge_for_fixed_sizes_is_found_in_at_most_65_exact_decisions(sizes, monkeypatch):
-    asked = []
-
-    def counted(lengths):
-        asked.append(lengths)
-        return decide(lengths)
-
-    decide = exact.position
-    monkeypatch.setattr(fixed_sizes.exact, "position", counted)
-    for side in SIDES:
-        asked.clear()
-        fixed_sizes._edge(sizes, 1.0, side)
-        assert len(asked) <= 65
 
 
 @pytest.mark.parametrize("trap", fixed_sizes.TRAPS)
@@ -78,13 +66,6 @@ def test_edge_for_fixed_sizes_is_found_in_at_most_65_exact_decisions(sizes, monk
 def test_rows_for_fixed_sizes_are_finite_at_the_limits_of_float64(trap, sizes):
     rows = fixed_sizes.family_at(f"{trap}@{','.join(map(repr, sizes))}").block(1, 0)
     assert np.isfinite(rows).all()
-
-
-@given(st.floats(0.0, sys.float_info.max))
-def test_float_at_inverts_ordinal(x):
-    ordinal = fixed_sizes._ordinal(x)
-    assert fixed_sizes._float_at(ordinal) == x
-    assert ordinal == 0 or fixed_sizes._float_at(ordinal - 1) == math.nextafter(x, 0.0)
 
 
 @pytest.mark.parametrize(

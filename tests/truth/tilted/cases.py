@@ -175,3 +175,31 @@ def near_contact(row, decide):
 
 def _stretched(row, factor):
     return [*row[:2], row[2] * factor, row[3] * factor, *row[4:]]
+
+
+def phi(row, at):
+    """min over X of s(X) + λ h(X), by Cramer's rule; None where M + λD is not positive definite."""
+    alpha, gamma, b, d, *rest = map(Fraction, row)
+    centre, v = rest[:3], rest[3:]
+    D = (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)
+    square = sum(each * each for each in v)
+    M = [[(i == j) / b**2 + (1 / d**2 - 1 / b**2) * v[i] * v[j] / square for j in range(3)] for i in range(3)]
+    G = [[M[i][j] + (i == j) * at * D[i] for j in range(3)] for i in range(3)]
+    pulled = [sum(M[i][j] * centre[j] for j in range(3)) for i in range(3)]
+    whole = determinant(G)
+    if not (G[0][0] > 0 and G[0][0] * G[1][1] > G[0][1] ** 2 and whole > 0):
+        return None
+    nearest = []
+    for column in range(3):
+        replaced = [[pulled[i] if j == column else G[i][j] for j in range(3)] for i in range(3)]
+        nearest.append(determinant(replaced) / whole)
+    along = sum(pulled[i] * (centre[i] - nearest[i]) for i in range(3))
+    return along - 1 - at
+
+
+def determinant(m):
+    return (
+        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+        - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+        + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+    )

@@ -12,7 +12,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import backward_error
 from hypcheck.truth import exact as upright_exact
 from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.backward_error import _short, bracket, estimate, tolerated
+from hypcheck.truth.tilted.backward_error import bracket, estimate, tolerated
 from hypcheck.truth.tilted.pair import TiltedLengths
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC
@@ -109,10 +109,3 @@ def test_answer_is_tolerated_if_one_of_several_accepted_answers_is_within_the_to
     assert tolerated(row, decided(row), [EXTERIOR], Fraction(0)) is False
     assert tolerated(row, decided(row), [EXTERIOR], Fraction(1)) is True
     assert estimate(row, decided(row), EXTERIOR) == pytest.approx(STEP / (2.25 - STEP), rel=0.05)
-
-
-@pytest.mark.parametrize("value", [Fraction(1, 3), Fraction(2, 3) * 2**70, Fraction(5, 7) / 2**300, Fraction(1)])
-def test_shortened_change_is_within_one_part_in_4096(value):
-    short = _short(value)
-    assert abs(short / value - 1) <= Fraction(1, 2**12)
-    assert short.numerator.bit_length() <= 14 or short.denominator == 1

@@ -12,9 +12,7 @@ from sympy import ZZ
 from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact as upright
-from hypcheck.truth.float_filter import positions
+from hypcheck.geometry.pair import Position
 from hypcheck.truth.journey import Surd
 from hypcheck.truth.tilted import exact
 from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
@@ -115,42 +113,6 @@ def test_double_root_at_a_pole_is_a_tangency_unless_a_simple_root_lies_before_it
     assert decision == exact.TiltedDecision(position, limit_of)
 
 
-def test_vertical_axis_and_sphere_have_the_upright_position():
-    for row in random_rows(200):
-        vertical = [*row[:7], 0.0, 0.0, row[9]]
-        sphere = [*row[:3], row[2], *row[4:]]
-        for changed in (vertical, sphere):
-            assert exact.position(TiltedLengths.of(changed)) is upright.position(Pair.from_row(changed[:7]).lengths)
-
-
-def test_position_ignores_length_and_sign_of_the_axis_and_the_unit_of_length():
-    for row in random_rows(100):
-        expected = exact.decide(TiltedLengths.of(row))
-        for factor in (-1.0, 2.0**-900, 2.0**900, Fraction(-3, 7)):
-            assert exact.decide(TiltedLengths.of([*row[:7], *(each * factor for each in row[7:])])) == expected
-        assert exact.decide(TiltedLengths.of([*(Fraction(each) / 3 for each in row[:7]), *row[7:]])) == expected
-
-
-def test_positions_of_an_array_are_those_of_its_rows():
-    rows = random_rows(50)
-    expected = [exact.position(TiltedLengths.of(row)) for row in rows]
-    assert positions(np.array(rows)).tolist() == expected
-    assert len(set(expected)) == 3
-
-
-def test_positions_refuse_invalid_rows():
-    good = [1.0, 2.0, 1.0, 0.5, 5.0, 0.0, 0.0, 1.0, 0.0, 1.0]
-    rows = np.array([good] * 5)
-    rows[1, 7:] = 0.0
-    rows[2, 8] = np.nan
-    rows[3, 7] = np.inf
-    rows[4, 2] = 0.0
-    with pytest.raises(InputError, match=r"^row 1: axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction$"):
-        positions(rows)
-    with pytest.raises(InputError, match=r"^row 1: axis_y is nan; it must be finite$"):
-        positions(rows[[0, 2]])
-
-
 def test_pair_refuses_an_axis_without_direction():
     with pytest.raises(InputError, match="must have a direction"):
         TiltedPair(1, 1, 1, 1, 0, 0, 0, 0.0, -0.0, 0.0)
@@ -162,6 +124,15 @@ def test_lengths_and_axis_each_come_in_the_largest_unit_of_which_they_are_multip
     assert (found.alpha, found.y, found.axis) == (1, -8, (3, 5, -7))
     for lengths, axis in ((8.0, 1.0), (0.125, 4.0), (2.0**-1000, 2.0**900)):
         assert TiltedLengths.of([*(each * lengths for each in row[:7]), *(each * axis for each in row[7:])]) == found
+
+
+def test_powers_of_a_number_with_a_root_are_its_products():
+    number = Surd(Fraction(1, 2), Fraction(-3, 4), Fraction(5))
+    assert number.power(0) == Surd(Fraction(1), Fraction(0), Fraction(5))
+    assert number.power(1) == number
+    assert number.power(3) == number * number * number
+    assert (number * number).u == Fraction(1, 4) + Fraction(9, 16) * 5
+    assert (number / number) == Surd(Fraction(1), Fraction(0), Fraction(5))
 
 
 @pytest.mark.parametrize("w", [1, 2, 9, 10**30 + 1])
@@ -185,12 +156,3 @@ def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_d
                 derived = [math.comb(4 - k, order) * each for k, each in enumerate(F.coefficients) if 4 - k >= order]
                 expected.append(int(mpmath.sign(mpmath.polyval(derived, end))))
             assert exact._signs_at_second(F) == expected
-
-
-def test_powers_of_a_number_with_a_root_are_its_products():
-    number = Surd(Fraction(1, 2), Fraction(-3, 4), Fraction(5))
-    assert number.power(0) == Surd(Fraction(1), Fraction(0), Fraction(5))
-    assert number.power(1) == number
-    assert number.power(3) == number * number * number
-    assert (number * number).u == Fraction(1, 4) + Fraction(9, 16) * 5
-    assert (number / number) == Surd(Fraction(1), Fraction(0), Fraction(5))

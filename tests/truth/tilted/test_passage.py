@@ -160,13 +160,6 @@ def test_a_tilted_size_error_is_bracketed_by_exact_decisions():
     assert hits_at_size(row, 1 + Fraction(found.upper))
 
 
-def test_tilted_passage_with_a_vertical_axis_or_a_sphere_equals_the_upright_passage():
-    way = ((2, 3, 1, 0.5), (-4, 2, 1), (4, 2, 0))
-    assert passage(*way, (0, 0, -3)) == passage(*way)
-    sphere = ((2, 3, 1, 1), (-4, 2, 1), (4, 2, 0))
-    assert passage(*sphere, (1, 2, 3)) == passage(*sphere)
-
-
 def test_tilted_passage_refuses_an_axis_without_direction():
     with pytest.raises(InputError, match="an axis must have a direction"):
         hypcheck.passage((2, 3, 1, 0.5), (0, 0, 0), (1, 0, 0), (0, 0, 0))

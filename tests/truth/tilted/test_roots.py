@@ -10,8 +10,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.truth.tilted import roots
 from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.truth.tilted.roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
-from hypcheck.vectors import frozen
-from tests.support.tilted_fractions import exact_position, interpolated, matrices, value
+from tests.support.tilted_fractions import interpolated, matrices, value
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC
 
@@ -45,19 +44,6 @@ def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_po
     assert (found.position, found.tangent) == (position, limit_of is not None)
     side = found.above if EXTERIOR in (position, limit_of) else found.below
     assert side in ("(0,R) R²", "R² >R", "R³", "(0,R) R >R")
-
-
-@pytest.mark.slow
-def test_tilted_roots_oracle_agrees_with_exact_positions_by_matrices():
-    for family, row in rows(["uniform", "near", "stiff", "slight", "symmetric", "grid"], 60, seed=8):
-        assert roots.position(TiltedPair.from_row(row)) == exact_position(row), (family, row)
-
-
-@pytest.mark.parametrize("name", ["tilted-tangent", "tilted-crossing", "tilted-ring", "tilted-twins"])
-def test_frozen_coincidences_have_their_proved_labels(name):
-    for case in frozen.load(name).cases[::12]:
-        found = classify_tilted_by_roots(TiltedPair.from_row(case.row))
-        assert (found.position, found.tangent) == (case.position, case.tangent), case.id
 
 
 def test_tilted_roots_oracle_raises_an_error_for_a_pattern_not_in_its_table(monkeypatch):

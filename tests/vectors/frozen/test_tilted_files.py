@@ -22,7 +22,6 @@ from hypcheck.vectors.flags import TILTED_FLAGS
 from hypcheck.vectors.format import TILTED_SCHEMA, content_with
 from hypcheck.vectors.labels import shows_crossing
 from tests.support.records import violations
-from tests.support.tilted_fractions import exact_position
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
 STEP = 40
@@ -52,12 +51,6 @@ def test_rows_of_a_tilted_file_are_the_first_rows_of_its_family_without_duplicat
     assert file.head == TILTED_FAMILIES[name].described(f"hypcheck cases freeze {name}")
     assert cases_text(file) == text_of(name)
     assert frozen.load(name).rows.shape == (len(wanted), 10)
-
-
-@every_file
-def test_the_positions_of_a_tilted_file_are_those_of_the_matrices(name):
-    for case in sample(name, 20).cases:
-        assert exact_position(case.row) == case.position, case.id
 
 
 @pytest.mark.slow

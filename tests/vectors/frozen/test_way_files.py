@@ -13,16 +13,13 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, invalid
-from hypcheck.truth.swept import by_roots, journey_of
 from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import WAY_FAMILIES
 from hypcheck.vectors.flags import WAY_FLAGS
 from hypcheck.vectors.format import WAY_SCHEMA
-from tests.support import fractions_truth
 from tests.support.records import violations
-from tests.support.tilted_fractions import exact_position
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
 every_file = pytest.mark.parametrize("name", frozen.WAY_NAMES)
@@ -33,13 +30,6 @@ OUTDATED = {"way-ring": (14, 43, 55)}
 
 def sample(name, step=STEP):
     return frozen.load(name).cases[::step]
-
-
-def position_at(row, time):
-    centre = tuple(Fraction(a) + time * (Fraction(b) - Fraction(a)) for a, b in zip(row[4:7], row[7:10], strict=True))
-    if len(row) == 10:
-        return fractions_truth.exact_position((*row[:4], *centre))
-    return exact_position((*row[:4], *centre, *row[10:]))
 
 
 def test_there_are_at_least_2000_ways_in_at_least_14_families():
@@ -67,32 +57,6 @@ def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplica
     assert cases_text(file) == text_of(name)
     assert file.positions.tolist() == [int(case.hit) for case in file.cases]
     assert not invalid(file.rows, WAYS).any()
-
-
-@pytest.mark.thorough
-@every_file
-def test_dense_exact_sampling_confirms_the_answers_about_ways(name):
-    """No contact before the first, clear on one side all along where the way is clear, and contact where it is said."""
-    for case in sample(name):
-        start = position_at(case.row, Fraction(0))
-        last = Fraction(1) if case.first is None else Fraction(case.first[0])
-        for number in range(17):
-            found = position_at(case.row, last * Fraction(number, 16))
-            assert found == start, case.id
-        assert (start == 0) == (case.first is not None and case.first[1] == 0), case.id
-        if case.hit:
-            assert position_at(case.row, case.witness.time) == 0, case.id
-            assert case.first[0] <= case.witness.time <= case.first[1], case.id
-
-
-@every_file
-def test_the_roots_of_the_discriminant_decide_ways_as_their_files_say(name):
-    for case in sample(name, 60 if name.startswith("tilted") else 36):
-        found = by_roots(journey_of(case.row[:4], case.row[4:7], case.row[7:10], case.row[10:] or None))
-        assert found.hit == case.hit, case.id
-        if case.hit:
-            assert found.first_lower <= case.first[1], case.id
-            assert case.first[0] <= found.first_upper, case.id
 
 
 @every_file
