@@ -21,6 +21,8 @@ from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.support.tilted_fractions import exact_position
 
 UPRIGHT = "python:tests.runs.leaning:upright"
+CALLS_US = ("--isolate", "off")
+"""It answers by hypcheck, which an isolated program does not see."""
 ROW = (2.0, 5.0, 1.0, 0.5, 2.5, -1.0, 0.5, 1.0, 0.25, -1.0)
 
 
@@ -28,7 +30,7 @@ ROW = (2.0, 5.0, 1.0, 0.5, 2.5, -1.0, 0.5, 1.0, 0.25, -1.0)
 @pytest.mark.slow
 def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_with_the_axis(capsys, tmp_path):
     out = tmp_path / "kept.json"
-    assert main(["hunt", UPRIGHT, "--queries", "160", "--show", "1", "--out", str(out)]) == 1
+    assert main(["hunt", UPRIGHT, "--queries", "160", "--show", "1", "--out", str(out), *CALLS_US]) == 1
     said = capsys.readouterr().out
     (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*axis_z\)$", said, flags=re.MULTILINE)
     row = tuple(map(float, shown.split(",")))
@@ -39,7 +41,7 @@ def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_
     assert row in {case.row for case in kept.cases}
     assert all(exact_position(case.row) == case.position for case in kept.cases)
     assert main(["cases", "check", str(out)]) == 0
-    assert main(["replay", shown, UPRIGHT]) == 1
+    assert main(["replay", shown, UPRIGHT, *CALLS_US]) == 1
 
 
 def test_strata_have_tilted_families_where_the_implementation_takes_tilt():
@@ -59,7 +61,7 @@ def test_neighbours_of_upright_and_tilted_rows_are_asked_together_and_are_all_va
 @pytest.mark.thorough
 @pytest.mark.slow
 def test_minimised_row_of_a_tilted_failure_is_tilted_and_short(capsys):
-    assert main(["minimise", UPRIGHT, "tilted-uniform/1/1/5"]) == 0
+    assert main(["minimise", UPRIGHT, "tilted-uniform/1/1/5", *CALLS_US]) == 0
     said = capsys.readouterr().out
     (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*axis_z\)$", said, flags=re.MULTILINE)
     row = tuple(map(float, shown.split(",")))
