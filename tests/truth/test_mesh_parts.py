@@ -12,6 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
+from hypcheck.truth import mesh
 from hypcheck.truth.mesh import (
     REACH,
     UNIT,
@@ -101,6 +102,21 @@ def test_fcl_measures_a_ribbon_as_exact_arithmetic_does(points, scale):
     assert distance_to_mesh(*ribbon(segments)) == pytest.approx(
         math.sqrt(min(map(squared, segments))), rel=0, abs=1e-14
     )
+
+
+@pytest.mark.parametrize(
+    ("ends", "nearest"),
+    [
+        (((1.0, -1.0), (1.0, 3.0)), (1.0, 0.0)),
+        (((3.0, 1.0), (-1.0, 1.0)), (0.0, 1.0)),
+        (((2.0, 0.0), (0.0, 2.0)), (1.0, 1.0)),
+        (((1.0, 2.0), (3.0, 4.0)), (1.0, 2.0)),
+        (((3.0, 4.0), (1.0, 2.0)), (1.0, 2.0)),
+        (((1.0, 2.0), (1.0, 2.0)), (1.0, 2.0)),
+    ],
+)
+def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
+    assert mesh._nearest_on(*ends) == nearest
 
 
 def test_facets_are_the_chords_of_cells_or_else_their_tangents():

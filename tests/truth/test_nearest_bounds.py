@@ -184,3 +184,15 @@ def test_the_gap_is_within_its_bound_where_nothing_but_roundings_is_left():
     assert (np.abs(exactly(found) - exact) <= exactly(error)).all()
     assert (exactly(found) != exact).any()
     assert (error <= 2.0**-40 * found).all()
+
+
+@pytest.mark.parametrize("order", [-40, -3, 3, 60])
+def test_the_clearance_of_an_exactly_known_squared_distance_is_within_its_bound(order):
+    rng = np.random.default_rng(23)
+    high = 2.0**order * rng.uniform(1, 4, 300)
+    squared = two_sum(high, high * 2.0**-53 * rng.uniform(-1, 1, 300))
+    (first, second), error = nearest_batch._clearance(squared, np.zeros(300))
+    with mp.workprec(400):
+        for s, low, one, two, bound in zip(*squared, first, second, error, strict=True):
+            assert abs(mpf(one) + mpf(two) - (mp.sqrt(mpf(s) + mpf(low)) - 1)) <= bound
+    assert (error < 2.0**-95 * (1 + np.sqrt(high))).all()

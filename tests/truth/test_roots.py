@@ -15,6 +15,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact, polynomial_roots
 from hypcheck.truth import roots as oracle
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.polynomial_roots import _none_by_descartes, linear_factor, polynomial_product
 from hypcheck.truth.roots import Invariants, RootPlace, classify_by_roots, classify_invariants, coefficients
 
 # Rows alpha, gamma, b, d, x, y, z. With z = 0 the cubic is (λ − B)(λ² − (P − 1 − A) λ + A); with r = 0 it is
@@ -270,3 +271,15 @@ def test_double_roots_of_small_pairs_have_the_kinds_of_the_exact_decision():
             assert classify_by_roots(pair).kind is kind, row
             kinds.add(kind)
     assert len(kinds) >= 8
+
+
+def test_the_rule_of_signs_excludes_no_polynomial_that_has_a_root_from_0_to_1():
+    """And it does exclude one whose values grow from 1 on."""
+    for root in (Fraction(1, 9), Fraction(1, 2), Fraction(7, 8), Fraction(99, 100)):
+        for others in itertools.product((Fraction(-3), Fraction(-1, 5), Fraction(3, 2), Fraction(40)), repeat=2):
+            factors = [linear_factor(each) for each in (root, *others)]
+            assert not _none_by_descartes(factors[0])
+            assert not _none_by_descartes(polynomial_product(factors[0], factors[1]))
+            assert not _none_by_descartes(polynomial_product(polynomial_product(*factors[:2]), factors[2]))
+    assert _none_by_descartes((1, 2, 1))
+    assert _none_by_descartes((1, -6, 8))  # roots 2 and 4
