@@ -134,7 +134,7 @@ INTERRUPTED = [
     ("verify", SILENT, "--out", "new/folder"),
     ("verify", "--self"),
     ("bench", SILENT),
-    ("bench", "--methods", "fast,table-2-float64", "--workloads", "tower-body"),
+    ("bench", "--methods", "fast,table-2-float64", "--workloads", "uniform"),
     ("hunt", SILENT, "--out", "cases.json"),
     ("simulate", "tower", "--table", "5", "--runs", "900000", "--out", "simulated"),
     ("derive", "--format", "erratum", "--output", "derivation.tex"),
