@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from hypcheck.errors import InputError, UnavailableError
+from hypcheck.errors import InputError
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.simulation_text import SHOWN, forest_lines, pitch_lines, tower_lines
 from hypcheck.paper.tower import TowerPlan, simulate_tower
-from hypcheck.report import write
 from hypcheck.report.write import ready_for, write_simulation
 from hypcheck.scene.reading import read_scene
+from tests.support.without_drawing import draw_nothing
 
 LEANS = {
     "degrees": 20.0,
@@ -123,10 +123,7 @@ def test_the_text_of_the_forest_counts_steps_that_were_wrongly_allowed(walked, c
 
 
 def test_a_file_of_a_simulation_that_could_not_be_written_or_removed_is_named(monkeypatch, tmp_path):
-    def unavailable():
-        raise UnavailableError("matplotlib is not here")
-
-    monkeypatch.setattr(write, "pictures", unavailable)
+    draw_nothing(monkeypatch)
     (tmp_path / "tower-pitch.svg").mkdir()
     refused = pytest.raises(InputError, match=r"cannot be written: tower-pitch\.svg in it is a folder")
     with refused, ready_for("tower", tmp_path):
