@@ -10,6 +10,7 @@ import pytest
 from pydantic_sarif.model import StaticAnalysisResultsFormatSarifVersion210JsonSchema as Sarif
 
 from hypcheck.record import Record, read
+from hypcheck.record.lines import CauseLine
 from hypcheck.report.code_hosts import UNKNOWN, Place, placed_failures, render_badge, render_gitlab, render_sarif
 from hypcheck.report.verdict import failures
 from tests.report import record_samples
@@ -58,8 +59,9 @@ def test_every_failure_of_a_run_is_a_result_of_valid_sarif(record):
     log = json.loads(render_sarif(record))
     Sarif.model_validate(log)  # made from the published schema; unknown keys are refused
     (run,) = log["runs"]
-    messages = [each["message"]["text"] for each in run["results"]]
+    messages = [result["message"]["text"] for result in run["results"] if result["level"] != "note"]
     assert len(messages) == len(failures(record)) + (record.footer is None)
+    assert len(run["results"]) - len(messages) == len(list(record.of(CauseLine)))
     assert all(any(failure.message in text for text in messages) for failure in failures(record))
     for result in run["results"]:
         assert run["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]

@@ -71,7 +71,7 @@ class Decider:
     takes: tuple[str, ...] = POSITIONS
     abstains: float = 0.0
     every: int = 1
-    examples: int = 20
+    examples: int = 8
     refuses: bool = True
     takes_any_array: bool = False
     drawn: bool = True
@@ -282,7 +282,7 @@ def header() -> ctypes.CDLL:
     with tempfile.TemporaryDirectory(dir=folder()) as place:
         core = Path(hypcheck.__file__).parent / "kernel" / "core"
         source = '#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n'
-        return shared_library(Path(place), source, "-I", str(core))
+        return shared_library(Path(place), source, "-O1", "-I", str(core))
 
 
 def of_header(questions: Questions) -> Answers:
@@ -308,7 +308,7 @@ def lacks_language(language: str) -> str | None:
 
 LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 LEVELS = ("plain", "sse2", "avx2", "avx512")
-PROCESSES = {"javascript": 4}
+PROCESSES = {"javascript": 3}
 """The examples of a property for a language in which each question starts a process."""
 
 DECIDERS = (
@@ -318,10 +318,10 @@ DECIDERS = (
     Decider("whole numbers in Python", partial(by_row, of_integers), refuses=False),
     Decider("hypcheck.classify_scene", partial(by_row, of_scene_call)),
     Decider("hypcheck.Prepared", partial(by_row, of_prepared)),
-    Decider("hypcheck.Scene.classify", partial(by_row, of_scene)),
-    Decider("hypcheck.Scene.position", partial(by_row, of_scene_step)),
+    Decider("hypcheck.Scene.classify", partial(by_row, of_scene), every=3),
+    Decider("hypcheck.Scene.position", partial(by_row, of_scene_step), every=2),
     Decider("hypcheck.clearance", of_clearance, takes_any_array=True),
-    Decider("hypcheck classify, the command", of_command, examples=6),
+    Decider("hypcheck classify, the command", of_command, every=2, examples=3),
     Decider("the numpy kernel", partial(of_kernel, "HYPCHECK_KERNEL", "numpy"), takes_any_array=True),
     *(
         Decider(
@@ -335,7 +335,7 @@ DECIDERS = (
             f"emitted {language}",
             partial(of_emitted, "exact", language),
             takes=UPRIGHT,
-            examples=PROCESSES.get(language, 20),
+            examples=PROCESSES.get(language, 8),
             lacks=partial(lacks_language, language),
         )
         for language in LANGUAGES
@@ -346,7 +346,7 @@ DECIDERS = (
             partial(of_emitted, method, language),
             takes=UPRIGHT,
             abstains=0.5,
-            examples=PROCESSES.get(language, 6),
+            drawn=language == "python",
             lacks=partial(lacks_language, language),
         )
         for method in ("certified", "dual", "local-maximum")
@@ -354,14 +354,14 @@ DECIDERS = (
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),
     Decider("the float filter", of_float_filter),
-    Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=6, refuses=False),
-    Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=6, refuses=False),
-    Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=6, refuses=False),
+    Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=4, refuses=False),
+    Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=4, refuses=False),
+    Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=4, refuses=False),
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),
         every=6,
-        examples=6,
+        examples=4,
         abstains=0.4,
         refuses=False,
         lacks=ORACLES["mesh"].available,
