@@ -71,7 +71,7 @@ class Decider:
     takes: tuple[str, ...] = POSITIONS
     abstains: float = 0.0
     every: int = 1
-    examples: int = 8
+    examples: int = 5
     refuses: bool = True
     takes_any_array: bool = False
     drawn: bool = True
@@ -335,7 +335,7 @@ DECIDERS = (
             f"emitted {language}",
             partial(of_emitted, "exact", language),
             takes=UPRIGHT,
-            examples=PROCESSES.get(language, 8),
+            examples=PROCESSES.get(language, 5),
             lacks=partial(lacks_language, language),
         )
         for language in LANGUAGES
@@ -354,14 +354,14 @@ DECIDERS = (
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),
     Decider("the float filter", of_float_filter),
-    Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=4, refuses=False),
-    Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=4, refuses=False),
-    Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=4, refuses=False),
+    Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=3, refuses=False),
+    Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=3, refuses=False),
+    Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=3, refuses=False),
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),
         every=6,
-        examples=4,
+        examples=3,
         abstains=0.4,
         refuses=False,
         lacks=ORACLES["mesh"].available,
