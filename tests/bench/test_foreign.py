@@ -26,6 +26,15 @@ from tests.tools.miniatures import QUICK, command, compiled
 ROWS = WORKLOADS["uniform"].rows(1, 50)
 pytestmark = pytest.mark.usefixtures("text_reports")
 
+
+@pytest.fixture(autouse=True, scope="module")
+def without_isolation():
+    """SUBJECT answers by hypcheck's own kernel, which isolation hides from a program under test."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HYPCHECK_ISOLATE", "off")
+        yield
+
+
 SUBJECT = """
 import numpy as np
 from hypcheck.kernel.classify import classify as exact
