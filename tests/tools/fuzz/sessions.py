@@ -73,7 +73,7 @@ def marked(reply: bytes, request: bytes) -> bytes:
 
 def _command(data: bytes, random: Random) -> CommandSession:
     session = object.__new__(CommandSession)
-    session._limits, session._sequence, session._known = LIMITS, 0, None
+    session._words, session._limits, session._sequence, session._known = ("program",), LIMITS, 0, None
     session._process = Pipe(data, random)
     session.description = session._meet()
     session.max_batch = 65536
@@ -82,7 +82,7 @@ def _command(data: bytes, random: Random) -> CommandSession:
 
 def _worker(data: bytes, random: Random) -> WorkerSession:
     session = object.__new__(WorkerSession)
-    session._limits, session._spec = LIMITS, SPEC
+    session._words, session._limits, session._spec = ("program",), LIMITS, SPEC
     session._process = Pipe(data, random)
     session.description = session._meet()
     return session
