@@ -26,8 +26,8 @@ def asked(decider, groups, every):
 
 def require_right(decider, given):
     """Ask the decider, and fail with the first cases that it answers wrongly."""
-    told = decider.answer(given)
-    answers = told.answers if isinstance(told, Times) else told
+    result = decider.answer(given)
+    answers = result.answers if isinstance(result, Times) else result
     wrong = [
         f"{case['id']} is {expected(case)}; answered: {answer}"
         for case, answer in zip(given.cases, answers, strict=True)
@@ -35,12 +35,12 @@ def require_right(decider, given):
     ]
     assert not wrong, f"{len(wrong)} wrong, {wrong[:3]}"
     assert list(answers).count(CANNOT_SAY) <= decider.abstains * len(given)
-    if isinstance(told, Times):
+    if isinstance(result, Times):
         hits = [bool(case["hit"]) for case in given.cases]
         true = np.array([case["first"] for case in given.cases if case["hit"]])
-        assert np.isnan(told.first[np.logical_not(hits)]).all()
-        assert not (told.first[hits, 0] > true[:, 1]).any(), "a time after the first contact"
-        assert not (told.first[hits, 1] < true[:, 0]).any(), "a bound before the first contact"
+        assert np.isnan(result.first[np.logical_not(hits)]).all()
+        assert not (result.first[hits, 0] > true[:, 1]).any(), "a time after the first contact"
+        assert not (result.first[hits, 1] < true[:, 0]).any(), "a bound before the first contact"
 
 
 @pytest.mark.parametrize(("decider", "groups"), ASKED)

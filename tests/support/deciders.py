@@ -83,8 +83,8 @@ class Decider:
 
 def answers_of(decider: Decider, questions: Questions) -> list[int]:
     """The answers without times."""
-    told = decider.answer(questions)
-    return list(told.answers if isinstance(told, Times) else told)
+    result = decider.answer(questions)
+    return list(result.answers if isinstance(result, Times) else result)
 
 
 def by_row(ask: Callable[..., int], questions: Questions) -> list[int]:
