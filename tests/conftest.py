@@ -28,6 +28,9 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
 
 os.environ.pop("CI", None)  # with it set, verify asks fresh rows too, as many in each run as others of a seed
 
+# numpy starts a thread a processor in each of a thousand processes, where nothing multiplies matrices: a tenth of all time.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # A worker holds all test modules, sympy and matplotlib. To look through them again and again for garbage would take a
 # fifth of its time: they are kept out of it, and the collector runs rarely.
 gc.disable()

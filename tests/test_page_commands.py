@@ -67,12 +67,13 @@ LONG = {
     "hypcheck simulate tower --table 5": "15 s",
     "hypcheck simulate tower --pitch 20": "30 s",
     "hypcheck bench --quick": "half a minute",
+    "hypcheck verify library:./kernel.so": "6 s; tests/kernel/emission asks the same",
     "hypcheck verify library:./pair.so --families '*'": "10 s; tests/kernel/emission asks the same",
 }
 """How commands begin that `make thorough` types and `make test` does not, and how long one takes."""
 
-FEW = "--count 1000 --families tower-body"
-SHORTER = {"--count 1e9": FEW, "--cluster local:4": f"--cluster local:4 {FEW}"}
+FEW = "--count 200 --families tower-body"
+SHORTER = {"--count 1e9": FEW, "--cluster local:4": f"--cluster local:2 {FEW}", "--workers 8": "--workers 2"}
 """Words that are replaced in what is typed, since what they ask for takes hours, or all of a machine."""
 
 TEXTS = {page: page.read_text(encoding="utf-8") for page in PAGES}

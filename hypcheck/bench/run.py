@@ -51,7 +51,7 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
     plan = _tilted_plan(plan, leaning)
     workloads = chosen_workloads(plan)
     before = read_baseline(plan)
-    plan = plan_with_specs(plan_with_needs(plan, recorder), recorder)
+    plan = plan_with_needs(plan_with_specs(plan, recorder), recorder)  # a wrong SPEC is refused before C is compiled
     if len(plan.foreign) < len(plan.specs):
         outcome.codes.add(Exit.NOT_STARTED)
     if before is not None:
