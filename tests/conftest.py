@@ -28,7 +28,8 @@ for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIG
 
 os.environ.pop("CI", None)  # with it set, verify asks fresh rows too, as many in each run as others of a seed
 
-# numpy starts a thread a processor in each of a thousand processes, where nothing multiplies matrices: a tenth of all time.
+# Else numpy starts a thread for each processor in each of a thousand processes, of which none multiplies matrices: that
+# takes a tenth of the time of all tests.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # A worker holds all test modules, sympy and matplotlib. To look through them again and again for garbage would take a
