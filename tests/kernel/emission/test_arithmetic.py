@@ -324,8 +324,7 @@ def test_emitted_kernels_undo_options_that_clang_does_not_report(tmp_path, optio
 
 
 HARMLESS = (
-    "-O3 -ffp-contract=fast",
-    "-fno-signed-zeros -fno-trapping-math -fno-math-errno",
+    "-O3 -ffp-contract=fast -fno-signed-zeros -fno-trapping-math -fno-math-errno",
     "-O1 -frounding-math",
     pytest.param("-mfpmath=387", marks=[needs_gcc, needs_x87]),
 )
