@@ -149,10 +149,10 @@ def _copied(columns: Columns) -> NDArray[np.signedinteger]:
 LARGE_PAGES = Path("/sys/kernel/mm/transparent_hugepage/enabled")
 
 
-def large_pages() -> str:
+def large_pages(setting: Path = LARGE_PAGES) -> str:
     """What the system says about large pages for the temporaries of an expression."""
     try:
-        said = LARGE_PAGES.read_text(encoding="ascii")
+        said = setting.read_text(encoding="ascii")
     except (OSError, UnicodeDecodeError):
         return "large pages for temporaries: not told by this system"
     chosen = said.partition("[")[2].partition("]")[0]

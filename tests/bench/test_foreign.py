@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import replace
 
 import pytest
@@ -141,18 +140,38 @@ def test_a_slow_spec_is_judged_and_timed_on_fewer_rows(tmp_path):
     assert slow.judged < quick.judged
 
 
-def test_an_interruption_of_the_speed_trial_does_not_make_a_spec_look_slow(tmp_path, monkeypatch):
-    """Each second batch is interrupted for 50 ms; it takes 1 µs a row."""
-    times = itertools.cycle([0.05, 0.0])
-    monkeypatch.setattr(foreign, "_seconds", lambda _, rows: next(times) + 1e-6 * len(rows))
-    assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 10_000
+def waiting(folder, seconds):
+    """A SPEC that waits before it answers, as `seconds` says of the number of the question and that of its rows."""
+    path = folder / "waiting.py"
+    text = f"""
+import time
+import numpy as np
+
+asked = []
 
 
-def test_the_speed_trial_asks_a_slow_spec_only_once(tmp_path, monkeypatch):
-    tried = []
-    monkeypatch.setattr(foreign, "_seconds", lambda _, rows: tried.append(len(rows)) or 0.01 * len(rows))
-    assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 1
-    assert len(tried) == 1
+def classify(rows):
+    asked.append(len(rows))
+    with open({str(folder / "asked")!r}, "a") as file:
+        print(len(rows), file=file)
+    time.sleep({seconds})
+    return np.ones(len(rows), dtype=np.int8)
+"""
+    path.write_text(text, encoding="utf-8")
+    return f"python:{path}:classify"
+
+
+def test_an_interruption_of_the_speed_trial_does_not_make_a_spec_look_slow(tmp_path):
+    """Each second batch is interrupted for 50 ms."""
+    spec = waiting(tmp_path, "0.05 * (len(asked) % 2)")
+    assert foreign.foreign_method(spec, Limits(), []).timed > 10_000
+
+
+def test_the_speed_trial_asks_a_slow_spec_about_a_batch_twice_at_most(tmp_path):
+    """Once to warm up, and once to take the time."""
+    found = foreign.foreign_method(waiting(tmp_path, "0.01 * len(rows)"), Limits(), [])
+    assert found.timed == 1
+    assert (tmp_path / "asked").read_text().split() == ["1", "64", "64"]
 
 
 def test_spec_with_a_baseline_is_timed_on_as_many_rows_as_in_the_baseline(tmp_path):
