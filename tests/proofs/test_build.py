@@ -58,6 +58,7 @@ class Tools:
         self.assume(REAL_NUMBERS, f"Axioms:\n{build.OF_FLOCQ} : forall P : Prop, P\n")
 
     def program(self, name, text):
+        """Write a program."""
         (self.folder / name).write_text(text, encoding="utf-8")
         (self.folder / name).chmod(0o755)
 
@@ -77,6 +78,7 @@ class Tools:
 
     @property
     def asked(self):
+        """The commands that were run, one a line."""
         return (self.folder / "asked").read_text(encoding="utf-8").splitlines()
 
 

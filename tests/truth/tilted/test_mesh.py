@@ -58,13 +58,13 @@ def test_tilted_mesh_oracle_leaves_tangencies_undecided_and_calls_rings_clear():
         assert found == (None if limit_of is not None else position)
 
 
-def test_tilted_mesh_oracle_is_undecided_where_fcl_does_not_confirm_it(monkeypatch):
+def test_tilted_mesh_oracle_is_undecided_where_fcl_does_not_confirm_it():
     assert mesh.position(TiltedPair.from_row(CLEAR)) is Position.EXTERIOR
-    monkeypatch.setattr(mesh, "distance_to_mesh", lambda *_: 1.0)
-    assert mesh.position(TiltedPair.from_row(CLEAR)) is None
+    assert mesh.position(TiltedPair.from_row(CLEAR), lambda *_: 1.0) is None
     touching = (*CLEAR[:4], 1.0625, *CLEAR[5:])
     assert exact_position(touching) == 0
-    assert mesh.position(TiltedPair.from_row(touching)) is None
+    assert mesh.position(TiltedPair.from_row(touching)) is Position.CONTACT
+    assert mesh.position(TiltedPair.from_row(touching), lambda *_: 1.0) is None
 
 
 def test_tilted_mesh_oracle_leaves_extreme_ratios_of_lengths_undecided():
