@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_pairs import position_beside, positions_beside
@@ -150,22 +149,6 @@ def test_scene_from_toml_reads_a_file_or_a_shipped_name(tmp_path):
     file.write_text('name = "s"\n[[hyperboloid]]\nalpha = 2\ngamma = 4\n[mover]\nb = 1\nd = 1\n', encoding="utf-8")
     assert hypcheck.Scene.from_toml(file).classify(9.0, 0.0, 0.0).tolist() == [1]
     assert hypcheck.Scene.from_toml("tower").classify([0.0], [0.0], [0.0]).tolist() == [1]
-
-
-@pytest.mark.parametrize(
-    ("centre", "sentence"),
-    [
-        ((np.inf, 0.0, 0.0), "row 0: x is inf"),
-        ((0.0, [0.0, np.nan], 0.0), "row 1: y is nan"),
-        ((np.eye(2), 0.0, 0.0), "have shapes that do not fit together"),
-    ],
-)
-def test_scene_classify_refuses_invalid_centres(centre, sentence):
-    with pytest.raises(InputError, match=sentence):
-        Scene(forest(3, 3)).classify(*centre)
-    if not isinstance(centre[0], np.ndarray) and not isinstance(centre[1], list):
-        with pytest.raises(InputError, match=r"^x is inf; it must be finite"):
-            Scene(forest(3, 3)).position(*centre)
 
 
 TWO_60 = 2.0**-60
