@@ -36,12 +36,15 @@ Assumptions.v) if grep -q "Require Floats" "$last"; then cat FOLDER/of-floats; e
 check_cases) cp FOLDER/checker check_cases ;;
 Emitted.v) ls *.vo ;;
 *.v)
-    if [ -f FOLDER/strict ] && [ "$PWD" != FOLDER/built ]; then exit 1; fi
+    if [ "$PWD" != FOLDER/built ] && [ -e FOLDER/strict -o -e "${last}o" ]; then exit 1; fi
     [ -f FOLDER/careless ] || cmp "$last" "SOURCES/$last" >&2 || exit 1
     : > "${last}o" ;;
 esac
 """
-"""Accepts the Coq files as they are, and refuses changed ones; `careless`, these too, and `strict`, copies too."""
+"""Accepts the Coq files as they are, and copies of which nothing was compiled; refuses changed files.
+
+If there is a file `careless` it accepts changed ones, and if there is a file `strict` it refuses copies.
+"""
 
 
 class Tools:
