@@ -202,7 +202,7 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
         for group in _groups(Path(folder), quick=quick):
             try:
-                for line in _lines(group):
+                for line in confirmed_lines(group):
                     recorder.add(line)
             except UnavailableError as error:
                 absent["C compiler"] = str(error)
@@ -215,7 +215,7 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
         recorder.add(AbsentLine(what=what, reason=reason))
 
 
-def _lines(group: Group) -> list[KernelLine]:
+def confirmed_lines(group: Group) -> list[KernelLine]:
     """The group's lines. What misses its target is measured again: only what misses each time is slow.
 
     The interval tells how rounds differ, and not that another program had the memory's attention in all of them.

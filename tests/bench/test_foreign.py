@@ -14,7 +14,9 @@ from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import TimingEntry, TimingRefusedError, measure
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.implementations import implementation
+from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits, StartError
+from hypcheck.implementations.spec import parse_spec
 from hypcheck.record.fields import decoded
 from hypcheck.record.lines import NotStartedLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, MethodLine, RefusedLine, SpeedLine
@@ -55,7 +57,7 @@ def subject(folder, times=1, answers="answers"):
 
 
 def opened(spec):
-    return foreign._opened(spec, Limits())
+    return foreign.RunningForeign(open_implementation(spec, Limits()), parse_spec(spec).kind)
 
 
 @pytest.fixture(scope="module")
@@ -114,7 +116,6 @@ def test_times_from_a_command_that_reports_far_too_little_time_are_refused(monke
 
 def test_time_of_a_command_without_a_clock_is_reduced_by_that_of_a_one_row_question():
     way = opened(command("right"))
-    assert way._clock is None
     ready, empty = way.batch(ROWS), way.empty(ROWS, "batch")
     assert ready.timed_by == "process"
     assert ready.run(2)[0] > 0

@@ -126,7 +126,7 @@ def test_a_missed_target_is_measured_again_and_passes_if_the_miss_was_by_chance(
     def group():
         return [target.line([next(found)], ""), other.line([next(found)], "")]
 
-    lines = targets._lines(group)
+    lines = targets.confirmed_lines(group)
     assert [(line.measured, line.met) for line in lines] == [(2.5, True), (3.0, True)]
 
     def slow():
@@ -134,7 +134,7 @@ def test_a_missed_target_is_measured_again_and_passes_if_the_miss_was_by_chance(
         return [target.line([1.0], "")]
 
     calls = []
-    assert [line.met for line in targets._lines(slow)] == [False]
+    assert [line.met for line in targets.confirmed_lines(slow)] == [False]
     assert len(calls) == 1 + targets.AGAIN
 
 
@@ -145,7 +145,7 @@ def test_kernel_targets_that_are_all_met_are_measured_once():
         calls.append(1)
         return [target.line([3.0], "")]
 
-    assert [line.met for line in targets._lines(fast)] == [True]
+    assert [line.met for line in targets.confirmed_lines(fast)] == [True]
     assert len(calls) == 1
 
 

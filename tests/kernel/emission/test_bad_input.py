@@ -51,14 +51,9 @@ def test_emit_refuses_a_bad_scene_and_leaves_the_output_file_unchanged(old, new,
     assert sorted(each.name for each in tmp_path.iterdir()) == ["kernel.c", "scene.toml"]
 
 
-def test_emit_ends_with_one_sentence_for_a_file_that_it_cannot_read_or_write(tmp_path, capsys):
-    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
-    assert "is not UTF-8 text" in refused(["plan", str(tmp_path / "bytes.toml")], capsys)
-    assert "is a directory" in refused(["plan", str(tmp_path)], capsys)
-    assert "there is no such file" in refused(["plan", "nowhere.toml"], capsys)
-    emit = ["emit", "--scene", "tower", "--language", "c", "--output"]
-    assert "cannot write" in refused([*emit, str(tmp_path / "nowhere" / "kernel.c")], capsys)
-    assert "it is a folder" in refused([*emit, str(tmp_path)], capsys)
+def test_emit_refuses_to_write_to_a_folder(tmp_path, capsys):
+    emit = ["emit", "--scene", "tower", "--language", "c", "--output", str(tmp_path)]
+    assert "it is a folder" in refused(emit, capsys)
 
 
 @pytest.mark.parametrize("prefix", ["", "2nd", "_own", "own_", "a__b", "höhe", "a-b", "a b", "x" * 41, "a;\n"])
