@@ -184,3 +184,14 @@ def test_plan_measure_prints_one_sentence_for_each_setting_below_the_plan(capsys
     assert plan[0] == "cooling tower: interior or not, in float32"
     assert body.startswith("1. In C")
     assert rotors.startswith("2. In C")
+
+
+@COMPILER
+@pytest.mark.parametrize(
+    ("words", "title"), [(["--scene", "tower"], "What scenes leave out"), (["--forest"], "A step in a forest")]
+)
+def test_bench_reports_a_scene_or_forests_by_its_command(words, title, tmp_path):
+    code, record, report = ended(tmp_path, *words)
+    assert code == 0
+    assert title in report
+    assert any(line.type in ("scene", "forest") for line in record.lines)
