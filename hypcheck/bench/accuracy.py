@@ -259,7 +259,11 @@ def memory_lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[MemoryLine]:
 def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
     plan, name = task
     contender = contenders(plan)[name]
-    rows = timed_rows(plan, contender, WORKLOADS[MEMORY_WORKLOAD])
+    return memory_line(contender, timed_rows(plan, contender, WORKLOADS[MEMORY_WORKLOAD]))
+
+
+def memory_line(contender: Contender, rows: Rows) -> MemoryLine:
+    """The memory that a method needs to answer these rows, beyond the rows."""
     first = contender.load()
     first.answer(rows[:1])  # code that is loaded at the first call does not count
     first.close()
@@ -270,7 +274,7 @@ def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
         ready.answers()
     grown = peak() - before
     way.close()
-    return MemoryLine(method=name, rows=len(rows), peak_bytes=max(0, grown))
+    return MemoryLine(method=contender.name, rows=len(rows), peak_bytes=max(0, grown))
 
 
 def forget_peak() -> int:

@@ -60,7 +60,7 @@ def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
     """The line of the method with that name."""
     plan, name = task
     contender = contenders(plan)[name]
-    rows, cells = _stability_rows(plan)
+    rows, cells = stability_rows(plan)
     places = contender.asked(rows)
     with closing(contender.load()) as way:
         answers = way.answer(rows[places])
@@ -76,7 +76,7 @@ def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
     return [StabilityLine(method=name, precision=contender.precision, bins=bins)]
 
 
-def _stability_rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
+def stability_rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
     """The same number of rows for each cell, and the cell of each row."""
     side, draw = LAST - FIRST + 1, Draw("bench-stability", 1, plan.seed)
     cells = np.repeat(np.arange(side * side), plan.amounts.cell)

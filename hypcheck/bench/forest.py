@@ -207,25 +207,35 @@ def sizes(plan: BenchPlan) -> Sequence[int]:
     return tuple(trees for trees in TREES if trees <= most)
 
 
-def run(recorder: Recorder, advance: Advance, seed: int, forests: Sequence[int], *, quick: bool) -> None:
-    """Add a line for each forest with so many trees, and each candidate."""
+def run(
+    recorder: Recorder,
+    advance: Advance,
+    seed: int,
+    forests: Sequence[int],
+    rounds: int = ROUNDS,
+    steps: int = STEPS,
+    walkers: Mapping[str, Walker] = WALKERS,
+) -> None:
+    """Add a line for each forest with so many trees, and each candidate, timed in that number of rounds."""
     for trees in forests:
-        for line in _lines(forest_of(trees, seed), QUICK_ROUNDS if quick else ROUNDS, seed):
+        for line in _lines(forest_of(trees, seed), rounds, steps, walkers, seed):
             recorder.add(line)
         advance(1)
 
 
-def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:
+def _lines(
+    forest: Forest, rounds: int, steps: int, candidates: Mapping[str, Walker], seed: int
+) -> Iterator[ForestLine]:
     """A line for each candidate that can be asked here; FCL may be missing."""
-    centres = walk(Scene(forest.model), forest, STEPS, seed)
+    centres = walk(Scene(forest.model), forest, steps, seed)
     truth = [int(forest.clear(centre)) for centre in centres]
-    walkers = {name: each for name, each in WALKERS.items() if name == OURS or FCL.trouble() is None}
+    walkers = {name: each for name, each in candidates.items() if name == OURS or FCL.trouble() is None}
     made = {name: _made(each, forest) for name, each in walkers.items()}
     wrong = {
         name: sum(clear(*centre) != true for centre, true in zip(centres, truth, strict=True))
         for name, (clear, _) in made.items()
     }
-    samples = measure([TimingEntry(name, STEPS, clocked_calls(made[name][0], centres)) for name in made], rounds)
+    samples = measure([TimingEntry(name, steps, clocked_calls(made[name][0], centres)) for name in made], rounds)
     for each in samples:
         step = estimate([each.samples_ns])
         ratio = estimate(ratios([each.samples_ns], [samples[0].samples_ns]))
@@ -235,7 +245,7 @@ def _lines(forest: Forest, rounds: int, seed: int) -> Iterator[ForestLine]:
             exact=each.name == OURS,
             trees=len(forest.places),
             triangles=walkers[each.name].triangles,
-            asked=STEPS,
+            asked=steps,
             wrong=wrong[each.name],
             build_s=made[each.name][1],
             step_ns=step.median,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -140,17 +140,28 @@ def load() -> tuple[float, float, float] | None:
     return None
 
 
+def codes_of(lines: Iterable[RecordLine]) -> set[Exit]:
+    """How a run with these lines of kernels, forests and scenes ends: wrong answers, and missed targets."""
+    found = set()
+    for line in lines:
+        if isinstance(line, KernelLine) and not line.met:
+            found.add(Exit.SLOWER)
+        elif (isinstance(line, ForestLine) and line.exact and line.wrong) or (
+            isinstance(line, SceneLine) and line.wrong
+        ):
+            found.add(Exit.WRONG)
+    return found
+
+
 def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
     targets.run(recorder, advance, plan.quick)
-    if any(isinstance(line, KernelLine) and not line.met for line in recorder.lines):
-        outcome.codes.add(Exit.SLOWER)
+    outcome.codes |= codes_of(recorder.lines)
 
 
 def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
-        forest.run(recorder, advance, plan.seed, sizes, quick=plan.quick)
-        if any(isinstance(line, ForestLine) and line.exact and line.wrong for line in recorder.lines):
-            outcome.codes.add(Exit.WRONG)
+        forest.run(recorder, advance, plan.seed, sizes, forest.QUICK_ROUNDS if plan.quick else forest.ROUNDS)
+        outcome.codes |= codes_of(recorder.lines)
         if (trouble := FCL.trouble()) is not None:
             note_absent(recorder, FCL.title, trouble)
 
@@ -161,13 +172,12 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
 def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> Stage:
     def measure(advance: Advance) -> None:
         try:
-            scene.run_scenes(plans, recorder, advance, plan.folder, quick=plan.quick)
+            rounds = scene.QUICK_ROUNDS if plan.quick else scene.ROUNDS
+            scene.run_scenes(plans, recorder, advance, plan.folder, rounds)
         except UnavailableError as error:
             note_absent(recorder, COMPILER, str(error))
-        measured = [line for line in recorder.lines if isinstance(line, SceneLine)]
-        if any(line.wrong for line in measured):
-            outcome.codes.add(Exit.WRONG)
-        if plan.scenes and not measured:
+        outcome.codes |= codes_of(recorder.lines)
+        if plan.scenes and not any(isinstance(line, SceneLine) for line in recorder.lines):
             reasons = [line.reason for line in recorder.lines if isinstance(line, AbsentLine)]
             raise NothingJudgedError(f"no scene was measured: {'; '.join(reasons)}")
 

@@ -9,7 +9,7 @@ a walker asks.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -89,7 +89,7 @@ REPEATED_CENTRES = 16
 """The sample's centres are repeated so often: 65,536 rows, which a branch predictor cannot learn."""
 
 
-def kernel_savings(plan: ScenePlan, folder: Path) -> Iterator[dict[str, Any]]:
+def kernel_savings(plan: ScenePlan, folder: Path, rounds: int = KERNEL_ROUNDS) -> Iterator[dict[str, Any]]:
     """What the kernel of each setting of the plan saves, by one call for many centres and by a call for each.
 
     These are values for programs; those of "says" are sentences. Raises UnavailableError if there is no C compiler,
@@ -102,7 +102,7 @@ def kernel_savings(plan: ScenePlan, folder: Path) -> Iterator[dict[str, Any]]:
         rows = rows_of(stages)
         works = (kernel.batch(rows), printed.batch(rows), kernel.single(rows), printed.single(rows))
         entries = [TimingEntry(str(place), len(rows), each.run) for place, each in enumerate(works)]
-        samples = measure(entries, KERNEL_ROUNDS)
+        samples = measure(entries, rounds)
         batch, single = _saving(*samples[:2]), _saving(*samples[2:])
         yield {
             "sizes": list(stages.setting.sizes),
@@ -171,17 +171,24 @@ def require_upright(plan: ScenePlan) -> None:
         )
 
 
-def run_scenes(plans: Sequence[ScenePlan], recorder: Recorder, advance: Advance, folder: Path, *, quick: bool) -> None:
-    """Record a line for each scene. Raises UnavailableError if there is no C compiler."""
+def run_scenes(
+    plans: Sequence[ScenePlan],
+    recorder: Recorder,
+    advance: Advance,
+    folder: Path,
+    rounds: int = ROUNDS,
+    count: int = ROWS,
+    kernel_of: Callable[[ScenePlan, Path], SceneKernel] = compiled_kernel,
+) -> None:
+    """Record a line for each scene, asked about so many rows. Raises UnavailableError if there is no C compiler."""
     methods, _ = compiled(folder)
     for number, plan in enumerate(plans):
-        rounds = QUICK_ROUNDS if quick else ROUNDS
-        recorder.add(_scene_line(plan, methods, folder / f"scene-{number}", rounds))
+        kernel = kernel_of(plan, folder / f"scene-{number}")
+        recorder.add(_scene_line(plan, methods, kernel, rounds, _tables(plan, count)))
         advance(1)
 
 
-def _scene_line(plan: ScenePlan, methods: Path, folder: Path, rounds: int) -> SceneLine:
-    tables, kernel = _tables(plan), compiled_kernel(plan, folder)
+def _scene_line(plan: ScenePlan, methods: Path, kernel: SceneKernel, rounds: int, tables: Sequence[Rows]) -> SceneLine:
     printed, certified = (InC(methods, place_of(name)) for name in (f"{PRINTED}-{plan.format.name}", CERTIFIED))
     rows = np.concatenate(tables)
     batches = {
@@ -230,9 +237,9 @@ def stage_shares(settings: Sequence[Stages]) -> dict[str, float]:
     return {name: float(np.mean([each.shares.get(name, 0.0) for each in settings])) for name in STAGES}
 
 
-def _tables(plan: ScenePlan) -> list[Rows]:
+def _tables(plan: ScenePlan, count: int) -> list[Rows]:
     """The rows of each setting."""
-    times = max(1, ROWS // (COUNT * max(1, len(plan.settings))))
+    times = max(1, count // (COUNT * max(1, len(plan.settings))))
     return [rows_of(stages, times) for stages in plan.settings]
 
 

@@ -149,10 +149,10 @@ def _copied(columns: Columns) -> NDArray[np.signedinteger]:
 LARGE_PAGES = Path("/sys/kernel/mm/transparent_hugepage/enabled")
 
 
-def large_pages() -> str:
+def large_pages(setting: Path = LARGE_PAGES) -> str:
     """What the system says about large pages for the temporaries of an expression."""
     try:
-        said = LARGE_PAGES.read_text(encoding="ascii")
+        said = setting.read_text(encoding="ascii")
     except (OSError, UnicodeDecodeError):
         return "large pages for temporaries: not told by this system"
     chosen = said.partition("[")[2].partition("]")[0]
@@ -202,7 +202,7 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
         for group in _groups(Path(folder), quick=quick):
             try:
-                for line in _lines(group):
+                for line in confirmed_lines(group):
                     recorder.add(line)
             except UnavailableError as error:
                 absent["C compiler"] = str(error)
@@ -215,7 +215,7 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
         recorder.add(AbsentLine(what=what, reason=reason))
 
 
-def _lines(group: Group) -> list[KernelLine]:
+def confirmed_lines(group: Group) -> list[KernelLine]:
     """The group's lines. What misses its target is measured again: only what misses each time is slow.
 
     The interval tells how rounds differ, and not that another program had the memory's attention in all of them.

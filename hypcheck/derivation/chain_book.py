@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 
 import sympy
@@ -352,7 +353,7 @@ def chains() -> dict[str, Chain]:
     return {chain.name: chain for chain in (make() for make in MAKERS)}
 
 
-def proved(name: str) -> bool:
-    """Whether every link of a chain holds, and of the chains that it needs."""
-    chain = chains()[name]
-    return chain.holds and all(proved(needed) for needed in chain.needs)
+def proved(name: str, book: Mapping[str, Chain] | None = None) -> bool:
+    """Whether every link of a chain holds, and of the chains that it needs; of all chains, or those of a book."""
+    known = chains() if book is None else book
+    return known[name].holds and all(proved(needed, known) for needed in known[name].needs)

@@ -138,8 +138,12 @@ def scaled_matrices() -> tuple[sympy.Matrix, sympy.Matrix]:
 
 @cache
 def scaled_cubic() -> SymbolicCubic:
-    """The derivation in a, c, x_c, y_c, z_c. Raises ArithmeticError where det(λH + S) is not what it must be."""
-    hyperboloid_matrix, sphere_matrix = scaled_matrices()
+    """The derivation in a, c, x_c, y_c, z_c."""
+    return cubic_of(*scaled_matrices())
+
+
+def cubic_of(hyperboloid_matrix: sympy.Matrix, sphere_matrix: sympy.Matrix) -> SymbolicCubic:
+    """The cubic of two matrices. Raises ArithmeticError where det(λH + S) is not what it must be."""
     f = (LAMBDA * hyperboloid_matrix + sphere_matrix).det(method="berkowitz")
     numerator, denominator = sympy.fraction(sympy.cancel(f))
     factor = SMALL_A**2 + LAMBDA
@@ -154,9 +158,14 @@ def scaled_cubic() -> SymbolicCubic:
 
 @cache
 def cubic() -> SymbolicCubic:
-    """The derivation in A, B, P, Q. Raises ArithmeticError where more than these four mattered."""
+    """The derivation in A, B, P, Q."""
+    return in_invariants(scaled_cubic())
+
+
+def in_invariants(scaled_one: SymbolicCubic) -> SymbolicCubic:
+    """A scaled cubic in A, B, P, Q. Raises ArithmeticError where more than these four matter."""
     roots = {SMALL_A: sympy.sqrt(A), SMALL_C: sympy.sqrt(B), ZC: sympy.sqrt(Q), XC: sympy.sqrt(P - YC**2)}
-    derived = _substituted(scaled_cubic(), roots)
+    derived = _substituted(scaled_one, roots)
     c0, c1, c2 = (sympy.expand(coefficient) for coefficient in (derived.c0, derived.c1, derived.c2))
     if any(not coefficient.free_symbols <= {A, B, P, Q} for coefficient in (c0, c1, c2)):
         raise ArithmeticError("the coefficients depend on more than A, B, P and Q")

@@ -104,7 +104,7 @@ def gamma(count: int, unit_roundoff: Fraction) -> Fraction:
 
 
 def _term_of(step: Step, terms: dict[str, _Term], written: list[Step]) -> _Term:
-    rule = _RULES.get(step.operation)
+    rule = RULES.get(step.operation)
     if rule is None:
         raise ValueError(f"step {step.name}: no bound is derived for {step.operation}")
     given = [_argument(argument, terms) for argument in step.arguments]
@@ -173,7 +173,7 @@ def _absolute(_step: Step, given: list[_Term]) -> _Rule:
     return term.count, True, 1
 
 
-_RULES = {
+RULES = {
     "add": _sum,
     "sub": _sum,
     "mul": _product,

@@ -418,7 +418,7 @@ VERSION = 1
 """Version of the centres near the wall, raised whenever they are other ones."""
 
 
-def near_wall(craft: Craft, degrees: float, seed: int) -> dict[str, Any]:
+def near_wall(craft: Craft, degrees: float, seed: int, count: int = CENTRES) -> dict[str, Any]:
     """How many positions of the body change near the wall as it leans: anywhere, and along the radius, outwards.
 
     Heights are uniform over the tower's (from −γ to γ where it has no end), distances from the axis uniform within ±b
@@ -427,13 +427,13 @@ def near_wall(craft: Craft, degrees: float, seed: int) -> dict[str, Any]:
     draw = Draw("tower-pitch", VERSION, seed)
     alpha, gamma, b, _ = craft.sizes
     low, high = (-gamma, gamma) if craft.height is None else (craft.height.low, craft.height.high)
-    z = draw.between(CENTRES, low, high)
-    x = alpha * np.sqrt(1 + (z / gamma) ** 2) + draw.between(CENTRES, -b, b)
+    z = draw.between(count, low, high)
+    x = alpha * np.sqrt(1 + (z / gamma) ** 2) + draw.between(count, -b, b)
     at = (x, np.zeros_like(x), z)
     upright = classify_scene(craft.sizes, *at)
     outward = np.ones_like(x), np.zeros_like(x)
-    found: dict[str, Any] = {"centres": CENTRES}
-    for name, toward in (("anywhere", any_angle(draw.between(CENTRES, -180.0, 180.0))), ("outward", outward)):
+    found: dict[str, Any] = {"centres": count}
+    for name, toward in (("anywhere", any_angle(draw.between(count, -180.0, 180.0))), ("outward", outward)):
         leaning = _positions(craft.sizes, at, Lean.by(degrees, toward).axis)
         changed = upright != leaning
         found[name] = {

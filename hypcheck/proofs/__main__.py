@@ -19,44 +19,45 @@ from hypcheck.proofs.build import CONTROL, Weakened, accepted, weakened
 @click.argument("kernels", nargs=-1, type=click.Path(path_type=Path), metavar="[KERNEL]...")
 @click.option("--soundness", is_flag=True, help="The checker's soundness alone.")
 @click.option("--weakened", "count", type=click.IntRange(0), help="Weakened statements to try; by default all.")
-def main(kernels: tuple[Path, ...], soundness: bool, count: int | None) -> None:
+@click.option("--into", "built", type=click.Path(path_type=Path), default=build.BUILT, help="The build folder.")
+def main(kernels: tuple[Path, ...], soundness: bool, count: int | None, built: Path) -> None:
     """Prove, and say each thing that was proved. Ends with 1 where a proof fails, 2 where programs are missing."""
     try:
         build.demand_tools()
         for path in kernels:
-            click.echo(f"{path}: the bound is proved, {build.check_kernel(path):.1f} s")
+            click.echo(f"{path}: the bound is proved, {build.check_kernel(path, built):.1f} s")
         if kernels:
             return
         names = (*build.SOUNDNESS, "ExtractedChecker") if soundness else build.FILES
-        _prove(names)
-        _refuse([change for change in weakened() if change.file in names][:count])
-        build.build_checker()
-        sys.exit(build.run_checker(build.upright_files()))
+        _prove(names, built)
+        _refuse([change for change in weakened() if change.file in names][:count], built)
+        build.build_checker(built)
+        sys.exit(build.run_checker(build.upright_files(), built))
     except HypcheckError as error:
         click.echo(f"proofs: error: {error}", err=True)
         sys.exit(error.exit_code)
 
 
-def _prove(names: tuple[str, ...]) -> None:
+def _prove(names: tuple[str, ...], built: Path) -> None:
     done = []
     for name in names:
-        file = build.compile_file(name)
+        file = build.compile_file(name, built)
         done.append(file)
         click.echo(f"{name + '.v':20} {file.statements:3} statements {file.lines:4} lines {file.seconds:6.1f} s")
-    found = build.demand_known_axioms(names)
+    found = build.demand_known_axioms(names, built)
     statements, lines = sum(file.statements for file in done), sum(file.lines for file in done)
     click.echo(f"{statements} statements in {lines} lines are proved. They assume, of the real numbers:")
     for axiom in sorted(found):
         click.echo(f"    {axiom}" + " (Flocq alone)" * (axiom == build.OF_FLOCQ))
 
 
-def _refuse(changes: list[Weakened]) -> None:
-    if not accepted(CONTROL):
+def _refuse(changes: list[Weakened], built: Path) -> None:
+    if not accepted(CONTROL, built):
         raise build.ProofError(
             f"Coq refuses {CONTROL.file}.v in the folder in which it must refuse weakened statements"
         )
     for change in changes:
-        if accepted(change):
+        if accepted(change, built):
             raise build.ProofError(f"Coq accepts {change.file}.v, weakened to allow {change.allows}")
     click.echo(f"{len(changes)} weakened statements are refused")
 

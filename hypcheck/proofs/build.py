@@ -25,7 +25,9 @@ from hypcheck.errors import Exit, HypcheckError, InputError
 
 SOURCES = Path(__file__).parent
 BUILT = SOURCES.parents[1] / "build" / "proofs"
-CHECKER = BUILT / "check_cases"
+CHECKER = "check_cases"
+"""The name of the proved checker in the build folder."""
+
 FROZEN = SOURCES.parents[1] / "cases"
 
 SOUNDNESS = ("Geometry", "Certificates", "UnitBall", "Checker")
@@ -110,9 +112,15 @@ def statements(name: str) -> tuple[str, ...]:
     return tuple(found for _, found in _THEOREM.findall(_COMMENT.sub("", source(name))))
 
 
+def unproved(text: str) -> str:
+    """The first word of a file by which it leaves something unproved, or nothing."""
+    found = _UNPROVED.search(_COMMENT.sub("", text))
+    return found.group() if found else ""
+
+
 def proves(name: str, statement: str) -> bool:
     """Whether a file states this theorem and leaves nothing in it unproved; Coq itself is not asked."""
-    return statement in statements(name) and not _UNPROVED.search(_COMMENT.sub("", source(name)))
+    return statement in statements(name) and not unproved(source(name))
 
 
 def pattern_table() -> list[tuple[str, str, tuple[tuple[str, int], ...]]]:
@@ -135,40 +143,39 @@ def refusal(folder: Path, name: str) -> str:
     return (found.stderr.strip() or "coqc failed without a message") if found.returncode else ""
 
 
-def compile_file(name: str) -> Compiled:
+def compile_file(name: str, built: Path = BUILT) -> Compiled:
     """Compile one file in the build folder; those it needs have been compiled. Raises ProofError where Coq refuses."""
     text = source(name)
-    unproved = _UNPROVED.search(_COMMENT.sub("", text))
-    if unproved:
-        raise ProofError(f"{name}.v has an unproved part: {unproved.group()}")
-    BUILT.mkdir(parents=True, exist_ok=True)
-    (BUILT / f"{name}.v").write_text(text, encoding="utf-8")
+    if word := unproved(text):
+        raise ProofError(f"{name}.v has an unproved part: {word}")
+    built.mkdir(parents=True, exist_ok=True)
+    (built / f"{name}.v").write_text(text, encoding="utf-8")
     start = perf_counter()
-    message = refusal(BUILT, name)
+    message = refusal(built, name)
     if message:
         raise ProofError(f"Coq refuses {name}.v:\n{message}")
     return Compiled(name, len(statements(name)), text.count("\n"), perf_counter() - start)
 
 
-def assumptions(names: tuple[str, ...]) -> set[str]:
+def assumptions(names: tuple[str, ...], built: Path = BUILT) -> set[str]:
     """The axioms on which the statements of these compiled files rest, as Coq prints them."""
     needed = [f"From Hypcheck Require {name}." for name in names]
     every = ", ".join(f"@{name}.{each}" for name in names for each in statements(name))
     text = "\n".join((*needed, f"Definition everything := ({every}).", "Print Assumptions everything.", ""))
-    (BUILT / "Assumptions.v").write_text(text, encoding="utf-8")
+    (built / "Assumptions.v").write_text(text, encoding="utf-8")
     command = ["coqc", "-q", "-R", ".", "Hypcheck", "Assumptions.v"]
-    found = _run(command, BUILT)
+    found = _run(command, built)
     if found.returncode or not found.stdout.startswith(("Axioms:", "Closed under the global context")):
         raise ProofError(f"Coq does not say what the proofs assume: {found.stderr.strip() or found.stdout[-200:]}")
     return set(re.findall(r"^(\w[\w.']*)(?=\s*:|$)", found.stdout.partition("Axioms:")[2], re.MULTILINE))
 
 
-def demand_known_axioms(names: tuple[str, ...]) -> set[str]:
+def demand_known_axioms(names: tuple[str, ...], built: Path = BUILT) -> set[str]:
     """The axioms of these compiled files. Raises ProofError where one is not allowed."""
-    found = assumptions(tuple(name for name in names if name != "Floats"))
+    found = assumptions(tuple(name for name in names if name != "Floats"), built)
     unknown = found - set(AXIOMS)
     if "Floats" in names:
-        further = assumptions(("Floats",))
+        further = assumptions(("Floats",), built)
         unknown |= further - {*AXIOMS, OF_FLOCQ}
         found |= further
     if unknown:
@@ -176,19 +183,19 @@ def demand_known_axioms(names: tuple[str, ...]) -> set[str]:
     return found
 
 
-def check_kernel(path: Path) -> float:
+def check_kernel(path: Path, built: Path = BUILT) -> float:
     """Have Coq check a file of `hypcheck emit --proof`; the proofs have been compiled. Returns the seconds it took.
 
     Raises InputError where the file cannot be read or the proofs are not compiled, ProofError where Coq refuses it.
     """
-    if not (BUILT / "Region.vo").is_file():
+    if not (built / "Region.vo").is_file():
         raise InputError("the proofs are not compiled; `make prove` compiles them")
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path} cannot be read: {error}") from None
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
-        for compiled in BUILT.glob("*.vo"):
+        for compiled in built.glob("*.vo"):
             shutil.copy(compiled, folder)
         (Path(folder) / "Emitted.v").write_text(text, encoding="utf-8")
         start = perf_counter()
@@ -198,12 +205,12 @@ def check_kernel(path: Path) -> float:
     return perf_counter() - start
 
 
-def build_checker() -> None:
+def build_checker(built: Path = BUILT) -> None:
     """Compile the extracted checker and the program that reads cases for it."""
-    shutil.copy(SOURCES / "check_cases.ml", BUILT)
+    shutil.copy(SOURCES / "check_cases.ml", built)
     command = ["ocamlfind", "ocamlopt", "-w", "-a", "-package", "zarith", "-linkpkg"]
-    command += ["checker.mli", "checker.ml", "check_cases.ml", "-o", CHECKER.name]
-    found = _run(command, BUILT)
+    command += ["checker.mli", "checker.ml", "check_cases.ml", "-o", CHECKER]
+    found = _run(command, built)
     if found.returncode:
         raise ProofError(f"OCaml refuses the checker:\n{found.stderr.strip()}")
 
@@ -214,17 +221,18 @@ def upright_files() -> list[str]:
     return sorted(str(path) for path, content in contents.items() if content in ("positions", "refusals"))
 
 
-def run_checker(files: list[str]) -> int:
+def run_checker(files: list[str], built: Path = BUILT) -> int:
     """Let the proved checker check vector files; it prints what it finds. Returns 0, or 1 where a label is wrong.
 
     Raises InputError where it has not been built, or where a file cannot be read.
     """
-    if not CHECKER.is_file():
-        raise InputError(f"the proved checker is not built: there is no {CHECKER}; `make prove` builds it")
-    found = subprocess.run([CHECKER, *files], stderr=subprocess.PIPE, text=True, check=False)  # noqa: S603 - ours
+    checker = built / CHECKER
+    if not checker.is_file():
+        raise InputError(f"the proved checker is not built: there is no {checker}; `make prove` builds it")
+    found = subprocess.run([checker, *files], stderr=subprocess.PIPE, text=True, check=False)  # noqa: S603 - ours
     if found.returncode not in (0, 1):
         raise InputError(
-            found.stderr.strip().removeprefix("check_cases: ") or f"{CHECKER} ended with {found.returncode}"
+            found.stderr.strip().removeprefix("check_cases: ") or f"{checker} ended with {found.returncode}"
         )
     return found.returncode
 
@@ -251,13 +259,13 @@ CONTROL = Weakened("Checker", "Definition less", "Definition less", "nothing")
 """No change at all: this must be accepted, or the refusals would mean nothing."""
 
 
-def accepted(change: Weakened) -> bool:
+def accepted(change: Weakened, built: Path = BUILT) -> bool:
     """Whether Coq accepts the changed file, which it must not. Raises ValueError where the change does not fit."""
     text = source(change.file)
     if text.count(change.old) != 1:
         raise ValueError(f"{change.file}.v has {text.count(change.old)} places with {change.old!r}; one is needed")
     with TemporaryDirectory(prefix="hypcheck-proofs-") as folder:
-        for compiled in BUILT.glob("*.vo"):
+        for compiled in built.glob("*.vo"):
             if compiled.stem != change.file:
                 shutil.copy(compiled, folder)
         (Path(folder) / f"{change.file}.v").write_text(text.replace(change.old, change.new), encoding="utf-8")

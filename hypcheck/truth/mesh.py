@@ -22,7 +22,7 @@ to C, in spheroid radii. Cells are cut until their bounds decide whether the sur
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -372,6 +372,10 @@ def distance_to_mesh(vertices: Vertices, triangles: Triangles) -> float:
     return float(fcl.distance(point, mesh, fcl.DistanceRequest(), fcl.DistanceResult()))
 
 
+Measure = Callable[[Vertices, Triangles], float]
+"""Measures the distance from C to a mesh."""
+
+
 @dataclass(frozen=True, slots=True)
 class MeshVerdict:
     """What the meshes say of one pair.
@@ -391,15 +395,18 @@ class MeshVerdict:
     reason: str | None = None
 
 
-def verdict(pair: Pair) -> MeshVerdict:
-    """The position of any valid pair, or undecided. Raises UnavailableError where FCL cannot be imported."""
+def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
+    """The position of any valid pair, or undecided, if what measures the distance to the mesh confirms it.
+
+    Raises UnavailableError where FCL cannot be imported.
+    """
     require_fcl()
     meridian = meridian_of(pair)
     refinement = refine(meridian)
     if refinement.outcome is MeshOutcome.UNDECIDED:
         return _undecided(refinement, 0, _why_open(refinement))
     vertices, triangles = ribbon(refinement.facets)
-    distance = distance_to_mesh(vertices, triangles)
+    distance = measure(vertices, triangles)
     if not (distance > 1.0 if refinement.outcome is MeshOutcome.CLEAR else distance <= 1.0):
         reason = f"FCL's distance {distance!r} to the mesh does not bear out the proved {refinement.outcome.value}"
         return _undecided(refinement, len(triangles), reason)

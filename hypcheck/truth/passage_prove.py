@@ -52,20 +52,20 @@ def _time_of_contact(journey: Journey, found: Passage) -> Fraction:
     """A rational time of contact up to first_upper; of a way that only touches, the simplest number it can be."""
     low, high = found.first or (Fraction(0), Fraction(0))
     upper = Fraction(found.first_upper)
-    for time in (upper, high, low, _simplest(low, high)):
+    for time in (upper, high, low, simplest(low, high)):
         if time <= 1 and not journey.position(time):
             return time
     raise ValueError("the way touches the surface at an irrational time alone")
 
 
-def _simplest(low: Fraction, high: Fraction) -> Fraction:
+def simplest(low: Fraction, high: Fraction) -> Fraction:
     """The fraction with the least denominator from low to high, both ≥ 0, by continued fractions."""
     whole = math.floor(low)
     if whole == low:
         return low
     if whole + 1 <= high:
         return Fraction(whole + 1)
-    return whole + 1 / _simplest(1 / (high - whole), 1 / (low - whole))
+    return whole + 1 / simplest(1 / (high - whole), 1 / (low - whole))
 
 
 def _pieces(journey: Journey, until: Fraction) -> tuple[tuple[Fraction, Fraction], ...]:

@@ -12,7 +12,7 @@ The table can also be read literally, by the roots' signs and multiplicities alo
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -48,6 +48,9 @@ class RootPlace(Enum):
     AT_B = "B"
     ABOVE = ">B"
 
+
+Isolate = Callable[..., list[Interval]]
+"""Finds enclosures, as polynomial_roots.isolate does."""
 
 PATTERNS: Mapping[Kind, tuple[str, ...]] = MappingProxyType(
     {
@@ -194,24 +197,31 @@ class Invariants:
         )
 
 
-def classify_by_roots(pair: Pair, *, narrow: bool = True) -> RootReport:
+def classify_by_roots(
+    pair: Pair, *, narrow: bool = True, isolated: Isolate = isolate, kinds: Mapping[str, Kind] = KIND_OF
+) -> RootReport:
     """The position and kind of a pair, by the roots of g; without `narrow` enclosures are as wide as that allows.
 
     Raises AssertionError, naming the pair, where a proof fails or the pattern is not in the table.
     """
     try:
-        return classify_invariants(Invariants.of(pair), narrow=narrow)
+        return classify_invariants(Invariants.of(pair), narrow=narrow, isolated=isolated, kinds=kinds)
     except AssertionError as error:
         raise AssertionError(f"{error}, for {pair}") from error
 
 
-def classify_invariants(pair: Invariants, *, narrow: bool = True) -> RootReport:
-    """The same for a pair given by its invariants, which need not be those of float64 numbers."""
-    roots = real_roots(pair, narrow=narrow)
+def classify_invariants(
+    pair: Invariants, *, narrow: bool = True, isolated: Isolate = isolate, kinds: Mapping[str, Kind] = KIND_OF
+) -> RootReport:
+    """The same for a pair given by its invariants, which need not be those of float64 numbers.
+
+    Nothing rests on `isolated`, which finds enclosures of roots: they are proved. `kinds` is the table.
+    """
+    roots = real_roots(pair, narrow=narrow, isolated=isolated)
     pattern = pattern_of((root.place, root.multiplicity) for root in roots)
     occurs = _occurs(pair)
     possible = [kind for kind in Kind if occurs[kind.occurs]]
-    kind = KIND_OF.get(pattern)
+    kind = kinds.get(pattern)
     if kind not in possible:
         raise AssertionError(f"the roots of g form a pattern that is not possible: {pattern}")
     literal_kinds = same_signs(pattern, possible)
@@ -257,11 +267,11 @@ def coefficients(pair: Invariants) -> Polynomial:
     return primitive([cubic[0], cubic[1], cubic[2] - linear[0], cubic[3] - linear[1]])
 
 
-def real_roots(pair: Invariants, *, narrow: bool = True) -> tuple[Root, ...]:
+def real_roots(pair: Invariants, *, narrow: bool = True, isolated: Isolate = isolate) -> tuple[Root, ...]:
     """The distinct real roots of g in ascending order: proved, multiplicities and places exact."""
     g = coefficients(pair)
     known, rest = _divided_by_known_roots(g, (-pair.A, pair.B, *_repeated_root(g)))
-    enclosed = isolate(rest, (-pair.A, pair.B), narrow=narrow)
+    enclosed = isolated(rest, (-pair.A, pair.B), narrow=narrow)
     prove(rest, enclosed)
     _require_factors(g, known, rest)
     intervals = [((x, x), multiplicity) for x, multiplicity in known.items()]

@@ -11,11 +11,11 @@ from hypcheck.bench import accuracy, run
 from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import QUICK, BenchPlan
-from hypcheck.errors import Exit, RunOutcome, UnavailableError
+from hypcheck.errors import Exit
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Domain
 from hypcheck.implementations.meshes import FCL, scene_mesh
-from hypcheck.record.measurements import AbsentLine, CompilerLine, KernelLine
+from hypcheck.record.measurements import KernelLine
 from tests.support.fractions_truth import exact_position
 from tests.support.tilted_fractions import exact_position as exact_tilted
 
@@ -24,17 +24,6 @@ CENTRES = ((2.1, 0.0, 0.5), (5.0, 0.0, 1.0), (0.5, 0.0, 0.0), (0.0, 2.2, -0.5))
 ROWS = np.array([(*SIZES, *centre) for centre in CENTRES])
 TWO_SCENES = np.vstack([ROWS, [(*OTHER, *centre) for centre in CENTRES]])
 RIGHT, RIGHT_OF_TWO = ([exact_position(tuple(row)) for row in rows.tolist()] for rows in (ROWS, TWO_SCENES))
-
-
-class Recorder:
-    """Keeps lines."""
-
-    def __init__(self):
-        self.lines = []
-
-    def add(self, line):
-        """Keep the line."""
-        self.lines.append(line)
 
 
 def contender(**changes):
@@ -94,50 +83,19 @@ def test_bench_does_not_ask_a_method_about_rows_of_more_scenes_than_it_takes():
     assert contender(scenes=1).asked(TWO_SCENES).tolist() == []
 
 
-def test_memory_line_reports_what_a_method_needs_beyond_its_rows(monkeypatch):
+def test_memory_line_reports_what_a_method_needs_beyond_its_rows():
     def greedy(rows):
         held = np.ones(8_000_000 if len(rows) > 1 else 1)
         return np.full(len(rows), int(held[-1]), dtype=np.int8)
 
-    found = {"greedy": contender(load=partial(InPython, greedy), timed=64)}
-    monkeypatch.setattr(accuracy, "contenders", lambda plan: found)
-    line = accuracy._memory_line((BenchPlan(amounts=QUICK), "greedy"))
-    assert (line.method, line.rows) == ("greedy", 64)
+    line = accuracy.memory_line(contender(load=partial(InPython, greedy)), TWO_SCENES)
+    assert (line.method, line.rows) == ("mine", len(TWO_SCENES))
     assert 60e6 < line.peak_bytes < 90e6
 
 
-def test_bench_kernel_ends_with_slower_if_a_kernel_misses_a_target(monkeypatch):
-    lines = [KernelLine(name=name, target="", wanted=2.0, measured=1.0, ci95=None, met=met, says=f"{name} says")
-             for name, met in (("fast", True), ("slow", False))]  # fmt: skip
-    monkeypatch.setattr(run.targets, "run", lambda recorder, advance, quick: recorder.lines.extend(lines))
-    recorder, outcome = Recorder(), RunOutcome()
-    (stage,) = run.stages(BenchPlan(kernel=True), recorder, outcome)
-    stage.run(lambda steps: None)
-    assert outcome.codes == {Exit.SLOWER}
-
-
-def test_bench_plan_has_the_compiled_library_or_records_once_that_it_is_missing(monkeypatch, tmp_path):
-    def fails(folder):
-        raise UnavailableError("no compiler is here")
-
-    recorder, plan = Recorder(), BenchPlan(amounts=QUICK)
-    monkeypatch.setattr(
-        run, "compiled", lambda folder: (tmp_path, CompilerLine(program="cc", version="1", flags=["-O3"]))
+def test_bench_kernel_ends_with_slower_if_a_kernel_misses_a_target():
+    fast, slow = (
+        KernelLine(name="it", target="", wanted=2.0, measured=1.0, ci95=None, met=met, says="") for met in (True, False)
     )
-    assert run.plan_with_needs(plan, recorder).compiled == tmp_path
-    assert [line.program for line in recorder.lines if not isinstance(line, AbsentLine)] == ["cc"]
-    monkeypatch.setattr(run, "compiled", fails)
-    recorder = Recorder()
-    found = run.plan_with_needs(run.plan_with_needs(plan, recorder), recorder)
-    reasons = [line.reason for line in recorder.lines if isinstance(line, AbsentLine)]
-    assert reasons.count("no compiler is here") == 1
-    assert found.compiled is None
-    assert found.missing
-
-
-def test_load_of_a_system_that_does_not_report_it_is_recorded_as_missing(monkeypatch):
-    def refused():
-        raise OSError
-
-    monkeypatch.setattr(run.os, "getloadavg", refused)
-    assert run.load() is None
+    assert run.codes_of([fast]) == set()
+    assert run.codes_of([fast, slow]) == {Exit.SLOWER}

@@ -33,7 +33,7 @@ def test_the_stability_map_shows_overflow_of_float32_and_no_error_of_the_fast_me
 
 
 def test_each_cell_of_the_stability_map_holds_rows_of_its_size_ratios():
-    rows, cells = error_maps._stability_rows(PLAN)
+    rows, cells = error_maps.stability_rows(PLAN)
     side = error_maps.LAST - error_maps.FIRST + 1
     a, c = rows[:, 0] / rows[:, 2], rows[:, 1] / rows[:, 3]
     assert (np.abs(2 * np.log10(a) - (error_maps.FIRST + cells // side + 0.5)) <= 0.5 + 1e-9).all()

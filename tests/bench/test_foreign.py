@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import replace
 
 import pytest
@@ -15,7 +14,9 @@ from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import TimingEntry, TimingRefusedError, measure
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.implementations import implementation
+from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits, StartError
+from hypcheck.implementations.spec import parse_spec
 from hypcheck.record.fields import decoded
 from hypcheck.record.lines import NotStartedLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, MethodLine, RefusedLine, SpeedLine
@@ -56,7 +57,7 @@ def subject(folder, times=1, answers="answers"):
 
 
 def opened(spec):
-    return foreign._opened(spec, Limits())
+    return foreign.RunningForeign(open_implementation(spec, Limits()), parse_spec(spec).kind)
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +116,6 @@ def test_times_from_a_command_that_reports_far_too_little_time_are_refused(monke
 
 def test_time_of_a_command_without_a_clock_is_reduced_by_that_of_a_one_row_question():
     way = opened(command("right"))
-    assert way._clock is None
     ready, empty = way.batch(ROWS), way.empty(ROWS, "batch")
     assert ready.timed_by == "process"
     assert ready.run(2)[0] > 0
@@ -141,18 +141,38 @@ def test_a_slow_spec_is_judged_and_timed_on_fewer_rows(tmp_path):
     assert slow.judged < quick.judged
 
 
-def test_an_interruption_of_the_speed_trial_does_not_make_a_spec_look_slow(tmp_path, monkeypatch):
-    """Each second batch is interrupted for 50 ms; it takes 1 µs a row."""
-    times = itertools.cycle([0.05, 0.0])
-    monkeypatch.setattr(foreign, "_seconds", lambda _, rows: next(times) + 1e-6 * len(rows))
-    assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 10_000
+def waiting(folder, seconds):
+    """A SPEC that waits before it answers, as `seconds` says of the number of the question and that of its rows."""
+    path = folder / "waiting.py"
+    text = f"""
+import time
+import numpy as np
+
+asked = []
 
 
-def test_the_speed_trial_asks_a_slow_spec_only_once(tmp_path, monkeypatch):
-    tried = []
-    monkeypatch.setattr(foreign, "_seconds", lambda _, rows: tried.append(len(rows)) or 0.01 * len(rows))
-    assert foreign.foreign_method(subject(tmp_path), Limits(), []).timed == 1
-    assert len(tried) == 1
+def classify(rows):
+    asked.append(len(rows))
+    with open({str(folder / "asked")!r}, "a") as file:
+        print(len(rows), file=file)
+    time.sleep({seconds})
+    return np.ones(len(rows), dtype=np.int8)
+"""
+    path.write_text(text, encoding="utf-8")
+    return f"python:{path}:classify"
+
+
+def test_an_interruption_of_the_speed_trial_does_not_make_a_spec_look_slow(tmp_path):
+    """Each second batch is interrupted for 50 ms."""
+    spec = waiting(tmp_path, "0.05 * (len(asked) % 2)")
+    assert foreign.foreign_method(spec, Limits(), []).timed > 10_000
+
+
+def test_the_speed_trial_asks_a_slow_spec_about_a_batch_twice_at_most(tmp_path):
+    """Once to warm up, and once to take the time."""
+    found = foreign.foreign_method(waiting(tmp_path, "0.01 * len(rows)"), Limits(), [])
+    assert found.timed == 1
+    assert (tmp_path / "asked").read_text().split() == ["1", "64", "64"]
 
 
 def test_spec_with_a_baseline_is_timed_on_as_many_rows_as_in_the_baseline(tmp_path):

@@ -9,20 +9,21 @@ from importlib import resources
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from msgspec.structs import astuple
+from msgspec import structs
 
 from hypcheck.bench import forest as contenders
 from hypcheck.bench import scene as scene_kernel
+from hypcheck.bench.contender import prepared
 from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.run import codes_of
 from hypcheck.cli.bench import bench
 from hypcheck.cli.main import main
-from hypcheck.errors import NothingJudgedError
+from hypcheck.errors import Exit, NothingJudgedError
 from hypcheck.implementations.meshes import FCL
 from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.fields import as_json
-from hypcheck.record.measurements import ForestLine, SceneLine
 from tests.support.records import violations
 from tests.support.scenes import HILLS, PLAIN
 
@@ -43,27 +44,32 @@ def ended(folder, *options):
     return record.footer.exit_code, record, (folder / "report.md").read_text(encoding="utf-8")
 
 
-@pytest.fixture
-def small(monkeypatch):
-    """Few trees, few steps, few rows."""
-    monkeypatch.setattr(contenders, "TREES", (10, 200))
-    monkeypatch.setattr(contenders, "STEPS", 48)
-    monkeypatch.setattr(contenders, "QUICK_ROUNDS", 2)
-    monkeypatch.setattr(scene_kernel, "QUICK_ROUNDS", 2)
-    monkeypatch.setattr(scene_kernel, "ROWS", 4096)
+class Recorder:
+    """Keeps lines."""
+
+    def __init__(self):
+        self.lines = []
+
+    def add(self, line):
+        """Keep the line."""
+        self.lines.append(line)
 
 
-def test_bench_forest_records_the_time_of_a_step_in_each_forest(small, tmp_path):
-    code, record, report = ended(tmp_path, "--forest")
-    assert code == 0
-    lines = record.of(ForestLine)
+def forest_lines(**options):
+    """The lines of small forests, walked for a few steps."""
+    recorder = Recorder()
+    contenders.run(recorder, lambda _: None, 1, (10, 200), rounds=2, steps=48, **options)
+    return recorder.lines
+
+
+def test_bench_forest_records_the_time_of_a_step_in_each_forest():
+    lines = forest_lines()
     assert {line.trees for line in lines} == {10, 200}
     for line in lines:
         assert not violations(as_json(line), DEFINITIONS, closed=True)
         assert line.step_ns > 0
     assert all(line.wrong == 0 and line.ratio == 1 for line in lines if line.method == contenders.OURS)
-    assert "A step in a forest" in report
-    assert "a walker's step timed in 2 forests of up to 200 trees" in report
+    assert codes_of(lines) == set()
     if FCL.trouble() is None:
         assert {line.method for line in lines} == set(contenders.WALKERS)
 
@@ -101,28 +107,34 @@ def test_fcl_in_bench_forest_answers_as_the_truth_away_from_contact(name):
     assert len(wrong) <= 5
 
 
-def test_bench_forest_ends_with_1_if_an_exact_method_is_wrong(small, tmp_path, monkeypatch):
-    walkers = {contenders.OURS: contenders.Walker("says clear everywhere", None, lambda _forest: lambda _x, _y, _z: 1)}
-    monkeypatch.setattr(contenders, "WALKERS", walkers)
-    code, record, report = ended(tmp_path, "--forest")
-    assert code == 1
-    assert any(line.wrong for line in record.of(ForestLine))
-    assert "promises to be exact" in report
+def test_bench_forest_ends_with_1_if_an_exact_method_is_wrong():
+    says_clear = contenders.Walker("says clear everywhere", None, lambda _forest: lambda _x, _y, _z: 1)
+    lines = forest_lines(walkers={contenders.OURS: says_clear})
+    assert any(line.wrong for line in lines)
+    assert codes_of(lines) == {Exit.WRONG}
+    assert codes_of(structs.replace(line, exact=False) for line in lines) == set()
+
+
+def scene_line(folder, **options):
+    """The line of the tower, asked about few rows."""
+    recorder = Recorder()
+    plans = scene_kernel.plans_of(["tower"])
+    scene_kernel.run_scenes(plans, recorder, lambda _: None, folder, rounds=2, count=4096, **options)
+    (line,) = recorder.lines
+    return line
 
 
 @COMPILER
-def test_bench_scene_times_the_emitted_kernel_beside_the_full_formulas(small, tmp_path):
-    code, record, report = ended(tmp_path, "--scene", "tower")
-    (line,) = record.of(SceneLine)
-    assert code == 0
+def test_bench_scene_times_the_emitted_kernel_beside_the_full_formulas(tmp_path):
+    line = scene_line(tmp_path)
+    assert codes_of([line]) == set()
     assert not violations(as_json(line), DEFINITIONS, closed=True)
     assert (line.scene, line.settings, line.wrong) == ("cooling tower", 2, 0)
-    assert sum(astuple(line.shares)) == pytest.approx(1)
+    assert sum(structs.astuple(line.shares)) == pytest.approx(1)
     for times in (line.batch, line.single):
         assert min(times.kernel_ns, times.printed_ns, times.certified_ns) > 0
         low, high = times.by_printed_ci95
         assert low <= times.by_printed <= high
-    assert "What scenes leave out" in report
 
 
 def test_stage_shares_of_a_scene_are_the_mean_over_its_pairs():
@@ -132,19 +144,17 @@ def test_stage_shares_of_a_scene_are_the_mean_over_its_pairs():
 
 
 @COMPILER
-def test_bench_scene_ends_with_1_if_the_emitted_kernel_is_wrong(small, tmp_path, monkeypatch):
-    right = scene_kernel.emitted
+def test_bench_scene_ends_with_1_if_the_emitted_kernel_is_wrong(tmp_path):
+    class SaysYes:
+        @staticmethod
+        def batch(rows):
+            return prepared(len(rows), lambda: np.ones(len(rows), np.int8))
 
-    def spoilt(plan, language, command):
-        text = right(plan, language, command)
-        start = text.index("intercept_1 = ") + len("intercept_1 = ")
-        end = text.index(";", start)
-        return text.replace(text[start:end], repr(float(text[start:end]) * 1.2))
+        single = batch
 
-    monkeypatch.setattr(scene_kernel, "emitted", spoilt)
-    code, _, report = ended(tmp_path, "--scene", "tower")
-    assert code == 1
-    assert "the kernel of the scene answers" in report
+    line = scene_line(tmp_path, kernel_of=lambda _plan, _folder: SaysYes())
+    assert line.wrong > 0
+    assert codes_of([line]) == {Exit.WRONG}
 
 
 def test_bench_scene_with_a_broken_compiler_raises_nothing_judged(tmp_path, monkeypatch):
@@ -154,14 +164,8 @@ def test_bench_scene_with_a_broken_compiler_raises_nothing_judged(tmp_path, monk
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.fixture
-def few(monkeypatch):
-    """Few rounds."""
-    monkeypatch.setattr(scene_kernel, "KERNEL_ROUNDS", 2)
-
-
 @COMPILER
-def test_plan_measure_times_each_pair_of_sizes_in_batches_and_one_by_one(few, capsys):
+def test_plan_measure_times_each_pair_of_sizes_in_batches_and_one_by_one(capsys):
     assert main(["plan", "tower", "--measure", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert [each["sizes"] for each in told["measured"]] == [each["sizes"] for each in told["settings"]]
@@ -174,9 +178,20 @@ def test_plan_measure_times_each_pair_of_sizes_in_batches_and_one_by_one(few, ca
 
 
 @COMPILER
-def test_plan_measure_prints_one_sentence_for_each_setting_below_the_plan(few, capsys):
+def test_plan_measure_prints_one_sentence_for_each_setting_below_the_plan(capsys):
     assert main(["plan", "tower", "--precision", "float32", "--measure"]) == 0
     *plan, body, rotors = capsys.readouterr().out.splitlines()
     assert plan[0] == "cooling tower: interior or not, in float32"
     assert body.startswith("1. In C")
     assert rotors.startswith("2. In C")
+
+
+@COMPILER
+@pytest.mark.parametrize(
+    ("words", "title"), [(["--scene", "tower"], "What scenes leave out"), (["--forest"], "A step in a forest")]
+)
+def test_bench_reports_a_scene_or_forests_by_its_command(words, title, tmp_path):
+    code, record, report = ended(tmp_path, *words)
+    assert code == 0
+    assert title in report
+    assert any(line.type in ("scene", "forest") for line in record.lines)

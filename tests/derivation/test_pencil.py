@@ -84,16 +84,13 @@ def test_each_identity_of_the_derivation_holds_and_fails_with_an_added_term():
         assert not vanishes(gap + read("A·B/1000")), statement
 
 
-def test_the_derivation_raises_an_error_for_a_surface_that_is_not_one_of_revolution(monkeypatch):
-    hyperboloid, scaled = pencil.scaled_matrices(), pencil.scaled_cubic()
-    monkeypatch.setattr(pencil, "scaled_cubic", lambda: replace(scaled, c2=scaled.c2 + pencil.YC))
+def test_the_derivation_raises_an_error_for_a_surface_that_is_not_one_of_revolution():
+    (hyperboloid, sphere), scaled = pencil.scaled_matrices(), pencil.scaled_cubic()
     with pytest.raises(ArithmeticError, match="more than A, B, P and Q"):
-        pencil.cubic.__wrapped__()
-    elliptic = hyperboloid[0] + sympy.diag(1, 0, 0, 0)  # no surface of revolution: −a² is no root of its pencil
-    monkeypatch.undo()
-    monkeypatch.setattr(pencil, "scaled_matrices", lambda: (elliptic, hyperboloid[1]))
+        pencil.in_invariants(replace(scaled, c2=scaled.c2 + pencil.YC))
+    elliptic = hyperboloid + sympy.diag(1, 0, 0, 0)  # no surface of revolution: −a² is no root of its pencil
     with pytest.raises(ArithmeticError, match="times a cubic"):
-        pencil.scaled_cubic.__wrapped__()
+        pencil.cubic_of(elliptic, sphere)
 
 
 def test_a_formula_in_plain_text_is_read_as_its_expression_and_written_back():

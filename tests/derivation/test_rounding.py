@@ -216,6 +216,6 @@ def test_gamma_raises_an_error_for_too_many_roundings():
 @pytest.mark.parametrize("step", OPERATIONS)
 def test_every_operation_that_gives_a_number_has_a_rounding_rule_except_selections(step):
     """A new operation must be thought about: it has a rule, or it is a truth value or a selection."""
-    from hypcheck.derivation.rounding import _RULES
+    from hypcheck.derivation.rounding import RULES
 
-    assert (step in _RULES) == (OPERATIONS[step].gives == "number" and step != "select")
+    assert (step in RULES) == (OPERATIONS[step].gives == "number" and step != "select")

@@ -1,7 +1,7 @@
 """Calls each public function under every rounding mode, with and without subnormal numbers; prints what differs.
 
-Run as `python -m tests.kernel.environment_calls FIRST`: FIRST is the number of the setting under which hypcheck is
-loaded. Numbers are made, and answers compared, in the default environment alone. x86-64 and glibc only.
+Run as `python -m tests.kernel.environment_calls FIRST OTHER...`, numbers of settings: hypcheck is loaded under FIRST.
+Numbers are made, and answers compared, in the default environment alone. x86-64 and glibc only.
 """
 
 from __future__ import annotations
@@ -141,8 +141,9 @@ def calls(pairs, wide, ways, scenes):
         yield f"position with an array {row}", lambda row=row: hypcheck.position(*row, axis=np.array([5e-324, 1, 1]))
         yield f"classify_scene {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:])
         yield f"Prepared {row}", lambda row=row: hypcheck.classify_scene(hypcheck.Prepared(tuple(row[:4])), *few.T[4:])
+    for row in few[::5].tolist():
         yield f"leaning {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:], axis=[0, 5e-324, 5e-324])
-    for rows in (upright[::8], tilted[::20]):
+    for rows in (upright[::16], tilted[::30]):
         yield f"clearance of {rows.shape[1]} numbers", lambda rows=rows: hypcheck.clearance(rows)
     for row, _ in ways:
         yield f"passage {row}", lambda row=row: _shown(hypcheck.passage(row[:4], row[4:7], row[7:]))
@@ -189,13 +190,13 @@ def truths(pairs, ways, scenes):
 
 
 def main():
-    first = SETTINGS[int(sys.argv[1])]
+    first, *others = (SETTINGS[int(number)] for number in sys.argv[1:])
     given = inputs()
     trouble = []
     with environment(first):
         functions = list(calls(*given))
     answers = {}
-    for setting in [first, *(each for each in SETTINGS if each != first)]:
+    for setting in (first, *others):
         for name, function in functions:
             try:
                 with environment(setting):

@@ -10,9 +10,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.kernel import scene_pairs
 from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_pairs import position_beside, positions_beside
 from hypcheck.scene import model
@@ -153,22 +151,6 @@ def test_scene_from_toml_reads_a_file_or_a_shipped_name(tmp_path):
     assert hypcheck.Scene.from_toml("tower").classify([0.0], [0.0], [0.0]).tolist() == [1]
 
 
-@pytest.mark.parametrize(
-    ("centre", "sentence"),
-    [
-        ((np.inf, 0.0, 0.0), "row 0: x is inf"),
-        ((0.0, [0.0, np.nan], 0.0), "row 1: y is nan"),
-        ((np.eye(2), 0.0, 0.0), "have shapes that do not fit together"),
-    ],
-)
-def test_scene_classify_refuses_invalid_centres(centre, sentence):
-    with pytest.raises(InputError, match=sentence):
-        Scene(forest(3, 3)).classify(*centre)
-    if not isinstance(centre[0], np.ndarray) and not isinstance(centre[1], list):
-        with pytest.raises(InputError, match=r"^x is inf; it must be finite"):
-            Scene(forest(3, 3)).position(*centre)
-
-
 TWO_60 = 2.0**-60
 
 
@@ -200,14 +182,6 @@ def test_a_difference_whose_rounding_exceeds_the_spheroid_is_decided_exactly(x, 
     assert far - x == far
     assert position_beside((far, far, *origin, -np.inf, np.inf), 0.125, 0.125, *centre) == expected
     assert positions_beside(np.array([sizes]), np.array([centre]), np.array([origin])).tolist() == [expected]
-
-
-def test_an_exact_difference_of_centres_is_decided_by_one_call(monkeypatch):
-    """No answer shows whether the slow way of rounded differences was taken."""
-    asked = []
-    monkeypatch.setattr(scene_pairs, "position", lambda *row: asked.append(row) or 1)
-    assert position_beside((1.0, 4.0, 0.5, 0.25, 0.125, -np.inf, np.inf), 1.0, 1.0, 3.0, -7.0, 11.0) == 1
-    assert asked == [(1.0, 4.0, 1.0, 1.0, 2.5, -7.25, 10.875)]
 
 
 def test_scene_position_takes_any_number_as_its_float():

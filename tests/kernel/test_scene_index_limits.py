@@ -73,12 +73,15 @@ def test_scene_answers_are_exact_for_the_smallest_subnormal_lengths():
         ((0, b"1.5", 0), "y is b'1.5'; it must be a number"),
         ((True, 0, 0), "x is True; it must be a number"),
         ((0, 0, 0, math.inf), "heading is inf; it must be finite"),
+        ((math.inf, 0, 0), "x is inf; it must be finite"),
     ],
 )
 def test_scene_position_refuses_an_invalid_centre_in_one_sentence(centre, sentence):
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     with pytest.raises(InputError, match=sentence):
         scene.classify(*centre)
+    with pytest.raises(InputError, match="row 1: y is nan"):
+        scene.classify(0, [0, math.nan], 0)
     if not any(isinstance(each, list) for each in centre):
         with pytest.raises(InputError, match=f"^{sentence}"):
             scene.position(*centre)

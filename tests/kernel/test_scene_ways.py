@@ -12,9 +12,8 @@ import pytest
 from hypcheck import passage
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
-from hypcheck.kernel import scene_index, scene_pairs
+from hypcheck.kernel import scene_index
 from hypcheck.kernel.scene import Scene
-from hypcheck.kernel.scene_index import bodies_of
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 
 
@@ -229,14 +228,6 @@ def test_a_way_farther_from_an_axis_than_the_reach_does_not_pass_it():
     origins = np.array([[0.0, 1.5, 0.0], [0.0, 1.0, 0.0], [3.0, 3.0, 0.0], [2.0, -2.0, 0.0]])
     query, reach = np.array([0, 0, 1, 1]), np.array([1.0, 1.0, 2.0, 2.0])
     assert scene_index.passed(starts, ends, query, origins, reach).tolist() == [False, True, False, True]
-
-
-def test_a_way_straight_through_a_tree_needs_no_exact_decision(monkeypatch):
-    """An exact decision is slow, and shows in no answer."""
-    bodies = bodies_of([Hyperboloid("h", 1.0, 2.0)])
-    monkeypatch.setattr(scene_pairs, "exact_way", None)
-    start, end = np.array([[-5.0, 0.5, 0.0]]), np.array([[9.0, 0.5, 0.0]])
-    assert scene_pairs.hits_beside(bodies, np.array([0]), Mover(0.5, 0.25), None, start, end).tolist() == [True]
 
 
 def test_ways_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone():

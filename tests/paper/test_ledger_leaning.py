@@ -8,7 +8,6 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Position
-from hypcheck.paper.ledger import points
 from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.points import first_change
 from hypcheck.truth.tilted.pair import TiltedPair
@@ -47,9 +46,8 @@ def test_pitch_witness_with_a_proof_of_another_position_does_not_hold(evidence):
     assert not replace(dangerous, pair=needless.pair).holds
 
 
-def test_pitch_witness_search_without_a_result_returns_the_number_of_tried_pairs(monkeypatch):
-    monkeypatch.setattr(points, "LARGEST", 2)
-    search = first_change(Position.CONTACT, Position.EXTERIOR, "never")
+def test_pitch_witness_search_without_a_result_returns_the_number_of_tried_pairs():
+    search = first_change(Position.CONTACT, Position.EXTERIOR, "never", largest=2)
     assert search.found is None
     assert search.tried > 0
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.paper import motion
 from hypcheck.paper.flights import Moves
 from hypcheck.paper.motion import Lean, PitchVerdicts, leaning_interior, near_wall, valid_leaning
 from hypcheck.paper.quadcopter import any_angle, craft_of
@@ -104,24 +103,6 @@ def test_pitch_counts_equal_the_sum_of_single_exact_decisions():
     assert counts.body_dangerous == (upright & ~leaning).sum()
 
 
-def test_craft_leans_backwards_in_a_backward_move(monkeypatch):
-    at, heading = near_the_wall(10)
-    back = np.arange(10) % 2 == 0
-    leans = []
-
-    def watched(craft, at, heading, lean):
-        leans.append(lean)
-        return valid_leaning(craft, at, heading, lean)
-
-    monkeypatch.setattr(motion, "valid_leaning", watched)
-    PitchVerdicts().watch(CRAFT, 40.0, moves_at(at, heading, back=back, accepted=np.ones(10, np.bool_)))
-    (lean,) = leans
-    sign = np.where(back, -1.0, 1.0)
-    assert np.allclose(lean.axis[0], np.sin(np.radians(40)) * sign * heading[0])
-    assert np.allclose(lean.axis[1], np.sin(np.radians(40)) * sign * heading[1])
-    assert (lean.axis[2] > 0).all()
-
-
 def test_pitch_counts_omit_vertical_moves_and_turns():
     at, heading = near_the_wall(10)
     moves = moves_at(at, heading, back=np.zeros(10, np.bool_), accepted=np.ones(10, np.bool_))
@@ -139,16 +120,14 @@ def test_craft_with_pitch_0_is_judged_as_the_upright_craft():
     assert counts.body_wrong == 0
 
 
-def test_pitch_changes_more_answers_near_the_wall_if_the_craft_leans_outward(monkeypatch):
-    monkeypatch.setattr(motion, "CENTRES", 150)
-    found = near_wall(CRAFT, 45.0, 3)
+def test_pitch_changes_more_answers_near_the_wall_if_the_craft_leans_outward():
+    found = near_wall(CRAFT, 45.0, 3, count=150)
     assert found["centres"] == 150
     assert found["outward"]["changed"] > found["anywhere"]["changed"] > 0
     assert found["outward"]["dangerous"] == found["anywhere"]["dangerous"] == 0
 
 
-def test_pitch_totals_are_the_sums_over_all_cells_of_the_table(monkeypatch):
-    monkeypatch.setattr(motion, "CENTRES", 50)
+def test_pitch_totals_are_the_sums_over_all_cells_of_the_table():
     plan = TowerPlan(SHORT, 7, 5.0, 0.2, 2, continuous=False, pitch=35.0)
     told = simulate_tower(plan, None, lambda _: None)["pitch"]
     assert len(told["cells"]) == 24

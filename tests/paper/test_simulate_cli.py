@@ -11,7 +11,6 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.paper import motion
 from hypcheck.scene.reading import shipped_text
 from tests.support.records import violations
 
@@ -34,8 +33,7 @@ def run(capsys, *arguments):
 
 
 @pytest.fixture
-def tower(tmp_path, monkeypatch):
-    monkeypatch.setattr(motion, "CENTRES", 50)
+def tower(tmp_path):
     path = tmp_path / "short.toml"
     path.write_text(SHORT)
     return ("simulate", "tower", "--scene", str(path), "--workers", "1")

@@ -14,7 +14,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.proofs.build import CHECKER
+from hypcheck.proofs.build import BUILT, CHECKER
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
 from hypcheck.vectors.families import FAMILIES
@@ -74,7 +74,7 @@ def questions(count: int, seed: int = 1) -> Iterator[tuple[Pair, Certificate]]:
 def verdicts(asked: list[tuple[Pair, Certificate]]) -> list[bool]:
     """What the proved checker says of each."""
     text = "".join(line(*question) + "\n" for question in asked)
-    done = subprocess.run([CHECKER, "--rows"], input=text, capture_output=True, text=True, check=True)
+    done = subprocess.run([BUILT / CHECKER, "--rows"], input=text, capture_output=True, text=True, check=True)
     return [answer == "1" for answer in done.stdout.split()]
 
 

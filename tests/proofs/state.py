@@ -14,4 +14,4 @@ def up_to_date() -> bool:
     except OSError:
         return False
     same = texts == [build.source(name) for name in build.FILES]
-    return same and build.CHECKER.is_file() and shutil.which("coqc") is not None
+    return same and (build.BUILT / build.CHECKER).is_file() and shutil.which("coqc") is not None

@@ -1,19 +1,16 @@
-"""The build of the proofs with a stand-in for Coq and OCaml: what is asked of them, and what each answer leads to."""
+"""`python -m hypcheck.proofs` with a stand-in for Coq and OCaml: what is asked, and what each answer leads to."""
 
 from __future__ import annotations
 
-import shutil
-from pathlib import Path
-from subprocess import CompletedProcess
+import os
 
 import pytest
 from click.testing import CliRunner
 
-from hypcheck.errors import Exit, InputError
+from hypcheck.errors import InputError
 from hypcheck.proofs import build
 from hypcheck.proofs.__main__ import main
 from hypcheck.proofs.build import CONTROL, Weakened
-from tests.proofs.state import up_to_date
 
 REAL_NUMBERS = """\
 Axioms:
@@ -24,231 +21,197 @@ FunctionalExtensionality.functional_extensionality_dep
 """
 """How Coq prints axioms: the type may begin on the next line."""
 
+CLOSED = "Closed under the global context\n"
+
+STAND_IN = """#!/bin/sh
+name=$(basename "$0")
+echo "$name $*" >> FOLDER/asked
+for word in "$name" "$@"; do
+    last=$word
+    if [ -f "FOLDER/says/$word" ]; then cat "FOLDER/says/$word" >&2; exit 1; fi
+done
+case "$last" in
+-where) echo FOLDER ;;
+Assumptions.v) if grep -q "Require Floats" "$last"; then cat FOLDER/of-floats; else cat FOLDER/of-others; fi ;;
+check_cases) cp FOLDER/checker check_cases ;;
+Emitted.v) ls *.vo ;;
+*.v)
+    if [ "$PWD" != FOLDER/built ] && [ -e FOLDER/strict -o -e "${last}o" ]; then exit 1; fi
+    [ -f FOLDER/careless ] || cmp "$last" "SOURCES/$last" >&2 || exit 1
+    : > "${last}o" ;;
+esac
+"""
+"""Accepts the Coq files as they are, and copies of which nothing was compiled; refuses changed files.
+
+If there is a file `careless` it accepts changed ones, and if there is a file `strict` it refuses copies.
+"""
+
 
 class Tools:
-    """Answers in place of Coq and OCaml: by the first file or word of a command that `says` knows; else success."""
+    """Programs in place of Coq and OCaml; `main` builds in a folder beside them."""
 
-    def __init__(self, monkeypatch, folder):
-        self.says, self.asked = {}, []
-        monkeypatch.setattr(build, "_run", self.run)
-        monkeypatch.setattr(build, "BUILT", folder / "built")
-        monkeypatch.setattr(build, "CHECKER", folder / "built" / "check_cases")
-        monkeypatch.setattr(shutil, "which", lambda program: f"/usr/bin/{program}")
+    def __init__(self, folder):
+        self.folder, self.built = folder, folder / "built"
+        for name in ("bin", "says", "user-contrib/Flocq"):
+            (folder / name).mkdir(parents=True)
+        text = STAND_IN.replace("FOLDER", str(folder)).replace("SOURCES", str(build.SOURCES))
+        for name in ("coqc", "ocamlfind", "ocamlopt"):
+            self.program(f"bin/{name}", text)
+        self.program("checker", "#!/bin/sh\necho $#\n")
+        self.assume(REAL_NUMBERS, f"Axioms:\n{build.OF_FLOCQ} : forall P : Prop, P\n")
 
-    def run(self, command, folder):
-        """Keep the command, with the files of its folder, and answer."""
-        self.asked.append((command, {path.name for path in folder.iterdir()} if folder != Path() else set()))
-        code, out, err = next((self.says[word] for word in command if word in self.says), (0, "", ""))
-        return CompletedProcess(command, code, out, err)
+    def program(self, name, text):
+        """Write a program."""
+        (self.folder / name).write_text(text, encoding="utf-8")
+        (self.folder / name).chmod(0o755)
+
+    def say(self, word, text):
+        """Fail with this text where a command has the word."""
+        (self.folder / "says" / word).write_text(text, encoding="utf-8")
+
+    def assume(self, others, floats):
+        """What Coq prints about the axioms of Floats.v, and of other files."""
+        (self.folder / "of-others").write_text(others, encoding="utf-8")
+        (self.folder / "of-floats").write_text(floats, encoding="utf-8")
+
+    def prove(self, *words):
+        """The exit code and the output."""
+        done = CliRunner().invoke(main, ["--into", str(self.built), *words])
+        return done.exit_code, done.output
+
+    @property
+    def asked(self):
+        """The commands that were run, one a line."""
+        return (self.folder / "asked").read_text(encoding="utf-8").splitlines()
 
 
 @pytest.fixture
 def tools(monkeypatch, tmp_path):
-    return Tools(monkeypatch, tmp_path)
+    found = Tools(tmp_path)
+    monkeypatch.setenv("PATH", os.pathsep.join([str(tmp_path / "bin"), os.environ["PATH"]]))
+    return found
 
 
-def test_missing_libraries_of_ocaml_and_coq_are_named_where_the_programs_are_there(tools, tmp_path):
-    tools.says = {"query": (1, "", ""), "-where": (0, f"{tmp_path}\n", "")}
-    assert build.missing() == ["libzarith-ocaml-dev", "libcoq-flocq"]
-    (tmp_path / "user-contrib" / "Flocq").mkdir(parents=True)
-    assert build.missing() == ["libzarith-ocaml-dev"]
-    tools.says["query"] = (0, "", "")
+def test_missing_libraries_of_ocaml_and_coq_are_named_where_the_programs_are_there(tools):
     assert build.missing() == []
-    build.demand_tools()
+    tools.say("query", "")
+    (tools.folder / "user-contrib" / "Flocq").rmdir()
+    assert build.missing() == ["libzarith-ocaml-dev", "libcoq-flocq"]
+    code, output = tools.prove()
+    assert code == 2
+    assert "apt-get install libzarith-ocaml-dev libcoq-flocq" in output
 
 
-def test_coq_build_is_up_to_date_only_if_it_holds_the_current_sources_and_the_checker(tools, monkeypatch):
-    assert not up_to_date()
-    build.BUILT.mkdir()
-    for name in build.FILES:
-        (build.BUILT / f"{name}.v").write_text(build.source(name), encoding="utf-8")
-    assert not up_to_date()
-    build.CHECKER.touch()
-    assert up_to_date()
-    monkeypatch.setattr(shutil, "which", lambda program: None)
-    assert not up_to_date()
-    monkeypatch.undo()
+def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
+    code, output = tools.prove("--weakened", "2")
+    lines = output.splitlines()
+    assert code == 0
+    assert [line.split()[0] for line in lines[: len(build.FILES)]] == [f"{name}.v" for name in build.FILES]
+    total = sum(len(build.statements(name)) for name in build.FILES)
+    assert lines[len(build.FILES)].startswith(f"{total} statements in ")
+    assert lines[-4:] == [
+        "    ClassicalDedekindReals.sig_not_dec",
+        f"    {build.OF_FLOCQ} (Flocq alone)",
+        "    FunctionalExtensionality.functional_extensionality_dep",
+        "2 weakened statements are refused",
+    ]
+    everything = (tools.built / "Assumptions.v").read_text(encoding="utf-8")
+    assert all(f"@Floats.{each}" in everything for each in build.statements("Floats"))
+    assert (tools.built / "check_cases.ml").read_bytes() == (build.SOURCES / "check_cases.ml").read_bytes()
 
 
-def test_coq_build_is_not_up_to_date_after_a_source_has_changed(tools):
-    build.BUILT.mkdir()
-    for name in build.FILES:
-        (build.BUILT / f"{name}.v").write_text(build.source(name), encoding="utf-8")
-    build.CHECKER.touch()
-    (build.BUILT / "Rule.v").write_text("older", encoding="utf-8")
-    assert not up_to_date()
-
-
-def test_a_file_is_compiled_in_the_build_folder_and_its_statements_and_lines_are_counted(tools, monkeypatch):
-    text = "Lemma one : True.\nProof. exact I. Qed.\n(* Lemma none : False. *)\nTheorem two : True.\n"
-    monkeypatch.setattr(build, "source", lambda name: text)
-    found = build.compile_file("Any")
-    assert (found.name, found.statements, found.lines) == ("Any", 2, 4)
-    assert found.seconds >= 0
-    assert (build.BUILT / "Any.v").read_text(encoding="utf-8") == text
-    assert [command for command, _ in tools.asked] == [["coqc", "-q", "-R", ".", "Hypcheck", "Any.v"]]
+def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):
+    tools.assume(CLOSED, "")
+    code, output = tools.prove("--soundness")
+    names = (*build.SOUNDNESS, "ExtractedChecker")
+    weakened = sum(change.file in names for change in build.weakened())
+    assert code == 0
+    assert f"of the real numbers:\n{weakened} weakened statements are refused\n" in output
+    compiled = {line.split()[-1] for line in tools.asked if line.startswith("coqc -q")}
+    assert compiled == {f"{name}.v" for name in (*names, "Assumptions")}
 
 
 @pytest.mark.parametrize(("said", "message"), [(" Error: no.\n", "Error: no."), ("", "coqc failed without a message")])
 def test_a_file_that_coq_refuses_is_an_error_with_what_coq_said(tools, said, message):
-    tools.says = {"Rule.v": (1, "", said)}
-    with pytest.raises(build.ProofError) as raised:
-        build.compile_file("Rule")
-    assert str(raised.value) == f"Coq refuses Rule.v: {message}"
-    assert raised.value.exit_code == Exit.WRONG
+    tools.say("Geometry.v", said)
+    assert tools.prove() == (1, f"proofs: error: Coq refuses Geometry.v: {message}\n")
 
 
-def test_assumptions_of_a_proof_are_read_from_coq_and_empty_for_a_closed_proof(tools):
-    build.BUILT.mkdir()
-    tools.says = {"Assumptions.v": (0, REAL_NUMBERS, "")}
-    assert build.assumptions(("Geometry",)) == {
-        "ClassicalDedekindReals.sig_not_dec",
-        "FunctionalExtensionality.functional_extensionality_dep",
-    }
-    asked = (build.BUILT / "Assumptions.v").read_text(encoding="utf-8")
-    assert all(f"@Geometry.{each}" in asked for each in build.statements("Geometry"))
-    tools.says = {"Assumptions.v": (0, "Closed under the global context\n", "")}
-    assert build.assumptions(("Geometry",)) == set()
+def test_coq_that_does_not_print_assumptions_is_an_error(tools):
+    tools.assume("no such file", "")
+    assert tools.prove()[0] == 1
+    assert tools.prove()[1].endswith("error: Coq does not say what the proofs assume: no such file\n")
+    tools.say("Assumptions.v", "Error: nothing")
+    assert tools.prove()[1].endswith("error: Coq does not say what the proofs assume: Error: nothing\n")
 
 
-@pytest.mark.parametrize("answer", [(1, "", "Error: no such file"), (0, "Error: no such file", "")])
-def test_coq_that_does_not_print_assumptions_is_an_error(tools, answer):
-    build.BUILT.mkdir()
-    tools.says = {"Assumptions.v": answer}
-    with pytest.raises(build.ProofError, match="Coq does not say what the proofs assume: Error: no such file"):
-        build.assumptions(("Geometry",))
-
-
-def test_the_excluded_middle_is_allowed_in_floats_alone_and_another_axiom_nowhere(monkeypatch):
-    known = set(build.AXIOMS)
-    found = {True: known | {build.OF_FLOCQ}, False: known}
-    monkeypatch.setattr(build, "assumptions", lambda names: set(found["Floats" in names]))
-    assert build.demand_known_axioms(("Geometry", "Floats")) == known | {build.OF_FLOCQ}
-    assert build.demand_known_axioms(("Geometry",)) == known
-    found[False] = known | {build.OF_FLOCQ}
-    with pytest.raises(build.ProofError, match=r"assume Classical_Prop\.classic; that is not allowed"):
-        build.demand_known_axioms(("Geometry",))
-    found.update({False: known, True: {"False_is_true"}})
-    with pytest.raises(build.ProofError, match="assume False_is_true; that is not allowed"):
-        build.demand_known_axioms(("Geometry", "Floats"))
+def test_the_excluded_middle_is_allowed_in_floats_alone_and_another_axiom_nowhere(tools):
+    tools.assume(f"Axioms:\n{build.OF_FLOCQ} : P\n", CLOSED)
+    assert tools.prove()[1].endswith(f"error: the proofs assume {build.OF_FLOCQ}; that is not allowed\n")
+    tools.assume(CLOSED, "Axioms:\nFalse_is_true : P\n")
+    assert tools.prove()[1].endswith("error: the proofs assume False_is_true; that is not allowed\n")
 
 
 def test_an_emitted_proof_is_checked_beside_the_compiled_proofs(tools, tmp_path):
     proof = tmp_path / "kernel.v"
-    with pytest.raises(InputError, match="the proofs are not compiled"):
-        build.check_kernel(proof)
-    build.BUILT.mkdir()
-    (build.BUILT / "Region.vo").touch()
-    with pytest.raises(InputError, match=r"kernel\.v cannot be read: .*No such file"):
-        build.check_kernel(proof)
+    assert "the proofs are not compiled" in tools.prove(str(proof))[1]
+    tools.built.mkdir()
+    (tools.built / "Region.vo").touch()
+    code, output = tools.prove(str(proof))
+    assert code == 2
+    assert "kernel.v cannot be read: [Errno 2] No such file" in output
     proof.write_text("Theorem sign : True.", encoding="utf-8")
-    assert build.check_kernel(proof) >= 0
-    assert tools.asked[-1] == (["coqc", "-q", "-R", ".", "Hypcheck", "Emitted.v"], {"Region.vo", "Emitted.v"})
-    tools.says = {"Emitted.v": (1, "", "it is false")}
-    with pytest.raises(build.ProofError, match=r"Coq refuses .*kernel\.v: it is false"):
-        build.check_kernel(proof)
+    code, output = tools.prove(str(proof), str(proof))
+    assert code == 0
+    assert output.count("kernel.v: the bound is proved, 0.0 s\n") == 2
+    assert tools.asked[-1] == "coqc -q -R . Hypcheck Emitted.v"
+    tools.say("Emitted.v", "it is false")
+    assert tools.prove(str(proof)) == (1, f"proofs: error: Coq refuses {proof}: it is false\n")
 
 
-def test_checker_is_built_from_the_extracted_code_and_a_failure_quotes_ocaml(tools):
-    build.BUILT.mkdir()
-    build.build_checker()
-    assert (build.BUILT / "check_cases.ml").read_bytes() == (build.SOURCES / "check_cases.ml").read_bytes()
-    assert tools.asked[-1][0][-2:] == ["-o", "check_cases"]
-    tools.says = {"ocamlopt": (2, "", "Unbound module Checker\n")}
-    with pytest.raises(build.ProofError, match="OCaml refuses the checker: Unbound module Checker"):
-        build.build_checker()
-
-
-def checker(script):
-    build.CHECKER.parent.mkdir()
-    build.CHECKER.write_text(f"#!/bin/sh\n{script}\n")
-    build.CHECKER.chmod(0o755)
-
-
-@pytest.mark.parametrize("code", [0, 1])
-def test_the_checkers_exit_code_says_whether_a_label_is_wrong(tools, code, capfd):
-    checker(f'echo "$1"; exit {code}')
-    assert build.run_checker(["file.json"]) == code
-    assert capfd.readouterr().out == "file.json\n"
+def test_an_error_of_ocaml_is_quoted(tools):
+    tools.say("ocamlopt", "Unbound module Checker\n")
+    assert tools.prove("--soundness")[1].endswith("error: OCaml refuses the checker: Unbound module Checker\n")
 
 
 @pytest.mark.parametrize(
-    ("script", "message"),
-    [("echo 'check_cases: a.json: no list' >&2; exit 2", "a.json: no list"), ("exit 3", "check_cases ended with 3")],
+    ("script", "code", "message"),
+    [
+        ("exit 0", 0, ""),
+        ("exit 1", 1, ""),
+        ("echo 'check_cases: a.json: no list' >&2; exit 2", 2, "proofs: error: a.json: no list\n"),
+        ("exit 3", 2, "check_cases ended with 3\n"),
+    ],
 )
-def test_a_checker_that_cannot_read_a_file_is_an_error(tools, script, message):
-    checker(script)
-    with pytest.raises(InputError, match=f"{message}$"):
-        build.run_checker(["a.json"])
+def test_prove_ends_as_the_checker_says_about_the_frozen_vectors(tools, script, code, message):
+    """With 1 where a label is wrong, with 2 where a file cannot be read."""
+    tools.program("checker", f'#!/bin/sh\necho "$@" > {tools.folder}/files\n{script}\n')
+    found, output = tools.prove("--soundness", "--weakened", "0")
+    assert found == code
+    assert output.endswith(f"0 weakened statements are refused\n{message}" if code < 2 else message)
+    assert (tools.folder / "files").read_text(encoding="utf-8").split() == build.upright_files()
 
 
-def test_a_weakened_file_is_compiled_without_what_was_compiled_of_it_before(tools):
-    build.BUILT.mkdir()
-    for name in ("Checker", "Geometry"):
-        (build.BUILT / f"{name}.vo").touch()
-    assert build.accepted(CONTROL)
-    assert tools.asked[-1][1] == {"Checker.v", "Geometry.vo"}
-    tools.says = {"Checker.v": (1, "", "In environment: unable to unify")}
-    assert not build.accepted(CONTROL)
+def test_a_missing_checker_is_an_error_that_says_how_to_build_it(tmp_path):
+    with pytest.raises(InputError, match=f"not built: there is no {tmp_path}/check_cases; `make prove` builds it"):
+        build.run_checker([], tmp_path)
+
+
+def test_prove_ends_with_1_where_coq_accepts_a_weakened_statement_or_refuses_the_control(tools):
+    (tools.folder / "careless").touch()
+    code, output = tools.prove("--soundness")
+    assert code == 1
+    assert "error: Coq accepts Checker.v, weakened to allow a λ beyond the pole B" in output
+    (tools.folder / "careless").unlink()
+    (tools.folder / "strict").touch()
+    code, output = tools.prove("--soundness")
+    assert code == 1
+    assert "error: Coq refuses Checker.v in the folder in which it must refuse" in output
 
 
 def test_weakened_statement_that_matches_no_place_or_is_not_valid_coq_raises_an_error(tools):
     with pytest.raises(ValueError, match=r"Checker\.v has 0 places with 'not there'; one is needed"):
-        build.accepted(Weakened("Checker", "not there", "", "anything"))
-    tools.says = {"Checker.v": (1, "", "Syntax error: '.' expected")}
-    build.BUILT.mkdir()
+        build.accepted(Weakened("Checker", "not there", "", "anything"), tools.built)
+    tools.say("Checker.v", "Syntax error: '.' expected")
     with pytest.raises(ValueError, match=r"the change of Checker\.v is no Coq: Syntax error"):
-        build.accepted(CONTROL)
-
-
-@pytest.fixture
-def proved(tools, monkeypatch):
-    """All proofs hold, and Coq refuses the first weakened statement; `main` is run."""
-    monkeypatch.setattr(build, "missing", list)
-    monkeypatch.setattr("hypcheck.proofs.__main__.accepted", lambda change: change is CONTROL)
-    monkeypatch.setattr(build, "run_checker", lambda files: 0)
-    monkeypatch.setattr(
-        build, "assumptions", lambda names: {*build.AXIOMS[:1], *({build.OF_FLOCQ} if "Floats" in names else ())}
-    )
-    return tools
-
-
-def test_prove_names_each_file_its_axioms_and_the_refused_statements(proved):
-    done = CliRunner().invoke(main, ["--weakened", "2"])
-    lines = done.output.splitlines()
-    assert done.exit_code == 0
-    assert [line.split()[0] for line in lines[: len(build.FILES)]] == [f"{name}.v" for name in build.FILES]
-    total = sum(len(build.statements(name)) for name in build.FILES)
-    assert lines[len(build.FILES)].startswith(f"{total} statements in ")
-    assert lines[-3:] == [
-        f"    {build.AXIOMS[0]}",
-        f"    {build.OF_FLOCQ} (Flocq alone)",
-        "2 weakened statements are refused",
-    ]
-
-
-def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(proved):
-    done = CliRunner().invoke(main, ["--soundness"])
-    names = (*build.SOUNDNESS, "ExtractedChecker")
-    weakened = sum(change.file in names for change in build.weakened())
-    assert done.exit_code == 0
-    assert f"{weakened} weakened statements are refused" in done.output
-    assert {command[-1] for command, _ in proved.asked if command[0] == "coqc"} == {f"{name}.v" for name in names}
-
-
-def test_prove_ends_with_1_where_coq_accepts_a_weakened_statement_or_refuses_the_control(proved, monkeypatch):
-    monkeypatch.setattr("hypcheck.proofs.__main__.accepted", lambda change: True)
-    done = CliRunner().invoke(main, ["--soundness"])
-    assert done.exit_code == 1
-    assert "error: Coq accepts Checker.v, weakened to allow a λ beyond the pole B" in done.output
-    monkeypatch.setattr("hypcheck.proofs.__main__.accepted", lambda change: False)
-    done = CliRunner().invoke(main, ["--soundness"])
-    assert done.exit_code == 1
-    assert "error: Coq refuses Checker.v in the folder in which it must refuse" in done.output
-
-
-def test_prove_with_kernel_files_checks_only_these_files(proved, monkeypatch):
-    monkeypatch.setattr(build, "check_kernel", lambda path: 1.25)
-    done = CliRunner().invoke(main, ["one.v", "two.v"])
-    assert (done.exit_code, proved.asked) == (0, [])
-    assert done.output == "one.v: the bound is proved, 1.2 s\ntwo.v: the bound is proved, 1.2 s\n"
+        build.accepted(CONTROL, tools.built)

@@ -51,12 +51,16 @@ def test_every_coq_file_is_compiled_and_leaves_nothing_unproved():
         assert all(build.proves(name, each) for each in build.statements(name)), name
 
 
-def test_a_file_with_an_admitted_proof_proves_nothing(monkeypatch):
-    monkeypatch.setattr(build, "source", lambda _: "Lemma easy : True.\nProof. Admitted.\n(* Qed *)")
-    assert build.statements("Any") == ("easy",)
-    assert not build.proves("Any", "easy")
-    with pytest.raises(build.ProofError, match=r"Any\.v has an unproved part: Admitted"):
-        build.compile_file("Any")
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("Lemma easy : True.\nProof. Admitted.\n(* Qed *)", "Admitted"),
+        ("Axiom easy : True.", "Axiom"),
+        ("Lemma easy : True.\nProof. exact I. Qed.\n(* Admitted *)", ""),
+    ],
+)
+def test_a_file_with_an_admitted_proof_or_an_axiom_leaves_something_unproved(text, word):
+    assert build.unproved(text) == word
 
 
 def test_each_weakened_statement_changes_one_place_of_a_file_in_the_build():
@@ -82,22 +86,20 @@ def test_theorems_that_the_ledger_names_are_in_the_coq_sources():
         assert build.proves(*theorem.split(".")), theorem
 
 
-def test_derive_fails_when_a_row_of_the_root_patterns_is_missing(monkeypatch):
+def test_derive_fails_when_a_row_of_the_root_patterns_is_missing():
     for kind in Kind:
-        monkeypatch.setattr(checks, "PATTERNS", {**PATTERNS, kind: PATTERNS[kind][1:]})
-        patterns, coq = checks.listed_patterns(), checks.patterns_in_coq()
+        fewer = {**PATTERNS, kind: PATTERNS[kind][1:]}
+        patterns, coq = checks.listed_patterns(fewer), checks.patterns_in_coq(fewer)
         assert not patterns.holds
         assert not coq.holds
         assert PATTERNS[kind][0] in patterns.text
 
 
-def test_derive_fails_when_two_kinds_exchange_their_root_patterns(monkeypatch):
+def test_derive_fails_when_two_kinds_exchange_their_root_patterns():
     moved = {**PATTERNS, Kind.EXTERIOR_RING: PATTERNS[Kind.EXTERIOR_TANGENT_TWO_POINTS]}
     moved[Kind.EXTERIOR_TANGENT_TWO_POINTS] = PATTERNS[Kind.EXTERIOR_RING]
-    monkeypatch.setattr(checks, "PATTERNS", moved)
-    patterns, coq = checks.listed_patterns(), checks.patterns_in_coq()
-    assert patterns.holds
-    assert not coq.holds
+    assert checks.listed_patterns(moved).holds
+    assert not checks.patterns_in_coq(moved).holds
 
 
 def test_prove_without_coq_names_the_packages_and_ends_2():
@@ -109,13 +111,6 @@ def test_prove_without_coq_names_the_packages_and_ends_2():
         "proofs: error: the proofs need programs that are not here; on Debian: "
         "apt-get install coq ocaml-findlib ocaml-nox libzarith-ocaml-dev libcoq-flocq\n"
     )
-
-
-def test_check_by_coq_says_how_to_build_a_missing_checker(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr(build, "CHECKER", tmp_path / "check_cases")
-    assert main(["cases", "check", "--checker", "coq"]) == 2
-    said = f"the proved checker is not built: there is no {tmp_path}/check_cases; `make prove` builds it"
-    assert capsys.readouterr().err == f"hypcheck: error: {said}\n"
 
 
 def test_stage_two_in_coq_is_printed_from_the_program_of_the_kernel():

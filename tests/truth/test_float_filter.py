@@ -33,39 +33,11 @@ def test_next_to_a_tangency_the_float_filter_is_undecided_or_right(exponent, sig
     assert set(float_filter.positions(rows).tolist()) <= {expected}
 
 
-def test_the_float_filter_decides_its_share_of_every_position():
-    """Rows of one order of size in which each of its witnesses has something to decide."""
+def test_the_float_filter_decides_ordinary_rows_of_every_position():
+    """Rows of one order of size, of which it leaves half a percent or more without any witness that has no stand-in."""
     rows = 2.0 ** np.random.default_rng(6).uniform(-2, 2, (4000, 7))
     rows[:, 4:] *= np.random.default_rng(7).choice((-1, 1), (4000, 3))
     proved = float_filter.filtered(rows)
     expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
     for position in (-1, 0, 1):
-        assert (proved[expected == position] == position).mean() >= 0.99
-
-
-def squares(rows):
-    """A, B, P and Q of each row, and its exact position."""
-    expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
-    return float_filter._squares(np.ascontiguousarray(rows.T)), expected
-
-
-@pytest.mark.parametrize(
-    ("witness", "shares"),
-    [
-        (float_filter._level, (0.95, 0.75, 0.74)),
-        (float_filter._maximum, (0.999, 0, 0.999)),
-        (float_filter._upright, (0, 0.93, 0)),
-        (float_filter._slanted, (0, 0.98, 0)),
-        (float_filter._along_the_normal, (0, 0.53, 0)),
-    ],
-)
-def test_each_witness_of_the_float_filter_decides_its_share_of_rows_and_none_wrongly(witness, shares):
-    rows = 2.0 ** np.random.default_rng(6).uniform(-2, 2, (4000, 7))
-    rows[:, 4:] *= np.random.default_rng(7).choice((-1, 1), (4000, 3))
-    found, expected = squares(rows)
-    with np.errstate(all="ignore"):
-        proved = witness(*found)
-    decided = proved != float_filter.UNDECIDED
-    assert (proved[decided] == expected[decided]).all()
-    for position, share in zip((-1, 0, 1), shares, strict=True):
-        assert decided[expected == position].mean() >= share
+        assert (proved[expected == position] == position).mean() > 0.999

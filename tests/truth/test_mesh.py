@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import mesh
 from hypcheck.truth.mesh import MeshOutcome, availability, verdict
 from tests.support.fractions_truth import (
     everyday,
@@ -95,10 +94,9 @@ def test_the_mesh_oracle_is_right_or_undecided_on_any_valid_row(row):
     ("row", "said"),
     [((1, 1, 1, 1, 2.125, 0, 0), 0.5), ((1, 1, 1, 1, 1.5, 0, 0), 1.5), ((1, 1, 1, 1, 1.5, 0, 0), math.nan)],
 )
-def test_mesh_oracle_is_undecided_if_fcl_contradicts_it(monkeypatch, row, said):
+def test_mesh_oracle_is_undecided_if_fcl_contradicts_it(row, said):
     assert verdict(Pair(*row)).outcome is not MeshOutcome.UNDECIDED
-    monkeypatch.setattr(mesh, "distance_to_mesh", lambda *_: said)
-    found = verdict(Pair(*row))
+    found = verdict(Pair(*row), measure=lambda *_: said)
     assert found.outcome is MeshOutcome.UNDECIDED
     assert "FCL" in found.reason
     assert found.triangles > 0

@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 
 from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, clear_until, contact_at
-from hypcheck.truth.passage_prove import _simplest, prove
+from hypcheck.truth.passage_prove import prove, simplest
 from hypcheck.vectors.tilted import TWO_POINTS
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
@@ -140,7 +140,7 @@ def test_a_proof_whose_minors_are_1_holds():
 )
 def test_the_simplest_fraction_of_a_stretch_has_the_least_denominator(low, high):
     low, high = Fraction(low), Fraction(high)
-    found = _simplest(low, high)
+    found = simplest(low, high)
     assert low <= found <= high
     for denominator in range(1, found.denominator):
         assert math.ceil(low * denominator) > high * denominator

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact, polynomial_roots
-from hypcheck.truth import roots as oracle
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.polynomial_roots import _none_by_descartes, linear_factor, polynomial_product
 from hypcheck.truth.roots import Invariants, RootPlace, classify_by_roots, classify_invariants, coefficients
@@ -241,23 +240,20 @@ def _beyond_its_place(f, cuts, *, narrow):
 
 @pytest.mark.parametrize("row", [ROW, EXTREME])
 @pytest.mark.parametrize("sabotage", [_shifted, _one_missing, _merged, _one_twice])
-def test_roots_oracle_raises_an_error_for_wrong_enclosures(monkeypatch, row, sabotage):
-    monkeypatch.setattr(oracle, "isolate", sabotage)
+def test_roots_oracle_raises_an_error_for_wrong_enclosures(row, sabotage):
     with pytest.raises(AssertionError, match=r"enclosure.* for Pair\(alpha="):
-        classify_by_roots(Pair.from_row(row))
+        classify_by_roots(Pair.from_row(row), isolated=sabotage)
 
 
-def test_roots_oracle_raises_an_error_for_an_enclosure_that_holds_0_or_b(monkeypatch):
-    monkeypatch.setattr(oracle, "isolate", _beyond_its_place)
+def test_roots_oracle_raises_an_error_for_an_enclosure_that_holds_0_or_b():
     with pytest.raises(AssertionError, match="0 or B lies inside"):
-        classify_by_roots(Pair.from_row(ROW))
+        classify_by_roots(Pair.from_row(ROW), isolated=_beyond_its_place)
 
 
-def test_roots_oracle_raises_an_error_for_an_unlisted_or_impossible_pattern(monkeypatch):
+def test_roots_oracle_raises_an_error_for_an_unlisted_or_impossible_pattern():
     for table in ({}, {">B >B >B": Kind.EXTERIOR_RING}):
-        monkeypatch.setattr(oracle, "KIND_OF", table)
         with pytest.raises(AssertionError, match=r"not possible: >B >B >B, for Pair\(alpha=1.0"):
-            classify_by_roots(Pair.from_row(ROW))
+            classify_by_roots(Pair.from_row(ROW), kinds=table)
 
 
 def test_double_roots_of_small_pairs_have_the_kinds_of_the_exact_decision():

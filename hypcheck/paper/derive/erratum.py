@@ -10,7 +10,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from importlib import resources
 from pathlib import Path
@@ -38,10 +38,15 @@ _PLACE = re.compile(r"<<([a-z0-9-]+)>>")
 
 
 def lines(_: Selection) -> Iterator[str]:
-    """The whole note, whatever was chosen: an erratum is one. Raises KeyError for a name without a value."""
+    """The whole note, whatever was chosen: an erratum is one."""
     text = resources.files("hypcheck.paper.derive").joinpath("erratum.tex").read_text(encoding="utf-8")
     values = _values({entry.number: entry for entry in entries()})
-    yield from _PLACE.sub(lambda found: values[found[1]], text).splitlines()
+    yield from filled(text, values).splitlines()
+
+
+def filled(text: str, values: Mapping[str, str]) -> str:
+    """The text with a value for each name in it. Raises KeyError for a name without one."""
+    return _PLACE.sub(lambda found: values[found[1]], text)
 
 
 def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
@@ -146,7 +151,7 @@ def _times_a_power(units: str) -> str:
     return rf"{int(units) / 100:.2f}\cdot10^{{20}}"
 
 
-def compile_note(path: Path) -> str:
+def compile_note(path: Path, seconds: float = 120) -> str:
     """Make the PDF beside the LaTeX file; what was done, or why nothing was, in a sentence.
 
     LaTeX runs in a folder of its own, so nothing but the PDF is left.
@@ -157,9 +162,9 @@ def compile_note(path: Path) -> str:
         command = [COMPILER, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", "note.tex"]
         shutil.copyfile(path, Path(folder, "note.tex"))
         try:
-            done = subprocess.run(command, cwd=folder, capture_output=True, check=False, timeout=120)  # noqa: S603
+            done = subprocess.run(command, cwd=folder, capture_output=True, check=False, timeout=seconds)  # noqa: S603
         except subprocess.TimeoutExpired:
-            return f"not compiled: {COMPILER} took longer than 120 s"
+            return f"not compiled: {COMPILER} took longer than {seconds:g} s"
         if done.returncode:
             return f"not compiled: {COMPILER} ended with {done.returncode}; run it on {path} to see why"
         target = path.with_suffix(".pdf")

@@ -364,10 +364,10 @@ class LeaningWitness:
         return said.replace("-", "−")
 
 
-def first_change(before: Position, after: Position, shows: str) -> Search[LeaningWitness]:
+def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[LeaningWitness]:
     """The simplest pair that is `before` upright and `after` as it leans, both proved."""
     tried = 0
-    for numbers in _pairs():
+    for numbers in _pairs(largest):
         vertical = Pair.from_row(numbers)
         if exact.position(vertical.lengths) is not before:
             continue
@@ -379,9 +379,9 @@ def first_change(before: Position, after: Position, shows: str) -> Search[Leanin
     return Search(tried, None)
 
 
-def _pairs() -> Iterator[tuple[float, ...]]:
+def _pairs(largest: int) -> Iterator[tuple[float, ...]]:
     """Sizes and centres (x, 0, z) with α ≥ b, the regime of Procedures 2.a and 2.b, and b > d, as a quadcopter has."""
-    sizes = range(1, LARGEST + 1)
+    sizes = range(1, largest + 1)
     whole = (each for each in product(sizes, repeat=6) if each[0] >= each[2] > each[3])
     for alpha, gamma, b, d, x, z in sorted(whole, key=lambda each: (sum(each), max(each), each)):
         yield (*map(float, (alpha, gamma, b, d, x)), 0.0, float(z))

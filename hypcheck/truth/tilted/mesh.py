@@ -26,7 +26,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import Floats, Indices, Mask
-from hypcheck.truth.mesh import distance_to_mesh, require_fcl
+from hypcheck.truth.mesh import Measure, distance_to_mesh, require_fcl
 from hypcheck.truth.tilted.pair import TiltedPair
 
 LEVELS = 40
@@ -49,7 +49,7 @@ OUTER = ((0, 1, 2), (1, 3, 2))
 class _Scene:
     """A pair with the spheroid as the unit ball: corners are seen from C in that space."""
 
-    def __init__(self, pair: TiltedPair) -> None:
+    def __init__(self, pair: TiltedPair, measure: Measure = distance_to_mesh) -> None:
         alpha, gamma, b, d, x, y, z = _scaled(pair.row[:7])
         axis = np.array(_scaled(pair.axis))
         axis /= math.sqrt(float(axis @ axis))
@@ -57,6 +57,7 @@ class _Scene:
         self.root = np.eye(3) / b + (1 / d - 1 / b) * np.outer(axis, axis)
         height = math.sqrt(b * b + (d * d - b * b) * float(axis[2]) ** 2) * REACH
         self.low, self.high = (math.atan((z + side * height) / gamma) for side in (-1, 1))
+        self.measure = measure
         lengths = pair.lengths
         level = (lengths.x**2 + lengths.y**2 - lengths.alpha**2) * lengths.gamma**2 - (lengths.z * lengths.alpha) ** 2
         self.side = (level > 0) - (level < 0)
@@ -79,12 +80,15 @@ def _scaled(numbers: Sequence[float]) -> list[float]:
     return [math.ldexp(each, -exponent) for each in numbers]
 
 
-def position(pair: TiltedPair) -> Position | None:
-    """The position of any valid pair, or None: undecided. Raises UnavailableError where FCL cannot be imported."""
+def position(pair: TiltedPair, measure: Measure = distance_to_mesh) -> Position | None:
+    """The position of any valid pair, if what measures the distance to the mesh confirms it, or None: undecided.
+
+    Raises UnavailableError where FCL cannot be imported.
+    """
     require_fcl()
     if min(_scaled(pair.row[:7])[:4]) < _LEAST:
         return None
-    scene = _Scene(pair)
+    scene = _Scene(pair, measure)
     if scene.side == 0:
         return Position.CONTACT
     with np.errstate(all="ignore"):
@@ -152,22 +156,22 @@ def _clear(scene: _Scene, beyond: list[tuple[Floats, Floats]]) -> Position | Non
     """Clear, if FCL says that the mesh on C's side is beyond the ball."""
     corners = np.concatenate([part for part, _ in beyond]) if beyond else np.empty((0, 4, 3))
     slack = max((float(part.max()) for _, part in beyond if len(part)), default=0.0)
-    said = _distance(corners, OUTER if scene.side > 0 else INNER)
+    said = _distance(scene, corners, OUTER if scene.side > 0 else INNER)
     return Position(scene.side) if said > 1 + slack else None
 
 
 def _contact(scene: _Scene, corners: Floats, slack: Floats) -> Position | None:
     """Contact, if FCL says that the mesh on the other side reaches into the ball."""
-    said = _distance(corners, INNER if scene.side > 0 else OUTER)
+    said = _distance(scene, corners, INNER if scene.side > 0 else OUTER)
     return Position.CONTACT if said < 1 - float(slack.max()) else None
 
 
-def _distance(corners: Floats, triangles: tuple[tuple[int, int, int], ...]) -> float:
-    """FCL's distance from C to the triangles of these cells; those without area are left out."""
+def _distance(scene: _Scene, corners: Floats, triangles: tuple[tuple[int, int, int], ...]) -> float:
+    """The distance from C to the triangles of these cells; those without area are left out."""
     vertices = np.ascontiguousarray(corners.reshape(-1, 3))
     first = 4 * np.arange(len(corners))[:, None, None]
     faces = (first + np.array(triangles)).reshape(-1, 3)
-    return distance_to_mesh(vertices, np.ascontiguousarray(faces[_has_area(vertices, faces)]))
+    return scene.measure(vertices, np.ascontiguousarray(faces[_has_area(vertices, faces)]))
 
 
 def _has_area(vertices: Floats, faces: Indices) -> Mask:

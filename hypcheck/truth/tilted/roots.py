@@ -84,8 +84,8 @@ def position(pair: TiltedPair) -> Position:
     return classify_tilted_by_roots(pair).position
 
 
-def classify_tilted_by_roots(pair: TiltedPair) -> TiltedRoots:
-    """The position of any valid pair.
+def classify_tilted_by_roots(pair: TiltedPair, table: Mapping[str, Side] = MEANING) -> TiltedRoots:
+    """The position of any valid pair, by the table.
 
     Raises AssertionError, naming the pair, where the pattern is not in the table: an error of ours.
     """
@@ -96,7 +96,7 @@ def classify_tilted_by_roots(pair: TiltedPair) -> TiltedRoots:
     lengths = pair.lengths
     f, g = characteristic(lengths), poles(lengths)
     below, above = _sides(f, g)
-    found = MEANING.get(below), MEANING.get(above)
+    found = table.get(below), table.get(above)
     if None in found or found.count(Side.NEITHER) == 0:
         raise AssertionError(f"the roots form a pattern that is not possible: {below} | {above}, for {pair}")
     tangent = Side.TANGENT in found

@@ -46,7 +46,8 @@ def built(folder, scene, language, plan):
 def told(path, language, columns):
     """What the kernel answers about the whole scene; `columns` are x, y, z and the heading."""
     if language == "python":
-        return np.array([load_module(path).whole(*each) for each in columns.T.tolist()], np.int8)
+        whole_of = load_module(path).whole
+        return np.array([whole_of(*each) for each in columns.T.tolist()], np.int8)
     if language == "javascript":
         script = f"import {{ whole }} from {json.dumps(str(path))};\n"
         script += "import { readFileSync } from 'fs';\n"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 
@@ -49,27 +47,6 @@ def test_float_stage_is_never_certain_about_a_length_or_axis_out_of_range(column
     certain = distances(rows).certain
     assert certain[0]
     assert not certain[1]
-
-
-def test_least_eigenvalue_of_a_matrix_that_is_not_definite_has_no_bound():
-    rows = TILTED_FAMILIES["tilted-uniform"].rows(7, 200)
-    pairs = nearest_arrays._Pairs.of(rows)
-    beyond = np.where(np.arange(200) % 2, 1.01 * (rows[:, 1] / rows[:, 2:4].min(axis=1)) ** 2, -1e9)
-    assert (nearest_arrays._least_eigenvalue(pairs, beyond) == 0).all()
-
-
-def test_no_eigenvalue_is_claimed_where_roundings_of_the_matrix_alone_show_one():
-    """Balls, for which M + λD is diagonal: 1/b² + λ/α² twice, here 0 up to roundings of its two parts."""
-    rng, count = np.random.default_rng(8), 400
-    gamma, alpha, b = np.sort(rng.uniform(0.5, 3, (3, count)), axis=0)[[0, 2, 1]]
-    rows = np.stack([alpha, gamma, b, b, *np.ones((6, count))], axis=1)
-    at = -((alpha / b) ** 2) * (1 + rng.integers(-6, 7, count) * 2.0**-53)
-    with np.errstate(all="ignore"):
-        bound = nearest_arrays._least_eigenvalue(nearest_arrays._Pairs.of(rows), at)
-    for row, multiplier, found in zip(rows.tolist(), at.tolist(), bound.tolist(), strict=True):
-        exact = 1 / Fraction(row[2]) ** 2 + Fraction(multiplier) / Fraction(row[0]) ** 2
-        assert found == 0 or found <= exact
-    assert (bound == 0).all()
 
 
 def test_a_table_with_a_certain_row_of_another_position_than_the_kernel_says_is_refused(monkeypatch):
