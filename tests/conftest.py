@@ -137,12 +137,6 @@ def pytest_collection_finish():
     gc.enable()
 
 
-@pytest.fixture(autouse=True)
-def few_single_rows(monkeypatch):
-    """Retests in the process of the test ask 60 single rows in place of 1,100, which would be most of a small run."""
-    monkeypatch.setattr("hypcheck.runs.retest.MANY", 60)
-
-
 @pytest.fixture
 def text_reports(monkeypatch):
     """Runs of the test write their reports in text alone."""
