@@ -32,7 +32,7 @@ def paused(tmp_path_factory):
 
 
 @pytest.fixture
-def small_steps(monkeypatch):
+def small_steps(monkeypatch, text_reports):
     """The steps of the run that was paused."""
     in_small_steps(monkeypatch.setattr)
 
