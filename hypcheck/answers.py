@@ -106,26 +106,34 @@ def _no_progress(_size: int | None) -> Iterator[Advance]:
 
 
 def classify_table(
-    route: Route, *, mark: bool, watch: Callable[[int | None], AbstractContextManager[Advance]] = _no_progress
+    route: Route,
+    *,
+    mark: bool,
+    watch: Callable[[int | None], AbstractContextManager[Advance]] = _no_progress,
+    workers: int | None = None,
+    alone: int = CHUNKS_WITHOUT_WORKERS,
 ) -> None:
     """Write the answers about every row of the table at `route.source` to `route.target`.
 
     `watch` is given the length of the source in bytes (None for a stream), and yields what takes note of progress. A
-    row that is no valid query raises InputError, or with `mark` is marked as refused (127).
+    row that is no valid query raises InputError, or with `mark` is marked as refused (127). `workers` processes answer;
+    None: one for each processor. This process answers the first `alone` chunks itself.
 
     The output appears when it is complete. After an error, the target is as it was before. Raises InputError if a file
     cannot be opened, read or written, NothingJudgedError if the table has no rows, and what answers() raises.
     """
     if same_file(route.source, route.target):
         raise InputError(f"--output {route.target} is the input itself; name another file")
-    workers = min(MOST_WORKERS, usable_processors())
+    many = min(MOST_WORKERS, usable_processors()) if workers is None else workers
     with reading(route.source, patient=True) as reader:
         table = _READ[route.source_format](reader, mark=mark)
         with (
             writing(route.target) as writer,
             _WRITE[route.target_format](writer, table) as sink,
             watch(reader.size()) as advance,
-            closing(in_order(partial(_answer_chunk, sink.render), table.chunks, workers, _alone(table))) as rendered,
+            closing(
+                in_order(partial(_answer_chunk, sink.render), table.chunks, many, _alone(table, alone))
+            ) as rendered,
         ):
             noted = 0
             for data, rows in rendered:
@@ -134,9 +142,9 @@ def classify_table(
                 noted = reader.taken
 
 
-def _alone(table: Table) -> int:
+def _alone(table: Table, alone: int) -> int:
     """Chunks that this process answers before it starts others: to a row that may lean, a process is soon worth it."""
-    return CHUNKS_WITHOUT_WORKERS if table.columns == COLUMNS else 1
+    return alone if table.columns == COLUMNS else 1
 
 
 def _answer_chunk(render: Callable[[TableChunk, TableAnswers], bytes], unread: UnreadChunk) -> tuple[bytes, int]:

@@ -6,6 +6,7 @@ import gc
 import os
 import resource
 import signal
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -141,16 +142,17 @@ def pytest_collection_finish():
     gc.enable()
 
 
-@pytest.fixture(autouse=True)
-def few_single_rows(monkeypatch):
-    """Retests in the process of the test ask 60 single rows in place of 1,100, which would be most of a small run."""
-    monkeypatch.setattr("hypcheck.runs.retest.MANY", 60)
-
-
 @pytest.fixture
 def text_reports(monkeypatch):
-    """Runs of the test write their reports in text alone."""
+    """Runs of the test write their reports in text alone, and ask 60 single rows again in place of 1,100.
+
+    Either would take most of the time of a small run.
+    """
+    from hypcheck.runs import plan
+    from hypcheck.runs.cases import Pace
+
     draw_nothing(monkeypatch)
+    monkeypatch.setattr(plan, "ConformancePlan", partial(plan.ConformancePlan, pace=Pace(single_rows=60)))
 
 
 @pytest.fixture

@@ -126,6 +126,7 @@ def _fresh_seed(asked: str | None, resume: Path | None) -> int | None:
 def _recorded(plan: ConformancePlan, options: Mapping[str, Any]) -> dict[str, Any]:
     """The options of the plan as the record's header has them."""
     every = asdict(plan)
+    del every["pace"]
     isolation = every["limits"].pop("isolation")
     every["limits"] |= {"isolate": isolation["mode"], "pass_env": isolation["variables"]}
     return {**every, "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}

@@ -194,13 +194,13 @@ def _decades(placed: Placed, error: Floats, wrong: Mask) -> list[Decade]:
     return found
 
 
-def reported_distances(words: Sequence[str], rows: Rows) -> Floats:
-    """The signed distances (n,) that an adapter reports, NaN where it reports none, or ended before it did."""
+def reported_distances(words: Sequence[str], rows: Rows, patience_s: float = _PATIENCE_S) -> Floats:
+    """The signed distances (n,) that an adapter reports, NaN where it reports none, or ended or hung before it did."""
     lines = "".join(" ".join(map(repr, row)) + "\n" for row in rows.tolist())
     question = f"distance 1 {len(rows)} tilted-text\n{lines}"
     try:
         done = subprocess.run(  # noqa: S603 - an adapter of ours
-            words, input=question, capture_output=True, text=True, check=False, timeout=_PATIENCE_S
+            words, input=question, capture_output=True, text=True, check=False, timeout=patience_s
         )
     except subprocess.TimeoutExpired:
         return np.full(len(rows), nan)

@@ -8,7 +8,7 @@ and the corners are rounded to as few binary digits as keep half of the error.
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from math import floor, isfinite, log2, nan
 from pathlib import Path
@@ -43,7 +43,8 @@ class Said:
 class Asker:
     """An engine asked about an upright spheroid about the origin, of semi-axes b and d, and triangles.
 
-    It is asked at the tightest settings that it offers, or at its default ones.
+    It is asked at the tightest settings that it offers, or at its default ones. `answer` asks it; None: its adapter
+    does.
     """
 
     engine: Engine
@@ -51,9 +52,12 @@ class Asker:
     b: float
     d: float
     tightest: bool = True
+    answer: Callable[[Asker, Floats], Said | None] | None = None
 
     def __call__(self, corners: Floats) -> Said | None:
         """What it says of triangles (m, 3, 3); None where it ends without an answer."""
+        if self.answer is not None:
+            return self.answer(self, corners)
         row = f"1 1 {self.b!r} {self.d!r} 0 0 0 0 0 1\n"
         mesh = SurfaceMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3), 0.0)
         with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
@@ -92,16 +96,19 @@ class Asker:
         return max(0.0, least - said.reported if kind == "too near" else said.reported - least if least > 0 else 0.0)
 
 
-def findings_of(record: EngineRecord, cache: Path) -> Iterator[Finding]:
+def findings_of(
+    record: EngineRecord, cache: Path, answer: Callable[[Asker, Floats], Said | None] | None = None
+) -> Iterator[Finding]:
     """The worst finding of each kind that an engine's record leads to, one in metres before any in other units.
 
     The engine is asked at the setting that it is judged by. What is within the tolerance it states there is none.
+    `answer` asks it in place of its adapter.
     """
     tolerance = ENGINES[record.name].judged.tolerance or 0.0
     for kind in KINDS:
         best: Finding | None = None
         for measured, row in _candidates(record, kind):
-            found = _reduced(ENGINES[record.name], cache, kind, measured, np.array(row))
+            found = _reduced(asker_of(ENGINES[record.name], cache, measured, answer), kind, measured, np.array(row))
             if found is None or found.error_mm <= tolerance * found.millimetres:
                 continue
             if best is None or _weight(found) > _weight(best):
@@ -139,9 +146,16 @@ def _shown(each: Measured, kind: str) -> list[tuple[float, list[float] | None]]:
     return [(size, row) for size, row in reported if size > 1.5 * each.deviation_mm]
 
 
-def _reduced(engine: Engine, cache: Path, kind: str, measured: Measured, row: Floats) -> Finding | None:
-    family = FAMILIES[measured.family]
-    asker = Asker(engine, cache, *family.sizes[2:], tightest=engine.tightens)
+def asker_of(
+    engine: Engine, cache: Path, measured: Measured, answer: Callable[[Asker, Floats], Said | None] | None
+) -> Asker:
+    """The engine, asked about the spheroid of a family that was measured."""
+    b, d = FAMILIES[measured.family].sizes[2:]
+    return Asker(engine, cache, b, d, tightest=engine.tightens, answer=answer)
+
+
+def _reduced(asker: Asker, kind: str, measured: Measured, row: Floats) -> Finding | None:
+    family, engine = FAMILIES[measured.family], asker.engine
     corners = _alone(asker, kind, _near(measured, row))
     if corners is None:
         return None

@@ -47,12 +47,16 @@ class Isolation:
     """How foreign programs are isolated.
 
     mode: one of MODES. hidden: paths that they must not see. variables: names of environment variables that they see
-    beyond those of runtimes.
+    beyond those of runtimes. here: the means of this system; None: those that it has. threads and scratch_bytes: limits
+    of a program.
     """
 
     mode: str = field(default_factory=usual_mode)
     hidden: tuple[str, ...] = ()
     variables: tuple[str, ...] = ()
+    here: Means | None = None
+    threads: int = THREADS
+    scratch_bytes: int = SCRATCH_BYTES
 
     def __post_init__(self) -> None:
         if self.mode not in MODES:
@@ -61,7 +65,7 @@ class Isolation:
     @property
     def means(self) -> Means:
         """What isolates them here. Raises NotIsolatedError if the mode is "on" and something is missing."""
-        return means_of(self.mode)
+        return means_of(self.mode, self.here)
 
 
 class Launched:
@@ -84,7 +88,7 @@ class Launched:
         if not means.namespaces:
             self._scratch = tempfile.mkdtemp(prefix="hypcheck-scratch-")
         try:
-            self._launch(words, environment, isolation, means, revealed)
+            self._launch(words, environment, isolation, revealed)
         except BaseException:
             self._remove_scratch()
             raise
@@ -94,14 +98,13 @@ class Launched:
         words: Sequence[str],
         environment: Mapping[str, str],
         isolation: Isolation,
-        means: Means,
         revealed: Sequence[str],
     ) -> None:
         needed = needed_paths(words, environment)
         private = private_folders(needed)
         scratch = self._scratch or next(iter(private), SHARED_MEMORY)
         hidden = hidden_paths(isolation.hidden)
-        options = _options(means, scratch, needed, private, hidden, revealed)
+        options = _options(isolation, scratch, needed, private, hidden, revealed)
         seen = environment_of(environment, scratch, isolation.variables)
         life, self._life = os.pipe()
         report, told = os.pipe()
@@ -166,7 +169,7 @@ def _started(
 
 
 def _options(
-    means: Means,
+    isolation: Isolation,
     scratch: str,
     needed: Sequence[str],
     private: Sequence[str],
@@ -174,7 +177,8 @@ def _options(
     revealed: Sequence[str],
 ) -> list[str]:
     """The options of the launcher, as launcher.c explains them."""
-    options = [f"--threads={THREADS}", f"--descriptors={DESCRIPTORS}", f"--bytes={SCRATCH_BYTES}"]
+    means = isolation.means
+    options = [f"--threads={isolation.threads}", f"--descriptors={DESCRIPTORS}", f"--bytes={isolation.scratch_bytes}"]
     options += ["--seccomp"] * means.seccomp + ["--landlock"] * bool(means.landlock)
     if means.namespaces:
         others = [folder for folder in private if folder != scratch]

@@ -65,11 +65,14 @@ def isolation_text(means: Sequence[str], missing: Sequence[str]) -> str:
 OFF = Means(missing=("--isolate is off",))
 
 
-def means_of(mode: str) -> Means:
-    """What isolates programs in this mode. Raises NotIsolatedError if the mode is "on" and something is missing."""
+def means_of(mode: str, here: Means | None = None) -> Means:
+    """What isolates programs in this mode, of the means that are here; None: those that this system has.
+
+    Raises NotIsolatedError if the mode is "on" and something is missing.
+    """
     if mode == "off":
         return OFF
-    found = available()
+    found = available() if here is None else here
     if mode == "on" and not found.whole:
         raise NotIsolatedError(
             f"--isolate is on, and this system cannot isolate a program: {'; '.join(found.missing)}; "

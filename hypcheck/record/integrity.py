@@ -119,8 +119,8 @@ class RecordScan:
     raises DamagedError if anything else is wrong, and InputError if the file is no record that this program reads.
     """
 
-    def __init__(self, reader: Reader) -> None:
-        self._reader = reader
+    def __init__(self, reader: Reader, longest: int = LONGEST) -> None:
+        self._reader, self._longest = reader, longest
         self._check = 0
         self.sealed = False
         """Whether the record has checksums, known from its first line on."""
@@ -148,12 +148,12 @@ class RecordScan:
             raise InputError(f"{self._reader.name} is empty; a record begins with a header")
 
     def _next(self) -> bytes:
-        self.written = self._reader.line(LONGEST + 1)
+        self.written = self._reader.line(self._longest + 1)
         return self.written
 
     def _check_cut(self, written: bytes) -> None:
-        if len(written) > LONGEST:
-            self._refuse(f"it is longer than {LONGEST} bytes, which no line of a record is")
+        if len(written) > self._longest:
+            self._refuse(f"it is longer than {self._longest} bytes, which no line of a record is")
         if self.footer is not None:
             self._refuse("it stands after the footer, which ends a record")
         if self.lines == 0:

@@ -330,7 +330,7 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
         machine=Machine(
             system=platform.system(),
             architecture=platform.machine(),
-            processor=_processor(),
+            processor=processor_name(),
             cores=os.cpu_count(),
         ),
         options=plain(options),
@@ -347,9 +347,10 @@ def _versions() -> dict[str, str]:
     return found
 
 
-def _processor() -> str:
+def processor_name(listed: Path = Path("/proc/cpuinfo")) -> str:
+    """The name of the first processor that the system lists, or, where it lists none, as Python has it."""
     try:
-        with Path("/proc/cpuinfo").open(encoding="utf-8") as stream:
+        with listed.open(encoding="utf-8") as stream:
             for line in stream:
                 if line.startswith("model name"):
                     return line.partition(":")[2].strip()

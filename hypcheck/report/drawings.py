@@ -56,12 +56,17 @@ def drawn_plots(name: str, record: Record, drawings: Drawings) -> tuple[DrawnPlo
     return drawings[name] if name in drawings else _draw((name, record))
 
 
-def draw_ahead(record: Record) -> Drawings:
-    """All plots of a large record; none of a small one, or if they cannot be drawn here, or a process was killed."""
-    if sum(isinstance(line, (AccuracyLine, PlacesLine, StabilityLine)) for line in record.lines) < MANY:
+def draw_ahead(record: Record, least: int = MANY, names: Collection[str] | None = None) -> Drawings:
+    """All plots, or those of these names, of a record with `least` lines that have plots.
+
+    None of a smaller one, or if they cannot be drawn here, or a process was killed.
+    """
+    if sum(isinstance(line, (AccuracyLine, PlacesLine, StabilityLine)) for line in record.lines) < least:
         return {}
     try:
-        slowest_first = sorted(pictures().PLOTS, key=lambda name: name not in ("other-errors", "errors", "places"))
+        slowest_first = sorted(
+            names or pictures().PLOTS, key=lambda name: name not in ("other-errors", "errors", "places")
+        )
         with processes(usable_processors()) as executor:
             drawn = perform(_draw, [(name, record) for name in slowest_first], executor)
             return {name: plots for (name, _), plots in drawn}

@@ -91,6 +91,32 @@ def _exponent(position: Position, flips: Mapping[Position, float]) -> float:
 CHUNK_ROWS = 64 * BLOCK
 """Generated rows of a chunk: the most that a question in binary may have."""
 
+
+@dataclass(frozen=True, slots=True)
+class Pace:
+    """How many rows a run asks together, how many it asks again, and how often it writes its progress.
+
+    Generated rows are divided into chunks of `chunk_rows`, a multiple of 64. After `retest_after` rows their pending
+    cases are asked again, which bounds how many are kept: a retest holds them all at once, and twice as many would cost
+    each process about 8 MB more. The first retest asks `single_rows` questions of one row, which overflow a counter of
+    8 or 10 bits, and no more of them after `single_s` seconds: few implementations take longer than one second, and the
+    limit spares those that need many milliseconds for a row. An implementation that answers full batches within
+    `soon_s` seconds is asked the longest batches too, which then take about a second. Progress is
+    written every `progress_s` seconds, which a killed run may lose, and takes one part in `progress_share` of the time.
+    """
+
+    chunk_rows: int = CHUNK_ROWS
+    retest_after: int = 64 * CHUNK_ROWS
+    single_rows: int = 1100
+    single_s: float = 4.0
+    soon_s: float = 0.05
+    progress_s: float = 10.0
+    progress_share: int = 100
+
+
+PACE = Pace()
+"""The pace of a run of the command line."""
+
 EXPONENTS_OF = 2000
 """The distance to the nearest other position is recorded of so many first cases of a family."""
 
@@ -125,10 +151,9 @@ class CaseChunk:
         """How many consecutive cases follow one object from moment to moment; 1 if cases are independent."""
         return 1 if self.seed is None else family_of(self.family).movement
 
-    @property
-    def part(self) -> int:
+    def part(self, chunk_rows: int = CHUNK_ROWS) -> int:
         """The part of the retest with its cases: 0 for the first chunk of a family, then 1 and 2 alternately."""
-        number = 0 if self.seed is None else self.start // CHUNK_ROWS
+        number = 0 if self.seed is None else self.start // chunk_rows
         return 1 + number % 2 if number else 0
 
     def place(self, index: int) -> CasePlace:
@@ -167,30 +192,30 @@ class ChunkCases:
         return self.columns.T
 
 
-def family_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
+def family_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK_ROWS) -> Iterator[CaseChunk]:
     """The frozen vectors of a family, then `count` generated rows after those that are frozen."""
     measured = EXPONENTS_OF
     known = frozen_count(family.name)
     if known:
         yield CaseChunk(family.name, None, 0, known, min(known, measured))
         measured = max(0, measured - known)
-    for start, stop in _generated_chunks(first_unfrozen(family, seed), count):
+    for start, stop in _generated_chunks(first_unfrozen(family, seed), count, chunk_rows):
         yield CaseChunk(family.name, seed, start, stop, min(measured, stop - start))
         measured = 0
 
 
-def fresh_chunks(family: Family, seed: int, count: int) -> Iterator[CaseChunk]:
+def fresh_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK_ROWS) -> Iterator[CaseChunk]:
     """`count` generated rows of a seed that nobody knew before the run, none of them a frozen vector."""
     first = first_unfrozen(family, seed) if seed < FRESH_SEEDS else 0
-    for start, stop in _generated_chunks(first, count):
+    for start, stop in _generated_chunks(first, count, chunk_rows):
         yield CaseChunk(family.name, seed, start, stop)
 
 
-def _generated_chunks(start: int, count: int) -> Iterator[tuple[int, int]]:
+def _generated_chunks(start: int, count: int, chunk_rows: int) -> Iterator[tuple[int, int]]:
     """The first rows of chunks and those after their last: `count` rows from `start`."""
     stop = start + count
     while start < stop:
-        end = min(stop, (start // CHUNK_ROWS + 1) * CHUNK_ROWS)
+        end = min(stop, (start // chunk_rows + 1) * chunk_rows)
         yield start, end
         start = end
 

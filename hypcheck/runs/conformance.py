@@ -104,7 +104,7 @@ def _run_implementation(
         require_named(plan, used)
         rules, planned = rules_of(plan, used), planned_cases(plan, used)
         lines = ImplementationLines(plan, opener.spec, implementation.declared, used, rules)
-        progress = ProgressWriter(recorder, number, implementation.declared, size)
+        progress = ProgressWriter(recorder, number, implementation.declared, size, plan.pace)
         state = begun = resumed or RunState(implementation.allowance)
         steps = steps_of(plan, used)
         expect(sum(planned.values()) - size)

@@ -140,7 +140,7 @@ def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
         elif isinstance(step, InvalidRows):
             done[step.family] += len(step)
         else:
-            waiting = [chunk for chunk in waiting if chunk.part != step.part]
+            waiting = [chunk for chunk in waiting if not step.asks(chunk)]
     trouble = _difference(counted, done)
     if trouble or number < state.done:
         raise ValueError(trouble or f"{state.done} steps are done, but there are only {number}")

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
 from contextlib import AbstractContextManager, contextmanager, suppress
 from contextvars import ContextVar
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
@@ -38,12 +38,20 @@ from hypcheck.runs.schedule import (
     perform_task,
 )
 
-LOOK_S = 1.0
-STOPPED_LOOKS = 60
-"""Seconds between two checks of a process, and how many checks in a row may find it stopped before it is killed.
 
-While the machine sleeps, this process does not check either, so that time does not count.
-"""
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """Seconds between two looks at a process, and how many looks in a row may find it stopped before it is killed.
+
+    While the machine sleeps, this process does not look either, so that time does not count.
+    """
+
+    every_s: float = 1.0
+    stopped: int = 60
+
+
+WATCH = Watch()
+
 
 _KEPT = 24 << 20
 _PATIENCE = 5.0
@@ -77,8 +85,8 @@ class WorkerPool(Executor):
     a signal has stopped.
     """
 
-    def __init__(self, workers: int, initializer: Initializer) -> None:
-        self._initializer = initializer
+    def __init__(self, workers: int, initializer: Initializer, watch: Watch = WATCH) -> None:
+        self._initializer, self._watch = initializer, watch
         self._calls: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
         self._lock = threading.Lock()
         self._over = False
@@ -132,7 +140,7 @@ class WorkerPool(Executor):
 
     def _begun(self) -> _Worker:
         """A worker that is ready, or knows why it is not."""
-        worker = _Worker()
+        worker = _Worker(self._watch)
         with self._lock:  # multiprocessing's list of children is shared by the threads
             if not self._over:
                 worker.start()
@@ -144,7 +152,8 @@ class WorkerPool(Executor):
 class _Worker:
     """A process and the connection to it; or the reason why there is no process, which each call raises."""
 
-    def __init__(self) -> None:
+    def __init__(self, watch: Watch) -> None:
+        self._watch = watch
         self.process: SpawnProcess | None = None
         self._trouble: BaseException = WorkersLostError("the pool has ended")
 
@@ -188,9 +197,9 @@ class _Worker:
     def _wait(self, process: SpawnProcess) -> None:
         """Wait until the process replies or ends; kill it if a signal stopped it and it is not continued."""
         stopped = 0
-        while not self._line.poll(LOOK_S):
+        while not self._line.poll(self._watch.every_s):
             stopped = stopped + 1 if is_stopped(process) else 0
-            if stopped == STOPPED_LOOKS:
+            if stopped == self._watch.stopped:
                 process.kill()
 
     def leave(self) -> None:
@@ -237,7 +246,11 @@ def execution_here(implementation: Implementation, rules: JudgingRules) -> Itera
 
 @contextmanager
 def execution_in_pool(
-    workers: int, opener: ImplementationOpener, rules: JudgingRules, implementation: Implementation
+    workers: int,
+    opener: ImplementationOpener,
+    rules: JudgingRules,
+    implementation: Implementation,
+    watch: Watch = WATCH,
 ) -> Iterator[TaskExecution]:
     """Perform tasks in so many processes, each of which opens the implementation.
 
@@ -245,7 +258,7 @@ def execution_in_pool(
     """
     opener = replace(opener, declared=implementation.declared)
     setup = partial(_opened, opener, rules, code_fingerprint(), loaded_vectors())
-    with WorkerPool(workers, setup) as executor:
+    with WorkerPool(workers, setup, watch) as executor:
         yield TaskExecution(
             executor, _perform_opened, workers, implementation.allowance, implementation.max_rows, rules
         )

@@ -342,12 +342,13 @@ CLIMBERS_TOGETHER = 4
 Progress = Callable[[Hunt], object]
 
 
-def run_hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
+def run_hunt(run: Hunt, progress: Progress = lambda _: None, everywhere: Sequence[HuntStratum] | None = None) -> None:
     """Search for wrong answers until the budget is spent, and keep them in `run`; `progress` is called now and then.
 
+    The rows are those of `everywhere`; None: of all strata that the target is about.
     With a budget of queries only, the same plan finds the same answers. An interrupted hunt keeps its findings.
     """
-    looking, climbing = _look(run), _climb(run)
+    looking, climbing = _look(run, strata_of(run) if everywhere is None else everywhere), _climb(run)
     in_strata = 0
     while not run.over:
         before = run.asked
@@ -359,10 +360,14 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None) -> None:
             progress(run)
 
 
-def _look(run: Hunt) -> Iterator[None]:
+def strata_of(run: Hunt) -> tuple[HuntStratum, ...]:
+    """All strata that the target of a hunt is about."""
+    target = run.target
+    return strata(target.domain.settings, tilt=target.implementation.description.tilt, layout=target.layout)
+
+
+def _look(run: Hunt, everywhere: Sequence[HuntStratum]) -> Iterator[None]:
     """The strata, without end: first some rows of each, then block after block."""
-    target, layout = run.target, run.target.layout
-    everywhere = strata(target.domain.settings, tilt=target.implementation.description.tilt, layout=layout)
     for stratum in everywhere:
         _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
         if run.over:

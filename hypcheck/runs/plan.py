@@ -15,7 +15,16 @@ from hypcheck.implementations import not_asked
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
-from hypcheck.runs.cases import CaseChunk, family_chunks, fresh_chunks, frozen_count, frozen_vectors, searched_chunks
+from hypcheck.runs.cases import (
+    PACE,
+    CaseChunk,
+    Pace,
+    family_chunks,
+    fresh_chunks,
+    frozen_count,
+    frozen_vectors,
+    searched_chunks,
+)
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.known_failures import KnownFailure, read_known_failures
 from hypcheck.runs.results import InvalidRows, JudgingRules
@@ -44,6 +53,7 @@ class ConformancePlan:
     `precision`, `question` and `domain` replace what an implementation declares. `fail_on` is one of FAIL_ON: any wrong
     answer, or only "clear" in contact. `workers` processes ask; None: this process, or in a large run one for each
     processor. `cluster` is the address of a dask scheduler whose workers ask instead.
+    `pace` does not change what is right or wrong.
     """
 
     specs: tuple[str, ...]
@@ -62,6 +72,7 @@ class ConformancePlan:
     limits: Limits = field(default_factory=Limits)
     workers: int | None = None
     cluster: str | None = None
+    pace: Pace = PACE
 
     def __post_init__(self) -> None:
         if not self.specs:
@@ -231,7 +242,7 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
             f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "
             'description must say "tilt": true'
         )
-    return steps_of_chunks(_chunks(plan, families, used), invalid_rows(used))
+    return steps_of_chunks(_chunks(plan, families, used), invalid_rows(used), plan.pace)
 
 
 def rules_of(plan: ConformancePlan, used: Description) -> JudgingRules:
@@ -251,6 +262,6 @@ def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Descripti
 
 def _chunks_of(plan: ConformancePlan, families: Iterable[Family]) -> Iterator[CaseChunk]:
     for family in families:
-        yield from family_chunks(family, plan.seed, plan.count)
+        yield from family_chunks(family, plan.seed, plan.count, plan.pace.chunk_rows)
         if plan.fresh is not None:
-            yield from fresh_chunks(family, plan.fresh, plan.count)
+            yield from fresh_chunks(family, plan.fresh, plan.count, plan.pace.chunk_rows)

@@ -38,7 +38,7 @@ from hypcheck.record.progress import (
     SavedTally,
 )
 from hypcheck.record.writer import Provenance, header
-from hypcheck.runs.cases import CaseChunk
+from hypcheck.runs.cases import PACE, CaseChunk, Pace
 from hypcheck.runs.consistency import require_lines, require_state
 from hypcheck.runs.diagnosis import Diagnosis, Explained
 from hypcheck.runs.fingerprint import code_fingerprint
@@ -47,12 +47,6 @@ from hypcheck.runs.plan import ConformancePlan, rules_of, steps_of
 from hypcheck.runs.results import CasesResult, PendingRetest
 from hypcheck.runs.schedule import RunState
 from hypcheck.runs.tally import Histogram, Tally, UnansweredCase, WorstCase
-
-PROGRESS_EVERY_S = 10.0
-"""Seconds between two lines of progress, at least. A killed run may lose the work of this time."""
-
-PROGRESS_SHARE = 100
-"""Writing progress may take one part in so many of the time of a run."""
 
 FREE_OPTIONS = ("workers", "cluster")
 """Options that may differ, because the result does not depend on them."""
@@ -78,11 +72,11 @@ def recorded_description(description: Description) -> DescriptionPart:
 class ProgressWriter:
     """Writes the progress of one implementation, the run's `number`-th of so many `cases`, into the record."""
 
-    def __init__(self, recorder: Recorder, number: int, declared: Description, cases: int) -> None:
-        self._recorder = recorder
+    def __init__(self, recorder: Recorder, number: int, declared: Description, cases: int, pace: Pace = PACE) -> None:
+        self._recorder, self._pace = recorder, pace
         self._number, self._declared, self._cases = number, recorded_description(declared), cases
         self._layout = declared.asked.layout
-        self._due = time.monotonic() + PROGRESS_EVERY_S
+        self._due = time.monotonic() + pace.progress_s
 
     def offer(self, state: RunState) -> None:
         """Write the state if enough time has passed since the last."""
@@ -90,7 +84,7 @@ class ProgressWriter:
             began = time.monotonic()
             self.keep(state)
             now = time.monotonic()
-            self._due = now + max(PROGRESS_EVERY_S, PROGRESS_SHARE * (now - began))
+            self._due = now + max(self._pace.progress_s, self._pace.progress_share * (now - began))
 
     def keep(self, state: RunState) -> None:
         """Write the state. Raises OSError if it cannot be written, and leaves the record as it was."""

@@ -20,7 +20,7 @@ from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions,
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.record.lines import Retest
-from hypcheck.runs.cases import ChunkCases, cases_of_chunk
+from hypcheck.runs.cases import PACE, CaseChunk, ChunkCases, Pace, cases_of_chunk
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest, merged_result, result_of_final
@@ -30,16 +30,8 @@ from hypcheck.runs.tally import STATUSES
 RetestQuestion = tuple[Indices, int | None]
 """Indices of cases, and the size of the batches in which they are asked; None: the largest possible."""
 
-ALONE, MANY = 32, 1100
-"""Cases that are asked one by one; and questions of one row, which overflow a counter of 8 or 10 bits."""
-
-MANY_S, MANY_STEP = 4.0, 20
-"""Seconds after which an implementation is asked no more of the MANY questions, and how many are asked in between. Few
-take longer than a second; the limit spares those that need many milliseconds for a row, on any processor."""
-
-SOON_S = 0.05
-"""Seconds. An implementation that answers full batches within this time is asked the longest batches too, which then
-take about a second."""
+ALONE, SINGLE_STEP = 32, 20
+"""Cases that are asked one by one, and questions of one row between two looks at the clock."""
 
 LENGTHS = (7, 3, 11, 2, 5, 13, 9, 6, 15, 10, 4, 14, 12, 8, 17, 16, 31, 33, 63, 65, 129, 127)
 """Rows of small batches: every remainder modulo 2, 4, 8 and 16, and the neighbours of powers of two."""
@@ -78,10 +70,15 @@ class RetestStep:
     number: int
     part: int = 0
     pending: tuple[PendingRetest, ...] = ()
+    pace: Pace = PACE
+
+    def asks(self, chunk: CaseChunk) -> bool:
+        """Whether the pending cases of a chunk are asked again in this part."""
+        return chunk.part(self.pace.chunk_rows) == self.part
 
     def of(self, some: tuple[PendingRetest, ...]) -> RetestStep:
         """The step with its part of all pending cases."""
-        return replace(self, pending=tuple(each for each in some if each.chunk.part == self.part))
+        return replace(self, pending=tuple(each for each in some if self.asks(each.chunk)))
 
 
 @dataclass(frozen=True)
@@ -109,7 +106,13 @@ def retest(asked: RetestStep, implementation: Implementation | Crashed, rules: J
     sample, changes, outcomes = _sample(asked.pending, rules.criterion), ChangedAnswers(), set[Outcome]()
     implementation.close()  # so that a fresh process is asked
     asking = retest_questions(
-        sample.truth, sample.moments, lambda: implementation.proven_batch, rules.seed, asked.number, asked.part
+        sample.truth,
+        sample.moments,
+        lambda: implementation.proven_batch,
+        rules.seed,
+        asked.number,
+        asked.part,
+        asked.pace,
     )
     for places, batch in asking:
         answered = implementation.classify(sample.rows[places], batch=batch)
@@ -216,6 +219,7 @@ def retest_questions(
     seed: int,
     number: int,
     part: int = 0,
+    pace: Pace = PACE,
 ) -> Iterator[RetestQuestion]:
     """The batches for n cases with these positions; each case is in at least one.
 
@@ -238,17 +242,17 @@ def retest_questions(
         yield from _of_every_length(np.resize(order, LENGTH_ROUNDS * sum(LENGTHS)))
         began = time.monotonic()
         yield from _in_every_place(order, truth, random, min(FULL_QUESTION, proven_batch()))
-        if time.monotonic() - began < SOON_S:
+        if time.monotonic() - began < pace.soon_s:
             yield from _in_every_place(order, truth, random, proven_batch())
-        yield from _one_by_one(np.resize(order, MANY))
+        yield from _one_by_one(np.resize(order, pace.single_rows), pace.single_s)
     yield from _moment_by_moment(moments)
 
 
-def _one_by_one(cases: Indices) -> Iterator[RetestQuestion]:
+def _one_by_one(cases: Indices, seconds: float) -> Iterator[RetestQuestion]:
     began = time.monotonic()
-    for start in range(0, len(cases), MANY_STEP):
-        if time.monotonic() - began < MANY_S:
-            yield cases[start : start + MANY_STEP], 1
+    for start in range(0, len(cases), SINGLE_STEP):
+        if time.monotonic() - began < seconds:
+            yield cases[start : start + SINGLE_STEP], 1
 
 
 def _of_every_length(cases: Indices) -> Iterator[RetestQuestion]:

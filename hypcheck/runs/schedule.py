@@ -18,7 +18,7 @@ from hypcheck.errors import Exit, HypcheckError
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.implementation import Crashed, Implementation, open_implementation
 from hypcheck.implementations.session import Allowance, Limits, StartError
-from hypcheck.runs.cases import CHUNK_ROWS, CaseChunk
+from hypcheck.runs.cases import PACE, CaseChunk, Pace
 from hypcheck.runs.results import (
     CasesResult,
     InvalidRows,
@@ -82,12 +82,6 @@ def perform_task(
     return TaskResult(result, implementation.allowance)
 
 
-RETEST_AFTER = 64 * CHUNK_ROWS
-"""After so many rows their pending cases are asked again, which bounds how many are kept.
-
-A retest holds them all at once; twice as many would cost each process about 8 MB more.
-"""
-
 STEPS_AHEAD = 32
 """Results of so many steps for each worker may wait to be merged, so that no worker is idle during a retest."""
 
@@ -119,7 +113,7 @@ class RunState:
         """The state after one more step, whose task started with the full limits."""
         before = self.total
         if isinstance(step, RetestStep):
-            before = replace(before, pending=tuple(each for each in before.pending if each.chunk.part != step.part))
+            before = replace(before, pending=tuple(each for each in before.pending if not step.asks(each.chunk)))
         return RunState(self.left.after(done.left, limits), self.done + 1, merged_result([before, done.result]))
 
 
@@ -163,23 +157,25 @@ class TaskExecution:
         return perform_task(task, Crashed(self.max_rows, reason, allowance), self.rules, allowance)
 
 
-def steps_of_chunks(chunks: Iterable[CaseChunk], invalid: Iterable[InvalidRows] = ()) -> Iterator[Step]:
+def steps_of_chunks(
+    chunks: Iterable[CaseChunk], invalid: Iterable[InvalidRows] = (), pace: Pace = PACE
+) -> Iterator[Step]:
     """The steps that ask these chunks, with their retests, and then these invalid rows."""
     rows, rounds, parts = 0, 0, set[int]()
     for chunk in chunks:
         yield chunk
         rows += len(chunk)
-        parts.add(chunk.part)
-        if rows >= RETEST_AFTER:
-            yield from _retest_steps(rounds, parts)
+        parts.add(chunk.part(pace.chunk_rows))
+        if rows >= pace.retest_after:
+            yield from _retest_steps(rounds, parts, pace)
             rows, rounds, parts = 0, rounds + 1, set()
-    yield from _retest_steps(rounds, parts)
+    yield from _retest_steps(rounds, parts, pace)
     yield from invalid
 
 
-def _retest_steps(number: int, parts: set[int]) -> Iterator[RetestStep]:
+def _retest_steps(number: int, parts: set[int], pace: Pace) -> Iterator[RetestStep]:
     """Part 0, the longest in the first round, comes last, so that the others run at the same time."""
-    return (RetestStep(number, part) for part in (1, 2, 0) if part in parts)
+    return (RetestStep(number, part, pace=pace) for part in (1, 2, 0) if part in parts)
 
 
 def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunState) -> Iterator[tuple[Step, RunState]]:

@@ -26,7 +26,7 @@ from hypcheck.processes import Advance, Stage, in_order
 from hypcheck.record import Recorder, lines
 from hypcheck.record.lines import FindingLine, GroupLine, OracleLine, TimingLine
 from hypcheck.runs import findings, judge, oracles
-from hypcheck.runs.findings import SelfCheckPlan, batch_of
+from hypcheck.runs.findings import KnownFinding, SelfCheckPlan, batch_of
 from hypcheck.runs.judge import Status
 from hypcheck.runs.oracles import ORACLES
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
@@ -137,7 +137,10 @@ def _done(task: Callable[[], object]) -> Any:  # noqa: ANN401 - of each task ano
     return task()
 
 
-def derivation() -> tuple[Sequence[EquationCheck], Sequence[Proof]]:
+Derivation = tuple[Sequence["EquationCheck"], Sequence["Proof"]]
+
+
+def derivation() -> Derivation:
     """The checked equations of the paper, and the proofs of the formulas."""
     from hypcheck.derivation import printed_equations, proofs  # noqa: PLC0415 - loads sympy, in one process
 
@@ -202,9 +205,20 @@ def methods_of(plan: SelfCheckPlan) -> tuple[Method, ...]:
     return tuple(method for method in available.values() if not method.measured)
 
 
-def stages(plan: SelfCheckPlan, recorder: Recorder, outcome: RunOutcome) -> tuple[Stage, ...]:
-    """The stages of the run in order. Raises InputError naming a family that does not exist."""
-    return _SelfCheck(plan, recorder, outcome).stages()
+def stages(
+    plan: SelfCheckPlan,
+    recorder: Recorder,
+    outcome: RunOutcome,
+    derive: Callable[[], Derivation] = derivation,
+    known: Sequence[KnownFinding] | None = None,
+) -> tuple[Stage, ...]:
+    """The stages of the run in order. Raises InputError naming a family that does not exist.
+
+    `derive` derives the formulas, and `known` are the known findings; None: those that the package lists.
+    """
+    return _SelfCheck(
+        plan, recorder, outcome, derive, findings.known_findings() if known is None else tuple(known)
+    ).stages()
 
 
 @dataclass
@@ -214,10 +228,12 @@ class _SelfCheck:
     plan: SelfCheckPlan
     recorder: Recorder
     outcome: RunOutcome
+    derive: Callable[[], Derivation]
+    known: tuple[KnownFinding, ...]
 
     def stages(self) -> tuple[Stage, ...]:
         """The stages of the run in order; the record says which oracles are not available."""
-        tasks = [derivation, *family_tasks(self._with_available_oracles())]
+        tasks = [self.derive, *family_tasks(self._with_available_oracles())]
         return (
             Stage("deriving, asking, judging", len(tasks), lambda advance: self._perform(tasks, advance)),
             Stage("map", 2, self._draw),
@@ -255,8 +271,7 @@ class _SelfCheck:
 
     def _record_family(self, made: FamilyLines) -> list[FindingLine]:
         """Record a family's lines; returns its findings with the reasons of those that are known."""
-        known = findings.known_findings()
-        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, known)) for each in made.findings]
+        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, self.known)) for each in made.findings]
         for line in (*found, *made.groups):
             self.recorder.add(line)
         if any(line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value} for line in made.groups):
@@ -264,7 +279,7 @@ class _SelfCheck:
         return found
 
     def _record_drift(self, found: Sequence[FindingLine]) -> None:
-        for sentence in findings.finding_drift(found, findings.known_findings(), complete=self.plan.complete):
+        for sentence in findings.finding_drift(found, self.known, complete=self.plan.complete):
             self.recorder.add(lines.DriftLine(sentence=sentence))
             self.outcome.codes.add(Exit.WRONG)
 

@@ -98,10 +98,13 @@ class JsonDocument:
     cases: tuple[tuple[JsonPlace, Any], ...]
 
 
-def read_document(path: str) -> JsonDocument:
-    """The document in the file at `path` ("-" is standard input). Raises InputError if it is none."""
+def read_document(path: str, largest: int = LARGEST) -> JsonDocument:
+    """The document in the file at `path` ("-" is standard input), of `largest` bytes at most.
+
+    Raises InputError if it is none.
+    """
     with reading(path) as reader:
-        text = "".join(_bounded(reader))
+        text = "".join(_bounded(reader, largest))
         return _JsonScanner(text.removeprefix(BYTE_ORDER_MARK), reader.name).document()
 
 
@@ -112,10 +115,10 @@ def fields_of(value: Any, names: tuple[str, ...], place: JsonPlace, what: str) -
     return tuple(value[name] for name in names)
 
 
-def _bounded(reader: Reader) -> Iterator[str]:
+def _bounded(reader: Reader, largest: int) -> Iterator[str]:
     for line in TextLines(reader).each:
-        if reader.taken > LARGEST:
-            raise InputError(f"{reader.name} has more than {LARGEST >> 20} MiB; it must be divided into smaller files")
+        if reader.taken > largest:
+            raise InputError(f"{reader.name} has more than {largest >> 20} MiB; it must be divided into smaller files")
         yield line
 
 

@@ -59,7 +59,6 @@ REFUSED = [
     (("simulate", "forest", "--scene", "nope", "--out", "simulated"), 2),
     (("simulate", "tower", "--runs", "3", "--out", "simulated"), 2),
     (("simulate", "forest", "--steps", "3", "--out", "in-the-way"), 2),
-    (("derive", "--claim", "nope", "--output", "derivation.tex"), 2),
     (("cases", "freeze", "nope", "--into", "frozen"), 2),
     (("cases", "freeze", "ring", "nope", "--into", "frozen"), 2),
     (("cases", "freeze", "tower-body", "ring", "--into", "frozen"), 2),
@@ -131,10 +130,8 @@ def test_a_refused_command_leaves_every_file_as_it_was(files, capsys, words, cod
 
 INTERRUPTED = [
     ("verify", SILENT),
-    ("verify", SILENT, "--out", "new/folder"),
     ("verify", "--self"),
     ("bench", SILENT),
-    ("bench", "--methods", "fast,table-2-float64", "--workloads", "uniform"),
     ("hunt", SILENT, "--out", "cases.json"),
     ("simulate", "tower", "--table", "5", "--runs", "900000", "--out", "simulated"),
     ("derive", "--format", "erratum", "--output", "derivation.tex"),

@@ -13,8 +13,6 @@ from hypcheck import processes
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError, SystemLimitError, limit_reached
 from hypcheck.implementations.implementation import open_implementation
-from hypcheck.record import Recorder
-from tests.support.records import GrowingText
 from tests.tools.miniatures import NOT_ISOLATED, command, function, rows, truth
 
 LIMITED = """
@@ -81,22 +79,3 @@ def test_only_errors_about_limits_become_system_limit_errors():
     assert isinstance(limit_reached(OSError(errno.EMFILE, "Too many open files")), SystemLimitError)
     assert limit_reached(PermissionError(errno.EACCES, "Permission denied")) is None
     assert limit_reached(InputError("")) is None
-
-
-def test_durations_in_a_record_do_not_change_if_the_system_clock_is_set_back(monkeypatch):
-    class Set:
-        """A clock that somebody sets back by a day whenever it is looked at."""
-
-        day = 28
-
-        @classmethod
-        def now(cls, zone):
-            cls.day -= 1
-            return real(2026, 1, cls.day, tzinfo=zone)
-
-    from hypcheck.record import writer
-
-    real = writer.datetime
-    monkeypatch.setattr(writer, "datetime", Set)
-    record = Recorder(GrowingText(), {}).close(0)
-    assert 0 <= record.footer.seconds < 60

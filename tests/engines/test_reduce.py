@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from hypcheck.engines import reduce
+from hypcheck.cli.main import main
 from hypcheck.engines.engine import ENGINES
 from hypcheck.engines.findings import proved
 from hypcheck.engines.measure import EngineRecord, Measured, Reported
@@ -39,6 +39,24 @@ def rows(mesh):
     return {"clear": found[nearest[0]].tolist(), "contact": found[nearest[1]].tolist()}
 
 
+SAYS = {
+    "false contact": "apart",
+    "missed contact": "clear",
+    "too near": "mm apart",
+    "too far": "mm apart",
+    "contradiction": "mm apart",
+}
+"""How the engine's answer ends, and how what is proved of it begins or ends."""
+
+PROVED = {
+    "false contact": "clear by ",
+    "missed contact": "in contact: ",
+    "too near": "mm apart at least",
+    "too far": "mm apart at most",
+    "contradiction": "clear by ",
+}
+
+
 def measured(mesh, row, **changes):
     reported = Reported(1, 0, 10.0, 10.0, row, None, 1, row)
     found = Measured(
@@ -52,14 +70,14 @@ def record(name, *found):
     return EngineRecord("2.0.0", "0", "here", name, "0", list(found), [], {})
 
 
-def engine_with(monkeypatch, contact=0.0, reported=0.0):
+def engine_with(contact=0.0, reported=0.0):
     """An engine that says contact up to this distance, and reports this much more than the distance."""
 
     def said(asker, corners):
         apart = float(np.sqrt(to_triangles(corners).min())) - asker.b
         return Said(apart <= contact, apart + reported)
 
-    monkeypatch.setattr(Asker, "__call__", said)
+    return said
 
 
 @pytest.mark.parametrize(
@@ -73,59 +91,53 @@ def engine_with(monkeypatch, contact=0.0, reported=0.0):
     ],
 )
 def test_a_planted_engine_error_is_reduced_to_one_triangle_of_round_numbers_and_proved(
-    monkeypatch, tmp_path, mesh, rows, kind, row, planted, least_mm, most_mm
+    tmp_path, mesh, rows, kind, row, planted, least_mm, most_mm
 ):
-    engine_with(monkeypatch, **planted)
-    found = {each.kind: each for each in findings_of(record("python-fcl", measured(mesh, rows[row])), tmp_path)}
+    of_row = record("python-fcl", measured(mesh, rows[row]))
+    found = {each.kind: each for each in findings_of(of_row, tmp_path, engine_with(**planted))}
     one = found[kind]
     assert proved(one)
     assert least_mm <= one.error_mm <= most_mm
+    assert one.said.endswith(SAYS[kind])
+    assert one.proved.startswith(PROVED[kind]) or one.proved.endswith(PROVED[kind])
     assert (one.b, one.d, one.millimetres) == (0.25, 0.25, 1000.0)
     assert all((np.array(one.corners) * 2.0**20 % 1 == 0).flat)
 
 
-def test_an_engine_without_an_error_gives_no_finding(monkeypatch, tmp_path, mesh, rows):
-    engine_with(monkeypatch)
+def test_an_engine_without_an_error_gives_no_finding(tmp_path, mesh, rows):
     both = [measured(mesh, rows[each]) for each in ("clear", "contact")]
-    assert list(findings_of(record("python-fcl", *both), tmp_path)) == []
+    assert list(findings_of(record("python-fcl", *both), tmp_path, engine_with())) == []
 
 
-def test_an_engine_that_never_answers_gives_no_finding(monkeypatch, tmp_path, mesh, rows):
-    monkeypatch.setattr(Asker, "__call__", lambda asker, corners: None)
-    assert list(findings_of(record("python-fcl", measured(mesh, rows["clear"])), tmp_path)) == []
+@pytest.mark.parametrize(
+    "answer",
+    [lambda asker, corners: None, lambda asker, corners: Said(len(corners) > 1, nan)],
+    ids=["never answers", "is wrong about many triangles only"],
+)
+def test_an_engine_without_an_error_about_one_triangle_gives_no_finding(tmp_path, mesh, rows, answer):
+    assert list(findings_of(record("python-fcl", measured(mesh, rows["clear"])), tmp_path, answer)) == []
 
 
-def test_an_engine_error_that_no_single_triangle_shows_gives_no_finding(monkeypatch, tmp_path, mesh, rows):
-    def said(asker, corners):
-        return Said(len(corners) > 1, nan)
+def test_an_engine_error_on_a_triangle_that_is_not_the_nearest_is_found_by_halving(tmp_path, mesh, rows):
+    """The engine is wrong about one of the triangles behind the nearest: the finding is of that one."""
+    right, wrong = engine_with(), []
 
-    monkeypatch.setattr(Asker, "__call__", said)
-    assert list(findings_of(record("python-fcl", measured(mesh, rows["clear"])), tmp_path)) == []
+    def planted(asker, corners):
+        if len(corners) > 1 and not wrong:
+            wrong.append(corners[5])
+        return Said(False, right(asker, corners).reported - any((each == wrong[0]).all() for each in corners if wrong))
 
-
-def test_an_engine_error_on_a_triangle_that_is_not_the_nearest_is_found_by_halving(monkeypatch, tmp_path, mesh, rows):
-    engine_with(monkeypatch)
-    right = Asker.__call__
-    nearest = reduce._near(measured(mesh, rows["clear"]), np.array(rows["clear"]))
-    wrong = nearest[5]
-
-    def said(asker, corners):
-        planted = any((each == wrong).all() for each in corners)
-        return Said(False, right(asker, corners).reported - planted)
-
-    monkeypatch.setattr(Asker, "__call__", said)
-    asker = Asker(ENGINES["python-fcl"], tmp_path, BALL.b, BALL.d)
-    assert asker.error("too near", asker(nearest[:1]), nearest[0]) == pytest.approx(0.0, abs=1e-9)
-    assert reduce._alone(asker, "too near", nearest).tolist() == wrong.tolist()
+    (one,) = findings_of(record("python-fcl", measured(mesh, rows["clear"])), tmp_path, planted)
+    assert one.kind == "too near"
+    assert one.corners == wrong[0].tolist()
 
 
-def test_rows_that_cannot_show_an_error_of_the_engine_itself_are_not_reduced(monkeypatch, tmp_path, mesh, rows):
-    engine_with(monkeypatch, contact=PLANTED, reported=-PLANTED)
+def test_rows_that_cannot_show_an_error_of_the_engine_itself_are_not_reduced(tmp_path, mesh, rows):
     row = rows["clear"]
     small = Reported(1, 0, 1.4, 1.4, row, None)
     others = [measured(mesh, row, family=name) for name in ("leaning", "inside")]
     explained = measured(mesh, row, own_worst_row=None, distance=small, penetration=small)
-    assert list(findings_of(record("python-fcl", *others, explained), tmp_path)) == []
+    assert list(findings_of(record("python-fcl", *others, explained), tmp_path, engine_with(PLANTED, -PLANTED))) == []
 
 
 def test_an_engine_whose_body_is_a_hull_has_no_missed_contact_or_too_far_error(tmp_path):
@@ -159,29 +171,34 @@ def test_error_of_an_engine_is_the_difference_of_its_answer_from_the_true_distan
 
 
 def test_asker_reads_the_answer_of_an_adapter_or_gives_none_if_it_ends_early(monkeypatch, tmp_path):
-    script = tmp_path / "adapter.py"
-    monkeypatch.setattr(reduce, "command", lambda engine, cache, scene, tightest: (sys.executable, script, scene))
-    asker = Asker(ENGINES["python-fcl"], tmp_path, 1.0, 0.25)
-    script.write_text(
+    """The adapter is one for node, in the place of which another program stands on PATH."""
+    node = tmp_path / "bin" / "node"
+    node.parent.mkdir()
+    (node.parent / "npm").write_text("#!/bin/sh\n")
+    monkeypatch.setenv("PATH", f"{node.parent}:/bin:/usr/bin")
+
+    def program(text):
+        node.write_text(f"#!{sys.executable}\n{text}")
+        for path in node.parent.iterdir():
+            path.chmod(0o755)
+
+    program("")
+    assert main(["engines", "install", "cannon-es", "--cache", str(tmp_path)]) == 0
+    asker = Asker(ENGINES["cannon-es"], tmp_path, 1.0, 0.25)
+    program(
         "import sys; from pathlib import Path\n"
         "first = sys.stdin.readline(), sys.stdin.readline()\n"
         "assert first == ('classify 1 1 tilted-text\\n', '1 1 1.0 0.25 0 0 0 0 0 1\\n'), first\n"
-        "corners = Path(sys.argv[1], 'surface.off').read_text().splitlines()[2:5]\n"
+        "corners = Path(sys.argv[2], 'surface.off').read_text().splitlines()[2:5]\n"
         "print('{}', '1 1', '1', '2 1', corners[0].split()[2], sep='\\n')\n"
     )
     assert asker(ABOVE[np.newaxis]) == Said(True, 0.5)
-    script.write_text("print('{}', '1 1', '0', sep='\\n')\n")
+    program("print('{}', '1 1', '0', sep='\\n')\n")
     said = asker(ABOVE[np.newaxis])
     assert not said.contact
     assert isnan(said.reported)
-    script.write_text("raise SystemExit(3)\n")
+    program("raise SystemExit(3)\n")
     assert asker(ABOVE[np.newaxis]) is None
-
-
-def test_distances_in_a_finding_are_worded_as_apart_or_deep():
-    assert reduce._words("too near", Said(False, 0.002), 0.001, 1000.0) == ("2 mm apart", "3 mm apart at least")
-    assert reduce._words("too far", Said(False, 0.002), 0.001, 1000.0) == ("2 mm apart", "1 mm apart at most")
-    assert reduce._words("too near", Said(True, -0.002), 0.001, 1000.0) == ("2 mm deep", "1 mm deep at most")
 
 
 def test_best_direction_proves_the_signed_distance_of_a_triangle_from_a_ball():

@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.implementations import description, implementation, spec
+from hypcheck.implementations import description
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.frames import KEPT, WIDTH, OutputTail, quoted, stderr_excerpt
 from hypcheck.implementations.implementation import open_implementation
-from hypcheck.implementations.session import Limits, Outcome
+from hypcheck.implementations.session import Outcome
 from hypcheck.implementations.spec import parse_spec
 from hypcheck.kernel.classify import classify
 from hypcheck.messages import escaped
@@ -92,15 +92,6 @@ def test_parse_spec_accepts_any_text_or_refuses_it_with_an_input_error(kind, res
         assert parsed.words[0]
         shown = str(parsed)
     assert shown.isprintable()
-
-
-def test_every_kind_of_spec_is_started_by_a_session_of_its_own(monkeypatch):
-    homes = {"BuiltinSession": "builtin", "CommandSession": "implementation", "WorkerSession": "implementation"}
-    for name, home in homes.items():
-        monkeypatch.setattr(f"hypcheck.implementations.{home}.{name}", lambda *_, name=name: name)
-    started = {kind: implementation._session(spec.Spec("", kind, ("x",)), Limits(), 0) for kind in spec._KINDS}
-    worker = dict.fromkeys(("python", "library"), "WorkerSession")
-    assert started == {"builtin": "BuiltinSession", "command": "CommandSession", **worker}
 
 
 def test_every_outcome_of_a_row_has_a_status_of_the_judge():

@@ -42,27 +42,52 @@ def reason_of(spec, limits) -> str:
     return answered.reasons[0]
 
 
-@both
-@pytest.mark.parametrize(
-    ("line", "sentence"),
-    [
-        ("import hypcheck.kernel.classify", OWN),
-        ("from hypcheck import classify", OWN),
-        ("open('forged', 'w')", WRITES),
-        (
-            "open({outside!r} + '/made', 'w')",
-            "and does not see the folder '{outside}', which may be why; --isolate off",
-        ),
-        ("open({outside!r} + '/data')", "it runs isolated, and does not see '{outside}/data'; put it into the working"),
-        ("import subprocess; subprocess.run([{outside!r} + '/data'])", "and does not see '{outside}/data'"),
-        ("import sys; sys.path.append({outside!r}); import beside", "and does not see '{outside}'; put it into"),
-        ("import urllib.request as u; u.urlopen('http://example.org')", "it runs isolated, without a network and"),
-        ("import socket; socket.socket()", "it runs isolated, which refuses sockets, memory in no file and some"),
-        ("import os; os.memfd_create('x')", "which refuses sockets, memory in no file and some other system calls"),
-        ("import os; os.environ['ENGINE_DATA']", "and does not see the environment variable ENGINE_DATA; --pass-env E"),
-    ],
+CAUSED = {
+    "import hypcheck.kernel.classify": OWN,
+    "from hypcheck import classify": OWN,
+    "open('forged', 'w')": WRITES,
+    "open({outside!r} + '/made', 'w')": "and does not see the folder '{outside}', which may be why; --isolate off",
+    "open({outside!r} + '/data')": "it runs isolated, and does not see '{outside}/data'; put it into the working",
+    "import subprocess; subprocess.run([{outside!r} + '/data'])": "and does not see '{outside}/data'",
+    "import sys; sys.path.append({outside!r}); import beside": "and does not see '{outside}'; put it into",
+    "import urllib.request as u; u.urlopen('http://example.org')": "it runs isolated, without a network and",
+    "import socket; socket.socket()": "it runs isolated, which refuses sockets, memory in no file and some",
+    "import os; os.memfd_create('x')": "which refuses sockets, memory in no file and some other system calls",
+    "import os; os.environ['ENGINE_DATA']": "and does not see the environment variable ENGINE_DATA; --pass-env E",
+}
+"""What a function does that isolation stops, and what is said of it."""
+
+NOT_CAUSED = (
+    "import no_such_module",
+    "import hypcheck.no_such_module",
+    "from hypcheck import no_such_name",
+    "import hypcheck; hypcheck.no_such_name",
+    "import sys; sys.path.append('/no/such/folder'); import beside",
+    "open('/no/such/file')",
+    "open('no-such-file')",
+    "open('/no/such/folder/file', 'w')",
+    "import os; os.environ['NO_SUCH_VARIABLE']",
+    "import subprocess; subprocess.run(['no-such-program'])",
+    "raise ValueError('the ring has no normal')",
 )
-def test_an_error_that_isolation_causes_says_so_and_what_to_do(ways, line, sentence, monkeypatch, tmp_path):
+
+
+def reasons_of(tmp_path, lines, limits):
+    """Why a function fails that does one of these lines at each row, by the line: one process is asked of them all."""
+    path = tmp_path / "code" / "function.py"
+    path.parent.mkdir()
+    attempts = "".join(f"def attempt_{number}():\n    {line}\n\n\n" for number, line in enumerate(lines))
+    path.write_text(f"{attempts}def classify(rows):\n    globals()[f'attempt_{{int(rows[0][4])}}']()\n    return [0]\n")
+    rows = np.ones((len(lines), 7))
+    rows[:, 4] = range(len(lines))
+    with open_implementation(f"python:{path}:classify", limits) as it:
+        answered = it.classify(rows, batch=1)
+    return {line: answered.reasons.get(number, "it answered") for number, line in enumerate(lines)}
+
+
+@both
+def test_an_error_that_isolation_causes_says_so_and_what_to_do(ways, monkeypatch, tmp_path):
+    """The programs of a test lie in the folder for temporary files, of which an isolated program sees only its own."""
     outside, here = tmp_path / "outside", tmp_path / "here"
     for folder in (outside, here):
         folder.mkdir()
@@ -71,44 +96,27 @@ def test_an_error_that_isolation_causes_says_so_and_what_to_do(ways, line, sente
     (outside / "beside.py").write_text("")
     monkeypatch.setenv("ENGINE_DATA", "wanted")
     monkeypatch.chdir(here)
-    spec = function_that(tmp_path, line.format(outside=str(outside)))
-    # The programs of a test lie below the folder for temporary files, of which an isolated program sees only its own.
-    reason = reason_of(spec, isolated(ways, monkeypatch))
-    assert sentence.format(outside=outside) in reason, reason
+    reasons = reasons_of(tmp_path, [line.format(outside=str(outside)) for line in CAUSED], isolated(ways))
+    for sentence, (line, reason) in zip(CAUSED.values(), reasons.items(), strict=True):
+        assert sentence.format(outside=outside) in reason, (line, reason)
 
 
 @both
-def test_a_command_that_isolation_stops_says_so_in_any_language(ways, monkeypatch, tmp_path):
+def test_a_command_that_isolation_stops_says_so_in_any_language(ways):
     code = "import sys; sys.exit('Error: EROFS: read-only file system, open \\'cache.bin\\'')"
     spec = "command:" + json.dumps([sys.executable, "-I", "-S", "-c", code])
-    assert WRITES in reason_of(spec, isolated(ways, monkeypatch))
+    assert WRITES in reason_of(spec, isolated(ways))
     code = "from hypcheck.kernel.classify import classify"
     spec = "command:" + json.dumps([sys.executable, "-c", code])
-    assert reason_of(spec, isolated(ways, monkeypatch)).endswith(OWN)
+    assert reason_of(spec, isolated(ways)).endswith(OWN)
 
 
 @both
-@pytest.mark.parametrize(
-    "line",
-    [
-        "import no_such_module",
-        "import hypcheck.no_such_module",
-        "from hypcheck import no_such_name",
-        "import hypcheck; hypcheck.no_such_name",
-        "import sys; sys.path.append('/no/such/folder'); import beside",
-        "open('/no/such/file')",
-        "open('no-such-file')",
-        "open('/no/such/folder/file', 'w')",
-        "import os; os.environ['NO_SUCH_VARIABLE']",
-        "import subprocess; subprocess.run(['no-such-program'])",
-        "raise ValueError('the ring has no normal')",
-    ],
-)
-def test_an_error_that_comes_without_isolation_too_does_not_blame_it(ways, line, monkeypatch, tmp_path):
+def test_an_error_that_comes_without_isolation_too_does_not_blame_it(ways, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    reason = reason_of(function_that(tmp_path, line), isolated(ways, monkeypatch))
-    assert "it runs isolated" not in reason
-    assert "it raised " in reason
+    for line, reason in reasons_of(tmp_path, NOT_CAUSED, isolated(ways)).items():
+        assert "it runs isolated" not in reason, line
+        assert "it raised " in reason, line
 
 
 def test_a_program_that_is_not_isolated_is_not_said_to_be(monkeypatch, tmp_path, capsys):
@@ -166,5 +174,5 @@ def test_a_file_that_only_the_superuser_may_read_is_blamed_on_isolation(ways, mo
     closed.write_text("")
     os.chown(closed, 12345, 12345)
     closed.chmod(0o600)
-    reason = reason_of(function_that(tmp_path, "open('closed')"), isolated(ways, monkeypatch))
+    reason = reason_of(function_that(tmp_path, "open('closed')"), isolated(ways))
     assert "it runs isolated, and has none of the superuser's rights" in reason

@@ -86,10 +86,9 @@ sys.stdin.read()
 """
 
 
-def isolated(ways: Means, monkeypatch, **options: object) -> Limits:
+def isolated(ways: Means, **options: object) -> Limits:
     """Limits for programs that these means isolate."""
-    monkeypatch.setattr("hypcheck.isolation.launch.means_of", lambda mode: ways)
-    return Limits(isolation=Isolation("auto", **options))
+    return Limits(isolation=Isolation("auto", here=ways, **options))
 
 
 def line_of(process: Process) -> bytes:
@@ -113,7 +112,7 @@ def test_an_isolated_program_cannot_reach_vectors_records_sockets_or_the_judge(w
     monkeypatch.setenv("GITHUB_TOKEN", "secret")
     monkeypatch.setenv("ENGINE_DATA", "wanted")
     monkeypatch.chdir(tmp_path)
-    limits = isolated(ways, monkeypatch, hidden=(str(record.parent),), variables=("ENGINE_DATA",))
+    limits = isolated(ways, hidden=(str(record.parent),), variables=("ENGINE_DATA",))
     paths = (tmp_path / "forged", vectors, record, package / "__init__.py")
     process = Process((sys.executable, "-I", "-S", "-c", OBSERVES, str(os.getpid()), *map(str, paths)), limits)
     try:
@@ -155,19 +154,19 @@ def test_an_isolated_program_cannot_reach_vectors_records_sockets_or_the_judge(w
     ],
     ids=["killed", "exits", "mounts"],
 )
-def test_the_end_of_an_isolated_program_is_reported_with_its_cause(code, sentence, ways, monkeypatch):
-    process = Process((sys.executable, "-I", "-S", "-c", code), isolated(ways, monkeypatch))
+def test_the_end_of_an_isolated_program_is_reported_with_its_cause(code, sentence, ways):
+    process = Process((sys.executable, "-I", "-S", "-c", code), isolated(ways))
     with pytest.raises(FaultError, match=sentence):
         line_of(process)
     process.kill()
 
 
 @both
-def test_a_daemon_that_an_isolated_program_starts_ends_with_it(ways, monkeypatch, tmp_path):
+def test_a_daemon_that_an_isolated_program_starts_ends_with_it(ways, tmp_path):
     """It leaves the group, the session and its parent, and has no environment by which it could be known."""
     seconds = f"{600 + os.getpid() / 1e7:.7f}"
     code = f"setsid env -i sleep {seconds} > /dev/null 2>&1 & sleep 0.1; echo; exec sleep 60"
-    process = Process(("/bin/sh", "-c", code), isolated(ways, monkeypatch))
+    process = Process(("/bin/sh", "-c", code), isolated(ways))
     line_of(process)
     assert seconds in sleeping()
     process.kill()
@@ -180,12 +179,12 @@ def test_an_isolated_program_ends_if_hypcheck_is_killed(ways, tmp_path):
     seconds = f"{600 + os.getpid() / 1e7 + 0.5:.7f}"
     code = (
         "import sys\n"
-        "import hypcheck.isolation.launch as launch\n"
+        "from hypcheck.isolation.launch import Isolation\n"
         "from hypcheck.isolation.means import Means\n"
         "from hypcheck.implementations.process import Process\n"
         "from hypcheck.implementations.session import Limits\n"
-        f"launch.means_of = lambda mode: {ways!r}\n"
-        f"process = Process(('/bin/sh', '-c', 'setsid sleep {seconds} & exec sleep {seconds}'), Limits())\n"
+        f"limits = Limits(isolation=Isolation('auto', here={ways!r}))\n"
+        f"process = Process(('/bin/sh', '-c', 'setsid sleep {seconds} & exec sleep {seconds}'), limits)\n"
         "print('started', flush=True); sys.stdin.read()\n"
     )
     environment = {**os.environ, "TMPDIR": str(tmp_path)}  # nobody is left to remove the scratch folder
@@ -199,13 +198,12 @@ def test_an_isolated_program_ends_if_hypcheck_is_killed(ways, tmp_path):
     assert seconds not in sleeping()
 
 
-def test_an_isolated_implementation_that_does_not_start_gets_a_hint_about_isolate_off(tmp_path, monkeypatch):
-    monkeypatch.setattr("hypcheck.isolation.launch.means_of", lambda mode: HERE)
+def test_an_isolated_implementation_that_does_not_start_gets_a_hint_about_isolate_off():
     code = "open('/forged', 'w')"
     if not HERE.names:
         pytest.skip(f"a program here is {SAID}")
     with pytest.raises(StartError, match=r"; it runs isolated, and writes to its scratch folder alone, .*without$"):
-        open_implementation("command:" + json.dumps([sys.executable, "-I", "-S", "-c", code]), Limits())
+        open_implementation("command:" + json.dumps([sys.executable, "-I", "-S", "-c", code]), isolated(HERE))
 
 
 def sleeping() -> str:
@@ -225,17 +223,17 @@ def _line(folder: Path) -> str:
     ("word", "sentence"),
     [("no-such-program", "was not found; it must be on the PATH"), ("/etc/passwd", "is not executable")],
 )
-def test_a_program_that_cannot_be_run_is_reported_as_without_isolation(word, sentence, ways, monkeypatch):
+def test_a_program_that_cannot_be_run_is_reported_as_without_isolation(word, sentence, ways):
     with pytest.raises(StartError, match=sentence):
-        Process((word,), isolated(ways, monkeypatch))
+        Process((word,), isolated(ways))
 
 
 @both
-def test_an_isolated_program_in_the_temporary_folder_can_be_run(ways, monkeypatch, tmp_path):
+def test_an_isolated_program_in_the_temporary_folder_can_be_run(ways, tmp_path):
     program = tmp_path / "program"
     program.write_text("#!/bin/sh\necho found; read rest\n")
     program.chmod(0o755)
-    process = Process((str(program),), isolated(ways, monkeypatch))
+    process = Process((str(program),), isolated(ways))
     assert line_of(process) == b"found"
     process.kill()
 
@@ -248,9 +246,9 @@ def classify(rows):
 
 
 @both
-def test_an_isolated_function_cannot_import_hypcheck_to_get_the_answer(ways, monkeypatch, tmp_path):
+def test_an_isolated_function_cannot_import_hypcheck_to_get_the_answer(ways, tmp_path):
     (tmp_path / "echoes.py").write_text(ECHOES)
-    with open_implementation(f"python:{tmp_path / 'echoes.py'}:classify", isolated(ways, monkeypatch)) as it:
+    with open_implementation(f"python:{tmp_path / 'echoes.py'}:classify", isolated(ways)) as it:
         answered = it.classify(np.ones((2, 7)))
     assert not answered.answered.any()
     assert "hypcheck" in answered.reasons[0]
@@ -266,10 +264,9 @@ def test_the_worker_imports_only_the_modules_of_hypcheck_that_isolation_shows_it
 
 
 @needs_namespaces
-def test_the_process_limit_of_isolation_holds_in_the_namespace_alone(monkeypatch):
+def test_the_process_limit_of_isolation_holds_in_the_namespace_alone():
     """A program that starts processes without end gets no more, and this system's limit stays."""
     before = Path("/proc/sys/kernel/pid_max").read_text()
-    monkeypatch.setattr("hypcheck.isolation.launch.THREADS", 310)  # the system allows no less than 301
     code = (
         "import os, sys\n"
         "for number in range(2000):\n"
@@ -278,7 +275,8 @@ def test_the_process_limit_of_isolation_holds_in_the_namespace_alone(monkeypatch
         "    if not child: sys.stdin.read(); os._exit(0)\n"
         "os.write(1, b'%d\\n' % number)\n"
     )
-    process = Process((sys.executable, "-I", "-S", "-c", code), Limits(isolation=Isolation("on")))
+    limits = Limits(isolation=Isolation("on", threads=310))  # the system allows no less than 301
+    process = Process((sys.executable, "-I", "-S", "-c", code), limits)
     try:
         started = int(line_of(process))
     finally:
@@ -290,8 +288,7 @@ def test_the_process_limit_of_isolation_holds_in_the_namespace_alone(monkeypatch
 
 
 @needs_namespaces
-def test_the_scratch_folder_of_an_isolated_program_has_a_size_limit(monkeypatch):
-    monkeypatch.setattr("hypcheck.isolation.launch.SCRATCH_BYTES", 1 << 20)
+def test_the_scratch_folder_of_an_isolated_program_has_a_size_limit():
     code = (
         "import errno, os\n"
         "try:\n"
@@ -299,7 +296,9 @@ def test_the_scratch_folder_of_an_isolated_program_has_a_size_limit(monkeypatch)
         "        open(os.path.join(os.environ['TMPDIR'], str(name)), 'wb').write(bytes(300_000))\n"
         "except OSError as error:\n    print(errno.errorcode[error.errno], name)\n"
     )
-    process = Process((sys.executable, "-I", "-S", "-c", code), Limits(isolation=Isolation("on")))
+    process = Process(
+        (sys.executable, "-I", "-S", "-c", code), Limits(isolation=Isolation("on", scratch_bytes=1 << 20))
+    )
     assert line_of(process) == b"ENOSPC 3"
     process.kill()
 
@@ -315,13 +314,12 @@ def test_a_program_is_not_isolated_if_isolation_is_off():
     )
 
 
-def test_isolation_on_is_refused_with_the_reason_if_the_system_lacks_namespaces(monkeypatch):
+def test_isolation_on_is_refused_with_the_reason_if_the_system_lacks_namespaces():
     lacking = Means(missing=("no namespaces: cannot make namespaces: operation not permitted",))
-    monkeypatch.setattr(means, "available", lambda: lacking)
     with pytest.raises(NotIsolatedError, match="cannot make namespaces: operation not permitted") as refused:
-        means.means_of("on")
+        means.means_of("on", lacking)
     assert refused.value.exit_code == 5
-    assert means.means_of("auto") is lacking
+    assert means.means_of("auto", lacking) is lacking
     with pytest.raises(InputError, match="one of auto, on, off"):
         Isolation("perhaps")
 

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import errno
 import fcntl
-import io
 import platform
 import time
 
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.record import read, writer
+from hypcheck.record import read
 from hypcheck.record.fields import Unsigned, decoded
 from hypcheck.record.lines import DriftLine, NotStartedLine
-from hypcheck.record.writer import FolderInUseError, GrowingFile, Recorder, folder_locked
+from hypcheck.record.writer import FolderInUseError, GrowingFile, Recorder, folder_locked, processor_name
 from tests.record.test_removed import PROGRESS
 from tests.support.records import GrowingText
 
@@ -91,21 +90,11 @@ def test_growing_file_refuses_additions_before_its_first_content(tmp_path):
         GrowingFile(tmp_path / "record.jsonl").write("a line\n")
 
 
-def test_processor_name_comes_from_python_if_the_system_gives_none(monkeypatch):
-    def unreadable(*_, **__):
-        raise OSError
-
-    monkeypatch.setattr(writer.Path, "open", unreadable)
-    monkeypatch.setattr(platform, "processor", lambda: "")
-    assert writer._processor() == "unknown"
-    monkeypatch.setattr(platform, "processor", lambda: "s390x")
-    assert writer._processor() == "s390x"
-
-
-def test_processor_name_is_that_of_the_first_processor_that_the_system_lists(monkeypatch):
+def test_processor_name_is_that_of_the_first_processor_that_the_system_lists_or_python_gives(tmp_path):
     listed = "processor\t: 0\nmodel\t\t: 6\nmodel name\t: One of 2 GHz\nprocessor\t: 1\nmodel name\t: Two\n"
-    monkeypatch.setattr(writer.Path, "open", lambda *_, **__: io.StringIO(listed))
-    assert writer._processor() == "One of 2 GHz"
+    (tmp_path / "cpuinfo").write_text(listed)
+    assert processor_name(tmp_path / "cpuinfo") == "One of 2 GHz"
+    assert processor_name(tmp_path / "none") == (platform.processor() or "unknown")
 
 
 def test_a_number_of_a_record_that_must_not_be_negative_is_refused_below_0():

@@ -14,7 +14,7 @@ from hypcheck.messages import escaped
 from hypcheck.record import read
 from hypcheck.report.junit import render
 from tests.report import record_samples
-from tests.report.record_samples import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
+from tests.report.record_samples import DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
 from tests.tools.goldens import FOLDER, RUNS
 
 
@@ -47,44 +47,6 @@ def test_counts_and_times_of_junit_suites_add_up_and_names_are_unique(run):
     assert {child.tag for child in root} == {"testsuite"}
     assert len({suite.get("name") for suite in root}) == len(root)
     assert len(set(names(root))) == len(names(root))
-
-
-def test_junit_has_no_time_for_a_run_that_has_none_and_rounds_others_to_the_millisecond():
-    assert junit(body=[], exit_code=None).get("time") is None
-    short = junit(body=[record_samples.oracle("exact", "ring", {"proved": 1}, seconds=0.0074)])
-    assert next(short.iterfind("testsuite[@name='oracles.exact']/testcase")).get("time") == "0.007"
-
-
-@pytest.mark.parametrize(
-    ("good", "bad"),
-    [
-        (record_samples.group("fast", "float64", "tangent", {"right": 30}, exact=True), EXACT_WRONG),
-        (record_samples.group("theirs", "float64", "tangent", {"right": 30}), CRASHED),
-        (None, DRIFT),
-    ],
-)
-def test_name_of_a_junit_case_does_not_depend_on_its_result(good, bad):
-    assert names(junit(*filter(None, [good]))) == names(junit(bad))
-
-
-@pytest.mark.parametrize(
-    ("extra", "code", "kind"),
-    [
-        ((), None, "unfinished"),
-        ((), 130, "unfinished"),
-        ((UNPROVED,), 70, "unfinished"),
-        ((), 6, "unexplained"),
-        ((DRIFT,), 0, "unexplained"),
-    ],
-)
-def test_junit_marks_a_run_that_did_not_end_normally_as_an_error(extra, code, kind):
-    (error,) = junit(*extra, exit_code=code).iter("error")
-    assert error.get("type") == kind
-
-
-def test_junit_marks_a_run_that_asked_nothing_as_an_error():
-    (error,) = junit(body=[]).iter("error")
-    assert error.get("message").startswith("NOTHING")
 
 
 PLACES = (

@@ -12,7 +12,6 @@ from hypcheck.record import read
 from hypcheck.record.lines import MapLine
 from hypcheck.report import drawings, write
 from hypcheck.report.formats import REPORTS
-from hypcheck.report.plots import pictures
 from hypcheck.report.write import render, write_reports
 from tests.report import bench_lines, record_samples
 from tests.support.without_drawing import draw_nothing
@@ -101,13 +100,10 @@ def test_write_reports_raises_an_error_naming_an_old_report_that_it_cannot_remov
         write_reports(record_samples.record(without), tmp_path, ["map"])
 
 
-def test_plots_of_a_large_record_drawn_ahead_equal_plots_drawn_later(monkeypatch):
+def test_plots_of_a_large_record_drawn_ahead_equal_plots_drawn_later():
     record = bench_lines.bench_record()
     assert drawings.draw_ahead(record) == {}
-    monkeypatch.setattr(drawings, "MANY", 1)
-    monkeypatch.setattr(drawings, "usable_processors", lambda: 1)
-    monkeypatch.setattr(pictures, "PLOTS", {name: pictures.PLOTS[name] for name in ("errors", "stability")})
-    ahead = drawings.draw_ahead(record)
+    ahead = drawings.draw_ahead(record, least=1, names=("errors", "stability"))
     assert set(ahead) == {"errors", "stability"}
     assert ahead["errors"]
     for name, plots in ahead.items():
@@ -118,9 +114,8 @@ def test_plots_are_not_drawn_ahead_if_they_cannot_be_or_a_drawing_process_is_kil
     def killed(*_):
         raise BrokenProcessPool
 
-    monkeypatch.setattr(drawings, "MANY", 0)
     with monkeypatch.context() as patched:
         patched.setattr(drawings, "perform", killed)
-        assert drawings.draw_ahead(record_samples.record()) == {}
+        assert drawings.draw_ahead(record_samples.record(), least=0) == {}
     draw_nothing(monkeypatch)
-    assert drawings.draw_ahead(record_samples.record()) == {}
+    assert drawings.draw_ahead(record_samples.record(), least=0) == {}

@@ -22,8 +22,9 @@ ENVIRONMENT = {"GATE_TEST_KILLS": UNLUCKY.tobytes().hex()}
 """What tells it the case; where that is not set, there is none."""
 
 
-def steps_of(names, count):
-    return list(steps_of_chunks(chunk for name in names for chunk in cases.family_chunks(FAMILIES[name], 1, count)))
+def steps_of(names, count, pace):
+    chunks = (cases.family_chunks(FAMILIES[name], 1, count, pace.chunk_rows) for name in names)
+    return list(steps_of_chunks((chunk for some in chunks for chunk in some), pace=pace))
 
 
 def rules_of(it):

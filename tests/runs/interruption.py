@@ -7,11 +7,12 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
+from functools import partial
 
 from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.record.reader import FILE, GROWING
-from hypcheck.runs import cases, resume, schedule
+from hypcheck.runs import cases, plan
 from tests.support.shared_folders import made_once
 
 SPECS = ("builtin:hessian-float32", "python:tests.runs.faulty:dies_on_the_axis")
@@ -23,12 +24,10 @@ SECONDS = "seconds.json"
 """Beside the record of the unbroken run: how long it took."""
 
 
-def in_small_steps(put):
+def in_small_steps(put, single_rows=1100):
     """Let `put(owner, name, value)` make the steps of runs small, and their progress kept at each."""
-    put(resume, "PROGRESS_EVERY_S", 0.0)
-    put(resume, "PROGRESS_SHARE", 0)
-    put(cases, "CHUNK_ROWS", 64)
-    put(schedule, "RETEST_AFTER", 600)
+    pace = cases.Pace(chunk_rows=64, retest_after=600, single_rows=single_rows, progress_s=0.0, progress_share=0)
+    put(plan, "ConformancePlan", partial(plan.ConformancePlan, pace=pace))
 
 
 def with_little_patience(put):

@@ -25,7 +25,7 @@ FAMILIES = (
 
 
 def rows_of_every_regime():
-    frozen = np.vstack([load(name).rows[::6] for name in FAMILIES])
+    frozen = np.vstack([load(name).rows[::12] for name in FAMILIES])
     sizes, places = (1, 2, 5), (0, 1, 3, 4)
     small = [[a, c, b, 1, x, 0, z] for a, c, b, x, z in product(sizes, sizes, (1, 3), places, places)]
     ring = [[1, 2, 1, 1, 2.5, 0, 0], [7, 7, 1, 1, 10, 0, 0], [2, 0.5, 1, 1, 4, 0, 0]]
@@ -89,7 +89,7 @@ def false_clear(formula):
 
 def test_coefficient_form_for_all_regimes_is_right_on_all_rows_of_these_tests():
     assert wrong(EVERYWHERE).size == 0
-    assert (np.bincount(TRUTH + 1) > 100).all()
+    assert (np.bincount(TRUTH + 1) > 50).all()
 
 
 @pytest.mark.parametrize("name", PLACES)
@@ -118,7 +118,7 @@ def test_no_remedy_alone_or_in_pairs_makes_a_false_clear_answer_that_was_not_the
 
 def test_printed_formula_is_right_everywhere_after_the_remedies_of_its_causes():
     causes = [BY_NAME[name] for name in ("ring", "groove", "throat", "zero-coefficient")]
-    assert wrong(PRINTED).size > 100
+    assert wrong(PRINTED).size > 50
     for some in (causes, causes[::-1]):
         assert wrong(mended(PRINTED, some)).size == 0
 

@@ -10,7 +10,6 @@ from itertools import chain
 import numpy as np
 import pytest
 
-from hypcheck import answers
 from hypcheck.answers import classify_table
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS
@@ -29,14 +28,12 @@ def rows():
 
 
 @pytest.fixture
-def classify(tmp_path, monkeypatch):
+def classify(tmp_path):
     """A function that classifies a table with so many workers, from the second chunk on, and returns the output."""
 
     def run(source, kind, workers):
-        monkeypatch.setattr(answers, "CHUNKS_WITHOUT_WORKERS", 1)
-        monkeypatch.setattr(answers, "usable_processors", lambda: workers)
         target = tmp_path / f"answers-{workers}.{kind}"
-        classify_table(Route(str(source), source.suffix[1:], str(target), kind), mark=False)
+        classify_table(Route(str(source), source.suffix[1:], str(target), kind), mark=False, workers=workers, alone=1)
         return target.read_bytes()
 
     return run

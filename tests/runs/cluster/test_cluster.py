@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.implementations.session import Limits
-from hypcheck.runs import cases, schedule
+from hypcheck.runs import cases
 from hypcheck.runs.resume import saved_state
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
 from tests.runs.cluster.clusters import Cluster, patience  # noqa: F401
@@ -37,11 +37,8 @@ def client(cluster):
         yield found
 
 
-@pytest.fixture(autouse=True)
-def small(monkeypatch):
-    """Chunks and rounds small enough that a test has many."""
-    monkeypatch.setattr(cases, "CHUNK_ROWS", 1024)
-    monkeypatch.setattr(schedule, "RETEST_AFTER", 3000)
+PACE = cases.Pace(chunk_rows=1024, retest_after=3000, single_rows=60)
+"""Chunks and rounds small enough that a test has many."""
 
 
 def there(client, opening, some, after=lambda number: None):
@@ -61,7 +58,7 @@ def pids(client):
 
 @pytest.mark.thorough
 def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client):
-    some = steps_of(["tower-body", "ring"], 4500)
+    some = steps_of(["tower-body", "ring"], 4500, PACE)
 
     def kill(number):
         if number in {1, 7}:
@@ -72,7 +69,7 @@ def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client
 
 @pytest.mark.thorough
 def test_only_cases_that_kill_their_worker_end_as_crashes(client):
-    some = steps_of(["uniform", "tower-body"], 2600)
+    some = steps_of(["uniform", "tower-body"], 2600, PACE)
     culprit, others = without_culprit(some)
     found = there(client, KILLS, some).total
     reason = "4 workers of the cluster ended while they asked these cases"
@@ -88,7 +85,7 @@ def _subject(folder: Path) -> tuple[Path, ImplementationOpener]:
 @pytest.mark.thorough
 def test_file_that_a_worker_lacks_is_sent_to_it(client, tmp_path):
     file, opening = _subject(tmp_path)
-    some = steps_of(["ring"], 2000)
+    some = steps_of(["ring"], 2000, PACE)
     expected = here(opening, some)
     with opening.open() as it, execution_on_cluster(client, opening, rules_of(it), it) as performing:
         file.rename(tmp_path / "elsewhere.py")
@@ -103,7 +100,7 @@ def test_worker_with_another_file_under_test_is_refused(client, tmp_path):
         with pytest.raises(
             InputError, match=r"subject.py is another file on worker tcp://127.0.0.1:\d+: sha256 \w{64} "
         ):
-            list(perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance)))
+            list(perform_steps(steps_of(["ring"], 100, PACE), performing, RunState(it.allowance)))
 
 
 def test_workers_keep_no_files_or_processes_after_a_run(client, cluster):

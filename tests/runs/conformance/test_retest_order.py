@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from hypcheck.runs import retest
-from hypcheck.runs.retest import ALONE, FULL_QUESTION, LARGE_QUESTION, LENGTHS, MANY, retest_questions
+from hypcheck.runs.cases import PACE, Pace
+from hypcheck.runs.retest import ALONE, FULL_QUESTION, LARGE_QUESTION, LENGTHS, retest_questions
 
 N = 1100
 TRUTH = np.resize(np.array([1, 0, -1, 1], dtype=np.int8), N)
@@ -14,8 +15,8 @@ STILL = np.full(N, -1)
 LONGEST = 20_000
 
 
-def asked(stands, truth=TRUTH, moments=STILL, number=0, part=0):
-    return list(retest_questions(truth, moments, lambda: stands, 1, number, part))
+def asked(stands, truth=TRUTH, moments=STILL, number=0, part=0, pace=PACE):
+    return list(retest_questions(truth, moments, lambda: stands, 1, number, part, pace))
 
 
 @pytest.mark.parametrize("part", [0, 1])
@@ -53,9 +54,8 @@ def test_each_index_of_the_largest_retest_batches_has_every_position_in_turn():
         assert TRUTH[large[0][-1]] != TRUTH[large[1][-1]]
 
 
-def test_implementation_that_is_slow_with_full_batches_gets_no_longest_batches(monkeypatch):
-    monkeypatch.setattr(retest, "SOON_S", 0.0)
-    assert max(len(places) for places, _ in asked(LONGEST)) == FULL_QUESTION
+def test_implementation_that_is_slow_with_full_batches_gets_no_longest_batches():
+    assert max(len(places) for places, _ in asked(LONGEST, pace=Pace(soon_s=0.0))) == FULL_QUESTION
 
 
 def test_small_retest_batches_have_every_remainder_of_a_vector_length():
@@ -65,11 +65,9 @@ def test_small_retest_batches_have_every_remainder_of_a_vector_length():
         assert {length % lanes for length in LENGTHS} == set(range(lanes))
 
 
-@pytest.mark.parametrize(("seconds", "count"), [(60.0, ALONE + MANY), (0.0, ALONE)])
-def test_retest_asks_many_single_rows_until_their_time_is_over(monkeypatch, seconds, count):
-    monkeypatch.setattr(retest, "MANY", MANY)
-    monkeypatch.setattr(retest, "MANY_S", seconds)
-    assert sum(len(places) for places, batch in asked(LONGEST) if batch == 1) == count
+@pytest.mark.parametrize(("seconds", "count"), [(60.0, ALONE + PACE.single_rows), (0.0, ALONE)])
+def test_retest_asks_many_single_rows_until_their_time_is_over(seconds, count):
+    assert sum(len(places) for places, batch in asked(LONGEST, pace=Pace(single_s=seconds)) if batch == 1) == count
 
 
 def test_moving_objects_are_retested_moment_by_moment():

@@ -15,7 +15,7 @@ from hypcheck.implementations.session import Allowance, Limits, Outcome, StartEr
 from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.lines import Retest
 from hypcheck.record.progress import SavedResult, SavedState
-from hypcheck.runs import cases, results, schedule, tally
+from hypcheck.runs import cases, results, tally
 from hypcheck.runs.executors import execution_here, execution_in_pool
 from hypcheck.runs.known_failures import KnownFailure
 from hypcheck.runs.results import CasesResult, merged_result
@@ -55,11 +55,8 @@ def shuffled(it, rules, seed):
         return replace(performing, executor=Shuffled(seed), workers=4)
 
 
-@pytest.fixture(autouse=True)
-def small(monkeypatch):
-    """Chunks and rounds small enough that a test has many."""
-    monkeypatch.setattr(cases, "CHUNK_ROWS", 256)
-    monkeypatch.setattr(schedule, "RETEST_AFTER", 750)
+PACE = cases.Pace(chunk_rows=256, retest_after=750, single_rows=60)
+"""Chunks and rounds small enough that a test has many."""
 
 
 def rules_of(implementation):
@@ -84,7 +81,9 @@ def read_back(state):
 def test_results_of_tasks_can_be_merged_in_any_order():
     with RIGHT.open() as it:
         rules = rules_of(it)
-        some = [step for step in steps_of(["ring-neighbourhood", "ring"], 375) if not isinstance(step, RetestStep)]
+        some = [
+            step for step in steps_of(["ring-neighbourhood", "ring"], 375, PACE) if not isinstance(step, RetestStep)
+        ]
         parts = [perform_task(step, it, rules, it.allowance).result for step in some]
     whole = saved_result(replace(merged_result(parts), pending=()))
     assert len(parts) == 8
@@ -97,7 +96,7 @@ def test_results_of_tasks_can_be_merged_in_any_order():
 
 
 def test_result_does_not_depend_on_the_order_in_which_tasks_finish():
-    some = steps_of(["uniform", "flight", "ring"], 625)
+    some = steps_of(["uniform", "flight", "ring"], 625, PACE)
     assert {(step.number, step.part) for step in some if isinstance(step, RetestStep)} >= {
         (0, 0),
         (0, 1),
@@ -115,7 +114,7 @@ def test_result_does_not_depend_on_the_order_in_which_tasks_finish():
 
 
 def test_every_pending_case_is_retested_in_one_part_of_one_round():
-    some = steps_of(["uniform", "flight"], 1250)
+    some = steps_of(["uniform", "flight"], 1250, PACE)
     with RIGHT.open() as it:
         rules = rules_of(it)
         left = [
@@ -131,7 +130,7 @@ def test_every_pending_case_is_retested_in_one_part_of_one_round():
 @pytest.mark.thorough
 def test_restarts_are_counted_in_the_order_of_steps():
     """Cases on the axis end the process: the first few do, and all others are not run."""
-    some = steps_of(["tower-body", "axis", "tower-rotors"], 375)
+    some = steps_of(["tower-body", "axis", "tower-rotors"], 375, PACE)
     with DIES.open() as it:
         rules = rules_of(it)
         begun = RunState(it.allowance)
@@ -147,7 +146,7 @@ def test_restarts_are_counted_in_the_order_of_steps():
 
 
 def test_run_resumed_from_any_state_gives_the_result_of_an_unbroken_run():
-    some = steps_of(["flight", "ring", "uniform"], 625)
+    some = steps_of(["flight", "ring", "uniform"], 625, PACE)
     with RIGHT.open() as it:
         rules = rules_of(it)
         passed = [state for _, state in in_this_process(some, it, rules)]
@@ -168,7 +167,7 @@ def _but_for_bins(state):
 
 
 def test_saved_state_does_not_grow_with_the_run():
-    some = steps_of(["uniform"], 9000)
+    some = steps_of(["uniform"], 9000, PACE)
     with RIGHT.open() as it:
         passed = [state for _, state in in_this_process(some, it, rules_of(it))]
     sizes = [len(json.dumps(_but_for_bins(state))) for state in passed]
@@ -178,7 +177,7 @@ def test_saved_state_does_not_grow_with_the_run():
 
 
 def test_killed_worker_process_does_not_change_the_result():
-    some = steps_of(["tower-body"], 1500)
+    some = steps_of(["tower-body"], 1500, PACE)
     with RIGHT.open() as it:
         rules = rules_of(it)
         begun = RunState(it.allowance)
@@ -201,7 +200,7 @@ def test_implementation_with_another_description_in_each_process_is_refused(tmp_
         pytest.raises(StartError, match="declares another description"),
         execution_in_pool(2, fickle, rules_of(it), it) as performing,
     ):
-        last(perform_steps(steps_of(["ring"], 10), performing, RunState(it.allowance)))
+        last(perform_steps(steps_of(["ring"], 10, PACE), performing, RunState(it.allowance)))
 
 
 LIMITS = Allowance(20, 100)
@@ -246,7 +245,7 @@ def dies_of(rows):
 @pytest.mark.thorough
 def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_chunk(tmp_path):
     """Two, then three of three that are allowed: the second chunk counts whole, and nothing behind it is asked."""
-    some = steps_of(["tower-body"], 1500)
+    some = steps_of(["tower-body"], 1500, PACE)
     drawn = [step for step in some if isinstance(step, cases.CaseChunk) and step.seed is not None]
     places = [(0, 10), (0, 120), (1, 3), (1, 4), (1, 175), (2, 9), (4, 4)]
     rows = np.concatenate([cases.cases_of_chunk(drawn[number]).rows[[index]] for number, index in places])
@@ -279,7 +278,7 @@ def test_implementation_that_never_answered_is_given_up_after_three_hangs_with_a
     """Several processes find it out at the same time, and the run comes to what one process makes of it."""
     (tmp_path / "hangs.py").write_text("import time\n\n\ndef f(rows):\n    time.sleep(60)\n")
     hangs = ImplementationOpener(f"python:{tmp_path / 'hangs.py'}:f", Limits(timeout=0.3))
-    some = steps_of(["tower-body"], 625)
+    some = steps_of(["tower-body"], 625, PACE)
     with hangs.open() as it:
         begun = RunState(it.allowance)
         expected = last(in_this_process(some, it, rules_of(it), begun))

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from contextlib import nullcontext, suppress
 from dataclasses import replace
 
@@ -14,10 +15,10 @@ import pytest
 from hypcheck.implementations.session import Limits
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
-from hypcheck.runs import cases, executors, schedule
-from hypcheck.runs.executors import WorkerPool, execution_in_pool
+from hypcheck.runs import cases, executors
+from hypcheck.runs.executors import Watch, WorkerPool, execution_in_pool
 from hypcheck.runs.resume import saved_state
-from hypcheck.runs.schedule import ImplementationOpener, RunState, WorkerLost, WorkersLostError, perform_steps
+from hypcheck.runs.schedule import ImplementationOpener, RunState, WorkersLostError, perform_steps
 from tests.runs.crashing import ENVIRONMENT, KILLS, here, require_one_crash, rules_of, steps_of, without_culprit
 from tests.support.without_drawing import COMMAND
 
@@ -31,15 +32,12 @@ def started(performing):
     return list(performing.executor.processes)
 
 
-@pytest.fixture(autouse=True)
-def small(monkeypatch):
-    """Chunks and rounds small enough that a test has many."""
-    monkeypatch.setattr(cases, "CHUNK_ROWS", 1024)
-    monkeypatch.setattr(schedule, "RETEST_AFTER", 3000)
+PACE = cases.Pace(chunk_rows=1024, retest_after=3000, single_rows=60)
+"""Chunks and rounds small enough that a test has many."""
 
 
 def test_only_cases_that_kill_their_worker_end_as_crashes(monkeypatch):
-    some = steps_of(["uniform", "tower-body"], 2600)
+    some = steps_of(["uniform", "tower-body"], 2600, PACE)
     culprit, others = without_culprit(some)
     expected = here(KILLS, others).total
     for name, value in ENVIRONMENT.items():
@@ -50,14 +48,12 @@ def test_only_cases_that_kill_their_worker_end_as_crashes(monkeypatch):
     assert state.left == replace(it.allowance, hangs=None)  # it has answered
 
 
-def _ends_at_once(*_):
-    os._exit(9)
-
-
-def test_run_ends_with_an_error_if_worker_processes_cannot_start(monkeypatch):
+def test_run_ends_with_an_error_if_worker_processes_cannot_start(monkeypatch, tmp_path):
     """Nothing is known of any case then, so that none may be called a crash."""
-    monkeypatch.setattr(executors, "_serve", _ends_at_once)
-    some = steps_of(["uniform"], 2000)
+    ends = "import os, sys\nif '--multiprocessing-fork' in sys.orig_argv:\n    os._exit(9)\n"
+    (tmp_path / "sitecustomize.py").write_text(ends)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    some = steps_of(["uniform"], 2000, PACE)
     with (
         KILLS.open() as it,
         pytest.raises(
@@ -83,12 +79,10 @@ STOPS = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells us 
 
 
 @STOPS
-def test_stopped_worker_is_killed_and_its_task_retried(monkeypatch):
-    monkeypatch.setattr(executors, "LOOK_S", 0.01)
-    monkeypatch.setattr(executors, "STOPPED_LOOKS", 3)
-    some = steps_of(["uniform"], 6000)
+def test_stopped_worker_is_killed_and_its_task_retried():
+    some = steps_of(["uniform"], 6000, PACE)
     expected = here(RIGHT, some)
-    with RIGHT.open() as it, execution_in_pool(2, RIGHT, rules_of(it), it) as performing:
+    with RIGHT.open() as it, execution_in_pool(2, RIGHT, rules_of(it), it, Watch(0.01, 3)) as performing:
         found = perform_steps(some, performing, RunState(it.allowance))
         next(found)
         first = started(performing)
@@ -100,22 +94,20 @@ def test_stopped_worker_is_killed_and_its_task_retried(monkeypatch):
 
 
 @STOPS
-def test_stopped_worker_that_is_continued_in_time_is_not_killed(monkeypatch):
+def test_stopped_worker_that_is_continued_in_time_is_not_killed():
     """Looks that find it stopped are counted from the beginning when one finds it running."""
-    looks = iter([True, True, False] * 3)
-    done = []
-    monkeypatch.setattr(executors, "LOOK_S", 0.01)
-    monkeypatch.setattr(executors, "STOPPED_LOOKS", 3)
-    monkeypatch.setattr(executors, "is_stopped", lambda _: next(looks, None) or done.append(None))
-    with WorkerPool(1, nullcontext) as running:
-        future = running.submit(signal.pause)
-        while len(done) < 3:
-            pass
+    with WorkerPool(1, nullcontext, Watch(0.1, 8)) as running:
+        future = running.submit(time.sleep, 2.5)
+        while not running.processes:
+            time.sleep(0.01)
         (process,) = running.processes
+        for _ in range(3):
+            os.kill(process.pid, signal.SIGSTOP)
+            time.sleep(0.4)
+            os.kill(process.pid, signal.SIGCONT)
+            time.sleep(0.3)
+        future.result()
         assert process.is_alive()
-        process.kill()
-        with pytest.raises(WorkerLost):
-            future.result()
 
 
 @STOPS

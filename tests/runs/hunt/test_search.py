@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -14,10 +13,8 @@ from hypcheck.geometry.rows import CANNOT_SAY, FixedSizes
 from hypcheck.implementations.description import Description, Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Answered, Outcome
-from hypcheck.runs import hunt as hunting
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt import Hunt, HuntPlan, target_of
-from hypcheck.runs.hunt_place import RowPlace
 from hypcheck.runs.hunt_search import neighbours, run_hunt
 from hypcheck.runs.judge import Mistake, Status, flip_exponents
 from hypcheck.truth import float_filter
@@ -41,10 +38,10 @@ class Double:
         return Answered(self._answer(rows).astype(np.int8), status, reasons)
 
 
-def hunted(spec, queries, seed=1, **claims):
+def hunted(spec, queries, seed=1, everywhere=None, **claims):
     with open_implementation(f"builtin:{spec}") as implementation:
         run = Hunt(target_of(spec, implementation, **claims), HuntPlan(None, queries, seed))
-        run_hunt(run)
+        run_hunt(run, everywhere=everywhere)
     return run
 
 
@@ -80,87 +77,48 @@ def test_hunt_finds_the_errors_of_the_local_maximum_near_a_equal_1_and_c2_equal_
     assert found[Mistake.FALSE_CONTACT, Position.EXTERIOR, "c² = a"] > 1e4
 
 
-def test_local_search_grows_from_ordinary_near_misses_to_large_errors(monkeypatch):
+def test_local_search_grows_from_ordinary_near_misses_to_large_errors():
     ordinary = tuple(each for each in hunt_search.strata() if "near-tangent" in each.name)
     assert len(ordinary) == 2
-    monkeypatch.setattr(hunt_search, "strata", lambda *_, **__: ordinary)
-    first = hunted("local-maximum-float64", 2 * hunt_search.FIRST_LOOK)
+    first = hunted("local-maximum-float64", 2 * hunt_search.FIRST_LOOK, everywhere=ordinary)
     assert max((cluster.worst.error_u for cluster in first.clusters.values()), default=0) < 100
-    grown = hunted("local-maximum-float64", 25_000)
+    grown = hunted("local-maximum-float64", 25_000, everywhere=ordinary)
     worst = grown.worst_first()[0].worst
     assert worst.error_u > 1e7
     assert worst.source.startswith("local search")
 
 
-def test_local_search_halves_its_step_until_it_rests_if_it_finds_nothing_worse(monkeypatch):
-    """Wrong on the row (1, 2, 1, 1, 2.5, 0, 0) alone."""
-    ring, steps = np.array([1, 2, 1, 1, 2.5, 0, 0]), []
+def test_local_search_halves_its_step_until_it_rests_if_it_finds_nothing_worse():
+    """Wrong on the row (1, 2, 1, 1, 2.5, 0, 0) alone: γ of the rows beside it shows each step."""
+    ring = np.array([1, 2, 1, 1, 2.5, 0, 0])
     block = np.concatenate([[ring], np.tile((2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0), (1000, 1))])
-
-    def watched(draw, climbers, layout):
-        steps.extend(climber.step for climber in climbers)
-        return neighbours(draw, climbers, layout)
-
-    def answer(rows):
-        return np.where((rows == ring).all(axis=1), 0, float_filter.positions(rows))
-
-    monkeypatch.setattr(
-        hunt_search, "strata", lambda *_, **__: (hunt_search.HuntStratum("one row", lambda seed, number: block),)
-    )
-    monkeypatch.setattr(hunt_search, "neighbours", watched)
-    monkeypatch.setattr(hunt_search, "LAST_STEP", 2.0**-8)
-    run = Hunt(target_of("double", Double(answer)), HuntPlan(None))
-    hunt_for(run, rounds=30)
-    assert steps == [2.0**-power for power in range(1, 9)]
+    double = Double(lambda rows: np.where((rows == ring).all(axis=1), 0, float_filter.positions(rows)))
+    run = Hunt(target_of("double", double), HuntPlan(None, 85_000))
+    run_hunt(run, everywhere=[hunt_search.HuntStratum("one row", lambda seed, number: block)])
+    rows = np.concatenate(double.rows)
+    beside = rows[(rows[:, [0, 2, 3, 4, 5, 6]] == ring[[0, 2, 3, 4, 5, 6]]).all(axis=1) & (rows[:, 1] > 2)]
+    steps = sorted({step for step in (beside[:, 1] / 2 - 1).tolist() if step in {2.0**-power for power in range(53)}})
+    assert steps == [2.0**-power for power in range(44, 0, -1)]
     (cluster,) = run.worst_first()
     assert cluster.worst.case.row == tuple(ring)
 
 
-def test_local_search_restarts_with_the_first_step_at_a_worse_answer(monkeypatch):
-    """Exterior rows are called contact: the farther off, the worse. All places count as one."""
+def test_local_search_restarts_with_the_first_step_at_a_worse_answer():
+    """Exterior rows are called contact: the farther off, the worse. Beside each row that is the worst, α times 1.5."""
     clear, crossing = (3.0, 40.0, 1.0, 1.0, 4.125, 1.0, 5.0), (3.0, 40.0, 1.0, 1.0, 3.0, 0.0, 5.0)
-    block, stood = np.array([clear, *[crossing] * 1000]), []
-
-    def watched(draw, climbers, layout):
-        (climber,) = climbers
-        stood.append((climber.row, climber.error, climber.step))
-        return neighbours(draw, climbers, layout)
-
-    monkeypatch.setattr(
-        hunt_search, "strata", lambda *_, **__: (hunt_search.HuntStratum("one clear row", lambda seed, number: block),)
-    )
-    monkeypatch.setattr(hunt_search, "neighbours", watched)
-    monkeypatch.setattr(hunting, "place_of_row", lambda row, layout: RowPlace("anywhere", "anywhere", "any"))
+    block, worst = np.array([clear, *[crossing] * 1000]), []
+    double = Double(lambda rows: np.minimum(float_filter.positions(rows), 0))
+    run = Hunt(target_of("double", double), HuntPlan(None, 9_000))
     run_hunt(
-        Hunt(
-            target_of("double", Double(lambda rows: np.minimum(float_filter.positions(rows), 0))),
-            HuntPlan(None, 16_000),
-        )
+        run,
+        lambda run: worst.append(run.worst_first()[0].worst.case.row),
+        [hunt_search.HuntStratum("one clear row", lambda seed, number: block)],
     )
-    assert stood[0][0] == clear
-    assert len({row for row, _, _ in stood}) > 2
-    for (row, error, step), (next_row, next_error, next_step) in pairwise(stood):
-        if next_row == row:
-            assert (next_error, next_step) == (error, step / 2)
-        else:
-            assert next_error > error
-            assert next_step == hunt_search.FIRST_STEP
-
-
-def hunt_for(run, rounds):
-    """Hunt until progress was told that many times."""
-
-    class EnoughError(Exception):
-        pass
-
-    def progress(run):
-        nonlocal rounds
-        rounds -= 1
-        if not rounds:
-            raise EnoughError
-
-    with pytest.raises(EnoughError):
-        run_hunt(run, progress)
+    *passed, _ = dict.fromkeys(worst)
+    assert passed[0] == clear
+    assert len(passed) > 2
+    asked = set(map(tuple, np.concatenate(double.rows).tolist()))
+    assert {(alpha * 1.5, *others) for alpha, *others in passed} <= asked
 
 
 def test_hunt_neighbours_are_one_step_away_or_on_a_surface_and_their_ladders_leave_contact():

@@ -17,8 +17,7 @@ from hypcheck.record import read
 from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.progress import SavedState
 from hypcheck.record.reader import FILE
-from hypcheck.runs import cases as chunks
-from hypcheck.runs import schedule
+from hypcheck.runs.cases import Pace
 from hypcheck.runs.consistency import MissingCasesError, require_all_tallied, require_lines, require_state
 from hypcheck.runs.executors import execution_here
 from hypcheck.runs.known_failures import KnownFailure
@@ -31,16 +30,13 @@ from tests.support.records import resealed
 KNOWN = (KnownFailure(None, "ring", float("inf"), "the ring"), KnownFailure("axis/1/1/300", None, 9.0, "near"))
 
 
-@pytest.fixture(autouse=True)
-def small(monkeypatch):
-    """Chunks and rounds small enough that a test has many."""
-    monkeypatch.setattr(chunks, "CHUNK_ROWS", 64)
-    monkeypatch.setattr(schedule, "RETEST_AFTER", 200)
+PACE = Pace(chunk_rows=64, retest_after=200, single_rows=60)
+"""Chunks and rounds small enough that a test has many."""
 
 
 def plan_of(spec, **options):
     return ConformancePlan(
-        (spec,), **{"families": ("ring", "axis"), "count": 200, "limits": Limits(restarts=4), **options}
+        (spec,), **{"families": ("ring", "axis"), "count": 200, "limits": Limits(restarts=4), "pace": PACE, **options}
     )
 
 

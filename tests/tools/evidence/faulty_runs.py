@@ -19,7 +19,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import HypcheckError
 from hypcheck.record.integrity import check
 from hypcheck.record.reader import FILE, GROWING
-from hypcheck.runs import fingerprint, retest
+from hypcheck.runs import fingerprint
 from tests.runs.interruption import came_to, in_small_steps
 from tests.support.without_drawing import draw_nothing
 
@@ -169,8 +169,7 @@ def cases(calls: str, chosen: list[int]) -> Iterator[Case]:
 if __name__ == "__main__":
     os.environ.pop("LD_PRELOAD", None)
     draw_nothing(type("Patch", (), {"setitem": staticmethod(lambda table, name, value: table.update({name: value}))}))
-    in_small_steps(setattr)
-    retest.MANY = 10
+    in_small_steps(setattr, single_rows=10)
     ours = fingerprint._own_files()  # reading them again would be a fourth of a run
     fingerprint._own_files = lambda: ours
     os.environ["HYPCHECK_ISOLATE"] = "off"

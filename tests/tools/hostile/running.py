@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from unittest.mock import patch
@@ -34,17 +32,6 @@ class Fate:
     damage: tuple[str, ...]
 
 
-@contextmanager
-def isolated_by(means: Means, scratch: int = 4 << 20, threads: int = 310) -> Iterator[None]:
-    """Within the block programs are isolated by these means, with little room."""
-    with (
-        patch("hypcheck.isolation.launch.means_of", lambda mode: means),
-        patch("hypcheck.isolation.launch.SCRATCH_BYTES", scratch),
-        patch("hypcheck.isolation.launch.THREADS", threads),
-    ):
-        yield
-
-
 def command_fate(attack: str, means: Means, folder: Path) -> Fate:
     """Ask the hostile command, whose victim is a folder of reports below `folder`."""
     victim, home = folder / "reports", folder / "home"
@@ -55,11 +42,13 @@ def command_fate(attack: str, means: Means, folder: Path) -> Fate:
     here = Path(__file__).with_name("command.py")
     vectors = next(VECTORS.parent.rglob("*.json")) if VECTORS.parent.is_dir() else VECTORS
     words = [sys.executable, "-I", "-S", str(here), attack, str(os.getpid()), str(victim), str(PACKAGE), str(vectors)]
-    limits = Limits(**LIMITS, isolation=Isolation("auto", hidden=(str(victim),)))
+    limits = Limits(
+        **LIMITS, isolation=Isolation("auto", hidden=(str(victim),), here=means, scratch_bytes=4 << 20, threads=310)
+    )
     before = _state(victim)
     secrets = {"GITHUB_TOKEN": "secret", "HOME": str(home)}
     spec = "command:" + json.dumps(words)
-    with isolated_by(means), patch.dict(os.environ, secrets), open_implementation(spec, limits) as it:
+    with patch.dict(os.environ, secrets), open_implementation(spec, limits) as it:
         answered = it.classify(np.ones((1, 7)))
         said = stderr_of(it) if answered.answered.all() else ()
         it.classify(np.ones((3, 7)), batch=1)
