@@ -15,6 +15,7 @@ from unittest.mock import patch
 import pytest
 
 from hypcheck.cli.main import main
+from hypcheck.errors import Exit
 from hypcheck.geometry.rows import Rows
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
@@ -31,6 +32,9 @@ HARMLESS = frozenset({"right", "tolerated", "skipped", "refused"})
 VERDICTS = {0: "passed", 1: "rejected"}
 """What an exit code says of the implementation; others say that it was not judged at all."""
 
+_ABSTAINED = "abstained from all"
+"""So a run says that it asked and got no answer to judge, which is exit code 2 and never a pass."""
+
 
 @dataclass(frozen=True, slots=True)
 class Ruling:
@@ -44,6 +48,8 @@ class Ruling:
     @property
     def verdict(self) -> str:
         """In a word."""
+        if self.exit_code == Exit.USAGE and _ABSTAINED in self.said:
+            return "rejected"
         return VERDICTS.get(self.exit_code, f"ended with {self.exit_code}")
 
 
