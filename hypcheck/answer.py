@@ -14,17 +14,14 @@ from fractions import Fraction
 from typing import Any
 
 from hypcheck.errors import Exit, HypcheckError
-from hypcheck.geometry.pair import TILTED_COLUMNS, UPRIGHT, Pair, Position
+from hypcheck.geometry.pair import TILTED_COLUMNS, Pair, Position
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
 from hypcheck.truth import exact, nearest_exact
-from hypcheck.truth.certificate import Certificate, Point, check_certificate
+from hypcheck.truth.certificate import Certificate, Point, check_certificate, pivots, surfaces
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.pencil import quartic
 from hypcheck.truth.prove import prove
-from hypcheck.truth.tilted import certificate as tilted_certificate
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted import prove as tilted_prove
-from hypcheck.truth.tilted.pair import TiltedPair
 
 
 class DisagreementError(HypcheckError):
@@ -54,7 +51,7 @@ class Answer:
     """The answer about a pair.
 
     pair: the pair that was asked about.
-    decision: its position, tangency and kind, decided in integers.
+    decision: its position and tangency, and the kind of an upright pair, decided in integers.
     clearance: in spheroid radii, 0 for a tangency, negative where the surfaces cross.
     certificate: proves the decision, and was checked.
     """
@@ -65,63 +62,41 @@ class Answer:
     certificate: Certificate
 
 
-@dataclass(frozen=True, slots=True)
-class TiltedAnswer:
-    """The same about a pair whose axis leans, which has no kind: the kinds are those of upright spheroids."""
-
-    pair: TiltedPair
-    decision: tilted_exact.TiltedDecision
-    clearance: float
-    certificate: Certificate
-
-
-def measured_clearance(pair: TiltedPair, decision: tilted_exact.TiltedDecision) -> float:
+def measured_clearance(pair: Pair, decision: Decision) -> float:
     """The clearance by the nearest point, which must agree with the decision. Raises DisagreementError."""
-    from hypcheck.truth.tilted.nearest import nearest  # noqa: PLC0415 - loads mpmath
+    if pair.is_upright:
+        found = nearest_exact.nearest(pair)
+        position, clearance = found.position, found.clearance
+    else:
+        from hypcheck.truth.tilted.nearest import nearest  # noqa: PLC0415 - loads mpmath
 
-    measured = nearest(pair)
-    if measured.position is None:  # nearer to a tangency than any float64 but 0
-        return 0.0 if decision.tangent else math.copysign(math.ulp(0.0), abs(decision.position) - 0.5)
-    require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
-    return measured.clearance
+        measured = nearest(pair)
+        if measured.position is None:  # nearer to a tangency than any float64 but 0
+            return 0.0 if decision.tangent else math.copysign(math.ulp(0.0), abs(decision.position) - 0.5)
+        position, clearance = measured.position, measured.clearance
+    require_agreement(pair.row, (decision.position, decision.tangent), (position, clearance))
+    return clearance
 
 
-def answer(pair: Pair | TiltedPair) -> Answer | TiltedAnswer:
+def answer(pair: Pair) -> Answer:
     """Decide, measure and prove. Raises DisagreementError where two oracles, or a proof and its claim, contradict.
 
     A pair with an axis that is an upright one all the same is answered as that.
     """
-    if isinstance(pair, TiltedPair):
-        return _upright_answer(pair.upright) if pair.upright is not None else tilted_answer(pair)
-    return _upright_answer(pair)
-
-
-def _upright_answer(pair: Pair) -> Answer:
+    pair = pair.upright if pair.is_upright else pair
     decision = exact.decide(pair.lengths)
-    measured = nearest_exact.nearest(pair)
-    require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
-    return Answer(pair, decision, measured.clearance, proved(pair, decision))
+    return Answer(pair, decision, measured_clearance(pair, decision), proved(pair, decision))
 
 
 def proved(pair: Pair, decision: Decision) -> Certificate:
-    """The checked proof of a decision about an upright pair. Raises DisagreementError if it does not hold."""
+    """The checked proof of an exact decision. Raises DisagreementError if it does not hold."""
     certificate = prove(pair, decision)
     if certificate.position is not decision.position or not check_certificate(pair, certificate):
         raise _unproved(pair)
     return certificate
 
 
-def tilted_answer(pair: TiltedPair) -> TiltedAnswer:
-    """The answer about a pair whose axis leans. Raises DisagreementError as answer() does."""
-    decision = tilted_exact.decide(pair.lengths)
-    clearance = measured_clearance(pair, decision)
-    certificate = tilted_prove.prove(pair, decision)
-    if certificate.position is not decision.position or not tilted_certificate.check_certificate(pair, certificate):
-        raise _unproved(pair)
-    return TiltedAnswer(pair, decision, clearance, certificate)
-
-
-def _unproved(pair: Pair | TiltedPair) -> DisagreementError:
+def _unproved(pair: Pair) -> DisagreementError:
     return DisagreementError(f"the proof found for {pair} does not hold; please report this, it is a fault of hypcheck")
 
 
@@ -150,23 +125,23 @@ class PairSquares:
         return self.B + self.P + self.Q - self.A - 1 - 2 * double
 
 
-def height_of_point(pair: Pair | TiltedPair, point: Point) -> Fraction:
+def height_of_point(pair: Pair, point: Point) -> Fraction:
     """h = (x²+y²)/α² − z²/γ² − 1 of a point: above 0 outside the hyperboloid, below 0 inside, 0 on it."""
     u, v, w = point
     alpha, gamma = Fraction(pair.alpha), Fraction(pair.gamma)
     return (u * u + v * v) / (alpha * alpha) - (w / gamma) ** 2 - 1
 
 
-def reach_of_point(pair: Pair | TiltedPair, point: Point) -> Fraction:
+def reach_of_point(pair: Pair, point: Point) -> Fraction:
     """s, the squared distance of a point from the spheroid's centre in spheroid radii: at most 1 in the spheroid."""
     way = [coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)]
-    axis = [Fraction(each) for each in (pair.axis if isinstance(pair, TiltedPair) else UPRIGHT)]
+    axis = [Fraction(each) for each in pair.axis]
     square = sum((each * each for each in way), Fraction(0))
     along = sum((a * b for a, b in zip(way, axis, strict=True)), Fraction(0)) ** 2 / sum(each * each for each in axis)
     return (square - along) / Fraction(pair.b) ** 2 + along / Fraction(pair.d) ** 2
 
 
-def answer_as_json(answer: Answer | TiltedAnswer) -> str:
+def answer_as_json(answer: Answer) -> str:
     """The answer as one JSON object on one line, rationals as strings such as "3/2", an infinite clearance as "inf"."""
     decision = answer.decision
     return json.dumps(
@@ -175,15 +150,15 @@ def answer_as_json(answer: Answer | TiltedAnswer) -> str:
             "label": decision.position.label,
             "tangent": decision.tangent,
             "clearance": answer.clearance if answer.clearance != float("inf") else "inf",
-            "kind": answer.decision.kind.value if isinstance(answer, Answer) else None,
+            "kind": None if decision.kind is None else decision.kind.value,
             "proof": proof_as_json(answer.pair, answer.certificate),
         }
     )
 
 
-def proof_as_json(pair: Pair | TiltedPair, certificate: Certificate) -> dict[str, Any]:
+def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
     """A certificate about a pair, and the numbers that check it, as values for JSON."""
-    if isinstance(pair, TiltedPair):
+    if not pair.is_upright:
         return _tilted_proof_as_json(pair, certificate)
     squares = PairSquares.of(pair)
     if certificate.multiplier is not None:
@@ -205,7 +180,7 @@ def proof_as_json(pair: Pair | TiltedPair, certificate: Certificate) -> dict[str
     return _points_as_json(pair, certificate.points)
 
 
-def _tilted_proof_as_json(pair: TiltedPair, certificate: Certificate) -> dict[str, Any]:
+def _tilted_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
     """The same where the axis leans: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
     if certificate.multiplier is not None:
         pivots = _pivots(pair, certificate.multiplier, 4)
@@ -225,25 +200,25 @@ def _tilted_proof_as_json(pair: TiltedPair, certificate: Certificate) -> dict[st
     return _points_as_json(pair, certificate.points)
 
 
-def _pivots(pair: TiltedPair, at: Fraction, size: int) -> list[Fraction]:
+def _pivots(pair: Pair, at: Fraction, size: int) -> list[Fraction]:
     """The pivots of the first rows and columns of S + λH."""
-    S, H = tilted_certificate.matrices(pair)
+    S, H = surfaces(pair)
     both = [[a + at * b for a, b in zip(*rows, strict=True)][:size] for rows in zip(S, H, strict=True)][:size]
-    return tilted_certificate.pivots(both)
+    return pivots(both)
 
 
-def _quartic(pair: TiltedPair) -> list[Fraction]:
-    """f(λ) = det(S + λH) over det S, the lowest power first: the whole numbers of truth/tilted/exact.py, so scaled."""
-    F = tilted_exact.quartic(pair.lengths)
+def _quartic(pair: Pair) -> list[Fraction]:
+    """f(λ) = det(S + λH) over det S, the lowest power first: the whole numbers of truth/pencil.py, so scaled."""
+    F = quartic(pair.lengths)
     lowest_first = [each * F.side**power for power, each in enumerate(reversed(F.coefficients))]
     return [Fraction(each, -F.f0) for each in lowest_first]
 
 
-def _points_as_json(pair: Pair | TiltedPair, points: tuple[Point, ...]) -> dict[str, Any]:
+def _points_as_json(pair: Pair, points: tuple[Point, ...]) -> dict[str, Any]:
     return {"by": "points", "points": [_point_as_json(pair, point) for point in points]}
 
 
-def _point_as_json(pair: Pair | TiltedPair, point: Point) -> dict[str, str]:
+def _point_as_json(pair: Pair, point: Point) -> dict[str, str]:
     named = dict(zip(("x", "y", "z"), map(exact_text, point), strict=True))
     return named | {"h": exact_text(height_of_point(pair, point)), "s": exact_text(reach_of_point(pair, point))}
 
@@ -252,7 +227,7 @@ def _squares_as_json(squares: PairSquares) -> dict[str, str]:
     return {name: exact_text(getattr(squares, name)) for name in "ABPQ"}
 
 
-def answer_as_text(answer: Answer | TiltedAnswer) -> str:
+def answer_as_text(answer: Answer) -> str:
     """The answer as lines of text, without an end of line after the last: position, clearance, kind, proof."""
     decision, clearance = answer.decision, answer.clearance
     radii = f"{repr(clearance).removesuffix('.0')} spheroid {'radius' if clearance == 1 else 'radii'}"
@@ -260,7 +235,7 @@ def answer_as_text(answer: Answer | TiltedAnswer) -> str:
     lines = [
         decision.position.label + ", tangent" * decision.tangent,
         f"clearance  {radii} ({_meaning(clearance)})",
-        *([f"kind       {kind_as_text(answer.decision.kind)}"] if isinstance(answer, Answer) else []),
+        *([] if decision.kind is None else [f"kind       {kind_as_text(decision.kind)}"]),
         f"proof      {proof[0]}",
         *(f"{'':11}{line}" for line in proof[1:]),
     ]
@@ -280,9 +255,9 @@ def kind_as_text(kind: Kind) -> str:
     return f"{kind.value}: {kind.description[0].lower()}{kind.description[1:].rstrip('.')}"
 
 
-def proof_lines(pair: Pair | TiltedPair, certificate: Certificate) -> list[str]:
+def proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
     """A certificate about a pair as lines of text, and how to check it by hand."""
-    if isinstance(pair, TiltedPair):
+    if not pair.is_upright:
         return _tilted_proof_lines(pair, certificate)
     if certificate.multiplier is not None:
         lines = _by_multiplier(pair, certificate.position, certificate.multiplier)
@@ -302,7 +277,7 @@ def _with_note(lines: list[str]) -> list[str]:
     return [*lines, *(["≈ marks a rounded number; --json gives all of them exactly."] if rounded else [])]
 
 
-def _tilted_proof_lines(pair: TiltedPair, certificate: Certificate) -> list[str]:
+def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
     matrix = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
     if certificate.multiplier is not None:
         at, side = certificate.multiplier, "above" if certificate.multiplier > 0 else "below"
@@ -366,7 +341,7 @@ def _definitions(squares: PairSquares) -> list[str]:
     ]
 
 
-def _by_points(pair: Pair | TiltedPair, points: tuple[Point, ...]) -> list[str]:
+def _by_points(pair: Pair, points: tuple[Point, ...]) -> list[str]:
     on_hyperboloid = [point for point in points if height_of_point(pair, point) == 0][:1]
     if on_hyperboloid:
         lines = ["a point of the spheroid (s ≤ 1) lies on the hyperboloid (h = 0):"]

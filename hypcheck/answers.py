@@ -24,9 +24,7 @@ from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
 from hypcheck.tables.streams import Route, reading, same_file, writing
 from hypcheck.truth import exact, float_filter, nearest
-from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted import nearest_arrays
-from hypcheck.truth.tilted.pair import TiltedPair
 
 
 def answers(rows: Rows) -> TableAnswers:
@@ -80,8 +78,8 @@ def _answers_of_ten(rows: Rows) -> TableAnswers:
             (int(sides[place]), float(found.clearance[index])),
         )
     for index in places[~measured.certain].tolist():
-        pair = TiltedPair.from_row(rows[index].tolist())
-        decision = tilted_exact.decide(pair.lengths)
+        pair = Pair.from_row(rows[index].tolist())
+        decision = exact.decide(pair.lengths)
         found.positions[index], found.tangent[index] = decision.position, decision.tangent
         found.clearance[index] = measured_clearance(pair, decision)
     return found

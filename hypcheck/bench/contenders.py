@@ -21,6 +21,7 @@ from hypcheck.bench.c_source import FAST
 from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars, of_method
 from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_names
 from hypcheck.derivation.formulas import FORMULAS
+from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.builtin import (
@@ -38,7 +39,6 @@ from hypcheck.implementations.ways import WAY_SOLVERS, height_of_ways, way_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.truth import float_filter
-from hypcheck.truth.tilted.pair import TiltedPair
 
 ALGEBRAIC = ("coefficients", "hessian", "shared", "local-maximum", "dual")
 PRECISIONS = ("float32", "float64")
@@ -286,7 +286,7 @@ def _ours(
 def _nearest(rows: Rows) -> Answers:
     from hypcheck.truth.tilted import nearest  # noqa: PLC0415 - loads mpmath
 
-    found = (nearest.position(TiltedPair.from_row(row)) for row in rows.tolist())
+    found = (nearest.position(Pair.from_row(row)) for row in rows.tolist())
     return np.array([CANNOT_SAY if each is None else each for each in found], dtype=np.int8)
 
 

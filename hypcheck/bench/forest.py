@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.timing import TimingEntry, clocked_calls, estimate, measure, ratios
 from hypcheck.errors import UnavailableError
-from hypcheck.geometry.pair import Lengths, Position, to_integers
+from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.implementations.meshes import FCL, grid_of
 from hypcheck.kernel.scene import Scene
 from hypcheck.processes import Advance
@@ -75,9 +75,7 @@ class Forest:
         alpha, gamma = KINDS[int(self.kinds[index])]
         there = self.places[index].tolist()
         x, y = (Fraction(here) - Fraction(tree) for here, tree in zip(centre[:2], there, strict=True))
-        radial = to_integers((alpha, WALKER.b, x, y))
-        axial = to_integers((gamma, WALKER.d, centre[2]))
-        return exact.position(Lengths(radial[0], radial[1], radial[2], radial[3], *axial))
+        return exact.position(Lengths.of((alpha, gamma, WALKER.b, WALKER.d, x, y, centre[2])))
 
 
 def _tree(number: int, kind: int, place: tuple[float, float]) -> Hyperboloid:

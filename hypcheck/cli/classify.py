@@ -12,7 +12,6 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, SIZES, Pair
 from hypcheck.tables.numbers import number_of_text
 from hypcheck.tables.streams import FORMATS, route
-from hypcheck.truth.tilted.pair import TiltedPair
 
 _HELP = """Give the position of a spheroid relative to a hyperboloid: exterior, contact (with tangency) or interior.
 
@@ -104,7 +103,7 @@ def _watch(size: int | None) -> Iterator[Callable[[int, int], object]]:
 
 def _pair_of(
     sizes: dict[str, str | None], center: tuple[str, str, str] | None, axis: tuple[str, str, str] | None
-) -> Pair | TiltedPair:
+) -> Pair:
     """The pair that these texts write. Raises InputError naming what is missing or no valid number."""
     missing = [f"--{name}" for name, text in sizes.items() if text is None] + ["--center"] * (center is None)
     if len(missing) == len(sizes) + 1 and axis is None:
@@ -119,7 +118,7 @@ def _pair_of(
     direction = [_number("--axis: ", *named) for named in zip(AXIS, axis, strict=True)]
     if not any(direction):
         raise InputError(f"--axis: {NO_DIRECTION}")
-    return TiltedPair.from_row(numbers + direction)
+    return Pair.from_row(numbers + direction)
 
 
 def _number(begin: str, name: str, text: str) -> float:

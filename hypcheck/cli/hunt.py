@@ -34,6 +34,7 @@ from hypcheck.cli.options import (
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import print_file_settings
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
+from hypcheck.geometry.pair import Pair
 from hypcheck.messages import counted, printable
 
 if TYPE_CHECKING:
@@ -238,7 +239,6 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     from hypcheck.runs.minimise import minimise as simplify
     from hypcheck.runs.minimise import minimised_lines
     from hypcheck.runs.replay import case_of
-    from hypcheck.truth.tilted.pair import pair_of
     from hypcheck.vectors.families import is_extreme
     from hypcheck.vectors.format import content_with
     from hypcheck.vectors.labels import labelled
@@ -254,7 +254,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
         click.echo("\nthe right answer")
         click.echo("\n".join(way_answer_lines(*labelled(content_with(WAYS), [("", row)]))))
     else:
-        click.echo(f"\nthe right answer: {answer_as_text(answer(pair_of(row)))}")
+        click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(row)))}")
 
 
 _REPLAY_HELP = """\

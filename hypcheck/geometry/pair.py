@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
+from typing import Any
 
 from hypcheck.errors import InputError
 
@@ -44,6 +45,8 @@ Sizes = tuple[float, float, float, float]
 Axis = tuple[float, float, float]
 """axis_x, axis_y, axis_z of one spheroid."""
 
+Vector = tuple[int, int, int]
+
 
 class Position(IntEnum):
     """The relative position: outside the hyperboloid, in contact with it (tangency included), or inside."""
@@ -64,9 +67,10 @@ REFUSED = 127
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """A valid query: sizes finite and > 0, centre finite, no negative zero. All lengths are in one unit.
+    """A valid query: sizes finite and > 0, centre finite, axis finite and not 0, no negative zero.
 
-    Construction from anything else raises InputError, which names the column and the value.
+    All lengths are in one unit, the axis in any. Without an axis the spheroid is upright. Construction from anything
+    else raises InputError, which names the column and the value.
     """
 
     alpha: float
@@ -76,38 +80,56 @@ class Pair:
     x: float
     y: float
     z: float
+    axis_x: float = 0.0
+    axis_y: float = 0.0
+    axis_z: float = 1.0
 
     def __post_init__(self) -> None:
-        for name, value in zip(COLUMNS, self.row, strict=True):
-            trouble = trouble_with(name, value)
-            if trouble is not None:
-                raise InputError(trouble)
-            object.__setattr__(self, name, float(value) + 0.0)  # + 0.0 turns −0.0 into 0.0
+        trouble = trouble_with_row((*self.row[: len(COLUMNS)], *self.axis))
+        if trouble is not None:
+            raise InputError(trouble)
+        for name in TILTED_COLUMNS:
+            object.__setattr__(self, name, float(getattr(self, name)) + 0.0)  # + 0.0 turns −0.0 into 0.0
 
     @classmethod
     def from_row(cls, row: Iterable[float]) -> Pair:
-        """The pair of a row alpha, gamma, b, d, x, y, z."""
+        """The pair of a row of seven numbers, or of ten with an axis."""
         return cls(*row)
 
     @property
-    def row(self) -> tuple[float, float, float, float, float, float, float]:
-        """The seven numbers in the order of COLUMNS."""
-        return (self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z)
+    def row(self) -> tuple[float, ...]:
+        """The numbers in the order of COLUMNS, those of the axis behind them unless it is UPRIGHT."""
+        row = (self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z)
+        return row if self.axis == UPRIGHT else row + self.axis
+
+    @property
+    def axis(self) -> Axis:
+        """A vector along the spheroid's axis of revolution."""
+        return (self.axis_x, self.axis_y, self.axis_z)
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether this is the question about an upright spheroid: the axis is vertical, or the spheroid a sphere."""
+        return (self.axis_x == 0 and self.axis_y == 0) or self.b == self.d
+
+    @property
+    def upright(self) -> Pair:
+        """The same question without an axis, of a pair that is_upright."""
+        return self if self.axis == UPRIGHT else Pair(self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z)
 
     @property
     def lengths(self) -> Lengths:
         """The same pair in integers: see Lengths."""
-        radial = to_integers((self.alpha, self.b, self.x, self.y))
-        axial = to_integers((self.gamma, self.d, self.z))
-        return Lengths(*radial, *axial)
+        return Lengths.of((self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z, *self.axis))
 
 
 @dataclass(frozen=True, slots=True)
 class Lengths:
-    """A pair in exact integers: α, b, x, y in one common unit, γ, d, z in another.
+    """A pair in exact integers: α, b, x, y in one unit, γ, d, z in another, which for tilted spheroids is the same.
 
-    The position depends on the ratios within each group alone (Theorem 1 of the paper scales space by 1/b, 1/b, 1/d),
-    so each group has its own unit, and every float64 or rational pair can be written so without rounding.
+    The position of an upright pair depends on the ratios within each group alone (Theorem 1 of the paper scales space
+    by 1/b, 1/b, 1/d), so each group may have its own unit. That of a tilted one depends on all ratios, and on the
+    direction of the axis, whose unit means nothing. Every float64 or rational pair can be written so without rounding.
     """
 
     alpha: int
@@ -117,6 +139,22 @@ class Lengths:
     gamma: int
     d: int
     z: int
+    axis: Vector = (0, 0, 1)
+
+    @classmethod
+    def of(cls, row: Sequence[float | Fraction]) -> Lengths:
+        """The integers of seven valid numbers, or of ten with an axis, float64 or rational."""
+        alpha, gamma, b, d, x, y, z, *axis = row
+        radial, axial = (alpha, b, x, y), (gamma, d, z)
+        if not axis or axis[0] == axis[1] == 0 or b == d:
+            return cls(*to_integers(radial), *to_integers(axial))
+        a, b, x, y, g, d, z = _smallest(radial + axial)
+        return cls(a, b, x, y, g, d, z, axis=_smallest(axis))
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether the axis is vertical, or the spheroid a sphere."""
+        return self.axis[0] == self.axis[1] == 0 or self.b == self.d
 
 
 def trouble_with(name: str, value: object) -> str | None:
@@ -152,8 +190,23 @@ def trouble_with_row(row: Sequence[object], columns: Sequence[str] = COLUMNS) ->
     return trouble_with_axis(row[len(columns) :]) if len(row) > len(columns) else None
 
 
-def to_integers(values: Sequence[float | Fraction]) -> tuple[int, ...]:
-    """The values multiplied by one power of two that makes each an integer: exact, since floats are dyadic."""
+def to_integers(values: Sequence[float | Fraction]) -> Any:  # noqa: ANN401 - as many integers as values
+    """The values times the least number that makes each an integer."""
+    return tuple(over_one_denominator(values)[0])
+
+
+def over_one_denominator(values: Sequence[float | Fraction]) -> tuple[list[int], int]:
+    """Numbers as integers over their least common denominator, and that."""
     ratios = [value.as_integer_ratio() for value in values]
-    unit = max(denominator for _, denominator in ratios)
-    return tuple(numerator * (unit // denominator) for numerator, denominator in ratios)
+    unit = math.lcm(*(denominator for _, denominator in ratios))
+    return [numerator * (unit // denominator) for numerator, denominator in ratios], unit
+
+
+def _smallest(values: Sequence[float | Fraction]) -> Any:  # noqa: ANN401 - as many integers as values
+    """The values over the largest number of which all are integer multiples, up to an odd factor; not all are 0."""
+    multiples = to_integers(values)
+    union = 0
+    for multiple in multiples:
+        union |= multiple
+    shift = (union & -union).bit_length() - 1
+    return tuple(multiple >> shift for multiple in multiples)

@@ -258,7 +258,7 @@ def is_within_height(
         return False
     if span[0] == -inf and span[1] == inf:
         return True
-    w = to_integers(axis)
+    w: list[int] = to_integers(axis)
     along = sum(
         ((Fraction(there) - Fraction(here)) * each for there, here, each in zip(centre, origin, w, strict=True)),
         Fraction(0),

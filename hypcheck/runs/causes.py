@@ -29,6 +29,7 @@ from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.pencil import cubic
 
 Answers = NDArray[np.int8]
 
@@ -83,7 +84,7 @@ class Asked:
     def kind(self, place: int) -> Kind:
         """The kind of a row (7,), decided exactly."""
         if place not in self.kinds:
-            self.kinds[place] = exact.decide(Pair.from_row(self.rows[place].tolist()).lengths).kind
+            self.kinds[place] = exact.kind_of(Pair.from_row(self.rows[place].tolist()).lengths)
         return self.kinds[place]
 
     @cached_property
@@ -299,7 +300,7 @@ def _zero_coefficient(asked: Asked) -> Answers:
 
     positions = silent(asked)
     for place in np.flatnonzero((asked.truth == Position.INTERIOR) & small).tolist():
-        g = exact.cubic(Pair.from_row(asked.rows[place].tolist()).lengths)
+        g = cubic(Pair.from_row(asked.rows[place].tolist()).lengths)
         if g.n1 == 0 or g.n2 == 0:
             positions[place] = Position.CONTACT
     return asked.said(positions)

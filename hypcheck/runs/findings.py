@@ -34,9 +34,9 @@ from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.score import score
 from hypcheck.truth import exact, float_filter
-from hypcheck.truth.exact import Decision, cubic
+from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.tilted.exact import TiltedDecision
+from hypcheck.truth.pencil import cubic
 from hypcheck.vectors.families import case_id
 from hypcheck.vectors.family import Family
 
@@ -79,7 +79,7 @@ class Batch:
     family: Family
     ids: tuple[str, ...]
     rows: Rows
-    decisions: tuple[Decision | TiltedDecision, ...]
+    decisions: tuple[Decision, ...]
     start: int = 0
 
     @cached_property
@@ -138,7 +138,7 @@ def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -
 def cause(batch: Batch, place: int) -> str:
     """The special property of a case that printed statements often forget."""
     decision = batch.decisions[place]
-    if isinstance(decision, Decision) and decision.kind is Kind.EXTERIOR_RING:
+    if decision.kind is Kind.EXTERIOR_RING:
         return "ring"
     g = cubic(Pair.from_row(batch.rows[place].tolist()).lengths)
     if g.n2 == 0 or g.n1 == 0:

@@ -16,10 +16,8 @@ from hypcheck.geometry.pair import COLUMNS, SIZES, WAY_COLUMNS, Lengths, Pair, P
 from hypcheck.geometry.rows import WAYS, Layout
 from hypcheck.runs.judges import passage_of, way_in_radii
 from hypcheck.truth import exact
-from hypcheck.truth.exact import Cubic, Decision
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.pair import TiltedPair, pair_of
+from hypcheck.truth.pencil import Cubic, cubic
 
 NEAR = Fraction(1, 64)
 """A row within this relative distance is next to a surface."""
@@ -62,15 +60,15 @@ class RowPlace:
 
 def place_of_row(row: Sequence[float], layout: Layout) -> RowPlace:
     """The place of a valid row of this layout."""
-    return way_place(tuple(row)) if layout is WAYS else place_of(pair_of(row))
+    return way_place(tuple(row)) if layout is WAYS else place_of(Pair.from_row(row))
 
 
-def place_of(pair: Pair | TiltedPair) -> RowPlace:
+def place_of(pair: Pair) -> RowPlace:
     """The place of a pair."""
-    if isinstance(pair, TiltedPair):
+    if not pair.is_upright:
         return _tilted_place(pair)
-    lengths = pair.lengths
-    special = [*_double_roots(lengths, exact.decide(lengths)), *_coefficients(exact.cubic(lengths))]
+    lengths = pair.upright.lengths
+    special = [*_double_roots(lengths, exact.kind_of(lengths)), *_coefficients(cubic(lengths))]
     regimes = list(_regimes(lengths))
     planes = [] if special and special[0][0] == RING else _planes(lengths)
     named = [*special, *_borders(lengths), *regimes, *planes] or [(OPEN, OPEN)]
@@ -78,12 +76,12 @@ def place_of(pair: Pair | TiltedPair) -> RowPlace:
     return RowPlace(named[0][0], ", ".join(words for _, words in named), cause.removeprefix("next to "))
 
 
-def _tilted_place(pair: TiltedPair) -> RowPlace:
+def _tilted_place(pair: Pair) -> RowPlace:
     """The place of a tilted spheroid: what is special about its axis and its centre."""
     x, y, z, axis_x, axis_y, axis_z = map(Fraction, (pair.x, pair.y, pair.z, *pair.axis))
     across, along = axis_x**2 + axis_y**2, axis_z**2
     signs = {
-        "exactly tangent": tilted_exact.decide(pair.lengths).tangent,
+        "exactly tangent": exact.decide(pair.lengths).tangent,
         "a horizontal axis": along == 0,
         "a nearly upright axis": across <= NEAR**2 * along,
         "a nearly horizontal axis": 0 < along <= NEAR**2 * across,
@@ -96,15 +94,15 @@ def _tilted_place(pair: TiltedPair) -> RowPlace:
     return RowPlace(kind, ", ".join([TILTED, *named]), kind)
 
 
-def _double_roots(lengths: Lengths, decision: Decision) -> Iterator[tuple[str, str]]:
-    if decision.kind is Kind.EXTERIOR_RING:
+def _double_roots(lengths: Lengths, kind: Kind) -> Iterator[tuple[str, str]]:
+    if kind is Kind.EXTERIOR_RING:
         yield RING, "z = 0 and Δ = 0 (the ring)"
-    elif decision.position is Position.EXTERIOR and (off := _off_the_ring(lengths)) is not None:
+    elif kind.position is Position.EXTERIOR and (off := _off_the_ring(lengths)) is not None:
         yield f"next to {RING}", f"{off:.1e} radii from the ring"
-    elif decision.tangent:
-        yield "exactly tangent", f"exactly tangent ({decision.kind.value})"
-    elif decision.kind in _OTHER_DOUBLE_ROOTS:
-        yield "Δ = 0 without a tangency", f"Δ = 0 without a tangency ({decision.kind.value})"
+    elif kind.limit_of is not None:
+        yield "exactly tangent", f"exactly tangent ({kind.value})"
+    elif kind in _OTHER_DOUBLE_ROOTS:
+        yield "Δ = 0 without a tangency", f"Δ = 0 without a tangency ({kind.value})"
 
 
 def _coefficients(g: Cubic) -> Iterator[tuple[str, str]]:

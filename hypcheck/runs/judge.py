@@ -24,8 +24,6 @@ from hypcheck.geometry.rows import CANNOT_SAY, Layout, Positions, Rows
 from hypcheck.implementations.description import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
 from hypcheck.truth import backward_error, exact, float_filter
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.pair import TiltedLengths
 
 DEFAULT_TOLERANCE = Fraction(8)
 """The backward error in units u that a run tolerates by default."""
@@ -159,12 +157,12 @@ def measured(case: WrongCase, question: str) -> float:
     """
     if case.least:
         return case.least
-    lengths = _lengths(case.row)
-    if isinstance(lengths, Lengths):
+    lengths = Lengths.of(case.row)
+    if lengths.is_upright:
         return _error(lengths, case.answer, question)
     from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
 
-    truth = tilted_exact.decide(lengths)
+    truth = exact.decide(lengths)
     targets = right_positions(truth.position, case.answer, question)
     if case.status in (Status.WRONG, Status.EXCUSED):
         return min(tilted_error.lower_end(case.row, truth, target) for target in targets)
@@ -176,16 +174,16 @@ def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
 
     Of a tilted spheroid an estimate, which takes a small part of the time of a proof.
     """
-    lengths = _lengths(row)
-    if isinstance(lengths, Lengths):
+    lengths = Lengths.of(row)
+    if lengths.is_upright:
         return _error(lengths, answer, question)
     return _estimate(lengths, row, answer, question)
 
 
-def _estimate(lengths: TiltedLengths, row: Sequence[float], answer: int, question: str) -> float:
+def _estimate(lengths: Lengths, row: Sequence[float], answer: int, question: str) -> float:
     from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
 
-    truth = tilted_exact.decide(lengths)
+    truth = exact.decide(lengths)
     targets = right_positions(truth.position, answer, question)
     return min(tilted_error.estimate(row, truth, target) for target in targets)
 
@@ -215,10 +213,9 @@ def _proved_ends(
         return {}
     from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
 
-    tilted = [
-        (index, lengths) for index in wrong.tolist() if isinstance(lengths := _lengths(rows[index]), TiltedLengths)
-    ]
-    truths = [tilted_exact.decide(lengths) for _, lengths in tilted]
+    pairs = ((index, Lengths.of(rows[index].tolist())) for index in wrong.tolist())
+    tilted = [(index, lengths) for index, lengths in pairs if not lengths.is_upright]
+    truths = [exact.decide(lengths) for _, lengths in tilted]
     targets = [
         right_positions(truth.position, int(answers[index]), criterion.question)
         for (index, _), truth in zip(tilted, truths, strict=True)
@@ -233,10 +230,10 @@ def _proved_ends(
 
 
 def _exponent_of_ten(row: list[float]) -> float:
-    lengths = _lengths(row)
-    if isinstance(lengths, Lengths):
+    lengths = Lengths.of(row)
+    if lengths.is_upright:
         return float(flip_exponents(np.array([row[: len(COLUMNS)]]))[0])
-    distance = _estimate(lengths, row, 0, tilted_exact.position(lengths).name.lower())
+    distance = _estimate(lengths, row, 0, exact.position(lengths).name.lower())
     return math.floor(math.log2(distance)) if distance else -math.inf
 
 
@@ -261,22 +258,14 @@ def _exponent(lengths: Lengths, answer: int, question: str) -> float:
 
 
 def _judged(index: int, row: list[float], answer: int, criterion: Criterion) -> WrongCase:
-    lengths = _lengths(row)
+    lengths = Lengths.of(row)
     position, status, exponent = (
         _status_of_upright(lengths, answer, criterion)
-        if isinstance(lengths, Lengths)
+        if lengths.is_upright
         else _status_of_tilted(lengths, row, answer, criterion)
     )
     mistake = mistake_of(position, answer, criterion.question)
     return WrongCase(index, tuple(row), position, answer, mistake, status, exponent)
-
-
-def _lengths(row: Sequence[float]) -> Lengths | TiltedLengths:
-    """The integers of a row: seven where the spheroid stands upright or is a sphere, ten where it is tilted."""
-    if len(row) == len(COLUMNS):
-        return Pair.from_row(row).lengths
-    lengths = TiltedLengths.of(row)
-    return lengths.upright or lengths
 
 
 def _status_of_upright(lengths: Lengths, answer: int, criterion: Criterion) -> tuple[Position, Status, float]:
@@ -289,12 +278,12 @@ def _status_of_upright(lengths: Lengths, answer: int, criterion: Criterion) -> t
 
 
 def _status_of_tilted(
-    lengths: TiltedLengths, row: Sequence[float], answer: int, criterion: Criterion
+    lengths: Lengths, row: Sequence[float], answer: int, criterion: Criterion
 ) -> tuple[Position, Status, float]:
     """The same of a tilted spheroid; UNDECIDED where the tolerance lies between the two ends of the error."""
     from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
 
-    truth = tilted_exact.decide(lengths)
+    truth = exact.decide(lengths)
     targets = right_positions(truth.position, answer, criterion.question)
     within = tilted_error.tolerated(row, truth, targets, criterion.tolerance * criterion.unit)
     status = Status.UNDECIDED if within is None else Status.TOLERATED if within else Status.WRONG
@@ -325,7 +314,7 @@ def tolerated(lengths: Lengths, truth: Decision, targets: Iterable[Position], cr
     if change >= 1:
         return any(backward_error.backward_error(lengths, truth, target) <= 1 for target in targets)
     return any(
-        truth.kind.limit_of is target or backward_error.makes_right(lengths, truth.position, target, change)
+        truth.limit_of is target or backward_error.makes_right(lengths, truth.position, target, change)
         for target in targets
     )
 

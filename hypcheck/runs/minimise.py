@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, trouble_with_row
+from hypcheck.geometry.pair import COLUMNS, SIZES, Pair, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
 from hypcheck.messages import counted
 from hypcheck.runs.hunt import (
@@ -31,7 +31,6 @@ from hypcheck.runs.judge import Status, WrongCase
 from hypcheck.runs.replay import ReplayCase, of_question
 from hypcheck.runs.score import Score
 from hypcheck.runs.tally import STATUSES
-from hypcheck.truth.tilted.pair import pair_of
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS
 
 Row = tuple[float, ...]
@@ -256,7 +255,7 @@ def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
     trouble = trouble_with_row(case.row, target.layout.upright)
     if trouble is not None:
         raise InputError(f"{case.name}: {trouble}")
-    return tuple(np.add(case.row, 0.0).tolist()) if case.layout is WAYS else pair_of(case.row).row
+    return tuple(np.add(case.row, 0.0).tolist()) if case.layout is WAYS else Pair.from_row(case.row).row
 
 
 def _start(run: Minimised, row: Row) -> HuntFinding:

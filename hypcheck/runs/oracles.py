@@ -22,16 +22,14 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import Batch, SelfCheckPlan
-from hypcheck.truth import certificate, exact, mesh, nearest, nearest_exact, prove, roots
+from hypcheck.truth import exact, mesh, nearest, nearest_exact, roots
+from hypcheck.truth.certificate import check_certificate
+from hypcheck.truth.exact import Decision
 from hypcheck.truth.mesh import MeshOutcome
-from hypcheck.truth.tilted import certificate as tilted_certificate
-from hypcheck.truth.tilted import exact as tilted_exact
+from hypcheck.truth.prove import prove
 from hypcheck.truth.tilted import mesh as tilted_mesh
 from hypcheck.truth.tilted import nearest as tilted_nearest
-from hypcheck.truth.tilted import prove as tilted_prove
 from hypcheck.truth.tilted import roots as tilted_roots
-from hypcheck.truth.tilted.exact import TiltedDecision
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import TiltedVector
 from hypcheck.vectors.families import TILTED_FAMILIES
@@ -72,18 +70,13 @@ def _exact(row: list[float]) -> Opinion:
     """The exact decision with a checked certificate; a decision without a valid proof counts as undecided."""
     pair = Pair.from_row(row)
     decision = exact.decide(pair.lengths)
-    found = prove.prove(pair, decision)
-    proved = found.position is decision.position and certificate.check_certificate(pair, found)
-    return Opinion(decision.position, decision.tangent, decision.kind.value, "proved") if proved else _REFUSED
+    found = prove(pair, decision)
+    proved = found.position is decision.position and check_certificate(pair, found)
+    return Opinion(decision.position, decision.tangent, _name_of_kind(decision), "proved") if proved else _REFUSED
 
 
-def _exact_tilted(row: list[float]) -> Opinion:
-    """As _exact, of a tilted spheroid."""
-    pair = TiltedPair.from_row(row)
-    decision = tilted_exact.decide(pair.lengths)
-    found = tilted_prove.prove(pair, decision)
-    proved = found.position is decision.position and tilted_certificate.check_certificate(pair, found)
-    return Opinion(decision.position, decision.tangent, None, "proved") if proved else _REFUSED
+def _name_of_kind(decision: Decision) -> str | None:
+    return None if decision.kind is None else decision.kind.value
 
 
 def _nearest(rows: Rows) -> list[Opinion]:
@@ -95,7 +88,7 @@ def _nearest(rows: Rows) -> list[Opinion]:
 
 def _nearest_tilted(row: list[float]) -> Opinion:
     """The sign of the clearance to the nearest point, in intervals of more and more bits until they decide."""
-    found = tilted_nearest.nearest(TiltedPair.from_row(row))
+    found = tilted_nearest.nearest(Pair.from_row(row))
     return Opinion(found.position, found.tangent, None, f"{found.bits} bits")
 
 
@@ -123,7 +116,7 @@ def _coefficient_rule() -> Callable[[Mapping[str, float]], int]:
 
 def _roots_tilted(row: list[float]) -> Opinion:
     """The pattern of the roots of the quartic det(S + λH) beside its poles."""
-    found = tilted_roots.classify_tilted_by_roots(TiltedPair.from_row(row))
+    found = tilted_roots.classify_tilted_by_roots(Pair.from_row(row))
     return Opinion(found.position, found.tangent, None, "root pattern")
 
 
@@ -136,12 +129,12 @@ def _mesh(row: list[float]) -> Opinion:
 
 def _mesh_tilted(row: list[float]) -> Opinion:
     """FCL's distance to meshes of lines of the hyperboloid, the spheroid being the unit ball; undecided in its band."""
-    found = tilted_mesh.position(TiltedPair.from_row(row))
+    found = tilted_mesh.position(Pair.from_row(row))
     return Opinion(found, stage="undecided" if found is None else "clear" if found else "contact")
 
 
 ORACLES = {
-    "exact": Oracle(_each(_exact), _each(_exact_tilted)),
+    "exact": Oracle(_each(_exact), _each(_exact)),
     "nearest": Oracle(_nearest, _each(_nearest_tilted)),
     "roots": Oracle(_each(_roots), _each(_roots_tilted)),
     "mesh": Oracle(_each(_mesh), _each(_mesh_tilted), mesh.availability),
@@ -156,7 +149,7 @@ def tilted_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
 def tilted_batch(family: Family, count: int) -> Batch:
     """The first `count` frozen vectors of a family of tilted spheroids."""
     cases = frozen.load(family.name).cases[:count]
-    decisions = tuple(TiltedDecision(case.position, _limit_of(case)) for case in cases)
+    decisions = tuple(Decision(case.position, _limit_of(case)) for case in cases)
     return Batch(family, tuple(case.id for case in cases), np.asarray([case.row for case in cases]), decisions)
 
 
@@ -248,12 +241,12 @@ DISAGREEMENTS_KEPT = 20
 def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] | None:
     """The exact decision and the opinion in words if they contradict each other, else None."""
     decision = batch.decisions[index]
-    kind = decision.kind.value if isinstance(decision, exact.Decision) else None
+    kind = _name_of_kind(decision)
     said = f"{decision.position.label}, tangent: {decision.tangent}{'' if kind is None else f', {kind}'}"
     if opinion.stage.startswith(_RULE) or opinion == _REFUSED:
         return said, opinion.stage
     if opinion.position is None:
         return None
     same = opinion.position is decision.position
-    same &= opinion.tangent in (None, decision.tangent) and opinion.kind in (None, kind)
+    same &= opinion.tangent in (None, decision.tangent) and (None in (opinion.kind, kind) or opinion.kind == kind)
     return None if same else (said, f"{opinion.position.label}, tangent: {opinion.tangent}, {opinion.kind}")

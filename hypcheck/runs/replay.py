@@ -6,13 +6,13 @@ CASE on the command line is the id of a case, the numbers of a position or a way
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from hypcheck.answer import proved, tilted_answer
+from hypcheck.answer import proved
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import (
     AXIS,
@@ -45,8 +45,6 @@ from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.swept import Passage
-from hypcheck.truth.tilted.exact import TiltedDecision
-from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 from hypcheck.vectors.families import is_extreme, parse_case_id
 from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import columns_at_fault
@@ -139,15 +137,15 @@ class ProvedTruth:
     Of a tilted spheroid, the two ends between which that is proved to lie.
     """
 
-    pair: Pair | TiltedPair
-    decision: Decision | TiltedDecision
+    pair: Pair
+    decision: Decision
     certificate: Certificate
     flips: Mapping[Position, float | tuple[float, float]]
 
     @property
     def kind(self) -> Kind | None:
         """The kind of its roots; None of a tilted spheroid."""
-        return self.decision.kind if isinstance(self.decision, Decision) else None
+        return self.decision.kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,10 +208,10 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     known = (case, str(implementation.spec), declared, used, criterion)
     if case.at_fault:
         return Replay(*known, None, _refused(case, implementation))
-    truth = passage_of(case.row) if case.layout is WAYS else truth_of(pair_of(case.row))
+    truth = passage_of(case.row) if case.layout is WAYS else truth_of(Pair.from_row(case.row))
     judgement = _judged(implementation, case.row, truth, criterion)
     choice, causes = None, tuple[Cause, ...]()
-    if isinstance(truth, ProvedTruth) and isinstance(truth.pair, Pair):
+    if isinstance(truth, ProvedTruth) and truth.pair.is_upright:
         causes = _causes(truth, judgement, criterion)
         answered = None if judgement.answer == CANNOT_SAY else judgement.answer
         choice = choose_formula(implementation, answered, truth.pair.row, truth.decision.position, formula)
@@ -245,27 +243,23 @@ def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion
     return tuple(exactly or found[:1])
 
 
-def truth_of(pair: Pair | TiltedPair) -> ProvedTruth:
+def truth_of(pair: Pair) -> ProvedTruth:
     """Decide, prove, and check the proof. Raises DisagreementError if it does not hold."""
-    if isinstance(pair, TiltedPair):
-        return _tilted_truth_of(pair)
+    pair = pair.upright if pair.is_upright else pair
     decision = exact.decide(pair.lengths)
-    others = _others(decision.position)
-    flips = {position: backward_error.backward_error(pair.lengths, decision, position) for position in others}
-    return ProvedTruth(pair, decision, proved(pair, decision), flips)
+    others = [other for other in Position if other is not decision.position]
+    return ProvedTruth(
+        pair, decision, proved(pair, decision), {other: _flip(pair, decision, other) for other in others}
+    )
 
 
-def _tilted_truth_of(pair: TiltedPair) -> ProvedTruth:
+def _flip(pair: Pair, decision: Decision, other: Position) -> float | tuple[float, float]:
+    if pair.is_upright:
+        return backward_error.backward_error(pair.lengths, decision, other)
     from hypcheck.truth.tilted.backward_error import quick_bracket  # noqa: PLC0415 - loads mpmath
 
-    told = tilted_answer(pair)
-    brackets = {other: quick_bracket(pair.row, told.decision, other) for other in _others(told.decision.position)}
-    flips = {other: (each.lower, each.upper) for other, each in brackets.items()}
-    return ProvedTruth(pair, told.decision, told.certificate, flips)
-
-
-def _others(position: Position) -> Iterator[Position]:
-    return (other for other in Position if other is not position)
+    ends = quick_bracket(pair.row, decision, other)
+    return ends.lower, ends.upper
 
 
 def _judged(
@@ -309,7 +303,7 @@ def _alone(scored: Score, truth: ProvedTruth | Passage) -> ReplayJudgement:
 
 def _error(case: WrongCase, truth: ProvedTruth | Passage, criterion: Criterion) -> float:
     """How wrong an answer is; of a tilted spheroid the end that says what the status says, as `flips` shows it."""
-    if isinstance(truth, ProvedTruth) and isinstance(truth.pair, TiltedPair):
+    if isinstance(truth, ProvedTruth) and not truth.pair.is_upright:
         targets = judge.right_positions(Position(case.truth), case.answer, criterion.question)
         ends = [each for target in targets if isinstance(each := truth.flips[target], tuple)]
         return min(low if case.status is Status.WRONG else high for low, high in ends)

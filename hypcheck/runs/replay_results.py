@@ -155,7 +155,7 @@ def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
     yield from _titled("truth", f"{decision.position.label}{', tangent' if decision.tangent else ''}")
     if truth.kind is not None:
         yield from _titled("kind", kind_as_text(truth.kind))
-    if isinstance(truth.pair, Pair):
+    if truth.pair.is_upright:
         yield from _titled("regime", _regime(truth.pair))
     for position, distance in truth.flips.items():
         yield from _titled("flips", f"to {position.label} {_change(distance)}")

@@ -16,6 +16,7 @@ than 2^LEAST, is left to `backward_error_exponent`.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -25,6 +26,15 @@ from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision
+
+
+@dataclass(frozen=True, slots=True)
+class Bracket:
+    """Two proved ends of a backward error, inf twice where no change up to 1 is enough."""
+
+    lower: float
+    upper: float
+
 
 DIGITS = 4
 """Significant digits of a backward error."""
@@ -82,7 +92,7 @@ def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position)
 
     The exponent k returned has 2^k ≤ backward error ≤ 2^(k+1): exact decisions at both ends say so.
     """
-    if answer is truth.position or truth.kind.limit_of is answer:
+    if answer is truth.position or truth.limit_of is answer:
         return -math.inf
     if answer is Position.EXTERIOR and lengths.x == lengths.y == 0:
         return math.inf

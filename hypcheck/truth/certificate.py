@@ -1,22 +1,35 @@
-"""The proof of an answer, and its check, in rational arithmetic alone.
+"""What proves an answer about an ellipsoid and a quadric, and the check of that proof, in exact arithmetic alone.
 
-Three numbers or points are enough (docs/mathematics.md, "A certificate for every answer"):
+S and H are the symmetric 4×4 matrices of the two surfaces, X̃ = (x, y, z, 1); the ellipsoid is s = X̃ᵀSX̃ ≤ 0, and the
+quadric's side of a point is the sign of h = X̃ᵀHX̃. M and D are their upper 3×3 parts, M positive definite. Where
+S + λH is positive definite, λh > −s ≥ 0 on the whole closed ellipsoid. So it is enough:
 
-- exterior: a λ in (0, B) with g(λ) > 0; interior: a λ in (−A, 0) with g(λ) > 0;
-- contact: two points of the closed spheroid on opposite sides of the hyperboloid, or one that lies on it;
-- tangency: the double root m of g, in [−A, 0) or (0, B], but not m = B with the simple root below B (the ring).
+- exterior (h > 0), interior (h < 0): λ > 0, λ < 0 with S + λH positive definite: the pivots of L D Lᵀ are > 0;
+- contact: two points of the closed ellipsoid on opposite sides of the quadric, or one that lies on it;
+- tangency: a root m of f(λ) = det(S + λH) where M + mD is positive semidefinite and φ = f/det(M + λD), which is
+  concave where M + λD is definite, reaches its greatest value between 0 and m at m, and that is 0. Where M + mD is
+  definite, a double root of f says so. Where k of its pivots are 0, det(M + λD) has a root of order k at m, and f must
+  have one of order k + 1 at least; φ is not > 0 before m if f is not: if its derivative of order k + 1 is 0 or has the
+  sign that makes f < 0 between 0 and m.
 
-This module shares no code with the one that makes certificates: it starts from the seven floats and the definitions.
+Nothing here needs the ellipsoid or the quadric to be round, or an axis to be vertical. `surfaces` makes the matrices of
+a spheroid and a hyperboloid. This module shares no code with what makes certificates: it starts from the numbers of a
+row and the definitions.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import permutations
+from typing import Protocol
 
-from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.pair import Position, over_one_denominator
 
 Point = tuple[Fraction, Fraction, Fraction]
+Matrix = list[list[Fraction]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,29 +42,118 @@ class Certificate:
     double_root: Fraction | None = None
 
 
-def check_certificate(pair: Pair, certificate: Certificate) -> bool:
+class Query(Protocol):
+    """A pair: alpha, gamma, b, d, x, y, z and more, and the axis, floats or rationals."""
+
+    @property
+    def row(self) -> Sequence[float | Fraction]:
+        """The numbers in the order of geometry.pair.COLUMNS; what stands behind them is not read."""
+
+    @property
+    def axis(self) -> Sequence[float | Fraction]:
+        """A vector along the spheroid's axis of revolution."""
+
+
+def check_certificate(pair: Query, certificate: Certificate) -> bool:
     """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone.
 
-    Numbers of other types are taken as the rationals that they are: with one float all would be rounded, and g > 0
-    could come of that. Raises ValueError for a claim that is no position, and for NaN.
+    Numbers of other types are taken as the rationals that they are: with one float all would be rounded, and a pivot
+    above 0 could come of that. Raises ValueError for a claim that is no position, and for NaN.
     """
-    alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
-    A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
+    return proves(*surfaces(pair), certificate)
+
+
+def surfaces(pair: Query) -> tuple[Matrix, Matrix]:
+    """S and H of a spheroid and a hyperboloid, from their definitions.
+
+    Lengths are counted in units of 1/`unit` and the axis v in one of its own, so that all are integers and each entry
+    is one quotient: with q = b², t = d² and V = v·v, M is t V I + (q − t) v vᵀ over q t V.
+    """
+    (alpha, gamma, b, d, *center), unit = over_one_denominator(pair.row[:7])
+    v, _ = over_one_denominator(pair.axis)
+    q, t, V = b * b, d * d, sum(part * part for part in v)
+    M = [[(i == j) * t * V + (q - t) * v[i] * v[j] for j in range(3)] for i in range(3)]
+    shift = [-sum(part * coordinate for part, coordinate in zip(row, center, strict=True)) for row in M]
+    last = -sum(part * coordinate for part, coordinate in zip(shift, center, strict=True)) - q * t * V
+    scale, square = q * t * V, unit * unit
+    S = [[Fraction(square * part, scale) for part in row] for row in M]
+    beside = [Fraction(unit * part, scale) for part in shift]
+    p, s = Fraction(square, alpha * alpha), Fraction(-square, gamma * gamma)
+    H = [[part if i == j else Fraction(0) for j in range(4)] for i, part in enumerate((p, p, s, Fraction(-1)))]
+    return [*([*row, part] for row, part in zip(S, beside, strict=True)), [*beside, Fraction(last, scale)]], H
+
+
+def proves(S: Matrix, H: Matrix, certificate: Certificate) -> bool:
+    """Whether the certificate proves its claim about an ellipsoid and any quadric, given by their matrices.
+
+    M, the upper 3×3 part of S, must be positive definite. Raises ValueError as check_certificate does.
+    """
     at, m = (None if each is None else Fraction(each) for each in (certificate.multiplier, certificate.double_root))
     claim = Position(certificate.position)
     if claim is not Position.CONTACT:
-        if at is None or not (0 < at < B if claim is Position.EXTERIOR else -A < at < 0):
-            return False
-        return (A + at) * (B - at) * (P + Q - 1 - at) - A * P * (B - at) - B * Q * (A + at) > 0
+        return at is not None and at * claim > 0 and all(pivot > 0 for pivot in pivots(pencil(S, H, at)))
     if m is not None:
-        c2, c1, c0 = A - B + 1 - P - Q, B * P - A * Q + A - B - A * B, -A * B
-        double = ((m + c2) * m + c1) * m + c0 == 0 and (3 * m + 2 * c2) * m + c1 == 0
-        ring = m == B and -c2 - 2 * m < B
-        return double and m != 0 and -A <= m <= B and not ring
+        return m != 0 and _touches(pencil(S, H, m), H, 1 if m > 0 else -1)
     sides = set()
-    for u, v, w in (map(Fraction, point) for point in certificate.points):
-        if ((u - x) ** 2 + (v - y) ** 2) / b**2 + ((w - z) / d) ** 2 > 1:
+    for point in certificate.points:
+        place = [*map(Fraction, point), Fraction(1)]
+        if _at(S, place) > 0:
             return False
-        height = (u * u + v * v) / alpha**2 - (w / gamma) ** 2 - 1
+        height = _at(H, place)
         sides.add((height > 0) - (height < 0))
     return 0 in sides or sides == {-1, 1}
+
+
+def _touches(both: Matrix, H: Matrix, side: int) -> bool:
+    """Whether φ reaches 0 from below at a number m of this sign; `both` is S + mH."""
+    inner = pivots([row[:3] for row in both[:3]])
+    zeros, f = inner.count(Fraction(0)), _derivatives(both, H)
+    if min(inner) < 0 or any(f[: max(2, zeros + 1)]):
+        return False
+    return zeros == 0 or f[zeros + 1] * (-side) ** (zeros + 1) <= 0
+
+
+def pencil(S: Matrix, H: Matrix, at: Fraction) -> Matrix:
+    """S + λH."""
+    return [[a + at * b for a, b in zip(*rows, strict=True)] for rows in zip(S, H, strict=True)]
+
+
+def pivots(matrix: Matrix) -> list[Fraction]:
+    """The diagonal of L D Lᵀ by elimination, up to the first pivot that shows the matrix not positive semidefinite.
+
+    All are > 0 if and only if the matrix is positive definite, all ≥ 0 if and only if it is semidefinite: a pivot of 0
+    with anything else than zeros beside it counts as −1.
+    """
+    rows, found = [row[:] for row in matrix], []
+    for i, row in enumerate(rows):
+        pivot = row[i] if row[i] or not any(row[i:]) else Fraction(-1)
+        found.append(pivot)
+        if pivot < 0:
+            break
+        for other in rows[i + 1 :] if pivot else ():
+            if other[i]:
+                factor = other[i] / pivot
+                other[:] = [a - factor * b if b else a for a, b in zip(other, row, strict=True)]
+    return found
+
+
+def _derivatives(both: Matrix, H: Matrix) -> list[int]:
+    """f and its first four derivatives over 0!, 1! … 4! by Leibniz's formula, times one positive integer.
+
+    `both` is S + λH. Both are made whole first, because products of fractions take most of the time of a check.
+    """
+    unit = math.lcm(*(entry.denominator for form in (both, H) for row in form for entry in row))
+    values, slopes = ([[int(entry * unit) for entry in row] for row in form] for form in (both, H))
+    total = [0, 0, 0, 0, 0]
+    for order in permutations(range(4)):
+        term = [(-1) ** sum(order[j] < order[i] for i in range(4) for j in range(i + 1, 4))]
+        for i, j in enumerate(order):
+            value, slope = values[i][j], slopes[i][j]
+            term = [a * value + b * slope for a, b in zip([*term, 0], [0, *term], strict=True)]
+        total = [a + b for a, b in zip(total, term, strict=True)]
+    return total
+
+
+def _at(form: Matrix, point: list[Fraction]) -> Fraction:
+    rows = (sum((a * b for a, b in zip(row, point, strict=True) if a), Fraction(0)) for row in form)
+    return sum((a * b for a, b in zip(rows, point, strict=True)), Fraction(0))

@@ -1,80 +1,83 @@
 """The exact decision: integers alone, no division, no rounding, every valid pair in every regime.
 
-With p = α², q = b², s = γ², t = d², R = x² + y², S = z² (each group of lengths in its own unit), A = p/q, B = s/t,
-P = R/q, Q = S/t, and N = q t > 0 times the cubic g is n3 λ³ + n2 λ² + n1 λ + n0 in integers.
+The spheroid is exterior if and only if S + λH (pencil.py) is positive definite for some λ > 0, interior if and only if
+it is for some λ < 0 (the S-lemma; no symmetry is used), and in contact otherwise. With M and D the upper 3×3 parts of S
+and H let (λ₋, λ₊) be the interval around 0 in which M + λD is positive definite. There S + λH is positive definite
+exactly where f(λ) = det(S + λH) > 0.
 
-The rule (docs/mathematics.md, "The local maximum decides"): g(−A), g(0), g(B) ≤ 0, and the pair is exterior when g > 0
-somewhere in (0, B), interior when g > 0 somewhere in (−A, 0), in contact otherwise. A cubic with leading coefficient
-> 0 has one local maximum λm at most, so only the sign of g(λm) and the place of λm are asked for. Both are signs of
-numbers u + v √h with integers u, v, h, and those are decided by squaring.
+**Upright.** f is A + λ times the cubic g, and (λ₋, λ₊) is (−A, B). The rule (docs/mathematics.md, "The local maximum
+decides"): g(−A), g(0), g(B) ≤ 0, and the pair is exterior when g > 0 somewhere in (0, B), interior when g > 0 somewhere
+in (−A, 0), in contact otherwise. A cubic with leading coefficient > 0 has one local maximum λm at most, so only the
+sign of g(λm) and the place of λm are asked for. Both are signs of numbers u + v √h with integers u, v, h, and those are
+decided by squaring.
+
+**Tilted.** F is a positive multiple of f (pencil.py). F(0) < 0 and F(±∞) > 0. At λ₊ and λ₋ the matrix M + λD is
+singular and positive semidefinite, so that F ≤ 0 there. Hence one root is ≤ λ₋, one is ≥ λ₊, and the other two are
+complex or sit together in one of (−∞, λ₋], [λ₋, 0), (0, λ₊], [λ₊, ∞). On (λ₋, λ₊) f has the sign of
+φ = f/det(M + λD), which is concave with φ(0) = −1 and φ′(0) = h, the hyperboloid's equation at the centre: the sign of
+h says on which side of 0 f can be positive. With μ = |λ| and ℓ the end of the interval on that side, all that is asked
+is whether F > 0 for some μ in (0, ℓ):
+
+- F has two real roots at least, so two are complex if and only if its discriminant is < 0; then the pair is in contact;
+- where all four are real, Descartes' rule counts exactly: 1 or 3 of them are positive (of λ's sign), and with 3 two lie
+  in (0, ℓ] or all three in [ℓ, ∞), which the signs of F's derivatives at ℓ tell, by Descartes' rule again;
+- where the discriminant is 0 there is one multiple root, and it is rational. In (0, ℓ] it is a tangency, unless it is ℓ
+  itself and a simple root lies below it, which makes the pair clear (the ring of upright spheroids, tilted).
+
+ℓ is p/q (towards interior, for b > d) or a root of E, so that every sign asked for is that of u + r √w in integers.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth.kinds import Kind
-
-
-@dataclass(frozen=True, slots=True)
-class Cubic:
-    """N g(λ) = n3 λ³ + n2 λ² + n1 λ + n0 and the poles −A = −p/q, B = s/t, all integers; n3, p, q, s, t > 0."""
-
-    n3: int
-    n2: int
-    n1: int
-    n0: int
-    p: int
-    q: int
-    s: int
-    t: int
+from hypcheck.truth.pencil import Cubic, Quartic, cubic, quartic, sign_at, sign_at_ratio
 
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """The exact answer: the position, whether it is a tangency, and the kind of contact or of clearance."""
+    """The exact answer.
+
+    `limit_of` is, for a tangency, the clear position that a smaller spheroid would have. `kind` is that of an upright
+    pair, of its contact or clearance; None of a tilted one.
+    """
 
     position: Position
-    tangent: bool
-    kind: Kind
+    limit_of: Position | None = None
+    kind: Kind | None = None
 
-
-def cubic(lengths: Lengths) -> Cubic:
-    """The cubic of equation (14) of the paper over the common denominator b² d²."""
-    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
-    radius, height = lengths.x**2 + lengths.y**2, lengths.z**2
-    return Cubic(
-        n3=q * t,
-        n2=(p + q - radius) * t - (s + height) * q,
-        n1=p * (t - s - height) + s * (radius - q),
-        n0=-p * s,
-        p=p,
-        q=q,
-        s=s,
-        t=t,
-    )
+    @property
+    def tangent(self) -> bool:
+        """Whether the surfaces touch without crossing there; such a pair is in contact."""
+        return self.limit_of is not None
 
 
 def position(lengths: Lengths) -> Position:
     """The exact position of the two surfaces."""
-    return _position(cubic(lengths))
+    return _upright_position(cubic(lengths)) if lengths.is_upright else _tilted(quartic(lengths)).position
 
 
 def decide(lengths: Lengths) -> Decision:
-    """The exact position, tangency and kind of the two surfaces."""
+    """The exact position of the two surfaces, whether they are tangent, and the kind of an upright pair."""
+    if not lengths.is_upright:
+        return _tilted(quartic(lengths))
+    kind = kind_of(lengths)
+    return Decision(kind.position, kind.limit_of, kind)
+
+
+def kind_of(lengths: Lengths) -> Kind:
+    """The kind of an upright pair: the row of the table of root patterns (kinds.py)."""
     g = cubic(lengths)
-    where = _position(g)
-    discriminant = _discriminant(g)
+    where, discriminant = _upright_position(g), _discriminant(g)
     if where is Position.EXTERIOR:
-        return Decision(where, False, Kind.EXTERIOR if discriminant > 0 else Kind.EXTERIOR_RING)
-    if where is Position.INTERIOR:
-        return Decision(where, False, Kind.INTERIOR)
-    kind = _contact_kind(g, discriminant)
-    return Decision(where, kind.tangent, kind)
+        return Kind.EXTERIOR if discriminant > 0 else Kind.EXTERIOR_RING
+    return Kind.INTERIOR if where is Position.INTERIOR else _contact_kind(g, discriminant)
 
 
-def _position(g: Cubic) -> Position:
+def _upright_position(g: Cubic) -> Position:
     h = g.n2 * g.n2 - 3 * g.n3 * g.n1
     if h <= 0:
         return Position.CONTACT  # g never falls: it has no local maximum
@@ -131,3 +134,128 @@ def _outer_tangency(g: Cubic, top: int, bottom: int) -> Kind:
         return Kind.EXTERIOR_TANGENT_TWO_POINTS
     simple_above = -g.n2 * bottom - 3 * g.n3 * top > 0  # simple root −n2/N − 2 m against m
     return Kind.CROSSING_GROOVE_ISOLATED_POINT if simple_above else Kind.CROSSING_GROOVE_NODE
+
+
+def _tilted(F: Quartic) -> Decision:
+    contact = Decision(Position.CONTACT)
+    if F.side == 0 or _variations(F.coefficients) < 3:
+        return contact  # the centre on the hyperboloid, or one positive root alone
+    sign = discriminant(F)
+    if sign < 0:
+        return contact
+    if sign == 0:
+        return _with_multiple_root(F)
+    return contact if _three_beyond(F) else Decision(Position(F.side))
+
+
+def _variations(signs: tuple[int, ...]) -> int:
+    """How often the sign changes in a sequence, zeros left out."""
+    count, last = 0, 0
+    for value in signs:
+        if value:
+            positive = 1 if value > 0 else -1
+            count += last == -positive
+            last = positive
+    return count
+
+
+def discriminant(F: Quartic) -> int:
+    """27 times the discriminant, by its two invariants."""
+    a, b, c, d, e = F.coefficients
+    ae, bd, cc = a * e, b * d, c * c
+    H = 12 * ae - 3 * bd + cc
+    J = c * (72 * ae + 9 * bd - 2 * cc) - 27 * (a * d * d + e * b * b)
+    return 4 * H * H * H - J * J
+
+
+def _three_beyond(F: Quartic) -> bool:
+    """Whether all three positive roots, distinct ones, are ≥ ℓ.
+
+    By Descartes' rule for the Taylor coefficients at ℓ, all roots being real: three changes of sign. F(ℓ) ≤ 0 may stand
+    for −: where it is 0, the sign of F′(ℓ) at a simple root tells by itself which of the roots ℓ is.
+    """
+    signs = _signs_at_first(F) if F.at_first else _signs_at_second(F)
+    return _variations((-1, *signs, 1)) == 3
+
+
+def _derivative(F: Quartic, order: int) -> tuple[int, ...]:
+    """The derivative of this order over its factorial, the highest power first."""
+    if order == 1:
+        return (4 * F.f4, 3 * F.f3, 2 * F.f2, F.f1)
+    if order == 2:
+        return (6 * F.f4, 3 * F.f3, F.f2)
+    return (4 * F.f4, F.f3)
+
+
+def _signs_at_first(F: Quartic) -> list[int]:
+    """The signs of the first three derivatives at p/q."""
+    return [sign_at_ratio(_derivative(F, order), F.p, F.q) for order in (1, 2, 3)]
+
+
+def _signs_at_second(F: Quartic) -> list[int]:
+    """The signs of the first three derivatives at ℓ = (e1 + √w)/D, w = e1² + 4 e0 e2, D = 2 e2 > 0."""
+    e, D = F.e1, 2 * F.e2
+    w = e * e + 2 * F.e0 * D
+    square, twice = e * e + w, 2 * e  # (e + √w)² = square + twice √w
+    cube, thrice = e * square + twice * w, square + e * twice  # (e + √w)³ = cube + thrice √w
+    DD = D * D
+    slope, curvature, last = 3 * F.f3 * D, 3 * F.f3 * D, F.f3 * D
+    f2, f1 = F.f2 * DD, F.f1 * DD * D
+    return [
+        _sign_with_root(
+            4 * F.f4 * cube + slope * square + 2 * f2 * e + f1,
+            4 * F.f4 * thrice + slope * twice + 2 * f2,
+            w,
+        ),
+        _sign_with_root(6 * F.f4 * square + curvature * e + f2, 6 * F.f4 * twice + curvature, w),
+        _sign_with_root(4 * F.f4 * e + last, 4 * F.f4, w),
+    ]
+
+
+def _sign_with_root(u: int, r: int, w: int) -> int:
+    """The sign of u + r √w, w > 0."""
+    if u >= 0 and r >= 0:
+        return int(u > 0 or r > 0)
+    if u <= 0 and r <= 0:
+        return -1
+    difference = u * u - r * r * w
+    return ((difference > 0) - (difference < 0)) * (1 if u > 0 else -1)
+
+
+def _with_multiple_root(F: Quartic) -> Decision:
+    """The decision where F has a multiple root, which is one number and rational."""
+    m = double_root(F)
+    if m <= 0 or (beyond := _beyond(F, m)) > 0:
+        return Decision(Position.CONTACT)
+    if beyond == 0 and sign_at(_derivative(F, 2), m) > 0:
+        return Decision(Position(F.side))  # the simple root lies between 0 and ℓ
+    return Decision(Position.CONTACT, limit_of=Position(F.side))
+
+
+def _beyond(F: Quartic, m: Fraction) -> int:
+    """The sign of m − ℓ, m > 0."""
+    n, k = m.numerator, m.denominator
+    past = F.q * n - F.p * k if F.at_first else F.e2 * n * n - F.e1 * n * k - F.e0 * k * k
+    return (past > 0) - (past < 0)
+
+
+def double_root(F: Quartic) -> Fraction:
+    """The multiple root of a quartic that has exactly one (double or triple), by Euclid's algorithm on F and F′."""
+    first: tuple[int, ...] = F.coefficients
+    second: tuple[int, ...] = _derivative(F, 1)
+    while second:
+        first, second = second, _remainder(first, second)
+    degree = len(first) - 1  # first is a multiple of (λ − m)^degree
+    return Fraction(-first[1], degree * first[0])
+
+
+def _remainder(first: tuple[int, ...], second: tuple[int, ...]) -> tuple[int, ...]:
+    """A multiple of the remainder of two polynomials, without leading zeros."""
+    rest = list(first)
+    while len(rest) >= len(second):
+        lead = rest[0]
+        tail = [*second[1:], *[0] * (len(rest) - len(second))]
+        rest = [second[0] * a - lead * b for a, b in zip(rest[1:], tail, strict=True)]
+    while rest and rest[0] == 0:
+        rest.pop(0)
+    return tuple(rest)

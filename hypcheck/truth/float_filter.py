@@ -44,11 +44,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import exact
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.pair import TiltedLengths
 
 LINE_MARGIN = 64 * 2.0**-53
 SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
@@ -154,7 +152,7 @@ def positions(rows: Rows) -> Positions:
     """
     if rows.shape[1] != len(COLUMNS):
         require_valid(rows)
-        return np.array([tilted_exact.position(TiltedLengths.of(row)) for row in rows.tolist()], dtype=np.int8)
+        return np.array([exact.position(Lengths.of(row)) for row in rows.tolist()], dtype=np.int8)
     result = np.empty(len(rows), dtype=np.int8)
     for start in range(0, len(rows), CHUNK):
         result[start : start + CHUNK] = _chunk(rows[start : start + CHUNK], start)

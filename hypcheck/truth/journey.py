@@ -5,7 +5,7 @@ is a polynomial of degree 2 at most in t: the centre comes into it by its square
 admissible (in (−A, B), not 0) and that polynomial is positive on a piece of the way, the spheroid is clear there:
 outside where λ > 0, inside where λ < 0. One λ proves a piece by one quadratic inequality.
 
-Where the axis leans, and keeps its direction, F(λ, t), the quartic of tilted/exact.py, has coefficients of degree 2 at
+Where the axis leans, and keeps its direction, F(λ, t), the quartic of pencil.py, has coefficients of degree 2 at
 most in t, so that its discriminant is a polynomial of degree 12 at most. Its roots are all that matters
 (docs/motion.md): the position changes only through a tangency, where F has a multiple root. Where the same clear
 position is on both sides of a root, that root is a tangency, unless the multiple root is the pole ℓ with a simple root
@@ -21,13 +21,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
 
-from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.geometry.pair import Lengths, Position, Vector
 from hypcheck.truth import exact
+from hypcheck.truth.pencil import Quartic, cubic, inside, quartic, sign_at, slope_of_quotient
 from hypcheck.truth.polynomial_roots import Interval, Polynomial, polynomial_product, polynomial_sum, primitive, value
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.exact import Quartic
-from hypcheck.truth.tilted.pair import TiltedLengths, Vector
-from hypcheck.truth.tilted.prove import inside, slope_of_quotient
 
 Coordinate = tuple[int, int]
 """A coordinate at the start and its change over the way, in a unit of its own."""
@@ -43,6 +40,9 @@ class Journey(Protocol):
     @property
     def pencil(self) -> Sequence[Polynomial]:
         """The coefficients of a positive multiple of det(S + λH), the highest power of λ first, as polynomials in t."""
+
+    def at(self, time: Fraction) -> Lengths:
+        """The pair at a rational time."""
 
     def position(self, time: Fraction) -> Position:
         """The exact position at a rational time."""
@@ -115,7 +115,7 @@ class UprightJourney:
 
     @property
     def pencil(self) -> Sequence[Polynomial]:
-        """N times the cubic's coefficients, those of exact.Cubic, as polynomials in t."""
+        """N times the cubic's coefficients, those of pencil.Cubic, as polynomials in t."""
         p, q, s, t = self.alpha**2, self.b**2, self.gamma**2, self.d**2
         (r2, r1, r0), (h2, h1, h0) = polynomial_sum(square(self.x), square(self.y)), square(self.z)
         return (
@@ -127,7 +127,7 @@ class UprightJourney:
 
     def multipliers(self, time: Fraction) -> Iterator[Fraction]:
         """The local maximum of g, rounded to ever more bits, where that is admissible."""
-        g = exact.cubic(self.at(time))
+        g = cubic(self.at(time))
         h = g.n2 * g.n2 - 3 * g.n3 * g.n1
         bits = 12
         while h > 0:
@@ -252,23 +252,25 @@ class TiltedJourney:
         """Whether start and end differ."""
         return any(step for _, step in (self.x, self.y, self.z))
 
-    def at(self, time: Fraction) -> TiltedLengths:
+    def at(self, time: Fraction) -> Lengths:
         """The pair at a rational time."""
         n, m = time.numerator, time.denominator
         x, y, z = (start * m + step * n for start, step in (self.x, self.y, self.z))
-        return TiltedLengths(self.alpha * m, self.gamma * m, self.b * m, self.d * m, x, y, z, self.axis)
+        return Lengths(
+            alpha=self.alpha * m, b=self.b * m, x=x, y=y, gamma=self.gamma * m, d=self.d * m, z=z, axis=self.axis
+        )
 
     def position(self, time: Fraction) -> Position:
         """The exact position at a rational time."""
-        return tilted_exact.position(self.at(time))
+        return exact.position(self.at(time))
 
     def tangent(self, time: Fraction) -> bool:
         """Whether the surfaces are tangent at a rational time."""
-        return tilted_exact.decide(self.at(time)).tangent
+        return exact.decide(self.at(time)).tangent
 
     @property
     def pencil(self) -> Sequence[Polynomial]:
-        """f4 to f0 of tilted_exact.Quartic, for λ itself, as polynomials in t."""
+        """f4 to f0 of pencil.Quartic, for λ itself, as polynomials in t."""
         p, s, q, t = self.alpha**2, self.gamma**2, self.b**2, self.d**2
         v_x, v_y, v_z = self.axis
         c, W = v_z * v_z, v_x * v_x + v_y * v_y
@@ -291,7 +293,7 @@ class TiltedJourney:
 
     def multipliers(self, time: Fraction) -> Iterator[Fraction]:
         """Numbers that tend to where φ has its maximum, by bisection with exact signs."""
-        F = tilted_exact.quartic(self.at(time))
+        F = quartic(self.at(time))
         if F.side == 0:
             return
         slope = slope_of_quotient(F)
@@ -375,7 +377,7 @@ class TiltedJourney:
 
 def _rises(F: Quartic, slope: tuple[int, ...], at: Fraction) -> bool:
     """Whether `at` lies in (0, ℓ) before the maximum of φ."""
-    return inside(F, at) and tilted_exact.sign_at(slope, at) > 0
+    return inside(F, at) and sign_at(slope, at) > 0
 
 
 def _ring_between(at_pole: list[Surd], slope: list[Surd], curvature: list[Surd], low: Fraction, high: Fraction) -> bool:

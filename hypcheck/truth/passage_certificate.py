@@ -5,7 +5,7 @@ not change on the way. With a λ for which M + λD is positive definite, S(t) + 
 
     φ(t) = λ C(t)ᵀ M (M + λD)⁻¹ D C(t) − 1 − λ > 0,
 
-and then the spheroid is clear (tilted/certificate.py). C(t) is linear in t, so φ is of degree 2, and on [t0, t1] it is
+and then the spheroid is clear (certificate.py). C(t) is linear in t, so φ is of degree 2, and on [t0, t1] it is
 positive if its Bernstein coefficients φ(t0), φ(t0, t1), φ(t1) are, or if the first and last are and the square of the
 middle one is below their product; φ(s, t) is the bilinear form that belongs to φ. So it is enough:
 
@@ -23,8 +23,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, Position
-from hypcheck.truth.certificate import Certificate, Point
-from hypcheck.truth.tilted.certificate import check_certificate, matrices
+from hypcheck.truth.certificate import Certificate, Point, check_certificate, surfaces
 
 Rationals = tuple[Fraction, ...]
 
@@ -62,7 +61,7 @@ def place(row: Sequence[float], time: Fraction) -> PairAtTime:
 def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
     """The time up to which the pieces prove the spheroid clear; None where there is none, or a piece fails."""
     last = Fraction(0)
-    S, H = matrices(place(row, last))
+    S, H = surfaces(place(row, last))
     unit, numbers = _whole([each for matrix in (S, H) for line in matrix[:3] for each in line[:3]])
     M, D = [numbers[3 * i : 3 * i + 3] for i in range(3)], [numbers[9 + 4 * i] for i in range(3)]
     for multiplier, end in certificate.pieces:

@@ -11,14 +11,13 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from hypcheck.geometry.pair import WAY_COLUMNS
-from hypcheck.truth import prove as upright
+from hypcheck.truth import crossing
 from hypcheck.truth.certificate import Point
-from hypcheck.truth.journey import Journey, TiltedJourney, UprightJourney, piece, shortened
+from hypcheck.truth.journey import Journey, piece, shortened
 from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, place
 from hypcheck.truth.polynomial_roots import value
+from hypcheck.truth.prove import double_root
 from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, reach, rounded
-from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted import prove as tilted
 
 Bounds = tuple[float, float]
 
@@ -44,7 +43,7 @@ def prove(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertific
         bounds = math.nextafter(bounds[0], 0.0), bounds[1]
     pieces = _pieces(journey, Fraction(bounds[0])) if bounds[0] else ()
     if journey.tangent(time):
-        return found, bounds, PassageCertificate(pieces, time, double_root=_double_root(journey, time))
+        return found, bounds, PassageCertificate(pieces, time, double_root=double_root(journey.at(time)))
     return found, bounds, PassageCertificate(pieces, time, points=_points(row, journey, time))
 
 
@@ -103,20 +102,10 @@ def _multiplier(journey: Journey, time: Fraction) -> tuple[Fraction, Fraction | 
     return best
 
 
-def _double_root(journey: UprightJourney | TiltedJourney, time: Fraction) -> Fraction:
-    if isinstance(journey, UprightJourney):
-        return upright.double_root(journey.at(time))
-    F = exact.quartic(journey.at(time))
-    return exact.double_root(F) * F.side
-
-
-def _points(row: Sequence[float], journey: UprightJourney | TiltedJourney, time: Fraction) -> tuple[Point, ...]:
+def _points(row: Sequence[float], journey: Journey, time: Fraction) -> tuple[Point, ...]:
     """The centre and a point of the spheroid strictly on the other side, cut to as few bits as will do."""
     here = place(row, time)
-    if isinstance(journey, UprightJourney):
-        points = upright.points(here, journey.at(time))
-    else:
-        points = tilted.points(here, exact.quartic(journey.at(time)))
+    points = crossing.points(here, journey.at(time))
     if len(points) == 1:
         return points
     centre, far = points

@@ -24,11 +24,19 @@ from fractions import Fraction
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, NO_DIRECTION, SIZES, Position, trouble_with
+from hypcheck.geometry.pair import (
+    AXIS,
+    CENTER,
+    COLUMNS,
+    NO_DIRECTION,
+    SIZES,
+    Position,
+    over_one_denominator,
+    trouble_with,
+)
 from hypcheck.messages import counted, escaped
 from hypcheck.truth.journey import Journey, TiltedJourney, UprightJourney, piece, shortened
 from hypcheck.truth.polynomial_roots import Interval, Polynomial, narrowed, roots_from_0_to_1, value
-from hypcheck.truth.tilted.pair import over_one_denominator
 
 WIDTH_BITS = 60
 """The enclosure of a first contact is at most 2^−60 of it wide."""

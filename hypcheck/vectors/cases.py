@@ -16,10 +16,10 @@ from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.geometry.rows import WAYS
 from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
+from hypcheck.truth.backward_error import Bracket
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_certificate import PassageCertificate, place
-from hypcheck.truth.tilted.exact import Bracket
 from hypcheck.vectors.family import Row
 from hypcheck.vectors.flags import FlagFacts
 from hypcheck.vectors.format import (

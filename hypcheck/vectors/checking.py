@@ -1,7 +1,7 @@
 """The check of vector files: each is read strictly, its metadata is compared, and every label is proved.
 
 Each label is proved, or computed anew by an oracle that did not make it. Position and tangency follow from
-the certificate alone (truth/certificate.py and truth/tilted/certificate.py, with shows_crossing: rational arithmetic).
+the certificate alone (truth/certificate.py, with shows_crossing: rational arithmetic).
 The roots give the kind of an upright pair, the nearest point the clearance. Labels are made by the exact decision,
 which shares nothing with these. Distances to other answers rest on exact decisions and are computed anew; of tilted
 spheroids each end of their bracket is proved anew. So are the flags (flags.py). Of a way, answer and first contact
@@ -30,11 +30,8 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest_exact import nearest
 from hypcheck.truth.passage_certificate import check_passage, contact_at
 from hypcheck.truth.roots import classify_by_roots
-from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.backward_error import excluded_at_once, goal_of, is_bracket
-from hypcheck.truth.tilted.certificate import check_certificate as check_tilted_certificate
 from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
     AnyVector,
@@ -101,10 +98,10 @@ def _sentences(case: UprightVector, truth: Decision, flags: Sequence[str]) -> It
 
 
 def _tilted_sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str]:
-    pair = TiltedPair.from_row(case.row)
-    yield from _unproved(case, check_tilted_certificate(pair, case.certificate))
+    pair = Pair.from_row(case.row)
+    yield from _unproved(case, check_certificate(pair, case.certificate))
     yield from _wrong_clearance(case, tilted_nearest(pair).clearance)
-    truth = tilted_exact.decide(pair.lengths)
+    truth = exact.decide(pair.lengths)
     if (truth.position, truth.tangent) != (case.position, case.tangent):
         return  # its flips are to other positions
     for other, ends in case.flips.items():

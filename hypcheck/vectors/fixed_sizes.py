@@ -20,8 +20,6 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import CENTER, SIZES, Pair, Position, trouble_with
 from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows, with_axis
 from hypcheck.truth import exact
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors import tilted
 from hypcheck.vectors.draw import Draw, ldexp, stepped, turns
 from hypcheck.vectors.family import MARK, Family
@@ -306,8 +304,8 @@ def _leaning_edge(row: Rows, way: float) -> Rows:
     found = row.copy()
 
     def is_contact(x: float) -> bool:
-        lengths = TiltedPair.from_row((*row[:4].tolist(), x, *row[5:].tolist())).lengths
-        return tilted_exact.position(lengths) is Position.CONTACT
+        lengths = Pair.from_row((*row[:4].tolist(), x, *row[5:].tolist())).lengths
+        return exact.position(lengths) is Position.CONTACT
 
     while math.nextafter(start, far) != far:
         middle = start + (far - start) / 2

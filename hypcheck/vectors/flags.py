@@ -16,16 +16,14 @@ from numpy.typing import NDArray
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.geometry.pair import COLUMNS, WAY_COLUMNS, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, WAY_COLUMNS, Pair, Position, to_integers
 from hypcheck.geometry.rows import Mask, Rows, within
-from hypcheck.truth import backward_error
-from hypcheck.truth.exact import Decision, cubic
-from hypcheck.truth.exact import position as upright_position
+from hypcheck.truth import backward_error, exact
+from hypcheck.truth.exact import Decision, discriminant
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_certificate import PassageCertificate
+from hypcheck.truth.pencil import cubic, quartic
 from hypcheck.truth.swept import journey_of
-from hypcheck.truth.tilted.exact import TiltedDecision, discriminant, quartic
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.family import Row, rows_of
 
 
@@ -282,35 +280,33 @@ def _beyond(row: Row, truth: Decision, excuse: Position, precision: str) -> bool
     """Whether no change of the inputs by TOLERANCE_U units u makes the wrong answer right."""
     change = TOLERANCE_U * Fraction(unit_roundoff(precision))
     lengths = Pair.from_row(row).lengths
-    return truth.kind.limit_of is not excuse and not backward_error.makes_right(lengths, truth.position, excuse, change)
+    return truth.limit_of is not excuse and not backward_error.makes_right(lengths, truth.position, excuse, change)
 
 
 _SHORTEST, _LONGEST = 2.0**-511, 2.0**511
 """Between these a length's square neither underflows nor overflows."""
 
 
-def tilted_flags(pair: TiltedPair, decision: TiltedDecision) -> tuple[str, ...]:
+def tilted_flags(pair: Pair, decision: Decision) -> tuple[str, ...]:
     """What is special about a case, each decided exactly."""
-    lengths, sizes = pair.lengths, pair.row[:7]
-    vertical = lengths.upright is not None
-    double = not vertical and discriminant(quartic(lengths)) == 0
-    v_x, v_y, v_z = lengths.axis
-    across = lengths.x * v_y - lengths.y * v_x
-    leaning = lengths.y * v_z - lengths.z * v_y, lengths.z * v_x - lengths.x * v_z
+    sizes = pair.row[:7]
+    double = not pair.is_upright and discriminant(quartic(pair.lengths)) == 0
+    alpha, gamma, _, _, x, y, z = to_integers(sizes)
+    v_x, v_y, v_z = to_integers(pair.axis)
+    across = x * v_y - y * v_x
     largest = max(map(abs, pair.axis))
     found = {
         "tangent": decision.tangent,
         "quartic-ring": double and decision.position is not Position.CONTACT,
         "quartic-delta=0": double,
-        "tilt-matters": upright_position(Pair(*sizes).lengths) is not decision.position,
+        "tilt-matters": exact.position(Pair(*sizes).lengths) is not decision.position,
         "vertical-axis": v_x == v_y == 0,
         "horizontal-axis": v_z == 0,
         "sphere": pair.b == pair.d,
         "meridian-plane": across == 0,
-        "through-the-origin": across == leaning[0] == leaning[1] == 0,
-        "on-axis": lengths.x == lengths.y == 0,
-        "on-surface": (lengths.x**2 + lengths.y**2) * lengths.gamma**2
-        == lengths.alpha**2 * (lengths.gamma**2 + lengths.z**2),
+        "through-the-origin": across == y * v_z - z * v_y == z * v_x - x * v_z == 0,
+        "on-axis": x == y == 0,
+        "on-surface": (x**2 + y**2) * gamma**2 == alpha**2 * (gamma**2 + z**2),
         "long-axis": not _SHORTEST <= largest <= _LONGEST,
         "extreme": not within(np.asarray([sizes]))[0],
     }

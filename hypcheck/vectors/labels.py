@@ -1,6 +1,6 @@
 """The labels of a case: answer, measures, flags, and the shortest proof.
 
-They are made by the exact decisions (truth/exact.py and truth/tilted/exact.py), ways by steps or by roots
+They are made by the exact decisions (truth/exact.py), ways by steps or by roots
 (truth/swept.py). checking.py proves them in another way.
 """
 
@@ -14,18 +14,15 @@ from typing import Any
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.geometry.rows import WAYS
 from hypcheck.truth import backward_error, exact
+from hypcheck.truth.backward_error import Bracket
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest_exact import nearest
 from hypcheck.truth.passage_certificate import place
 from hypcheck.truth.passage_prove import prove as prove_passage
 from hypcheck.truth.prove import prove
-from hypcheck.truth.tilted import exact as tilted_exact
 from hypcheck.truth.tilted.backward_error import bracket
-from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
 from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
-from hypcheck.truth.tilted.pair import TiltedPair
-from hypcheck.truth.tilted.prove import prove as prove_tilted
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,
@@ -76,8 +73,8 @@ def _labelled(name: str, row: Row, decision: Decision, flags: tuple[str, ...]) -
 
 
 def _labelled_tilted(name: str, row: Row) -> TiltedVector:
-    pair = TiltedPair.from_row(row)
-    decision = tilted_exact.decide(pair.lengths)
+    pair = Pair.from_row(row)
+    decision = exact.decide(pair.lengths)
     return Vector(
         id=name,
         row=row,
@@ -86,7 +83,7 @@ def _labelled_tilted(name: str, row: Row) -> TiltedVector:
         kind=None,
         clearance=tilted_nearest(pair).clearance,
         flips=_tilted_flips(row, decision),
-        witness=stored_certificate(row, prove_tilted(pair, decision)),
+        witness=stored_certificate(row, prove(pair, decision)),
         flags=tilted_flags(pair, decision),
     )
 
@@ -107,7 +104,7 @@ def flips(lengths: Lengths, truth: Decision) -> Mapping[Position, float]:
     return {other: backward_error.backward_error(lengths, truth, other) for other in others}
 
 
-def _tilted_flips(row: Row, decision: TiltedDecision) -> Mapping[Position, Bracket]:
+def _tilted_flips(row: Row, decision: Decision) -> Mapping[Position, Bracket]:
     others = (other for other in Position if other is not decision.position)
     return {other: bracket(row, decision, other, cuts=0, steps=2) for other in others}
 

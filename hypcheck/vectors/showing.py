@@ -16,7 +16,7 @@ from hypcheck.messages import counted, suggestion
 from hypcheck.tables.numbers import equals_text, hex_of, readable_text
 from hypcheck.tables.streams import writing
 from hypcheck.tables.strict_json import read_document
-from hypcheck.truth.tilted.exact import Bracket
+from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import AnyVector, TiltedVector, UprightVector, WayVector, case_text
 from hypcheck.vectors.families import EXTREME, case_id, family_of, select

@@ -15,6 +15,7 @@ from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
 from hypcheck.bench.c_source import WORDS
 from hypcheck.bench.compiled_targets import touching_columns, tower_rows, uniform_columns
 from hypcheck.bench.timing import KernelTarget, Samples
+from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import tilted_rows
 from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.kernel.choice import LEVELS, choice
@@ -23,7 +24,6 @@ from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AbsentLine, KernelLine
 from hypcheck.truth.nearest import clearances
 from hypcheck.truth.tilted.nearest import nearest
-from hypcheck.truth.tilted.pair import TiltedPair
 from tests.support.records import violations
 
 PUBLISHED = Path(hypcheck.__file__).parent / "report" / "schemas" / f"record-{SCHEMA}.json"
@@ -104,7 +104,7 @@ def test_the_numpy_baseline_with_eigh_answers_as_the_kernel_away_from_contact():
 
 def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
     rows = compiled_targets.touching_rows(40)
-    clearance = [nearest(TiltedPair.from_row(row)).clearance for row in rows.tolist()]
+    clearance = [nearest(Pair.from_row(row)).clearance for row in rows.tolist()]
     assert 0 < max(map(abs, clearance)) < 4e-14
 
 

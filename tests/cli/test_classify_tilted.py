@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from hypcheck.answer import answer, answer_as_json, answer_as_text
 from hypcheck.answers import answers
 from hypcheck.cli.main import main
+from hypcheck.geometry.pair import Pair
 from hypcheck.kernel.classify import classify
 from hypcheck.tables.numbers import exact_text
-from hypcheck.truth.tilted.pair import TiltedPair
 from tests.cli.test_classify import number
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
 from tests.support.pairs import extreme_tilted_rows, nearly_touching_tilted_rows
@@ -83,7 +83,7 @@ TOUCHING = [[4.0, 1.0, 2.0, 1.0, 3.0, 0.0, 0.0, 1.0, 0.0, 0.0], [1.0, 2.0, 1.0, 
 
 @pytest.mark.parametrize("row", [*(list(row) for row, _ in RINGS), *TOUCHING, *small_rows(31, 60), *wide_rows(32, 4)])
 def test_every_proof_that_classify_prints_for_a_leaning_pair_can_be_checked_from_its_text(row):
-    found = answer(TiltedPair.from_row(row))
+    found = answer(Pair.from_row(row))
     printed = json.loads(answer_as_json(found))
     if max(map(abs, row)) < 1e9:
         assert printed["position"] == exact_position(row)
@@ -97,7 +97,7 @@ def test_every_proof_that_classify_prints_for_a_leaning_pair_can_be_checked_from
 
 @pytest.mark.parametrize("row", [TOUCHING[0], [1.0, 2.0, 1.0, 0.5, 2.5, 0.0, 0.0, 1.0, 1.0, 0.0]])
 def test_a_proof_for_a_leaning_pair_fails_its_check_if_one_number_is_changed(row):
-    proof = json.loads(answer_as_json(answer(TiltedPair.from_row(row))))
+    proof = json.loads(answer_as_json(answer(Pair.from_row(row))))
     check_printed_proof(row, proof)
     for name in ("pivots", "f"):
         for index in range(len(proof["proof"].get(name, ()))):

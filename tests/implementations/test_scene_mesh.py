@@ -9,6 +9,7 @@ import pytest
 
 import hypcheck
 from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.meshes import (
     COAL,
@@ -24,7 +25,6 @@ from hypcheck.implementations.meshes import (
 from hypcheck.truth import float_filter
 from hypcheck.truth.nearest import clearances
 from hypcheck.truth.tilted.nearest import nearest
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.families import TILTED_FAMILIES
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
@@ -77,7 +77,7 @@ def test_scene_mesh_answers_rightly_farther_from_contact_than_its_deviation(engi
 def test_scene_mesh_answers_rightly_about_leaning_ellipsoids_away_from_contact(engine):
     rows = TILTED_FAMILIES["tilted-tower"].rows(1, 400)
     mesh = scene_mesh(engine, "ellipsoid", TOWER, height_of(TOWER, rows), 20_000)
-    far = np.array([abs(nearest(TiltedPair.from_row(row)).clearance) for row in rows.tolist()]) > 3 * mesh.deviation
+    far = np.array([abs(nearest(Pair.from_row(row)).clearance) for row in rows.tolist()]) > 3 * mesh.deviation
     answers, truth = mesh.answers(rows), hypcheck.classify(rows)
     assert far.sum() > 250
     assert (answers[far] == truth[far]).all()

@@ -15,7 +15,6 @@ from hypcheck.kernel import choice, clearance_points
 from hypcheck.truth import nearest
 from hypcheck.truth.nearest_exact import nearest as nearest_of
 from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 
 UPRIGHT = ("uniform", "tangent", "ring", "near-axis", "extreme-subnormal", "extreme-magnitude", "on-surface", "waist")
@@ -119,7 +118,7 @@ def test_clearance_intervals_contain_the_exact_clearance_on_tilted_families():
     rows = np.concatenate([TILTED_FAMILIES[name].rows(1, 8) for name in LEANING])
     found = hypcheck.clearance(rows)
     for k, row in enumerate(rows.tolist()):
-        true = tilted_nearest(TiltedPair.from_row(row)).clearance
+        true = tilted_nearest(Pair.from_row(row)).clearance
         assert found.lower[k] <= true <= found.upper[k]
     assert (found.distance_lower <= found.distance_upper).all()
 

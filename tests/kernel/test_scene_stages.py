@@ -19,6 +19,7 @@ from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant,
 from hypcheck.kernel.specialise.settings import FORMATS, Box, ScaledSetting, Setting, position_of_box, scaled
 from hypcheck.scene.model import Span
 from hypcheck.truth import exact, float_filter
+from hypcheck.truth.pencil import cubic
 from hypcheck.vectors.fixed_sizes import families_for
 
 SIZES = [
@@ -93,7 +94,7 @@ def test_a_computed_discriminant_larger_than_its_bound_has_the_exact_sign(sizes,
     certain = np.abs(found) > stage.bound
     assert certain.any()
     for row, value in zip(rows[certain][:400].tolist(), found[certain].tolist(), strict=False):
-        n = exact.cubic(Pair.from_row(row).lengths)
+        n = cubic(Pair.from_row(row).lengths)
         h1, h2, h3 = n.n2**2 - 3 * n.n3 * n.n1, n.n2 * n.n1 - 9 * n.n3 * n.n0, n.n1**2 - 3 * n.n2 * n.n0
         assert (4 * h1 * h3 - h2 * h2 > 0) == (value > 0), row
 

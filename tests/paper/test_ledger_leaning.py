@@ -10,7 +10,6 @@ from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.points import first_change
-from hypcheck.truth.tilted.pair import TiltedPair
 from tests.support.tilted_fractions import exact_position
 
 
@@ -34,9 +33,9 @@ def test_ledger_row_about_pitch_has_one_witness_of_a_false_interior_and_one_of_a
 
 def test_upright_and_pitched_positions_of_witnesses_agree_with_independent_arithmetic(evidence):
     for witness in evidence.leaning:
-        upright = TiltedPair(*witness.pair.row[:7], 0.0, 0.0, 1.0)
+        upright = (*witness.pair.row[:7], 0.0, 0.0, 1.0)
         assert exact_position(witness.pair.row) == witness.certificate.position
-        assert exact_position(upright.row) == witness.vertical.position
+        assert exact_position(upright) == witness.vertical.position
 
 
 def test_pitch_witness_with_a_proof_of_another_position_does_not_hold(evidence):

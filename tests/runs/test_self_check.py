@@ -73,7 +73,7 @@ def test_oracle_with_wrong_tangencies_ends_the_run_with_6(monkeypatch):
 
 
 def test_refused_certificate_ends_the_run_with_6(monkeypatch):
-    monkeypatch.setattr("hypcheck.truth.certificate.check_certificate", lambda pair, certificate: False)
+    monkeypatch.setattr("hypcheck.runs.oracles.check_certificate", lambda pair, certificate: False)
     assert checked()[0] == 6
 
 

@@ -11,10 +11,8 @@ from types import SimpleNamespace
 from typing import Any
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.certificate import Certificate
-from hypcheck.truth.certificate import check_certificate as check_upright
+from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, place
-from hypcheck.truth.tilted.certificate import check_certificate as check_tilted
 from tests.support.corpus import Questions, row_of
 
 NOT_PROVED = 99
@@ -46,9 +44,7 @@ def proves_position(case: dict[str, Any]) -> bool:
     points = points_from(center, (b, b, d if len(row) == 7 else b), given.get("points", []))
     at, m = fraction(given.get("multiplier")), fraction(given.get("double_root"))
     certificate = Certificate(Position(case["position"]), at, tuple(points), m)
-    if len(row) == 7:
-        return check_upright(SimpleNamespace(row=row), certificate)
-    return check_tilted(SimpleNamespace(row=row, axis=row[7:]), certificate)
+    return check_certificate(SimpleNamespace(row=row, axis=row[7:] or (0, 0, 1)), certificate)
 
 
 def check_ways(questions: Questions) -> list[int]:

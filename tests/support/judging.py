@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.runs import judge
-from hypcheck.truth.tilted import exact
+from hypcheck.truth import exact
 from hypcheck.truth.tilted.backward_error import quick_bracket
-from hypcheck.truth.tilted.pair import TiltedLengths
 
 
 def wrong_cases(rows, truth, answers, criterion) -> list[judge.WrongCase]:
@@ -19,5 +18,5 @@ def wrong_cases(rows, truth, answers, criterion) -> list[judge.WrongCase]:
 
 def ends_of(row, answer) -> tuple[float, float]:
     """Two ends between which the backward error of a position is proved to lie."""
-    found = quick_bracket(row, exact.decide(TiltedLengths.of(row)), Position(answer))
+    found = quick_bracket(row, exact.decide(Lengths.of(row)), Position(answer))
     return found.lower, found.upper

@@ -11,7 +11,6 @@ from hypcheck.answer import answer
 from hypcheck.answers import answers
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Pair
-from hypcheck.truth.tilted.pair import TiltedPair
 
 ROWS = (
     (1.0, 2.0, 1.0, 0.5, 2.2, 0.0, 0.0, 1.0, 0.0, 0.5),
@@ -25,7 +24,7 @@ ROWS = (
 
 @pytest.fixture
 def wanted():
-    return [answer(TiltedPair.from_row(row)) for row in ROWS]
+    return [answer(Pair.from_row(row)) for row in ROWS]
 
 
 def test_answers_about_tilted_rows_equal_answers_about_each_tilted_pair(wanted):

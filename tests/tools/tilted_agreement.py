@@ -17,9 +17,8 @@ import sys
 import time
 from collections import Counter
 
-from hypcheck.geometry.pair import Position
-from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import exact
 
 ORACLES = ("nearest", "roots", "mesh")
 
@@ -133,7 +132,7 @@ def main(arguments=None):
     oracle = importlib.import_module(f"hypcheck.truth.tilted.{options.oracle}")
     seen, undecided, disagreed, spent = Counter(), Counter(), 0, Counter()
     for family, row in rows(options.families.split(","), options.rows, options.seed):
-        pair = TiltedPair.from_row(row)
+        pair = Pair.from_row(row)
         start = time.process_time()
         expected = exact.position(pair.lengths)
         middle = time.process_time()

@@ -9,11 +9,11 @@ import mpmath
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth import exact
+from hypcheck.truth.exact import discriminant as discriminant_of
 from hypcheck.truth.journey import piece, shortened
+from hypcheck.truth.pencil import cubic, quartic
 from hypcheck.truth.polynomial_roots import discriminant, value
 from hypcheck.truth.swept import WIDTH_BITS, journey_of, reach, steps
-from hypcheck.truth.tilted import exact as tilted
 from tests.truth.test_passage_certificate import INSIDE, OUTSIDE, THROUGH, TUNNEL, random_ways
 
 WAYS = [THROUGH, OUTSIDE, TUNNEL, INSIDE, *random_ways(12)]
@@ -32,9 +32,9 @@ def coefficients(way, time):
     """Of det(S + λH) at a time, up to a positive factor; of a leaning spheroid too, for λ itself."""
     there = way.at(time)
     if hasattr(way, "axis"):
-        F = tilted.quartic(there)
+        F = quartic(there)
         return (F.f4, F.f3 * (F.side or 1), F.f2, F.f1 * (F.side or 1), F.f0)
-    g = exact.cubic(there)
+    g = cubic(there)
     return (g.n3, g.n2, g.n1, g.n0)
 
 
@@ -48,7 +48,7 @@ def test_the_pencil_of_a_way_is_that_of_the_pair_at_each_time(row):
     way = journey(row)
     for time in times():
         there = [at_time(each, time) for each in way.pencil]
-        if not hasattr(way, "axis") or tilted.quartic(way.at(time)).side:
+        if not hasattr(way, "axis") or quartic(way.at(time)).side:
             assert are_proportional(there, coefficients(way, time)), time
 
 
@@ -80,7 +80,7 @@ def test_the_critical_polynomial_of_an_upright_way_has_the_sign_of_the_discrimin
 def test_the_critical_polynomial_of_a_leaning_way_has_the_sign_of_the_discriminant(row):
     way = journey(row)
     for time in times():
-        expected, found = tilted.discriminant(tilted.quartic(way.at(time))), value(way.critical(), time)
+        expected, found = discriminant_of(quartic(way.at(time))), value(way.critical(), time)
         assert (found > 0, found < 0) == (expected > 0, expected < 0)
 
 

@@ -12,6 +12,7 @@ from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_error import hits_at_size
+from hypcheck.truth.pencil import cubic
 from hypcheck.vectors import coincidences, double_roots
 from hypcheck.vectors.double_roots import gather
 from hypcheck.vectors.draw import Draw
@@ -65,7 +66,7 @@ def test_sine_of_a_tangency_construction_agrees_with_the_exact_normal(construct:
     """a² cos² − c² sin² = m², with the double root m taken from the exact cubic."""
     found = construct(Draw("sine"), 300)
     for row, sine in zip(found.rows[found.usable], found.sine[found.usable].tolist(), strict=True):
-        g = exact.cubic(Pair.from_row(row.tolist()).lengths)
+        g = cubic(Pair.from_row(row.tolist()).lengths)
         m = Fraction(9 * g.n3 * g.n0 - g.n1 * g.n2, 2 * (g.n2 * g.n2 - 3 * g.n3 * g.n1))
         A, B = Fraction(g.p, g.q), Fraction(g.s, g.t)
         exact_square = (A - m * m) / (A + B)
@@ -133,9 +134,9 @@ def test_rows_constructed_for_a_vanishing_coefficient_have_it_exactly_0() -> Non
         (coincidences.both_coefficients_zero, {"n1", "n2"}),
     ):
         rows = gather(Draw("zero"), 200, construct)
-        cubics = [exact.cubic(lengths) for lengths in lengths_of(rows)]
+        cubics = [cubic(lengths) for lengths in lengths_of(rows)]
         assert all(getattr(g, name) == 0 for g in cubics for name in vanishing)
-    whole = [exact.cubic(lengths) for lengths in lengths_of(FAMILIES["coefficient-zero"].rows(0, 400))]
+    whole = [cubic(lengths) for lengths in lengths_of(FAMILIES["coefficient-zero"].rows(0, 400))]
     assert all(g.n1 == 0 or g.n2 == 0 for g in whole)
 
 
@@ -144,7 +145,7 @@ def test_interior_positions_with_a_vanishing_coefficient_and_a_waist_above_one_o
     left_out = Counter()
     rows = FAMILIES["coefficient-zero"].rows(0, 400)
     for lengths, (a, _) in zip(lengths_of(rows), ratios(rows), strict=True):
-        g = exact.cubic(lengths)
+        g = cubic(lengths)
         if a > 1 and exact.position(lengths) is INTERIOR:
             left_out["c2" if g.n2 == 0 else "c1"] += 1
     assert min(left_out["c1"], left_out["c2"]) > 20

@@ -46,7 +46,7 @@ import numpy as np
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import FloatFormat, float_arithmetic
 from hypcheck.derivation.program import Program, program_of
-from hypcheck.geometry.pair import Lengths, Position, Sizes, to_integers
+from hypcheck.geometry.pair import Lengths, Position, Sizes
 from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel import integers
 from hypcheck.kernel.specialise.settings import ScaledSetting
@@ -279,4 +279,4 @@ def _first(holds: _Test, start: Fraction, least: Fraction, form: FloatFormat) ->
 def _position(sizes: Sizes, x: Fraction, z: float) -> Position:
     """The exact position at (x, 0, z)."""
     alpha, gamma, b, d = sizes
-    return integers.position(Lengths(*to_integers((alpha, b, x, 0.0)), *to_integers((gamma, d, z))))
+    return integers.position(Lengths.of((alpha, gamma, b, d, x, 0.0, z)))

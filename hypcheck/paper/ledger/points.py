@@ -29,10 +29,6 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.certificate import check_certificate as check_tilted
-from hypcheck.truth.tilted.pair import TiltedPair
-from hypcheck.truth.tilted.prove import prove as prove_tilted
 
 Rational = Callable[..., Fraction]
 
@@ -335,7 +331,7 @@ AXES = tuple(
 class LeaningWitness:
     """A pair with the certificates of two positions: as it leans, and upright; `shows` says what it shows."""
 
-    pair: TiltedPair
+    pair: Pair
     certificate: Certificate
     vertical: Certificate
     shows: str
@@ -349,7 +345,7 @@ class LeaningWitness:
     def holds(self) -> bool:
         """Whether both certificates prove their positions, by rational arithmetic of their own, and these differ."""
         differ = self.certificate.position is not self.vertical.position
-        proved = check_tilted(self.pair, self.certificate)
+        proved = check_certificate(self.pair, self.certificate)
         return differ and proved and check_certificate(self.upright, self.vertical)
 
     @property
@@ -373,9 +369,9 @@ def first_change(before: Position, after: Position, shows: str, largest: int = L
             continue
         for axis in AXES:
             tried += 1
-            pair = TiltedPair.from_row((*numbers, *axis))
-            if tilted_exact.position(pair.lengths) is after:
-                return Search(tried, LeaningWitness(pair, prove_tilted(pair), prove(vertical), shows))
+            pair = Pair.from_row((*numbers, *axis))
+            if exact.position(pair.lengths) is after:
+                return Search(tried, LeaningWitness(pair, prove(pair), prove(vertical), shows))
     return Search(tried, None)
 
 

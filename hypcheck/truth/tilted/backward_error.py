@@ -23,13 +23,14 @@ from fractions import Fraction
 
 import numpy as np
 
-from hypcheck.geometry.pair import TILTED_COLUMNS, Pair, Position
+from hypcheck.geometry.pair import TILTED_COLUMNS, Lengths, Pair, Position
 from hypcheck.truth import backward_error as upright
-from hypcheck.truth.tilted import exact, float_boxes
+from hypcheck.truth import exact
+from hypcheck.truth.backward_error import Bracket
+from hypcheck.truth.exact import Decision
+from hypcheck.truth.tilted import float_boxes
 from hypcheck.truth.tilted.box_certificate import Goal, Row, Signs, State, certified
-from hypcheck.truth.tilted.exact import Bracket, TiltedDecision
 from hypcheck.truth.tilted.nearest import fraction
-from hypcheck.truth.tilted.pair import TiltedLengths
 
 RATIO = Fraction(5, 4)
 """A bracket is refined until its upper end is at most this many times the lower."""
@@ -46,7 +47,7 @@ def goal_of(truth: Position, answer: Position) -> Goal:
     return Goal(truth, leave=True) if answer is Position.CONTACT else Goal(answer, leave=False)
 
 
-def _goal(row: Sequence[float], truth: TiltedDecision, answer: Position) -> Goal | float:
+def _goal(row: Sequence[float], truth: Decision, answer: Position) -> Goal | float:
     """The goal of an answer; the backward error itself where that is known at once: 0 or inf.
 
     It is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). No relative
@@ -86,9 +87,7 @@ def _reached_upright(row: Sequence[float], goal: Goal, change: Fraction) -> bool
     return upright.makes_right(Pair.from_row(row[:7]).lengths, goal.side, other, change)
 
 
-def tolerated(
-    row: Sequence[float], truth: TiltedDecision, answers: Iterable[Position], change: Fraction
-) -> bool | None:
+def tolerated(row: Sequence[float], truth: Decision, answers: Iterable[Position], change: Fraction) -> bool | None:
     """Whether a relative change up to `change` makes one of the wrong answers right; None where neither is proved."""
     if change == 0:
         return False
@@ -105,9 +104,7 @@ def tolerated(
     return False if all(excluded(row, goal, change, 2 * CUTS) for goal in goals) else None
 
 
-def bracket(
-    row: Sequence[float], truth: TiltedDecision, answer: Position, cuts: int = CUTS, steps: int = STEPS
-) -> Bracket:
+def bracket(row: Sequence[float], truth: Decision, answer: Position, cuts: int = CUTS, steps: int = STEPS) -> Bracket:
     """The backward error of an answer to a row of ten valid float64 numbers; inf where no change up to 1 is enough.
 
     The upper end is at most RATIO times the lower where first derivatives tell (changes that do not bend the surfaces
@@ -125,7 +122,7 @@ def bracket(
 
 
 def lower_ends(
-    rows: Sequence[Sequence[float]], truths: Sequence[TiltedDecision], answers: Sequence[Sequence[Position]]
+    rows: Sequence[Sequence[float]], truths: Sequence[Decision], answers: Sequence[Sequence[Position]]
 ) -> list[float]:
     """A lower end, proved in float64, of the least error of several answers to each row; 0 where none is found.
 
@@ -147,7 +144,7 @@ def lower_ends(
     return ends
 
 
-def lower_end(row: Sequence[float], truth: TiltedDecision, answer: Position) -> float:
+def lower_end(row: Sequence[float], truth: Decision, answer: Position) -> float:
     """A lower end for which 256 bits are taken, as for an answer wrong by little; 0 where none is found."""
     goal = _goal(row, truth, answer)
     if isinstance(goal, float):
@@ -155,7 +152,7 @@ def lower_end(row: Sequence[float], truth: TiltedDecision, answer: Position) -> 
     return _rounded(_excluded_end(row, goal, _estimate(tuple(map(Fraction, row)), goal))[0], -math.inf)
 
 
-def quick_bracket(row: Sequence[float], truth: TiltedDecision, answer: Position) -> Bracket:
+def quick_bracket(row: Sequence[float], truth: Decision, answer: Position) -> Bracket:
     """As `bracket`, in less time and narrower where the error is large: float64 proves the lower end where it can."""
     if _stays_upright(row):
         return bracket(row, truth, answer)
@@ -195,10 +192,10 @@ def _reached_at(start: Row, goal: Goal, change: Fraction, patterns: Iterable[Sig
 
 def _attained(rows: Iterable[Row], goal: Goal) -> bool:
     """Whether one of these rows attains the goal, by exact decisions."""
-    return any((exact.position(TiltedLengths.of(each)) is goal.side) is not goal.leave for each in rows)
+    return any((exact.position(Lengths.of(each)) is goal.side) is not goal.leave for each in rows)
 
 
-def estimate(row: Sequence[float], truth: TiltedDecision, answer: Position) -> float:
+def estimate(row: Sequence[float], truth: Decision, answer: Position) -> float:
     """About the backward error, as derivatives at the row tell: fast, and no proof. It ranks answers."""
     goal = _goal(row, truth, answer)
     return goal if isinstance(goal, float) else float(_estimate(tuple(map(Fraction, row)), goal))
@@ -213,7 +210,7 @@ def excluded_at_once(rows: Sequence[Sequence[float]], goals: Sequence[Goal], cha
 
 def is_bracket(
     row: Sequence[float],
-    truth: TiltedDecision,
+    truth: Decision,
     answer: Position,
     ends: Bracket,
     cuts: int = CUTS,

@@ -24,10 +24,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask
 from hypcheck.truth.mesh import Measure, distance_to_mesh, require_fcl
-from hypcheck.truth.tilted.pair import TiltedPair
 
 LEVELS = 40
 MOST_CELLS = 1 << 13
@@ -49,7 +48,7 @@ OUTER = ((0, 1, 2), (1, 3, 2))
 class _Scene:
     """A pair with the spheroid as the unit ball: corners are seen from C in that space."""
 
-    def __init__(self, pair: TiltedPair, measure: Measure = distance_to_mesh) -> None:
+    def __init__(self, pair: Pair, measure: Measure = distance_to_mesh) -> None:
         alpha, gamma, b, d, x, y, z = _scaled(pair.row[:7])
         axis = np.array(_scaled(pair.axis))
         axis /= math.sqrt(float(axis @ axis))
@@ -80,7 +79,7 @@ def _scaled(numbers: Sequence[float]) -> list[float]:
     return [math.ldexp(each, -exponent) for each in numbers]
 
 
-def position(pair: TiltedPair, measure: Measure = distance_to_mesh) -> Position | None:
+def position(pair: Pair, measure: Measure = distance_to_mesh) -> Position | None:
     """The position of any valid pair, if what measures the distance to the mesh confirms it, or None: undecided.
 
     Raises UnavailableError where FCL cannot be imported.

@@ -30,8 +30,7 @@ from typing import TypeAlias
 from mpmath import MPContext, MPIntervalContext, mpf
 from mpmath.ctx_iv import ivmpf
 
-from hypcheck.geometry.pair import Position
-from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.geometry.pair import Pair, Position
 
 STAGES = (100, 300, 1000, 4000, 16000)
 """Bits, one stage after the other. Ordinary rows need the first, near contacts the second."""
@@ -58,10 +57,10 @@ class TiltedNearest:
     bits: int
 
 
-def nearest(pair: TiltedPair) -> TiltedNearest:
+def nearest(pair: Pair) -> TiltedNearest:
     """The position and the clearance of any valid pair."""
     for bits in STAGES:
-        spectrum = _Spectrum(pair.row, bits)
+        spectrum = _Spectrum((*pair.row[:7], *pair.axis), bits)
         at = spectrum.optimum()
         lower, upper = spectrum.bounds(at)
         if _may_touch(lower, upper, bits) and _touches(pair, at, bits):
@@ -72,10 +71,10 @@ def nearest(pair: TiltedPair) -> TiltedNearest:
     return TiltedNearest(None, 0.0, tangent=False, bits=STAGES[-1])
 
 
-def position(pair: TiltedPair) -> Position | None:
+def position(pair: Pair) -> Position | None:
     """The position alone, for which fewer bits are enough; None as in nearest."""
     for bits in STAGES:
-        spectrum = _Spectrum(pair.row, bits)
+        spectrum = _Spectrum((*pair.row[:7], *pair.axis), bits)
         at = spectrum.optimum()
         lower, upper = spectrum.bounds(at)
         found = _position(at, lower, upper)
@@ -240,7 +239,7 @@ def _may_touch(lower: mpf, upper: mpf, bits: int) -> bool:
     return bool(lower <= 0 <= upper and (upper - lower) * 2 ** (bits // 3) < 1)
 
 
-def _touches(pair: TiltedPair, near: mpf, bits: int) -> bool:
+def _touches(pair: Pair, near: mpf, bits: int) -> bool:
     """Whether the rational λ of few digits near this one proves a tangency.
 
     With G = M + λD positive definite X = G⁻¹ M C is nearest for λ, and the surfaces touch in it if it lies on both.

@@ -27,7 +27,7 @@ from enum import Enum
 from itertools import combinations, combinations_with_replacement, groupby, pairwise, product
 from types import MappingProxyType
 
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.polynomial_roots import (
     Interval,
     Polynomial,
@@ -40,7 +40,6 @@ from hypcheck.truth.polynomial_roots import (
     sturm_chain,
 )
 from hypcheck.truth.roots import classify_by_roots
-from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
 
 
 class Side(Enum):
@@ -79,19 +78,18 @@ class TiltedRoots:
     above: str
 
 
-def position(pair: TiltedPair) -> Position:
+def position(pair: Pair) -> Position:
     """The position alone."""
     return classify_tilted_by_roots(pair).position
 
 
-def classify_tilted_by_roots(pair: TiltedPair, table: Mapping[str, Side] = MEANING) -> TiltedRoots:
+def classify_tilted_by_roots(pair: Pair, table: Mapping[str, Side] = MEANING) -> TiltedRoots:
     """The position of any valid pair, by the table.
 
     Raises AssertionError, naming the pair, where the pattern is not in the table: an error of ours.
     """
-    vertical = pair.upright
-    if vertical is not None:
-        report = classify_by_roots(vertical)
+    if pair.is_upright:
+        report = classify_by_roots(pair.upright)
         return TiltedRoots(report.position, report.tangent, "", "")
     lengths = pair.lengths
     f, g = characteristic(lengths), poles(lengths)
@@ -131,19 +129,19 @@ def _word(roots: Iterable[tuple[str, int]]) -> str:
     return " ".join(place + _EXPONENT[multiplicity] for place, multiplicity in roots)
 
 
-def characteristic(lengths: TiltedLengths) -> Polynomial:
+def characteristic(lengths: Lengths) -> Polynomial:
     """A positive multiple of det(S + λH), λ in a positive unit of its own, primitive."""
     S, H = _matrices(lengths)
     return _pencil(S, H)
 
 
-def poles(lengths: TiltedLengths) -> Polynomial:
+def poles(lengths: Lengths) -> Polynomial:
     """A positive multiple of det(M + λD), in the same unit, primitive."""
     S, H = _matrices(lengths)
     return _pencil([row[:3] for row in S[:3]], H[:3])
 
 
-def _matrices(lengths: TiltedLengths) -> tuple[list[list[int]], list[int]]:
+def _matrices(lengths: Lengths) -> tuple[list[list[int]], list[int]]:
     """S times b² d² v·v, and the diagonal of H times α² γ²: the quotient of both factors is the unit of λ."""
     p, s, q, t = lengths.alpha**2, lengths.gamma**2, lengths.b**2, lengths.d**2
     v, C = lengths.axis, (lengths.x, lengths.y, lengths.z)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
+from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import PAIRS
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt_place import TILTED, place_of
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.runs.minimise import same_query
-from hypcheck.truth.tilted.pair import pair_of
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
@@ -91,6 +91,6 @@ def test_the_same_tilted_pair_in_other_coordinates_has_the_same_position():
     ],
 )
 def test_the_place_of_a_tilted_spheroid_names_what_is_special_about_its_axis_and_centre(change, kind):
-    place = place_of(pair_of([change.get(column, value) for column, value in enumerate(ROW)]))
+    place = place_of(Pair.from_row([change.get(column, value) for column, value in enumerate(ROW)]))
     assert place.kind == place.cause == kind
     assert place.words.startswith(TILTED)

@@ -1,4 +1,8 @@
-"""Mutants of Python code are small changes of functions that are loaded, and the figures know the code."""
+"""Mutants of Python code are small changes of functions that are loaded, and the figures know the code.
+
+The figures are those of the commit on which `make evidence` ran last. What compares them with the present code is
+thorough, so that a change of the code does not have to measure for hours.
+"""
 
 from __future__ import annotations
 
@@ -110,6 +114,7 @@ def test_mutant_is_tried_on_long_tests_of_its_room_first_and_on_none_that_takes_
     assert found == ["tests/runs/a.py::b", "tests/runs/a.py::a", "tests/cli/a.py::d"]
 
 
+@pytest.mark.thorough
 def test_kept_coverage_figures_include_at_least_95_percent_of_the_code():
     """A new file is not measured at once; when they are many, `make evidence` has to be run."""
     known = set(kept()["python-coverage"]["files"])
@@ -120,7 +125,7 @@ def test_kept_coverage_figures_include_at_least_95_percent_of_the_code():
     assert unknown < 0.05 * sum(sizes.values())
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_every_explained_python_mutant_is_a_mutant_of_the_present_code():
     explained = json.loads(EXPLAINED.read_text(encoding="utf-8"))
     modules = sorted({key.partition(" ")[0] for key in explained})

@@ -12,11 +12,9 @@ import warnings
 
 import numpy as np
 
-from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED
+from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, Pair
 from hypcheck.tables.chunk import ADDED
 from hypcheck.truth import exact
-from hypcheck.truth.tilted import exact as tilted_exact
-from hypcheck.truth.tilted.pair import TiltedPair, pair_of
 
 MOST = 12
 """Rows whose answers are looked at."""
@@ -80,5 +78,5 @@ def _right(numbers) -> int:
     valid = all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == len(COLUMNS) or any(row[7:]))
     if not valid:
         return REFUSED
-    pair = pair_of(row)
-    return int((tilted_exact if isinstance(pair, TiltedPair) else exact).position(pair.lengths))
+    pair = Pair.from_row(row)
+    return int(exact.position(pair.lengths))

@@ -8,12 +8,9 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import backward_error
-from hypcheck.truth import exact as upright_exact
-from hypcheck.truth.tilted import exact
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import backward_error, exact
 from hypcheck.truth.tilted.backward_error import bracket, estimate, tolerated
-from hypcheck.truth.tilted.pair import TiltedLengths
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC
 
@@ -22,7 +19,7 @@ STEP = 2.0**-20
 
 
 def decided(row):
-    return exact.decide(TiltedLengths.of(row))
+    return exact.decide(Lengths.of(row))
 
 
 @pytest.mark.parametrize(
@@ -50,11 +47,9 @@ def test_bracket_of_a_tilted_backward_error_holds_the_value_worked_out_by_hand(r
 def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair():
     for _, row in rows(["near", "grid"], 6, seed=3):
         lengths = Pair.from_row(row[:7]).lengths
-        truth = upright_exact.decide(lengths)
+        truth = exact.decide(lengths)
         for answer in set(Position) - {truth.position}:
-            found = bracket(
-                [*row[:7], 0.0, 0.0, 2.0], exact.TiltedDecision(truth.position, truth.kind.limit_of), answer
-            )
+            found = bracket([*row[:7], 0.0, 0.0, 2.0], exact.Decision(truth.position, truth.limit_of), answer)
             error = backward_error.backward_error(lengths, truth, answer)
             assert found.lower <= error * (1 + 1e-4)
             assert error <= found.upper * (1 + 1e-4)
@@ -82,7 +77,7 @@ def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
             for change in (low, min(low, 1)) * 8 if math.isfinite(low) and low > 0 else ():
                 signs = [draw.choice((-1, 1, draw.uniform(-1, 1))) for _ in row]
                 changed = [Fraction(a) * (1 + Fraction(s) * change) for a, s in zip(row, signs, strict=True)]
-                assert not goal(exact.position(TiltedLengths.of(changed)))
+                assert not goal(exact.position(Lengths.of(changed)))
 
 
 def test_right_answers_and_limits_of_right_answers_have_no_backward_error():

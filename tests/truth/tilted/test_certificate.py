@@ -8,19 +8,18 @@ from types import SimpleNamespace
 
 import pytest
 
-from hypcheck.geometry.pair import Position
-from hypcheck.truth.certificate import Certificate
-from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.certificate import check_certificate, pivots
-from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
-from hypcheck.truth.tilted.prove import prove
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.certificate import Certificate, check_certificate, pivots
+from hypcheck.truth.pencil import quartic
+from hypcheck.truth.prove import prove
 from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, grown, near_contact, random_rows
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 
 
 def position(row):
-    return exact.position(TiltedLengths.of(row))
+    return exact.position(Lengths.of(row))
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +28,7 @@ def proofs():
     rows = [row for row, *_ in (*WITNESSES, *SYMMETRIC)] + random_rows(40)
     for row in random_rows(16, seed=1):
         rows += near_contact(row, position) or ()
-    pairs = [TiltedPair.from_row(row) for row in rows]
+    pairs = [Pair.from_row(row) for row in rows]
     return [(pair, prove(pair)) for pair in pairs]
 
 
@@ -45,7 +44,7 @@ def test_tilted_certificate_of_one_position_is_refused_for_every_other(proofs):
 
 def test_double_root_proves_every_tangency_from_rational_rotations():
     for row, side in TANGENT:
-        F = exact.quartic(TiltedLengths.of(row))
+        F = quartic(Lengths.of(row))
         root = exact.double_root(F) * F.side
         pair = SimpleNamespace(row=row, axis=row[7:])
         assert root * side > 0
@@ -57,20 +56,20 @@ def test_double_root_proves_every_tangency_from_rational_rotations():
 
 @pytest.mark.parametrize("row", [row for row, position, _ in SYMMETRIC if position is not CONTACT])
 def test_double_root_at_a_pole_does_not_prove_the_ring_tangent(row):
-    F = exact.quartic(TiltedLengths.of(row))
+    F = quartic(Lengths.of(row))
     certificate = Certificate(CONTACT, double_root=exact.double_root(F) * F.side)
-    assert not check_certificate(TiltedPair.from_row(row), certificate)
+    assert not check_certificate(Pair.from_row(row), certificate)
 
 
 def test_double_root_at_a_double_pole_does_not_prove_a_crossing_tangent():
     # Upright and on the axis det(S + λH) has a double root at −A = −1/4 whatever the height.
-    crossing = TiltedPair(1, 1, 2, 2, 0, 0, 0.5, 0, 0, 1)
-    assert exact.decide(crossing.lengths) == exact.TiltedDecision(CONTACT)
+    crossing = Pair(1, 1, 2, 2, 0, 0, 0.5, 0, 0, 1)
+    assert not exact.decide(crossing.lengths).tangent
     assert not check_certificate(crossing, Certificate(CONTACT, double_root=Fraction(-1, 4)))
 
 
 def test_two_points_prove_contact_only_within_the_spheroid_and_on_two_sides():
-    pair = TiltedPair(1, 1, 0.5, 2, 2, 0, 0, 1, 0, 0)  # from (0, 0, 0) to (4, 0, 0)
+    pair = Pair(1, 1, 0.5, 2, 2, 0, 0, 1, 0, 0)  # from (0, 0, 0) to (4, 0, 0)
     for points, proves in (
         ([(2, 0, 0), (Fraction(1, 2), 0, 0)], True),
         ([(1, 0, 0)], True),
@@ -104,7 +103,7 @@ def test_a_crossing_on_a_plane_of_symmetry_is_proved_by_points_beyond_a_pole_in_
     for row, _, limit_of in SYMMETRIC:
         for part in (Fraction(33, 32), Fraction(1025, 1024)) if limit_of is not None else ():
             grown_row = [float(each * unit) for each in grown(row, part)[:7]] + row[7:]
-            pair = TiltedPair.from_row(grown_row)
+            pair = Pair.from_row(grown_row)
             certificate = prove(pair)
             assert certificate.position is CONTACT
             assert len(certificate.points) == 2

@@ -12,10 +12,10 @@ from sympy import ZZ
 from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import exact
 from hypcheck.truth.journey import Surd
-from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
+from hypcheck.truth.pencil import quartic
 from tests.truth.tilted.cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 
 
@@ -43,8 +43,8 @@ def test_quartic_is_the_determinant_of_the_pencil():
 
 def test_quartic_of_integers_is_the_determinant_of_the_pencil():
     for row in random_rows(30):
-        lengths = TiltedLengths.of(row)
-        F = exact.quartic(lengths)
+        lengths = Lengths.of(row)
+        F = quartic(lengths)
         p, s, q, t = (Fraction(each) ** 2 for each in (lengths.alpha, lengths.gamma, lengths.b, lengths.d))
         V = sum(each * each for each in lengths.axis)
         for at in (Fraction(-3, 7), Fraction(2, 5), Fraction(11, 3)):
@@ -78,11 +78,11 @@ def test_tangency_from_a_rational_rotation_is_tangent_and_turns_clear_when_shrun
     assert {side for _, side in TANGENT} == {Position.EXTERIOR, Position.INTERIOR}
     step = Fraction(1, 2**200)
     for row, side in TANGENT:
-        decision = exact.decide(TiltedLengths.of(row))
+        decision = exact.decide(Lengths.of(row))
         assert decision.position is Position.CONTACT
         assert decision.limit_of is side
-        assert exact.position(TiltedLengths.of(grown(row, 1 - step))) is side
-        assert exact.position(TiltedLengths.of(grown(row, 1 + step))) is Position.CONTACT
+        assert exact.position(Lengths.of(grown(row, 1 - step))) is side
+        assert exact.position(Lengths.of(grown(row, 1 + step))) is Position.CONTACT
 
 
 def test_a_spheroid_that_touches_at_one_point_and_crosses_elsewhere_is_not_tangent():
@@ -98,32 +98,32 @@ def test_a_spheroid_that_touches_at_one_point_and_crosses_elsewhere_is_not_tange
         heights = (points**2 * (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)).sum(axis=1) - 1
         if heights.min() < -1e-3 and heights.max() > 1e-3:
             crossing += 1
-            assert exact.decide(TiltedLengths.of(row)) == exact.TiltedDecision(Position.CONTACT)
+            assert exact.decide(Lengths.of(row)) == exact.Decision(Position.CONTACT)
     assert crossing == len(TOUCHING_AND_CROSSING) > 20
 
 
 @pytest.mark.parametrize(("row", "position", "why"), WITNESSES)
 def test_exact_positions_of_tilted_pairs_equal_those_worked_out_by_hand(row, position, why):
-    assert exact.position(TiltedPair.from_row(row).lengths) is position, why
+    assert exact.position(Pair.from_row(row).lengths) is position, why
 
 
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
 def test_double_root_at_a_pole_is_a_tangency_unless_a_simple_root_lies_before_it(row, position, limit_of):
-    decision = exact.decide(TiltedPair.from_row(row).lengths)
-    assert decision == exact.TiltedDecision(position, limit_of)
+    decision = exact.decide(Pair.from_row(row).lengths)
+    assert decision == exact.Decision(position, limit_of)
 
 
 def test_pair_refuses_an_axis_without_direction():
     with pytest.raises(InputError, match="must have a direction"):
-        TiltedPair(1, 1, 1, 1, 0, 0, 0, 0.0, -0.0, 0.0)
+        Pair(1, 1, 1, 1, 0, 0, 0, 0.0, -0.0, 0.0)
 
 
 def test_lengths_and_axis_each_come_in_the_largest_unit_of_which_they_are_multiples():
     row = [1.0, 2.0, 3.0, 5.0, 7.0, -8.0, 9.0, 3.0, 5.0, -7.0]
-    found = TiltedLengths.of(row)
+    found = Lengths.of(row)
     assert (found.alpha, found.y, found.axis) == (1, -8, (3, 5, -7))
     for lengths, axis in ((8.0, 1.0), (0.125, 4.0), (2.0**-1000, 2.0**900)):
-        assert TiltedLengths.of([*(each * lengths for each in row[:7]), *(each * axis for each in row[7:])]) == found
+        assert Lengths.of([*(each * lengths for each in row[:7]), *(each * axis for each in row[7:])]) == found
 
 
 def test_powers_of_a_number_with_a_root_are_its_products():
@@ -149,7 +149,7 @@ def test_the_sign_of_a_number_with_a_root_is_exact(w):
 def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_digits():
     with mpmath.workprec(400):
         for row in random_rows(60, seed=4):
-            F = exact.quartic(TiltedLengths.of(row))
+            F = quartic(Lengths.of(row))
             end = (F.e1 + mpmath.sqrt(F.e1**2 + 4 * F.e0 * F.e2)) / (2 * F.e2)
             expected = []
             for order in (1, 2, 3):

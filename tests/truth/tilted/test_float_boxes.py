@@ -9,10 +9,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.geometry.pair import Position
-from hypcheck.truth.tilted import exact, float_boxes
+from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.truth import exact
+from hypcheck.truth.tilted import float_boxes
 from hypcheck.truth.tilted.backward_error import goal_of, lower_ends, quick_bracket
-from hypcheck.truth.tilted.pair import TiltedLengths
 from hypcheck.vectors import frozen
 from tests.support.tilted_fractions import exact_position
 from tests.tools.tilted_agreement import rows
@@ -30,7 +30,7 @@ def test_lower_end_never_exceeds_a_change_that_is_proved_to_be_enough_and_is_fou
     compared = found = 0
     for answer in Position:
         some = [case for case in cases if case.position is not answer]
-        truths = [exact.decide(TiltedLengths.of(case.row)) for case in some]
+        truths = [exact.decide(Lengths.of(case.row)) for case in some]
         ends = lower_ends([case.row for case in some], truths, [[answer]] * len(some))
         for case, end in zip(some, ends, strict=True):
             assert end <= case.flips[answer].upper
@@ -44,7 +44,7 @@ def test_lower_end_never_exceeds_a_change_that_is_proved_to_be_enough_and_is_fou
 def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
     draw = random.Random(5)  # noqa: S311
     for _, row in rows(["uniform", "near", "stiff"], 12, seed=7):
-        truth = exact.decide(TiltedLengths.of(row))
+        truth = exact.decide(Lengths.of(row))
         for answer in set(Position) - {truth.position}:
             (end,) = lower_ends([row], [truth], [[answer]])
             if end in (0, math.inf):  # nothing is proved, the answer needs no change, or none is enough
@@ -69,7 +69,7 @@ def test_quick_bracket_agrees_with_the_frozen_one_and_is_narrow_where_first_deri
     narrow = 0
     cases = tilted_cases("tilted-uniform")[:4] + tilted_cases("tilted-near-contact")[:6]
     for case in cases:
-        truth = exact.decide(TiltedLengths.of(case.row))
+        truth = exact.decide(Lengths.of(case.row))
         for answer, known in case.flips.items():
             found = quick_bracket(case.row, truth, answer)
             assert found.lower <= known.upper

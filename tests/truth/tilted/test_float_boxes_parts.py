@@ -9,12 +9,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.geometry.pair import Position
-from hypcheck.truth.tilted import exact, float_boxes
+from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.truth import exact
+from hypcheck.truth.tilted import float_boxes
 from hypcheck.truth.tilted.backward_error import goal_of
 from hypcheck.truth.tilted.box_certificate import Goal
 from hypcheck.truth.tilted.float_boxes import Enclosures
-from hypcheck.truth.tilted.pair import TiltedLengths
 from tests.truth.tilted.cases import random_rows
 
 ROWS = [
@@ -86,7 +86,7 @@ def enough_by_sizes(row, goal, truth):
     for _ in range(30):
         middle = (low + high) / 2
         moved = [Fraction(a) * (1 + way * middle) for a, way in zip(row[:4], goal.sizes, strict=True)]
-        there = exact.position(TiltedLengths.of([*moved, *map(Fraction, row[4:])]))
+        there = exact.position(Lengths.of([*moved, *map(Fraction, row[4:])]))
         reached = (there is not truth) if goal.leave else (there is goal.side)
         low, high = (low, middle) if reached else (middle, high)
     return high
@@ -94,7 +94,7 @@ def enough_by_sizes(row, goal, truth):
 
 @pytest.mark.parametrize("row", ROWS)
 def test_lower_ends_are_at_most_a_sufficient_change_of_the_sizes_and_above_a_fifth_of_it(row):
-    truth = exact.position(TiltedLengths.of(row))
+    truth = exact.position(Lengths.of(row))
     answers = [Position.CONTACT] if truth is not Position.CONTACT else [Position.EXTERIOR, Position.INTERIOR]
     for answer in answers:
         goal = goal_of(truth, answer)

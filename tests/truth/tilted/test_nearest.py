@@ -6,9 +6,9 @@ import math
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import exact
 from hypcheck.truth import nearest_exact as upright
-from hypcheck.truth.tilted import exact, nearest
-from hypcheck.truth.tilted.pair import TiltedPair
+from hypcheck.truth.tilted import nearest
 from tests.tools.tilted_agreement import rows
 from tests.truth.tilted.cases import SYMMETRIC, TANGENT, in_floats
 
@@ -20,17 +20,17 @@ def test_clearance_of_a_tangent_spheroid_shrunk_to_a_half_is_1():
     known = [(row, side) for row, position, side in SYMMETRIC if side is not None] + FLOAT_TANGENT
     for row, side in known:
         alpha, gamma, b, d, *rest = row
-        assert nearest.nearest(TiltedPair.from_row(row)).clearance == 0
-        found = nearest.nearest(TiltedPair(alpha, gamma, b / 2, d / 2, *rest))
+        assert nearest.nearest(Pair.from_row(row)).clearance == 0
+        found = nearest.nearest(Pair(alpha, gamma, b / 2, d / 2, *rest))
         assert found.position is side
         assert found.clearance == 1
-        grown = nearest.nearest(TiltedPair(alpha, gamma, b * 2, d * 2, *rest))
+        grown = nearest.nearest(Pair(alpha, gamma, b * 2, d * 2, *rest))
         assert (grown.position, grown.clearance) == (Position.CONTACT, -0.5)
 
 
 def test_clearance_with_a_vertical_axis_is_that_of_the_upright_oracle():
     for _, row in rows(["uniform", "near"], 60, seed=8):
-        found = nearest.nearest(TiltedPair(*row[:7], 0, 0, -3))
+        found = nearest.nearest(Pair(*row[:7], 0, 0, -3))
         expected = upright.nearest(Pair(*row[:7])).clearance
         assert abs(found.clearance - expected) <= math.ulp(expected)
 
@@ -39,7 +39,7 @@ def test_tilted_nearest_oracle_raises_its_precision_to_decide_a_near_tangency():
     row, side = FLOAT_TANGENT[0]
     step = 2.0**-52
     for factor, position in ((1 - step, side), (1 + step, Position.CONTACT)):
-        found = nearest.nearest(TiltedPair(*row[:2], row[2] * factor, row[3] * factor, *row[4:]))
+        found = nearest.nearest(Pair(*row[:2], row[2] * factor, row[3] * factor, *row[4:]))
         assert found.position is position
         assert 0 < abs(found.clearance) < 2 * step
 
@@ -47,7 +47,7 @@ def test_tilted_nearest_oracle_raises_its_precision_to_decide_a_near_tangency():
 def test_tilted_nearest_oracle_does_not_claim_tangency_from_a_nearby_rational():
     row, _ = FLOAT_TANGENT[0]
     off = [*row[:6], math.nextafter(row[6], math.inf), *row[7:]]
-    found = nearest.nearest(TiltedPair.from_row(off))
+    found = nearest.nearest(Pair.from_row(off))
     assert not found.tangent
-    assert found.position is exact.position(TiltedPair.from_row(off).lengths)
+    assert found.position is exact.position(Pair.from_row(off).lengths)
     assert Fraction(found.clearance) != 0

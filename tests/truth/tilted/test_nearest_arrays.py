@@ -7,15 +7,15 @@ import pytest
 
 from hypcheck.answer import DisagreementError
 from hypcheck.answers import answers
+from hypcheck.geometry.pair import Pair
 from hypcheck.truth.tilted import nearest_arrays
 from hypcheck.truth.tilted.nearest import nearest
 from hypcheck.truth.tilted.nearest_arrays import distances
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.vectors.families import TILTED_FAMILIES
 
 
 def by_intervals(rows):
-    return [nearest(TiltedPair.from_row(row)) for row in rows.tolist()]
+    return [nearest(Pair.from_row(row)) for row in rows.tolist()]
 
 
 @pytest.mark.slow

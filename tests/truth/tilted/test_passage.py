@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.certificate import surfaces
 from hypcheck.truth.journey import Surd, _ring_between, _sign_at_root
 from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, tolerance
+from hypcheck.truth.pencil import quartic
 from hypcheck.truth.swept import by_roots, by_steps, journey_of, passage
-from hypcheck.truth.tilted import exact
-from hypcheck.truth.tilted.certificate import matrices
-from hypcheck.truth.tilted.pair import TiltedLengths, TiltedPair
 from hypcheck.vectors.tilted import RINGS, TWO_POINTS
 
 CONTACT = Position.CONTACT
@@ -29,7 +29,7 @@ _axes = st.tuples(*[st.integers(-3, 3)] * 3).filter(lambda axis: any(axis[:2]))
 
 def position(sizes, start, end, axis, time):
     centre = (Fraction(a) + time * (Fraction(b) - Fraction(a)) for a, b in zip(start, end, strict=True))
-    return exact.position(TiltedLengths.of((*map(Fraction, sizes), *centre, *map(Fraction, axis))))
+    return exact.position(Lengths.of((*map(Fraction, sizes), *centre, *map(Fraction, axis))))
 
 
 @settings(max_examples=30)
@@ -67,9 +67,9 @@ def beside(row):
     The double root is the pole: towards exterior that of a direction k in that plane, and the first keeps kᵀ M C at 0;
     towards interior that of y, and the first goes along the level of φ.
     """
-    F = exact.quartic(TiltedLengths.of(row))
+    F = quartic(Lengths.of(row))
     pole = exact.double_root(F) * F.side
-    S, H = matrices(TiltedPair.from_row(row))
+    S, H = surfaces(Pair.from_row(row))
     (m, _, n), (_, _, w) = S[0][:3], S[2][:3]
     if F.side > 0:
         k = (-n, m + pole * H[0][0])

@@ -6,9 +6,8 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.tilted import roots
-from hypcheck.truth.tilted.pair import TiltedPair
 from hypcheck.truth.tilted.roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
 from tests.support.tilted_fractions import interpolated, matrices, value
 from tests.tools.tilted_agreement import rows
@@ -25,7 +24,7 @@ def test_the_table_lists_every_pattern_that_the_signs_allow_once_and_no_other():
 
 def test_the_quartic_is_the_determinant_of_the_pencil():
     for _, row in rows(["uniform", "grid"], 10, seed=2):
-        pair = TiltedPair.from_row(row)
+        pair = Pair.from_row(row)
         if pair.upright is not None:
             continue
         ours, lengths = roots.characteristic(pair.lengths), pair.lengths
@@ -40,7 +39,7 @@ def test_the_quartic_is_the_determinant_of_the_pencil():
 
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
 def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_pole(row, position, limit_of):
-    found = classify_tilted_by_roots(TiltedPair.from_row(row))
+    found = classify_tilted_by_roots(Pair.from_row(row))
     assert (found.position, found.tangent) == (position, limit_of is not None)
     side = found.above if EXTERIOR in (position, limit_of) else found.below
     assert side in ("(0,R) R²", "R² >R", "R³", "(0,R) R >R")
@@ -48,4 +47,4 @@ def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_po
 
 def test_tilted_roots_oracle_raises_an_error_for_a_pattern_not_in_its_table():
     with pytest.raises(AssertionError, match="a pattern that is not possible"):
-        classify_tilted_by_roots(TiltedPair.from_row([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]), table={})
+        classify_tilted_by_roots(Pair.from_row([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]), table={})

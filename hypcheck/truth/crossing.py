@@ -1,0 +1,276 @@
+"""Points that prove a crossing: the centre, and a point of the spheroid on the hyperboloid's other side.
+
+Upright, all candidates lie in the plane through the axis: the simple ones first, then ever nearer to the best one.
+Tilted, they go along φ(λ) (exact.py): where its maximum is < 0, X(λ) = (M + λD)⁻¹ M C tends to a point of the
+hyperboloid within the spheroid, and a little beyond it the sides have changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+
+from hypcheck.geometry.pair import Lengths, over_one_denominator
+from hypcheck.truth.certificate import Point, Query
+from hypcheck.truth.pencil import Quartic, inside, quartic, toward_maximum
+from hypcheck.truth.rationals import floor_root, precisions, root_of
+
+Vector = list[int]
+Matrix = list[list[int]]
+Homogeneous = tuple[Vector, int]
+
+
+def points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it).
+
+    Of a tilted pair the other point is strictly on the other side, which rules tangency out, too.
+    """
+    return _upright_points(pair, lengths) if lengths.is_upright else _tilted_points(pair, quartic(lengths))
+
+
+def _upright_points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it)."""
+    alpha, gamma, b, d, x, y, z = (Fraction(number) for number in pair.row[:7])
+
+    def side(point: Point) -> int:
+        u, v, w = point
+        height = (u * u + v * v) / (alpha * alpha) - w * w / (gamma * gamma) - 1
+        return (height > 0) - (height < 0)
+
+    def in_spheroid(point: Point) -> bool:
+        u, v, w = point
+        return ((u - x) ** 2 + (v - y) ** 2) / (b * b) + (w - z) ** 2 / (d * d) <= 1
+
+    center = (x, y, z)
+    start = side(center)
+    if start == 0:
+        return (center,)
+    for point in _upright_candidates(pair, lengths, outward=start < 0):
+        if side(point) in (0, -start) and in_spheroid(point):
+            return (center, point)
+    raise AssertionError("unreachable: the candidates do not end")
+
+
+def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterator[Point]:
+    """Points of the spheroid's plane through the axis, first the simple ones, then ever nearer to the best one."""
+    _, _, b, d, x, y, z = (Fraction(number) for number in pair.row[:7])
+    radius = root_of(x * x + y * y, 30, upward=True)
+
+    def moved(across: Fraction, along: Fraction) -> Point:
+        """The centre moved by these parts of b and d: away from the axis and to the waist, or the other way."""
+        to_waist = min(abs(z), along * d) if outward else -along * d
+        height = z - to_waist if z >= 0 else z + to_waist
+        if not radius:
+            return (across * b, Fraction(0), height)
+        stretch = 1 + across * b / radius if outward else max(1 - across * b / radius, Fraction(0))
+        return (x * stretch, y * stretch, height)
+
+    for fifths in ((5, 0), (0, 5), (4, 3), (3, 4)):  # Pythagorean triples: on the spheroid, or within
+        yield moved(Fraction(fifths[0], 5), Fraction(fifths[1], 5))
+    if outward and abs(z) < d:  # right out from the waist, where a spheroid a little too wide for the throat sticks out
+        yield moved(1 - (z / d) ** 2, Fraction(1))
+    for bits in precisions(start=8):
+        near = _near_surface(lengths, bits)
+        if near is None:
+            continue
+        stretch, height = near
+        # From the centre through the nearest point, and on by ever smaller shares of the way.
+        for beyond in (Fraction(1, 1 << bits // 2), Fraction(1, 1 << bits)):
+            along = 1 + beyond
+            w = z + d * (height - z / d) * along
+            widened = 1 + (stretch - 1) * along
+            yield (x * widened, y * widened, w) if radius else (b * stretch * along, Fraction(0), w)
+
+
+def _near_surface(lengths: Lengths, bits: int) -> tuple[Fraction, Fraction] | None:
+    """About the hyperboloid's nearest point to the centre, in spheroid radii: its radius and its height.
+
+    The radius is given as a multiple of the centre's, except on the axis. None where `bits` is too few to tell.
+    """
+    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
+    A, B, z = Fraction(p, q), Fraction(s, t), Fraction(lengths.z, lengths.d)
+    P = Fraction(lengths.x**2 + lengths.y**2, q)
+    if P == 0:  # a circle of nearest points
+        height = B * z / (A + B)
+        return root_of(A * (1 + height * height / B), bits), height
+    if z == 0 and A * P >= (A + B) ** 2:  # two nearest points, one above and one below
+        return A / (A + B), root_of(B * (A * P / (A + B) ** 2 - 1), bits)
+    at = _multiplier_of_nearest(lengths, bits)
+    return (A / (A + at), z * B / (B - at)) if at is not None else None
+
+
+def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
+    """The root of F(t) = A P/(A+t)² − B Q/(B−t)² − 1 to `bits` bits of its distance to 0 and to the pole it nears.
+
+    With t = −A m/n or t = B m/n, 0 ≤ m < n, the sign of F is that of a difference of integers.
+    """
+    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
+    R, S = lengths.x**2 + lengths.y**2, lengths.z**2
+
+    def falls_toward_A(m: int, n: int) -> bool:
+        other = s * q * n + p * t * m
+        return R * (n * other) ** 2 <= p * (n - m) ** 2 * (other * other + s * S * (q * n) ** 2)
+
+    def falls_toward_B(m: int, n: int) -> bool:
+        other = p * t * n + s * q * m
+        return p * R * s * (t * n * (n - m)) ** 2 <= other * other * (s * (n - m) ** 2 + S * n * n)
+
+    inside = falls_toward_A(0, 1)
+
+    def too_far(share: Fraction) -> bool:
+        m, n = share.numerator, share.denominator
+        return not falls_toward_A(m, n) if inside else falls_toward_B(m, n)
+
+    # The share's odds, 2^j : 1, first; then the share itself between two of them.
+    step, low = 1, 0
+    direction = -1 if too_far(_odds(0)) else 1
+    while too_far(_odds(low + direction * step)) is (direction < 0):
+        low += direction * step
+        step *= 2
+        if step > 64 * bits:
+            return None
+    low, high = sorted((low, low + direction * step))
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if too_far(_odds(middle)) else (middle, high)
+    share = _bisect(too_far, _odds(low), _odds(high), bits)
+    return share * (Fraction(-p, q) if inside else Fraction(s, t))
+
+
+def _odds(exponent: int) -> Fraction:
+    """The share whose odds are 2^exponent to 1."""
+    odds = Fraction(2) ** exponent
+    return odds / (odds + 1)
+
+
+def _bisect(too_far: Callable[[Fraction], bool], low: Fraction, high: Fraction, steps: int) -> Fraction:
+    for _ in range(steps):
+        middle = (low + high) / 2
+        low, high = (low, middle) if too_far(middle) else (middle, high)
+    return (low + high) / 2
+
+
+def _tilted_points(pair: Query, F: Quartic) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid strictly on the hyperboloid's other side (or the centre alone, on it).
+
+    Such points rule tangency out, too. There always are some: X(λ) tends to a point within the spheroid or beyond.
+    """
+    forms = _Forms(pair)
+    center = forms.fraction((forms.center, 1))
+    if F.side == 0:
+        return (center,)
+    for candidate in _tilted_candidates(forms, F):
+        if forms.hyperboloid(candidate) * F.side < 0 and forms.in_spheroid(candidate):
+            return (center, forms.fraction(candidate))
+    raise AssertionError("unreachable: the candidates do not end")
+
+
+class _Forms:
+    """The two surfaces' equations in integers, and what the pencil needs of them.
+
+    Lengths are integers over their common denominator L, so that the unit is 1/L. With V = v·v, q = b², t = d², p = α²
+    and s = γ², M is `M` over q t V, its inverse is `inverse` over V, and D is the diagonal `D` over p s. A point is
+    (X, w), w ≠ 0: its coordinates are X/w. No fraction is reduced before the end, because that would take most of the
+    time.
+    """
+
+    def __init__(self, pair: Query) -> None:
+        lengths, self.unit = over_one_denominator(pair.row[:7])
+        v, _ = over_one_denominator(pair.axis)
+        p, s, q, t = (each * each for each in lengths[:4])
+        self.center = lengths[4:]
+        self.V = _dot(v, v)
+        self.M = [[(i == j) * t * self.V + (q - t) * v[i] * v[j] for j in range(3)] for i in range(3)]
+        self.inverse = [[(i == j) * q * self.V + (t - q) * v[i] * v[j] for j in range(3)] for i in range(3)]
+        self.D = [s, s, -p]
+        self.under_M, self.under_D = q * t * self.V, p * s
+
+    def in_spheroid(self, point: Homogeneous) -> bool:
+        """Whether (X − C)ᵀ M (X − C) ≤ 1."""
+        X, w = point
+        way = [a - w * b for a, b in zip(X, self.center, strict=True)]
+        return _dot(way, _times(self.M, way)) <= w * w * self.under_M
+
+    def hyperboloid(self, point: Homogeneous) -> int:
+        """Xᵀ D X − 1, times w² p s."""
+        X, w = point
+        return _dot(X, self.gradient(X)) - w * w * self.under_D
+
+    def gradient(self, vector: Vector) -> Vector:
+        """D times a vector, times p s."""
+        return [a * b for a, b in zip(self.D, vector, strict=True)]
+
+    def pencil(self, at: Fraction) -> tuple[Matrix, int]:
+        """M + λD times a positive integer, and that integer."""
+        n, k = at.numerator, at.denominator
+        whole, part = self.under_D * k, n * self.under_M
+        matrix = [[self.M[i][j] * whole + (i == j) * part * self.D[i] for j in range(3)] for i in range(3)]
+        return matrix, self.under_M * whole
+
+    def fraction(self, point: Homogeneous) -> Point:
+        """A point in the caller's coordinates."""
+        (x, y, z), w = point
+        under = w * self.unit
+        return (Fraction(x, under), Fraction(y, under), Fraction(z, under))
+
+
+def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
+    """Points ever nearer to the best one: first along the steepest way from the centre, then X(λ), then X at a pole."""
+    gradient = forms.gradient(forms.center)
+    steepest, under = _times(forms.inverse, gradient), forms.V * forms.under_D
+    square = Fraction(_dot(steepest, gradient), under * forms.under_D)
+    for bits in (4, 60) if square else ():
+        yield _plus((forms.center, 1), (steepest, under), -F.side * floor_root(1 / square, bits))
+    for steps, at in enumerate(toward_maximum(F)):
+        if not inside(F, at):
+            continue
+        matrix, scale = forms.pencil(at * F.side)
+        # At a pole the adjugate has rank one, and any column spans the kernel.
+        adjugate = [[_cofactor(matrix, j, i) for j in range(3)] for i in range(3)]
+        scaled = _times(adjugate, _times(forms.M, forms.center))
+        whole = scale // forms.under_M
+        point = ([each * whole for each in scaled], _dot(matrix[0], [row[0] for row in adjugate]))
+        yield point
+        yield from _across_the_pole(forms, F, (adjugate, scale), point, 40 + steps)
+
+
+def _across_the_pole(
+    forms: _Forms, F: Quartic, adjugate: tuple[Matrix, int], point: Homogeneous, bits: int
+) -> Iterator[Homogeneous]:
+    """From a point on the centre's side to the hyperboloid, and a little on, along the direction that a pole leaves.
+
+    So little that only `bits` bits tell it from the hyperboloid: the nearer to tangency, the less room there is.
+    """
+    matrix, scale = adjugate
+    direction = max(matrix, key=lambda column: _dot(column, column))
+    gradient, (X, w) = forms.gradient(direction), point
+    curvature, height = _dot(direction, gradient), forms.hyperboloid(point)
+    if curvature * F.side >= 0 or height * F.side <= 0:
+        return
+    # The direction is the adjugate's column in the caller's unit; curvature τ² + 2 slope τ + height = 0.
+    square, length = scale * scale, forms.unit**5
+    slope = Fraction(_dot(gradient, X) * square, w * length * curvature)
+    root = slope**2 - Fraction(height * square * square, w * w * length * length * curvature)
+    way = floor_root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
+    for sign in (1, -1):
+        yield _plus(point, ([length * each for each in direction], square), sign * way - slope)
+
+
+def _dot(a: Vector, b: Vector) -> int:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _times(matrix: Matrix, vector: Vector) -> Vector:
+    return [_dot(row, vector) for row in matrix]
+
+
+def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homogeneous:
+    """A point and a multiple of a direction, each over its denominator."""
+    (X, w), (way, under) = point, direction
+    n, k = factor.numerator * w, factor.denominator * under
+    return [a * k + n * b for a, b in zip(X, way, strict=True)], w * k
+
+
+def _cofactor(m: Matrix, i: int, j: int) -> int:
+    (a, b), (c, d) = ([m[r][s] for s in range(3) if s != j] for r in range(3) if r != i)
+    return (b * c - a * d) if (i + j) % 2 else (a * d - b * c)

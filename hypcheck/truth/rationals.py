@@ -1,0 +1,52 @@
+"""Rational numbers cut to few bits: roots, roundings, powers of two."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import count
+
+
+def precisions(start: int = 1) -> Iterator[int]:
+    """Numbers of bits, each twice the one before, without end."""
+    return (start << doubling for doubling in count())
+
+
+def root_of(value: Fraction, bits: int, *, upward: bool = False) -> Fraction:
+    """√value, exact where that is rational, else to about `bits` bits; with `upward` never less than the root."""
+    root = Fraction(math.isqrt(value.numerator), math.isqrt(value.denominator))
+    if root * root == value:
+        return root
+    shift = bits + max(0, value.denominator.bit_length() - value.numerator.bit_length()) // 2 + 1
+    scaled = value.numerator * (1 << 2 * shift) // value.denominator
+    return Fraction(math.isqrt(scaled) + (1 if upward else 0), 1 << shift)
+
+
+def floor_root(square: Fraction, bits: int) -> Fraction:
+    """√square rounded down to about `bits` bits."""
+    shift = max(0, bits + (square.denominator.bit_length() - square.numerator.bit_length()) // 2 + 1)
+    return Fraction(math.isqrt((square.numerator << 2 * shift) // square.denominator), 1 << shift)
+
+
+def exponent_of(value: Fraction) -> int:
+    """An e with 2^(e−1) < value < 2^(e+1), of a value > 0."""
+    return value.numerator.bit_length() - value.denominator.bit_length()
+
+
+def power_of_two(exponent: int) -> Fraction:
+    """2^exponent, in a tenth of the time of a power of fractions."""
+    return Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
+
+
+def power_near(low: Fraction, high: Fraction) -> Fraction:
+    """A power of two about midway between two exponents, strictly between low and high > 4 low."""
+    # 2^(e−1) < value < 2^(e+1) for the exponent e of a value: e(low) + 1 ≤ k ≤ e(high) − 1 is strictly between.
+    first, last = exponent_of(low) + 1, exponent_of(high) - 1
+    return power_of_two((first + last) // 2)
+
+
+def rounded(value: Fraction, bits: int) -> Fraction:
+    """`value` to `bits` significant bits."""
+    unit = power_of_two(exponent_of(value) - bits)
+    return Fraction(round(value / unit)) * unit
