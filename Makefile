@@ -17,12 +17,12 @@ COMPILED := $(BIN)/python -c 'from hypcheck.derivation import printed_equations,
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens evidence docs release format clean
+.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams evidence docs release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-verify: $(VENV)/ready ## derive, prove, cross-check four oracles, judge, time; reports in reports/latest/
+verify: $(VENV)/ready ## derive, prove, cross-check five oracles, judge, time; reports in reports/latest/
 	$(BIN)/hypcheck verify --self --out $(OUT)
 
 bench: $(VENV)/ready ## error against run time of every method (under 5 minutes); reports in reports/bench/
@@ -74,6 +74,9 @@ paper: $(VENV)/ready ## docs/paper.md anew: the ledger of the paper's claims
 
 schemas: $(VENV)/ready-dev ## the published schemas of what is written anew, from the classes that hold it
 	$(BIN)/python -m tests.tools.published_schemas
+
+seams: $(VENV)/ready-dev ## what takes which columns of a row anew; docs/rows.md
+	$(BIN)/python -m tests.tools.seams
 
 goldens: $(VENV)/ready-dev ## what each format of reports says of the recorded runs anew; its diff is to be read; tests/report/goldens/
 	$(BIN)/python -m tests.tools.goldens

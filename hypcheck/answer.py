@@ -8,7 +8,6 @@ Loads no numpy.
 from __future__ import annotations
 
 import json
-import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -16,10 +15,11 @@ from typing import Any
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.pair import TILTED_COLUMNS, Pair, Position
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
-from hypcheck.truth import exact, nearest_exact
+from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, Point, check_certificate, pivots, surfaces
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.nearest import nearest
 from hypcheck.truth.pencil import quartic
 from hypcheck.truth.prove import prove
 
@@ -64,18 +64,9 @@ class Answer:
 
 def measured_clearance(pair: Pair, decision: Decision) -> float:
     """The clearance by the nearest point, which must agree with the decision. Raises DisagreementError."""
-    if pair.is_upright:
-        found = nearest_exact.nearest(pair)
-        position, clearance = found.position, found.clearance
-    else:
-        from hypcheck.truth.tilted.nearest import nearest  # noqa: PLC0415 - loads mpmath
-
-        measured = nearest(pair)
-        if measured.position is None:  # nearer to a tangency than any float64 but 0
-            return 0.0 if decision.tangent else math.copysign(math.ulp(0.0), abs(decision.position) - 0.5)
-        position, clearance = measured.position, measured.clearance
-    require_agreement(pair.row, (decision.position, decision.tangent), (position, clearance))
-    return clearance
+    measured = nearest(pair)
+    require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
+    return measured.clearance
 
 
 def answer(pair: Pair) -> Answer:

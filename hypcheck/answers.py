@@ -12,19 +12,21 @@ from functools import partial
 
 import numpy as np
 
-from hypcheck.answer import measured_clearance, require_agreement
+from hypcheck.answer import require_agreement
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
-from hypcheck.geometry.rows import Rows, require_valid
+from hypcheck.geometry.pair import COLUMNS, REFUSED, Pair
+from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows
 from hypcheck.kernel.classify import kernel
 from hypcheck.processes import in_order, usable_processors
-from hypcheck.tables.chunk import Table, TableAnswers, TableChunk, UnreadChunk
+from hypcheck.tables.chunk import SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
 from hypcheck.tables.streams import Route, reading, same_file, writing
-from hypcheck.truth import exact, float_filter, nearest
-from hypcheck.truth.tilted import nearest_arrays
+from hypcheck.truth import exact, float_filter, nearest_rows
+from hypcheck.truth.nearest import NearestStage
+from hypcheck.truth.nearest_rows import upright_mask
+from hypcheck.truth.swept import passage
 
 
 def answers(rows: Rows) -> TableAnswers:
@@ -32,16 +34,8 @@ def answers(rows: Rows) -> TableAnswers:
 
     Raises InputError about the first invalid row, DisagreementError if two oracles disagree about a row.
     """
-    if rows.shape[1] == len(TILTED_COLUMNS):
-        return _answers_of_ten(rows)
-    measured = nearest.clearances(rows)
-    # The filter never proves a tangency: λ proves a gap, and two points of the spheroid strictly on either side of the
-    # hyperboloid prove that it passes through the spheroid's inside.
-    positions = float_filter.filtered(rows)
-    tangent = np.zeros(len(rows), dtype=np.bool_)
-    for index in np.flatnonzero(positions == float_filter.UNDECIDED).tolist():
-        decision = exact.decide(Pair.from_row(rows[index].tolist()).lengths)
-        positions[index], tangent[index] = decision.position, decision.tangent
+    measured = nearest_rows.clearances(rows)
+    positions, tangent = _decided(rows, measured.stage == NearestStage.DOUBLE_DOUBLE)
     doubtful = (measured.position != positions) | ((measured.clearance == 0) != tangent)
     for index in np.flatnonzero(doubtful).tolist():
         require_agreement(
@@ -52,37 +46,23 @@ def answers(rows: Rows) -> TableAnswers:
     return TableAnswers(positions, tangent, measured.clearance)
 
 
-def _answers_of_ten(rows: Rows) -> TableAnswers:
-    """Those of rows with an axis: upright ones together; of the others pair by pair what floats leave uncertain.
+def _decided(rows: Rows, certain: Mask) -> tuple[Positions, Mask]:
+    """Positions and tangencies, by means that know nothing of distances.
 
-    A certain row is no tangency. Its position is that of the kernel, which knows nothing of distances.
+    The filter never proves a tangency: λ proves a gap, and two points of the spheroid strictly on either side of the
+    hyperboloid prove that it passes through the spheroid's inside. Of tilted rows the kernel decides those that are
+    `certain` to be no tangencies.
     """
-    require_valid(rows)
-    count = len(rows)
-    found = TableAnswers(np.empty(count, dtype=np.int8), np.zeros(count, dtype=np.bool_), np.empty(count))
-    leans = (rows[:, 7:9] != 0).any(axis=1) & (rows[:, 2] != rows[:, 3])
-    if not leans.all():
-        upright = answers(rows[~leans][:, : len(COLUMNS)])
-        found.positions[~leans], found.tangent[~leans] = upright.positions, upright.tangent
-        found.clearance[~leans] = upright.clearance
-    measured, places = nearest_arrays.distances(rows[leans]), np.flatnonzero(leans)
-    certain = places[measured.certain]
-    found.positions[certain] = kernel().answer_rows(rows[certain], "position", 1)[0]
-    found.tangent[certain], found.clearance[certain] = False, measured.clearance[measured.certain]
-    sides = measured.position[measured.certain]
-    for place in np.flatnonzero(found.positions[certain] != sides).tolist():
-        index = int(certain[place])
-        require_agreement(
-            tuple(rows[index].tolist()),
-            (int(found.positions[index]), False),
-            (int(sides[place]), float(found.clearance[index])),
-        )
-    for index in places[~measured.certain].tolist():
-        pair = Pair.from_row(rows[index].tolist())
-        decision = exact.decide(pair.lengths)
-        found.positions[index], found.tangent[index] = decision.position, decision.tangent
-        found.clearance[index] = measured_clearance(pair, decision)
-    return found
+    positions, tangent = np.full(len(rows), float_filter.UNDECIDED, np.int8), np.zeros(len(rows), dtype=np.bool_)
+    upright = upright_mask(rows)
+    positions[upright] = float_filter.filtered(rows[upright, : len(COLUMNS)])
+    tilted = ~upright & certain
+    if tilted.any():
+        positions[tilted] = kernel().answer_rows(rows[tilted], "position", 1)[0]
+    for index in np.flatnonzero(positions == float_filter.UNDECIDED).tolist():
+        decision = exact.decide(Pair.from_row(rows[index].tolist()).lengths)
+        positions[index], tangent[index] = decision.position, decision.tangent
+    return positions, tangent
 
 
 _READ = {"csv": read_csv, "jsonl": read_jsonl, "npy": read_npy}
@@ -145,10 +125,25 @@ def _alone(table: Table, alone: int) -> int:
     return alone if table.columns == COLUMNS else 1
 
 
-def _answer_chunk(render: Callable[[TableChunk, TableAnswers], bytes], unread: UnreadChunk) -> tuple[bytes, int]:
+def _answer_chunk(
+    render: Callable[[TableChunk, TableAnswers | SweepAnswers], bytes], unread: UnreadChunk
+) -> tuple[bytes, int]:
     """What is written about a chunk, and how many rows it has."""
     chunk = unread()
-    return render(chunk, _answers_of_chunk(chunk)), len(chunk.rows)
+    found = _answers_of_chunk(chunk) if chunk.layout == PAIRS else _sweeps_of_chunk(chunk)
+    return render(chunk, found), len(chunk.rows)
+
+
+def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
+    """The answers about a chunk of sweeps, straight motions, 127 for its refused rows."""
+    count = len(chunk.rows)
+    hits = np.full(count, REFUSED, dtype=np.int8)
+    lower, upper = np.full(count, np.nan), np.full(count, np.nan)
+    for index in np.flatnonzero(~chunk.refused).tolist():
+        row = chunk.rows[index].tolist()
+        found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
+        hits[index], lower[index], upper[index] = found.hit, found.first_lower, found.first_upper
+    return SweepAnswers(hits, lower, upper)
 
 
 def _answers_of_chunk(chunk: TableChunk) -> TableAnswers:

@@ -66,8 +66,7 @@ SLOW = {
     "tools/hostile": "hostile",
     "tools/mutants": "mutants",
     "tools/soak": "soak",
-    "truth/tilted": "float_boxes",
-    "truth": "mesh swept nearest nearest_bounds roots_table",
+    "truth": "float_boxes mesh swept nearest nearest_bounds roots_table",
     "vectors": "razor",
     "vectors/frozen": "cases_cli files labels metadata reading",
 }
@@ -94,8 +93,7 @@ THOROUGH = {
     "tools/evidence": "faults",
     "tools/fuzz": "fuzz",
     "tools/soak": "soak",
-    "truth": "mesh nearest nearest_bounds roots_table swept",
-    "truth/tilted": "float_boxes passage",
+    "truth": "float_boxes mesh nearest nearest_bounds passage_tilted roots_table swept",
     "vectors": "razor",
     "vectors/frozen": "files tilted_files",
 }

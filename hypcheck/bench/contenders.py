@@ -22,7 +22,7 @@ from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars, o
 from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_names
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.geometry.pair import Pair
-from hypcheck.geometry.rows import CANNOT_SAY, WAYS, Rows
+from hypcheck.geometry.rows import WAYS, Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.builtin import (
     SAMPLES,
@@ -39,6 +39,7 @@ from hypcheck.implementations.ways import WAY_SOLVERS, height_of_ways, way_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.truth import float_filter
+from hypcheck.truth.nearest import nearest
 
 ALGEBRAIC = ("coefficients", "hessian", "shared", "local-maximum", "dual")
 PRECISIONS = ("float32", "float64")
@@ -284,10 +285,7 @@ def _ours(
 
 
 def _nearest(rows: Rows) -> Answers:
-    from hypcheck.truth.tilted import nearest  # noqa: PLC0415 - loads mpmath
-
-    found = (nearest.position(Pair.from_row(row)) for row in rows.tolist())
-    return np.array([CANNOT_SAY if each is None else each for each in found], dtype=np.int8)
+    return np.array([nearest(Pair.from_row(row)).position for row in rows.tolist()], dtype=np.int8)
 
 
 _JUMPS = "it cannot see what lies between two of its times"

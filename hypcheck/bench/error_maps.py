@@ -29,7 +29,7 @@ from hypcheck.record.measurements import BoundingLine, ConvergenceLine, PlacesLi
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Mistake
 from hypcheck.truth import float_filter
-from hypcheck.truth.nearest import clearances
+from hypcheck.truth.nearest_rows import clearances
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.random_pairs import Sizes, sizes
 

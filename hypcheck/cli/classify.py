@@ -9,7 +9,7 @@ import click
 
 from hypcheck.cli.progress import watched
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, SIZES, Pair
+from hypcheck.geometry.pair import AXIS, CENTER, END, NO_DIRECTION, SIZES, Pair, trouble_with
 from hypcheck.tables.numbers import number_of_text
 from hypcheck.tables.streams import FORMATS, route
 
@@ -21,13 +21,18 @@ its centre, would just touch the hyperboloid.
 
 \b
 One pair:  hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0
-Leaning:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 0.5 --center 2.5 0 0 --axis 1 0 2
+Tilted:    hypcheck classify --alpha 1 --gamma 2 --b 1 --d 0.5 --center 2.5 0 0 --axis 1 0 2
+A sweep:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 4 0 0 --end 0 0.5 0
 A table:   hypcheck classify --input pairs.csv --output answers.csv
 
+A sweep is the straight motion of the centre to --end. The answer is contact or none on the way, both ends included,
+and between which two numbers the time of the first contact lies, from 0 at the start to 1 at the end.
+
 A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order, and axis_x, axis_y, axis_z where spheroids
-lean; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added. A .npy file is
-float64 (n, 7) or (n, 10), and int8 (n,) as output. A file appears when it is complete, or not at all; standard output
-is written as the rows come.
+are tilted; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added. With x1,
+y1, z1, the end of a sweep, hit (1 or 0), label, first_lower and first_upper are. A .npy file is float64 (n, 7) or
+(n, 10), the axis behind, and int8 (n,) as output. A file appears when it is complete, or not at all; standard output is
+written as the rows come.
 """
 
 
@@ -38,6 +43,7 @@ is written as the rows come.
 @click.option("--d", metavar="NUMBER", help="Its semi-axis along its axis, which is z's direction without --axis.")
 @click.option("--center", nargs=3, metavar="X Y Z", help="Centre of the spheroid; the hyperboloid's is the origin.")
 @click.option("--axis", nargs=3, metavar="X Y Z", help="The spheroid's axis, of any length; without it, upright.")
+@click.option("--end", nargs=3, metavar="X Y Z", help="Where the centre moves to, straight; without it, no motion.")
 @click.option("--json", "as_json", is_flag=True, help="Answer with one JSON object, its proof in exact numbers.")
 @click.option(
     "--input", "source", metavar="FILE", help="A table of pairs: .csv, .jsonl, .npy, or - for standard input."
@@ -58,6 +64,7 @@ def classify(
     d: str | None,
     center: tuple[str, str, str] | None,
     axis: tuple[str, str, str] | None,
+    end: tuple[str, str, str] | None,
     as_json: bool,
     source: str | None,
     target: str | None,
@@ -66,7 +73,7 @@ def classify(
 ) -> None:
     """Answer about one pair, or about a table if --input names one."""
     sizes = dict(zip(SIZES, (alpha, gamma, b, d), strict=True))
-    vectors = {"--center": center is not None, "--axis": axis is not None}
+    vectors = {"--center": center is not None, "--axis": axis is not None, "--end": end is not None}
     for_a_pair = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
     for_a_table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
     if source is not None:
@@ -74,10 +81,26 @@ def classify(
         _answer_table(source, target, said, mark=on_invalid == "flag")
         return
     _refuse(for_a_table, "is for tables; name one with --input")
+    pair = _pair_of(sizes, center, axis)
+    click.echo(_answered(pair, as_json=as_json) if end is None else _swept(pair, end, as_json=as_json))
+
+
+def _answered(pair: Pair, *, as_json: bool) -> str:
     from hypcheck.answer import answer, answer_as_json, answer_as_text
 
-    found = answer(_pair_of(sizes, center, axis))
-    click.echo(answer_as_json(found) if as_json else answer_as_text(found))
+    return (answer_as_json if as_json else answer_as_text)(answer(pair))
+
+
+def _swept(pair: Pair, end: tuple[str, str, str], *, as_json: bool) -> str:
+    from hypcheck.sweep_answer import sweep_answer, sweep_as_json, sweep_as_text
+
+    numbers = [_number("--end: ", *named) for named in zip(END, end, strict=True)]
+    for name, number in zip(END, numbers, strict=True):
+        trouble = trouble_with(name, number)
+        if trouble is not None:
+            raise InputError(f"--end: {trouble}")
+    row = (*pair.row[:7], *numbers, *pair.row[7:])
+    return (sweep_as_json if as_json else sweep_as_text)(sweep_answer(row))
 
 
 def _refuse(options: dict[str, bool], reason: str) -> None:

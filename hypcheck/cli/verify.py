@@ -187,7 +187,7 @@ _COUNT = IntegerOption(1)
     "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Seed of the generated rows."
 )
 @TOLERANCE
-@click.option("--oracles", default="exact,nearest,roots,mesh", show_default=True, help="The oracles to ask.")
+@click.option("--oracles", default="exact,nearest,roots,heights,mesh", show_default=True, help="The oracles to ask.")
 @click.option(
     "--judged",
     type=_COUNT,
@@ -244,7 +244,7 @@ _COUNT = IntegerOption(1)
 def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Verify hypcheck itself, or gate the implementations that SPEC names.
 
-    Without SPEC: derive the coefficients, prove the formulas, cross-check four oracles, judge every method, time the
+    Without SPEC: derive the coefficients, prove the formulas, cross-check five oracles, judge every method, time the
     fast path. Ends with 0 if the oracles agree and the fast path is exact, 6 if oracles disagree, 1 if an exact method
     erred or the mathematical findings are not the known ones. If the environment variable CI is set, this needs --self:
     a CI step that should gate an implementation, and names none, ends with 2.

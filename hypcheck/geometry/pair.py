@@ -8,10 +8,11 @@ numbers more. All numbers are float64 and are taken as exact values.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Any
 
 from hypcheck.errors import InputError
@@ -32,8 +33,17 @@ WAY_COLUMNS = SIZES + START + END
 TILTED_WAY_COLUMNS = WAY_COLUMNS + AXIS
 """Those of the way of a tilted spheroid, whose axis stays as it is on the way."""
 
+HEIGHTS = ("z_min", "z_max", "solid")
+"""The heights between which the hyperboloid ends, in its own frame, and whether flat ends belong to it: 0 or 1."""
+
+GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType({"end": END, "axis": AXIS, "heights": HEIGHTS})
+"""What a row can ask besides the seven numbers, by name, in the order in which the columns stand."""
+
 UPRIGHT = (0.0, 0.0, 1.0)
-"""The axis of an upright spheroid, where rows have ten numbers."""
+"""The axis of an upright spheroid, where rows have the columns of an axis."""
+
+WITHOUT_ENDS = (-math.inf, math.inf, 0.0)
+"""The heights of a hyperboloid without ends, where rows have the columns of heights."""
 
 NO_DIRECTION = "axis_x, axis_y, axis_z are 0, 0, 0; an axis must have a direction"
 RADIAL = ("alpha", "b", "x", "y")
@@ -130,6 +140,9 @@ class Lengths:
     The position of an upright pair depends on the ratios within each group alone (Theorem 1 of the paper scales space
     by 1/b, 1/b, 1/d), so each group may have its own unit. That of a tilted one depends on all ratios, and on the
     direction of the axis, whose unit means nothing. Every float64 or rational pair can be written so without rounding.
+
+    `upward` is a vector along the hyperboloid's axis, in a unit of its own. Where it is not vertical, all lengths are
+    in one unit.
     """
 
     alpha: int
@@ -140,6 +153,7 @@ class Lengths:
     d: int
     z: int
     axis: Vector = (0, 0, 1)
+    upward: Vector = (0, 0, 1)
 
     @classmethod
     def of(cls, row: Sequence[float | Fraction]) -> Lengths:
@@ -153,8 +167,9 @@ class Lengths:
 
     @property
     def is_upright(self) -> bool:
-        """Whether the axis is vertical, or the spheroid a sphere."""
-        return self.axis[0] == self.axis[1] == 0 or self.b == self.d
+        """Whether the axes of both are parallel, or the spheroid is a sphere."""
+        (a, b, c), (u, v, w) = self.axis, self.upward
+        return (b * w == c * v and c * u == a * w and a * v == b * u) or self.b == self.d
 
 
 def trouble_with(name: str, value: object) -> str | None:

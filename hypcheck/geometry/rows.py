@@ -11,15 +11,26 @@ from __future__ import annotations
 import math
 import reprlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS, UPRIGHT, WAY_COLUMNS, Sizes, trouble_with_row
+from hypcheck.geometry.pair import (
+    AXIS,
+    COLUMNS,
+    HEIGHTS,
+    SIZES,
+    TILTED_COLUMNS,
+    UPRIGHT,
+    WAY_COLUMNS,
+    WITHOUT_ENDS,
+    Sizes,
+    trouble_with_row,
+)
 from hypcheck.messages import counted, escaped
 
 Floats = NDArray[np.float64]
@@ -66,12 +77,17 @@ WAYS = Layout(WAY_COLUMNS)
 """The way between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
 
 
-def as_rows(values: ArrayLike, *, tilted: bool = False, layout: Layout = PAIRS) -> Rows:
+def as_rows(values: Table | ArrayLike, *, tilted: bool = False, layout: Layout = PAIRS) -> Rows:
     """`values` as a float64 array (n, 7), or where `tilted` also (n, 10); contiguous float64 input is not copied.
 
-    With another layout, the widths are those of its columns. Raises InputError if the shape or the type is another, or
-    if values are masked. It does not check the values.
+    With another layout, the widths are those of its columns. `values` may also be a table of the columns by name: a
+    dict, a data frame, a structured array, or whatever else has names and gives a column for each; columns and numbers
+    are broadcast. Raises InputError if the shape or the type is another, a name is unknown or missing, or values are
+    masked. It does not check the values.
     """
+    table_names = _names_of(values)
+    if table_names is not None:
+        return _rows_of_table(cast("Table", values), table_names, layout.tilted if tilted else layout.upright)
     names = {len(each): ", ".join(each) for each in ((layout.upright, layout.tilted) if tilted else (layout.upright,))}
     wanted = ", or ".join(f"(n, {width}) of numbers: {columns}" for width, columns in names.items())
     rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be an array {wanted}"))
@@ -79,6 +95,31 @@ def as_rows(values: ArrayLike, *, tilted: bool = False, layout: Layout = PAIRS) 
         shapes = ", or ".join(f"(n, {width}): {columns}" for width, columns in names.items())
         raise InputError(f"the rows have shape {rows.shape}; it must be {shapes}")
     return rows
+
+
+Table = Mapping[str, ArrayLike]
+"""Columns by name: anything with names and [name], as a dict, a data frame and a structured array have them."""
+
+
+def _names_of(values: object) -> list[str] | None:
+    """The names of a table's columns; None of what is no table."""
+    if isinstance(values, np.ndarray):
+        return None if values.dtype.names is None else list(values.dtype.names)
+    names = getattr(values, "keys", None)
+    return list(names()) if callable(names) and hasattr(values, "__getitem__") else None
+
+
+def _rows_of_table(table: Table, names: Sequence[object], known: tuple[str, ...]) -> Rows:
+    """The rows of a table of these columns, of which those of an axis may be missing."""
+    wanted = known[: -len(AXIS)] if known[-1] == AXIS[-1] and set(AXIS).isdisjoint(names) else known
+    for name in names:
+        if name not in known:
+            raise InputError(f"there is no column {escaped(repr(name), 60)}; the columns are {', '.join(known)}")
+    missing = [name for name in wanted if name not in names]
+    if missing:
+        nouns, verb = ("column", "is") if len(missing) == 1 else ("columns", "are")
+        raise InputError(f"the {nouns} {', '.join(missing)} {verb} missing; a row needs {', '.join(wanted)}")
+    return np.stack(as_columns(wanted, [table[name] for name in wanted]), axis=1)
 
 
 def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
@@ -146,6 +187,11 @@ def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
     wide = np.empty((len(rows), len(layout.tilted)))
     wide[:, : len(layout.upright)], wide[:, len(layout.upright) :] = rows, UPRIGHT
     return wide
+
+
+def with_heights(rows: Rows) -> Rows:
+    """The same queries about hyperboloids without ends, the columns of heights behind the others."""
+    return np.hstack([rows, np.broadcast_to(WITHOUT_ENDS, (len(rows), len(HEIGHTS)))])
 
 
 def first_trouble(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> str | None:

@@ -27,7 +27,7 @@ from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.classify import kernel
 from hypcheck.messages import suggestion
-from hypcheck.truth import exact, nearest
+from hypcheck.truth import exact, nearest_rows
 from hypcheck.version import VERSION
 
 DIGITS = (15, 30, 50, 100)
@@ -117,7 +117,7 @@ def _oracle(rows: Rows) -> Answers:
 
 
 def _nearest(rows: Rows) -> Answers:
-    return nearest.positions(np.ascontiguousarray(rows)).position
+    return nearest_rows.positions(np.ascontiguousarray(rows)).position
 
 
 FCL_ROWS = 12

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, SIZES, trouble_with
+from hypcheck.geometry.pair import AXIS, CENTER, GROUPS, HEIGHTS, SIZES, trouble_with
 from hypcheck.geometry.rows import (
     ORDINARY_MAGNITUDE,
     ORDINARY_RATIO,
@@ -218,8 +218,9 @@ class Description:
     """An implementation's description of itself.
 
     `domain` is where it claims to be right. `refuses` says that it answers invalid rows with 127. `binary` and `time`
-    say what a command offers of the protocol. `tilt` says that rows have the spheroid's axis after the other numbers.
-    `times` says that a time goes with each answer 1.
+    say what a command offers of the protocol. `tilt` says that rows have the spheroid's axis after the other numbers,
+    `heights` that they have the heights between which the hyperboloid ends, at last. `times` says that a time goes with
+    each answer 1.
     """
 
     name: str
@@ -233,6 +234,7 @@ class Description:
     time: bool = False
     tilt: bool = False
     times: bool = False
+    heights: bool = False
 
     def __post_init__(self) -> None:
         if not self.tilt and any(setting.axis is not None for setting in self.domain.settings):
@@ -242,6 +244,12 @@ class Description:
     def asked(self) -> Question:
         """The question."""
         return QUESTIONS[self.question]
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns of the rows that it is asked."""
+        layout = self.asked.layout
+        return (layout.tilted if self.tilt else layout.upright) + (HEIGHTS if self.heights else ())
 
     def overridden(
         self, precision: str | None = None, question: str | None = None, domain: Domain | None = None
@@ -269,7 +277,16 @@ def described(raw: object, defaults: Description, required: tuple[str, ...] = ()
     found = object_of(raw, "the description", tuple(_KEYS), required)
     values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in found.items()}
     values.pop("protocol", None)
+    taken = values.pop("takes", ())
+    if "axis" in taken and values.get("tilt") is False:
+        raise InputError("the description takes an axis, but its tilt is false; leave tilt out, or make it true")
+    values |= {name: True for name, group in (("tilt", "axis"), ("heights", "heights")) if group in taken}
     description = replace(defaults, **values)
+    if "end" in taken and description.asked.layout is not WAYS:
+        raise InputError(
+            f"the description takes an end, but its question is {description.question!r}; the end of a straight motion "
+            'belongs to the question "passage"'
+        )
     if description.times and not description.asked.times:
         with_times = " or ".join(name for name, question in QUESTIONS.items() if question.times)
         raise InputError(
@@ -404,6 +421,14 @@ def _axis(value: object, where: str) -> tuple[float, float, float] | Literal["fr
     return x, y, z
 
 
+def _groups(value: object, where: str) -> tuple[str, ...]:
+    """Names of groups of columns, in any order."""
+    names = value if isinstance(value, list) else [None]
+    if len(set(map(str, names))) != len(names) or not all(isinstance(name, str) and name in GROUPS for name in names):
+        raise _wrong(value, where, f"a list of {', '.join(GROUPS)}, of none, some or all of them, each once")
+    return tuple(names)
+
+
 _DOMAIN_KEYS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
     {
         "regimes": lambda value, where: tuple(_names(value, where)),
@@ -430,5 +455,6 @@ _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
         "question": _one_of(QUESTIONS),
         "domain": domain_of,
         **dict.fromkeys(("refuses", "binary", "time", "tilt", "times"), _truth_value),
+        "takes": _groups,
     }
 )

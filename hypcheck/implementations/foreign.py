@@ -21,7 +21,14 @@ If the question is "passage", rows are (n, 10), with "tilt" (n, 13), and the fun
 void hypcheck_passage(size_t n, const double *rows, int8_t *hits, double *times);
 void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
 
-With "times": true the function of Python returns hits and times; without, `times` is a null pointer.
+"takes": ["axis"] means the same as "tilt": true. With "heights" among these, the last numbers of a row are z_min,
+z_max and solid: −inf, inf and 0 where the hyperboloid has no ends. A library then exports, in place of the others,
+
+void hypcheck_classify_columns(size_t n, size_t width, const double *rows, int8_t *positions);
+void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t *hits, double *times);
+
+A library that exports one of these alone is called by it in any case. With "times": true the function of Python returns
+hits and times; without, `times` is a null pointer.
 """
 
 from __future__ import annotations

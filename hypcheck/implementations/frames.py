@@ -74,24 +74,30 @@ class Call(NamedTuple):
     """The function of foreign code that is called, and the columns of its rows.
 
     `times` says that it gives times, `scene` that the entry for many centres is called, whose rows have the same sizes
-    and axis.
+    and axis, `columns` that the entry for rows of any width is called.
     """
 
     entry: str
     layout: Layout
     times: bool = False
     scene: bool = False
+    columns: bool = False
 
     def entry_name(self, *, tilt: bool) -> str:
         """The one of ENTRIES that is called, with an axis or without."""
+        if self.columns:
+            return f"hypcheck_{self.entry}_columns"
         return f"hypcheck_{self.entry}{'_tilted' if tilt else ''}{'_scene' if self.scene else ''}"
 
 
 CALLS = (
     Call("classify", PAIRS),
     Call("classify", PAIRS, scene=True),
+    Call("classify", PAIRS, columns=True),
     Call("passage", WAYS),
     Call("passage", WAYS, times=True),
+    Call("passage", WAYS, columns=True),
+    Call("passage", WAYS, times=True, columns=True),
 )
 
 REQUEST = struct.Struct("=4sIIIQQ")
@@ -117,8 +123,13 @@ ENTRIES = (
     "hypcheck_classify_tilted_scene",
     "hypcheck_passage",
     "hypcheck_passage_tilted",
+    "hypcheck_classify_columns",
+    "hypcheck_passage_columns",
 )
-"""The functions of a library: of rows, of rows with an axis, of one scene, and of ways; READY says which it exports."""
+"""The functions of a library: of rows, of rows with an axis, of one scene, of ways, and of rows of any width.
+
+READY says which it exports.
+"""
 
 TIMES = struct.Struct("=qq")
 """Nanoseconds and the sum of the answers."""

@@ -66,7 +66,7 @@ class Library:
     def _words(self, rows: Rows, call: Call, room: _AnswerRoom) -> tuple[int | None, ...]:
         """The arguments of a call."""
         if not call.scene:
-            return len(rows), rows.ctypes.data, *room.words
+            return len(rows), *self._width(rows, call), rows.ctypes.data, *room.words
         *fixed, x, y, z = self._memory.scene(rows)
         return *fixed, len(rows), x, y, z, *room.words
 
@@ -77,7 +77,7 @@ class Library:
         an empty function of hypcheck, or with ctypes of this library without rows.
         """
         room, n = _AnswerRoom(self._memory, rows, call), len(rows)
-        if _calls is None or call.layout is not PAIRS:  # it calls functions of three arguments
+        if _calls is None or call.layout is not PAIRS or call.columns:  # it calls functions of three arguments
             return self._seconds_by_ctypes(rows, repeat, call, room)
         address = ctypes.cast(self._entry(rows, call), ctypes.c_void_p).value or 0 if n else 0
         words = (address, rows.ctypes.data, rows.shape[1], room.answers.ctypes.data, max(1, n), repeat)
@@ -88,14 +88,20 @@ class Library:
 
     def _seconds_by_ctypes(self, rows: Rows, repeat: int, call: Call, room: _AnswerRoom) -> tuple[int, int]:
         function, begin, n = self._entry(rows, call), rows.ctypes.data, len(rows)
-        calls = [(1, begin + 8 * rows.shape[1] * place, *room.words_at(place)) for place in range(n)]
-        calls = calls or [(0, begin, *room.words)]
+        width = self._width(rows, call)
+        calls = [(1, *width, begin + 8 * rows.shape[1] * place, *room.words_at(place)) for place in range(n)]
+        calls = calls or [(0, *width, begin, *room.words)]
         start = time.perf_counter_ns()
         for _ in range(repeat):
             for words in calls:
                 function(*words)
         took = time.perf_counter_ns() - start
         return took, room.total()
+
+    @staticmethod
+    def _width(rows: Rows, call: Call) -> tuple[int, ...]:
+        """The argument that says how many numbers a row has, of an entry for rows of any width."""
+        return (rows.shape[1],) if call.columns else ()
 
     def _entry(self, rows: Rows, call: Call) -> Any:  # noqa: ANN401 - ctypes' own is private
         return self._entries[call.entry_name(tilt=call.layout.lean(rows))]
@@ -277,6 +283,8 @@ _ARGUMENTS = dict(
             (_POINTER, _POINTER, ctypes.c_size_t, *[_POINTER] * 4),
             (ctypes.c_size_t, *[_POINTER] * 3),
             (ctypes.c_size_t, *[_POINTER] * 3),
+            (ctypes.c_size_t, ctypes.c_size_t, _POINTER, _POINTER),
+            (ctypes.c_size_t, ctypes.c_size_t, *[_POINTER] * 3),
         ),
         strict=True,
     )

@@ -22,6 +22,7 @@ from itertools import chain
 from typing import IO, cast
 
 from hypcheck.errors import limit_reached, system_reason
+from hypcheck.geometry.rows import Rows, with_heights
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.frames import OutputTail, stderr_excerpt
 from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
@@ -293,6 +294,10 @@ class ProcessSession:
     def _meet(self) -> Description:
         """The description of the program, which has just started; raises StartError."""
         raise NotImplementedError
+
+    def _columns(self, rows: Rows) -> Rows:
+        """The rows with every column that the description takes."""
+        return with_heights(rows) if self.description.heights else rows
 
     @property
     def evidence(self) -> str:

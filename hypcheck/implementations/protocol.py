@@ -14,6 +14,9 @@ tilted-binary in place of binary, N·80 bytes.
 A program whose description has "question": "passage" is asked passage-text and passage-binary: lines of ten decimals or
 N·80 bytes, with "tilt": true thirteen decimals or N·104 bytes. With "times": true it replies lines such as "1 T" or
 "0", or N bytes and N float64.
+
+"takes": ["axis"] means the same as "tilt": true. With "heights" among what it takes, three numbers more come last, of
+8 bytes each in binary: z_min, z_max and solid, in text as -inf, inf and 0.0 where the hyperboloid does not end.
 """
 
 from __future__ import annotations
@@ -261,7 +264,7 @@ class CommandSession(ProcessSession):
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:  # noqa: ARG002 - it has no entry for scenes
         """An integer for each row, and times if the description says so."""
-        n = len(rows)
+        n, rows = len(rows), self._columns(rows)
         self._sequence += 1
         question, reply = f"classify {self._sequence} {n} {self._how}", self._reply(n)
         again: Rows | None = rows[:1] if self._known is None else self._known
@@ -285,6 +288,7 @@ class CommandSession(ProcessSession):
         """
         if not self.description.time:
             return None
+        rows = self._columns(rows)
         parts = [rows[place : place + 1] for place in range(len(rows))] if each else [rows]
         nanoseconds, totals = zip(*(self._time(part, repeat) for part in parts), strict=True)
         return sum(nanoseconds), sum(totals)

@@ -98,9 +98,13 @@ class WorkerSession(ProcessSession):
             raise StartError(str(error)) from None
         tilt, asked = description.tilt, description.asked
         self._call = Call(asked.entry, asked.layout, description.times)
-        self.scene = self._call._replace(scene=True).entry_name(tilt=tilt) in entries
-        if spec.kind == "library" and self._call.entry_name(tilt=tilt) not in entries:
-            raise StartError(_lacking(spec.words[0], description, self._call))
+        self.scene = not description.heights and self._call._replace(scene=True).entry_name(tilt=tilt) in entries
+        if spec.kind == "library":
+            wide = self._call._replace(columns=True)
+            own = not description.heights and self._call.entry_name(tilt=tilt) in entries
+            if not own and wide.entry_name(tilt=tilt) not in entries:
+                raise StartError(_lacking(spec.words[0], description, wide if description.heights else self._call))
+            self._call = self._call if own else wide
         return description
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
@@ -124,7 +128,7 @@ class WorkerSession(ProcessSession):
 
     def _ask(self, asked: bytes, call: Call, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
         self._process.mark()
-        mark = secrets.randbits(64)
+        rows, mark = self._columns(rows), secrets.randbits(64)
         head = frames.REQUEST.pack(asked, frames.CALLS.index(call), rows.shape[1], len(rows), repeat, mark)
         self._process.send((head, frames.row_bytes(rows)))
         what, width, body = self._reply(self._limits.timeout, mark)
@@ -162,12 +166,14 @@ class WorkerSession(ProcessSession):
 def _lacking(path: str, described: Description, call: Call) -> str:
     """That a library lacks the function that is to be called."""
     asked, name = described.asked, call.entry_name(tilt=described.tilt)
-    rows = f"rows{len(asked.layout.tilted)}" if described.tilt else "rows"
+    rows = f"rows{len(described.columns)}" if described.tilt and not call.columns else "rows"
     reasons = [f'"question": "{asked.name}"'] if asked.layout is not PAIRS else []
     reasons += ['"tilt": true'] if described.tilt else []
+    reasons += ['"takes": ["heights"]'] if described.heights else []
     why = f", since it describes itself with {' and '.join(reasons)}" if reasons else ""
     answers = "int8_t *positions" if asked.layout is PAIRS else "int8_t *hits, double *times"
-    wanted = f"void {name}(size_t n, const double *{rows}, {answers})"
+    width = ", size_t width" if call.columns else ""
+    wanted = f"void {name}(size_t n{width}, const double *{rows}, {answers})"
     return f'{path!r} has no symbol {name}; it must export {wanted}, in C++ as extern "C"{why}'
 
 

@@ -28,6 +28,7 @@ from hypcheck.geometry.rows import (
     Floats,
     Positions,
     Rows,
+    Table,
     as_columns,
     as_numbers,
     as_rows,
@@ -128,7 +129,7 @@ class Prepared:
 
 @in_default_environment
 def classify(
-    rows: ArrayLike,
+    rows: Table | ArrayLike,
     *,
     out: Positions | None = None,
     on_invalid: Literal["raise", "flag"] = "raise",
@@ -139,7 +140,9 @@ def classify(
 
     `rows` is (n, 7): alpha, gamma, b, d, x, y, z, lengths in one unit, as float64 (C-contiguous is not copied) or what
     converts to it. Rows (n, 10) have axis_x, axis_y, axis_z besides, any finite vector ≠ 0 along the spheroid's axis of
-    revolution, whose length and sign mean nothing; those of seven are upright, as is 0, 0, 1. `out`, int8 (n,), is
+    revolution, whose length and sign mean nothing; those of seven are upright, as is 0, 0, 1. In place of an array
+    `rows` may be a table of these columns by name, such as {"alpha": 2, …, "z": zs}, a data frame, a structured array:
+    numbers and columns are broadcast. `out`, int8 (n,), is
     filled and returned in place of a new array; it may overlap `rows`. `question` "exterior", "interior" or "contact"
     asks for 1 (yes) or 0 (no) instead. `threads` is how many threads share the work; by default one, and more for
     millions of rows (HYPCHECK_THREADS limits them).

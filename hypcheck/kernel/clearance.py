@@ -29,7 +29,18 @@ from numpy.typing import ArrayLike
 
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.geometry.rows import Floats, Indices, Integers, Mask, Positions, Rows, as_rows, invalid, require_valid
+from hypcheck.geometry.rows import (
+    Floats,
+    Indices,
+    Integers,
+    Mask,
+    Positions,
+    Rows,
+    Table,
+    as_rows,
+    invalid,
+    require_valid,
+)
 from hypcheck.kernel import clearance_points as points
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.classify import kernel, required
@@ -107,7 +118,7 @@ class Clearance:
 
 @in_default_environment
 def clearance(
-    rows: ArrayLike, *, on_invalid: Literal["raise", "flag"] = "raise", threads: int | None = None
+    rows: Table | ArrayLike, *, on_invalid: Literal["raise", "flag"] = "raise", threads: int | None = None
 ) -> Clearance:
     """The clearance, the distance and the nearest points of every row, each between two numbers that are proved.
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from math import cos, isfinite, radians, sin
+from math import isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,9 +38,12 @@ from hypcheck.kernel.scene_index import (
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     Body,
-    all_parts_are_clear,
+    Way,
     hits_beside,
+    is_clear,
     is_within_height,
+    meets_height,
+    places_of_parts,
     position_beside,
     position_leaning,
     positions_beside,
@@ -74,8 +77,6 @@ class Scene:
         trouble = None if mover.axis == FREE else trouble_with_axis(mover.axis)
         if trouble is not None:
             raise InputError(f"the mover: {trouble}")
-        if mover.parts and leans(mover.axis):
-            raise InputError("the mover leans and has parts, whose places are known only where it is upright")
 
     @classmethod
     @in_default_environment
@@ -140,7 +141,7 @@ class Scene:
             if body[5] <= z <= body[6]:
                 said = position_beside(body, mover.b, mover.d, x, y, z)
                 if said == CONTACT and mover.parts:
-                    said = self._of_parts(index, (x, y, z), heading)
+                    said = self._of_parts(index, (x, y, z), heading, UPRIGHT)
                 if said == CONTACT:
                     found = _RANK[CONTACT]
                     break
@@ -148,49 +149,59 @@ class Scene:
         return self._answer(_OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR)
 
     @in_default_environment
-    def passage(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0) -> Positions:
+    def passage(
+        self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
+    ) -> Positions:
         """Whether the mover meets contact on each straight way, its ends included, exactly; int8 (n,).
 
-        `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, is the same all
-        along. 1 is contact somewhere, 0 clear all along, whatever the scene's question is. A hyperboloid says nothing
-        while the mover's centre is beyond its modelled height; 2 is said where none says anything all along. A part
-        goes straight from where it stands at the start to where it stands at the end; it is asked where the mover has
-        contact. Raises InputError for numbers that are not finite, for a hyperboloid that leans, and for a mover whose
-        axis the scene leaves free.
+        `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, and `axis`, as in
+        classify, are the same all along. 1 is contact somewhere, 0 clear all along, whatever the scene's question is. A
+        hyperboloid says nothing while the mover's centre is beyond its modelled height; 2 is said where none says
+        anything all along. A part goes straight from where it stands at the start to where it stands at the end; it is
+        asked where the mover has contact. Raises InputError for numbers that are not finite, and for an axis where the
+        scene fixes it.
         """
-        self._require_upright("a way is decided")
-        starts, ends, headings = _ways(start, end, heading)
         bodies, mover = self._bodies, self.model.mover
+        axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
+        starts, ends, headings, *columns = _ways(start, end, heading, axes)
+        movers = _directions(columns) if columns else None
         query, body = near_ways(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
-        axis = mover.axis if mover.axis != FREE and leans(mover.axis) else None
-        hits = hits_beside(bodies, body, mover, axis, starts[query], ends[query])
+        hits = hits_beside(bodies, body, mover, starts[query], ends[query], None if movers is None else movers[query])
         for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
             way = query[pair]
-            here, there = (self._places_of_parts(each[way].tolist(), float(headings[way])) for each in (starts, ends))
-            hits[pair] = not all_parts_are_clear(bodies, int(body[pair]), mover, here, there)
+            own_axis = UPRIGHT if movers is None else movers[way].tolist()
+            ends_of = Way(starts[way].tolist(), ends[way].tolist(), own_axis)
+            places = (
+                places_of_parts(mover.parts, point, float(headings[way]), own_axis)
+                for point in (ends_of.start, ends_of.end)
+            )
+            parts = [
+                (part.b, part.d, Way(here, there, own_axis))
+                for part, here, there in zip(mover.parts, *places, strict=True)
+            ]
+            hits[pair] = not is_clear(bodies, int(body[pair]), parts, ends_of)
         low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
         result = np.where(self._levels.meet_each(low, high), 0, CANNOT_SAY).astype(np.int8)
         result[query[hits]] = 1
+        for index in np.flatnonzero(result == CANNOT_SAY).tolist() if bodies.leaning.any() else ():
+            way_of = Way(starts[index].tolist(), ends[index].tolist(), UPRIGHT)
+            if any(meets_height(bodies, body, way_of) for body in np.flatnonzero(bodies.leaning).tolist()):
+                result[index] = 0
         return result
 
     @in_default_environment
-    def nearest(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Nearest:
+    def nearest(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, *, axis: ArrayLike | None = None) -> Nearest:
         """Which hyperboloid is nearest to the mover, its distance between proved numbers, and the nearest point.
 
         `x`, `y`, `z` are (n,) each or single numbers. The distance is Euclidean, from the mover itself, not its parts,
-        to the surface within its modelled height, wherever the mover is, whatever the scene's question is. Raises
-        InputError for numbers that are not finite, for a hyperboloid that leans, and for a mover whose axis is free.
+        to the surface within its modelled height, wherever the mover is, whatever the scene's question is. `axis` is as
+        in classify. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
-        self._require_upright("the nearest is found")
-        centres = np.stack(_finite_columns(CENTER, (x, y, z)), axis=1)
-        return scene_nearest.nearest(self._bodies, self.model.mover, centres)
-
-    def _require_upright(self, what: str) -> None:
-        if self.model.mover.axis == FREE:
-            raise InputError(f"the scene leaves the mover's axis free; {what} where [mover] fixes it")
-        for body in np.flatnonzero(self._bodies.leaning)[:1].tolist():
-            name = self.model.hyperboloids[body].name
-            raise InputError(f"the hyperboloid {name!r} leans; {what} only beside upright hyperboloids")
+        mover = self.model.mover
+        axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
+        columns = _finite_columns((*CENTER, *AXIS[: len(axes)]), (x, y, z, *axes))
+        movers = _directions(columns[3:]) if axes else None
+        return scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
 
     def _position_leaning(self, centre: Point, heading: float, axis: Sequence[float] | None) -> int:
         """The same where something leans."""
@@ -219,7 +230,7 @@ class Scene:
         if not inside:
             return CANNOT_SAY
         said = position_leaning((body.alpha, body.gamma, mover.b, mover.d), centre, body.center, axis, body.axis)
-        return self._of_parts(index, centre, heading) if said == CONTACT and mover.parts else said
+        return self._of_parts(index, centre, heading, axis) if said == CONTACT and mover.parts else said
 
     def _answer(self, position: int) -> int:
         question = self.model.question
@@ -290,31 +301,22 @@ class Scene:
             those = body[lean]
             silent[lean] = ~within_height(bodies.spans[those], pairs[0][lean], pairs[1][lean], bodies.axes[those])
         for pair in np.flatnonzero((result == CONTACT) & ~silent).tolist() if mover.parts else ():
-            x, y, z = centres[query[pair]].tolist()
-            result[pair] = self._of_parts(int(body[pair]), (x, y, z), float(heading[query[pair]]))
+            asked = query[pair]
+            axis = UPRIGHT if movers is None else movers[asked].tolist()
+            result[pair] = self._of_parts(int(body[pair]), centres[asked].tolist(), float(heading[asked]), axis)
         result[silent] = CANNOT_SAY
         return result
 
-    def _of_parts(self, index: int, centre: tuple[float, float, float], heading: float) -> int:
-        """The position that all parts have in common beside a hyperboloid, else contact."""
+    def _of_parts(self, index: int, centre: Sequence[float], heading: float, mover: Sequence[float]) -> int:
+        """The position that all parts of a mover with this axis have in common beside a hyperboloid, else contact."""
         found, body, axis = CONTACT, self._body(index), self.model.hyperboloids[index].axis
-        for number, (x, y, _) in enumerate(self._places_of_parts(centre, heading)):
+        for number, place in enumerate(places_of_parts(self.model.mover.parts, centre, heading, mover)):
             part = self.model.mover.parts[number]
-            if leans(axis):
-                sizes = (body[0], body[1], part.b, part.d)
-                said = position_leaning(sizes, (x, y, centre[2]), body[2:5], UPRIGHT, axis)
-            else:
-                said = position_beside(body, part.b, part.d, x, y, centre[2])
+            said = position_leaning((body[0], body[1], part.b, part.d), place, body[2:5], mover, axis)
             if said == CONTACT or (number and said != found):
                 return CONTACT
             found = said
         return found
-
-    def _places_of_parts(self, centre: Sequence[float], heading: float) -> list[Point]:
-        """The centres of the mover's parts."""
-        x, y, z = centre
-        turns = [(part.arm, radians(heading + part.angle)) for part in self.model.mover.parts]
-        return [(x + arm * cos(turn), y + arm * sin(turn), z) for arm, turn in turns]
 
     def _answers(self, positions: Positions) -> Positions:
         question = self.model.question
@@ -363,8 +365,8 @@ class Scene:
         return bodies
 
 
-def _ways(start: ArrayLike, end: ArrayLike, heading: ArrayLike) -> tuple[Floats, Floats, Floats]:
-    """The ends of ways, (n, 3) each, and headings (n,). Raises InputError where they are no such numbers."""
+def _ways(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+    """The ends of ways, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are none."""
     points = []
     for name, given in (("start", start), ("end", end)):
         point = as_numbers(f"{name} is", given, _POINTS)
@@ -372,8 +374,8 @@ def _ways(start: ArrayLike, end: ArrayLike, heading: ArrayLike) -> tuple[Floats,
             raise InputError(f"{name} is of shape {point.shape}; {_POINTS}")
         points.append(point.reshape(-1, len(CENTER)).T)
     names = (*(f"{each} of the start" for each in CENTER), *(f"{each} of the end" for each in CENTER), "heading")
-    columns = _finite_columns(names, (*points[0], *points[1], heading))
-    return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), columns[6]
+    columns = _finite_columns((*names, *AXIS[: len(axes)]), (*points[0], *points[1], heading, *axes))
+    return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), *columns[6:]
 
 
 def _finite_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:

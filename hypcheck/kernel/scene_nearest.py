@@ -9,6 +9,10 @@ A hyperboloid with a modelled height ends there. The distance to the endless one
 which stands; it is the same where the nearest point is on that part. Else a point P at the near end gives the upper
 bound: with f the factor by which the spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away.
 
+**A hyperboloid that leans** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
+So the offset is off by 64 u of its size, and the spheroid, by its axis, by 64 u of its longer semi-axis (frames_of):
+both far less than _ROUNDED of the sizes and coordinates.
+
 Pairs are left out by the cylinder about the standing part: the mover is no nearer to the part than to the cylinder.
 """
 
@@ -18,12 +22,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck.geometry.pair import SIZES, Position
+from hypcheck.geometry.pair import SIZES, UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearance
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
-from hypcheck.kernel.scene_pairs import positions_beside
-from hypcheck.scene.model import Mover, leans
+from hypcheck.kernel.scene_pairs import along_and_across, frames_of, positions_leaning, turned
+from hypcheck.scene.model import Mover
 
 PAIRS_AT_A_TIME = 1 << 18
 _ROUNDED = 2.0**-44
@@ -49,30 +53,35 @@ class Nearest:
     point: Floats
 
 
-def nearest(bodies: Bodies, mover: Mover, centres: Floats) -> Nearest:
-    """The nearest of upright hyperboloids to a mover whose axis is fixed, at centres (n, 3)."""
+def nearest(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None) -> Nearest:
+    """The nearest of all hyperboloids to a mover at centres (n, 3), with axes (n, 3); None: it is upright."""
     count, some = len(centres), max(1, PAIRS_AT_A_TIME // len(bodies.tall))
     found = Nearest(
         np.zeros(count, np.intp), np.zeros(count, np.bool_), np.full(count, np.inf), np.full(count, np.inf),
         np.full((count, 3), np.nan),
     )  # fmt: skip
     for start in range(0, count, some):
-        _fill(found, bodies, mover, centres, np.arange(start, min(start + some, count)))
+        _fill(found, bodies, mover, (centres, axes), np.arange(start, min(start + some, count)))
     return found
 
 
-def _fill(found: Nearest, bodies: Bodies, mover: Mover, centres: Floats, places: Indices) -> None:
-    least = cylinders(bodies, mover, centres[places])
+Movers = tuple[Floats, Floats | None]
+"""Centres (n, 3) and axes (n, 3), None where the mover is upright."""
+
+
+def _fill(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, places: Indices) -> None:
+    least = cylinders(bodies, mover, movers[0][places])
     first = np.argmin(least, axis=1)
-    _ask(found, bodies, mover, centres, places, first)
+    _ask(found, bodies, mover, movers, places, first)
     query, body = np.nonzero(least <= found.distance_upper[places, None])
     others = body != first[query]
-    _ask(found, bodies, mover, centres, places[query[others]], body[others])
+    _ask(found, bodies, mover, movers, places[query[others]], body[others])
 
 
-def _ask(found: Nearest, bodies: Bodies, mover: Mover, centres: Floats, query: Indices, body: Indices) -> None:
+def _ask(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: Indices, body: Indices) -> None:
     """Take these pairs into account: each centre's with the least upper bound, and whether others may be as near."""
-    low, high, point = _distances(bodies, mover, centres[query], body)
+    centres, axes = movers
+    low, high, point = _distances(bodies, mover, centres[query], None if axes is None else axes[query], body)
     order = np.argsort(high, kind="stable")
     best, first = np.unique(query[order], return_index=True)
     nearer = high[order][first] < found.distance_upper[best]
@@ -97,53 +106,67 @@ def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
     """A lower bound of each distance, (n, m), by the cylinder about the standing part; inf where nothing stands."""
     with np.errstate(all="ignore"):
         across = np.hypot(*(centres[:, k, None] - bodies.origins[:, k] for k in (0, 1)))
-        wide = bodies.shapes[:, 0] * np.sqrt(1 + (bodies.tall / bodies.shapes[:, 1]) ** 2) * OUTWARD
-        beside = np.maximum(across - wide * OUTWARD, 0)
         low, high = bodies.heights.T
         beyond = np.maximum(np.maximum(centres[:, 2, None] - high, low - centres[:, 2, None]), 0)
+        for body in np.flatnonzero(bodies.leaning):
+            along, across[:, body], error = along_and_across(
+                centres, bodies.origins[body, None], np.broadcast_to(bodies.axes[body], centres.shape)
+            )
+            bottom, top = bodies.spans[body]
+            beyond[:, body] = np.maximum(np.maximum(along - top, bottom - along) - error, 0)
+            across[:, body] -= error
+        wide = bodies.shapes[:, 0] * np.sqrt(1 + (bodies.tall / bodies.shapes[:, 1]) ** 2) * OUTWARD
+        beside = np.maximum(across - wide * OUTWARD, 0)
         lost = _LEAST + _ROUNDED * (across + wide)
         least = np.hypot(beside, beyond) * (1 - 2.0**-40) - max(mover.b, mover.d) - lost
         least = np.where(np.isfinite(least), np.maximum(least, 0), 0)
         return np.asarray(np.where(low <= high, least, np.inf))
 
 
-def _distances(bodies: Bodies, mover: Mover, centres: Floats, body: Indices) -> tuple[Floats, Floats, Floats]:
+def _distances(
+    bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None, body: Indices
+) -> tuple[Floats, Floats, Floats]:
     """Lower and upper bounds of the distances of pairs, and a point that proves each upper one."""
     origins = bodies.origins[body]
     with np.errstate(over="ignore"):
         offset = centres - origins
     beyond = ~np.isfinite(offset).all(axis=1)  # of which nothing is known but whether there is contact
     offset[beyond] = 0.0
-    lean = leans(mover.axis)
-    rows = np.empty((len(body), 10 if lean else 7))
-    rows[:, : len(SIZES)] = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(body), 1))], axis=1)
-    rows[:, 4:7] = offset
-    if lean:
-        rows[:, 7:] = mover.axis
+    frames = frames_of(bodies.axes[body]) if bodies.leaning.any() else None
+    if frames is not None:
+        offset = turned(frames, offset)
+        axes = np.broadcast_to(UPRIGHT, offset.shape) if axes is None else axes
+    sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(body), 1))], axis=1)
+    own_axes = [] if axes is None else [axes if frames is None else turned(frames, axes)]
+    rows = np.concatenate([sizes, offset, *own_axes], axis=1)
     said = clearance(rows)
     with np.errstate(all="ignore"):
         rounded = _LEAST + _ROUNDED * (
-            np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + rows[:, :4].sum(axis=1)
+            np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + rows[:, : len(SIZES)].sum(axis=1)
         )
         low = np.maximum(said.distance_lower - rounded, 0)
         doubtful = np.flatnonzero((low == 0) | beyond)  # the others are clear: moved so far, they do not touch
         touching = np.zeros(len(body), np.bool_)
-        axes = rows[doubtful, 7:] if lean else None
-        position = positions_beside(rows[doubtful, :4], centres[doubtful], origins[doubtful], axes)
+        movers = np.broadcast_to(UPRIGHT, centres.shape) if axes is None else axes
+        position = positions_leaning(
+            sizes[doubtful], centres[doubtful], origins[doubtful], movers[doubtful], bodies.axes[body[doubtful]]
+        )
         touching[doubtful] = position == Position.CONTACT
         high = np.where(touching, 0, said.distance_upper + rounded)
-        point, bottom, top = said.nearest.copy(), *bodies.heights[body].T
-        level = point[:, 2] + origins[:, 2]
+        point, bottom, top = said.nearest.copy(), *bodies.spans[body].T
+        level = point[:, 2]
         cut = np.flatnonzero(~((level - rounded >= bottom) & (level + rounded <= top)) & np.isfinite(bodies.tall[body]))
-        standing = np.clip(level[cut], bottom[cut], top[cut]) - origins[cut, 2]
-        point[cut] = _at_height(rows[cut], point[cut], standing)
-        high[cut] = _reached(mover, lean, point[cut] - offset[cut])
+        point[cut] = _at_height(rows[cut], point[cut], np.clip(level[cut], bottom[cut], top[cut]))
+        high[cut] = _reached(mover, own_axes[0][cut] if own_axes else None, point[cut] - offset[cut])
         steep = 1 + rows[cut, 0] / rows[cut, 1]
         high[cut] += rounded[cut] * steep + _ROUNDED * np.abs(point[cut]).sum(axis=1)
     low[beyond], point[beyond] = 0.0, np.nan
     high[beyond] = np.where(touching[beyond] & ~np.isfinite(bodies.tall[body[beyond]]), 0.0, np.inf)
     high[np.isnan(high)] = np.inf
-    empty = bottom > top
+    lowest, highest = bodies.heights[body].T
+    empty = lowest > highest
+    if frames is not None:
+        point = turned(frames.transpose(0, 2, 1), point)
     return np.where(empty, np.inf, low), np.where(empty, np.inf, high), point + origins
 
 
@@ -153,10 +176,20 @@ def _at_height(rows: Rows, point: Rows, height: Floats) -> Rows:
     return np.stack([point[:, 0] * share, point[:, 1] * share, height], axis=1)
 
 
-def _reached(mover: Mover, lean: bool, way: Rows) -> Floats:
-    """How far points, `way` (n, 3) from the mover's centre, are from the mover at most."""
-    level = np.hypot(way[:, 0], way[:, 1])
-    length = np.hypot(level, way[:, 2])
-    if lean:
-        return np.maximum(length - min(mover.b, mover.d), 0)
-    return np.maximum(length * (1 - 1 / np.hypot(level / mover.b, way[:, 2] / mover.d)), 0)
+def _reached(mover: Mover, axes: Floats | None, way: Rows) -> Floats:
+    """How far points, `way` (n, 3) from the centre of a mover with these axes (n, 3), are from the mover at most."""
+    length = _length(way)
+    if axes is None:
+        across, along = np.hypot(way[:, 0], way[:, 1]), way[:, 2]
+    else:
+        unit = axes / np.abs(axes).max(axis=1, keepdims=True)
+        unit /= _length(unit)[:, None]
+        along, across = (unit * way).sum(axis=1), _length(np.cross(unit, way))
+    reached: Floats = np.maximum(length * (1 - 1 / np.hypot(across / mover.b, along / mover.d)), 0)
+    return reached
+
+
+def _length(vectors: Rows) -> Floats:
+    """The lengths of vectors (n, 3), whose squares may overflow."""
+    length: Floats = np.hypot(np.hypot(vectors[:, 0], vectors[:, 1]), vectors[:, 2])
+    return length

@@ -19,14 +19,16 @@ at most six terms: 64 u Σ|C| bounds what they are wrong by; ρ takes five round
 and about one that is smaller, by what the rounding of the difference of two centres may be in radii, as for
 positions. The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the
 exact differences by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about ways is
-known. So is a way that may hit, and leaves the modelled height: of it the part at that height counts.
+known. So is a way that may hit, and leaves the modelled height: of it the part at that height counts. Beside a
+hyperboloid that leans both ends and the mover's axis are turned into its frame, and the roundings of that are added.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, sqrt
+from math import cos, inf, isqrt, radians, sin, sqrt
 
 import numpy as np
 
@@ -37,8 +39,8 @@ from hypcheck.kernel.classify import classify, kernel
 from hypcheck.kernel.scalar import position
 from hypcheck.kernel.scene_index import Bodies
 from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
-from hypcheck.scene.model import Mover, Point
-from hypcheck.truth.swept import Passage, passage
+from hypcheck.scene.model import Mover, MoverPart, Point
+from hypcheck.truth.swept import passage
 
 Body = tuple[float, float, float, float, float, float, float]
 """α, γ, the centre x, y, z, and the lowest and highest modelled z, of a hyperboloid."""
@@ -172,7 +174,7 @@ def _by_ball(
 def _height_and_distance(
     centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
 ) -> tuple[float, float, float]:
-    """As _along_and_across, of one pair; the bound of the error is inf where it is not known."""
+    """As along_and_across, of one pair; the bound of the error is inf where it is not known."""
     largest, size = max(map(abs, axis)), sum(map(abs, (*centre, *origin)))
     if not (LEAST < largest < GREATEST and size < GREATEST):
         return 0.0, 0.0, inf
@@ -205,7 +207,7 @@ def _exactly(those: Indices, result: Positions, *columns: Rows) -> None:
 def _beside_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
     result = np.zeros(len(sizes), np.int8)
     with np.errstate(all="ignore"):
-        height, distance, error = _along_and_across(centres, origins, axes)
+        height, distance, error = along_and_across(centres, origins, axes)
         alpha, gamma = sizes[:, 0], sizes[:, 1]
         longest = sizes[:, 2:].max(axis=1) * (1 + MARGIN) + error
         ordinary = (sizes > LEAST).all(axis=1) & (sizes < GREATEST).all(axis=1)
@@ -219,7 +221,7 @@ def _beside_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axe
     return result
 
 
-def _along_and_across(centres: Rows, origins: Rows, axes: Rows) -> tuple[Floats, Floats, Floats]:
+def along_and_across(centres: Rows, origins: Rows, axes: Rows) -> tuple[Floats, Floats, Floats]:
     """The centres' heights along the axes and distances from them, and a bound of the error of both; nan: not known."""
     largest = np.abs(axes).max(axis=1, keepdims=True)
     unit = axes / largest
@@ -237,7 +239,7 @@ def within_height(spans: Rows, centres: Rows, origins: Rows, axes: Rows) -> Mask
     """Whether each centre lies within a modelled height (n, 2) along an axis (n, 3), exactly; (n,)."""
     low, high = spans[:, 0], spans[:, 1]
     with np.errstate(all="ignore"):
-        height, _, error = _along_and_across(centres, origins, axes)
+        height, _, error = along_and_across(centres, origins, axes)
         inside = (height - error >= low) & (height + error <= high)
         outside = (height + error < low) | (height - error > high)
     inside |= (low == -np.inf) & (high == np.inf)
@@ -272,65 +274,207 @@ def _signed_square(value: Fraction) -> Fraction:
     return value * abs(value)
 
 
-def hits_beside(bodies: Bodies, body: Indices, mover: Mover, axis: Point | None, starts: Rows, ends: Rows) -> Mask:
-    """Which ways of a mover have contact with their hyperboloid, where it is modelled, (n,); `axis` where it leans.
+def hits_beside(
+    bodies: Bodies, body: Indices, mover: Mover, starts: Rows, ends: Rows, axes: Rows | None = None
+) -> Mask:
+    """Which ways of a mover have contact with their hyperboloid, where it is modelled, (n,).
 
-    `starts` and `ends`, (n, 3), are in the scene's coordinates; each way is at some time at a modelled height.
+    `starts` and `ends`, (n, 3), are in the scene's coordinates, and `axes`, (n, 3), the mover's; None: it is upright.
     """
-    origins, shapes = bodies.origins[body], bodies.shapes[body]
-    low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
-    leaves = (low < bodies.heights[body, 0]) | (high > bodies.heights[body, 1])
-    leaning = np.empty((len(body), 0)) if axis is None else np.broadcast_to(axis, (len(body), 3))
+    origins, shapes, spans = bodies.origins[body], bodies.shapes[body], bodies.spans[body]
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
         lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
+        own_axes = axes
+        if bodies.leaning[body].any():
+            start, end, own_axes, turning = _in_frames(bodies.axes[body], mover, start, end, axes)
+            lost = lost + turning
+        low = np.minimum(start[:, 2], end[:, 2]) - lost
+        high = np.maximum(start[:, 2], end[:, 2]) + lost
+        leaves, beyond = (low < spans[:, 0]) | (high > spans[:, 1]), (high < spans[:, 0]) | (low > spans[:, 1])
     larger, smaller, fits = _larger_and_smaller(np.broadcast_to((mover.b, mover.d), (len(body), 2)), lost)
+    place = [start, end] if own_axes is None else [start, end, own_axes]
     hits = np.zeros(len(body), np.bool_)
-    open_ways = ~fits
-    asked = np.flatnonzero(fits)
-    said = kernel().answer_ways(np.concatenate([shapes, larger, start, end, leaning], axis=1)[asked])[0]
+    open_ways = ~fits & ~beyond
+    asked = np.flatnonzero(fits & ~beyond)
+    said = kernel().answer_ways(np.concatenate([shapes, larger, *place], axis=1)[asked])[0]
     asked = asked[said != 0]
-    said = kernel().answer_ways(np.concatenate([shapes, smaller, start, end, leaning], axis=1)[asked])[0]
+    said = kernel().answer_ways(np.concatenate([shapes, smaller, *place], axis=1)[asked])[0]
     hits[asked] = said == 1
     open_ways[asked] = (said != 1) | leaves[asked]
     for index in np.flatnonzero(open_ways).tolist():
-        sizes = (*shapes[index].tolist(), mover.b, mover.d)
-        ends_of = (starts[index].tolist(), ends[index].tolist())
-        hits[index] = exact_way(sizes, *ends_of, origins[index].tolist(), bodies.spans[body[index]].tolist(), axis).hit
+        axis = UPRIGHT if axes is None else axes[index].tolist()
+        way = Way(starts[index].tolist(), ends[index].tolist(), axis)
+        hits[index] = not is_clear(bodies, int(body[index]), [(mover.b, mover.d, way)], way)
     return hits
 
 
-def exact_way(
-    sizes: Sequence[float],
-    start: Sequence[float],
-    end: Sequence[float],
-    origin: Sequence[float],
-    span: Sequence[float],
-    axis: Point | None,
-) -> Passage:
-    """What happens on the part of a way that is within the span of heights above the origin; there is such a part."""
-    here, there = (
-        [Fraction(each) - Fraction(centre) for each, centre in zip(point, origin, strict=True)]
-        for point in (start, end)
+def _in_frames(
+    upward: Rows, mover: Mover, start: Floats, end: Floats, axes: Rows | None
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Both ends and the mover's axis in the frames of hyperboloids with these axes, and how far they are off at most.
+
+    An axis that is off by an angle δ moves no point of the spheroid farther than δ times its longer semi-axis.
+    """
+    frames = frames_of(upward)
+    lean = (upward[:, :2] != 0).any(axis=1)
+    size = np.maximum(np.abs(start).sum(axis=1), np.abs(end).sum(axis=1)) + max(mover.b, mover.d)
+    own_axes = np.broadcast_to(UPRIGHT, start.shape) if axes is None else axes
+    error = np.where(lean, ERROR * size + LEAST, 0.0)
+    return turned(frames, start), turned(frames, end), turned(frames, own_axes), error
+
+
+def frames_of(axes: Floats) -> Floats:
+    """Frames (n, 3, 3): the rows are two unit vectors across an axis and one along it; I where that is vertical.
+
+    They are within 16 u of an exact frame, so that what is turned into one is off by 64 u of its size at most.
+    """
+    frames = np.tile(np.eye(3), (len(axes), 1, 1))
+    lean = np.flatnonzero((axes[:, :2] != 0).any(axis=1))
+    along = axes[lean] / np.abs(axes[lean]).max(axis=1, keepdims=True)
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    least = np.eye(3)[np.abs(along).argmin(axis=1)]  # the coordinate axis that is farthest from it
+    across = np.cross(least, along)
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    frames[lean] = np.stack([across, np.cross(along, across), along], axis=1)
+    return frames
+
+
+def turned(frames: Floats, vectors: Floats) -> Floats:
+    """Vectors (n, 3) in frames (n, 3, 3)."""
+    found: Floats = np.einsum("nij,nj->ni", frames, vectors)
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """Where a spheroid goes straight, in the scene's coordinates, and its axis."""
+
+    start: Sequence[float]
+    end: Sequence[float]
+    axis: Sequence[float]
+
+
+Times = tuple[Fraction, Fraction]
+"""A first and a last time; none, where the last is before the first."""
+
+
+def is_clear(bodies: Bodies, index: int, spheroids: Sequence[tuple[float, float, Way]], mover: Way) -> bool:
+    """Whether spheroids (b, d, way) stay clear of a hyperboloid, on one side, while a mover is at its modelled height.
+
+    Ends of that height may be irrational, where the hyperboloid leans. They are enclosed ever more narrowly, until
+    between the outer ones all is clear, or between the inner ones it is not. A contact at the very instant, within
+    2^−_MOST_BITS of it, counts as one.
+    """
+    shape, origin, span, upward = (
+        column[index].tolist() for column in (bodies.shapes, bodies.origins, bodies.spans, bodies.axes)
     )
-    change = [after - before for before, after in zip(here, there, strict=True)]
-    first, last = Fraction(0), Fraction(1)
-    if change[2]:
-        at = [None if abs(height) == inf else (Fraction(height) - here[2]) / change[2] for height in span]
-        enters, leaves = at if change[2] > 0 else reversed(at)
-        first = first if enters is None else max(first, enters)
-        last = last if leaves is None else min(last, leaves)
-    centres = [[before + time * by for before, by in zip(here, change, strict=True)] for time in (first, last)]
-    return passage(sizes, centres[0], centres[1], axis)
+    for outer, inner in _times_within(mover, origin, span, upward):
+        if _stays_clear(shape, origin, upward, spheroids, outer):
+            return True
+        if inner == outer or not _stays_clear(shape, origin, upward, spheroids, inner):
+            return False
+    return False
 
 
-def all_parts_are_clear(
-    bodies: Bodies, index: int, mover: Mover, start: Sequence[Sequence[float]], end: Sequence[Sequence[float]]
+def _stays_clear(
+    shape: Sequence[float],
+    origin: Sequence[float],
+    upward: Sequence[float],
+    spheroids: Sequence[tuple[float, float, Way]],
+    times: Times,
 ) -> bool:
-    """Whether the mover's parts, each on the way between its own places, stay clear on one and the same side."""
-    found: set[Position] = set()
-    shape, origin, span = (each[index].tolist() for each in (bodies.shapes, bodies.origins, bodies.spans))
-    for part, here, there in zip(mover.parts, start, end, strict=True):
-        way = exact_way((*shape, part.b, part.d), here, there, origin, span, None)
-        found.add(Position.CONTACT if way.hit else way.start)
+    if times[0] > times[1]:
+        return True
+    found = set()
+    for b, d, way in spheroids:
+        here, there = (
+            [Fraction(part) - Fraction(centre) for part, centre in zip(point, origin, strict=True)]
+            for point in (way.start, way.end)
+        )
+        ends = [[low + time * (high - low) for low, high in zip(here, there, strict=True)] for time in times]
+        what = passage((*shape, b, d), ends[0], ends[1], way.axis, upward)
+        found.add(Position.CONTACT if what.hit else what.start)
     return len(found) == 1 and Position.CONTACT not in found
+
+
+_MOST_BITS = 1024
+
+
+def _times_within(
+    way: Way, origin: Sequence[float], span: Sequence[float], upward: Sequence[float]
+) -> Iterator[tuple[Times, Times]]:
+    """Enclosures, from without and from within, of the times at which a centre is at heights above an origin.
+
+    The height is w·(X − c)/|w|. Where |w| is rational both are the same, and the only ones.
+    """
+    w: list[int] = to_integers(upward)
+    below, above = (
+        sum((Fraction(part) - Fraction(centre)) * along for part, centre, along in zip(point, origin, w, strict=True))
+        for point in (way.start, way.end)
+    )
+    square, bits = sum(along * along for along in w), 64
+    while bits <= _MOST_BITS:
+        root = Fraction(isqrt(square << 2 * bits), 1 << bits)
+        exact = root * root == square
+        lengths = (root, root if exact else root + Fraction(1, 1 << bits))
+        outer, inner = (
+            _crossing_times(Fraction(below), Fraction(above), span, lengths, wide) for wide in (True, False)
+        )
+        yield outer, outer if exact else inner
+        if exact:
+            return
+        bits *= 2
+
+
+def _crossing_times(
+    below: Fraction, above: Fraction, span: Sequence[float], lengths: tuple[Fraction, Fraction], wide: bool
+) -> Times:
+    """The first and last time in [0, 1] at which a number that goes from `below` to `above` is in the span · |w|.
+
+    |w| lies between two lengths; `wide` takes the ones with which the times are more, not fewer.
+    """
+    low, high = (
+        None if abs(end) == inf else pick(Fraction(end) * length for length in lengths)
+        for end, pick in zip(span, (min, max) if wide else (max, min), strict=True)
+    )
+    if above == below:
+        inside = (low is None or low <= below) and (high is None or below <= high)
+        return Fraction(0), Fraction(1) if inside else Fraction(-1)
+    at = [None if level is None else (level - below) / (above - below) for level in (low, high)]
+    enters, leaves = at if above > below else reversed(at)
+    first = Fraction(0) if enters is None else max(Fraction(0), enters)
+    last = Fraction(1) if leaves is None else min(Fraction(1), leaves)
+    return first, last
+
+
+def meets_height(bodies: Bodies, index: int, way: Way) -> bool:
+    """Whether a mover on its way is at some time at the modelled height of a hyperboloid."""
+    origin, span, upward = (column[index].tolist() for column in (bodies.origins, bodies.spans, bodies.axes))
+    times = [outer for outer, _ in _times_within(way, origin, span, upward)][-1]
+    return times[0] <= times[1]
+
+
+def places_of_parts(
+    parts: Sequence[MoverPart], centre: Sequence[float], heading: float, axis: Sequence[float]
+) -> list[Point]:
+    """The centres of a mover's parts, rounded.
+
+    A mover that leans is turned from upright about a horizontal line, the shortest way, to the axis u = v/|v| or −u,
+    whichever does not point down. That takes a horizontal p to p − (p·u)/(1 + u_z) (u_x, u_y, 0) − (p·u) e_z.
+    """
+    x, y, z = centre
+    turns = [(part.arm, radians(heading + part.angle)) for part in parts]
+    arms = [(arm * cos(turn), arm * sin(turn)) for arm, turn in turns]
+    if axis[0] == axis[1] == 0:
+        return [(x + across, y + along, z) for across, along in arms]
+    largest = max(map(abs, axis)) * (-1 if axis[2] < 0 else 1)
+    u, v, w = (part / largest for part in axis)
+    norm = sqrt(u * u + v * v + w * w)
+    u, v, w = u / norm, v / norm, w / norm
+    places = []
+    for across, along in arms:
+        sink = across * u + along * v
+        back = sink / (1 + w)
+        places.append((x + (across - back * u), y + (along - back * v), z - sink))
+    return places

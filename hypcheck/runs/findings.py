@@ -54,7 +54,7 @@ class SelfCheckPlan:
     """
 
     families: tuple[str, ...] = ALL_BUT_EXTREME
-    oracles: tuple[str, ...] = ("exact", "nearest", "roots", "mesh")
+    oracles: tuple[str, ...] = ("exact", "nearest", "roots", "heights", "mesh")
     count: int = 400
     judged: int = 400
     seed: int = 1

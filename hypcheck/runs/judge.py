@@ -2,15 +2,15 @@
 
 The backward error of a wrong answer is the infimum of all ε for which a relative change of each input by at most ε
 makes that answer right (truth/backward_error.py). It is counted in units u of the declared precision. For a tilted
-spheroid it is bracketed by two proved ends (truth/tilted/backward_error.py): the answer is wrong if the lower end
-exceeds the tolerance, tolerated if the upper end does not, and undecided otherwise.
+spheroid it is bracketed by two proved ends: the answer is wrong if the lower end exceeds the tolerance, tolerated if
+the upper end does not, and undecided otherwise.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
@@ -19,10 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import CANNOT_SAY, Layout, Positions, Rows
 from hypcheck.implementations.description import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
 from hypcheck.truth import backward_error, exact, float_filter
+from hypcheck.truth import flip_exponents as flips
 from hypcheck.truth.exact import Decision
 
 DEFAULT_TOLERANCE = Fraction(8)
@@ -138,16 +139,34 @@ def exact_positions(rows: Rows) -> Positions:
 
 
 def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:
-    """The wrong answers at these indices of a batch, judged in order."""
-    proved = _proved_ends(rows, answers, wrong, criterion)
-    for index in wrong.tolist():
-        row, answer = rows[index].tolist(), int(answers[index])
-        if index in proved:
-            truth, least = proved[index]
-            mistake = mistake_of(truth, answer, criterion.question)
-            yield WrongCase(index, tuple(row), truth, answer, mistake, Status.WRONG, math.log2(least), least=least)
+    """The wrong answers at these indices of a batch, judged in order.
+
+    Where float64 proves a lower end of the error beyond the tolerance, that end is enough; more bits are for the rest.
+    """
+    pairs = [Pair.from_row(row) for row in rows[wrong].tolist()]
+    truths = [exact.decide(pair.lengths) for pair in pairs]
+    given = [int(answers[index]) for index in wrong.tolist()]
+    targets = [
+        right_positions(truth.position, answer, criterion.question) for truth, answer in zip(truths, given, strict=True)
+    ]
+    ends = backward_error.lower_ends(pairs, truths, targets)
+    for index, pair, truth, answer, end in zip(wrong.tolist(), pairs, truths, given, ends, strict=True):
+        if end > criterion.tolerance * criterion.unit:
+            mistake, exponent = mistake_of(truth.position, answer, criterion.question), math.log2(end)
+            case = WrongCase(index, pair.row, truth.position, answer, mistake, Status.WRONG, exponent, least=end)
         else:
-            yield _judged(index, row, answer, criterion)
+            case = _judged(index, pair, truth, answer, criterion)
+        yield replace(case, row=tuple(rows[index].tolist()))
+
+
+def _judged(index: int, pair: Pair, truth: Decision, answer: int, criterion: Criterion) -> WrongCase:
+    """A wrong answer; UNDECIDED where the tolerance lies between the two ends of the error."""
+    targets = right_positions(truth.position, answer, criterion.question)
+    within = backward_error.tolerated(pair, truth, targets, criterion.tolerance * criterion.unit)
+    status = Status.UNDECIDED if within is None else Status.TOLERATED if within else Status.WRONG
+    mistake = mistake_of(truth.position, answer, criterion.question)
+    exponent = _exponent(pair, truth, answer, criterion.question)
+    return WrongCase(index, pair.row, truth.position, answer, mistake, status, exponent)
 
 
 def measured(case: WrongCase, question: str) -> float:
@@ -157,16 +176,23 @@ def measured(case: WrongCase, question: str) -> float:
     """
     if case.least:
         return case.least
-    lengths = Lengths.of(case.row)
-    if lengths.is_upright:
-        return _error(lengths, case.answer, question)
-    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
+    return _measured(Pair.from_row(case.row), case.answer, question, case.status in (Status.WRONG, Status.EXCUSED))
 
-    truth = exact.decide(lengths)
-    targets = right_positions(truth.position, case.answer, question)
-    if case.status in (Status.WRONG, Status.EXCUSED):
-        return min(tilted_error.lower_end(case.row, truth, target) for target in targets)
-    return min(tilted_error.quick_bracket(case.row, truth, target).upper for target in targets)
+
+flip_exponents = flips.flip_exponents
+
+
+KEPT = 4096
+"""So many errors are kept: methods that are judged on the same rows often err alike."""
+
+
+@lru_cache(KEPT)
+def _measured(pair: Pair, answer: int, question: str, beyond: bool) -> float:
+    truth = exact.decide(pair.lengths)
+    targets = right_positions(truth.position, answer, question)
+    if beyond:
+        return min(backward_error.lower_end(pair, truth, target) for target in targets)
+    return min(backward_error.quick_bracket(pair, truth, target).upper for target in targets)
 
 
 def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
@@ -174,121 +200,17 @@ def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
 
     Of a tilted spheroid an estimate, which takes a small part of the time of a proof.
     """
-    lengths = Lengths.of(row)
-    if lengths.is_upright:
-        return _error(lengths, answer, question)
-    return _estimate(lengths, row, answer, question)
-
-
-def _estimate(lengths: Lengths, row: Sequence[float], answer: int, question: str) -> float:
-    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
-
-    truth = exact.decide(lengths)
+    pair = Pair.from_row(row)
+    truth = exact.decide(pair.lengths)
     targets = right_positions(truth.position, answer, question)
-    return min(tilted_error.estimate(row, truth, target) for target in targets)
-
-
-def flip_exponents(rows: Rows) -> NDArray[np.float64]:
-    """floor(log2) of each row's distance to the nearest other position, (n,); −inf for a tangency.
-
-    Of a tilted spheroid that of an estimate: to prove it takes too long.
-    """
-    if rows.shape[1] > len(COLUMNS):
-        return np.array([_exponent_of_ten(row) for row in rows.tolist()])
-    octaves = backward_error.distance_exponents(rows, float_filter.positions(rows))
-    for index in np.flatnonzero(np.isnan(octaves)):
-        lengths = Pair.from_row(rows[index].tolist()).lengths
-        octaves[index] = _exponent(lengths, 0, exact.decide(lengths).position.name.lower())
-    return octaves
-
-
-def _proved_ends(
-    rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion
-) -> dict[int, tuple[Position, float]]:
-    """Of wrong answers about tilted spheroids, by index, the truth and a lower end of the error beyond the tolerance.
-
-    What is missing there is to be decided one by one, with more bits.
-    """
-    if rows.shape[1] == len(COLUMNS):
-        return {}
-    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
-
-    pairs = ((index, Lengths.of(rows[index].tolist())) for index in wrong.tolist())
-    tilted = [(index, lengths) for index, lengths in pairs if not lengths.is_upright]
-    truths = [exact.decide(lengths) for _, lengths in tilted]
-    targets = [
-        right_positions(truth.position, int(answers[index]), criterion.question)
-        for (index, _), truth in zip(tilted, truths, strict=True)
-    ]
-    ends = tilted_error.lower_ends([rows[index].tolist() for index, _ in tilted], truths, targets)
-    tolerance = criterion.tolerance * criterion.unit
-    return {
-        index: (truth.position, end)
-        for (index, _), truth, end in zip(tilted, truths, ends, strict=True)
-        if end > tolerance
-    }
-
-
-def _exponent_of_ten(row: list[float]) -> float:
-    lengths = Lengths.of(row)
-    if lengths.is_upright:
-        return float(flip_exponents(np.array([row[: len(COLUMNS)]]))[0])
-    distance = _estimate(lengths, row, 0, exact.position(lengths).name.lower())
-    return math.floor(math.log2(distance)) if distance else -math.inf
-
-
-KEPT = 4096
-"""So many errors of upright spheroids are kept: methods that are judged on the same rows often err alike."""
+    return min(backward_error.estimate(pair, truth, target) for target in targets)
 
 
 @lru_cache(KEPT)
-def _error(lengths: Lengths, answer: int, question: str) -> float:
-    """The backward error of an answer about an upright spheroid, to 4 significant digits."""
-    truth = exact.decide(lengths)
+def _exponent(pair: Pair, truth: Decision, answer: int, question: str) -> float:
+    """log2 of about the error."""
     targets = right_positions(truth.position, answer, question)
-    return min(backward_error.backward_error(lengths, truth, target) for target in targets)
-
-
-@lru_cache(KEPT)
-def _exponent(lengths: Lengths, answer: int, question: str) -> float:
-    """floor(log2) of that error, which takes a third of the decisions."""
-    truth = exact.decide(lengths)
-    targets = right_positions(truth.position, answer, question)
-    return min(backward_error.backward_error_exponent(lengths, truth, target) for target in targets)
-
-
-def _judged(index: int, row: list[float], answer: int, criterion: Criterion) -> WrongCase:
-    lengths = Lengths.of(row)
-    position, status, exponent = (
-        _status_of_upright(lengths, answer, criterion)
-        if lengths.is_upright
-        else _status_of_tilted(lengths, row, answer, criterion)
-    )
-    mistake = mistake_of(position, answer, criterion.question)
-    return WrongCase(index, tuple(row), position, answer, mistake, status, exponent)
-
-
-def _status_of_upright(lengths: Lengths, answer: int, criterion: Criterion) -> tuple[Position, Status, float]:
-    """The truth, whether a wrong answer is within the tolerance, and floor(log2) of its backward error."""
-    truth = exact.decide(lengths)
-    targets = right_positions(truth.position, answer, criterion.question)
-    within = tolerated(lengths, truth, targets, criterion)
-    status = Status.TOLERATED if within else Status.WRONG
-    return truth.position, status, _exponent(lengths, answer, criterion.question)
-
-
-def _status_of_tilted(
-    lengths: Lengths, row: Sequence[float], answer: int, criterion: Criterion
-) -> tuple[Position, Status, float]:
-    """The same of a tilted spheroid; UNDECIDED where the tolerance lies between the two ends of the error."""
-    from hypcheck.truth.tilted import backward_error as tilted_error  # noqa: PLC0415 - loads mpmath
-
-    truth = exact.decide(lengths)
-    targets = right_positions(truth.position, answer, criterion.question)
-    within = tilted_error.tolerated(row, truth, targets, criterion.tolerance * criterion.unit)
-    status = Status.UNDECIDED if within is None else Status.TOLERATED if within else Status.WRONG
-    near = min(tilted_error.estimate(row, truth, target) for target in targets)
-    return truth.position, status, math.log2(near) if near else -math.inf
+    return min(backward_error.exponent(pair, truth, target) for target in targets)
 
 
 def right_positions(truth: Position, answer: int, question: str) -> tuple[Position, ...]:
@@ -304,19 +226,6 @@ def right_positions(truth: Position, answer: int, question: str) -> tuple[Positi
     if truth is Position.CONTACT:
         return (Position.EXTERIOR, Position.INTERIOR)
     return (Position.CONTACT,)
-
-
-def tolerated(lengths: Lengths, truth: Decision, targets: Iterable[Position], criterion: Criterion) -> bool:
-    """Whether a change of at most T units u makes one of the targets true, by one exact decision for each target."""
-    change = criterion.tolerance * criterion.unit
-    if change == 0:
-        return False
-    if change >= 1:
-        return any(backward_error.backward_error(lengths, truth, target) <= 1 for target in targets)
-    return any(
-        truth.limit_of is target or backward_error.makes_right(lengths, truth.position, target, change)
-        for target in targets
-    )
 
 
 def in_units(error: float, unit: Fraction) -> float:

@@ -1,4 +1,4 @@
-"""The four oracles behind one interface, and the cross-check that compares each with the exact decision.
+"""The five oracles behind one interface, and the cross-check that compares each with the exact decision.
 
 An oracle maps rows to opinions; an opinion may be that it cannot decide. The roots oracle is also compared with the
 repaired coefficient rule in exact rationals. Rows of ten numbers go to the oracles for tilted spheroids; these are
@@ -22,14 +22,11 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import Batch, SelfCheckPlan
-from hypcheck.truth import exact, mesh, nearest, nearest_exact, roots
+from hypcheck.truth import exact, heights, mesh, mesh_oracle, nearest_rows, roots, tilted_roots
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.mesh import MeshOutcome
+from hypcheck.truth.nearest import STAGES
 from hypcheck.truth.prove import prove
-from hypcheck.truth.tilted import mesh as tilted_mesh
-from hypcheck.truth.tilted import nearest as tilted_nearest
-from hypcheck.truth.tilted import roots as tilted_roots
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import TiltedVector
 from hypcheck.vectors.families import TILTED_FAMILIES
@@ -50,11 +47,11 @@ class Opinion:
 class Oracle:
     """An oracle: `ask` maps rows (n, 7) to n opinions; `available` gives the reason why it cannot run here, or None.
 
-    `ask_tilted` maps rows (n, 10) of tilted spheroids to n opinions.
+    `ask_tilted` maps rows (n, 10) of tilted spheroids to n opinions; None where it knows upright ones alone.
     """
 
     ask: Callable[[Rows], Sequence[Opinion]]
-    ask_tilted: Callable[[Rows], Sequence[Opinion]]
+    ask_tilted: Callable[[Rows], Sequence[Opinion]] | None = None
     available: Callable[[], str | None] = lambda: None
 
 
@@ -80,26 +77,23 @@ def _name_of_kind(decision: Decision) -> str | None:
 
 
 def _nearest(rows: Rows) -> list[Opinion]:
-    """The sign of the clearance to the nearest point: floats with a bound, then more digits until the bound decides."""
-    found = nearest.positions(np.ascontiguousarray(rows))
+    """The sign of the clearance to the nearest point: floats with a bound, then exact enclosures until they decide."""
+    found = nearest_rows.positions(np.ascontiguousarray(rows))
     values = zip(found.position.tolist(), found.tangent.tolist(), found.stage.tolist(), strict=True)
-    return [Opinion(Position(each), tangent, None, nearest_exact.STAGES[stage]) for each, tangent, stage in values]
-
-
-def _nearest_tilted(row: list[float]) -> Opinion:
-    """The sign of the clearance to the nearest point, in intervals of more and more bits until they decide."""
-    found = tilted_nearest.nearest(Pair.from_row(row))
-    return Opinion(found.position, found.tangent, None, f"{found.bits} bits")
+    return [Opinion(Position(each), tangent, None, STAGES[stage]) for each, tangent, stage in values]
 
 
 def _roots(row: list[float]) -> Opinion:
-    """The pattern of the roots of g, after [10], re-derived, since its text was not consulted.
+    """The pattern of the roots of the pencil beside its poles: after [10], re-derived, its text was not consulted.
 
-    The coefficient rule in exact rationals must read the same position from the coefficients.
+    Of an upright pair the coefficient rule in exact rationals must read the same position from the coefficients.
     """
     pair = Pair.from_row(row)
-    found = roots.classify_by_roots(pair, narrow=False)  # only the places of the roots are asked
-    rule = _coefficient_rule()(dict(zip(COLUMNS, row, strict=True)))
+    if not pair.is_upright:
+        tilted = tilted_roots.classify_tilted_by_roots(pair)
+        return Opinion(tilted.position, tilted.tangent, None, "root pattern")
+    found = roots.classify_by_roots(pair)
+    rule = _coefficient_rule()(dict(zip(COLUMNS, pair.upright.row, strict=True)))
     stage = "signs suffice" if found.literal is not None else "signs are ambiguous"
     if found.position != rule:
         stage = f"{_RULE} says {Position(rule).label}"
@@ -114,30 +108,23 @@ def _coefficient_rule() -> Callable[[Mapping[str, float]], int]:
     return answering(FORMULAS["coefficients"], EXACT)
 
 
-def _roots_tilted(row: list[float]) -> Opinion:
-    """The pattern of the roots of the quartic det(S + λH) beside its poles."""
-    found = tilted_roots.classify_tilted_by_roots(Pair.from_row(row))
-    return Opinion(found.position, found.tangent, None, "root pattern")
+def _heights(row: list[float]) -> Opinion:
+    """Whether a plane at some height cuts both surfaces where they meet: the real roots of a quartic in the height."""
+    return Opinion(heights.position(Pair.from_row(row)), stage="Sturm's chain")
 
 
 def _mesh(row: list[float]) -> Opinion:
     """FCL's distance to two meshes with the hyperboloid between them; undecided inside its band."""
-    found = mesh.verdict(Pair.from_row(row))
-    position = Position.CONTACT if found.outcome is MeshOutcome.CONTACT else found.position
-    return Opinion(position, stage=found.outcome.name.lower())
-
-
-def _mesh_tilted(row: list[float]) -> Opinion:
-    """FCL's distance to meshes of lines of the hyperboloid, the spheroid being the unit ball; undecided in its band."""
-    found = tilted_mesh.position(Pair.from_row(row))
-    return Opinion(found, stage="undecided" if found is None else "clear" if found else "contact")
+    found = mesh_oracle.verdict(Pair.from_row(row))
+    return Opinion(found.position, stage=found.outcome.value)
 
 
 ORACLES = {
     "exact": Oracle(_each(_exact), _each(_exact)),
-    "nearest": Oracle(_nearest, _each(_nearest_tilted)),
-    "roots": Oracle(_each(_roots), _each(_roots_tilted)),
-    "mesh": Oracle(_each(_mesh), _each(_mesh_tilted), mesh.availability),
+    "nearest": Oracle(_nearest, _nearest),
+    "roots": Oracle(_each(_roots), _each(_roots)),
+    "heights": Oracle(_each(_heights)),
+    "mesh": Oracle(_each(_mesh), _each(_mesh), mesh.availability),
 }
 
 
@@ -169,9 +156,10 @@ def shares(plan: SelfCheckPlan, families: int, *, tilted: bool = False) -> dict[
         "exact": plan.count,
         "nearest": plan.count,
         "roots": -(-plan.roots // (families * (TILTED_ROOTS if tilted else 1))),
+        "heights": plan.count,
         "mesh": -(-plan.meshes // families),
     }
-    return {oracle: every[oracle] for oracle in plan.oracles}
+    return {name: every[name] for name in plan.oracles if not tilted or ORACLES[name].ask_tilted}
 
 
 def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
@@ -183,7 +171,8 @@ def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
 def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
     """The line about an oracle's opinions on the first rows of a batch, beside the exact decisions."""
     started = time.perf_counter()
-    opinions = (ORACLES[oracle].ask if rows.shape[1] == len(COLUMNS) else ORACLES[oracle].ask_tilted)(rows)
+    asked = ORACLES[oracle]
+    opinions = (asked.ask if rows.shape[1] == len(COLUMNS) or asked.ask_tilted is None else asked.ask_tilted)(rows)
     seconds = time.perf_counter() - started
     differences = [_difference(batch, index, opinion) for index, opinion in enumerate(opinions)]
     disagreements = [

@@ -254,12 +254,8 @@ def truth_of(pair: Pair) -> ProvedTruth:
 
 
 def _flip(pair: Pair, decision: Decision, other: Position) -> float | tuple[float, float]:
-    if pair.is_upright:
-        return backward_error.backward_error(pair.lengths, decision, other)
-    from hypcheck.truth.tilted.backward_error import quick_bracket  # noqa: PLC0415 - loads mpmath
-
-    ends = quick_bracket(pair.row, decision, other)
-    return ends.lower, ends.upper
+    ends = backward_error.quick_bracket(pair, decision, other)
+    return ends.upper if pair.is_upright else (ends.lower, ends.upper)
 
 
 def _judged(

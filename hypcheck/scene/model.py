@@ -60,7 +60,7 @@ class Hyperboloid:
 
 @dataclass(frozen=True, slots=True)
 class MoverPart:
-    """A smaller spheroid of semi-axes b, b, d within the mover's, at the mover's height.
+    """A smaller spheroid of semi-axes b, b, d within the mover's, at the mover's height while the mover is upright.
 
     Its centre is `arm` away from the mover's, `angle` degrees counterclockwise from the mover's heading.
     """
@@ -75,7 +75,8 @@ class MoverPart:
 class Mover:
     """The spheroid of semi-axes b, b, d (equation (4)) that moves; its parts are asked where it is not clear itself.
 
-    `axis` is any vector ≠ 0 along its axis of revolution, or FREE. A mover with parts is upright.
+    `axis` is any vector ≠ 0 along its axis of revolution, or FREE. Its parts have the same axis: a mover that leans is
+    turned with them from upright about a horizontal line, the shortest way.
     """
 
     b: float

@@ -26,7 +26,6 @@ from hypcheck.scene.model import (
     SceneModel,
     Start,
     Walk,
-    leans,
 )
 from hypcheck.scene.tables import TomlSource, TomlTable
 
@@ -178,14 +177,7 @@ def _mover(top: TomlTable) -> Mover:
     if table is None:
         top.refuse("the scene has no [mover]; it must have one, with b and d")
     b, d = (table.required(name, tables.positive) for name in ("b", "d"))
-    mover = Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", tables.axis_or_free, UPRIGHT))
-    if mover.parts and leans(mover.axis):
-        table.refuse(
-            f"[mover]: axis is {tables.shown(mover.axis)}, and the mover has parts, whose places are known only where "
-            "it is upright; leave out axis or the parts",
-            "axis",
-        )
-    return mover
+    return Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", tables.axis_or_free, UPRIGHT))
 
 
 def _parts(mover: TomlTable, b: float, d: float) -> Iterable[MoverPart]:

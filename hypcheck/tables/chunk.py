@@ -17,11 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, TILTED_COLUMNS, UPRIGHT, Position, trouble_with_row
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.pair import AXIS, COLUMNS, END, HEIGHTS, REFUSED, UPRIGHT, Position, trouble_with_row
+from hypcheck.geometry.rows import PAIRS, Layout, Positions, Rows
 from hypcheck.tables.numbers import shown
 
 ADDED = ("position", "label", "tangent", "clearance")
+ADDED_TO_SWEEPS = ("hit", "label", "first_lower", "first_upper")
+"""The names of what is added to a row, and to one with an end."""
+
+_GIVEN = frozenset((*COLUMNS, *END, *AXIS))
 _MOST_COMPARED = 200
 _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "xc": "x", "yc": "y", "zc": "z"}
 
@@ -34,12 +38,19 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
     double = first_double([name for name in names if name])
     if double is not None:
         raise InputError(f"{where}: {noun} {double}")
-    for name in ADDED:
+    columns = columns_of(names)
+    for name in added_to(columns):
         if name in names:
             raise InputError(
                 f"{where}: {noun} {name!r} has the name of a {noun} that the output adds; rename or remove it"
             )
-    missing = [name for name in columns_of(names) if name not in names]
+    for name in names:
+        if name.casefold() in HEIGHTS:
+            raise InputError(
+                f"{where}: {noun} {shown(name)} says where a hyperboloid ends, and none that ends is classified here; "
+                f"rename or remove the {noun}s {', '.join(HEIGHTS)}"
+            )
+    missing = [name for name in columns if name not in names]
     if missing:
         nouns = noun if len(missing) == 1 else f"{noun}s"
         verb = "is" if len(missing) == 1 else "are"
@@ -47,8 +58,14 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
 
 
 def columns_of(names: Iterable[str]) -> tuple[str, ...]:
-    """The columns that a table of these names must have: ten if an axis is among them, else seven."""
-    return TILTED_COLUMNS if any(name.casefold() in AXIS for name in names) else COLUMNS
+    """The columns that a table of these names must have: seven, and an end and an axis where one is among them."""
+    folded = {name.casefold() for name in names}
+    return COLUMNS + (END if folded & set(END) else ()) + (AXIS if folded & set(AXIS) else ())
+
+
+def added_to(columns: Sequence[str]) -> tuple[str, ...]:
+    """The names of what is added to rows of these columns."""
+    return ADDED_TO_SWEEPS if END[0] in columns else ADDED
 
 
 def first_double(names: Sequence[str]) -> str | None:
@@ -61,7 +78,7 @@ def first_double(names: Sequence[str]) -> str | None:
 
 def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
     """What would be right: the nearest name, if one is near."""
-    others = [name for name in names if name not in TILTED_COLUMNS][:_MOST_COMPARED]
+    others = [name for name in names if name not in _GIVEN][:_MOST_COMPARED]
     for wanted in missing:
         for name in others:
             if _ALSO_CALLED.get(name.casefold(), name.casefold()) == wanted:
@@ -73,6 +90,8 @@ def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
         return "columns are separated by commas"
     if set(missing) <= set(AXIS):
         return f"an axis needs {', '.join(AXIS)}, in any order"
+    if set(missing) <= set(END):
+        return f"the end of a motion needs {', '.join(END)}, in any order"
     return f"it needs {', '.join(COLUMNS)}, in any order"
 
 
@@ -86,14 +105,16 @@ LABELS = {int(position): position.label for position in Position} | {REFUSED: "r
 class TableChunk:
     """Some rows of a table.
 
-    rows: float64 (n, 7), or (n, 10) where a row has an axis; the numbers of a refused row mean nothing.
+    rows: float64 of the layout, with an axis where a row has one; the numbers of a refused row mean nothing.
     refused: bool (n,), the rows that are no valid query; all False unless marking was asked for.
     texts: the text of each row without its line end; None if the table is no text.
+    layout: WAYS where rows have an end.
     """
 
     rows: Rows
     refused: NDArray[np.bool_]
     texts: list[str] | None
+    layout: Layout = PAIRS
 
 
 UnreadChunk: TypeAlias = Callable[[], TableChunk]
@@ -105,7 +126,7 @@ class Table:
     """A table to be read.
 
     header, line_end: of CSV, as it was written.
-    columns: the seven or ten that are read; of JSON lines, which may have either, seven.
+    columns: those that are read; of JSON lines, which may have others, seven.
     """
 
     chunks: Iterator[UnreadChunk]
@@ -129,6 +150,28 @@ class TableAnswers:
 
 
 @dataclass(frozen=True, slots=True)
+class SweepAnswers:
+    """The answers about a chunk of sweeps, straight motions, (n,) each.
+
+    hits: 1 for contact somewhere on the way, its ends included, 0 for none, int8; 127 marks a refused row.
+    first_lower, first_upper: float64 that the time of the first contact lies between, from 0 to 1; NaN without contact.
+    """
+
+    hits: Positions
+    first_lower: NDArray[np.float64]
+    first_upper: NDArray[np.float64]
+
+    def cells(self) -> Iterator[tuple[int, str, float | None, float | None]]:
+        """What is added to each row, None for what it does not have."""
+        for hit, *times in zip(self.hits.tolist(), self.first_lower.tolist(), self.first_upper.tolist(), strict=True):
+            lower, upper = times if hit == 1 else (None, None)
+            yield hit, SWEEP_LABELS[hit], lower, upper
+
+
+SWEEP_LABELS = {1: "contact", 0: "clear", REFUSED: "refused"}
+
+
+@dataclass(frozen=True, slots=True)
 class Sink:
     """A table that is being written.
 
@@ -136,7 +179,7 @@ class Sink:
     add: writes these bytes. Raises InputError.
     """
 
-    render: Callable[[TableChunk, TableAnswers], bytes]
+    render: Callable[[TableChunk, TableAnswers | SweepAnswers], bytes]
     add: Callable[[bytes], object]
 
 
@@ -162,10 +205,11 @@ def read_values(
     places: RowPlaces,
     *,
     mark: bool,
+    layout: Layout = PAIRS,
 ) -> tuple[Rows, NDArray[np.bool_]]:
-    """The rows of these values, seven or ten each, and which of them are refused, (n,).
+    """The rows of these values, with an axis or without, and which of them are refused, (n,).
 
-    Where one has ten, the rows are (n, 10), and those of seven upright. `number_of(column, value)` raises ValueError
+    Where one has an axis all rows have one, and those without are upright. `number_of(column, value)` raises ValueError
     with the end of a sentence about a value that is wrong. Without `mark` the first such row raises InputError; with it
     the row is refused, and NaN stands in it.
     """
@@ -173,22 +217,23 @@ def read_values(
     refused: list[bool] = []
     for index, row in enumerate(values):
         try:
-            rows.append(_numbers(row, number_of))
+            rows.append(_numbers(row, number_of, layout))
             refused.append(False)
         except ValueError as trouble:  # noqa: PERF203 - each row has its own
             if not mark:
                 raise InputError(f"{places.of(index)}: {trouble}") from None
             rows.append([math.nan] * len(row))
             refused.append(True)
-    width = max(map(len, rows), default=len(COLUMNS))
+    width = max(map(len, rows), default=len(layout.upright))
     wide = [row if len(row) == width else [*row, *UPRIGHT] for row in rows]
     return np.array(wide, dtype=np.float64).reshape(len(wide), width), np.array(refused, dtype=np.bool_)
 
 
-def _numbers(values: Sequence[Value], number_of: Callable[[str, Value], float]) -> list[float]:
-    """The row of seven or ten values. Raises ValueError as `number_of`."""
-    row = [number_of(name, value) for name, value in zip(TILTED_COLUMNS, values, strict=False)]
-    trouble = trouble_with_row(row)
+def _numbers(values: Sequence[Value], number_of: Callable[[str, Value], float], layout: Layout) -> list[float]:
+    """The row of these values. Raises ValueError as `number_of`."""
+    base = COLUMNS if layout == PAIRS else COLUMNS + END
+    row = [number_of(name, value) for name, value in zip(base + AXIS, values, strict=False)]
+    trouble = trouble_with_row(row, base)
     if trouble is not None:
         raise ValueError(trouble)
     return row

@@ -17,18 +17,19 @@ from typing import NoReturn
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import COLUMNS, REFUSED
-from hypcheck.geometry.rows import Rows, invalid
+from hypcheck.geometry.pair import COLUMNS, END, REFUSED
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows, invalid
 from hypcheck.tables.chunk import (
-    ADDED,
     CHUNK,
     LABELS,
     RowPlaces,
     Sink,
+    SweepAnswers,
     Table,
     TableAnswers,
     TableChunk,
     UnreadChunk,
+    added_to,
     check_names,
     columns_of,
     read_values,
@@ -115,7 +116,8 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
     text = records.text
     line_end = "\r\n" if text.endswith("\r\n") else "\n"
     columns = columns_of(names)
-    chunks = _chunks(records, len(names), [names.index(column) for column in columns], mark=mark)
+    layout = WAYS if END[0] in columns else PAIRS
+    chunks = _chunks(records, len(names), [names.index(column) for column in columns], layout, mark=mark)
     return Table(chunks, records.byte_order_mark + text.rstrip("\r\n"), line_end, columns)
 
 
@@ -124,12 +126,15 @@ def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
     """Rows with four cells more: a row's own text where the table has text, else its numbers."""
     end = table.line_end
     header = table.header if table.header is not None else ",".join(table.columns)
-    writer.write(f"{header},{','.join(ADDED)}{end}".encode())
+    writer.write(f"{header},{','.join(added_to(table.columns))}{end}".encode())
     yield Sink(partial(_render, end), writer.write)
 
 
-def _render(end: str, chunk: TableChunk, answers: TableAnswers) -> bytes:
+def _render(end: str, chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
     texts = chunk.texts if chunk.texts is not None else [",".join(map(repr, row)) for row in chunk.rows.tolist()]
+    if isinstance(answers, SweepAnswers):
+        cells = (",".join("" if part is None else str(part) for part in row) for row in answers.cells())
+        return "".join(f"{text},{row}{end}" for text, row in zip(texts, cells, strict=True)).encode()
     added = map(_CELLS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
     rows = zip(texts, added, map(repr, answers.clearance.tolist()), strict=True)
     lines = [f"{text}{cells}{clearance}{end}" for text, cells, clearance in rows]
@@ -145,13 +150,13 @@ _CELLS = {
 }
 
 
-def _chunks(records: _Records, width: int, columns: list[int], *, mark: bool) -> Iterator[UnreadChunk]:
+def _chunks(records: _Records, width: int, columns: list[int], layout: Layout, *, mark: bool) -> Iterator[UnreadChunk]:
     pick = itemgetter(*columns)
     count = 0
     while True:
         while (block := records.block()) is not None:
             places = RowPlaces(records.name, count, range(block.first, block.first + block.count))
-            yield partial(_chunk_of_block, block, width, pick, places, mark=mark)
+            yield partial(_chunk_of_block, block, width, pick, places, layout, mark=mark)
             count += block.count
         lines: list[int] = []
         cells: list[tuple[str, ...]] = []
@@ -160,7 +165,7 @@ def _chunks(records: _Records, width: int, columns: list[int], *, mark: bool) ->
         while len(texts) < CHUNK and (record := records.next()) is not None:
             lines.append(records.line)
             if len(record) != width:
-                yield partial(_broken, cells, texts, places, record, width, mark=mark)
+                yield partial(_broken, cells, texts, places, record, width, layout, mark=mark)
                 return
             cells.append(pick(record))
             texts.append(records.text.rstrip("\r\n"))
@@ -168,41 +173,56 @@ def _chunks(records: _Records, width: int, columns: list[int], *, mark: bool) ->
                 break
         if not texts:
             break
-        yield partial(_chunk, cells, texts, places, mark=mark)
+        yield partial(_chunk, cells, texts, places, layout, mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{records.name} has no rows below its header; nothing was asked")
 
 
 def _chunk_of_block(
-    block: TextBlock, width: int, pick: Callable[[list[str]], tuple[str, ...]], places: RowPlaces, *, mark: bool
+    block: TextBlock,
+    width: int,
+    pick: Callable[[list[str]], tuple[str, ...]],
+    places: RowPlaces,
+    layout: Layout,
+    *,
+    mark: bool,
 ) -> TableChunk:
     """Read the chunk of a block: without quotes, the text between two commas is a cell."""
     texts = block.plain_lines()
     records = [text.split(",") for text in texts]
     for index, record in enumerate(records):
         if len(record) != width:
-            _broken([pick(good) for good in records[:index]], texts, places, record, width, mark=mark)
-    return _chunk(list(map(pick, records)), texts, places, mark=mark)
+            _broken([pick(good) for good in records[:index]], texts, places, record, width, layout, mark=mark)
+    return _chunk(list(map(pick, records)), texts, places, layout, mark=mark)
 
 
 def _broken(
-    cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, record: list[str], width: int, *, mark: bool
+    cells: Sequence[tuple[str, ...]],
+    texts: list[str],
+    places: RowPlaces,
+    record: list[str],
+    width: int,
+    layout: Layout,
+    *,
+    mark: bool,
 ) -> NoReturn:
     """Raise InputError about the first bad one of these rows, or else about the record of another width after them."""
-    _chunk(cells, texts, places, mark=mark)
+    _chunk(cells, texts, places, layout, mark=mark)
     noun = "cell" if len(record) == 1 else "cells"
     raise InputError(f"{places.of(len(cells))}: {len(record)} {noun}; the header has {width}")
 
 
-def _chunk(cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, *, mark: bool) -> TableChunk:
-    rows = _rows_if_valid(cells)
+def _chunk(
+    cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool
+) -> TableChunk:
+    rows = _rows_if_valid(cells, layout)
     if rows is not None:
-        return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
-    return TableChunk(*read_values(cells, number_of_text, places, mark=mark), texts)
+        return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts, layout)
+    return TableChunk(*read_values(cells, number_of_text, places, mark=mark, layout=layout), texts, layout)
 
 
-def _rows_if_valid(cells: Sequence[tuple[str, ...]]) -> Rows | None:
+def _rows_if_valid(cells: Sequence[tuple[str, ...]], layout: Layout) -> Rows | None:
     """The rows if all of them are valid, else None."""
     flat = list(chain.from_iterable(cells))
     if "".join(flat).encode().translate(None, CHARACTERS):
@@ -212,4 +232,4 @@ def _rows_if_valid(cells: Sequence[tuple[str, ...]]) -> Rows | None:
     except ValueError:
         return None
     rows = numbers.reshape(len(cells), len(cells[0]) if cells else len(COLUMNS))
-    return None if invalid(rows).any() else rows
+    return None if invalid(rows, layout).any() else rows

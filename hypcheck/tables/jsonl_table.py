@@ -7,6 +7,7 @@ are left out; line ends become LF.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -17,15 +18,17 @@ from operator import itemgetter
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, TILTED_COLUMNS
-from hypcheck.geometry.rows import Rows, invalid
+from hypcheck.geometry.pair import AXIS, COLUMNS, END, HEIGHTS, REFUSED, TILTED_COLUMNS
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows, invalid
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import (
     ADDED,
+    ADDED_TO_SWEEPS,
     CHUNK,
     LABELS,
     RowPlaces,
     Sink,
+    SweepAnswers,
     Table,
     TableAnswers,
     TableChunk,
@@ -54,13 +57,16 @@ def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
     yield Sink(_render, writer.write)
 
 
-def _render(chunk: TableChunk, answers: TableAnswers) -> bytes:
-    texts = chunk.texts if chunk.texts is not None else [_object(row) for row in chunk.rows.tolist()]
-    added = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
+def _render(chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
+    texts = chunk.texts if chunk.texts is not None else [_object(row, chunk.layout) for row in chunk.rows.tolist()]
+    if isinstance(answers, SweepAnswers):
+        added = (json.dumps(dict(zip(ADDED_TO_SWEEPS, row, strict=True)))[1:] for row in answers.cells())
+        return "".join(f"{text[:-1]}, {keys}\n" for text, keys in zip(texts, added, strict=True)).encode()
+    keys_of = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
     clearances = list(map(repr, answers.clearance.tolist()))
     for index in np.flatnonzero(np.isinf(answers.clearance)).tolist():
         clearances[index] = '"inf"'  # JSON has no number for it
-    rows = zip(texts, added, clearances, strict=True)
+    rows = zip(texts, keys_of, clearances, strict=True)
     lines = [f"{text[:-1]}{keys}{clearance}}}\n" for text, keys, clearance in rows]
     for index in np.flatnonzero(chunk.refused).tolist():
         lines[index] = f"{texts[index][:-1]}{_REFUSED_KEYS}}}\n"
@@ -75,9 +81,9 @@ _KEYS = {
 _REFUSED_KEYS = f', "position": {REFUSED}, "label": "{LABELS[REFUSED]}", "tangent": null, "clearance": null'
 
 
-def _object(row: list[float]) -> str:
-    """The object of seven or ten numbers; null stands for a number that JSON does not have (in a refused row)."""
-    named = zip(TILTED_COLUMNS, row, strict=False)
+def _object(row: list[float], layout: Layout) -> str:
+    """The object of a row; null stands for a number that JSON does not have (in a refused row)."""
+    named = zip((COLUMNS if layout == PAIRS else COLUMNS + END) + AXIS, row, strict=False)
     return json.dumps({name: value if isfinite(value) else None for name, value in named})
 
 
@@ -85,15 +91,18 @@ _DECODER, _LITERAL_DECODER = strict_decoder(), strict_decoder(Literal)
 _PICK, _PICK_TILTED = itemgetter(*COLUMNS), itemgetter(*TILTED_COLUMNS)
 _BLANKS = " \t\r\n"
 _CLEAR_OF_ADDED, _CLEAR_OF_AXIS = frozenset(ADDED).isdisjoint, frozenset(AXIS).isdisjoint
+_NAMES_OF_GROUPS = re.compile("|".join((*END, "axis_", *HEIGHTS)), re.IGNORECASE)
+_COLUMNS_OF = {True: COLUMNS, False: TILTED_COLUMNS}
 
 
 def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
-    lines, number, count = TextLines(reader), 0, 0
+    lines, number, count, layout = TextLines(reader), 0, 0, PAIRS
     while True:
         while (block := lines.block(number)) is not None:
             number += block.count
             places = RowPlaces(reader.name, count, range(block.first, block.first + block.count))
-            yield partial(_chunk_of_block, block, places, mark=mark)
+            layout = layout if count else _layout_of(block.plain_lines()[0])
+            yield partial(_chunk_of_block, block, places, layout, mark=mark)
             count += block.count
         texts, numbers = [], []
         for line in lines.each:
@@ -106,22 +115,41 @@ def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
                 break
         if not texts:
             break
-        yield partial(_chunk, texts, RowPlaces(reader.name, count, numbers), mark=mark)
+        layout = layout if count else _layout_of(texts[0])
+        yield partial(_chunk, texts, RowPlaces(reader.name, count, numbers), layout, mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
 
 
-def _chunk_of_block(block: TextBlock, places: RowPlaces, *, mark: bool) -> TableChunk:
-    return _chunk([line.rstrip(_BLANKS) for line in block.plain_lines()], places, mark=mark)
+def _layout_of(text: str) -> Layout:
+    """The layout of the first row, which all have; of what is no row, of which its chunk says so, PAIRS."""
+    try:
+        return WAYS if END[0] in columns_of(_DECODER.decode(text)) else PAIRS
+    except (ValueError, TypeError, AttributeError, RecursionError):
+        return PAIRS
 
 
-def _chunk(texts: list[str], places: RowPlaces, *, mark: bool) -> TableChunk:
-    rows = _rows_if_valid(texts)
+def _chunk_of_block(block: TextBlock, places: RowPlaces, layout: Layout, *, mark: bool) -> TableChunk:
+    return _chunk([line.rstrip(_BLANKS) for line in block.plain_lines()], places, layout, mark=mark)
+
+
+def _chunk(texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool) -> TableChunk:
+    rows = _rows_if_valid(texts) if layout == PAIRS else None
     if rows is not None:
         return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
-    values = (_values(text, places.of(index)) for index, text in enumerate(texts))
-    return TableChunk(*read_values(values, number_of_json, places, mark=mark), texts)
+    values = _values_of_layout(texts, places, layout)
+    return TableChunk(*read_values(values, number_of_json, places, mark=mark, layout=layout), texts, layout)
+
+
+def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -> Iterator[tuple[object, ...]]:
+    """The values of each line. Raises InputError about the first that has an end where others have none."""
+    for index, text in enumerate(texts):
+        columns, values = _values(text, places.of(index))
+        if (END[0] in columns) != (layout == WAYS):
+            end = f"{'no' if layout == WAYS else 'an'} end {', '.join(END)}"
+            raise InputError(f"{places.of(index)}: {end}, unlike the first row; all rows have an end, or none has")
+        yield values
 
 
 def _rows_if_valid(texts: Sequence[str]) -> Rows | None:
@@ -129,8 +157,8 @@ def _rows_if_valid(texts: Sequence[str]) -> Rows | None:
     try:
         objects = list(map(_DECODER.decode, texts))
         upright = all(map(_CLEAR_OF_AXIS, objects))
-        if upright and "axis_" in "".join(texts).casefold() and set(map(columns_of, objects)) != {COLUMNS}:
-            return None  # a key such as Axis_x
+        if _NAMES_OF_GROUPS.search("".join(texts)) and set(map(_columns_or_heights, objects)) != {_COLUMNS_OF[upright]}:
+            return None  # an end, a height, or a key such as Axis_x
         flat = list(chain.from_iterable(map(_PICK if upright else _PICK_TILTED, objects)))
         if not (set(map(type, flat)) <= {float, int} and all(map(_CLEAR_OF_ADDED, objects))):
             return None
@@ -141,8 +169,13 @@ def _rows_if_valid(texts: Sequence[str]) -> Rows | None:
     return None if invalid(rows).any() else rows
 
 
-def _values(text: str, where: str) -> tuple[object, ...]:
-    """The seven or ten values of a line, numbers as Literal or int. Raises InputError if it is no object with them."""
+def _columns_or_heights(row: dict[str, object]) -> tuple[str, ...]:
+    """The columns of an object; HEIGHTS where it has one of them."""
+    return columns_of(row) if frozenset(HEIGHTS).isdisjoint(map(str.casefold, row)) else HEIGHTS
+
+
+def _values(text: str, where: str) -> tuple[tuple[str, ...], tuple[object, ...]]:
+    """The columns and the values of a line, numbers as Literal or int. Raises InputError if it is no object of them."""
     try:
         row = _LITERAL_DECODER.decode(text)
     except json.JSONDecodeError as error:
@@ -155,4 +188,5 @@ def _values(text: str, where: str) -> tuple[object, ...]:
     if not isinstance(row, dict):
         raise InputError(f"{where}: {shown_json(row)} is not an object; it must be one, with {', '.join(COLUMNS)}")
     check_names(list(row), where, noun="key")
-    return tuple(row[name] for name in columns_of(row))
+    columns = columns_of(row)
+    return columns, tuple(row[name] for name in columns)

@@ -21,7 +21,7 @@ from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.geometry.pair import AXIS, COLUMNS, TILTED_COLUMNS
 from hypcheck.geometry.rows import Rows, first_trouble, invalid
 from hypcheck.messages import counted
-from hypcheck.tables.chunk import CHUNK, Sink, Table, TableAnswers, TableChunk, UnreadChunk
+from hypcheck.tables.chunk import CHUNK, Sink, SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.streams import Reader, Writer
 
 _SHAPES = f"(n, {len(COLUMNS)}): {', '.join(COLUMNS)}, or (n, {len(TILTED_COLUMNS)}): {', '.join(AXIS)} besides"
@@ -40,7 +40,7 @@ def read_npy(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
-    """Positions alone, as one int8 array (n,), written when the block ends well. Raises InputError."""
+    """Positions or hits alone, as one int8 array (n,), written when the block ends well. Raises InputError."""
     # The header comes first and has the count, which is known at the end, and an output may be a pipe.
     with tempfile.TemporaryFile() as file:
         kept, count = Writer(file, "a temporary file"), 0
@@ -59,8 +59,8 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
             writer.write(block)
 
 
-def _render(_chunk: TableChunk, answers: TableAnswers) -> bytes:
-    return answers.positions.tobytes()
+def _render(_chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
+    return (answers.hits if isinstance(answers, SweepAnswers) else answers.positions).tobytes()
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,31 +1,31 @@
-"""The backward error of an answer: the least relative change of the inputs that makes it right; of pairs and rows.
+"""How far an answer about a pair is from being right: the least relative change of its numbers that makes it right.
 
-The exterior positions are an up-set: a pair stays exterior when α falls, γ grows, b or d falls, |x| or |y| grows, |z|
-falls; the interior ones likewise with α, γ, x, y, z the other way round (docs/mathematics.md, "Monotone in every
-input"). So among all relative changes of at most ε the best for a target is one known corner of the box, and the
-distance is found by bisection on exact decisions: nothing is linearised and nothing is sampled.
+The backward error is the infimum of the ε for which changing each number by a relative ε at most makes the answer
+right. changes.py tells of one ε whether it is enough. Of an upright pair one exact decision tells that, so that
+bisection finds the error itself: nothing is linearised and nothing is sampled. Of any other pair a change is proved to
+be enough, or none to be, and between lie changes of which neither is proved: the error is bracketed. No caller has to
+know which it is.
 
-`distance_exponents` does this for many rows, by exact positions of changed float64 rows. Floats do not hold the corner
-of the box of relative changes 2^k. So a corner a little inside of that box and one a little outside are asked: a flip
-at the inner one is a flip at 2^k, and no flip at the outer one is none at 2^k, since flips are monotone in every
-change. The changes asked for are 2^k (1 ∓ 2⁻⁸); each product is rounded once, by 2⁻⁵³ of itself at most, so that for
-k ≥ LEAST every change comes out on its side of 2^k. What lies between the two, one row in a hundred, and what is nearer
-than 2^LEAST, is left to `backward_error_exponent`.
+Runs judge many answers, most of them wrong by far: `lower_ends` proves that of many rows at once, in float64
+(float_boxes.py), and `quick_bracket` begins there.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
-from hypcheck.truth import exact, float_filter
+from hypcheck.geometry.pair import TILTED_COLUMNS, Pair, Position
+from hypcheck.geometry.rows import Rows
+from hypcheck.truth import float_boxes
+from hypcheck.truth.box_form import Goal
+from hypcheck.truth.changes import BITS, CUTS, Flip, goal_of
 from hypcheck.truth.exact import Decision
+from hypcheck.truth.rationals import power_of_two, rounded, rounded_toward
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,69 +37,198 @@ class Bracket:
 
 
 DIGITS = 4
-"""Significant digits of a backward error."""
+"""Significant digits of the backward error of an answer about an upright pair, rounded up."""
+
+RATIO = Fraction(5, 4)
+"""A bracket is refined until its upper end is at most this many times the lower."""
+
+STEPS = 8
+"""How often a bracket that first derivatives did not make narrow enough is halved."""
 
 
-def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
-    """The corner of the box of relative changes up to `change` that is nearest to `toward`; farthest, if that is < 0.
+def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | float:
+    """What makes an answer right; the backward error itself where that is known at once: 0 or inf.
 
-    |change| < 1; `toward` is EXTERIOR or INTERIOR. Lengths are scaled by the denominator of `change`, which leaves the
-    ratios alone.
+    It is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). No relative
+    change up to 1 brings a centre on the hyperboloid's axis outside.
     """
-    grown, shrunk = change.denominator + change.numerator, change.denominator - change.numerator
-    wide, tall = (shrunk, grown) if toward is Position.EXTERIOR else (grown, shrunk)
-    return Lengths(
-        alpha=lengths.alpha * wide,
-        b=lengths.b * shrunk,
-        x=lengths.x * tall,
-        y=lengths.y * tall,
-        gamma=lengths.gamma * tall,
-        d=lengths.d * shrunk,
-        z=lengths.z * wide,
-    )
+    if answer in (truth.position, truth.limit_of):
+        return 0.0
+    goal = goal_of(truth.position, answer)
+    on_axis = pair.x == pair.y == 0
+    return math.inf if on_axis and goal == Goal(Position.EXTERIOR, leave=False) else Flip.of(pair, goal)
 
 
-def makes_right(lengths: Lengths, truth: Position, answer: Position, change: Fraction) -> bool:
-    """Whether a relative change of at most `change` (< 1) of each input can make the wrong `answer` right."""
-    if answer is not Position.CONTACT:
-        return exact.position(corner(lengths, change, answer)) is answer
-    # "Equals contact" is not monotone (a corner can pass right through), "is no longer the truth" is. From exterior
-    # the corner opposite to the exterior one has α, b, d and z grown, γ, x and y shrunk.
-    return exact.position(corner(lengths, -change, truth)) is not truth
+def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: Fraction) -> bool | None:
+    """Whether a relative change up to `change` makes one of the wrong answers right; None where neither is proved."""
+    if change == 0:
+        return False
+    flips = [_flip(pair, truth, answer) for answer in answers]
+    if 0.0 in flips:
+        return True
+    searched = [flip for flip in flips if isinstance(flip, Flip)]
+    if change >= 1:
+        return bool(searched)
+    if pair.is_upright:
+        return any(flip.reached(change) for flip in searched)
+    if all(flip.excluded(change, cuts=0) for flip in searched):  # most wrong answers are wrong by far
+        return False
+    if any(flip.reached(change) for flip in searched):
+        return True
+    return False if all(flip.excluded(change, 2 * CUTS) for flip in searched) else None
 
 
-def backward_error(lengths: Lengths, truth: Decision, answer: Position) -> float:
-    """The infimum of the relative changes that make `answer` right, rounded up to DIGITS significant digits.
+def bracket(pair: Pair, truth: Decision, answer: Position, cuts: int = CUTS, steps: int = STEPS) -> Bracket:
+    """The backward error of an answer to a valid pair, between two ends; inf where no change up to 1 is enough.
 
-    0 when the answer is right, or the limit of right answers (`truth` is a tangency from that side); inf when no
-    change up to 1 is enough, which only the answer "exterior" for a centre on the axis can be.
+    The upper end is at most RATIO times the lower where first derivatives tell (changes that do not bend the surfaces
+    much), and often elsewhere; it is 1 where no smaller change was found. Fewer `cuts` of a box and fewer `steps` of
+    halving take less time.
     """
-    exponent = backward_error_exponent(lengths, truth, answer)
-    if not math.isfinite(exponent):
-        return 0.0 if exponent < 0 else math.inf
-    low, high = Fraction(2) ** int(exponent), Fraction(2) ** (int(exponent) + 1)
+    flip = _flip(pair, truth, answer)
+    if isinstance(flip, float):
+        return Bracket(flip, flip)
+    high = _reached_end(flip)
+    low, high = _excluded_end(flip, high)
+    if low:
+        low, high = _narrowed(flip, cuts, steps, (low, high))
+    return Bracket(rounded_toward(low, -math.inf), rounded_toward(high, math.inf))
+
+
+def quick_bracket(pair: Pair, truth: Decision, answer: Position) -> Bracket:
+    """As `bracket`, in less time: of an upright pair both ends are the error to DIGITS digits.
+
+    Else narrower where the error is large: float64 proves the lower end where it can.
+    """
+    flip = _flip(pair, truth, answer)
+    if isinstance(flip, float):
+        return Bracket(flip, flip)
+    if pair.is_upright:
+        error = _bisected(flip)
+        return Bracket(error, error)
+    low = lower_ends([pair], [truth], [[answer]])[0] or lower_end(pair, truth, answer)
+    if low in (0, math.inf):
+        return bracket(pair, truth, answer)
+    high = flip.reached_above(Fraction(low), RATIO)
+    steps = low * np.exp2(np.arange(1, 1 + int(8 * math.log2(high / Fraction(low)))) / 8)
+    steps = steps[(steps < 1) & (steps >= 2.0**float_boxes.LEAST)]
+    if high > RATIO * Fraction(low) and len(steps):
+        rows = np.array([[*pair.row[:7], *pair.axis]] * len(steps))
+        held = float_boxes.excluded(rows, [flip.goal] * len(steps), steps, cuts=_QUICK_CUTS)
+        low = float(steps[held].max(initial=low))
+    return Bracket(low, rounded_toward(high, math.inf))
+
+
+_QUICK_CUTS = 5
+
+
+def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
+    """A lower end for which 256 bits are taken, as for an answer wrong by little; 0 where none is found.
+
+    Of an upright pair the error to DIGITS digits.
+    """
+    flip = _flip(pair, truth, answer)
+    if isinstance(flip, float):
+        return flip
+    if pair.is_upright:
+        return _bisected(flip)
+    return rounded_toward(_excluded_end(flip, flip.estimate())[0], -math.inf)
+
+
+def lower_ends(pairs: Sequence[Pair], truths: Sequence[Decision], answers: Sequence[Sequence[Position]]) -> list[float]:
+    """A lower end, proved in float64, of the least error of several answers to each pair; 0 where none is found.
+
+    None is looked for where the pair is upright: there `tolerated` takes little time. inf where no change up to 1 is
+    enough.
+    """
+    ends = [0.0 if pair.is_upright else math.inf for pair in pairs]
+    owners, goals = [], []
+    for place, (pair, truth, some) in enumerate(zip(pairs, truths, answers, strict=True)):
+        for answer in () if pair.is_upright else some:
+            flip = _flip(pair, truth, answer)
+            if isinstance(flip, float):
+                ends[place] = min(ends[place], flip)
+            else:
+                owners.append(place)
+                goals.append(flip.goal)
+    for place, end in zip(owners, float_boxes.lower_ends(_tens([pairs[k] for k in owners]), goals), strict=True):
+        ends[place] = min(ends[place], float(end))
+    return ends
+
+
+def _tens(pairs: Sequence[Pair]) -> Rows:
+    """The pairs' ten numbers, (n, 10)."""
+    return np.array([(*pair.row[:7], *pair.axis) for pair in pairs]).reshape(len(pairs), len(TILTED_COLUMNS))
+
+
+def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
+    """About the backward error, fast; it ranks answers. Of an upright pair the error to DIGITS digits.
+
+    Else what derivatives at the row tell, which is no proof.
+    """
+    flip = _flip(pair, truth, answer)
+    if isinstance(flip, float):
+        return flip
+    return _bisected(flip) if pair.is_upright else float(flip.estimate())
+
+
+def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
+    """log2 of the estimate, of an upright pair floor(log2) of the error, which takes a third of the decisions.
+
+    −inf for 0, inf for inf.
+    """
+    flip = _flip(pair, truth, answer)
+    if isinstance(flip, Flip) and pair.is_upright:
+        return _octave(flip)
+    error = flip if isinstance(flip, float) else float(flip.estimate())
+    return math.log2(error) if error else -math.inf
+
+
+def excluded_at_once(pairs: Sequence[Pair], goals: Sequence[Goal], changes: Sequence[float]) -> list[bool]:
+    """Where float64 proves that no change up to `changes` attains a goal; False says nothing."""
+    held = float_boxes.excluded(_tens(pairs), goals, np.array(changes))
+    return [bool(proved) and not pair.is_upright for proved, pair in zip(held, pairs, strict=True)]
+
+
+def is_bracket(
+    pair: Pair,
+    truth: Decision,
+    answer: Position,
+    ends: Bracket,
+    cuts: int = CUTS,
+    *,
+    lower_holds: bool = False,
+) -> bool:
+    """Whether proofs are found that the backward error of an answer lies between these ends.
+
+    `lower_holds` says that the lower end is proved already, as by excluded_at_once.
+    """
+    flip = _flip(pair, truth, answer)
+    if isinstance(flip, float):
+        return ends == Bracket(flip, flip)
+    low, high = ends.lower, ends.upper
+    if not 0 <= low <= high <= 1 or high == 0:
+        return False
+    below = lower_holds or low == 0 or (low < 1 and flip.excluded(Fraction(low), cuts))
+    return below and (high == 1 or flip.reached(Fraction(high)))
+
+
+def _bisected(flip: Flip) -> float:
+    """The error where every change is known to be enough or not, rounded up to DIGITS significant digits."""
+    low = power_of_two(_octave(flip))
+    high = 2 * low
     for _ in range(math.ceil(DIGITS * math.log2(10))):
         middle = (low + high) / 2
-        if makes_right(lengths, truth.position, answer, middle):
-            high = middle
-        else:
-            low = middle
+        low, high = (low, middle) if flip.reached(middle) else (middle, high)
     return float(high) or math.ulp(0.0)  # a distance below the least float64 is still not 0
 
 
-def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position) -> float:
-    """floor(log2) of the backward error: −inf for 0, inf for inf.
+def _octave(flip: Flip) -> int:
+    """The exponent k with 2^k ≤ error ≤ 2^(k+1) there: exact decisions at both ends say so."""
 
-    The exponent k returned has 2^k ≤ backward error ≤ 2^(k+1): exact decisions at both ends say so.
-    """
-    if answer is truth.position or truth.limit_of is answer:
-        return -math.inf
-    if answer is Position.EXTERIOR and lengths.x == lengths.y == 0:
-        return math.inf
-
-    def reached(exponent: int) -> bool:
-        # At 2^0 the sizes vanish; every flip but the one excluded above happens before.
-        return exponent >= 0 or makes_right(lengths, truth.position, answer, Fraction(2) ** exponent)
+    def reached(octave: int) -> bool:
+        # At 2^0 the sizes vanish; every flip that is searched for happens before.
+        return octave >= 0 or flip.reached(power_of_two(octave))
 
     step, low = 1, -10
     while reached(low):  # terminates: the distance is not 0
@@ -108,61 +237,63 @@ def backward_error_exponent(lengths: Lengths, truth: Decision, answer: Position)
     high = min(low + step, 0)
     while not reached(high):
         low, high, step = high, min(high + 2 * step, 0), 2 * step
+    return _last(lambda octave: not reached(octave), low, high)
+
+
+def _last(holds: Callable[[int], bool], low: int, high: int) -> int:
+    """The last number from low to high − 1 for which it holds, as it does for low, and for high no longer."""
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (low, middle) if reached(middle) else (middle, high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
     return low
 
 
-LEAST = -44
-INNER, OUTER = 1 - 2.0**-8, 1 + 2.0**-8
-SMALLEST, LARGEST = 2.0**-90, 2.0**90
-"""Lengths that no change brings out of the range in which floats decide."""
-
-TOWARD_EXTERIOR = np.array([-1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0])
-"""Which way α, γ, b, d, x, y, z change: the sizes of the spheroid fall for either clear position, the others turn."""
-TOWARD_INTERIOR = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
-
-
-def distance_exponents(rows: Rows, positions: Positions) -> Floats:
-    """floor(log2) of each row's distance to the nearest other position, (n,); NaN where floats cannot tell.
-
-    Such rows are for `backward_error_exponent`. `positions` are the exact positions of the rows.
-    """
-    lengths = np.abs(rows)
-    within = ((lengths >= SMALLEST) & (lengths <= LARGEST) | (lengths == 0)).all(axis=1)
-    found = np.full(len(rows), np.nan)
-    places = np.flatnonzero(within)
-    places = places[~_changes_position(rows[places], positions[places], np.full(len(places), LEAST), OUTER)]
-    low: NDArray[np.int64] = np.full(len(places), LEAST)
-    high: NDArray[np.int64] = np.zeros(len(places), dtype=np.int64)
-    while len(places):
-        done = high - low == 1
-        found[places[done]] = low[done]
-        places, low, high = (each[~done] for each in (places, low, high))
-        middle = (low + high) // 2
-        nearer = _changes_position(rows[places], positions[places], middle, INNER)
-        farther = ~nearer
-        farther[farther] = ~_changes_position(rows[places[farther]], positions[places[farther]], middle[farther], OUTER)
-        known = nearer | farther
-        high, low = np.where(nearer, middle, high)[known], np.where(farther, middle, low)[known]
-        places = places[known]
-    return found
+def _reached_end(flip: Flip) -> Fraction:
+    """A change that is reached, less than 9/8 of one that is not found to be."""
+    missed = rounded(flip.estimate(), BITS)
+    high, step = rounded(missed * Fraction(11, 10), BITS), 2
+    while high < 1 and not flip.reached(high):
+        missed, high, step = high, high * step, step * step
+    high = min(high, Fraction(1))  # at 1 the sizes vanish, and any goal within reach is attained before
+    while high > Fraction(9, 8) * missed:
+        middle = _between(missed, high)
+        missed, high = (missed, middle) if flip.reached(middle) else (middle, high)
+    return high
 
 
-def _changes_position(rows: Rows, positions: Positions, exponents: NDArray[np.int64], factor: float) -> Mask:
-    """Whether changes of 2^exponent · factor bring each row to another position, (n,)."""
-    change = np.ldexp(factor, exponents)[:, None]
-    clear, side = positions != Position.CONTACT, (positions == Position.INTERIOR)[:, None]
-    # A clear row is changed away from where it is, and has flipped once it is there no more.
-    away = np.where(side, -TOWARD_INTERIOR, -TOWARD_EXTERIOR)
-    flipped = np.zeros(len(rows), dtype=np.bool_)
-    flipped[clear] = _positions_of_changed(rows[clear], away[clear], change[clear]) != positions[clear]
-    for toward, position in ((TOWARD_EXTERIOR, Position.EXTERIOR), (TOWARD_INTERIOR, Position.INTERIOR)):
-        rest = np.flatnonzero(~clear & ~flipped)
-        flipped[rest] = _positions_of_changed(rows[rest], toward, change[rest]) == position
-    return flipped
+def _excluded_end(flip: Flip, high: Fraction) -> tuple[Fraction, Fraction]:
+    """A change below `high` that one certificate excludes, 0 where none is found; and `high`."""
+    low, step = rounded(high * Fraction(4, 5), BITS), 2
+    while not flip.excluded(low, cuts=0):
+        low, step = low / step, step * step
+        if step > _LARGEST_STEP:
+            return Fraction(0), high
+    return low, high
 
 
-def _positions_of_changed(rows: Rows, direction: Floats, change: Floats) -> Positions:
-    return float_filter.positions(rows * (1 + direction * change))
+_LARGEST_STEP = 2**128
+
+
+def _narrowed(flip: Flip, cuts: int, steps: int, ends: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
+    """The ends brought nearer to each other, by so many halvings at most."""
+    low, high = ends
+    doubtful = high
+    for _ in range(steps):
+        if high <= RATIO * low or doubtful <= low * Fraction(33, 32):
+            break
+        middle = _between(low, doubtful)
+        if flip.excluded(middle, cuts):
+            low = middle
+        elif flip.reached(middle):
+            high = doubtful = middle
+        else:
+            doubtful = middle
+    return low, high
+
+
+def _between(low: Fraction, high: Fraction) -> Fraction:
+    """A short number between two, midway by their logarithms when they are far apart."""
+    ratio = high / low
+    if ratio > 4:
+        return low * (1 << (math.floor(ratio).bit_length() - 1) // 2)
+    return (low + high) / 2

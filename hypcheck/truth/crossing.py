@@ -14,6 +14,7 @@ from hypcheck.geometry.pair import Lengths, over_one_denominator
 from hypcheck.truth.certificate import Point, Query
 from hypcheck.truth.pencil import Quartic, inside, quartic, toward_maximum
 from hypcheck.truth.rationals import floor_root, precisions, root_of
+from hypcheck.truth.vectors import adjugate, dot, times
 
 Vector = list[int]
 Matrix = list[list[int]]
@@ -179,7 +180,7 @@ class _Forms:
         v, _ = over_one_denominator(pair.axis)
         p, s, q, t = (each * each for each in lengths[:4])
         self.center = lengths[4:]
-        self.V = _dot(v, v)
+        self.V = dot(v, v)
         self.M = [[(i == j) * t * self.V + (q - t) * v[i] * v[j] for j in range(3)] for i in range(3)]
         self.inverse = [[(i == j) * q * self.V + (t - q) * v[i] * v[j] for j in range(3)] for i in range(3)]
         self.D = [s, s, -p]
@@ -189,12 +190,12 @@ class _Forms:
         """Whether (X − C)ᵀ M (X − C) ≤ 1."""
         X, w = point
         way = [a - w * b for a, b in zip(X, self.center, strict=True)]
-        return _dot(way, _times(self.M, way)) <= w * w * self.under_M
+        return bool(dot(way, times(self.M, way)) <= w * w * self.under_M)
 
     def hyperboloid(self, point: Homogeneous) -> int:
         """Xᵀ D X − 1, times w² p s."""
         X, w = point
-        return _dot(X, self.gradient(X)) - w * w * self.under_D
+        return int(dot(X, self.gradient(X)) - w * w * self.under_D)
 
     def gradient(self, vector: Vector) -> Vector:
         """D times a vector, times p s."""
@@ -217,8 +218,8 @@ class _Forms:
 def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
     """Points ever nearer to the best one: first along the steepest way from the centre, then X(λ), then X at a pole."""
     gradient = forms.gradient(forms.center)
-    steepest, under = _times(forms.inverse, gradient), forms.V * forms.under_D
-    square = Fraction(_dot(steepest, gradient), under * forms.under_D)
+    steepest, under = times(forms.inverse, gradient), forms.V * forms.under_D
+    square = Fraction(dot(steepest, gradient), under * forms.under_D)
     for bits in (4, 60) if square else ():
         yield _plus((forms.center, 1), (steepest, under), -F.side * floor_root(1 / square, bits))
     for steps, at in enumerate(toward_maximum(F)):
@@ -226,42 +227,34 @@ def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
             continue
         matrix, scale = forms.pencil(at * F.side)
         # At a pole the adjugate has rank one, and any column spans the kernel.
-        adjugate = [[_cofactor(matrix, j, i) for j in range(3)] for i in range(3)]
-        scaled = _times(adjugate, _times(forms.M, forms.center))
+        adjoint = adjugate(matrix)
+        scaled = times(adjoint, times(forms.M, forms.center))
         whole = scale // forms.under_M
-        point = ([each * whole for each in scaled], _dot(matrix[0], [row[0] for row in adjugate]))
+        point = ([each * whole for each in scaled], dot(matrix[0], adjoint[0]))
         yield point
-        yield from _across_the_pole(forms, F, (adjugate, scale), point, 40 + steps)
+        yield from _across_the_pole(forms, F, (adjoint, scale), point, 40 + steps)
 
 
 def _across_the_pole(
-    forms: _Forms, F: Quartic, adjugate: tuple[Matrix, int], point: Homogeneous, bits: int
+    forms: _Forms, F: Quartic, adjoint: tuple[Matrix, int], point: Homogeneous, bits: int
 ) -> Iterator[Homogeneous]:
     """From a point on the centre's side to the hyperboloid, and a little on, along the direction that a pole leaves.
 
     So little that only `bits` bits tell it from the hyperboloid: the nearer to tangency, the less room there is.
     """
-    matrix, scale = adjugate
-    direction = max(matrix, key=lambda column: _dot(column, column))
+    matrix, scale = adjoint
+    direction = max(matrix, key=lambda column: dot(column, column))
     gradient, (X, w) = forms.gradient(direction), point
-    curvature, height = _dot(direction, gradient), forms.hyperboloid(point)
+    curvature, height = dot(direction, gradient), forms.hyperboloid(point)
     if curvature * F.side >= 0 or height * F.side <= 0:
         return
     # The direction is the adjugate's column in the caller's unit; curvature τ² + 2 slope τ + height = 0.
     square, length = scale * scale, forms.unit**5
-    slope = Fraction(_dot(gradient, X) * square, w * length * curvature)
+    slope = Fraction(dot(gradient, X) * square, w * length * curvature)
     root = slope**2 - Fraction(height * square * square, w * w * length * length * curvature)
     way = floor_root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
     for sign in (1, -1):
         yield _plus(point, ([length * each for each in direction], square), sign * way - slope)
-
-
-def _dot(a: Vector, b: Vector) -> int:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _times(matrix: Matrix, vector: Vector) -> Vector:
-    return [_dot(row, vector) for row in matrix]
 
 
 def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homogeneous:
@@ -269,8 +262,3 @@ def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homog
     (X, w), (way, under) = point, direction
     n, k = factor.numerator * w, factor.denominator * under
     return [a * k + n * b for a, b in zip(X, way, strict=True)], w * k
-
-
-def _cofactor(m: Matrix, i: int, j: int) -> int:
-    (a, b), (c, d) = ([m[r][s] for s in range(3) if s != j] for r in range(3) if r != i)
-    return (b * c - a * d) if (i + j) % 2 else (a * d - b * c)

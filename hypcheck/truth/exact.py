@@ -34,7 +34,8 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.pencil import Cubic, Quartic, cubic, quartic, sign_at, sign_at_ratio
+from hypcheck.truth.pencil import Cubic, Number, Quartic, cubic, quartic, sign_at, sign_at_ratio
+from hypcheck.truth.rationals import sign_with_root
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +72,7 @@ def decide(lengths: Lengths) -> Decision:
 def kind_of(lengths: Lengths) -> Kind:
     """The kind of an upright pair: the row of the table of root patterns (kinds.py)."""
     g = cubic(lengths)
-    where, discriminant = _upright_position(g), _discriminant(g)
+    where, discriminant = _upright_position(g), cubic_discriminant(g.n3, g.n2, g.n1, g.n0)
     if where is Position.EXTERIOR:
         return Kind.EXTERIOR if discriminant > 0 else Kind.EXTERIOR_RING
     return Kind.INTERIOR if where is Position.INTERIOR else _contact_kind(g, discriminant)
@@ -96,9 +97,8 @@ def _upright_position(g: Cubic) -> Position:
     return side if w > 0 or 4 * h * h * h > w * w else Position.CONTACT
 
 
-def _discriminant(g: Cubic) -> int:
+def cubic_discriminant(n3: Number, n2: Number, n1: Number, n0: Number) -> Number:
     """N⁴ Δ, Δ as in equation (13)."""
-    n3, n2, n1, n0 = g.n3, g.n2, g.n1, g.n0
     return n1 * n1 * (n2 * n2 - 4 * n3 * n1) + n0 * (n2 * (18 * n3 * n1 - 4 * n2 * n2) - 27 * n3 * n3 * n0)
 
 
@@ -160,8 +160,12 @@ def _variations(signs: tuple[int, ...]) -> int:
 
 
 def discriminant(F: Quartic) -> int:
-    """27 times the discriminant, by its two invariants."""
-    a, b, c, d, e = F.coefficients
+    """27 times the discriminant."""
+    return int(quartic_discriminant(*F.coefficients))
+
+
+def quartic_discriminant(a: Number, b: Number, c: Number, d: Number, e: Number) -> Number:
+    """27 times the discriminant, by the quartic's two invariants."""
     ae, bd, cc = a * e, b * d, c * c
     H = 12 * ae - 3 * bd + cc
     J = c * (72 * ae + 9 * bd - 2 * cc) - 27 * (a * d * d + e * b * b)
@@ -193,33 +197,17 @@ def _signs_at_first(F: Quartic) -> list[int]:
 
 
 def _signs_at_second(F: Quartic) -> list[int]:
-    """The signs of the first three derivatives at ℓ = (e1 + √w)/D, w = e1² + 4 e0 e2, D = 2 e2 > 0."""
+    """The same at ℓ = (e1 + √w)/D, w = e1² + 4 e0 e2, D = 2 e2 > 0: by Horner's rule for numbers u + v √w."""
     e, D = F.e1, 2 * F.e2
     w = e * e + 2 * F.e0 * D
-    square, twice = e * e + w, 2 * e  # (e + √w)² = square + twice √w
-    cube, thrice = e * square + twice * w, square + e * twice  # (e + √w)³ = cube + thrice √w
-    DD = D * D
-    slope, curvature, last = 3 * F.f3 * D, 3 * F.f3 * D, F.f3 * D
-    f2, f1 = F.f2 * DD, F.f1 * DD * D
-    return [
-        _sign_with_root(
-            4 * F.f4 * cube + slope * square + 2 * f2 * e + f1,
-            4 * F.f4 * thrice + slope * twice + 2 * f2,
-            w,
-        ),
-        _sign_with_root(6 * F.f4 * square + curvature * e + f2, 6 * F.f4 * twice + curvature, w),
-        _sign_with_root(4 * F.f4 * e + last, 4 * F.f4, w),
-    ]
-
-
-def _sign_with_root(u: int, r: int, w: int) -> int:
-    """The sign of u + r √w, w > 0."""
-    if u >= 0 and r >= 0:
-        return int(u > 0 or r > 0)
-    if u <= 0 and r <= 0:
-        return -1
-    difference = u * u - r * r * w
-    return ((difference > 0) - (difference < 0)) * (1 if u > 0 else -1)
+    signs = []
+    for order in (1, 2, 3):
+        u = v = 0
+        scale = 1
+        for coefficient in _derivative(F, order):
+            u, v, scale = u * e + v * w + coefficient * scale, u + v * e, scale * D
+        signs.append(sign_with_root(u, v, w))
+    return signs
 
 
 def _with_multiple_root(F: Quartic) -> Decision:

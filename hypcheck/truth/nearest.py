@@ -1,302 +1,295 @@
-"""The nearest-point oracle for arrays: the position from the distance of the spheroid's centre to the hyperboloid.
+"""The nearest-point oracle for one pair, by exact enclosures of the squared distance: no rounding decides anything.
 
-In space scaled so that the spheroid is a unit ball, the pair is apart if the distance from its centre to the
-hyperboloid is over 1, on the side where the centre is; else in contact (docs/mathematics.md, "Nearest point and
-clearance"). The distance comes from its Lagrange dual, which has no duality gap: every value of the dual is a lower
-bound, so no answer rests on an iteration having converged. Nothing is shared with the other oracles.
+Space is mapped so that the spheroid is the unit ball. With M and D the matrices of the two surfaces and C the centre,
 
-Here arrays are answered in double-double arithmetic, with a bound that says where it may be believed; exact enclosures
-answer for the other rows. nearest_exact.py has the answer for one pair, without numpy. Both round the clearance to the
-same float64.
+    D(λ) = λ Cᵀ D (M + λD)⁻¹ M C − λ,   λ₋ < λ < λ₊, where M + λD is positive definite,
 
-The dual function: on (−A, B)
+is the Lagrange dual of the least squared distance from the ball's centre to the hyperboloid: it is concave there, its
+supremum is that squared distance, and the clearance is the root of it less 1. D(λ) > 1 says apart, outside for λ > 0,
+inside for λ < 0. D is a quotient of polynomials with integer coefficients, and so is its slope: nothing is rounded. One
+pole of D is known, that of the horizontal direction across the spheroid's axis; the others are roots of a quadratic.
+Of an upright pair D(λ) = λ (P/(A + λ) − Q/(B − λ) − 1) with A = (α/b)², B = (γ/d)², P = (x² + y²)/b², Q = (z/d)².
 
-    D(λ) = S(λ) + λ F(λ),   S = λ² (P/(A+λ)² + Q/(B−λ)²),   F = A P/(A+λ)² − B Q/(B−λ)² − 1 = D′(λ)
+The enclosures. Where D no longer rises from λ₁ at λ₂, or λ₂ is beyond the end of the interval, the supremum is at least
+D(λ₁) and, D being concave, at most D(λ₁) + D′(λ₁)(λ₂ − λ₁). The precision of λ doubles until that leaves one float64 to
+round to. An interval never tells a tangency from its neighbourhood: then λ is rational, is guessed from its digits, and
+an exact test proves it. Where a tie of the rounding might be hidden in the interval, it is taken for one once the
+interval is narrower than 2⁻²⁵⁶ of the clearance.
 
-is concave, its supremum is the squared distance from the spheroid's centre to the hyperboloid, and the clearance is
-its square root less 1. A λ is found in float64 and taken as given from there on: any λ gives D(λ) ≤ distance², and what
-is missing is F²/(2|F′|), up to a factor that is known, as F′ changes by much only over the distance to a pole. The
-unknown is u, the distance from λ to the nearer pole; with C = A or B, λ = ±(u − C), and A + B − u ≥ u is the other one.
-
-Rounding (η = double_double.ERROR bounds an operation; relative errors unless said otherwise):
-    A, B, Q 3η, P and W = A + B 4η; W − u, at least W/2, 13η; |λ| = |u − C| within 4η(u + C), absolutely;
-    P/(A+λ)² and Q/(B−λ)²: near 5η, far 33η, their sum 34η; S within 8η|λ|(u + C)(near + far) + 36ηS, with the larger of
-    the true and the computed |λ|;
-    F within 40ηT where T sums the magnitudes of its three terms; λF within 41η|λ|T + 4η(u + C)|F|; their sum one more.
-So D is within 64η(|λ|(u + C)(near + far) + |λ|T + (u + C)|F|), where 64 for 45 covers higher orders and the rounding of
-this float64 expression itself.
+Nothing is shared with the other oracles. This module loads no numpy. nearest_rows.py answers many rows.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import IntEnum
+from fractions import Fraction
 
-import numpy as np
-from numpy.typing import NDArray
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth.dual import Dual, Polynomial, derived, value_at
 
-from hypcheck.geometry.pair import Pair
-from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
-from hypcheck.truth import double_double
-from hypcheck.truth.double_double import DoubleDouble
-from hypcheck.truth.nearest_exact import NearestStage, SquaredLengths, optimise
-
-_BOUND = 64.0 * double_double.ERROR
-_FLOOR = 2.0**-400
-"""Covers what underflows: within the limits below no rounding error of an underflow reaches D with more than 2⁻⁹⁰⁰."""
-_NUMBER_RANGE = (2.0**-900, 2.0**900)
-_RATIO_RANGE = (2.0**-120, 2.0**120)
-_MOST_STEPS = 40
+_FIRST_BITS = 96
+_HINT_BITS = 64  # of λ, relative to the distance to the nearer pole
+_TIE_BITS = 256
+_SHORT_OF_END = 76  # the bits of λ that a hint at an end of the interval shares with it
+_MOST_STEPS = 8  # of Newton's iteration in one precision; the next precision goes on from there
 
 
-@dataclass(frozen=True, slots=True)
-class ScaledArrays:
-    """The problem with a unit sphere: A, B, P, Q as in docs/mathematics.md, each (n,) in double-double.
+class NearestStage(IntEnum):
+    """How a clearance was decided; STAGES has the names."""
 
-    `inside` marks the rows within the limits for which the error bounds hold: every number 0 or in 2^±900, each of A,
-    B, P, Q in 2^±120, save P, Q = 0 from a centre on the axis or in the waist plane. There the distances to the poles
-    lie in 2^-361 … 2^121 and every product in 2^±970, away from overflow.
-    """
+    DOUBLE_DOUBLE = 0
+    """In double-double arithmetic, its error bound leaving no doubt."""
+    PRECISE = 1
+    """By exact enclosures, narrowed as far as needed."""
+    EXACT = 2
+    """By a closed form (the hard cases) or the exact test for tangency."""
 
-    A: DoubleDouble
-    B: DoubleDouble
-    P: DoubleDouble
-    Q: DoubleDouble
-    inside: Mask
+
+STAGES = ("double-double", "precise", "exact")
+"""The stages' names, in the order of their numbers."""
 
 
 @dataclass(frozen=True, slots=True)
-class DualArrays:
-    """D at a λ and a bound of its error; what D's supremum has more, and how surely; the sign of λ, 0 if unsure.
+class Nearest:
+    """How near the hyperboloid is to the spheroid's centre, in the metric in which the spheroid is a unit ball.
 
-    All (n,); gap_error is inf where nothing is known of the supremum but that it is not below D.
+    `clearance` is the factor by which the spheroid, grown about its centre, first touches the hyperboloid, less 1:
+    positive when apart, negative when overlapping, 0 exactly when tangent. It is the float64 nearest to the true value
+    (to within 2⁻²⁵⁶ of it), inf beyond the largest, and ±5e-324 where a value other than 0 would round to 0.
+
+    `multiplier` is the λ at the optimum, to 2⁻⁶⁴ of its distance to the nearer end of the interval, exactly in the
+    stage EXACT. It is above 0 where the centre is outside the hyperboloid and below 0 inside.
     """
 
-    value: DoubleDouble
-    error: Floats
-    gap: Floats
-    gap_error: Floats
-    side: Floats
-
-
-@dataclass(frozen=True, slots=True)
-class Decided:
-    """For each row: the clearance, whether it is surely the true one rounded to nearest; the position, whether sure."""
-
-    clearance: Floats
-    clearance_certain: Mask
-    position: Positions
-    position_certain: Mask
-
-
-def decide(rows: Rows) -> Decided:
-    """Clearance and position of valid rows (n, 7) as far as double-double arithmetic can tell; n ~ 4096 is fastest."""
-    with np.errstate(all="ignore"):
-        scaled = _scale(rows)
-        return _judge(scaled.inside, _evaluate(scaled, *_solve(scaled)))
-
-
-def _scale(rows: Rows) -> ScaledArrays:
-    """A, B, P and Q of the rows."""
-    columns = np.ascontiguousarray(rows.T)
-    alpha, gamma, b, d, x, y, z = columns
-    A, B, Q = (
-        double_double.square(double_double.quotient_of_floats(*pair)) for pair in ((alpha, b), (gamma, d), (z, d))
-    )
-    P = double_double.add(
-        double_double.square(double_double.quotient_of_floats(x, b)),
-        double_double.square(double_double.quotient_of_floats(y, b)),
-    )
-    magnitude = np.abs(columns)
-    smallest = np.where(magnitude > 0.0, magnitude, 1.0).min(axis=0)
-    inside = (smallest >= _NUMBER_RANGE[0]) & (magnitude.max(axis=0) <= _NUMBER_RANGE[1])
-    for ratio, zero in ((A, False), (B, False), (P, (x == 0.0) & (y == 0.0)), (Q, z == 0.0)):
-        inside &= (ratio[0] >= _RATIO_RANGE[0]) & (ratio[0] <= _RATIO_RANGE[1]) | zero
-    return ScaledArrays(A, B, P, Q, inside)
-
-
-def _solve(scaled: ScaledArrays) -> tuple[Floats, Floats]:
-    """A + λ and B − λ in float64, the smaller one to nearly full relative precision, at the λ where F vanishes.
-
-    With p = a r, q = c z, W = A + B, τ = A + λ and σ = B − λ = W − τ: F = 0 is τ √(1 + (q/σ)²) = p, and its left side
-    is convex and increasing in τ, so Newton's iteration falls steadily onto the root from any start above it. Where the
-    supremum is at an end of (−A, B) the distance to that end is 0 (centre on the axis, or in the waist plane beyond
-    the evolute: the two hard cases).
-    """
-    A, B, P, Q = scaled.A[0], scaled.B[0], scaled.P[0], scaled.Q[0]
-    p, q, W = np.sqrt(A * P), np.sqrt(B * Q), A + B
-    hard = (P == 0.0) | ((Q == 0.0) & (p >= W))
-    tau, sigma = _start(p, q, W)
-    active = np.flatnonzero(scaled.inside & ~hard)
-    for _ in range(_MOST_STEPS):
-        if not len(active):
-            break
-        whole = len(active) == len(tau)
-        here = slice(None) if whole else active
-        near, far, height = tau[here], sigma[here], q[here]
-        slope = height / far
-        slope *= slope
-        root = np.sqrt(1.0 + slope)
-        step = (p[here] - near * root) / (root + slope * (near / far) / root)
-        near = near + step
-        far = far - step
-        tau[here], sigma[here] = near, far
-        # Newton's error is squared from step to step: after a relative 2⁻²⁶ it is at the rounding level.
-        active = active[np.abs(step) > 2.0**-26 * np.minimum(near, far)]
-    tau = np.where(hard, np.where(P == 0.0, 0.0, W), tau)
-    sigma = np.where(hard, np.where(P == 0.0, W, 0.0), sigma)
-    return tau, sigma
-
-
-def _start(p: Floats, q: Floats, W: Floats) -> tuple[Floats, Floats]:
-    """τ and σ with τ at or above the root, each within a modest factor.
-
-    τ < p and τ/p < σ/q bound τ; the second is p/τ > q/σ. That τ is also less than twice the root. If it is over W/2 the
-    root is over W/4, and q²/σ² = (p − τ)(p + τ)/τ² ≤ (g + σ)·32p/W² with g = max(p − W, 0) bounds σ from below.
-    """
-    cone = p + q
-    tau = np.minimum(p, p * (W / cone))
-    sigma = np.maximum(W - p, W * (q / cone))
-    excess = 2.0 * np.maximum(p - W, 0.0)
-    flat = (q * W) ** 2 / (32.0 * p)
-    bound = np.minimum(np.cbrt(0.5 * flat), np.sqrt(flat / excess))
-    raised = (2.0 * tau > W) & (bound > sigma)
-    sigma = np.where(raised, bound, sigma)
-    return np.where(raised, W - sigma, tau), sigma
-
-
-def _evaluate(scaled: ScaledArrays, tau: Floats, sigma: Floats) -> DualArrays:
-    """The dual at the λ that is u = min(τ, σ) from its pole; with −A near, `one` is 1, else −1, and λ = one·size."""
-    near_minus_A = tau <= sigma
-    one = np.where(near_minus_A, 1.0, -1.0)
-    near_square, far_square = _swapped(near_minus_A, scaled.P, scaled.Q)
-    near_size, far_size = _swapped(near_minus_A, scaled.A, scaled.B)
-    W = double_double.add(scaled.A, scaled.B)
-
-    u = np.minimum(np.minimum(tau, sigma), 0.5 * W[0])
-    ended = u == 0.0
-    divisor = np.where(ended, 1.0, u)  # at the end of the interval the numerator is 0
-    other = double_double.add_float(W, -u)
-    size = double_double.add_float((-near_size[0], -near_size[1]), u)
-    near = double_double.divide(near_square, double_double.two_square(divisor))
-    far = double_double.divide(far_square, double_double.square(other))
-    near_term = double_double.multiply(near_size, near)
-    far_term = double_double.multiply(far_size, far)
-    F = double_double.add_float(
-        double_double.subtract(near_term, far_term), -one
-    )  # one·F: near B the two terms change places
-    S = double_double.multiply(double_double.square(size), double_double.add(near, far))
-    value = double_double.add(S, double_double.multiply(size, F))
-
-    length = u + near_size[0]
-    size_error = 4.0 * double_double.ERROR * length
-    largest = np.abs(size[0]) + size_error
-    terms = near_term[0] + far_term[0] + 1.0
-    slope, slope_error = np.abs(F[0]), _BOUND * terms
-    error = _BOUND * (largest * (length * (near[0] + far[0]) + terms) + length * slope) + _FLOOR
-    error = np.where(u >= 0.0, error, np.inf)  # beyond its poles the dual is no bound at all
-
-    curvature = 2.0 * (near_term[0] / divisor + far_term[0] / other[0])
-    gap, gap_error = _gap(slope, slope_error, curvature, np.minimum(u, other[0]))
-    # At an end of the interval D is the supremum if its slope pushes outward: at −A always, at B where F > 0.
-    supreme = (near_square[0] == 0.0) & (near_minus_A | (-F[0] > slope_error))
-    gap = np.where(ended, 0.0, gap)
-    gap_error = np.where(ended, np.where(supreme, 0.0, np.inf), gap_error)
-    side = np.where(np.abs(size[0]) > 2.0 * size_error, np.where(size[0] < 0.0, -one, one), 0.0)
-    return DualArrays(value, error, gap, gap_error, side)
-
-
-def _swapped(straight: Mask, first: DoubleDouble, second: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    """first and second, or second and first where not straight."""
-    return double_double.where(straight, first, second), double_double.where(straight, second, first)
-
-
-def _judge(inside: Mask, dual: DualArrays) -> Decided:
-    """The clearance by the dual, and what the error bounds leave certain.
-
-    Clear is claimed on the evidence of the one λ alone, D(λ) > 1, and on the side that its sign shows.
-    """
-    squared = double_double.add_float(dual.value, dual.gap)
-    (high, low), error = _clearance(squared, dual.error + dual.gap_error)
-    clear = inside & ((dual.value[0] - 1.0) + dual.value[1] > 1.001 * dual.error) & (dual.side != 0.0)
-    contact = inside & (high < -1.001 * error)
-    position = np.where(clear, dual.side, 0.0).astype(np.int8)
-    reach = 1.001 * error + 2.0**-104 * np.abs(high)  # 2⁻¹⁰⁴ for the rounding of low ± error
-    rounds_alike = (high + (low + reach) == high) & (high + (low - reach) == high)
-    certain = clear | contact
-    return Decided(high, certain & rounds_alike, position, certain)
-
-
-def _gap(slope: Floats, slope_error: Floats, curvature: Floats, pole: Floats) -> tuple[Floats, Floats]:
-    """distance² − D(λ) as an estimate and a bound of its error, from |F|, its error, and |F′| at λ.
-
-    Within a distance k·pole of λ, |F′| lies between (1 + k)⁻³ and (1 − k)⁻³ times its value at λ, as both its terms are
-    inverse cubes of the distances to the poles. So with κ = |F|/(|F′|·pole) ≤ 1/8 the root lies within 2κ·pole, since
-    (1 + 2κ)³ ≤ 2, and the gap F²/(2|F′|) is known to a factor (1 ± 2κ)^±3, a relative 8κ. Else nothing is claimed.
-    """
-    largest = slope + slope_error
-    kappa = 1.001 * largest / (curvature * pole)
-    estimate = slope * slope / (2.0 * curvature)
-    error = (4.001 * kappa + 2.0**-46) * (largest * largest / curvature) + 1.001 * largest * slope_error / curvature
-    return estimate, np.where(kappa <= 0.125, error, np.inf)
-
-
-def _clearance(squared: DoubleDouble, error: Floats) -> tuple[DoubleDouble, Floats]:
-    """√squared − 1 and a bound of its error, for a squared distance known within `error`.
-
-    |√s − √t| is at most |s − t|/√s, and at most √|s − t|, which is what serves near a distance of 0. The sum of D and
-    the gap is rounded by η s, which leaves (η/2)√s after the root; the root is rounded by η√s, and the subtraction by
-    η(1 + √s). 4η(1 + √s) covers all three. Where the sum is below 0, so is the exact one, and t is at most `error`.
-    """
-    below = squared[0] < 0.0
-    root = double_double.square_root((np.where(below, 0.0, squared[0]), np.where(below, 0.0, squared[1])))
-    bound = error / np.maximum(root[0], np.sqrt(error)) + 4.0 * double_double.ERROR * (1.0 + root[0])
-    return double_double.add_float(root, -1.0), bound
-
-
-_CHUNK = 4096  # rows whose intermediate arrays fit in a core's second-level cache
-
-
-@dataclass(frozen=True, slots=True)
-class NearestBatch:
-    """For n rows: clearances as in nearest_exact.Nearest (n,), positions (n,), and the Stage of each, uint8 (n,)."""
-
-    clearance: Floats
-    position: Positions
-    stage: NDArray[np.uint8]
+    position: Position
+    clearance: float
+    multiplier: Fraction
+    stage: NearestStage
 
     @property
-    def tangent(self) -> Mask:
-        """Which pairs are tangent, bool (n,)."""
-        return np.asarray(self.clearance == 0.0)
+    def tangent(self) -> bool:
+        """Whether the surfaces touch and cross nowhere."""
+        return self.clearance == 0
 
 
-def positions(rows: Rows) -> NearestBatch:
-    """The positions and tangencies of rows (n, 7). Raises InputError about the first invalid row.
+@dataclass(frozen=True, slots=True)
+class Enclosure:
+    """low ≤ 2^bits · clearance ≤ high."""
 
-    Clearances are right to a factor alone, and 0 where tangent.
+    low: int
+    high: int
+    bits: int
+
+    @property
+    def rounded(self) -> float | None:
+        """The one float64, never 0, to which the whole interval rounds; None if there are more or 0 is inside."""
+        if self.low <= 0 <= self.high:
+            return None
+        unit = 1 << self.bits
+        low, high = ratio(self.low, unit), ratio(self.high, unit)
+        if low != high and (self.high - self.low) << _TIE_BITS > abs(self.low):
+            return None
+        if low != high:  # a tie: halves go to the even neighbour
+            low = high if math.isinf(high) else float((Fraction(low) + Fraction(high)) / 2)
+        return low or (math.ulp(0.0) if self.low > 0 else -math.ulp(0.0))
+
+
+def nearest(pair: Pair) -> Nearest:
+    """The position and the clearance of any valid pair."""
+    return _in_closed_form(pair.lengths) or _enclosed(Dual.of(pair.lengths))
+
+
+def multiplier(row: Sequence[float | Fraction]) -> Fraction:
+    """About the λ at which D is largest, for ten valid numbers; a hint, of which nothing is proved.
+
+    Where that is an end of the interval, it is a little before it: M + λD has to be definite all around.
     """
-    return _run(rows, clearances_wanted=False)
+    dual = Dual.of(Lengths.of(row))
+    side = dual.direction(0, 0)
+    if not side:
+        return Fraction(0)
+    L, shift, at_end = _start(dual, side, _FIRST_BITS)
+    L = L - (L >> _SHORT_OF_END) if at_end else _newton(dual, L, shift, _FIRST_BITS)[0]
+    return _fraction(L, shift) * dual.unit
 
 
-def clearances(rows: Rows) -> NearestBatch:
-    """The clearances and positions of rows (n, 7). Raises InputError about the first invalid row."""
-    return _run(rows, clearances_wanted=True)
+def _in_closed_form(lengths: Lengths) -> Nearest | None:
+    """The hard cases of an upright pair, where D is largest at an end: a centre on the axis, or in the waist plane."""
+    if not lengths.is_upright or (lengths.z and (lengths.x or lengths.y)):
+        return None
+    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
+    R, Z, W = lengths.x**2 + lengths.y**2, lengths.z**2, p * t + s * q  # W = b² d² (A + B)
+    if R == 0:
+        clearance, side, at = _clearance_of_square(p * (W + Z * q), q * W), -1, Fraction(-p, q)
+    elif p * R * t * t >= W * W:
+        clearance, side, at = _clearance_of_square(s * (R * t - W), t * W), 1, Fraction(s, t)
+    else:
+        return None
+    return Nearest(_position(clearance, side), clearance, at, NearestStage.EXACT)
 
 
-def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:
-    """Chunk by chunk, in double-double arithmetic as far as that can tell, else exactly."""
-    require_valid(rows)
-    batch = NearestBatch(
-        np.empty(len(rows)), np.empty(len(rows), np.int8), np.full(len(rows), NearestStage.DOUBLE_DOUBLE, np.uint8)
-    )
-    for begin in range(0, len(rows), _CHUNK):
-        chunk = slice(begin, begin + _CHUNK)
-        decided = decide(rows[chunk])
-        batch.clearance[chunk] = decided.clearance
-        batch.position[chunk] = decided.position
-        certain: Mask = decided.clearance_certain if clearances_wanted else decided.position_certain
-        for index in (begin + np.flatnonzero(~certain)).tolist():
-            optimum = optimise(SquaredLengths.of(Pair.from_row(rows[index].tolist())))
-            batch.clearance[index], batch.position[index] = optimum.clearance, optimum.position
-            batch.stage[index] = optimum.stage
-    return batch
+def _enclosed(dual: Dual) -> Nearest:
+    """The clearance in a precision that doubles until it suffices."""
+    side = dual.direction(0, 0)
+    if not side:  # the centre is on the hyperboloid
+        return Nearest(Position.CONTACT, -1.0, Fraction(0), NearestStage.EXACT)
+    bits = _FIRST_BITS
+    L, shift, at_end = _start(dual, side, bits)
+    while True:
+        L, guess = (side * dual.end(side, shift), 1) if at_end else _newton(dual, L, shift, bits)
+        doubt = _doubt(dual, L, shift, guess)
+        enclosure = _enclosure(dual, L, doubt, shift, 2 * bits)
+        at = _fraction(L, shift) * dual.unit
+        if enclosure.low <= 0 <= enclosure.high:
+            touch = at.limit_denominator(1 << max(8, (shift - _exponent(dual.unit)) // 2 - 16))
+            if dual.touches(touch / dual.unit):
+                return Nearest(Position.CONTACT, 0.0, touch, NearestStage.EXACT)
+        if at_end or doubt << _HINT_BITS <= _room(dual, L, shift):
+            clearance = enclosure.rounded
+            if clearance is not None:
+                # Above 0 it means D > 1: by weak duality the sign of that λ is the side.
+                return Nearest(_position(clearance, side), clearance, at, NearestStage.PRECISE)
+        L, shift, bits = L << bits, shift + bits, 2 * bits
+
+
+def _position(clearance: float, side: int) -> Position:
+    """Contact unless the clearance is above 0; else exterior or interior, as `side` is above or below 0."""
+    return Position.CONTACT if clearance <= 0 else Position(side)
+
+
+def _start(dual: Dual, side: int, bits: int) -> tuple[int, int, bool]:
+    """ν = L/2^shift near the optimum, and whether that is at the end of the interval.
+
+    Its way from 0 has odds, against the way left to the end, that are right to a factor of 2: they are looked for among
+    powers of 2. No optimum inside the interval is so near to its end as the last of them. The unit is one in which
+    `bits` bits count the distance to the nearer end.
+    """
+    size = _bits(dual.slope)
+    probe = next(shift for shift in (64, size) if shift == size or dual.end(side, shift))
+    length = dual.end(side, probe).bit_length() - probe
+
+    fine = max(0, bits - length)
+    end = dual.end(side, fine)
+
+    def place(octave: int) -> tuple[int, int]:
+        shift = max(0, abs(octave) + 16 - length)
+        whole = end >> fine - shift if shift <= fine else dual.end(side, shift)
+        return side * ((whole << max(octave, 0)) // ((1 << abs(octave)) + 1)), shift
+
+    def before(octave: int) -> bool:
+        return octave < size and value_at(dual.slope, *place(octave)) * side > 0
+
+    way = 1 if before(0) else -1
+    near, far = 0, way
+    while before(far) is (way > 0) and abs(far) <= size:
+        near, far = far, 2 * far
+    while abs(far - near) > 1:
+        middle = (near + far) // 2
+        near, far = (middle, far) if before(middle) is (way > 0) else (near, middle)
+    if near == size - 1:
+        return side * end, fine, True
+    L, shift = place(min(near, far))
+    more = max(-shift, bits - _room(dual, L, shift).bit_length())
+    return L << more if more >= 0 else L >> -more, shift + more, False
+
+
+def _room(dual: Dual, L: int, shift: int) -> int:
+    """The distance from ν = L/2^shift to the nearer end of the interval, in the same unit, rounded down, at least 1."""
+    return max(1, min(dual.end(1, shift) - L, dual.end(-1, shift) + L))
+
+
+def _newton(dual: Dual, L: int, shift: int, bits: int) -> tuple[int, int]:
+    """ν near the optimum by Newton's iteration, and a guess at the error that is left, both in units of 2^-shift.
+
+    From a start good to half of `bits` one step does; each squares the error relative to the nearer end's distance. The
+    steps D′/|D″| are computed with twice as many bits as they need, from coefficients cut off: they prove nothing.
+    """
+    low, high = -dual.end(-1, shift), dual.end(1, shift)
+    whole = max(abs(L).bit_length(), 1)
+    slope, under = (_cut(f, whole - shift, 2 * max(bits, whole) + 32) for f in (dual.slope, dual.under))
+    polynomials = (slope, under, derived(slope), derived(under))
+    room = step = 1
+    for _ in range(_MOST_STEPS):
+        room = max(1, min(high - L, L - low))
+        rise, k, bend, k_rise = (_fixed(f, L, whole) for f in polynomials)
+        curvature = 2 * rise * k_rise - bend * k
+        newton = (rise * k << whole) // curvature if curvature > 0 else 0
+        step = min(max(newton, (low - L) // 2), (high - L) // 2)
+        L += step
+        if abs(step) << (bits // 2 - 8) <= room:
+            break
+    return L, 4 * step * step // room + 4
+
+
+def _cut(f: Polynomial, exponent: int, bits: int) -> Polynomial:
+    """About f(2^exponent u) as a polynomial in u, up to a factor, the largest coefficient of so many bits."""
+    sizes = [
+        part.bit_length() + exponent * power for part, power in zip(f, range(len(f) - 1, -1, -1), strict=True) if part
+    ]
+    left = [bits - max(sizes) + exponent * power for power in range(len(f) - 1, -1, -1)]
+    return tuple(part << more if more >= 0 else part >> -more for part, more in zip(f, left, strict=True))
+
+
+def _fixed(f: Polynomial, L: int, bits: int) -> int:
+    """About f(L/2^bits)."""
+    total = 0
+    for part in f:
+        total = (total * L >> bits) + part
+    return total
+
+
+def _doubt(dual: Dual, L: int, shift: int, width: int) -> int:
+    """A distance from L within which the sign of D′ proves the optimum; `width` if that suffices, else more."""
+    side = dual.direction(L, shift)
+    while dual.direction(L + side * width, shift) * side > 0:
+        width <<= 8
+    return width
+
+
+def _enclosure(dual: Dual, L: int, width: int, shift: int, bits: int) -> Enclosure:
+    """The clearance from D at L and the slope there, with the square roots rounded outward at 2^-bits."""
+    value, under, slope = (value_at(f, L, shift) for f in (dual.value, dual.under, dual.slope))
+    low = _root(value, under << shift, bits)
+    high = _root(value * under + abs(slope) * width, under * under << shift, bits) + 1
+    return Enclosure(low - (1 << bits), high - (1 << bits), bits)
+
+
+def _clearance_of_square(numerator: int, denominator: int) -> float:
+    """The clearance of an exactly known squared distance."""
+    if numerator == denominator:
+        return 0.0
+    bits = _FIRST_BITS
+    while True:
+        root = _root(numerator, denominator, bits) - (1 << bits)
+        clearance = Enclosure(root, root + 1, bits).rounded
+        if clearance is not None:
+            return clearance
+        bits *= 2
+
+
+def ratio(numerator: int, denominator: int) -> float:
+    """The quotient, denominator > 0, rounded to nearest; ±inf beyond the largest float64."""
+    try:
+        return numerator / denominator
+    except OverflowError:
+        return math.inf if numerator > 0 else -math.inf
+
+
+def _root(numerator: int, denominator: int, bits: int) -> int:
+    """The square root of the quotient (of 0, where that is negative), in units of 2^-bits, rounded down."""
+    return math.isqrt(max(0, (numerator << 2 * bits) // denominator))
+
+
+def _bits(f: Polynomial) -> int:
+    return max(abs(part) for part in f).bit_length()
+
+
+def _exponent(number: Fraction) -> int:
+    return number.numerator.bit_length() - number.denominator.bit_length()
+
+
+def _fraction(L: int, shift: int) -> Fraction:
+    return Fraction(L, 1 << shift)

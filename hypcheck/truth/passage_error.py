@@ -19,7 +19,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import SIZES, WAY_COLUMNS
-from hypcheck.truth.swept import Passage, Rational, passage, rounded
+from hypcheck.truth.rationals import rounded_toward
+from hypcheck.truth.swept import Passage, Rational, passage
 
 RELATIVE_WIDTH = Fraction(1, 100)
 """A size error is bracketed to this part of itself."""
@@ -69,7 +70,7 @@ def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
     while high - low > RELATIVE_WIDTH * low:
         middle = (low + high) / 2
         low, high = (low, middle) if right(middle) else (middle, high)
-    return SizeError(rounded(low, -math.inf), rounded(high, math.inf))
+    return SizeError(rounded_toward(low, -math.inf), rounded_toward(high, math.inf))
 
 
 def _octave(right: Callable[[Fraction], bool]) -> tuple[Fraction, Fraction]:

@@ -13,11 +13,12 @@ from fractions import Fraction
 from hypcheck.geometry.pair import WAY_COLUMNS
 from hypcheck.truth import crossing
 from hypcheck.truth.certificate import Point
-from hypcheck.truth.journey import Journey, piece, shortened
+from hypcheck.truth.journey import Journey, piece
 from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, place
 from hypcheck.truth.polynomial_roots import value
 from hypcheck.truth.prove import double_root
-from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, reach, rounded
+from hypcheck.truth.rationals import rounded_toward, shortened
+from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, reach
 
 Bounds = tuple[float, float]
 
@@ -38,7 +39,7 @@ def prove(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertific
         return found, None, PassageCertificate(_pieces(journey, Fraction(1)))
     time = _time_of_contact(journey, found)
     low, high = (time, time) if found.grazes else found.first
-    bounds = rounded(low, -math.inf), rounded(high, math.inf)
+    bounds = rounded_toward(low, -math.inf), rounded_toward(high, math.inf)
     if bounds[0] and Fraction(bounds[0]) >= low:
         bounds = math.nextafter(bounds[0], 0.0), bounds[1]
     pieces = _pieces(journey, Fraction(bounds[0])) if bounds[0] else ()

@@ -15,17 +15,27 @@ and with R = x² + y², Z = z², N = x v_y − y v_x, T = (x v_x + y v_y) z v_z 
 
     p² q² s t V det(S + λH) = F = L G − (q − t) N² λ² (s − q λ)
     G = −(1 + λ) E + λ (R s − Z p) V − λ² (R g2 + Z g1 + 2 (q − t) T).
+
+**A tilted hyperboloid**, along w, is not rotated: all of this depends on squares and products of the centre C and both
+axes, and with W = w·w those along w are Z = (C·w)²/W, c = (v·w)²/W, N² = det(C, v, w)²/W and
+T = (C·v − (C·w)(v·w)/W) (C·w)(v·w)/W; R and V − c are what is left of C·C and v·v. p, s, q, t, R, Z and V, c are
+multiplied by W, N² and T by W², so that all are integers and F keeps its sign.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any, TypeAlias
 
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomial_roots import polynomial_product
 from hypcheck.truth.rationals import power_near
+
+Number: TypeAlias = Any
+"""An integer, or a polynomial in time (journey.py): whatever has +, −, · among its kind and with integers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,18 +54,39 @@ class Cubic:
 
 def cubic(lengths: Lengths) -> Cubic:
     """The cubic of equation (14) of the paper over the common denominator b² d²."""
-    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
-    radius, height = lengths.x**2 + lengths.y**2, lengths.z**2
-    return Cubic(
-        n3=q * t,
-        n2=(p + q - radius) * t - (s + height) * q,
-        n1=p * (t - s - height) + s * (radius - q),
-        n0=-p * s,
-        p=p,
-        q=q,
-        s=s,
-        t=t,
-    )
+    p, s, q, t = _squares(lengths)
+    n3, n2, n1, n0 = cubic_coefficients(lengths, lengths.x, lengths.y, lengths.z)
+    return Cubic(n3, n2, n1, n0, p, q, s, t)
+
+
+def cubic_coefficients(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, ...]:
+    """n3, n2, n1, n0 for these sizes and a centre of any kind of number."""
+    p, s, q, t = _squares(sizes)
+    radius, height = across_and_along(sizes, x, y, z)
+    n2 = (p + q - radius) * t - (s + height) * q
+    return q * t, n2, p * (t - s - height) + s * (radius - q), -p * s
+
+
+def across_and_along(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, Number]:
+    """R and Z, the squares of a centre's parts across the hyperboloid's axis and along it."""
+    if sizes.upward == _VERTICAL:
+        return x * x + y * y, z * z
+    u, v, w = sizes.upward
+    along = x * u + y * v + z * w
+    height = along * along
+    return (x * x + y * y + z * z) * (u * u + v * v + w * w) - height, height
+
+
+_VERTICAL = (0, 0, 1)
+
+
+def local_maximum(g: Cubic, bits: int) -> tuple[int, int]:
+    """The place of g's local maximum, which it has, to about so many bits: top/bottom, bottom > 0."""
+    h = g.n2 * g.n2 - 3 * g.n3 * g.n1
+    shift = max(0, bits + 8 - h.bit_length() // 2)
+    root, n2 = math.isqrt(h << 2 * shift), g.n2 << shift
+    # n1/(√h − n2) or −(n2 + √h)/(3 n3): the form that does not cancel
+    return (g.n1 << shift, root - n2) if g.n2 < 0 else (-(n2 + root), 3 * g.n3 << shift)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,34 +118,69 @@ class Quartic:
 
 def quartic(lengths: Lengths) -> Quartic:
     """The quartic of a pair whose spheroid is neither upright nor a sphere."""
-    p, s, q, t = lengths.alpha**2, lengths.gamma**2, lengths.b**2, lengths.d**2
-    x, y, z = lengths.x, lengths.y, lengths.z
-    v_x, v_y, v_z = lengths.axis
-    c, W = v_z * v_z, v_x * v_x + v_y * v_y
-    V, R, Z = W + c, x * x + y * y, z * z
-    g1, g2 = t * W + q * c, q * W + t * c
-    qt, ps = q * t, p * s
-    e0, e1, e2 = ps * V, s * g1 - p * g2, qt * V
+    constants = _constants(lengths)
+    p, s, q, *_, e0, e1, e2 = constants
+    (f4, f3, f2, f1, f0), height = _quartic(lengths, constants, lengths.x, lengths.y, lengths.z)
+    side = (height > p * s) - (height < p * s)
+    at_first = side < 0 and lengths.b > lengths.d
+    return Quartic(f4, side * f3, f2, side * f1, f0, p, q, e0, side * e1, e2, side, at_first)
+
+
+def quartic_coefficients(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, ...]:
+    """The coefficients of F, for λ itself, for these sizes and this axis and a centre of any kind of number."""
+    return _quartic(sizes, _constants(sizes), x, y, z)[0]
+
+
+def second_factor(sizes: Lengths) -> tuple[int, int, int]:
+    """e0, e1, e2 of det(M + λD)'s second factor E = e0 + e1 λ − e2 λ², for λ itself."""
+    *_, e0, e1, e2 = _constants(sizes)
+    return e0, e1, e2
+
+
+_Constants = tuple[int, int, int, int, int, int, int, int, int, int]
+"""p, s, q, t, V, g1, g2, e0, e1, e2."""
+
+
+def _quartic(
+    sizes: Lengths, constants: _Constants, x: Number, y: Number, z: Number
+) -> tuple[tuple[Number, ...], Number]:
+    """The coefficients, and p s times the hyperboloid's equation at the centre, but for its constant."""
+    p, s, q, t, V, g1, g2, e0, e1, e2 = constants
+    R, Z = across_and_along(sizes, x, y, z)
+    N2, T = _products(sizes, x, y, z)
     height = R * s - Z * p
-    G0, G1 = -e0, V * height - e0 - e1
-    G2 = e2 - e1 - R * g2 - Z * g1 - 2 * (q - t) * (x * v_x + y * v_y) * z * v_z
-    off_plane = (q - t) * (x * v_y - y * v_x) ** 2
-    side = (height > ps) - (height < ps)
-    f3, f1 = p * e2 + q * (G2 + off_plane), p * G1 + q * G0
-    return Quartic(
-        f4=q * e2,
-        f3=side * f3,
-        f2=p * G2 + q * G1 - s * off_plane,
-        f1=side * f1,
-        f0=p * G0,
-        p=p,
-        q=q,
-        e0=e0,
-        e1=side * e1,
-        e2=e2,
-        side=side,
-        at_first=side < 0 and q > t,
-    )
+    G1 = height * V - e0 - e1
+    G2 = e2 - e1 - R * g2 - Z * g1 - T * (2 * (q - t))
+    off_plane = N2 * (q - t)
+    f3, f2 = (G2 + off_plane) * q + p * e2, G2 * p + G1 * q - off_plane * s
+    return (q * e2, f3, f2, G1 * p - q * e0, -p * e0), height
+
+
+def _constants(sizes: Lengths) -> _Constants:
+    p, s, q, t = _squares(sizes)
+    W, c = across_and_along(sizes, *sizes.axis)
+    V, g1, g2 = W + c, t * W + q * c, q * W + t * c
+    return p, s, q, t, V, g1, g2, p * s * V, s * g1 - p * g2, q * t * V
+
+
+def _squares(sizes: Lengths) -> tuple[int, int, int, int]:
+    """p, s, q, t."""
+    u, v, w = sizes.upward
+    unit = u * u + v * v + w * w
+    return sizes.alpha**2 * unit, sizes.gamma**2 * unit, sizes.b**2 * unit, sizes.d**2 * unit
+
+
+def _products(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, Number]:
+    """N² and T."""
+    a, b, c = sizes.axis
+    if sizes.upward == _VERTICAL:
+        across = x * b - y * a
+        return across * across, (x * a + y * b) * z * c
+    u, v, w = sizes.upward
+    unit, lean = u * u + v * v + w * w, a * u + b * v + c * w
+    height, along = x * u + y * v + z * w, x * a + y * b + z * c
+    volume = x * (b * w - c * v) + y * (c * u - a * w) + z * (a * v - b * u)
+    return volume * volume * unit, (along * unit - height * lean) * height * lean
 
 
 def sign_at(coefficients: tuple[int, ...], at: Fraction) -> int:

@@ -1,8 +1,7 @@
 """Real roots of integer polynomials, all of them or those between 0 and 1, enclosed by exact arithmetic alone.
 
 A polynomial is a tuple of integers, the highest power first, the first not 0. Nothing here is approximated: signs are
-signs of integers, roots are counted by Sturm's theorem, and intervals shrink by bisection. `prove` checks a finished
-enclosure from its definition (changes of sign, one discriminant) and shares only `value` with the code that found it.
+signs of integers, roots are counted by Sturm's theorem, and intervals shrink by bisection.
 
 For roots in [0, 1] Descartes' rule comes first: most polynomials that are asked about have no root there, and their
 coefficients show it. Sturm's theorem counts where that rule is not sharp.
@@ -19,9 +18,6 @@ from itertools import zip_longest
 
 Polynomial = tuple[int, ...]
 Interval = tuple[Fraction, Fraction]
-
-RELATIVE_WIDTH_BITS = 30
-"""An enclosure is narrowed until it is at most 2^−30 of its root: nine digits for a reader; the proof needs none."""
 
 
 def value(f: Polynomial, x: Fraction) -> int:
@@ -67,7 +63,7 @@ def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
     return f
 
 
-@lru_cache(maxsize=4)  # who asks whether f is squarefree goes on to its roots
+@lru_cache(maxsize=16)  # a polynomial is asked for its roots in one interval after another
 def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
     """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
     degree = len(f) - 1
@@ -98,22 +94,36 @@ def variations(chain: Sequence[Polynomial], x: Fraction) -> int:
     return sum(left != right for left, right in itertools.pairwise(signs))
 
 
-def isolate(f: Polynomial, cuts: Sequence[Fraction], *, narrow: bool = True) -> list[Interval]:
-    """Open intervals with one root of f each, in order, all real roots covered; no cut and no 0 inside any.
+def roots_between(f: Polynomial, low: Fraction | None, high: Fraction | None) -> int:
+    """How many distinct roots a polynomial has between two numbers that are no roots; None is −∞, or ∞."""
+    if len(f) == 1:
+        return 0
+    chain = sturm_chain(f)
+    return _changes(chain, low, -1) - _changes(chain, high, 1)
 
-    f is squarefree and is not 0 at 0 nor at a cut. A root met exactly is given as an interval of width 0.
+
+def _changes(chain: Sequence[Polynomial], x: Fraction | None, direction: int) -> int:
+    if x is not None:
+        return variations(chain, x)
+    signs = [(f[0] > 0) == (direction > 0 or len(f) % 2 == 1) for f in chain]
+    return sum(left != right for left, right in itertools.pairwise(signs))
+
+
+def isolate(f: Polynomial) -> list[Interval]:
+    """Open intervals with one root of f each, in order, all real roots covered; no 0 inside any.
+
+    f is squarefree and is not 0 at 0.
     """
     chain = sturm_chain(f)
-    near, far = _root_bounds(f)
-    inside = [cut for cut in cuts if near < abs(cut) < far]  # no root lies beyond the others
-    points = sorted([-far, -near, near, far, *inside])
+    near, far = (Fraction(2) ** exponent for exponent in root_exponents(f))
+    points = [-far, -near, near, far]
     counts = [variations(chain, point) for point in points]
     pending = list(zip(points, counts, points[1:], counts[1:], strict=False))
     found = []
     while pending:
         lower, left, upper, right = pending.pop()
         if left - right == 1:
-            found.append(enclosed(f, lower, upper, RELATIVE_WIDTH_BITS) if narrow else (lower, upper))
+            found.append((lower, upper))
         elif left > right:
             # Eight candidates, seven roots at most: one of them is no root.
             middle = next(x for x in _between(lower, upper) if value(f, x))
@@ -122,17 +132,14 @@ def isolate(f: Polynomial, cuts: Sequence[Fraction], *, narrow: bool = True) -> 
     return sorted(found)
 
 
-def _root_bounds(f: Polynomial) -> Interval:
-    """Powers of two (near, far) with near < |root| < far for every root of f, f(0) ≠ 0.
+def root_exponents(f: Polynomial) -> tuple[int, int]:
+    """Exponents of two between which those of all roots of f lie, f(0) ≠ 0: 2^near < |root| < 2^far.
 
     Cauchy: |root| < 1 + max |f_i / f_0| < 2 max(1, max |f_i / f_0|), and the same for 1/root with the order reversed.
     With n bits for the largest coefficient, m for the end one, the quotient is below 2^(n − m + 1).
     """
     largest = max(coefficient.bit_length() for coefficient in f)
-    return (
-        Fraction(1, 2) ** (largest - f[-1].bit_length() + 2),
-        Fraction(2) ** (largest - f[0].bit_length() + 2),
-    )
+    return f[-1].bit_length() - largest - 2, largest - f[0].bit_length() + 2
 
 
 def _exponent(x: Fraction) -> int:
@@ -162,68 +169,6 @@ def _between(lower: Fraction, upper: Fraction) -> Iterator[Fraction]:
         yield start + step * unit
     for step in range(1, 8, 2):
         yield start + step * unit / 2
-
-
-def enclosed(f: Polynomial, lower: Fraction, upper: Fraction, bits: int) -> Interval:
-    """The interval of one simple root, narrowed to 2^−bits of its ends; (x, x) where the root x is met.
-
-    Quadratic interval refinement (Abbott, 2014): the line through the values at the ends points at one of 2^k parts. If
-    signs show the root in that part, 2^2k parts are next, else 2^(k/2). Ends of unlike exponents are halved before.
-    """
-    rising, k = value(f, upper) > 0, 1
-    while (upper - lower) * 2**bits > min(abs(lower), abs(upper)):
-        if abs(_exponent(abs(upper)) - _exponent(abs(lower))) >= 3:
-            lower, upper = _part(f, lower, upper, next(_between(lower, upper)), rising=rising)
-            continue
-        low, high = _exact_value(f, lower), _exact_value(f, upper)
-        width = (upper - lower) / 2**k
-        place = lower + min(max(round(low / (low - high) * 2**k), 1), 2**k - 1) * width
-        lower, upper = _part(f, lower, upper, place, rising=rising)
-        beside = place - width if upper == place else place + width
-        if lower < beside < upper:
-            lower, upper = _part(f, lower, upper, beside, rising=rising)
-        k = min(2 * k, bits) if upper - lower <= width else max(1, k // 2)
-    return lower, upper
-
-
-def _part(f: Polynomial, lower: Fraction, upper: Fraction, x: Fraction, *, rising: bool) -> Interval:
-    """The part below or above x that holds the one root of f in an open interval; (x, x) where that is x."""
-    sign = value(f, x)
-    if sign == 0:
-        return x, x
-    return (lower, x) if (sign > 0) == rising else (x, upper)
-
-
-def _exact_value(f: Polynomial, x: Fraction) -> Fraction:
-    return Fraction(value(f, x), x.denominator ** (len(f) - 1))
-
-
-def prove(f: Polynomial, intervals: Sequence[Interval]) -> None:
-    """Raise AssertionError unless f, of degree 0, 2 or 3, has one root in each interval, simple, and no other real one.
-
-    An interval is open, or a single point that is a root. Over an open one f changes its sign, so it holds an odd
-    number of roots; disjoint intervals as many as the degree hold one each. Two fewer do where the discriminant is
-    negative: a real polynomial of degree 2 or 3 has a pair of complex roots exactly then.
-    """
-    for lower, upper in intervals:
-        left, right = value(f, lower), value(f, upper)
-        held = left == 0 if lower == upper else lower < upper and min(left, right) < 0 < max(left, right)
-        if not held:
-            raise AssertionError("an enclosure is not proved to hold a root")
-    if any(left[1] > right[0] or left == right for left, right in itertools.pairwise(intervals)):
-        raise AssertionError("the enclosures of the roots overlap or are not in order")
-    degree = len(f) - 1
-    if degree != len(intervals) and not (degree == len(intervals) + 2 and discriminant(f) < 0):
-        raise AssertionError("the enclosures are not proved to hold all real roots")
-
-
-def discriminant(f: Polynomial) -> int:
-    """The discriminant of a polynomial of degree 2 or 3."""
-    if len(f) == 3:
-        a, b, c = f
-        return b * b - 4 * a * c
-    a, b, c, d = f
-    return b * b * c * c - 4 * a * c**3 - 4 * b**3 * d + 18 * a * b * c * d - 27 * a * a * d * d
 
 
 UNIT_INTERVAL_WIDTH_BITS = 60

@@ -8,14 +8,13 @@ bisection with exact signs. Points of a crossing are looked for in crossing.py.
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import crossing, exact
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, quartic, sign_at, toward_maximum
+from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, local_maximum, quartic, sign_at, toward_maximum
 from hypcheck.truth.rationals import precisions, rounded
 
 
@@ -43,12 +42,8 @@ def double_root(lengths: Lengths) -> Fraction:
 
 def _cubic_multiplier(g: Cubic) -> Fraction:
     """The local maximum of g, rounded to the fewest bits (a power of two of them) at which g is still positive."""
-    h = g.n2 * g.n2 - 3 * g.n3 * g.n1
     for bits in precisions():
-        shift = max(0, bits + 8 - h.bit_length() // 2)
-        root = Fraction(math.isqrt(h << 2 * shift), 1 << shift)
-        top = g.n1 / (root - g.n2) if g.n2 < 0 else -(g.n2 + root) / (3 * g.n3)  # the form that does not cancel
-        at = rounded(top, bits)
+        at = rounded(Fraction(*local_maximum(g, bits)), bits)
         u, v = at.numerator, at.denominator
         inside = u < 0 or u * g.t < v * g.s  # below 0, g > 0 means λ > −A: g(−A) ≤ 0, and g rises up to there
         if inside and ((g.n3 * u + g.n2 * v) * u + g.n1 * v * v) * u + g.n0 * v**3 > 0:

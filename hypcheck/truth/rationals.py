@@ -1,4 +1,4 @@
-"""Rational numbers cut to few bits: roots, roundings, powers of two."""
+"""Rational numbers: roots, cut to few bits, powers of two, and as floats."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ import math
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import count
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mpmath import mpf
 
 
 def precisions(start: int = 1) -> Iterator[int]:
@@ -46,7 +50,37 @@ def power_near(low: Fraction, high: Fraction) -> Fraction:
     return power_of_two((first + last) // 2)
 
 
+def shortened(top: int, bottom: int, bits: int) -> Fraction:
+    """top/bottom, bottom > 0, cut off after about that many significant bits."""
+    shift = bits + bottom.bit_length() - abs(top).bit_length()
+    whole = (top << shift) // bottom if shift >= 0 else top // (bottom << -shift)
+    return Fraction(whole, 1 << shift) if shift >= 0 else Fraction(whole << -shift)
+
+
 def rounded(value: Fraction, bits: int) -> Fraction:
     """`value` to `bits` significant bits."""
     unit = power_of_two(exponent_of(value) - bits)
     return Fraction(round(value / unit)) * unit
+
+
+def rounded_toward(number: Fraction, infinity: float) -> float:
+    """The nearest float64 that is not beyond the number on the side away from `infinity`."""
+    near = float(number)
+    wrong_side = near > number if infinity < 0 else near < number
+    return math.nextafter(near, infinity) if wrong_side else near
+
+
+def fraction(number: mpf) -> Fraction:
+    """An mpf, exactly; its mantissa has no sign."""
+    size = Fraction(int(number.man)) * power_of_two(int(number.exp))
+    return -size if number < 0 else size
+
+
+def sign_with_root(u: Fraction | int, v: Fraction | int, w: Fraction | int) -> int:
+    """The sign of u + v √w, w > 0 or v = 0."""
+    if u >= 0 and v >= 0:
+        return int(u > 0 or v > 0)
+    if u <= 0 and v <= 0:
+        return -1
+    difference = u * u - v * v * w
+    return ((difference > 0) - (difference < 0)) * (1 if u > 0 else -1)

@@ -1,18 +1,20 @@
-"""The roots oracle: the places of the roots of g beside −A, 0 and B, and the table that gives their meaning.
+"""The roots oracle for upright spheroids: the places of the roots of g beside −A, 0 and B, and what they mean.
 
 After [10], re-derived; its text was not consulted. The pencil of the two quadrics' matrices, det(λH + S), is
 (A + λ) g(λ) / (A² B) with the cubic g of equation (12) (docs/mathematics.md, "Root patterns and relative position").
-Everything is exact: coefficients and comparisons are rational, multiplicities come from gcd(g, g′), roots at −A and B
-are recognised and divided out, the others are enclosed in intervals, and the finished enclosures are proved by changes
-of sign before they are believed. A pattern that the table does not list is a fault of this program, never an answer.
+Everything is exact and no root is approximated: multiplicities come from gcd(g, g′), roots at −A and B are recognised
+and divided out, a multiple root and what it leaves are rational, and simple ones are counted between −A, 0 and B by
+Sturm's theorem. A pattern that the table does not list is a fault of this program, never an answer.
 
 The table can also be read literally, by the roots' signs and multiplicities alone; some patterns then fall together.
+tilted_roots.py has the same for spheroids whose axis may point anywhere.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -22,14 +24,11 @@ from types import MappingProxyType
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.polynomial_roots import (
-    Interval,
     Polynomial,
     divided_by_root,
-    isolate,
-    linear_factor,
     polynomial_product,
     primitive,
-    prove,
+    roots_between,
     sturm_chain,
     value,
 )
@@ -48,9 +47,6 @@ class RootPlace(Enum):
     AT_B = "B"
     ABOVE = ">B"
 
-
-Isolate = Callable[..., list[Interval]]
-"""Finds enclosures, as polynomial_roots.isolate does."""
 
 PATTERNS: Mapping[Kind, tuple[str, ...]] = MappingProxyType(
     {
@@ -144,28 +140,17 @@ _SIGNS = {kind: frozenset(map(_signs, patterns)) for kind, patterns in PATTERNS.
 
 
 @dataclass(frozen=True, slots=True)
-class Root:
-    """One distinct real root of g: strictly between `lower` and `upper`, or equal to both where they are equal."""
-
-    lower: Fraction
-    upper: Fraction
-    multiplicity: int
-    place: RootPlace
-
-
-@dataclass(frozen=True, slots=True)
 class RootReport:
-    """What the roots of g say. `roots` are the distinct real ones in ascending order, their enclosures disjoint.
+    """What the roots of g say.
 
-    `pattern` is their places and multiplicities as the table writes them; with `complex_pair` two roots are complex.
-    `literal_kinds` is what signs and multiplicities alone leave possible for these sizes, without comparing any root
-    with −A or B; `literal` is the one position they have in common, or None: ambiguous.
+    `pattern` is the places and multiplicities of the real ones as the table writes them; with `complex_pair` two roots
+    are complex. `literal_kinds` is what signs and multiplicities alone leave possible for these sizes, without
+    comparing any root with −A or B; `literal` is the one position they have in common, or None: ambiguous.
     """
 
     position: Position
     tangent: bool
     kind: Kind
-    roots: tuple[Root, ...]
     pattern: str
     complex_pair: bool
     literal: Position | None
@@ -197,28 +182,20 @@ class Invariants:
         )
 
 
-def classify_by_roots(
-    pair: Pair, *, narrow: bool = True, isolated: Isolate = isolate, kinds: Mapping[str, Kind] = KIND_OF
-) -> RootReport:
-    """The position and kind of a pair, by the roots of g; without `narrow` enclosures are as wide as that allows.
+def classify_by_roots(pair: Pair, kinds: Mapping[str, Kind] = KIND_OF) -> RootReport:
+    """The position and kind of an upright pair, by the roots of g. `kinds` is the table.
 
-    Raises AssertionError, naming the pair, where a proof fails or the pattern is not in the table.
+    Raises AssertionError, naming the pair, where the pattern is not in the table.
     """
     try:
-        return classify_invariants(Invariants.of(pair), narrow=narrow, isolated=isolated, kinds=kinds)
+        return classify_invariants(Invariants.of(pair), kinds)
     except AssertionError as error:
         raise AssertionError(f"{error}, for {pair}") from error
 
 
-def classify_invariants(
-    pair: Invariants, *, narrow: bool = True, isolated: Isolate = isolate, kinds: Mapping[str, Kind] = KIND_OF
-) -> RootReport:
-    """The same for a pair given by its invariants, which need not be those of float64 numbers.
-
-    Nothing rests on `isolated`, which finds enclosures of roots: they are proved. `kinds` is the table.
-    """
-    roots = real_roots(pair, narrow=narrow, isolated=isolated)
-    pattern = pattern_of((root.place, root.multiplicity) for root in roots)
+def classify_invariants(pair: Invariants, kinds: Mapping[str, Kind] = KIND_OF) -> RootReport:
+    """The same for a pair given by its invariants, which need not be those of float64 numbers."""
+    pattern = pattern_of(real_roots(pair))
     occurs = _occurs(pair)
     possible = [kind for kind in Kind if occurs[kind.occurs]]
     kind = kinds.get(pattern)
@@ -230,7 +207,6 @@ def classify_invariants(
         position=kind.position,
         tangent=kind.tangent,
         kind=kind,
-        roots=roots,
         pattern=pattern,
         complex_pair=pattern.endswith(COMPLEX),
         literal=literal.pop() if len(literal) == 1 else None,
@@ -267,67 +243,30 @@ def coefficients(pair: Invariants) -> Polynomial:
     return primitive([cubic[0], cubic[1], cubic[2] - linear[0], cubic[3] - linear[1]])
 
 
-def real_roots(pair: Invariants, *, narrow: bool = True, isolated: Isolate = isolate) -> tuple[Root, ...]:
-    """The distinct real roots of g in ascending order: proved, multiplicities and places exact."""
+def real_roots(pair: Invariants) -> list[tuple[RootPlace, int]]:
+    """The places and multiplicities of the distinct real roots of g, in ascending order."""
     g = coefficients(pair)
-    known, rest = _divided_by_known_roots(g, (-pair.A, pair.B, *_repeated_root(g)))
-    enclosed = isolated(rest, (-pair.A, pair.B), narrow=narrow)
-    prove(rest, enclosed)
-    _require_factors(g, known, rest)
-    intervals = [((x, x), multiplicity) for x, multiplicity in known.items()]
-    intervals += [(interval, 1) for interval in enclosed]
-    # Two enclosures may share an end, and a known root may be that end: sorted by their middles they stand in order.
-    intervals.sort(key=lambda item: item[0][0] + item[0][1])
-    return tuple(
-        Root(*interval, multiplicity=multiplicity, place=_place(interval, pair)) for interval, multiplicity in intervals
-    )
-
-
-def _repeated_root(g: Polynomial) -> list[Fraction]:
-    """The double or triple root m of a cubic, if it has one, from gcd(g, g′) = λ − m or (λ − m)²."""
     common = sturm_chain(g)[-1]
-    degree = len(common) - 1
-    return [Fraction(-common[1], degree * common[0])] if degree else []
-
-
-def _divided_by_known_roots(g: Polynomial, candidates: tuple[Fraction, ...]) -> tuple[dict[Fraction, int], Polynomial]:
-    """The multiplicities of those candidates that are roots, and g without these roots; a last linear factor is known.
-
-    The rest has degree 0, 2 or 3, is squarefree when all repeated roots were candidates, and has no candidate as root.
-    """
-    known: dict[Fraction, int] = {}
-    for x in candidates:
-        while len(g) > 1 and value(g, x) == 0:
+    if len(common) > 1:  # λ − m or (λ − m)²: the double or triple root m, and then the third one, is rational
+        m = Fraction(-common[1], (len(common) - 1) * common[0])
+        rest = divided_by_root(divided_by_root(g, m), m)
+        roots = Counter((m, m, Fraction(-rest[1], rest[0])))
+        return [(_place(x, pair), multiplicity) for x, multiplicity in sorted(roots.items())]
+    places = []
+    for x in (-pair.A, pair.B):
+        if value(g, x) == 0:
             g = divided_by_root(g, x)
-            known[x] = known.get(x, 0) + 1
-    if len(g) == 2:
-        x = Fraction(-g[1], g[0])
-        g = divided_by_root(g, x)
-        known[x] = known.get(x, 0) + 1
-    return known, g
+            places.append(_place(x, pair))
+    bounds = (None, -pair.A, Fraction(0), pair.B, None)
+    between = (RootPlace.BELOW, RootPlace.INNER, RootPlace.OUTER, RootPlace.ABOVE)
+    for place, low, high in zip(between, bounds, bounds[1:], strict=False):
+        places += [place] * roots_between(g, low, high)
+    order = list(RootPlace)
+    return [(place, 1) for place in sorted(places, key=order.index)]
 
 
-def _require_factors(g: Polynomial, known: Mapping[Fraction, int], rest: Polynomial) -> None:
-    """Raise AssertionError unless g is the product of the known roots' linear factors and the rest."""
-    factored = rest
-    for x, multiplicity in known.items():
-        for _ in range(multiplicity):
-            factored = polynomial_product(factored, linear_factor(x))
-    if factored != g:
-        raise AssertionError("the roots of g found exactly and the rest do not multiply to g")
-
-
-def _place(interval: Interval, pair: Invariants) -> RootPlace:
-    """The place of the root in an interval that none of −A, 0 and B divides."""
-    lower, upper = interval
-    if lower == upper and lower in (-pair.A, pair.B):
-        return RootPlace.AT_B if lower > 0 else RootPlace.AT_MINUS_A
-    if upper <= -pair.A:
-        return RootPlace.BELOW
-    if lower >= -pair.A and upper <= 0:
-        return RootPlace.INNER
-    if lower >= 0 and upper <= pair.B:
-        return RootPlace.OUTER
-    if lower >= pair.B:
-        return RootPlace.ABOVE
-    raise AssertionError("−A, 0 or B lies inside the enclosure of a root of g")
+def _place(x: Fraction, pair: Invariants) -> RootPlace:
+    """The place of a rational root, which is not 0."""
+    if x < 0:
+        return RootPlace.BELOW if x < -pair.A else RootPlace.INNER if x > -pair.A else RootPlace.AT_MINUS_A
+    return RootPlace.OUTER if x < pair.B else RootPlace.ABOVE if x > pair.B else RootPlace.AT_B

@@ -30,13 +30,17 @@ from hypcheck.geometry.pair import (
     COLUMNS,
     NO_DIRECTION,
     SIZES,
+    UPRIGHT,
+    Lengths,
     Position,
+    Vector,
     over_one_denominator,
     trouble_with,
 )
 from hypcheck.messages import counted, escaped
-from hypcheck.truth.journey import Journey, TiltedJourney, UprightJourney, piece, shortened
+from hypcheck.truth.journey import Journey, piece
 from hypcheck.truth.polynomial_roots import Interval, Polynomial, narrowed, roots_from_0_to_1, value
+from hypcheck.truth.rationals import rounded_toward, shortened
 
 WIDTH_BITS = 60
 """The enclosure of a first contact is at most 2^−60 of it wide."""
@@ -83,7 +87,7 @@ def steps(journey: Journey) -> Steps | None:
         beyond = time + step / 2
         if beyond < (contact or 1) and _crosses(journey, beyond):
             contact = beyond
-    return Steps(tuple(pieces), contact) if contact is not None and pieces else None
+    return Steps(tuple(pieces), contact) if pieces and contact is not None and _narrow(time, contact) else None
 
 
 def _narrow(time: Fraction, contact: Fraction | None) -> bool:
@@ -155,13 +159,13 @@ class Passage:
     @in_default_environment
     def first_lower(self) -> float:
         """The largest float64 that is not above the time of first contact's enclosure; NaN where there is none."""
-        return math.nan if self.first is None else rounded(self.first[0], -math.inf)
+        return math.nan if self.first is None else rounded_toward(self.first[0], -math.inf)
 
     @property
     @in_default_environment
     def first_upper(self) -> float:
         """The least float64 that is not below the enclosure; NaN where there is none."""
-        return math.nan if self.first is None else rounded(self.first[1], math.inf)
+        return math.nan if self.first is None else rounded_toward(self.first[1], math.inf)
 
 
 @in_default_environment
@@ -170,14 +174,16 @@ def passage(
     start: Sequence[Rational],
     end: Sequence[Rational],
     axis: Sequence[Rational] | None = None,
+    upward: Sequence[Rational] | None = None,
 ) -> Passage:
     """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
-    `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the way; vertical where
-    it is None. Exact for every valid value, in every regime. Raises InputError where a size is not finite and > 0, a
-    coordinate not finite, an axis without direction, or their number not 4, 3, 3 and 3.
+    `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the way, and `upward` any
+    along the hyperboloid's; they are vertical where they are None. Exact for every valid value, in every regime. Raises
+    InputError where a size is not finite and > 0, a coordinate not finite, an axis without direction, or their number
+    not 4, 3, 3, 3 and 3.
     """
-    journey = journey_of(sizes, start, end, axis)
+    journey = journey_of(sizes, start, end, axis, upward)
     return by_steps(journey) or by_roots(journey)
 
 
@@ -230,30 +236,28 @@ def _between(times: Sequence[Interval]) -> Iterator[Fraction | None]:
     yield None if last == 1 and times[-1][0] == 1 else (last + 1) / 2
 
 
-def rounded(number: Fraction, toward: float) -> float:
-    """The nearest float64 that is not beyond the number on the side away from `toward`."""
-    near = float(number)
-    wrong_side = near > number if toward < 0 else near < number
-    return math.nextafter(near, toward) if wrong_side else near
-
-
 def journey_of(
     sizes: Sequence[Rational],
     start: Sequence[Rational],
     end: Sequence[Rational],
     axis: Sequence[Rational] | None = None,
-) -> UprightJourney | TiltedJourney:
+    upward: Sequence[Rational] | None = None,
+) -> Journey:
     """The way of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
     alpha, gamma, b, d, x0, y0, z0 = checked(sizes, start)
     x1, y1, z1 = checked(sizes, end)[len(SIZES) :]
-    direction = None if axis is None else checked_axis(axis)
-    if direction is not None and any(direction[:2]) and b != d:
+    direction, tower = (checked_axis(UPRIGHT if given is None else given) for given in (axis, upward))
+    if (any(direction[:2]) and b != d) or any(tower[:2]):
         a, c, w, h, x, u, y, v, z, s = integers(alpha, gamma, b, d, x0, x1 - x0, y0, y1 - y0, z0, z1 - z0)
-        v_x, v_y, v_z = integers(*direction)
-        return TiltedJourney(a, c, w, h, (x, u), (y, v), (z, s), (v_x, v_y, v_z))
+        return Journey(Lengths(a, w, x, y, c, h, z, _three(direction), _three(tower)), (u, v, s))
     a, w, x, u, y, v = integers(alpha, b, x0, x1 - x0, y0, y1 - y0)
     c, h, z, s = integers(gamma, d, z0, z1 - z0)
-    return UprightJourney(a, w, c, h, (x, u), (y, v), (z, s))
+    return Journey(Lengths(a, w, x, y, c, h, z), (u, v, s))
+
+
+def _three(axis: Sequence[Fraction]) -> Vector:
+    x, y, z = integers(*axis)
+    return x, y, z
 
 
 def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Fraction, ...]:

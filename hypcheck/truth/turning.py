@@ -18,13 +18,14 @@ import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from mpmath import MPContext, MPIntervalContext, mpf
+from mpmath import MPContext, MPIntervalContext
 from mpmath.ctx_iv import ivmpf
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.messages import escaped
 from hypcheck.truth import exact
+from hypcheck.truth.rationals import fraction, root_of
 from hypcheck.truth.swept import Rational, checked, checked_sequence, integers
 
 PRECISIONS = (128, 512, 2048)
@@ -166,22 +167,13 @@ def _position(rationals: tuple[Fraction, ...], radius: Fraction) -> Position:
 def _root(square: Fraction, bits: int) -> Enclosure:
     """√ of a number, of 0 for a number below it, to about `bits` bits."""
     square = max(square, Fraction(0))
-    scale = max(0, bits + (square.denominator.bit_length() - square.numerator.bit_length()) // 2 + 1)
-    whole = math.isqrt((square.numerator << 2 * scale) // square.denominator)
-    exact_root = whole * whole * square.denominator == square.numerator << 2 * scale
-    return Fraction(whole, 1 << scale), Fraction(whole + (not exact_root), 1 << scale)
+    return root_of(square, bits), root_of(square, bits, upward=True)
 
 
 def _fractions(context: MPContext, enclosure: ivmpf) -> Enclosure:
     """The ends of an interval of mpmath, exactly."""
     low, high = (context.mpf(end) for end in (enclosure.a, enclosure.b))
-    return _fraction(low), _fraction(high)
-
-
-def _fraction(number: mpf) -> Fraction:
-    """An mpf, exactly; its mantissa has no sign."""
-    size = Fraction(int(number.man)) * Fraction(2) ** int(number.exp)
-    return -size if number < 0 else size
+    return fraction(low), fraction(high)
 
 
 def _sum(first: Enclosure, second: Enclosure) -> Enclosure:

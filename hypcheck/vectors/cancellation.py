@@ -117,14 +117,14 @@ def _highest_exponent_first(wrong: Mapping[int, tuple[Row, Position]]) -> list[i
     """Up to EXAMINED of the places, by the octave of the backward error, then in order."""
     octaves = []
     for place, (row, excuse) in wrong.items():
-        lengths = Pair.from_row(row).lengths
-        octaves.append((-backward_error.backward_error_exponent(lengths, exact.decide(lengths), excuse), place))
+        pair = Pair.from_row(row)
+        octaves.append((-backward_error.exponent(pair, exact.decide(pair.lengths), excuse), place))
     return [place for _, place in sorted(octaves)[:EXAMINED]]
 
 
 def _error(row: Row, excuse: Position) -> float:
-    lengths = Pair.from_row(row).lengths
-    return backward_error.backward_error(lengths, exact.decide(lengths), excuse)
+    pair = Pair.from_row(row)
+    return backward_error.estimate(pair, exact.decide(pair.lengths), excuse)
 
 
 def _changed(draw: Draw, rows: Rows) -> Rows:

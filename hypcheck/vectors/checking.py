@@ -25,13 +25,13 @@ from hypcheck.geometry.rows import WAYS
 from hypcheck.tables.numbers import decimal_of, shown_json
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth import exact
+from hypcheck.truth.backward_error import excluded_at_once, is_bracket
 from hypcheck.truth.certificate import check_certificate
+from hypcheck.truth.changes import goal_of
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.nearest_exact import nearest
+from hypcheck.truth.nearest import nearest
 from hypcheck.truth.passage_certificate import check_passage, contact_at
 from hypcheck.truth.roots import classify_by_roots
-from hypcheck.truth.tilted.backward_error import excluded_at_once, goal_of, is_bracket
-from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
     AnyVector,
@@ -91,7 +91,7 @@ def _sentences(case: UprightVector, truth: Decision, flags: Sequence[str]) -> It
     yield from _wrong_clearance(case, nearest(pair).clearance)
     if (truth.position, truth.tangent) != (case.position, case.tangent):
         return  # its flips are to other positions
-    for position, distance in flips(pair.lengths, truth).items():
+    for position, distance in flips(pair, truth).items():
         if distance != case.flips[position]:
             yield f"the flip to {position.label} is {decimal_of(case.flips[position])}; it is {decimal_of(distance)}"
     yield from _wrong_flags(case, flags)
@@ -100,12 +100,12 @@ def _sentences(case: UprightVector, truth: Decision, flags: Sequence[str]) -> It
 def _tilted_sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str]:
     pair = Pair.from_row(case.row)
     yield from _unproved(case, check_certificate(pair, case.certificate))
-    yield from _wrong_clearance(case, tilted_nearest(pair).clearance)
+    yield from _wrong_clearance(case, nearest(pair).clearance)
     truth = exact.decide(pair.lengths)
     if (truth.position, truth.tangent) != (case.position, case.tangent):
         return  # its flips are to other positions
     for other, ends in case.flips.items():
-        if not is_bracket(case.row, truth, other, ends, cuts=0, lower_holds=other in proved):
+        if not is_bracket(pair, truth, other, ends, cuts=0, lower_holds=other in proved):
             said = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
             yield f"the flip to {other.label} is {said}; no proof of both ends is found"
     yield from _wrong_flags(case, tilted_flags(pair, truth))
@@ -121,8 +121,8 @@ def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:
         if other is not case.position and 0 < ends.lower < 1
     ]
     goals = [goal_of(cases[index].position, other) for index, other, _ in asked]
-    rows = [cases[index].row for index, *_ in asked]
-    for (index, other, _), holds in zip(asked, excluded_at_once(rows, goals, [low for *_, low in asked]), strict=True):
+    pairs = [Pair.from_row(cases[index].row) for index, *_ in asked]
+    for (index, other, _), holds in zip(asked, excluded_at_once(pairs, goals, [low for *_, low in asked]), strict=True):
         if holds:
             proved[index].add(other)
     return proved

@@ -279,8 +279,7 @@ def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
 def _beyond(row: Row, truth: Decision, excuse: Position, precision: str) -> bool:
     """Whether no change of the inputs by TOLERANCE_U units u makes the wrong answer right."""
     change = TOLERANCE_U * Fraction(unit_roundoff(precision))
-    lengths = Pair.from_row(row).lengths
-    return truth.limit_of is not excuse and not backward_error.makes_right(lengths, truth.position, excuse, change)
+    return not backward_error.tolerated(Pair.from_row(row), truth, [excuse], change)
 
 
 _SHORTEST, _LONGEST = 2.0**-511, 2.0**511

@@ -11,18 +11,16 @@ from fractions import Fraction
 from itertools import count
 from typing import Any
 
-from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import WAYS
-from hypcheck.truth import backward_error, exact
-from hypcheck.truth.backward_error import Bracket
+from hypcheck.truth import exact
+from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.nearest_exact import nearest
+from hypcheck.truth.nearest import nearest
 from hypcheck.truth.passage_certificate import place
 from hypcheck.truth.passage_prove import prove as prove_passage
 from hypcheck.truth.prove import prove
-from hypcheck.truth.tilted.backward_error import bracket
-from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,
@@ -66,7 +64,7 @@ def _labelled(name: str, row: Row, decision: Decision, flags: tuple[str, ...]) -
         tangent=decision.tangent,
         kind=decision.kind,
         clearance=nearest(pair).clearance,
-        flips=flips(pair.lengths, decision),
+        flips=flips(pair, decision),
         witness=stored_certificate(row, prove(pair, decision)),
         flags=flags,
     )
@@ -81,8 +79,8 @@ def _labelled_tilted(name: str, row: Row) -> TiltedVector:
         position=decision.position,
         tangent=decision.tangent,
         kind=None,
-        clearance=tilted_nearest(pair).clearance,
-        flips=_tilted_flips(row, decision),
+        clearance=nearest(pair).clearance,
+        flips=_tilted_flips(pair, decision),
         witness=stored_certificate(row, prove(pair, decision)),
         flags=tilted_flags(pair, decision),
     )
@@ -98,15 +96,15 @@ def _labelled_way(name: str, row: Row) -> WayVector:
     return WayVector(name, row, first, witness, way_flags(row, first, proof))
 
 
-def flips(lengths: Lengths, truth: Decision) -> Mapping[Position, float]:
-    """The distance to each other position, in the order exterior, contact, interior."""
+def flips(pair: Pair, truth: Decision) -> Mapping[Position, float]:
+    """An upright pair's distance to each other position, in the order exterior, contact, interior."""
     others = (other for other in Position if other is not truth.position)
-    return {other: backward_error.backward_error(lengths, truth, other) for other in others}
+    return {other: quick_bracket(pair, truth, other).upper for other in others}
 
 
-def _tilted_flips(row: Row, decision: Decision) -> Mapping[Position, Bracket]:
+def _tilted_flips(pair: Pair, decision: Decision) -> Mapping[Position, Bracket]:
     others = (other for other in Position if other is not decision.position)
-    return {other: bracket(row, decision, other, cuts=0, steps=2) for other in others}
+    return {other: bracket(pair, decision, other, cuts=0, steps=2) for other in others}
 
 
 def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:

@@ -38,7 +38,7 @@ def without_isolation():
 
 SUBJECT = """
 import numpy as np
-from hypcheck.kernel.classify import classify as exact
+from hypcheck import classify as exact
 
 hypcheck = {{"name": "subject"}}
 

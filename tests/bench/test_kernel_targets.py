@@ -22,8 +22,8 @@ from hypcheck.kernel.choice import LEVELS, choice
 from hypcheck.record import SCHEMA
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AbsentLine, KernelLine
-from hypcheck.truth.nearest import clearances
-from hypcheck.truth.tilted.nearest import nearest
+from hypcheck.truth.nearest import nearest
+from hypcheck.truth.nearest_rows import clearances
 from tests.support.records import violations
 
 PUBLISHED = Path(hypcheck.__file__).parent / "report" / "schemas" / f"record-{SCHEMA}.json"

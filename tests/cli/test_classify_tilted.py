@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hypcheck import classify
 from hypcheck.answer import answer, answer_as_json, answer_as_text
 from hypcheck.answers import answers
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel.classify import classify
 from hypcheck.tables.numbers import exact_text
 from tests.cli.test_classify import number
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows

@@ -160,9 +160,11 @@ def test_a_command_that_is_interrupted_before_its_first_result_leaves_every_file
         [sys.executable, "-m", "hypcheck", *words],
         env=environment, cwd=files, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
-    with process:
+    try:
         said = process.stderr.readline() if words[0] in {"verify", "bench"} else wait_for_numpy(process)
         process.send_signal(signal.SIGINT)
         said += process.communicate(timeout=60)[1]
+    finally:
+        process.kill()
     assert process.returncode == 130, said
     assert contents(files) == before

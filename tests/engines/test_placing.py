@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from hypcheck import classify
 from hypcheck.engines.placing import FAMILIES, drawn, placed
-from hypcheck.kernel.classify import classify
 
 
 @pytest.mark.parametrize("name", FAMILIES)

@@ -15,7 +15,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import meshes
 from hypcheck.implementations.meshes import FCL, PAIRINGS, naive_fcl, shared_meshes
-from hypcheck.truth.mesh import verdict
+from hypcheck.truth.mesh_oracle import verdict
 from hypcheck.vectors.families import FAMILIES
 from tests.support.fractions_truth import exact_position, near_contact_rows, tangent_row
 

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hypcheck import classify
 from hypcheck.errors import InputError
 from hypcheck.implementations import description
 from hypcheck.implementations.builtin import builtin
@@ -17,7 +18,6 @@ from hypcheck.implementations.frames import KEPT, WIDTH, OutputTail, quoted, std
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome
 from hypcheck.implementations.spec import parse_spec
-from hypcheck.kernel.classify import classify
 from hypcheck.messages import escaped
 from hypcheck.runs import judge
 from tests.tools.miniatures import restarts_of, rows

@@ -12,10 +12,10 @@ import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
 from hypcheck.kernel import choice, clearance_points
-from hypcheck.truth import nearest
-from hypcheck.truth.nearest_exact import nearest as nearest_of
-from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
+from hypcheck.truth import nearest_rows
+from hypcheck.truth.nearest import nearest
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from tests.support.nearest_points import is_circle, nearest_points
 
 UPRIGHT = ("uniform", "tangent", "ring", "near-axis", "extreme-subnormal", "extreme-magnitude", "on-surface", "waist")
 LEANING = ("tilted-uniform", "tilted-tangent", "tilted-ring", "tilted-sphere")
@@ -32,7 +32,7 @@ def found(rows):
 
 
 def test_clearance_intervals_contain_the_exact_clearance_on_each_family(rows, found):
-    true = nearest.clearances(rows)
+    true = nearest_rows.clearances(rows)
     assert (found.position == true.position).all()
     assert ((found.lower <= true.clearance) & (true.clearance <= found.upper)).all()
     assert (found.upper - found.lower <= 2.0**-29 * np.maximum(1, 1 + found.lower)).all()
@@ -52,7 +52,7 @@ def test_clearance_intervals_stay_right_if_the_guess_of_the_touch_is_wrong(rows,
     choice.choice.cache_clear()
     other = hypcheck.clearance(rows[::8])
     choice.choice.cache_clear()
-    true = nearest.clearances(rows[::8]).clearance
+    true = nearest_rows.clearances(rows[::8]).clearance
     assert ((other.lower <= true) & (true <= other.upper)).all()
     assert (other.upper - other.lower <= (2.0**-30 + 2.0**-50) * np.maximum(1, 1 + other.lower)).all()
 
@@ -106,10 +106,10 @@ def test_the_exact_nearest_point_is_within_the_touch_error(rows, found):
     known = np.flatnonzero(np.isfinite(found.touch_error))
     assert len(known) > len(rows) / 2
     for k in known[::4].tolist():
-        exact = nearest_of(Pair.from_row(rows[k].tolist()))
-        if exact.circle:  # one point of it, in the half plane of the other
+        pair = Pair.from_row(rows[k].tolist())
+        if is_circle(pair):  # one point of it, in the half plane of the other
             continue
-        off = min(np.linalg.norm(np.array(point) - found.touch[k]) for point in exact.points)
+        off = min(np.linalg.norm(np.array(point) - found.touch[k]) for point in nearest_points(pair))
         assert off <= found.touch_error[k]
     assert np.median(found.touch_error[known] / np.abs(found.touch[known]).sum(axis=1)) < 1e-12
 
@@ -118,7 +118,7 @@ def test_clearance_intervals_contain_the_exact_clearance_on_tilted_families():
     rows = np.concatenate([TILTED_FAMILIES[name].rows(1, 8) for name in LEANING])
     found = hypcheck.clearance(rows)
     for k, row in enumerate(rows.tolist()):
-        true = tilted_nearest(Pair.from_row(row)).clearance
+        true = nearest(Pair.from_row(row)).clearance
         assert found.lower[k] <= true <= found.upper[k]
     assert (found.distance_lower <= found.distance_upper).all()
 

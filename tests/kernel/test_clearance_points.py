@@ -9,10 +9,10 @@ import pytest
 
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.kernel import clearance_points, numpy_kernel
-from hypcheck.truth import exact
-from hypcheck.truth.nearest_exact import nearest as nearest_of
-from hypcheck.truth.tilted.nearest import nearest as tilted_nearest
-from tests.truth.tilted.cases import phi
+from hypcheck.truth.nearest import nearest
+from tests.support import exactly
+from tests.support.nearest_points import nearest_points
+from tests.truth.tilted_cases import phi
 
 
 def drawn(count, width, seed=3):
@@ -48,7 +48,7 @@ def metric(rows):
 def test_a_leaning_touch_is_the_exact_nearest_point_within_a_small_error():
     found = clearance_points.leaning_touches(LEANING)
     for k, row in enumerate(LEANING.tolist()):
-        true = tilted_nearest(Pair.from_row(row))
+        true = nearest(Pair.from_row(row))
         assert found.factor[k] == pytest.approx(1 + true.clearance, rel=1e-12), row
     assert (off_the_surface(LEANING, found.point) < 1e-14).all()
     size = np.abs(found.point).sum(axis=1)
@@ -86,7 +86,7 @@ def test_the_multiplier_of_the_numpy_kernel_maximises_phi_or_is_next_to_a_pole()
 
 
 def gaps_of(rows, gaps, touches):
-    position = np.array([exact.position(Lengths.of(row if len(row) == 10 else [*row, 0, 0, 1])) for row in rows])
+    position = np.array([exactly.position(Lengths.of(row if len(row) == 10 else [*row, 0, 0, 1])) for row in rows])
     clear = np.flatnonzero(position)
     rows, position = rows[clear], position[clear].astype(np.int8)
     return rows, position, gaps(rows, position, touches(rows).point)
@@ -160,7 +160,7 @@ def test_the_error_of_an_upright_touch_holds_for_a_multiplier_that_is_wrong(wron
 
 
 def nearest_off(row, point):
-    return min(np.linalg.norm(np.array(each) - point) for each in nearest_of(Pair.from_row(row)).points)
+    return min(np.linalg.norm(np.array(each) - point) for each in nearest_points(Pair.from_row(row)))
 
 
 @pytest.mark.parametrize("wrong", [1e-9, 1e-6, -1e-3, 0.2, 40.0, -2.0])

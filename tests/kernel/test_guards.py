@@ -14,9 +14,9 @@ from hypcheck.geometry.pair import Lengths, Pair, Position, to_integers
 from hypcheck.kernel import integers, scene_lines
 from hypcheck.kernel.programs import certified, lines, tilted
 from hypcheck.kernel.programs.integers import FLOAT64_BITS
-from hypcheck.truth import exact
 from tests.kernel import program_rules
 from tests.kernel.compiling import STRICT, needs_compiler, program
+from tests.support import exactly
 
 GREATEST = Fraction(sys.float_info.max)
 LEAST_NORMAL = Fraction(sys.float_info.min)
@@ -137,7 +137,7 @@ def position_at(sizes: tuple[float, ...], R: Fraction, z: Fraction, *, above: bo
     x = (root + Fraction(1, 2**119)) if above else root * (1 - Fraction(1, 2**100))
     alpha, gamma, b, d = map(Fraction, sizes)
     radial, axial = to_integers((alpha, b, x)), to_integers((gamma, d, z))
-    return exact.position(Lengths(*radial, 0, *axial))
+    return exactly.position(Lengths(*radial, 0, *axial))
 
 
 @pytest.mark.thorough

@@ -9,7 +9,7 @@ import pytest
 
 from hypcheck.kernel import numpy_kernel, scene_lines
 from hypcheck.kernel.numpy_kernel import Buffers, chunks
-from hypcheck.truth import float_filter
+from tests.support import exactly
 
 
 @pytest.mark.thorough
@@ -21,7 +21,7 @@ def test_the_numpy_kernel_is_exact_for_heights_and_sizes_without_lines():
         rows = np.column_stack([*(np.full(len(x), size) for size in sizes), x, y, z])
         rows[:, 4:] *= sizes[2]
         columns = np.ascontiguousarray(rows[:, 4:].T)
-        assert (numpy_kernel.positions_of_scene(sizes, *columns) == float_filter.positions(rows)).all()
+        assert (numpy_kernel.positions_of_scene(sizes, *columns) == exactly.positions(rows)).all()
 
 
 SCENES = [
@@ -43,7 +43,7 @@ def test_lines_of_the_numpy_kernel_decide_most_centres_near_the_surface_and_none
     away, angle = draw.uniform(-3, 3, count) * b, draw.uniform(0, 6.28, count)
     r = alpha * np.sqrt(1 + (z / gamma) ** 2) + away
     columns = r * np.cos(angle), r * np.sin(angle), z
-    truth = float_filter.positions(np.column_stack([np.tile(sizes, (count, 1)), *columns]))
+    truth = exactly.positions(np.column_stack([np.tile(sizes, (count, 1)), *columns]))
     lines = scene_lines.lines_of(sizes, z)
     numbers = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
     for ask, constants, buffers, shares in (

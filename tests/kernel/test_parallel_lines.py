@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.kernel import numpy_kernel, scene_lines
-from hypcheck.truth import float_filter
+from tests.support import exactly
 from tests.tools.attack.places import Scene, sizes
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
@@ -64,7 +64,7 @@ def wrong(scene: Scene) -> int:
         part = slice(start, start + 1024)
         rest = numpy_kernel.by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
         answers[start + rest] = 99
-    return int(((answers != 99) & (answers != float_filter.positions(scene.rows))).sum())
+    return int(((answers != 99) & (answers != exactly.positions(scene.rows))).sum())
 
 
 SCENES = [TOWER, *(tuple(some) for some in sizes(np.random.default_rng(2), 60).tolist())]
@@ -76,8 +76,7 @@ def test_parallel_lines_decide_no_centre_near_contact_wrongly():
     assert [wrong(scene) for scene in near()] == [0] * 10
     for scene in near()[:4]:
         assert (
-            numpy_kernel.positions_of_scene(scene.sizes, scene.x, scene.y, scene.z)
-            == float_filter.positions(scene.rows)
+            numpy_kernel.positions_of_scene(scene.sizes, scene.x, scene.y, scene.z) == exactly.positions(scene.rows)
         ).all()
 
 
@@ -113,7 +112,7 @@ def test_a_centre_beyond_single_precision_is_answered_exactly_by_later_stages(co
     rows = np.column_stack([np.tile(TOWER, (len(tower[0]), 1)), *tower])
     expected = np.full(len(rows), 127)
     valid = np.isfinite(rows).all(axis=1)
-    expected[valid] = float_filter.positions(rows[valid])
+    expected[valid] = exactly.positions(rows[valid])
     assert (numpy_kernel.positions_of_scene(TOWER, *tower) == expected).all()
 
 

@@ -15,7 +15,7 @@ from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_pairs import position_beside, positions_beside
 from hypcheck.scene import model
 from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, Span
-from hypcheck.truth import exact
+from tests.support import exactly
 
 
 def truth_about(body, mover, centre):
@@ -23,7 +23,7 @@ def truth_about(body, mover, centre):
     offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
     radial = integers(body.alpha, mover.b, *offset[:2])
     axial = integers(body.gamma, mover.d, offset[2])
-    return exact.position(Lengths(*radial, *axial))
+    return exactly.position(Lengths(*radial, *axial))
 
 
 def integers(*values):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from dataclasses import replace
 from fractions import Fraction
@@ -243,9 +244,81 @@ def test_axes_of_a_scene_made_in_python_must_have_a_direction():
             scene.position(1.0, 2.0, 3.0)
 
 
-def test_a_leaning_mover_with_parts_is_refused():
-    mover = Mover(1.0, 1.0, (MoverPart(0.1, 0.1, 0.1),), (1.0, 0.0, 1.0))
-    with pytest.raises(
-        InputError, match="the mover leans and has parts, whose places are known only where it is upright"
-    ):
-        Scene(replace(FREELY, mover=mover))
+def turned_places(parts, centre, heading, axis):
+    """Where the parts of a mover stand that is turned about e_z × v, by Rodrigues' formula."""
+    v = np.array(axis, dtype=float) * (-1 if axis[2] < 0 else 1)
+    v /= np.linalg.norm(v)
+    line = np.cross((0.0, 0.0, 1.0), v)
+    sine, cosine = np.linalg.norm(line), v[2]
+    line = line / sine if sine else line
+    for part in parts:
+        turn = math.radians(heading + part.angle)
+        arm = part.arm * np.array([math.cos(turn), math.sin(turn), 0.0])
+        yield centre + arm * cosine + np.cross(line, arm) * sine + line * (line @ arm) * (1 - cosine)
+
+
+def truth_with_parts(scene, centre, heading, axis):
+    """The same of a mover with parts: where it has contact, they are asked, and agree or are in contact."""
+    found = set()
+    for body in scene.hyperboloids:
+        said = truth_beside(body, scene.mover, axis, centre)
+        if said == CONTACT:
+            endless = replace(body, height=None)
+            places = turned_places(scene.mover.parts, np.array(centre), heading, axis)
+            parts = {
+                truth_beside(endless, part, axis, place.tolist())
+                for part, place in zip(scene.mover.parts, places, strict=True)
+            }
+            said = parts.pop() if len(parts) == 1 else CONTACT
+        found.add(said)
+    return next((each for each in (CONTACT, INTERIOR, EXTERIOR) if each in found), SILENT)
+
+
+ROTORS = tuple(MoverPart(0.2, 0.1, 0.6, angle) for angle in (45.0, 135.0, 225.0, 315.0))
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("axis", [FREE, (1.0, 0.0, 2.0), (0.0, -3.0, -1.0), (2.0, 1.0, 0.0)])
+def test_parts_of_a_mover_that_leans_are_turned_with_it(axis, seed):
+    draw = random.Random(seed)  # noqa: S311 - nothing is secret
+    model = replace(leaning_forest(3, seed), question="position", mover=Mover(1.0, 0.5, ROTORS, axis))
+    scene, said = Scene(model), set()
+    for _ in range(60):
+        centre = tuple(draw.uniform(-4, 4) for _ in range(3))
+        heading, direct = draw.uniform(-180, 180), axis if axis != FREE else direction(draw)
+        given = {"axis": direct} if axis == FREE else {}
+        expected = truth_with_parts(model, centre, heading, direct)
+        assert scene.position(*centre, heading, **given) == expected, (centre, heading, direct)
+        assert scene.classify(*centre, heading, **given).tolist() == [expected]
+        said.add(expected)
+    assert len(said) > 1
+
+
+def test_a_ring_of_parts_that_leans_lets_a_tree_through_where_the_upright_one_does_not():
+    tree = Hyperboloid("tree", 0.25, 4.0, (0.5, 0.0, 0.0))
+    upright, pitched = (
+        Scene(SceneModel("s", "position", (tree,), Mover(1.0, 0.5, (MoverPart(0.3, 0.2, 0.6),), axis)))
+        for axis in (UPRIGHT, (1.0, 0.0, 0.0))
+    )
+    centre = (-0.2, 0.0, 0.0)  # the part is at the tree, or turned down by 90 degrees beside it
+    assert upright.position(*centre) == CONTACT
+    assert pitched.position(*centre) == EXTERIOR
+    assert pitched.passage(centre, (-0.3, 0.0, 0.0)).tolist() == [0]
+    assert pitched.passage(centre, (0.3, 0.0, 0.0)).tolist() == [1]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_way_of_a_mover_that_leans_and_has_parts_hits_where_one_of_its_times_does(seed):
+    draw = random.Random(seed)  # noqa: S311 - nothing is secret
+    bodies = [body for body in leaning_forest(8, seed).hyperboloids if body.axis[0] == body.axis[1] == 0]
+    model = SceneModel("s", "position", tuple(bodies), Mover(1.0, 0.5, ROTORS, (1.0, 2.0, 3.0)))
+    scene, hits = Scene(model), []
+    for _ in range(40):
+        start, end = (tuple(draw.uniform(-4, 4) for _ in range(3)) for _ in range(2))
+        heading = draw.uniform(-180, 180)
+        hits.append(scene.passage(start, end, heading).tolist()[0])
+        times = np.linspace(0, 1, 60)[:, None]
+        x, y, z = (np.array(start) + times * (np.array(end) - np.array(start))).T
+        touched = (scene.classify(x, y, z, heading) == CONTACT).any()
+        assert hits[-1] == 1 or not touched
+    assert set(hits) == {0, 1}

@@ -84,11 +84,63 @@ def test_scene_nearest_finds_the_nearest_of_trees_with_limited_heights():
         assert np.allclose(found.distance_upper[same], one.distance_upper[same], rtol=0, atol=1e-9)
 
 
-def test_scene_nearest_refuses_leaning_hyperboloids_free_axes_and_invalid_centres():
-    with pytest.raises(InputError, match="leaves the mover's axis free; the nearest is found where"):
-        scene(Hyperboloid("a", 1, 1), mover=Mover(1, 2, (), "free")).nearest(0, 0, 0)
-    with pytest.raises(InputError, match="'a' leans; the nearest is found only beside upright"):
-        scene(Hyperboloid("a", 1, 1, axis=(1, 0, 1))).nearest(0, 0, 0)
+def rotation(rng):
+    """A rotation of space, the more usual ones among all."""
+    q, r = np.linalg.qr(rng.normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+@pytest.mark.parametrize("height", [None, Span(-0.5, 4.0)])
+@pytest.mark.parametrize("number", range(4))
+def test_scene_nearest_of_a_turned_scene_is_the_turned_nearest(number, height):
+    rng = np.random.default_rng(100 + number)
+    turn, trees = rotation(rng), forest(height)[:12]
+    leaning = [
+        Hyperboloid(t.name, t.alpha, t.gamma, tuple((turn @ t.center).tolist()), height, tuple(turn[:, 2].tolist()))
+        for t in trees
+    ]
+    centres = rng.uniform((-20, -20, -3), (20, 20, 6), (60, 3))
+    before = scene(*trees).nearest(*centres.T)
+    fixed = scene(*leaning, mover=Mover(0.3, 0.2, axis=tuple(turn[:, 2].tolist())))
+    free = scene(*leaning, mover=Mover(0.3, 0.2, axis="free"))
+    for after in (
+        fixed.nearest(*(centres @ turn.T).T),
+        free.nearest(*(centres @ turn.T).T, axis=np.tile(turn[:, 2], (60, 1))),
+        free.nearest(*(centres @ turn.T).T, axis=-3 * turn[:, 2]),
+    ):
+        assert np.allclose(after.distance_upper, before.distance_upper, rtol=0, atol=1e-9)
+        assert np.allclose(after.distance_lower, before.distance_lower, rtol=0, atol=1e-9)
+        same = ~before.tied & ~after.tied & (before.distance_lower > 0)
+        assert same.sum() > 40
+        assert (after.index[same] == before.index[same]).all()
+        if height is None:
+            assert np.allclose(after.point[same], before.point[same] @ turn.T, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("number", range(3))
+def test_scene_nearest_is_0_beside_a_leaning_hyperboloid_exactly_where_position_is_contact(number):
+    rng = np.random.default_rng(number)
+    bodies = [Hyperboloid("a", 0.5, 2.0, (0, 0, 0), None, (1, 2, 4)), Hyperboloid("b", 0.4, 1.0, (2, 0, 1))]
+    both = scene(*bodies, mover=Mover(0.5, 0.25, axis="free"))
+    x, y, z = rng.uniform(-3, 3, (3, 300))
+    axes = rng.normal(size=(300, 3))
+    found, said = both.nearest(x, y, z, axis=axes), both.classify(x, y, z, axis=axes)
+    assert ((found.distance_upper == 0) == (said == 0)).all()
+    assert 10 < (said == 0).sum() < 290
+    apart = said != 0
+    assert (found.distance_lower <= found.distance_upper).all()
+    assert (found.distance_upper[apart] - found.distance_lower[apart] < 1e-9).all()
+
+
+def test_scene_nearest_refuses_an_axis_that_is_missing_or_not_asked_for_and_invalid_centres():
+    free = scene(Hyperboloid("a", 1, 1), mover=Mover(1, 2, (), "free"))
+    with pytest.raises(InputError, match="no axis is given, and the scene leaves the mover's free"):
+        free.nearest(0, 0, 0)
+    with pytest.raises(InputError, match="row 0: axis_x, axis_y, axis_z are 0, 0, 0"):
+        free.nearest(0, 0, 0, axis=(0, 0, 0))
+    with pytest.raises(InputError, match="axis is given, and the scene fixes the mover's"):
+        scene(Hyperboloid("a", 1, 1)).nearest(0, 0, 0, axis=(0, 0, 1))
     with pytest.raises(InputError, match="row 1: y is nan"):
         scene(Hyperboloid("a", 1, 1)).nearest(0, [0, np.nan], 0)
 

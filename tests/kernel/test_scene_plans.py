@@ -16,7 +16,7 @@ from hypcheck.kernel.specialise.plan import decided_by, far_corner, plan_of
 from hypcheck.kernel.specialise.settings import centres, settings_of
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
-from hypcheck.truth import float_filter
+from tests.support import exactly
 from tests.support.scenes import scene
 
 
@@ -127,7 +127,7 @@ def test_lines_of_a_plan_leave_contact_and_the_centre_s_side_answers_a_one_sided
     for question in ("position", "exterior", "interior"):
         (stages,) = plan_of(scene(question=question)).settings
         rows = sample(stages.setting)
-        contact = (float_filter.positions(rows) == 0).mean()
+        contact = (exactly.positions(rows) == 0).mean()
         outside = (rows[:, 4] ** 2 + rows[:, 5] ** 2 > 4 * (1 + (rows[:, 6] / 17.8) ** 2)).mean()
         if question == "position":
             assert stages.shares["lines"] <= 1 - contact

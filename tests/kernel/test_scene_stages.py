@@ -18,9 +18,9 @@ from hypcheck.kernel.specialise.first_stages import entry, line_at, thresholds
 from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant, search, search_begin
 from hypcheck.kernel.specialise.settings import FORMATS, Box, ScaledSetting, Setting, position_of_box, scaled
 from hypcheck.scene.model import Span
-from hypcheck.truth import exact, float_filter
 from hypcheck.truth.pencil import cubic
 from hypcheck.vectors.fixed_sizes import families_for
+from tests.support import exactly
 
 SIZES = [
     (2.0, 17.8, 0.25, 0.15),
@@ -50,7 +50,7 @@ def test_a_centre_beyond_a_line_has_the_position_that_the_line_proves(sizes, pre
     rows = rows[representable(rows, precision)]
     scale, _, _, values = at_entry(sizes, form, rows)
     told = 0
-    truth = float_filter.positions(rows)
+    truth = exactly.positions(rows)
     for share in (Fraction(1, 64), Fraction(1, 3), Fraction(7, 8)):
         for pole in (-scale.A, scale.B):
             line = line_at(pole * share, scale, form, 1)
@@ -114,7 +114,7 @@ def test_thresholds_of_a_stage_separate_the_exact_positions(sizes, height):
     radial = float(scaled(sizes, form).radial)
 
     def position(square):
-        return exact.position(Pair(*sizes, square**0.5 / radial, 0.0, height).lengths)
+        return exactly.position(Pair(*sizes, square**0.5 / radial, 0.0, height).lengths)
 
     assert position(found.outer * (1 + 1e-14)) is Position.EXTERIOR
     assert position(found.outer * (1 - 1e-14)) is Position.CONTACT

@@ -24,11 +24,11 @@ from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.implementations.method import by_rows
 from hypcheck.report import contents, html
 from hypcheck.report.document import Code
-from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.nearest_exact import nearest
+from hypcheck.truth.nearest import nearest
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES
+from tests.support import exactly
 
 FEW = 400
 ROWS = int(os.environ.get("HYPCHECK_EXPLORER", FEW))
@@ -86,7 +86,7 @@ def test_exact_answers_of_the_explorer_equal_those_of_classify(found):
 def test_explorer_agrees_with_the_exact_decision_on_tangencies_and_the_ring(found):
     seen = set()
     for row, each in found:
-        decision = exact.decide(Pair.from_row(row).lengths)
+        decision = exactly.decide(Pair.from_row(row).lengths)
         assert (each["tangent"], each["ring"]) == (decision.tangent, decision.kind is Kind.EXTERIOR_RING), row
         seen.add((each["tangent"], each["ring"]))
     assert len(seen) == 3

@@ -5,13 +5,12 @@ from importlib import resources
 import numpy as np
 import pytest
 
-from hypcheck import toml
+from hypcheck import classify, toml
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.description import EVERYWHERE
 from hypcheck.implementations.session import Answered
-from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import SILENT, Asked, Standing
 from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase

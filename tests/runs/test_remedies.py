@@ -11,8 +11,8 @@ from itertools import combinations, product
 import numpy as np
 import pytest
 
+from hypcheck import classify
 from hypcheck.geometry.pair import trouble_with_row
-from hypcheck.kernel.classify import classify
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.vectors.frozen import load
 from tests.support.remedies import EVERYWHERE, TABLE_2, applied, mended, positions

@@ -25,6 +25,9 @@ MORE = ["--count", "6", "--families", "ring,tangent,tower-body"]
 PROVED = Proof("hessian", "delta", True, "as if it had been proved")
 
 
+EVERY = ("exact", "nearest", "roots", "heights", "mesh")
+
+
 def checked(oracles=("exact", "nearest", "roots"), proof=PROVED, **parts):
     """The exit code and the lines of a small run whose derivation is over at once, without the map and the timing.
 
@@ -39,10 +42,10 @@ def checked(oracles=("exact", "nearest", "roots"), proof=PROVED, **parts):
 
 
 def test_undisturbed_small_run_ends_with_0():
-    assert checked(("exact", "nearest", "roots", "mesh"))[0] == 0
+    assert checked(EVERY)[0] == 0
 
 
-@pytest.mark.parametrize("name", ["exact", "nearest", "roots", "mesh"])
+@pytest.mark.parametrize("name", EVERY)
 def test_wrong_oracle_ends_the_run_with_6_and_its_case_is_recorded(monkeypatch, name):
     """The oracle says contact for exterior cases."""
     right = oracles.ORACLES[name]
@@ -55,7 +58,7 @@ def test_wrong_oracle_ends_the_run_with_6_and_its_case_is_recorded(monkeypatch, 
         ]
 
     monkeypatch.setitem(oracles.ORACLES, name, replace(right, ask=lying))
-    code, lines = checked(("exact", "nearest", "roots", "mesh") if name == "mesh" else ("exact", "nearest", "roots"))
+    code, lines = checked(EVERY if name == "mesh" else EVERY[:-1])
     assert code == 6
     disagreeing = [line for line in lines if isinstance(line, OracleLine) and line.disagreeing]
     assert {line.oracle for line in disagreeing} == {name}
@@ -81,7 +84,7 @@ def test_wrong_exact_method_ends_the_run_with_1(monkeypatch):
     methods = builtin.builtin_methods()
     wrong = replace(methods["fast"], answer=lambda rows: np.zeros(len(rows), dtype=np.int8))
     monkeypatch.setitem(methods, "fast", wrong)
-    assert checked(("exact", "nearest", "roots", "mesh"))[0] == 1
+    assert checked(EVERY)[0] == 1
 
 
 def test_unknown_finding_ends_the_run_with_1():
@@ -105,7 +108,7 @@ def test_same_seed_gives_the_same_record_except_for_times(tmp_path, text_reports
         files = {path.name for path in folder.iterdir()}
         assert files >= {"record.jsonl", "summary.json", "report.md", "junit.xml"}
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        assert set(summary["oracles"]) == {"exact", "nearest", "roots", "mesh"}
+        assert set(summary["oracles"]) == set(EVERY)
         record = read(folder / "record.jsonl")
         assert summary["exit_code"] == record.footer.exit_code == 0
         return [

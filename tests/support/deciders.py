@@ -27,11 +27,10 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
 from hypcheck.kernel import integers, numpy_kernel, scalar, tilted_integers
 from hypcheck.runs.oracles import ORACLES
-from hypcheck.truth import float_filter
 from hypcheck.truth.swept import by_roots, journey_of
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
-from tests.support import checkers, fractions_truth, tilted_fractions
+from tests.support import checkers, exactly, fractions_truth, tilted_fractions
 from tests.support.corpus import Questions
 
 CANNOT_SAY, REFUSED = 2, 127
@@ -201,7 +200,7 @@ def of_oracle(name: str, questions: Questions) -> list[int]:
 
 
 def of_float_filter(questions: Questions) -> list[int]:
-    return float_filter.positions(np.ascontiguousarray(questions.rows)).tolist()
+    return exactly.positions(np.ascontiguousarray(questions.rows)).tolist()
 
 
 def of_discriminant(questions: Questions) -> Times:
@@ -357,6 +356,7 @@ DECIDERS = (
     Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=3, refuses=False),
     Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=3, refuses=False),
     Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=3, refuses=False),
+    Decider("oracle: heights", partial(of_oracle, "heights"), takes=UPRIGHT, refuses=False),
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),

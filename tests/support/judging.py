@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.runs import judge
-from hypcheck.truth import exact
-from hypcheck.truth.tilted.backward_error import quick_bracket
+from hypcheck.truth.backward_error import quick_bracket
+from tests.support import exactly
 
 
 def wrong_cases(rows, truth, answers, criterion) -> list[judge.WrongCase]:
@@ -18,5 +18,6 @@ def wrong_cases(rows, truth, answers, criterion) -> list[judge.WrongCase]:
 
 def ends_of(row, answer) -> tuple[float, float]:
     """Two ends between which the backward error of a position is proved to lie."""
-    found = quick_bracket(row, exact.decide(Lengths.of(row)), Position(answer))
-    return found.lower, found.upper
+    pair = Pair.from_row(row)
+    ends = quick_bracket(pair, exactly.decide(pair.lengths), Position(answer))
+    return ends.lower, ends.upper

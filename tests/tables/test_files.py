@@ -49,16 +49,16 @@ def test_classify_writes_no_output_and_ends_with_6_if_oracles_disagree(tmp_path,
 
 
 def test_tangency_that_only_one_oracle_finds_is_a_disagreement(tmp_path, source, monkeypatch, capsys):
-    from hypcheck.truth import nearest
+    from hypcheck.truth import nearest_rows
 
-    right = nearest.clearances
+    right = nearest_rows.clearances
 
     def wrong(rows):
         found = right(rows)
         found.clearance[:] = 0.0
         return found
 
-    monkeypatch.setattr(nearest, "clearances", wrong)
+    monkeypatch.setattr(nearest_rows, "clearances", wrong)
     assert classify(source, tmp_path / "out.csv") == 6
     assert os.listdir(tmp_path) == ["in.csv"]
 

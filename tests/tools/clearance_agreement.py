@@ -20,9 +20,9 @@ import numpy as np
 
 from hypcheck import clearance
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import nearest
-from hypcheck.truth.nearest_exact import nearest as nearest_of
+from hypcheck.truth import nearest_rows
 from hypcheck.vectors.families import FAMILIES
+from tests.support.nearest_points import is_circle, nearest_points
 
 CHUNK = 20_000
 
@@ -46,15 +46,15 @@ def drawn(seed: int, count: int) -> Iterator[np.ndarray]:
 
 def faults(rows: np.ndarray, said, points: int) -> Iterator[str]:
     """What `said` gets wrong, in sentences; of each `points`-th row the place of touch too."""
-    true = nearest.clearances(rows)
+    true = nearest_rows.clearances(rows)
     wrong = ~((said.lower <= true.clearance) & (true.clearance <= said.upper)) | (said.position != true.position)
     for k in np.flatnonzero(wrong).tolist():
         yield f"{rows[k].tolist()}: {true.clearance[k]!r} is not from {said.lower[k]!r} to {said.upper[k]!r}"
     for k in range(0, len(rows), points):
-        exact = nearest_of(Pair.from_row(rows[k].tolist()))
-        if exact.circle or not np.isfinite(said.touch_error[k]):
+        pair = Pair.from_row(rows[k].tolist())
+        if is_circle(pair) or not np.isfinite(said.touch_error[k]):
             continue
-        off = min(math.dist(point, said.touch[k]) for point in exact.points)
+        off = min(math.dist(point, said.touch[k]) for point in nearest_points(pair))
         if not off <= said.touch_error[k]:
             yield f"{rows[k].tolist()}: the touch is {off!r} away, not {said.touch_error[k]!r} at most"
 

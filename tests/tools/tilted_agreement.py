@@ -18,7 +18,7 @@ import time
 from collections import Counter
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact
+from tests.support import exactly
 
 ORACLES = ("nearest", "roots", "mesh")
 
@@ -134,7 +134,7 @@ def main(arguments=None):
     for family, row in rows(options.families.split(","), options.rows, options.seed):
         pair = Pair.from_row(row)
         start = time.process_time()
-        expected = exact.position(pair.lengths)
+        expected = exactly.position(pair.lengths)
         middle = time.process_time()
         found = oracle.position(pair)
         spent["exact"] += middle - start

@@ -8,7 +8,7 @@ import numpy as np
 from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth.nearest_exact import nearest
+from hypcheck.truth.nearest import nearest
 
 
 def reference(row):

@@ -11,15 +11,18 @@ from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact
-from hypcheck.truth.backward_error import backward_error, backward_error_exponent, corner, makes_right
+from hypcheck.truth.backward_error import exponent, quick_bracket, tolerated
+from hypcheck.truth.changes import corner
 from tests.support.pairs import grid_pairs, ordinary_pairs, pairs
 
 POSITIONS = st.sampled_from(list(Position))
 
 
 def error(row: tuple[float, ...], answer: Position) -> float:
-    lengths = Pair.from_row(row).lengths
-    return backward_error(lengths, exact.decide(lengths), answer)
+    pair = Pair.from_row(row)
+    ends = quick_bracket(pair, exact.decide(pair.lengths), answer)
+    assert ends.lower == ends.upper
+    return ends.upper
 
 
 @pytest.mark.parametrize(
@@ -42,20 +45,18 @@ def test_backward_errors_equal_values_worked_out_by_hand(row, answer, expected, 
 @pytest.mark.slow
 @given(pairs, POSITIONS)
 def test_changing_lengths_by_the_backward_error_makes_the_answer_right(pair, answer):
-    lengths = pair.lengths
-    truth = exact.decide(lengths)
-    found = backward_error(lengths, truth, answer)
+    truth = exact.decide(pair.lengths)
+    found = quick_bracket(pair, truth, answer).upper
     assume(0 < found < 1 and found > 1e-300)
-    assert makes_right(lengths, truth.position, answer, Fraction(found))
-    assert not makes_right(lengths, truth.position, answer, Fraction(found) * Fraction(9999, 10000))
+    assert tolerated(pair, truth, [answer], Fraction(found))
+    assert not tolerated(pair, truth, [answer], Fraction(found) * Fraction(9999, 10000))
 
 
 @given(grid_pairs, POSITIONS)
 def test_exponent_of_the_backward_error_is_the_floor_of_its_logarithm(pair, answer):
-    lengths = pair.lengths
-    truth = exact.decide(lengths)
-    octave = backward_error_exponent(lengths, truth, answer)
-    found = backward_error(lengths, truth, answer)
+    truth = exact.decide(pair.lengths)
+    octave = exponent(pair, truth, answer)
+    found = quick_bracket(pair, truth, answer).upper
     if not math.isfinite(octave):
         assert found == (0 if octave < 0 else math.inf)
     else:

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth.mesh import MeshOutcome, availability, verdict
+from hypcheck.truth.mesh import MeshOutcome, availability
+from hypcheck.truth.mesh_oracle import verdict
 from tests.support.fractions_truth import (
     everyday,
     exact_position,

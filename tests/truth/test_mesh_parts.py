@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import mesh
-from hypcheck.truth.mesh import REACH, UNIT, meridian_of, window_of
+from hypcheck.truth import mesh_meridian
+from hypcheck.truth.mesh_meridian import REACH, UNIT, meridian_of, window_of
 from tests.support.fractions_truth import everyday, rows_of
 
 
@@ -48,4 +48,4 @@ def test_window_of_the_meridian_holds_every_point_within_reach(row, share):
     ],
 )
 def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
-    assert mesh._nearest_on(*ends) == nearest
+    assert mesh_meridian._nearest_on(*ends) == nearest

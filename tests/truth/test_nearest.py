@@ -16,8 +16,10 @@ from mpmath import mp, mpf
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import invalid
-from hypcheck.truth.nearest import clearances, positions
-from hypcheck.truth.nearest_exact import STAGES, NearestStage, SquaredLengths, nearest, tangency
+from hypcheck.truth.dual import Dual
+from hypcheck.truth.nearest import NearestStage, nearest
+from hypcheck.truth.nearest_rows import clearances, positions
+from tests.support.nearest_points import nearest_points
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference, ulps
 
 
@@ -35,15 +37,15 @@ def check(row):
     assert ulps(found.clearance, truth) <= (1 if abs(found.clearance) == 5e-324 else 0.5000001), (row, found, truth)
     assert (found.clearance > 0) == (truth > 0)
     assert found.position == (side(row) if truth > 0 else 0)
-    assert found.stage in STAGES[NearestStage.PRECISE :]
+    assert found.stage in (NearestStage.PRECISE, NearestStage.EXACT)
+    points = nearest_points(Pair.from_row(row))
     with mp.workprec(20000):
         x, y, z = (mpf(value) for value in row[4:])
         r = mp.sqrt(x * x + y * y)
         across = (rho * x / r, rho * y / r) if r else (rho, mpf(0))
         heights = (zeta, -zeta) if z == 0 and zeta != 0 else (mp.sign(z) * zeta,)
-        assert found.circle is (r == 0)
-        assert len(found.points) == len(heights)
-        for point, height in zip(found.points, heights, strict=True):
+        assert len(points) == len(heights)
+        for point, height in zip(points, heights, strict=True):
             assert all(ulps(abs(value), abs(true)) <= 1 for value, true in zip(point, (*across, height), strict=True))
     return found
 
@@ -125,7 +127,7 @@ def test_a_clearance_too_small_for_float64_keeps_its_sign(hair):
 def test_a_clearance_too_large_for_float64_is_inf():
     found = nearest(Pair(1, 1, 1e-300, 1e-300, 1e300, 0, 0))
     assert (found.clearance, found.position) == (math.inf, Position.EXTERIOR)
-    assert found.points[0] == (5e299, 0, 5e299)
+    assert nearest_points(Pair(1, 1, 1e-300, 1e-300, 1e300, 0, 0))[0] == (5e299, 0, 5e299)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -141,7 +143,7 @@ def test_spheroid_centred_on_the_axis_has_a_circle_of_nearest_points(alpha, gamm
     A, B, Q = Fraction(alpha, b) ** 2, Fraction(gamma, d) ** 2, Fraction(z, d) ** 2
     assert found.clearance == pytest.approx(math.sqrt(A + A * Q / (A + B)) - 1, rel=1e-12, abs=1e-15)
     assert (found.clearance == 0) is (A + A * Q / (A + B) == 1)
-    assert (found.circle, found.stage, found.multiplier) == (True, "exact", -float(A))
+    assert (found.stage, found.multiplier) == (NearestStage.EXACT, -A)
 
 
 @given(*[st.integers(1, 12)] * 4, st.integers(0, 100), st.integers(0, 100))
@@ -156,17 +158,18 @@ def test_spheroid_centred_in_the_waist_plane_has_one_or_two_nearest_points(alpha
         return
     if A * P > (A + B) ** 2:
         squared = B * (P - A - B) / (A + B)
-        assert (found.stage, len(found.points), found.multiplier) == ("exact", 2, float(B))
+        assert (found.stage, found.multiplier) == (NearestStage.EXACT, B)
+        assert len(nearest_points(Pair(*row))) == 2
         assert (found.clearance == 0) is (squared == 1)
     else:
-        assert len(found.points) == 1
+        assert len(nearest_points(Pair(*row))) == 1
         assert (found.clearance == 0) is (P == (a + 1) ** 2 or (a >= 1 and P == (a - 1) ** 2))
 
 
 def test_tangency_is_not_claimed_for_a_multiplier_beside_the_maximum():
     """Here g has three roots, the middle one halfway, at λ = −1: D = 1 there, but it rises further towards −A."""
     pair = Pair(3, 1, 2, 2, 0, 0, 0)
-    assert tangency(SquaredLengths.of(pair)) is None
+    assert not Dual.of(pair.lengths).touches(Fraction(-1))
     assert nearest(pair).clearance == 0.5
 
 
@@ -212,12 +215,11 @@ def test_clearances_at_rational_tangents_and_beside_them_are_right(triple, k, v,
     found = nearest(Pair(*row))
     if not nearest_there:
         assert found.clearance < step
-        assert step != 0 or tangency(SquaredLengths.of(Pair(*row))) is None
         return
     assert found.clearance == float(step)
     assert (found.clearance == 0) is (step == 0)
     assert found.position == (sign if step > 0 else 0)
-    assert (found.stage == "exact") or step != 0
+    assert (found.stage is NearestStage.EXACT) or step != 0
     batch = clearances(np.array([row], float))
     assert (batch.clearance[0], batch.position[0]) == (found.clearance, found.position)
 
@@ -270,7 +272,7 @@ def test_nearest_oracle_returns_nothing_for_no_rows_and_refuses_invalid_rows():
 
 def test_nearest_of_one_pair_loads_no_numpy():
     script = (
-        "import sys; from hypcheck.geometry.pair import Pair; from hypcheck.truth.nearest_exact import nearest;"
+        "import sys; from hypcheck.geometry.pair import Pair; from hypcheck.truth.nearest import nearest;"
         "nearest(Pair(1, 2, 1, 1, 2.5, 0, 0)); sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0

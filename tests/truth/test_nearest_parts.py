@@ -9,9 +9,11 @@ from fractions import Fraction
 import mpmath
 import pytest
 
-from hypcheck.geometry.pair import Pair
-from hypcheck.truth import nearest_exact
-from hypcheck.truth.nearest_exact import Enclosure, SquaredLengths, dual, ratio
+from hypcheck.geometry.pair import Lengths, Pair, to_integers
+from hypcheck.truth import dual as dual_of
+from hypcheck.truth import nearest
+from hypcheck.truth.dual import Dual
+from hypcheck.truth.nearest import Enclosure, ratio
 
 LEAST = math.ulp(0.0)
 
@@ -53,47 +55,79 @@ APART = (4.0, 4.0, 1e-310, 1.0, 4.0, 0.1, 1e10)
 """The spheroid is a needle: A is 1e621, B is 16, and the centre is a little outside the evolute."""
 
 
-def rows(count, decades, dice):
-    return [tuple(10 ** dice.uniform(-decades, decades) for _ in range(7)) for _ in range(count)]
+def rows(count, decades, dice, numbers=7):
+    return [tuple(10 ** dice.uniform(-decades, decades) for _ in range(numbers)) for _ in range(count)]
 
 
-def test_newton_start_lies_next_to_the_maximum_by_exact_evaluation():
-    """Where the slope of the dual changes its sign, within a relative 2⁻⁴⁸ of the pole's distance on both sides."""
+def duals():
     dice = random.Random(6)  # noqa: S311
-    for row in (APART, *rows(60, 1, dice), *rows(30, 100, dice)):
-        squares = SquaredLengths.of(Pair.from_row(row))
-        at_A, mantissa, exponent = nearest_exact.start(squares)
-        pole = Fraction(mantissa) * Fraction(2) ** exponent
-        slopes = []
-        for factor in (1 - Fraction(1, 2**48), 1 + Fraction(1, 2**48)):
-            length = pole * factor
-            at = length - Fraction(squares.alpha, squares.b) if at_A else Fraction(squares.gamma, squares.d) - length
-            slopes.append(dual(squares, at.numerator, at.denominator).slope)
-        assert slopes[0] > 0 > slopes[1] if at_A else slopes[0] < 0 < slopes[1], row
+    some = (APART, *rows(60, 1, dice), *rows(30, 100, dice), *rows(60, 1, dice, 10), *rows(10, 100, dice, 10))
+    return [(row, Dual.of(Pair.from_row(row).lengths)) for row in some]
 
 
-@pytest.mark.parametrize("sizes", [(3, 5, 2, 7), (1, 1, 1, 1), (9, 2, 4, 5), (2, 10, 3, 1)])
-@pytest.mark.parametrize("K", [1, 3, 10])
-def test_a_multiplier_is_moved_to_the_nearest_one_strictly_between_the_poles(sizes, K):
-    """Against a plain search among the multiples of 1/K."""
-    alpha, gamma, b, d = sizes
-    squares = nearest_exact.SquaredLengths(alpha=alpha, b=b, R=1, gamma=gamma, d=d, z=1)
-    inside = [L for L in range(-200, 200) if -Fraction(alpha, b) < Fraction(L, K) < Fraction(gamma, d)]
-    for L in range(-150, 150):
-        assert nearest_exact._within(squares, L, K) == min(inside, key=lambda each: abs(each - L))
+def test_the_way_of_the_start_from_0_has_odds_right_to_a_factor_of_two():
+    """The optimum is at least that far, and is not beyond twice the odds, by exact signs of the slope."""
+    for row, dual in duals():
+        side = dual.direction(0, 0)
+        L, shift, at_end = nearest._start(dual, side, 96)
+        assert not at_end, row
+        end = side * dual.end(side, shift)
+        share = Fraction(L, end)
+        twice = 2 * share / (1 + share)  # of doubled odds share/(1 − share)
+        assert dual.direction(L, shift) == side, row
+        assert dual.direction(round(end * (twice + Fraction(1, 2**12) * (1 - twice))), shift) == -side, row
 
 
-def test_first_tau_of_newton_is_never_below_the_root():
-    """τ √(1 + (q/σ)²) ≥ p at it, for p, q and W far apart, equal and nearly equal."""
-    dice = random.Random(7)  # noqa: S311
-    with mpmath.workprec(1500):
-        for _ in range(600):
-            W, spread = mpmath.mpf(1), dice.choice([0.5, 3, 100])
-            p = 1 + dice.choice([-1, 1]) * 10 ** mpmath.mpf(dice.uniform(-spread, 0)) * dice.choice([0, 1, 1])
-            p = p if p > 0 and dice.random() < 0.6 else 10 ** mpmath.mpf(dice.uniform(-spread, spread))
-            q = 10 ** mpmath.mpf(dice.uniform(-2 * spread, spread))
-            tau, sigma = nearest_exact._above(p, q, W, p - W)
-            assert 0 < tau <= W * (1 + mpmath.mpf(2) ** -60)
-            assert sigma > 0
-            assert tau * mpmath.sqrt(1 + (q / sigma) ** 2) >= p * (1 - mpmath.mpf(2) ** -100), (p, q)
-            assert math.isfinite(tau)
+def test_ends_are_the_last_multiples_within_the_interval_on_either_side():
+    for row, dual in duals():
+        for shift in (0, 7, 300):
+            for side in (1, -1):
+                end = dual.end(side, shift)
+                assert dual.inside(side * end, shift), row
+                assert not dual.inside(side * (end + 1), shift), row
+
+
+def test_the_general_dual_of_an_upright_pair_is_the_upright_one():
+    """Value and slope at some places, from two formulas; the unit of the general one is another."""
+    dice = random.Random(9)  # noqa: S311
+    for row in rows(40, 1, dice):
+        alpha, gamma, b, d, x, y, z = to_integers(row)
+        one = Dual.of(Lengths.of(row))
+        other = dual_of._general(Lengths(alpha, b, x, y, gamma, d, z))
+        for part in (-0.5, -1e-3, 1e-6, 0.75):
+            at = Fraction(part) * Fraction(min(row[0] / row[2], row[1] / row[3])) ** 2
+            for slopes in (False, True):
+                found = [value_of(dual, at / dual.unit, slopes) / (dual.unit if slopes else 1) for dual in (one, other)]
+                assert found[0] == found[1]
+
+
+def value_of(dual, at, slope):
+    def sums(f):
+        return sum((part * at**power for power, part in enumerate(reversed(f))), Fraction(0))
+
+    return sums(dual.slope) / sums(dual.under) ** 2 if slope else sums(dual.value) / sums(dual.under)
+
+
+def test_clearance_is_that_of_the_maximum_of_the_dual_in_high_precision():
+    """Against a maximum found by bisection on the sum λ Cᵀ D (M + λD)⁻¹ M C − λ, formed from the definitions."""
+    for row, _ in duals()[91:131]:
+        if max(row) < 100:
+            assert math.isclose(nearest.nearest(Pair.from_row(row)).clearance, by_definition(row), rel_tol=1e-15), row
+
+
+def by_definition(row):
+    with mpmath.workprec(200):
+        alpha, gamma, b, d, x, y, z, *axis = map(mpmath.mpf, row)
+        v, C, D = mpmath.matrix(axis), mpmath.matrix([x, y, z]), mpmath.diag([alpha**-2, alpha**-2, -(gamma**-2)])
+        M = mpmath.eye(3) / b**2 + (d**-2 - b**-2) * (v * v.T) / (v.T * v)[0]
+        root = mpmath.cholesky(M)
+        poles = mpmath.eigsy(root**-1 * D * root.T**-1, eigvals_only=True)
+        low, high = -1 / max(poles), -1 / min(poles)
+
+        def dual(at):
+            return at * (C.T * D * mpmath.lu_solve(M + at * D, M * C))[0] - at
+
+        for _ in range(110):
+            middle, step = (low + high) / 2, (high - low) * mpmath.mpf(2) ** -60
+            low, high = (middle, high) if dual(middle + step) > dual(middle) else (low, middle)
+        return float(mpmath.sqrt(dual(low)) - 1)

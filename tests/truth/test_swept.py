@@ -57,6 +57,14 @@ def test_answer_about_a_way_agrees_with_exact_positions_on_it(sizes, start, end)
             assert found.first[0] < time
 
 
+def test_the_first_contact_is_enclosed_narrowly_where_steps_shrink_too_slowly():
+    """Each of 64 steps reaches about half way to the contact: their end says little, the roots say it to 60 bits."""
+    found = passage((0.0625, 0.0625, 0.0625, 65 / 1024), (0.0, 129 / 1024, 0.0), (0.0, 1 / 1024, 0.0))
+    low, high = found.first
+    assert low <= Fraction(1, 130) * (1 + Fraction(1, 2**50))
+    assert high - low <= low / 2**60
+
+
 @given(_sizes, _centers, _centers)
 def test_the_first_contact_is_where_the_position_changes(sizes, start, end):
     """Just before the enclosure the spheroid is clear; just behind it, unless it grazes or goes on, it is not."""

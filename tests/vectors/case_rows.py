@@ -7,8 +7,8 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import Rows
-from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
+from tests.support import exactly
 
 COUNT = 1500
 """Rows of a family that is looked at as a whole."""
@@ -19,7 +19,7 @@ def lengths_of(rows: Rows) -> list[Lengths]:
 
 
 def kinds(rows: Rows) -> Counter[Kind]:
-    return Counter(exact.decide(lengths).kind for lengths in lengths_of(rows))
+    return Counter(exactly.decide(lengths).kind for lengths in lengths_of(rows))
 
 
 def fractions(rows: Rows) -> list[tuple[Fraction, ...]]:

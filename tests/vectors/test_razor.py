@@ -9,8 +9,8 @@ import pytest
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
-from hypcheck.truth import exact
 from hypcheck.vectors import fixed_sizes
+from tests.support import exactly
 
 SIDES = (Position.EXTERIOR, Position.INTERIOR)
 SIZES = (
@@ -22,7 +22,7 @@ SIZES = (
 
 
 def position(sizes, x, z):
-    return exact.position(Pair(*sizes, x, 0.0, z).lengths)
+    return exactly.position(Pair(*sizes, x, 0.0, z).lengths)
 
 
 @pytest.mark.parametrize("sizes", SIZES)

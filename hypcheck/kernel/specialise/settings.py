@@ -68,9 +68,9 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
 
     A pair whose heights never meet the region is left out: nothing there is ever asked of it. Raises InputError where
-    a hyperboloid leans.
+    a hyperboloid leans, or a mover that has parts.
     """
-    _require_upright_hyperboloids(scene)
+    _require_printable(scene)
     found: dict[Sizes, Setting] = {}
     for setting in _pairs(scene):
         known = found.get(setting.sizes)
@@ -78,8 +78,13 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     return tuple(found.values())
 
 
-def _require_upright_hyperboloids(scene: SceneModel) -> None:
-    """Raise InputError about the first hyperboloid that leans."""
+def _require_printable(scene: SceneModel) -> None:
+    """Raise InputError about a mover that leans and has parts, or the first hyperboloid that leans."""
+    if scene.mover.parts and leans(scene.mover.axis):
+        raise InputError(
+            "no kernel is made: the mover leans and has parts, and kernels are made for parts of upright movers alone "
+            "(hypcheck.Scene answers exactly)"
+        )
     for body in scene.hyperboloids:
         if leans(body.axis):
             raise InputError(

@@ -15,8 +15,8 @@ from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
-from hypcheck.truth import float_filter
 from tests.kernel.emission.building import COMMAND, answers, answers_by_scene, asking, built, needs, worst_error
+from tests.support import exactly
 from tests.support.scenes import scene
 
 TOWER = read_scene("tower")
@@ -52,7 +52,7 @@ def test_an_emitted_kernel_answers_cannot_say_beyond_the_height_and_for_other_si
     beyond = np.abs(rows[:, 6]) > 1
     for found in (answers(library, rows), answers_by_scene(library, rows)):
         assert (found[beyond] == CANNOT_SAY).all()
-        assert (found[~beyond] == float_filter.positions(rows[~beyond])).all()
+        assert (found[~beyond] == exactly.positions(rows[~beyond])).all()
     rows[:, 0] = 1.5
     assert (answers(library, rows) == CANNOT_SAY).all()
     assert (answers_by_scene(library, rows) == CANNOT_SAY).all()

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hypcheck import classify
 from hypcheck.cli import verify
 from hypcheck.cli.main import main
 from hypcheck.implementations.description import Description
-from hypcheck.kernel.classify import classify
 from hypcheck.runs.cases import FRESH_SEEDS, cases_of_chunk, fresh_chunks
 from hypcheck.runs.plan import ConformancePlan, planned_cases, planned_size
 from hypcheck.vectors.families import FAMILIES

@@ -23,7 +23,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import Answered, Limits, Outcome
 from hypcheck.isolation.launch import Isolation
-from hypcheck.truth import exact
+from tests.support import exactly
 
 HERE = Path(__file__).parent
 UNLUCKY = 17
@@ -48,7 +48,7 @@ def rows(n: int = 40, *, lucky: bool = False):
 
 def truth(some):
     """Their positions, by integers."""
-    return np.array([exact.position(Pair(*row).lengths) for row in some.tolist()], dtype=np.int8)
+    return np.array([exactly.position(Pair(*row).lengths) for row in some.tolist()], dtype=np.int8)
 
 
 def signs(some):
@@ -64,6 +64,13 @@ def command(name: str, *words: str) -> str:
 def function(name: str) -> str:
     """The SPEC of a Python function."""
     return f"python:{HERE / 'functions' / name}.py:classify"
+
+
+def compiled_text(text: str, target: Path) -> Path:
+    """A shared library of this C text; the test is skipped where there is no compiler."""
+    source = target.with_suffix(".c")
+    source.write_text(text)
+    return compiled(str(source.with_suffix("")), target, "-shared", "-fPIC")
 
 
 def compiled(source: str, target: Path, *flags: str) -> Path:

@@ -6,11 +6,11 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from hypcheck import classify
 from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.alternatives import dual
 from hypcheck.implementations.method import on_rows
 from hypcheck.kernel import integers, numpy_kernel
-from hypcheck.kernel.classify import classify
 from tests.tools.mutants import exactly
 from tests.tools.mutants.exactly import position
 from tests.tools.mutants.expectation import EXTREME, NO_TOLERANCE, right

@@ -16,12 +16,14 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit
+from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Rows
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
 from hypcheck.runs import judge, results
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import passage_error
+from hypcheck.truth.exact import Decision
 from tests.support.without_drawing import draw_nothing
 from tests.tools.mutants.collection import Mutant
 from tests.tools.mutants.expectation import Options
@@ -110,12 +112,12 @@ def _remembered(rows: Rows) -> Any:
     return _octaves[key]
 
 
-def _judged_before(index: int, row: list[float], answer: int, criterion: Criterion) -> judge.WrongCase:
+def _judged_before(index: int, pair: Pair, truth: Decision, answer: int, criterion: Criterion) -> judge.WrongCase:
     """What a wrong answer to a row is judged to be, kept from run to run: many answer the same row in the same way."""
-    key = tuple(row), answer, criterion
+    key = pair, answer, criterion
     if key not in _cases:
-        _cases[key] = _judged(index, row, answer, criterion)
-    return replace(_cases[key], index=index, row=tuple(row))
+        _cases[key] = _judged(index, pair, truth, answer, criterion)
+    return replace(_cases[key], index=index)
 
 
 _KEPT = (

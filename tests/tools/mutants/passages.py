@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
+from hypcheck import classify
 from hypcheck.implementations import ways
-from hypcheck.kernel.classify import classify
 from hypcheck.runs.judges import passage_of
 from hypcheck.truth.swept import passage
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong

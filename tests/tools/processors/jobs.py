@@ -13,7 +13,7 @@ import numpy as np
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS
 from hypcheck.implementations.ways import certified
-from hypcheck.truth import nearest
+from hypcheck.truth import nearest_rows
 from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.frozen import NAMES, TILTED_NAMES, WAY_NAMES, load
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
@@ -98,9 +98,9 @@ def clearances(seed: int, count: int, names: Sequence[str] = tuple(FAMILIES)) ->
     for name in names:
         family = FAMILIES[name]
         rows = family.rows(seed, max(4, count // (len(FAMILIES) * (20 if family.extreme else 1))))
-        true = nearest.clearances(rows)
+        true = nearest_rows.clearances(rows)
 
-        def wrong(positions: Answers, found: np.ndarray, true: nearest.Clearances = true) -> np.ndarray:
+        def wrong(positions: Answers, found: np.ndarray, true: nearest_rows.NearestBatch = true) -> np.ndarray:
             inside = (found[:, 0] <= true.clearance) & (true.clearance <= found[:, 1])
             return ~inside | (positions != true.position) | ~(found[:, 3] <= found[:, 4])
 

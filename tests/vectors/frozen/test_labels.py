@@ -16,7 +16,6 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.implementations.description import Domain, representable
 from hypcheck.tables.numbers import Literal, decimal_of, exact_text, hex_of, is_shortest, rational_of
-from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.prove import prove
 from hypcheck.vectors import freezing
@@ -29,6 +28,7 @@ from hypcheck.vectors.format import content_with
 from hypcheck.vectors.freezing import extended, frozen, frozen_invalid_rows
 from hypcheck.vectors.invalid_rows import invalid_rows
 from hypcheck.vectors.labels import labelled, shows_crossing, stored_certificate
+from tests.support import exactly
 from tests.support.pairs import pairs
 
 # flag → rows that have it and rows that have it not, by hand. A row is α, γ, b, d, x, y, z.
@@ -81,7 +81,7 @@ BY_HAND = {
 
 
 def flags_at(*rows):
-    return flags_of(rows, [exact.decide(Pair.from_row(row).lengths) for row in rows])
+    return flags_of(rows, [exactly.decide(Pair.from_row(row).lengths) for row in rows])
 
 
 @pytest.mark.parametrize("flag", BY_HAND)
@@ -106,7 +106,9 @@ def test_rounding_flags_of_cases_agree_with_the_wrong_answers_of_built_in_method
     names = ("osculation", "near-axis", "ring-neighbourhood", "extreme-float32", "worst-cancellation")
     rows = np.concatenate([vectors.load(name).rows[:60] for name in names])
     flags = flags_at(*map(tuple, rows.tolist()))
-    positions = np.asarray([exact.decide(Pair.from_row(row).lengths).position for row in rows.tolist()], dtype=np.int8)
+    positions = np.asarray(
+        [exactly.decide(Pair.from_row(row).lengths).position for row in rows.tolist()], dtype=np.int8
+    )
     for formula, precision in DEFEATED:
         method = builtin_methods()[f"{formula}-{precision}"]
         asked = np.flatnonzero(representable(rows, precision))
@@ -139,7 +141,7 @@ def test_flags_of_a_case_come_in_the_order_of_the_table():
 @given(pairs)
 @settings(max_examples=25)
 def test_shortened_proofs_still_prove_a_crossing(pair):
-    decision = exact.decide(pair.lengths)
+    decision = exactly.decide(pair.lengths)
     found = stored_certificate(pair.row, prove(pair, decision))
     crosses = decision.position is Position.CONTACT and not decision.tangent
     assert bool(found.offsets) == crosses

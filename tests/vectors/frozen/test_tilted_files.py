@@ -13,7 +13,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import TILTED_COLUMNS, Position
 from hypcheck.geometry.rows import invalid
-from hypcheck.truth.exact import Bracket
+from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import case_fields, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of

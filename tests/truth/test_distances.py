@@ -1,6 +1,8 @@
-"""Distances of many tilted spheroids in double-double: certain ones are those of the intervals, digit by digit."""
+"""Distances of many tilted spheroids in double-double: certain ones are those of exact enclosures, digit by digit."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,34 +10,33 @@ import pytest
 from hypcheck.answer import DisagreementError
 from hypcheck.answers import answers
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth.tilted import nearest_arrays
-from hypcheck.truth.tilted.nearest import nearest
-from hypcheck.truth.tilted.nearest_arrays import distances
+from hypcheck.truth import distances
+from hypcheck.truth.nearest import nearest
 from hypcheck.vectors.families import TILTED_FAMILIES
 
 
-def by_intervals(rows):
+def one_by_one(rows):
     return [nearest(Pair.from_row(row)) for row in rows.tolist()]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
-def test_certain_float_clearances_and_positions_equal_those_by_intervals(name):
+def test_certain_float_clearances_and_positions_equal_those_exact_enclosures(name):
     rows = TILTED_FAMILIES[name].rows(7, 40)
-    found = distances(rows)
-    for number, each in enumerate(by_intervals(rows)):
-        if found.certain[number]:
+    found = distances.decide(rows)
+    for number, each in enumerate(one_by_one(rows)):
+        if found.clearance_certain[number]:
             assert (found.clearance[number], found.position[number]) == (each.clearance, each.position)
 
 
 @pytest.mark.parametrize(("name", "share"), [("tilted-tower", 0.99), ("tilted-uniform", 0.6), ("tilted-ring", 0.9)])
 def test_float_stage_is_certain_about_most_tilted_rows_of_ordinary_sizes(name, share):
-    assert distances(TILTED_FAMILIES[name].rows(7, 400)).certain.mean() > share
+    assert distances.decide(TILTED_FAMILIES[name].rows(7, 400)).clearance_certain.mean() > share
 
 
 @pytest.mark.parametrize("name", ["tilted-tangent", "extreme-tilted"])
 def test_float_stage_is_never_certain_about_tangencies_and_extreme_lengths(name):
-    assert not distances(TILTED_FAMILIES[name].rows(7, 400)).certain.any()
+    assert not distances.decide(TILTED_FAMILIES[name].rows(7, 400)).clearance_certain.any()
 
 
 @pytest.mark.parametrize(("column", "value"), [(0, 2.0**-101), (4, 2.0**101), (5, 2.0**-101), (8, 2.0**-101)])
@@ -44,7 +45,7 @@ def test_float_stage_is_never_certain_about_a_length_or_axis_out_of_range(column
     rows = np.array([row, row, row])
     rows[1, column] = value
     rows[2, column] = value * 4 if value < 1 else value / 4
-    certain = distances(rows).certain
+    certain = distances.decide(rows).clearance_certain
     assert certain[0]
     assert not certain[1]
 
@@ -52,11 +53,11 @@ def test_float_stage_is_never_certain_about_a_length_or_axis_out_of_range(column
 def test_a_table_with_a_certain_row_of_another_position_than_the_kernel_says_is_refused(monkeypatch):
     rows = TILTED_FAMILIES["tilted-tower"].rows(7, 30)
     expected = answers(rows)
-    each = by_intervals(rows)
+    each = one_by_one(rows)
     assert expected.clearance.tolist() == [one.clearance for one in each]
     assert expected.positions.tolist() == [one.position for one in each]
-    right = nearest_arrays.distances(rows)
-    wrong = nearest_arrays.TiltedDistances(right.clearance, (right.position == 0).astype(np.int8), right.certain)
-    monkeypatch.setattr(nearest_arrays, "distances", lambda _rows: wrong)
+    right = distances.decide(rows)
+    wrong = replace(right, position=(right.position == 0).astype(np.int8))
+    monkeypatch.setattr(distances, "decide", lambda _rows: wrong)
     with pytest.raises(DisagreementError):
         answers(rows)

@@ -9,10 +9,11 @@ import pytest
 from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import mesh_lines as mesh
 from hypcheck.truth.mesh import availability
-from hypcheck.truth.tilted import mesh
+from hypcheck.truth.mesh_oracle import verdict
 from tests.support.tilted_fractions import exact_position
-from tests.truth.tilted.cases import SYMMETRIC
+from tests.truth.tilted_cases import SYMMETRIC
 
 pytestmark = pytest.mark.skipif(availability() is not None, reason="python-fcl is not installed")
 CLEAR = (1.0, 4.0, 0.125, 0.25, 1.5, 0.0, 0.0, 0.0, 1.0, 1.0)
@@ -39,25 +40,25 @@ def test_diagonal_of_a_cell_around_the_axis_lies_inside_the_hyperboloid_and_the_
 
 def test_tilted_mesh_oracle_leaves_tangencies_undecided_and_calls_rings_clear():
     for row, position, limit_of in SYMMETRIC:
-        found = mesh.position(Pair.from_row(row))
+        found = verdict(Pair.from_row(row)).position
         assert found == (None if limit_of is not None else position)
 
 
 def test_tilted_mesh_oracle_is_undecided_where_fcl_does_not_confirm_it():
-    assert mesh.position(Pair.from_row(CLEAR)) is Position.EXTERIOR
-    assert mesh.position(Pair.from_row(CLEAR), lambda *_: 1.0) is None
+    assert verdict(Pair.from_row(CLEAR)).position is Position.EXTERIOR
+    assert verdict(Pair.from_row(CLEAR), lambda *_: 1.0).position is None
     touching = (*CLEAR[:4], 1.0625, *CLEAR[5:])
     assert exact_position(touching) == 0
-    assert mesh.position(Pair.from_row(touching)) is Position.CONTACT
-    assert mesh.position(Pair.from_row(touching), lambda *_: 1.0) is None
+    assert verdict(Pair.from_row(touching)).position is Position.CONTACT
+    assert verdict(Pair.from_row(touching), lambda *_: 1.0).position is None
 
 
 def test_tilted_mesh_oracle_leaves_extreme_ratios_of_lengths_undecided():
-    assert mesh.position(Pair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3))) is None
+    assert verdict(Pair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3))).position is None
 
 
 def test_tilted_mesh_oracle_says_contact_at_once_where_the_centre_is_on_the_surface():
-    assert mesh.position(Pair.from_row((1.0, 4.0, 0.125, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0))) is Position.CONTACT
+    assert verdict(Pair.from_row((1.0, 4.0, 0.125, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0))).position is Position.CONTACT
 
 
 def test_corners_of_cells_are_within_their_slack_of_the_exact_ones():

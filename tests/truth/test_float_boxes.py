@@ -9,10 +9,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.truth import exact
-from hypcheck.truth.tilted import float_boxes
-from hypcheck.truth.tilted.backward_error import goal_of, lower_ends, quick_bracket
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import exact, float_boxes
+from hypcheck.truth.backward_error import lower_ends, quick_bracket
+from hypcheck.truth.changes import goal_of
 from hypcheck.vectors import frozen
 from tests.support.tilted_fractions import exact_position
 from tests.tools.tilted_agreement import rows
@@ -31,7 +31,7 @@ def test_lower_end_never_exceeds_a_change_that_is_proved_to_be_enough_and_is_fou
     for answer in Position:
         some = [case for case in cases if case.position is not answer]
         truths = [exact.decide(Lengths.of(case.row)) for case in some]
-        ends = lower_ends([case.row for case in some], truths, [[answer]] * len(some))
+        ends = lower_ends([Pair.from_row(case.row) for case in some], truths, [[answer]] * len(some))
         for case, end in zip(some, ends, strict=True):
             assert end <= case.flips[answer].upper
             if 1e-9 < case.flips[answer].lower < 1:
@@ -46,7 +46,7 @@ def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
     for _, row in rows(["uniform", "near", "stiff"], 12, seed=7):
         truth = exact.decide(Lengths.of(row))
         for answer in set(Position) - {truth.position}:
-            (end,) = lower_ends([row], [truth], [[answer]])
+            (end,) = lower_ends([Pair.from_row(row)], [truth], [[answer]])
             if end in (0, math.inf):  # nothing is proved, the answer needs no change, or none is enough
                 continue
             low = Fraction(end)
@@ -71,7 +71,7 @@ def test_quick_bracket_agrees_with_the_frozen_one_and_is_narrow_where_first_deri
     for case in cases:
         truth = exact.decide(Lengths.of(case.row))
         for answer, known in case.flips.items():
-            found = quick_bracket(case.row, truth, answer)
+            found = quick_bracket(Pair.from_row(case.row), truth, answer)
             assert found.lower <= known.upper
             assert known.lower <= found.upper
             if found.upper < 1e-6:

@@ -1,6 +1,6 @@
 """The nearest point for arrays of tilted spheroids: the clearance rounded to float64, where an error bound allows it.
 
-nearest.py answers a pair in intervals; here any λ and any point X near the nearest one, both found in float64 and taken
+nearest.py answers a pair exactly; here any λ and any point X near the nearest one, both found in float64 and taken
 as given, enclose the same distance. With s(X) = (X − C)ᵀM(X − C) − 1, G = M + λD ≥ μ > 0, r = G X − M C and L = s(X) +
 λ h(X), which is a convex function of X with the minimum φ(λ) at X̂ = X − G⁻¹r:
 
@@ -30,8 +30,8 @@ import numpy as np
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.truth import double_double
 from hypcheck.truth.double_double import DoubleDouble
+from hypcheck.truth.vectors import cross, dot
 
-CHUNK = 4096
 _RANGE = (2.0**-100, 2.0**100)
 _U = 2.0**-53
 _TURNS, _STEPS = 60, 3
@@ -39,30 +39,33 @@ _LEAST_SQUARE = 2.0**-10
 """Nearer to the hyperboloid, in squares of radii, a bound of φ says too little of √(1 + φ)."""
 
 _ROUNDED = 2.0**-90
-"""The error of L against its terms: 32 η = 2⁻⁹⁷ would do. This also holds the intervals of nearest.py, which begin with
-100 bits, so that what rounds alike over the whole of it is what nearest.py answers."""
+"""More than the error of L against its terms, 32 η = 2⁻⁹⁷."""
 
 Triple = tuple[Floats, Floats, Floats]
 
 
 @dataclass(frozen=True, slots=True)
-class TiltedDistances:
-    """For n rows: the clearance, float64 (n,), the position, int8 (n,), and where both are certain, bool (n,)."""
+class Decided:
+    """For each row: the clearance, whether it is surely the true one rounded to nearest; the position, whether sure."""
 
     clearance: Floats
+    clearance_certain: Mask
     position: Positions
-    certain: Mask
+    position_certain: Mask
 
 
-def distances(rows: Rows) -> TiltedDistances:
-    """Of valid rows (n, 10) as far as double-double arithmetic can tell; a tangency is never certain."""
-    found = TiltedDistances(np.zeros(len(rows)), np.zeros(len(rows), np.int8), np.zeros(len(rows), np.bool_))
-    for start in range(0, len(rows), CHUNK):
-        places = start + np.flatnonzero(_inside(rows[start : start + CHUNK]))
-        if len(places):
-            with np.errstate(all="ignore"):
-                found.clearance[places], found.position[places], found.certain[places] = _decided(rows[places])
-    return found
+def decide(rows: Rows) -> Decided:
+    """Clearance and position of valid rows (n, 10) as far as double-double arithmetic can tell.
+
+    The position is certain where the clearance is, and a tangency never is.
+    """
+    clearance, position = np.zeros(len(rows)), np.zeros(len(rows), np.int8)
+    certain = np.zeros(len(rows), np.bool_)
+    places = np.flatnonzero(_inside(rows))
+    if len(places):
+        with np.errstate(all="ignore"):
+            clearance[places], position[places], certain[places] = _decided(rows[places])
+    return Decided(clearance, certain, position, certain)
 
 
 def _inside(rows: Rows) -> Mask:
@@ -146,7 +149,7 @@ def _polished(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Floats]:
 
         of_n, of_r = solved(n), solved(residual)
         height = _height(pairs, X)[0][0]
-        step = (determinant * height / 2 - _dot(n, of_r)) / _dot(n, of_n)
+        step = (determinant * height / 2 - dot(n, of_r)) / dot(n, of_n)
         x, y, z = (x - (r + step * k) / determinant for x, r, k in zip(X, of_r, of_n, strict=True))
         X, at = (x, y, z), at + step
     return X, at
@@ -171,9 +174,9 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
     residual, n = _residual(pairs, X, at)
     way = np.sqrt(sum(each[0] * each[0] for each in w))
     stretch, tilt = pairs.thick + pairs.long, np.abs(at)
-    length = np.sqrt(_dot(n, n))
+    length = np.sqrt(dot(n, n))
     rounded = _ROUNDED * (way * way * stretch + 1 + tilt * terms)
-    off = np.sqrt(_dot(residual, residual)) + 32 * _U * (way * stretch + tilt * length)
+    off = np.sqrt(dot(residual, residual)) + 32 * _U * (way * stretch + tilt * length)
     least = _least_eigenvalue(pairs, at)
     trace = 2 * stretch + tilt * (2 * pairs.D[0] - pairs.D[2])
     beside = 1.001 * (np.abs(height[0]) + _ROUNDED * terms) / length
@@ -205,7 +208,7 @@ def _least_eigenvalue(pairs: _Pairs, at: Floats) -> Floats:
 def _matrix(pairs: _Pairs, at: Floats) -> tuple[Floats, ...]:
     """The upper half of M + λD: 00, 01, 02, 11, 12, 22."""
     v = pairs.axis
-    excess, own = (pairs.long - pairs.thick) / _dot(v, v), [pairs.thick + at * D for D in pairs.D]
+    excess, own = (pairs.long - pairs.thick) / dot(v, v), [pairs.thick + at * D for D in pairs.D]
     return tuple(excess * v[i] * v[j] + (own[i] if i == j else 0.0) for i in range(3) for j in range(i, 3))
 
 
@@ -219,14 +222,12 @@ def _adjugate(matrix: tuple[Floats, ...]) -> tuple[tuple[Floats, ...], Floats]:
 
 def _residual(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Triple]:
     """r = M (X − C) + λ D X and n = D X."""
-    w0, w1, w2 = (x - c for x, c in zip(X, pairs.centre, strict=True))
-    v = pairs.axis
-    square, dot = _dot(v, v), _dot(v, (w0, w1, w2))
-    c0, c1, c2 = w1 * v[2] - w2 * v[1], w2 * v[0] - w0 * v[2], w0 * v[1] - w1 * v[0]  # w × v
-    across = (v[1] * c2 - v[2] * c1, v[2] * c0 - v[0] * c2, v[0] * c1 - v[1] * c0)  # v × (w × v)
+    way, v = [x - c for x, c in zip(X, pairs.centre, strict=True)], pairs.axis
+    square, along = dot(v, v), dot(v, way)
+    across = cross(v, cross(way, v))
     n0, n1, n2 = (D * x for D, x in zip(pairs.D, X, strict=True))
     r0, r1, r2 = (
-        (part * pairs.thick + own * dot * pairs.long) / square + at * n
+        (part * pairs.thick + own * along * pairs.long) / square + at * n
         for part, own, n in zip(across, v, (n0, n1, n2), strict=True)
     )
     return (r0, r1, r2), (n0, n1, n2)
@@ -264,7 +265,3 @@ def _sum(numbers: list[DoubleDouble]) -> DoubleDouble:
     for each in numbers[1:]:
         total = double_double.add(total, each)
     return total
-
-
-def _dot(p: Triple, q: Triple) -> Floats:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

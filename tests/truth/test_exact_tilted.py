@@ -14,9 +14,10 @@ from sympy.polys.rings import ring
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
-from hypcheck.truth.journey import Surd
 from hypcheck.truth.pencil import quartic
-from tests.truth.tilted.cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
+from hypcheck.truth.rationals import sign_with_root
+from hypcheck.truth.surds import Surd
+from tests.truth.tilted_cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 
 
 def test_quartic_is_the_determinant_of_the_pencil():
@@ -143,7 +144,7 @@ def test_the_sign_of_a_number_with_a_root_is_exact(w):
             if value is None:
                 larger = u * u - r * r * w
                 value = (larger > 0) - (larger < 0) if u > 0 else (larger < 0) - (larger > 0)
-            assert exact._sign_with_root(u, r, w) == (value > 0) - (value < 0), (u, r)
+            assert sign_with_root(u, r, w) == (value > 0) - (value < 0), (u, r)
 
 
 def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_digits():

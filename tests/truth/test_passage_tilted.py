@@ -14,9 +14,10 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import surfaces
-from hypcheck.truth.journey import Surd, _ring_between, _sign_at_root
+from hypcheck.truth.journey import _ring_between
 from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, tolerance
 from hypcheck.truth.pencil import quartic
+from hypcheck.truth.surds import Surd, sign_at_root
 from hypcheck.truth.swept import by_roots, by_steps, journey_of, passage
 from hypcheck.vectors.tilted import RINGS, TWO_POINTS
 
@@ -202,9 +203,9 @@ def test_sign_at_the_one_root_between_two_times_is_that_of_the_value_there(roots
             (Fraction(3, 10), Fraction(1, 2)),
             (Fraction(-1), Fraction(3, 4)),
         ):
-            assert _sign_at_root(f, rationals(*g), low, high) == expected
+            assert sign_at_root(f, rationals(*g), low, high) == expected
         for low, high in ((Fraction(1, 2), Fraction(1)), (Fraction(0), Fraction(1, 4))):
-            assert _sign_at_root(f, rationals(*g), low, high) == 0
+            assert sign_at_root(f, rationals(*g), low, high) == 0
 
 
 @pytest.mark.parametrize(

@@ -7,11 +7,11 @@ from fractions import Fraction
 import pytest
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth.tilted import roots
-from hypcheck.truth.tilted.roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
+from hypcheck.truth import tilted_roots as roots
+from hypcheck.truth.tilted_roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
 from tests.support.tilted_fractions import interpolated, matrices, value
 from tests.tools.tilted_agreement import rows
-from tests.truth.tilted.cases import SYMMETRIC
+from tests.truth.tilted_cases import SYMMETRIC
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 
@@ -25,7 +25,7 @@ def test_the_table_lists_every_pattern_that_the_signs_allow_once_and_no_other():
 def test_the_quartic_is_the_determinant_of_the_pencil():
     for _, row in rows(["uniform", "grid"], 10, seed=2):
         pair = Pair.from_row(row)
-        if pair.upright is not None:
+        if pair.is_upright:
             continue
         ours, lengths = roots.characteristic(pair.lengths), pair.lengths
         # The oracle counts λ in units of α² γ²/(b² d² v·v).

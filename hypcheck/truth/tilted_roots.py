@@ -14,9 +14,10 @@ A double one is where φ, being concave, has its maximum 0: tangent. With none, 
 tends to 0 at R: if R is a root of f twice at least, since it is one of g once. Then the pair is tangent, else in
 contact.
 
-Everything is exact: f and g are integer polynomials from the definitions of the matrices, their common and multiple
-roots come from gcds, and all are enclosed by Sturm's theorem (polynomial_roots.py). A pattern that the table does not
-list is an error of ours, never an answer. Upright spheroids and spheres are the upright roots oracle's.
+**How they are found.** f and g are integer polynomials from the definitions of the matrices, and no root of f is
+approximated: roots are counted by Sturm's theorem on either side of an enclosure of R, which holds no other root of f
+or g; that R is a root of f too says their greatest common divisor. A multiple root of f is one number, and rational.
+A pattern that the table does not list is an error of ours, never an answer.
 """
 
 from __future__ import annotations
@@ -24,22 +25,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from fractions import Fraction
 from itertools import combinations, combinations_with_replacement, groupby, pairwise, product
 from types import MappingProxyType
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.polynomial_roots import (
-    Interval,
     Polynomial,
     common_divisor,
-    enclosed,
-    isolate,
     primitive,
     quotient,
+    root_exponents,
+    roots_between,
     squarefree,
     sturm_chain,
+    value,
 )
-from hypcheck.truth.roots import classify_by_roots
 
 
 class Side(Enum):
@@ -70,7 +71,7 @@ _COMPOSITIONS = {1: ((1,),), 2: ((1, 1), (2,)), 3: ((1, 1, 1), (1, 2), (2, 1), (
 
 @dataclass(frozen=True, slots=True)
 class TiltedRoots:
-    """What the roots say. `below` and `above` are the patterns of the two sides, outward; "" of an upright pair."""
+    """What the roots say. `below` and `above` are the patterns of the two sides, outward."""
 
     position: Position
     tangent: bool
@@ -78,22 +79,14 @@ class TiltedRoots:
     above: str
 
 
-def position(pair: Pair) -> Position:
-    """The position alone."""
-    return classify_tilted_by_roots(pair).position
-
-
 def classify_tilted_by_roots(pair: Pair, table: Mapping[str, Side] = MEANING) -> TiltedRoots:
-    """The position of any valid pair, by the table.
+    """The position of a pair that is not upright, by the table.
 
     Raises AssertionError, naming the pair, where the pattern is not in the table: an error of ours.
     """
-    if pair.is_upright:
-        report = classify_by_roots(pair.upright)
-        return TiltedRoots(report.position, report.tangent, "", "")
     lengths = pair.lengths
     f, g = characteristic(lengths), poles(lengths)
-    below, above = _sides(f, g)
+    below, above = side_pattern(_mirrored(f), _mirrored(g)), side_pattern(f, g)
     found = table.get(below), table.get(above)
     if None in found or found.count(Side.NEITHER) == 0:
         raise AssertionError(f"the roots form a pattern that is not possible: {below} | {above}, for {pair}")
@@ -176,62 +169,73 @@ def _determinant(matrix: list[list[int]]) -> int:
     )
 
 
-def _sides(f: Polynomial, g: Polynomial) -> tuple[str, str]:
-    """The patterns of the roots of f on either side of 0, outward, beside the nearest roots of g there."""
-    factors = _factors(f, g)
-    roots = [(interval, each) for each in factors for interval in isolate(each.polynomial, (), narrow=False)]
-    roots = _apart(roots)
-    below = [factor for interval, factor in roots if interval[1] <= 0]
-    return _side(below[::-1]), _side([factor for _, factor in roots[len(below) :]])
+def _mirrored(f: Polynomial) -> Polynomial:
+    """f(−λ), with the sign of f at 0."""
+    return tuple(-number if power % 2 else number for power, number in zip(range(len(f) - 1, -1, -1), f, strict=True))
 
 
-@dataclass(frozen=True, slots=True)
-class _Factor:
-    """A squarefree polynomial whose roots have one meaning: whether they are roots of g, and how often of f."""
+def side_pattern(f: Polynomial, g: Polynomial) -> str:
+    """The pattern of the roots of f above 0, outward, beside R, the least root of g there."""
+    poles, factors = squarefree(g), list(_factors(f))
+    shared = [common_divisor(factor, poles) for factor, _ in factors]
+    low, high = _about_least_root(
+        poles, [quotient(factor, common) for (factor, _), common in zip(factors, shared, strict=True)]
+    )
+    multiple = next((Fraction(-factor[1], factor[0]) for factor, times in factors if times > 1), None)
+    found: list[tuple[str, int]] = []
+    for place, start, end in ((INNER, Fraction(0), low), (BEYOND, high, None)):
+        if place is BEYOND:
+            at = [times for (_, times), both in zip(factors, shared, strict=True) if roots_between(both, low, high)]
+            found += [(END, times) for times in at]
+        if multiple is not None and start < multiple and (end is None or multiple < end):
+            (simple, _), (_, times) = factors[0], factors[-1]
+            found += [(place, 1)] * roots_between(simple, start, multiple)
+            found += [(place, times), *[(place, 1)] * roots_between(simple, multiple, end)]
+        else:
+            found += [(place, times) for factor, times in factors for _ in range(roots_between(factor, start, end))]
+    return _word(found)
 
-    polynomial: Polynomial
-    is_pole: bool
-    multiplicity: int
 
-
-def _factors(f: Polynomial, g: Polynomial) -> list[_Factor]:
-    """Factors of f and g without a common root, which have all of their roots."""
-    found, poles = [], squarefree(g)
-    for multiplicity, (layer, beyond) in enumerate(pairwise([*_layers(f), (1,)]), 1):
+def _factors(f: Polynomial) -> Iterator[tuple[Polynomial, int]]:
+    """Squarefree factors of f and how often it has their roots; the first is of the simple ones, (1,) for none."""
+    layers = [*_layers(f), (1,)]
+    for times, (layer, beyond) in enumerate(pairwise(layers), 1):
         exactly = quotient(layer, beyond)
-        common = common_divisor(exactly, poles)
-        poles = quotient(poles, common)
-        found += [_Factor(common, True, multiplicity), _Factor(quotient(exactly, common), False, multiplicity)]
-    return [each for each in (*found, _Factor(poles, True, 0)) if len(each.polynomial) > 1]
+        if times == 1 or len(exactly) > 1:
+            yield exactly, times
 
 
-def _apart(roots: list[tuple[Interval, _Factor]]) -> list[tuple[Interval, _Factor]]:
-    """The enclosures narrowed until they are disjoint, in order; this ends, because no two factors share a root."""
-    bits = 4
-    while True:
-        roots = sorted(roots, key=lambda each: each[0])
-        close = {place for place in range(1, len(roots)) if roots[place - 1][0][1] > roots[place][0][0]}
-        if not close:
-            return roots
-        bits *= 2
-        roots = [
-            (enclosed(factor.polynomial, *interval, bits) if {place, place + 1} & close else interval, factor)
-            for place, (interval, factor) in enumerate(roots)
-        ]
-
-
-def _side(roots: Sequence[_Factor]) -> str:
-    """The pattern of one side: the meanings of its roots, outward."""
-    end = next(place for place, root in enumerate(roots) if root.is_pole)
-    places = [INNER] * end + [END] + [BEYOND] * (len(roots) - end - 1)
-    return _word((place, root.multiplicity) for place, root in zip(places, roots, strict=True) if root.multiplicity)
-
-
-def _layers(f: Polynomial) -> list[Polynomial]:
+def _layers(f: Polynomial) -> Iterator[Polynomial]:
     """Squarefree polynomials, the k-th with the roots that f has k times at least: of f, gcd(f, f′), and so on."""
-    found = []
     while len(f) > 1:
-        found.append(squarefree(f))
+        yield squarefree(f)
         common = sturm_chain(f)[-1]
-        f = common if common[0] > 0 else tuple(-each for each in common)
-    return found
+        f = common if common[0] > 0 else tuple(-number for number in common)
+
+
+def _about_least_root(f: Polynomial, others: Sequence[Polynomial]) -> tuple[Fraction, Fraction]:
+    """An open interval about the least root above 0 of a squarefree f, with no other root of f and none of the others.
+
+    No other polynomial has that root. Its exponent is found first, since roots may be 10³⁰⁰ apart.
+    """
+
+    def no_root(low: Fraction, high: Fraction) -> Fraction:
+        """A number of [low, high) that is no root of f, which has three at most."""
+        return next(number for step in range(4) if value(f, number := low + (high - low) * step / 4))
+
+    def of_exponent(exponent: int) -> Fraction:
+        return no_root(Fraction(2) ** exponent, Fraction(2) ** (exponent + 1))
+
+    def meets(other: Polynomial) -> bool:
+        return not value(other, low) or not value(other, high) or roots_between(other, low, high) > 0
+
+    below, above = root_exponents(f)
+    below -= 1
+    while above - below > 1:
+        exponent = (below + above) // 2
+        below, above = (below, exponent) if roots_between(f, Fraction(0), of_exponent(exponent)) else (exponent, above)
+    low, high = of_exponent(below), of_exponent(above)
+    while roots_between(f, low, high) > 1 or any(map(meets, others)):
+        middle = no_root((low + high) / 2, high)
+        low, high = (low, middle) if roots_between(f, low, middle) else (middle, high)
+    return low, high

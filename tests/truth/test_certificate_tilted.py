@@ -13,7 +13,7 @@ from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate, pivots
 from hypcheck.truth.pencil import quartic
 from hypcheck.truth.prove import prove
-from tests.truth.tilted.cases import SYMMETRIC, TANGENT, WITNESSES, grown, near_contact, random_rows
+from tests.truth.tilted_cases import SYMMETRIC, TANGENT, WITNESSES, grown, near_contact, random_rows
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 

@@ -1,4 +1,4 @@
-"""The nearest-point oracle of tilted pairs against the exact decision, known clearances, and the upright oracle."""
+"""The nearest-point oracle about tilted pairs against the exact decision and known clearances."""
 
 from __future__ import annotations
 
@@ -6,11 +6,8 @@ import math
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth import nearest_exact as upright
-from hypcheck.truth.tilted import nearest
-from tests.tools.tilted_agreement import rows
-from tests.truth.tilted.cases import SYMMETRIC, TANGENT, in_floats
+from hypcheck.truth import exact, nearest
+from tests.truth.tilted_cases import SYMMETRIC, TANGENT, in_floats
 
 FLOAT_TANGENT = [(found, side) for row, side in TANGENT if (found := in_floats(row)) is not None]
 
@@ -26,13 +23,6 @@ def test_clearance_of_a_tangent_spheroid_shrunk_to_a_half_is_1():
         assert found.clearance == 1
         grown = nearest.nearest(Pair(alpha, gamma, b * 2, d * 2, *rest))
         assert (grown.position, grown.clearance) == (Position.CONTACT, -0.5)
-
-
-def test_clearance_with_a_vertical_axis_is_that_of_the_upright_oracle():
-    for _, row in rows(["uniform", "near"], 60, seed=8):
-        found = nearest.nearest(Pair(*row[:7], 0, 0, -3))
-        expected = upright.nearest(Pair(*row[:7])).clearance
-        assert abs(found.clearance - expected) <= math.ulp(expected)
 
 
 def test_tilted_nearest_oracle_raises_its_precision_to_decide_a_near_tangency():

@@ -1,4 +1,4 @@
-"""The mesh oracle in general position: FCL asked about two meshes of the hyperboloid, one on either side of it.
+"""The mesh oracle's search in general position: two meshes of the hyperboloid, one on either side of it.
 
 Two families of straight lines lie on the surface. Line a of the one and line b of the other meet in
 
@@ -11,10 +11,10 @@ cells together, are a mesh without gaps on that side of the surface. All this ou
 makes the spheroid the unit ball about the origin.
 
 Cells are quartered until each is beyond the ball (the corners' least component along their middle is > 1), or a corner
-is within it. Then FCL must say the same: that the mesh on C's side is farther than 1 (every way from C to the surface
-crosses it), or that the one on the other side is nearer (every way to it crosses the surface). Nothing is claimed
-within `slack` of 1, which is ten times what roundings can be expected to add up to, and no proof. There, and where
-cells become too many, the answer is None: undecided. The side is the exact sign of the hyperboloid's equation at C.
+is within it. Then FCL is asked whether the mesh on C's side is farther than 1 (every way from C to the surface crosses
+it), or the one on the other side is nearer (every way to it crosses the surface). Nothing is claimed within `slack` of
+1, which is ten times what roundings can be expected to add up to, and no proof. There, and where cells become too many,
+nothing is decided.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats, Indices, Mask
-from hypcheck.truth.mesh import Measure, distance_to_mesh, require_fcl
+from hypcheck.truth.mesh import NO_MESH, MeshOutcome, Refinement, Triangles, Vertices
 
 LEVELS = 40
 MOST_CELLS = 1 << 13
@@ -48,7 +48,7 @@ OUTER = ((0, 1, 2), (1, 3, 2))
 class _Scene:
     """A pair with the spheroid as the unit ball: corners are seen from C in that space."""
 
-    def __init__(self, pair: Pair, measure: Measure = distance_to_mesh) -> None:
+    def __init__(self, pair: Pair) -> None:
         alpha, gamma, b, d, x, y, z = _scaled(pair.row[:7])
         axis = np.array(_scaled(pair.axis))
         axis /= math.sqrt(float(axis @ axis))
@@ -56,7 +56,6 @@ class _Scene:
         self.root = np.eye(3) / b + (1 / d - 1 / b) * np.outer(axis, axis)
         height = math.sqrt(b * b + (d * d - b * b) * float(axis[2]) ** 2) * REACH
         self.low, self.high = (math.atan((z + side * height) / gamma) for side in (-1, 1))
-        self.measure = measure
         lengths = pair.lengths
         level = (lengths.x**2 + lengths.y**2 - lengths.alpha**2) * lengths.gamma**2 - (lengths.z * lengths.alpha) ** 2
         self.side = (level > 0) - (level < 0)
@@ -79,44 +78,45 @@ def _scaled(numbers: Sequence[float]) -> list[float]:
     return [math.ldexp(each, -exponent) for each in numbers]
 
 
-def position(pair: Pair, measure: Measure = distance_to_mesh) -> Position | None:
-    """The position of any valid pair, if what measures the distance to the mesh confirms it, or None: undecided.
-
-    Raises UnavailableError where FCL cannot be imported.
-    """
-    require_fcl()
+def refine(pair: Pair) -> Refinement:
+    """Quarter cells, level by level, until all are beyond the ball, or a corner is within it, or neither."""
     if min(_scaled(pair.row[:7])[:4]) < _LEAST:
-        return None
-    scene = _Scene(pair, measure)
-    if scene.side == 0:
-        return Position.CONTACT
+        return _undecided(0, 0, f"a size is below {_LEAST:.1e} of the largest length")
     with np.errstate(all="ignore"):
-        return _refined(scene)
+        return _refined(_Scene(pair))
 
 
-def _refined(scene: _Scene) -> Position | None:
-    """Quarter cells, level by level, until all are beyond the ball or a corner is within it."""
-    cells = _whole()
+def _undecided(side: int, levels: int, reason: str) -> Refinement:
+    return Refinement(MeshOutcome.UNDECIDED, side, *NO_MESH, levels, reason=reason)
+
+
+def _refined(scene: _Scene) -> Refinement:
+    cells, outside = _whole(), scene.side >= 0
     beyond: list[tuple[Floats, Floats]] = []
-    for _ in range(LEVELS):
+    for level in range(LEVELS):
         tau_low, tau_high = (cells[:, 0] - cells[:, 3]) / 2, (cells[:, 1] - cells[:, 2]) / 2
         cells = cells[(tau_high >= scene.low) & (tau_low <= scene.high)]
         if not len(cells):
-            return _clear(scene, beyond)
+            corners = np.concatenate([np.empty((0, 4, 3)), *(part for part, _ in beyond)])
+            slack = max((float(part.max()) for _, part in beyond if len(part)), default=0.0)
+            shown = _triangles(corners, OUTER if outside else INNER)
+            return Refinement(MeshOutcome.CLEAR, scene.side, *shown, level, slack=slack)
         if len(cells) > MOST_CELLS:
-            return None
+            return _undecided(scene.side, level, "too many cells stay open")
         tau_low, tau_high = (cells[:, 0] - cells[:, 3]) / 2, (cells[:, 1] - cells[:, 2]) / 2
         bounded = (tau_low > -math.pi / 2 + 1e-9) & (tau_high < math.pi / 2 - 1e-9) & (cells[:, 1] - cells[:, 0] < 1)
-        corners, slack = scene.corners(cells)
-        within = bounded & (np.sqrt(_least(np.einsum("nij,nij->ni", corners, corners))) + slack < 1)
+        corners, slack_of = scene.corners(cells)
+        within = bounded & (np.sqrt(_least(np.einsum("nij,nij->ni", corners, corners))) + slack_of < 1)
         if within.any():
-            return _contact(scene, corners[within][:1], slack[within][:1])
-        lower = _least_along(corners) - slack
+            shown = _triangles(corners[within][:1], INNER if outside else OUTER)
+            slack = float(slack_of[within][0])
+            return Refinement(MeshOutcome.CONTACT, scene.side, *shown, level + 1, slack=slack)
+        lower = _least_along(corners) - slack_of
         done = bounded & (lower > 1)
         near = done & (lower <= REACH)
-        beyond.append((corners[near], slack[near]))
+        beyond.append((corners[near], slack_of[near]))
         cells = _quarters(cells[~done])
-    return None
+    return _undecided(scene.side, LEVELS, "cells stay open to the last level")
 
 
 def _whole() -> Floats:
@@ -151,26 +151,12 @@ def _least(numbers: Floats) -> Floats:
     return np.asarray(np.minimum.reduce([*numbers.T]))
 
 
-def _clear(scene: _Scene, beyond: list[tuple[Floats, Floats]]) -> Position | None:
-    """Clear, if FCL says that the mesh on C's side is beyond the ball."""
-    corners = np.concatenate([part for part, _ in beyond]) if beyond else np.empty((0, 4, 3))
-    slack = max((float(part.max()) for _, part in beyond if len(part)), default=0.0)
-    said = _distance(scene, corners, OUTER if scene.side > 0 else INNER)
-    return Position(scene.side) if said > 1 + slack else None
-
-
-def _contact(scene: _Scene, corners: Floats, slack: Floats) -> Position | None:
-    """Contact, if FCL says that the mesh on the other side reaches into the ball."""
-    said = _distance(scene, corners, INNER if scene.side > 0 else OUTER)
-    return Position.CONTACT if said < 1 - float(slack.max()) else None
-
-
-def _distance(scene: _Scene, corners: Floats, triangles: tuple[tuple[int, int, int], ...]) -> float:
-    """The distance from C to the triangles of these cells; those without area are left out."""
+def _triangles(corners: Floats, places: tuple[tuple[int, int, int], ...]) -> tuple[Vertices, Triangles]:
+    """The triangles of these cells; those without area are left out."""
     vertices = np.ascontiguousarray(corners.reshape(-1, 3))
     first = 4 * np.arange(len(corners))[:, None, None]
-    faces = (first + np.array(triangles)).reshape(-1, 3)
-    return scene.measure(vertices, np.ascontiguousarray(faces[_has_area(vertices, faces)]))
+    faces = (first + np.array(places)).reshape(-1, 3)
+    return vertices, np.ascontiguousarray(faces[_has_area(vertices, faces)])
 
 
 def _has_area(vertices: Floats, faces: Indices) -> Mask:

@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.truth import exact
-from hypcheck.truth.tilted import float_boxes
-from hypcheck.truth.tilted.backward_error import goal_of
-from hypcheck.truth.tilted.box_certificate import Goal
-from hypcheck.truth.tilted.float_boxes import Enclosures
-from tests.truth.tilted.cases import random_rows
+from hypcheck.truth import exact, float_boxes
+from hypcheck.truth.box_form import Goal
+from hypcheck.truth.changes import goal_of
+from hypcheck.truth.float_boxes import Enclosures
+from tests.truth.tilted_cases import random_rows
 
 ROWS = [
     *random_rows(40, seed=3),

@@ -1,7 +1,8 @@
 """Certificates over boxes of changes for many rows at once, in float64 intervals.
 
-The proofs are those of box_certificate.py. Each end of an interval is rounded outward after each operation, so that
-what is certified here is proved. What is not, as near to contact or of very stiff sizes, is left to 256 bits there.
+The proofs are those of box_proofs.py. Each end of an interval is rounded outward after each operation, so that
+what is certified here is proved. What is not, as near to contact or of very stiff sizes, is left to the 256 bits of
+box_certificate.py.
 
 NaN, which overflow leaves, compares as no proof. Only sums, products, quotients and roots are asked of numpy, each of
 which IEEE 754 rounds correctly, so that the next float on either side bounds the exact result.
@@ -18,7 +19,9 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.truth.tilted.box_certificate import Form, Goal, dot
+from hypcheck.truth.box_form import Form, Goal
+from hypcheck.truth.box_proofs import Kind, Place, stays_clear, stays_off
+from hypcheck.truth.vectors import dot
 
 LEAST = -46
 """Changes below 2^LEAST are not tried: there float64 intervals tell nothing."""
@@ -102,11 +105,17 @@ def _up(values: Floats) -> Floats:
 Vectors = list[Any]
 """Three numbers of n rows each, floats or enclosures."""
 
-_SAFE = 1 + 2.0**-40
-"""More than the rounding of a sum of a few positive products."""
-
-_NOTHING = 1e-300
-"""More than what underflow loses, lengths being about 1."""
+KIND = Kind(
+    between=Enclosures,
+    root=Enclosures.root,
+    low=lambda enclosure: enclosure.low,
+    high=lambda enclosure: enclosure.high,
+    size=lambda enclosure: enclosure.size,
+    safe=1 + 2.0**-40,
+    nothing=1e-300,  # lengths are about 1
+    tiny=2.0**-30,
+)
+"""Float64 intervals."""
 
 _AT_ONCE = 4096
 """Rows of one pass, which bounds memory."""
@@ -229,9 +238,9 @@ def _held(boxes: Boxes) -> tuple[Mask, Floats]:
     pull = sign * np.stack(_Margin(boxes.sizes, boxes.middle, boxes.side).derivatives())
     worst = _Margin(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
     held = np.zeros(len(sign), dtype=np.bool_)
-    for proof, chosen in ((_stays_clear, np.flatnonzero(boxes.leave)), (_stays_off, np.flatnonzero(~boxes.leave))):
+    for chosen in (np.flatnonzero(boxes.leave), np.flatnonzero(~boxes.leave)):
         if len(chosen):
-            held[chosen] = proof(boxes[chosen], worst.at[chosen], worst.X[:, chosen], worst.C[:, chosen])
+            held[chosen] = _proved(boxes[chosen], worst.at[chosen], worst.X[:, chosen], worst.C[:, chosen])
     return held, pull
 
 
@@ -305,91 +314,19 @@ def _root(A1: Floats, A2: Floats, B: Floats, P1: Floats, P2: Floats, Q: Floats) 
     return np.asarray(np.where(outside, B, -least) * odds / (1 + odds))
 
 
-def _stays_clear(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:  # noqa: ARG001 - as _stays_off
-    """As box_certificate._stays_clear."""
-    form = Form([_enclosed(each) for each in boxes.sizes], Enclosures.root)
-    C0, v0 = _points(boxes.middle)
-    M, adjugate, minors = form.pencil(_enclosed(at), v0)
-    R = [[dot(row, column) / minors[2] for column in M] for row in adjugate]
-    X0 = [dot(row, C0) for row in R]
-    centre, v = _intervals(boxes)
-    reach, regular = _reach(form, at, centre, v, X0, R)
-    n0 = form.gradient(X0)
-    value = (at * form.width(v0, n0)) ** 2 - 1 + at * form.hyperboloid(X0)
-    n = form.gradient([a + Enclosures(-r, r) for a, r in zip(X0, reach, strict=True)])
-    slopes = [*(2 * at * each for each in n), *(_enclosed(at) ** 2 * each for each in form.by_axis(v, n, n))]
-    definite = np.min([each.low for each in minors], axis=0) > 0
-    return np.asarray((at != 0) & definite & regular & (value.low > _spread(slopes, boxes.radii)))
-
-
-def _reach(form: Form, at: Floats, C: Vectors, v: Vectors, X0: Vectors, R: list[Vectors]) -> tuple[list[Floats], Mask]:
-    """As box_certificate._reach, and where the reach is proved."""
-    image = form.sigma_times(v, form.gradient(X0))
-    shift = [dot(row, [C[i] - X0[i] - at * image[i] for i in range(3)]).size for row in R]
-    sigma = form.sigma(v)
-    columns = [[float(i == j) + at * sigma[i][j] * form.D[j] for i in range(3)] for j in range(3)]
-    defect = [[(float(i == j) - dot(R[i], columns[j])).size for j in range(3)] for i in range(3)]
-    least = np.max([each.size for each in X0], axis=0) * 2.0**-60 + _NOTHING
-    reach, regular = [2 * each + least for each in shift], np.zeros(len(at), dtype=np.bool_)
-    for _ in range(3):
-        needed = [_SAFE * (shift[i] + sum(defect[i][j] * reach[j] for j in range(3))) + _NOTHING for i in range(3)]
-        regular |= np.all([a < b for a, b in zip(needed, reach, strict=True)], axis=0)
-        reach = [np.where(regular, b, 2 * a + least) for a, b in zip(needed, reach, strict=True)]
-    return reach, regular
-
-
-def _stays_off(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
-    """As box_certificate._stays_off."""
-    form = Form([_enclosed(each) for each in boxes.sizes], Enclosures.root)
-    (C0, v0), (centre, v), radii, side = _points(boxes.middle), _intervals(boxes), boxes.radii, boxes.side
-    zero = [_enclosed(np.zeros(len(at)))] * 3
-    held = _crosses(form, side, (C0, zero), (centre, zero), zero, radii)
-    plain = Form(list(boxes.sizes), np.sqrt)
-    q = [-side * each for each in plain.gradient(list(X))]
-    axis = list(boxes.middle[3:])
+def _proved(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
+    """Which goals, all to leave a side or all to come to one, the certificates of the worst corners exclude."""
+    points = [_enclosed(part) for part in boxes.middle]
+    whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
+    form = Form([_enclosed(size) for size in boxes.sizes], KIND.root)
+    place = Place(KIND, form, (points[:3], points[3:]), (whole[:3], whole[3:]), list(boxes.radii))
+    if boxes.leave[0]:
+        return np.asarray(stays_clear(place, at))
+    plain, axis = Form(list(boxes.sizes), np.sqrt), list(boxes.middle[3:])
+    q = [-boxes.side * part for part in plain.gradient(list(X))]
     width = plain.width(axis, q)
-    way = [each / width for each in plain.sigma_times(axis, q)]
+    way = [part / width for part in plain.sigma_times(axis, q)]
     bend = plain.gradient(way)
     turn = -dot(bend, list(C)) / dot(bend, way)
-    q = [_enclosed(each) for each in q]
-    for rho in (np.ones(len(at)), (1 + np.minimum(np.abs(at * width), 1)) / 2, np.clip(turn, 0, 1)):
-        scale0, scale = (rho / form.width(each, q) for each in (v0, v))
-        way0, over = ([s * each for each in form.sigma_times(a, q)] for s, a in ((scale0, v0), (scale, v)))
-        n = form.gradient([a + b for a, b in zip(centre, over, strict=True)])
-        fall = dot(n, over) * (scale / rho) ** 2 / 2
-        by_axis = zip(form.by_axis(v, q, n), form.by_axis(v, q, q), strict=True)
-        held |= _crosses(form, side, (C0, way0), (centre, over), [scale * a - fall * b for a, b in by_axis], radii)
-    return held
-
-
-def _crosses(
-    form: Form,
-    side: Floats,
-    middle: tuple[Vectors, Vectors],
-    box: tuple[Vectors, Vectors],
-    by_axis: Vectors,
-    radii: Floats,
-) -> Mask:
-    """As box_certificate._crosses."""
-    height = side * form.hyperboloid([a + b for a, b in zip(*middle, strict=True)])
-    n = form.gradient([a + b for a, b in zip(*box, strict=True)])
-    slopes = [*(2 * each for each in n), *(2 * each for each in by_axis)]
-    return np.asarray(height.high + _spread(slopes, radii) < 0)
-
-
-def _spread(slopes: Vectors, radii: Floats) -> Floats:
-    """More than a function can change from the middle of a box to anywhere in it."""
-    total: Floats = np.zeros(radii.shape[1])
-    for slope, radius in zip(slopes, radii, strict=True):
-        total = total + slope.size * radius
-    return _SAFE * total + _NOTHING
-
-
-def _points(numbers: Floats) -> tuple[Vectors, Vectors]:
-    points = [_enclosed(each) for each in numbers]
-    return points[:3], points[3:]
-
-
-def _intervals(boxes: Boxes) -> tuple[Vectors, Vectors]:
-    whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
-    return whole[:3], whole[3:]
+    shares = np.ones(len(turn)), (1 + np.minimum(np.abs(at * width), 1)) / 2, np.clip(turn, 0, 1)
+    return np.asarray(stays_off(place, boxes.side, q, shares))

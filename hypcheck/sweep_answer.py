@@ -1,0 +1,117 @@
+"""The answer about one sweep, the straight motion of a spheroid between two positions: contact or none, and a proof.
+
+The passage is decided exactly, and its certificate is checked by code that shares nothing with what found it. Loads no
+numpy.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hypcheck.answer import DisagreementError
+from hypcheck.messages import counted
+from hypcheck.tables.numbers import equals_text, exact_text, readable_text
+from hypcheck.truth.passage_certificate import PassageCertificate, check_passage
+from hypcheck.truth.passage_prove import prove
+from hypcheck.truth.swept import Passage, passage
+
+
+@dataclass(frozen=True, slots=True)
+class SweepAnswer:
+    """The answer about a sweep.
+
+    row: sizes, the two centres, and the axis where the spheroid has one.
+    passage: what happens, decided exactly.
+    first: two neighbouring float64 that the time of the first contact lies between, or 0 twice; None without contact.
+    certificate: proves `first`, and was checked; None where the surfaces touch at an irrational time alone.
+    """
+
+    row: tuple[float, ...]
+    passage: Passage
+    first: tuple[float, float] | None
+    certificate: PassageCertificate | None
+
+
+def sweep_answer(row: Sequence[float]) -> SweepAnswer:
+    """Decide and prove a row of sizes, two centres and, if it has one, an axis.
+
+    Raises InputError for a row that is not valid, DisagreementError if the proof does not hold.
+    """
+    found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
+    try:
+        _, first, certificate = prove(row)
+    except ValueError:  # an irrational time has no certificate
+        return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper), None)
+    if not check_passage(row, certificate, first):
+        raise DisagreementError(
+            f"the proof found for the sweep {tuple(row)} does not hold; please report this, it is a fault of hypcheck"
+        )
+    return SweepAnswer(tuple(row), found, first, certificate)
+
+
+def sweep_as_json(answer: SweepAnswer) -> str:
+    """The answer as one JSON object on one line, rationals as strings such as "3/2"."""
+    return json.dumps(
+        {
+            "hit": int(answer.passage.hit),
+            "label": _label(answer),
+            "grazes": answer.passage.grazes,
+            "first": answer.first,
+            "start": answer.passage.start.label,
+            "end": answer.passage.end.label,
+            "proof": None if answer.certificate is None else _proof_as_json(answer.certificate),
+        }
+    )
+
+
+def _label(answer: SweepAnswer) -> str:
+    return "contact" if answer.passage.hit else "clear"
+
+
+def _proof_as_json(certificate: PassageCertificate) -> dict[str, Any]:
+    time, root = certificate.time, certificate.double_root
+    return {
+        "pieces": [list(map(exact_text, piece)) for piece in certificate.pieces],
+        "time": None if time is None else exact_text(time),
+        "points": [list(map(exact_text, point)) for point in certificate.points],
+        "double_root": None if root is None else exact_text(root),
+    }
+
+
+def sweep_as_text(answer: SweepAnswer) -> str:
+    """The answer as lines of text, without an end of line after the last: contact or clear, first contact, proof."""
+    found = answer.passage
+    lines = [_label(answer) + ", only touched for an instant" * found.grazes]
+    if answer.first is not None:
+        lower, upper = answer.first
+        lines.append(f"first      contact between the times {lower!r} and {upper!r}; 0 is the start, 1 the end")
+    lines.append(f"ends       {found.start.label} at the start, {found.end.label} at the end")
+    proof = list(_proof_lines(answer.certificate))
+    return "\n".join([*lines, f"proof      {proof[0]}", *(f"{'':11}{line}" for line in proof[1:])])
+
+
+_MOST_PIECES = 4
+"""The text shows so many pieces of a proof."""
+
+
+def _proof_lines(certificate: PassageCertificate | None) -> Iterator[str]:
+    if certificate is None:
+        yield "none in rational numbers: the surfaces touch at an irrational time alone"
+        return
+    for at, end in certificate.pieces[:_MOST_PIECES]:
+        yield f"λ {equals_text(at)} proves the sweep clear up to the time {readable_text(end)};"
+    if more := len(certificate.pieces[_MOST_PIECES:]):
+        until = readable_text(certificate.pieces[-1][1])
+        yield f"{counted(more, 'piece')} more up to the time {until} (--json has all);"
+    if certificate.time is None:
+        yield "so it is clear all along: det(S + λH) > 0 on the piece of each λ (docs/motion.md)."
+        return
+    time = readable_text(certificate.time)
+    if certificate.double_root is not None:
+        yield f"at the time {time} the surfaces touch: m {equals_text(certificate.double_root)} is a double root."
+        return
+    yield f"at the time {time} the spheroid has these points, on both sides of the hyperboloid or on it:"
+    yield ", ".join(f"({', '.join(map(readable_text, point))})" for point in certificate.points) + "."

@@ -1,0 +1,138 @@
+"""The proofs that one certificate holds for every centre and axis of a box, in enclosures of any kind.
+
+With s and h the two surfaces' equations and φ_λ = min over X of s(X) + λ h(X), a clear pair stays clear where φ_λ > 0
+for one λ. A pair stays off a side where one point of the spheroid, given by the spheroid's centre and axis, does. Both
+are bounded by their value in the middle of the box and their derivatives over the box. They are as sharp as the box is
+small: the derivatives of sup φ_λ are those of s + λh at the nearest point, where each number enters s or h alone, so
+that the best corner and the best certificate belong together.
+
+An enclosure is an interval of mpmath (box_certificate.py), or float64 intervals of many rows (float_boxes.py), and what
+is said of it is then said of each row. NaN compares as no proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hypcheck.truth.box_form import Form, Number, Vector
+from hypcheck.truth.vectors import dot
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """How enclosures of a kind are made and read.
+
+    `between` makes one of its ends, `root` is its square root; `low`, `high` and `size`, the largest absolute value,
+    are plain numbers. `safe` is a factor that is more than the rounding of a sum of a few positive products of plain
+    numbers, `nothing` more than what they lose by underflow, `tiny` a small factor that is felt in a product.
+    """
+
+    between: Callable[[Any, Any], Any]
+    root: Callable[[Any], Any]
+    low: Callable[[Any], Any]
+    high: Callable[[Any], Any]
+    size: Callable[[Any], Any]
+    safe: Number
+    nothing: Number
+    tiny: Number
+
+    def exactly(self, number: Number) -> Number:
+        """The enclosure of a plain number."""
+        return self.between(number, number)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A box: the form of its sizes, its middle and the whole of it, both centre and axis; `radii` reach to its ends."""
+
+    kind: Kind
+    form: Form
+    middle: tuple[Vector, Vector]
+    whole: tuple[Vector, Vector]
+    radii: Vector
+
+    def spread(self, slopes: Iterable[Number]) -> Number:
+        """More than a function can change from the middle to anywhere in the box."""
+        terms = [self.kind.size(slope) * radius for slope, radius in zip(slopes, self.radii, strict=True)]
+        return self.kind.safe * sum(terms[1:], terms[0]) + self.kind.nothing
+
+
+def stays_clear(place: Place, multiplier: Number) -> Any:  # noqa: ANN401 - a bool, or one of each row
+    """Whether φ at this λ is > 0 for every centre and axis of the box.
+
+    Its derivatives are 2λ n by the centre and −λ² times those of nᵀ Σ n by the axis, n = D X held fixed there.
+    """
+    kind, form, (C0, v0), (_, v) = place.kind, place.form, place.middle, place.whole
+    at = kind.exactly(multiplier)
+    M, adjugate, minors = form.pencil(at, v0)
+    definite = (multiplier != 0) & (np.min([kind.low(minor) for minor in minors], axis=0) > 0)
+    if not np.any(definite):
+        return definite
+    inverse = [[dot(row, column) / minors[2] for column in M] for row in adjugate]
+    X0 = [dot(row, C0) for row in inverse]
+    reach, regular = _reach(place, at, X0, inverse)
+    n0 = form.gradient(X0)
+    value = (at * form.width(v0, n0)) ** 2 - 1 + at * form.hyperboloid(X0)
+    n = form.gradient([a + kind.between(-r, r) for a, r in zip(X0, reach, strict=True)])
+    slopes = [*(2 * at * part for part in n), *(at**2 * part for part in form.by_axis(v, n, n))]
+    return definite & regular & (kind.low(value) > place.spread(slopes))
+
+
+def _reach(place: Place, at: Number, X0: Vector, R: list[Vector]) -> tuple[Vector, Any]:
+    """Δ > 0 such that X is within Δ of X0 over the whole box and M + λD definite there; and where it is proved to be.
+
+    With A = 1 + λ Σ D, A X = C, it is enough that |R (C − A X0)| + |1 − R A| Δ < Δ, R being the inverse of A in the
+    middle (Rump): then A is regular for every axis of the box, and M + λD definite as it is in the middle.
+    """
+    kind, form, (C, v) = place.kind, place.form, place.whole
+    image, sigma = form.sigma_times(v, form.gradient(X0)), form.sigma(v)
+    rest = [C[i] - X0[i] - at * image[i] for i in range(3)]
+    columns = [[int(i == j) + at * sigma[i][j] * form.D[j] for i in range(3)] for j in range(3)]
+    shift = [kind.size(dot(row, rest)) for row in R]
+    defect = [[kind.size(int(i == j) - dot(R[i], columns[j])) for j in range(3)] for i in range(3)]
+    farthest, largest = np.max(shift, axis=0), np.max([kind.size(part) for part in X0], axis=0)
+    least = (farthest + largest * kind.tiny) * kind.tiny + kind.nothing
+    reach, regular = [2 * part + least for part in shift], np.False_
+    for _ in range(3):
+        needed = [
+            kind.safe * (shift[i] + sum(defect[i][j] * reach[j] for j in range(3))) + kind.nothing for i in range(3)
+        ]
+        regular = regular | np.all([a < b for a, b in zip(needed, reach, strict=True)], axis=0)
+        reach = [np.where(regular, b, 2 * a + least)[()] for a, b in zip(needed, reach, strict=True)]
+    return reach, regular
+
+
+def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Number]) -> Any:  # noqa: ANN401
+    """Whether a point of the spheroid is not on a side for any centre and axis of the box.
+
+    The point is the centre, or C + ρ Σq/√(qᵀΣq), ρ ≤ 1 one of the shares, which turns with the axis and stays in the
+    spheroid; for ρ = 1 it is the spheroid's farthest in the fixed direction q.
+    """
+    kind, form, (_, v0), (C, v) = place.kind, place.form, place.middle, place.whole
+    zero = [kind.exactly(0 * radius) for radius in place.radii[:3]]
+    q = [kind.exactly(part) for part in direction]
+    held = _crosses(place, side, zero, zero, zero)
+    for share in shares:
+        if np.all(held):
+            break
+        rho = kind.exactly(share)
+        scale0, scale = (rho / form.width(axis, q) for axis in (v0, v))
+        way0 = [scale0 * part for part in form.sigma_times(v0, q)]
+        way = [scale * part for part in form.sigma_times(v, q)]
+        n = form.gradient([a + b for a, b in zip(C, way, strict=True)])
+        fall = dot(n, way) * (scale / rho) ** 2 / 2
+        by_axis = zip(form.by_axis(v, q, n), form.by_axis(v, q, q), strict=True)
+        held = held | _crosses(place, side, way0, way, [scale * a - fall * b for a, b in by_axis])
+    return held
+
+
+def _crosses(place: Place, side: Number, way0: Vector, way: Vector, by_axis: Vector) -> Any:  # noqa: ANN401
+    """Whether h at the centre + a way is not on a side anywhere in the box; by_axis are the derivatives of half h."""
+    form, (C0, _), (C, _) = place.form, place.middle, place.whole
+    height = side * form.hyperboloid([a + b for a, b in zip(C0, way0, strict=True)])
+    n = form.gradient([a + b for a, b in zip(C, way, strict=True)])
+    return place.kind.high(height) + place.spread([*(2 * part for part in n), *(2 * part for part in by_axis)]) <= 0

@@ -1,0 +1,166 @@
+"""Relative changes of a pair's ten numbers, and whether any up to a size makes a wrong answer right.
+
+Positions are monotone in the four sizes (a larger spheroid contains the smaller one; {h > 0} grows when α falls or γ
+grows), so that among their changes one corner of the box of changes is best. For an upright pair the same holds of the
+centre: the exterior positions are an up-set (a pair stays exterior when α falls, γ grows, b or d falls, |x| or |y|
+grows, |z| falls), the interior ones likewise with α, γ, x, y, z the other way round (docs/mathematics.md, "Monotone in
+every input"). There one exact decision at one corner tells. A sphere is an upright pair: its b and d change alike.
+
+Of any other pair positions are not monotone in centre and axis:
+
+- that a change is enough is proved by a corner of the box of changes at which an exact decision finds the answer right;
+- that none is, by certificates that hold over the whole box (box_certificate.py), the sizes at their best corner.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from hypcheck.geometry.pair import COLUMNS, SIZES, Lengths, Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.box_form import Goal, Signs
+from hypcheck.truth.rationals import fraction, rounded
+
+if TYPE_CHECKING:
+    from hypcheck.truth.box_certificate import State
+
+Row = tuple[Fraction, ...]
+
+CUTS = 3
+"""How often a box may be cut along any line from the whole to its smallest part, where one certificate fails."""
+
+
+BITS = 12
+"""Changes are cut to so many bits: float64 holds them, where they are not too small for that."""
+
+
+def goal_of(truth: Position, answer: Position) -> Goal:
+    """What makes a wrong answer right: on the way from a clear position to contact it is enough to leave the first."""
+    return Goal(truth, leave=True) if answer is Position.CONTACT else Goal(answer, leave=False)
+
+
+def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
+    """The corner of the box of relative changes up to `change` that is nearest to `toward`; farthest, if that is < 0.
+
+    Of an upright pair; |change| < 1; `toward` is EXTERIOR or INTERIOR. Lengths are scaled by the denominator of
+    `change`, which leaves the ratios alone.
+    """
+    grown, shrunk = change.denominator + change.numerator, change.denominator - change.numerator
+    wide, tall = (shrunk, grown) if toward is Position.EXTERIOR else (grown, shrunk)
+    return Lengths(
+        alpha=lengths.alpha * wide,
+        b=lengths.b * shrunk,
+        x=lengths.x * tall,
+        y=lengths.y * tall,
+        gamma=lengths.gamma * tall,
+        d=lengths.d * shrunk,
+        z=lengths.z * wide,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Flip:
+    """A pair and what a change of it is to achieve."""
+
+    pair: Pair
+    lengths: Lengths
+    goal: Goal
+
+    @classmethod
+    def of(cls, pair: Pair, goal: Goal) -> Flip:
+        """The flip of a pair."""
+        return cls(pair, _lengths(pair), goal)
+
+    @property
+    def row(self) -> Row:
+        """The pair's ten numbers."""
+        return tuple(map(Fraction, (*self.pair.row[: len(COLUMNS)], *self.pair.axis)))
+
+    def reached(self, change: Fraction) -> bool:
+        """Whether a corner of the box of changes up to `change` (< 1) is found that attains the goal."""
+        if self.pair.is_upright:
+            # "Equals contact" is not monotone (a corner can pass right through), "is no longer the truth" is. From
+            # exterior the corner opposite to the exterior one has α, b, d and z grown, γ, x and y shrunk.
+            best = corner(self.lengths, -change if self.goal.leave else change, self.goal.side)
+            return (exact.position(best) is self.goal.side) is not self.goal.leave
+        return self._attained(change, self._signs(change))
+
+    def excluded(self, change: Fraction, cuts: int = CUTS) -> bool:
+        """Whether certificates are found that no change up to `change` (< 1) attains the goal."""
+        if self.pair.is_upright:
+            return not self.reached(change)
+        from hypcheck.truth.box_certificate import certified  # noqa: PLC0415 - loads mpmath
+
+        box = [(number - abs(number) * change, number + abs(number) * change) for number in self.row[len(SIZES) :]]
+        return certified(self._sizes(change), box, self.goal, cuts)
+
+    def reached_above(self, low: Fraction, ratio: Fraction) -> Fraction:
+        """A change above `low` that is reached, nearly the least one; 1 where none is found."""
+        high = rounded(low * Fraction(17, 16), BITS)
+        patterns = tuple(self._pointed(high))
+        while high < 1 and not self._attained(high, patterns):
+            high = rounded(high * Fraction(9, 8), BITS)
+        high, change = min(high, Fraction(1)), rounded(low * ratio, BITS)
+        while change < high and not self._attained(change, _PATTERNS):
+            change = rounded(change * ratio, BITS)
+        return min(high, change)
+
+    def estimate(self) -> Fraction:
+        """The change that derivatives at the row promise to be enough, at most 1/2, and > 0."""
+        state = self._state(self.row[: len(SIZES)], self.row[len(SIZES) :])
+        value = abs(fraction(state.value()))
+        derivatives = (*state.derivatives(), *state.size_derivatives())
+        factors = (*self.row[len(SIZES) :], *[Fraction(1)] * len(SIZES))
+        rate = sum((abs(a * fraction(b)) for a, b in zip(factors, derivatives, strict=True)), Fraction(0))
+        estimate = value / rate if rate else Fraction(1)
+        return min(estimate, Fraction(1, 2)) if estimate else Fraction(1, 1 << 10_000)
+
+    def _state(self, sizes: Row, rest: Row) -> State:
+        from hypcheck.truth.box_certificate import State  # noqa: PLC0415 - loads mpmath
+
+        return State(sizes, rest, self.goal)
+
+    def _sizes(self, change: Fraction) -> Row:
+        """The sizes at their best corner."""
+        return _moved(self.row[: len(SIZES)], self.goal.sizes, change)
+
+    def _attained(self, change: Fraction, patterns: Iterable[Signs]) -> bool:
+        """Whether a corner of these signs of centre and axis attains the goal, by exact decisions."""
+        sizes, rest = self._sizes(change), self.row[len(SIZES) :]
+        corners = (Lengths.of((*sizes, *_moved(rest, signs, change))) for signs in patterns)
+        return any((exact.position(lengths) is self.goal.side) is not self.goal.leave for lengths in corners)
+
+    def _signs(self, change: Fraction) -> Iterator[Signs]:
+        """Signs of changes of centre and axis: those that derivatives point to, then all others."""
+        tried = set()
+        for pattern in itertools.chain(self._pointed(change), _PATTERNS):
+            signs = tuple(sign if number else 0 for sign, number in zip(pattern, self.row[len(SIZES) :], strict=True))
+            if signs not in tried:
+                tried.add(signs)
+                yield signs
+
+    def _pointed(self, change: Fraction) -> Iterator[Signs]:
+        """The signs of the derivatives of φ at the row, and again at the corner that these point to."""
+        signs: Signs = (0,) * 6
+        for _ in range(2):
+            state = self._state(self._sizes(change), _moved(self.row[len(SIZES) :], signs, change))
+            signs = tuple(self.goal.sign * (1 if slope > 0 else -1) for slope in state.derivatives())
+            yield signs
+
+
+@lru_cache(64)
+def _lengths(pair: Pair) -> Lengths:
+    """The lengths of one of the last pairs: each is asked about several times in turn."""
+    return pair.lengths
+
+
+_PATTERNS = tuple(itertools.product((1, -1), repeat=6))
+
+
+def _moved(numbers: Row, signs: Signs, change: Fraction) -> Row:
+    return tuple(number * (1 + sign * change) for number, sign in zip(numbers, signs, strict=True))

@@ -1,0 +1,56 @@
+"""The mesh oracle: FCL asked about one-sided meshes of the surface (docs/mesh-oracle.md).
+
+It says clear, contact or undecided, and never a wrong word: bounds found without FCL settle the pair, and FCL, asked
+about the very mesh that shows it, must say the same. The one question to FCL (python-fcl) is how far C is from a mesh.
+FCL knows no sides; the side is the exact sign of the hyperboloid's equation at C.
+
+The bounds of an upright spheroid are proved (mesh_meridian.py), those of a tilted one allow for roundings ten times
+over (mesh_lines.py).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import mesh_lines, mesh_meridian
+from hypcheck.truth.mesh import Measure, MeshOutcome, distance_to_mesh, require_fcl
+
+
+@dataclass(frozen=True, slots=True)
+class MeshVerdict:
+    """What the meshes say of one pair.
+
+    `position` is None where undecided, and then `reason` is the sentence why. `lower` and `upper` are bounds on the
+    distance from the spheroid's centre to the surface, in spheroid radii (clearance + 1), proved ones of an upright
+    spheroid, and 0 and inf of a tilted one; a clear pair's are seldom tight, and beyond 5/4 radii they are 5/4 and inf.
+    `levels` counts the rounds of cutting, `triangles` what FCL was asked about; both are 0 where nothing is near.
+    """
+
+    outcome: MeshOutcome
+    position: Position | None
+    levels: int
+    triangles: int
+    lower: float
+    upper: float
+    reason: str | None = None
+
+
+def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
+    """The position of any valid pair, or undecided, if what measures the distance to the mesh confirms it.
+
+    Raises UnavailableError where FCL cannot be imported.
+    """
+    require_fcl()
+    search = mesh_meridian.refine(pair) if pair.is_upright else mesh_lines.refine(pair)
+    outcome, count, reason = search.outcome, len(search.triangles), search.reason
+    if outcome is not MeshOutcome.UNDECIDED:
+        distance = measure(search.vertices, search.triangles)
+        clear = outcome is MeshOutcome.CLEAR
+        if not (distance > 1 + search.slack if clear else distance <= 1 - search.slack):
+            reason = f"FCL's distance {distance!r} to the mesh does not bear out {outcome.value}"
+            outcome = MeshOutcome.UNDECIDED
+    position = None
+    if outcome is not MeshOutcome.UNDECIDED:
+        position = Position.CONTACT if outcome is MeshOutcome.CONTACT else Position(search.side)
+    return MeshVerdict(outcome, position, search.levels, count, search.lower, search.upper, reason or None)

@@ -1,0 +1,77 @@
+"""The nearest-point oracle for many rows: in double-double arithmetic as far as that can tell, else exactly.
+
+Upright rows are answered by upright_distances.py, others by distances.py; what the error bounds leave open, nearest.py
+answers pair by pair. Both round the clearance to the same float64.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.pair import COLUMNS, Pair
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
+from hypcheck.truth import distances, upright_distances
+from hypcheck.truth.nearest import NearestStage, nearest
+
+_CHUNK = 4096
+"""Rows whose intermediate arrays fit in a core's second-level cache."""
+
+
+@dataclass(frozen=True, slots=True)
+class NearestBatch:
+    """For n rows: clearances as in nearest.Nearest (n,), positions (n,), and the NearestStage of each, uint8 (n,)."""
+
+    clearance: Floats
+    position: Positions
+    stage: NDArray[np.uint8]
+
+    @property
+    def tangent(self) -> Mask:
+        """Which pairs are tangent, bool (n,)."""
+        return np.asarray(self.clearance == 0.0)
+
+
+def positions(rows: Rows) -> NearestBatch:
+    """The positions and tangencies of rows (n, 7) or (n, 10). Raises InputError about the first invalid row.
+
+    Clearances are right to a factor alone, and 0 where tangent.
+    """
+    return _run(rows, clearances_wanted=False)
+
+
+def clearances(rows: Rows) -> NearestBatch:
+    """The clearances and positions of rows (n, 7) or (n, 10). Raises InputError about the first invalid row."""
+    return _run(rows, clearances_wanted=True)
+
+
+def upright_mask(rows: Rows) -> Mask:
+    """Which rows, (n, 7) or (n, 10), are about an upright spheroid, bool (n,): the axis is vertical, or b = d."""
+    if rows.shape[1] == len(COLUMNS):
+        return np.ones(len(rows), dtype=np.bool_)
+    return np.asarray((rows[:, 7:9] == 0).all(axis=1) | (rows[:, 2] == rows[:, 3]))
+
+
+def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:
+    require_valid(rows)
+    count = len(rows)
+    batch = NearestBatch(
+        np.empty(count), np.empty(count, np.int8), np.full(count, NearestStage.DOUBLE_DOUBLE, np.uint8)
+    )
+    upright = upright_mask(rows)
+    for places, decide, width in (
+        (np.flatnonzero(upright), upright_distances.decide, len(COLUMNS)),
+        (np.flatnonzero(~upright), distances.decide, rows.shape[1]),
+    ):
+        for begin in range(0, len(places), _CHUNK):
+            chunk = places[begin : begin + _CHUNK]
+            decided = decide(rows[chunk, :width])
+            batch.clearance[chunk], batch.position[chunk] = decided.clearance, decided.position
+            certain = decided.clearance_certain if clearances_wanted else decided.position_certain
+            for index in chunk[~certain].tolist():
+                found = nearest(Pair.from_row(rows[index].tolist()))
+                batch.clearance[index], batch.position[index] = found.clearance, found.position
+                batch.stage[index] = found.stage
+    return batch
