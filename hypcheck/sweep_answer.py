@@ -40,10 +40,10 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
 
     Raises InputError for a row that is not valid, DisagreementError if the proof does not hold.
     """
-    found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
     try:
-        _, first, certificate = prove(row)
+        found, first, certificate = prove(row)
     except ValueError:  # an irrational time has no certificate
+        found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
         return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper), None)
     if not check_passage(row, certificate, first):
         raise DisagreementError(

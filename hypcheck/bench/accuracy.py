@@ -38,6 +38,7 @@ from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.judges import passage_of, truth_of
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
+from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.truth.passage_error import size_error
 
 if sys.platform != "win32":
@@ -104,7 +105,7 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
 
 def _examined(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
     """Exact positions, and the exponents of the distances to another."""
-    return judge.exact_positions(piece[1]), judge.flip_exponents(piece[1])
+    return judge.exact_positions(piece[1]), flip_exponents(piece[1])
 
 
 def _examined_ways(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:

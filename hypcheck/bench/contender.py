@@ -17,7 +17,8 @@ from hypcheck.bench.timing import Clocked, clocked
 from hypcheck.bench.workloads import scene_of
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
-from hypcheck.implementations.description import QUESTIONS, Domain, claimed
+from hypcheck.implementations.description import QUESTIONS
+from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.implementations.meshes import height_of, rows_by_sizes
 from hypcheck.implementations.method import Answers, ByScene, Method
 

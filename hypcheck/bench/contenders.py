@@ -32,7 +32,7 @@ from hypcheck.implementations.builtin import (
     passage_mesh_methods,
     passage_methods,
 )
-from hypcheck.implementations.description import EVERYWHERE, Domain
+from hypcheck.implementations.domain import EVERYWHERE, Domain
 from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshLibrary, scene_mesh
 from hypcheck.implementations.method import Answers, ByScene, Method, by_scene, on_scene
 from hypcheck.implementations.ways import WAY_SOLVERS, height_of_ways, way_mesh

@@ -245,7 +245,7 @@ def _one_of(choices: Callable[[], tuple[str, ...]]) -> Callable[[object], str]:
 
 
 def _precisions() -> tuple[str, ...]:
-    from hypcheck.implementations.description import PRECISIONS
+    from hypcheck.implementations.domain import PRECISIONS
 
     return PRECISIONS
 

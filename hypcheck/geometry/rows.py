@@ -173,7 +173,7 @@ def require_unmasked(subject: str, values: object) -> None:
 
 
 def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
-    """A mask (n,) of the rows that are no valid query: see pair.Pair and tilted.pair.Pair."""
+    """A mask (n,) of the rows that are no valid query: see pair.Pair."""
     valid = np.isfinite(rows).all(axis=1) & (rows[:, : len(SIZES)] > 0).all(axis=1)
     if layout.lean(rows):
         valid &= (rows[:, len(layout.upright) :] != 0).any(axis=1)

@@ -18,7 +18,8 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Axis, Pair, Sizes
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations import alternatives, ways
-from hypcheck.implementations.description import EVERYWHERE, ORDINARY, Description, Domain
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import EVERYWHERE, ORDINARY, Domain
 from hypcheck.implementations.frames import LARGEST, GivenAnswers
 from hypcheck.implementations.meshes import FCL, naive_fcl
 from hypcheck.implementations.method import Answers, Method, by_rows, on_rows

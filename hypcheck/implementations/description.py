@@ -9,29 +9,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from itertools import product
 from types import MappingProxyType
 from typing import Any, Literal
-
-import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, GROUPS, HEIGHTS, SIZES, trouble_with
 from hypcheck.geometry.rows import (
-    ORDINARY_MAGNITUDE,
-    ORDINARY_RATIO,
     PAIRS,
-    UNBOUNDED,
     WAYS,
     FixedSizes,
     Layout,
-    Mask,
-    Range,
-    Rows,
-    within,
 )
+from hypcheck.implementations.domain import ORDINARY, PRECISIONS, Domain
 from hypcheck.messages import escaped
 from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
 
@@ -66,147 +55,6 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
     }
 )
 """The position itself, whether it is one of the three, and whether there is contact on the way between two."""
-
-UNIT_ROUNDOFF = {
-    "float16": Fraction(1, 2**11),
-    "bfloat16": Fraction(1, 2**8),
-    "float32": Fraction(1, 2**24),
-    "float64": Fraction(1, 2**53),
-    "x87": Fraction(1, 2**64),
-    "binary128": Fraction(1, 2**113),
-    "exact": Fraction(0),
-}
-"""The unit u of each precision that an implementation can declare: half the distance from 1 to the next number."""
-
-PRECISIONS = tuple(UNIT_ROUNDOFF)
-
-
-REGIMES = ("a>=1", "c2>=a")
-"""The hypotheses of the paper: α/b ≥ 1, and (γ/d)² ≥ α/b."""
-
-NORMAL_RANGE: dict[str, Range] = {
-    "float16": (2.0**-14, 65504.0),
-    "bfloat16": (2.0**-126, (2 - 2.0**-7) * 2.0**127),
-    "float32": (2.0**-126, (2 - 2.0**-23) * 2.0**127),
-    "float64": (2.0**-1022, float(np.finfo(np.float64).max)),
-}
-"""The least and the greatest normal number of each format; wider formats hold every float64 as a normal number."""
-
-
-_CORNERS = np.array([(*sizes, *[center] * 9) for *sizes, center in product((0, 1), repeat=5)])
-"""Least or greatest, of four sizes and of all other numbers: of centres and of the axis."""
-
-
-@dataclass(frozen=True, slots=True)
-class Domain:
-    """The rows that a method claims: all `regimes` hold, α/b and γ/d lie in `ratio`, lengths in `magnitude`.
-
-    Bounds are inclusive, as in rows.within. None is a range that was not declared: the ordinary range, or for extreme
-    families an unbounded one. `settings` are the only allowed sizes, each with the ranges of its centre; a range that
-    was not declared is then unbounded. Raises InputError if a regime is unknown or a range is empty.
-    """
-
-    regimes: tuple[str, ...] = ()
-    ratio: Range | None = None
-    magnitude: Range | None = None
-    settings: tuple[FixedSizes, ...] = ()
-
-    def __post_init__(self) -> None:
-        for regime in self.regimes:
-            if regime not in REGIMES:
-                raise InputError(f"the domain names the regime {regime!r}; it must be one of {', '.join(REGIMES)}")
-        for name, limits in (("ratio", self.ratio), ("magnitude", self.magnitude)):
-            if limits is not None and not 0 <= limits[0] <= limits[1]:
-                shown = f"[{limits[0]}, {limits[1]}]"
-                raise InputError(f"the domain's {name} is {shown}; it must be two numbers with 0 ≤ low ≤ high")
-
-    def holds(self, rows: Rows, *, extreme: bool = False, layout: Layout = PAIRS) -> Mask:
-        """A mask (n,) of the rows inside the domain.
-
-        `extreme` rows belong to a family that is asked only on request; then ranges that were not declared are
-        unbounded.
-        """
-        unbounded = extreme or self.settings
-        ratio, magnitude = (UNBOUNDED, UNBOUNDED) if unbounded else (ORDINARY_RATIO, ORDINARY_MAGNITUDE)
-        inside = within(rows, self.ratio or ratio, self.magnitude or magnitude, layout)
-        for regime in self.regimes:
-            inside &= in_regime(rows, regime)
-        if self.settings:
-            inside &= np.logical_or.reduce([setting.holds(rows, layout) for setting in self.settings])
-        return inside
-
-
-ORDINARY, EVERYWHERE = Domain(), Domain(ratio=UNBOUNDED, magnitude=UNBOUNDED)
-
-
-def in_regime(rows: Rows, regime: str) -> Mask:
-    """A mask (n,) of the rows in a regime of REGIMES, decided exactly."""
-    alpha, gamma, b, d = rows[:, :4].T
-    if regime == "a>=1":
-        return np.asarray(alpha >= b)
-    with np.errstate(all="ignore"):
-        left, right = (gamma / d) ** 2, alpha / b
-        # At most 4 roundings between the two sides, if nothing under- or overflows: beyond 16u floats decide.
-        trusted = (left > 2.0**-900) & (left < 2.0**900) & (right > 2.0**-900) & (right < 2.0**900)
-        margin = 1 + 16 * 2.0**-53
-        holds, fails = trusted & (left > margin * right), trusted & (right > margin * left)
-    for index in np.flatnonzero(~(holds | fails)):
-        sizes = [Fraction(value) for value in rows[index, :4].tolist()]
-        holds[index] = (sizes[1] / sizes[3]) ** 2 >= sizes[0] / sizes[2]
-    return np.asarray(holds)
-
-
-def representable(rows: Rows, precision: str, *, subnormal: bool = False) -> Mask:
-    """A mask (n,) of the rows in which every number is zero or normal in the declared precision.
-
-    With `subnormal` also of those with subnormal numbers, if the precision holds these exactly.
-    """
-    limits = NORMAL_RANGE.get(precision)
-    if limits is None:
-        return np.ones(len(rows), dtype=bool)
-    lengths, (least, greatest) = np.abs(rows), limits
-    held = ((lengths >= least) & (lengths <= greatest)) | (rows == 0)
-    if subnormal:
-        step = least * float(2 * UNIT_ROUNDOFF[precision])  # 2u is the distance from 1 to the next number
-        held |= (lengths < least) & (np.fmod(lengths, step) == 0)
-    return np.asarray(held.all(axis=1))
-
-
-def claimed(
-    rows: Rows,
-    domain: Domain,
-    precision: str,
-    *,
-    extreme: bool = False,
-    subnormal: bool = False,
-    layout: Layout = PAIRS,
-) -> NDArray[np.intp]:
-    """The ascending indices of the rows that lie in the domain and are representable in the declared precision.
-
-    `extreme` is as in Domain.holds, `subnormal` as in representable.
-    """
-    with np.errstate(all="ignore"):
-        if not domain.settings:
-            corners = _corners(rows)
-            if (domain.holds(corners, extreme=extreme, layout=layout) & representable(corners, precision)).all():
-                return np.arange(len(rows))
-        inside = domain.holds(rows, extreme=extreme, layout=layout)
-        return np.flatnonzero(inside & representable(rows, precision, subnormal=subnormal))
-
-
-def _corners(rows: Rows) -> Rows:
-    """Rows (32, their columns) of the extremes of |rows|: all combinations of sizes, least and greatest of the others.
-
-    Each condition of a domain except its settings is monotone in each length. So is the range of a precision, except
-    for zero, which is always representable. Hence a condition that holds for these rows holds for all.
-    """
-    lengths = np.abs(rows.T)
-    least, greatest = lengths.min(axis=1, initial=np.inf), lengths.max(axis=1, initial=0.0)
-    for index in np.flatnonzero(least == 0):
-        least[index] = lengths[index][lengths[index] > 0].min(initial=greatest[index])
-    columns = rows.shape[1]
-    return np.asarray(np.stack([least, greatest])[_CORNERS[:, :columns], np.arange(columns)])
-
 
 PROTOCOL = 1
 LONGEST = 1 << 16

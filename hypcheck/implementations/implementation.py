@@ -14,7 +14,8 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, with_axis
-from hypcheck.implementations.description import Description, Domain
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.frames import LARGEST
 from hypcheck.implementations.protocol import CommandSession
 from hypcheck.implementations.session import (

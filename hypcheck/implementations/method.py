@@ -20,7 +20,7 @@ from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import Program, Step, hoist, split
 from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes
 from hypcheck.geometry.rows import Floats, Rows
-from hypcheck.implementations.description import ORDINARY, Domain
+from hypcheck.implementations.domain import ORDINARY, Domain
 
 Answers = NDArray[np.int8]
 

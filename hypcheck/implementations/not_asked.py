@@ -12,7 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from hypcheck.geometry.rows import PAIRS, UNBOUNDED, Layout, Mask, Rows
-from hypcheck.implementations.description import Domain, representable
+from hypcheck.implementations.domain import Domain, representable
 
 ROWS: Mapping[str, str] = MappingProxyType(
     {
@@ -40,7 +40,7 @@ FAMILIES: Mapping[str, str] = MappingProxyType(
 def reasons(
     rows: Rows, domain: Domain, precision: str, *, extreme: bool, subnormal: bool, layout: Layout = PAIRS
 ) -> dict[str, int]:
-    """The number of rows that description.claimed leaves out, by the first of ROWS that is the reason; of no others."""
+    """The number of rows that domain.claimed leaves out, by the first of ROWS that is the reason; of no others."""
     if not len(rows):
         return {}
     free = replace(domain, ratio=UNBOUNDED, magnitude=UNBOUNDED)

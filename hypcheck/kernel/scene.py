@@ -3,7 +3,7 @@
 The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior. A
 hyperboloid gives no answer for a centre beyond its modelled height, and where none gives one, the scene gives none.
 Parts of the mover are asked where the mover itself is in contact: an answer that all parts share is then the answer.
-scene_pairs.py gives the answer of each hyperboloid.
+scene_pairs.py and scene_sweeps.py give the answer of each hyperboloid.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, tro
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, as_columns, as_numbers
 from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.choice import POSITION_OF
+from hypcheck.kernel.scene_frames import places_of_parts
 from hypcheck.kernel.scene_index import (
     Bodies,
     Levels,
@@ -38,18 +39,14 @@ from hypcheck.kernel.scene_index import (
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     Body,
-    Way,
-    hits_beside,
-    is_clear,
     is_within_height,
-    meets_height,
-    places_of_parts,
     position_beside,
     position_leaning,
     positions_beside,
     positions_leaning,
     within_height,
 )
+from hypcheck.kernel.scene_sweeps import Sweep, hits_beside, is_clear, meets_height
 from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
 from hypcheck.scene.reading import parse_scene, read_scene
 
@@ -170,13 +167,13 @@ class Scene:
         for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
             way = query[pair]
             own_axis = UPRIGHT if movers is None else movers[way].tolist()
-            ends_of = Way(starts[way].tolist(), ends[way].tolist(), own_axis)
+            ends_of = Sweep(starts[way].tolist(), ends[way].tolist(), own_axis)
             places = (
                 places_of_parts(mover.parts, point, float(headings[way]), own_axis)
                 for point in (ends_of.start, ends_of.end)
             )
             parts = [
-                (part.b, part.d, Way(here, there, own_axis))
+                (part.b, part.d, Sweep(here, there, own_axis))
                 for part, here, there in zip(mover.parts, *places, strict=True)
             ]
             hits[pair] = not is_clear(bodies, int(body[pair]), parts, ends_of)
@@ -184,7 +181,7 @@ class Scene:
         result = np.where(self._levels.meet_each(low, high), 0, CANNOT_SAY).astype(np.int8)
         result[query[hits]] = 1
         for index in np.flatnonzero(result == CANNOT_SAY).tolist() if bodies.leaning.any() else ():
-            way_of = Way(starts[index].tolist(), ends[index].tolist(), UPRIGHT)
+            way_of = Sweep(starts[index].tolist(), ends[index].tolist(), UPRIGHT)
             if any(meets_height(bodies, body, way_of) for body in np.flatnonzero(bodies.leaning).tolist()):
                 result[index] = 0
         return result

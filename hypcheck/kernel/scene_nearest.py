@@ -10,8 +10,8 @@ which stands; it is the same where the nearest point is on that part. Else a poi
 bound: with f the factor by which the spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away.
 
 **A hyperboloid that leans** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
-So the offset is off by 64 u of its size, and the spheroid, by its axis, by 64 u of its longer semi-axis (frames_of):
-both far less than _ROUNDED of the sizes and coordinates.
+So the offset is off by TURNING of its size, and the spheroid, by its axis, by TURNING of its longer semi-axis: both are
+less than _ROUNDED of the sizes and coordinates.
 
 Pairs are left out by the cylinder about the standing part: the mover is no nearer to the part than to the cylinder.
 """
@@ -25,8 +25,9 @@ import numpy as np
 from hypcheck.geometry.pair import SIZES, UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearance
+from hypcheck.kernel.scene_frames import frames_of, turned, turned_axes
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
-from hypcheck.kernel.scene_pairs import along_and_across, frames_of, positions_leaning, turned
+from hypcheck.kernel.scene_pairs import along_and_across, positions_leaning
 from hypcheck.scene.model import Mover
 
 PAIRS_AT_A_TIME = 1 << 18
@@ -133,12 +134,11 @@ def _distances(
     beyond = ~np.isfinite(offset).all(axis=1)  # of which nothing is known but whether there is contact
     offset[beyond] = 0.0
     frames = frames_of(bodies.axes[body]) if bodies.leaning.any() else None
+    own_axes = axes
     if frames is not None:
-        offset = turned(frames, offset)
-        axes = np.broadcast_to(UPRIGHT, offset.shape) if axes is None else axes
+        offset, own_axes = turned(frames, offset), turned_axes(frames, axes)
     sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(body), 1))], axis=1)
-    own_axes = [] if axes is None else [axes if frames is None else turned(frames, axes)]
-    rows = np.concatenate([sizes, offset, *own_axes], axis=1)
+    rows = np.concatenate([sizes, offset] if own_axes is None else [sizes, offset, own_axes], axis=1)
     said = clearance(rows)
     with np.errstate(all="ignore"):
         rounded = _LEAST + _ROUNDED * (
@@ -157,7 +157,7 @@ def _distances(
         level = point[:, 2]
         cut = np.flatnonzero(~((level - rounded >= bottom) & (level + rounded <= top)) & np.isfinite(bodies.tall[body]))
         point[cut] = _at_height(rows[cut], point[cut], np.clip(level[cut], bottom[cut], top[cut]))
-        high[cut] = _reached(mover, own_axes[0][cut] if own_axes else None, point[cut] - offset[cut])
+        high[cut] = _reached(mover, None if own_axes is None else own_axes[cut], point[cut] - offset[cut])
         steep = 1 + rows[cut, 0] / rows[cut, 1]
         high[cut] += rounded[cut] * steep + _ROUNDED * np.abs(point[cut]).sum(axis=1)
     low[beyond], point[beyond] = 0.0, np.nan

@@ -1,4 +1,4 @@
-"""One mover beside one hyperboloid, both in the scene's coordinates: exact positions, and contact on straight ways.
+"""One mover beside one hyperboloid, both in the scene's coordinates: exact positions.
 
 A centre seen from another is x − x₀, and that is no float64 as a rule. Its rounding error, though, is one, and is known
 (TwoSum): where it is 0 the difference is exact and the fast path answers.
@@ -14,33 +14,22 @@ movers are nowhere near: with h and ϱ, the centre's height along w and its dist
 the ball of radius r = max(b, d) and is exterior where ϱ − r > ρ(|h| + r), interior where ϱ + r < ρ(|h| − r), with ρ the
 surface's radius. In floats h and ϱ are formed from w/|w| and the centres with six roundings to a term, all on sums of
 at most six terms: 64 u Σ|C| bounds what they are wrong by; ρ takes five roundings on positive terms.
-
-**Straight ways.** The kernel's answer about ways (core/parts/ways.h) is asked twice: about a spheroid that is larger,
-and about one that is smaller, by what the rounding of the difference of two centres may be in radii, as for
-positions. The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the
-exact differences by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about ways is
-known. So is a way that may hit, and leaves the modelled height: of it the part at that height counts. Beside a
-hyperboloid that leans both ends and the mover's axis are turned into its frame, and the roundings of that are added.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from fractions import Fraction
-from math import cos, inf, isqrt, radians, sin, sqrt
+from math import inf, sqrt
 
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, Position, to_integers
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
-from hypcheck.kernel.classify import classify, kernel
+from hypcheck.kernel.classify import classify
 from hypcheck.kernel.scalar import position
-from hypcheck.kernel.scene_index import Bodies
 from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
-from hypcheck.scene.model import Mover, MoverPart, Point
-from hypcheck.truth.swept import passage
 
 Body = tuple[float, float, float, float, float, float, float]
 """α, γ, the centre x, y, z, and the lowest and highest modelled z, of a hyperboloid."""
@@ -80,7 +69,7 @@ def positions_beside(sizes: Rows, centres: Rows, origins: Rows, movers: Rows | N
 
 def _between(sizes: Rows, place: Rows, lost: Floats) -> tuple[Positions, Mask]:
     """The positions about rounded differences that lost so much, and a mask of those that it leaves open."""
-    larger, smaller, fits = _larger_and_smaller(sizes[:, 2:], lost)
+    larger, smaller, fits = larger_and_smaller(sizes[:, 2:], lost)
     outer, inner = (
         classify(np.concatenate([sizes[fits, :2], each[fits], place[fits]], axis=1)) for each in (larger, smaller)
     )
@@ -89,7 +78,7 @@ def _between(sizes: Rows, place: Rows, lost: Floats) -> tuple[Positions, Mask]:
     return found, unsettled
 
 
-def _larger_and_smaller(semi_axes: Rows, lost: Floats) -> tuple[Floats, Floats, Mask]:
+def larger_and_smaller(semi_axes: Rows, lost: Floats) -> tuple[Floats, Floats, Mask]:
     """The semi-axes (n, 2), longer and shorter by what differences of centres lost, and where both are as they must be.
 
     That is nowhere where a difference has overflowed: then nobody knows what it lost, which is NaN.
@@ -272,209 +261,3 @@ def is_within_height(
 
 def _signed_square(value: Fraction) -> Fraction:
     return value * abs(value)
-
-
-def hits_beside(
-    bodies: Bodies, body: Indices, mover: Mover, starts: Rows, ends: Rows, axes: Rows | None = None
-) -> Mask:
-    """Which ways of a mover have contact with their hyperboloid, where it is modelled, (n,).
-
-    `starts` and `ends`, (n, 3), are in the scene's coordinates, and `axes`, (n, 3), the mover's; None: it is upright.
-    """
-    origins, shapes, spans = bodies.origins[body], bodies.shapes[body], bodies.spans[body]
-    with np.errstate(all="ignore"):
-        (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
-        lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
-        own_axes = axes
-        if bodies.leaning[body].any():
-            start, end, own_axes, turning = _in_frames(bodies.axes[body], mover, start, end, axes)
-            lost = lost + turning
-        low = np.minimum(start[:, 2], end[:, 2]) - lost
-        high = np.maximum(start[:, 2], end[:, 2]) + lost
-        leaves, beyond = (low < spans[:, 0]) | (high > spans[:, 1]), (high < spans[:, 0]) | (low > spans[:, 1])
-    larger, smaller, fits = _larger_and_smaller(np.broadcast_to((mover.b, mover.d), (len(body), 2)), lost)
-    place = [start, end] if own_axes is None else [start, end, own_axes]
-    hits = np.zeros(len(body), np.bool_)
-    open_ways = ~fits & ~beyond
-    asked = np.flatnonzero(fits & ~beyond)
-    said = kernel().answer_ways(np.concatenate([shapes, larger, *place], axis=1)[asked])[0]
-    asked = asked[said != 0]
-    said = kernel().answer_ways(np.concatenate([shapes, smaller, *place], axis=1)[asked])[0]
-    hits[asked] = said == 1
-    open_ways[asked] = (said != 1) | leaves[asked]
-    for index in np.flatnonzero(open_ways).tolist():
-        axis = UPRIGHT if axes is None else axes[index].tolist()
-        way = Way(starts[index].tolist(), ends[index].tolist(), axis)
-        hits[index] = not is_clear(bodies, int(body[index]), [(mover.b, mover.d, way)], way)
-    return hits
-
-
-def _in_frames(
-    upward: Rows, mover: Mover, start: Floats, end: Floats, axes: Rows | None
-) -> tuple[Floats, Floats, Floats, Floats]:
-    """Both ends and the mover's axis in the frames of hyperboloids with these axes, and how far they are off at most.
-
-    An axis that is off by an angle δ moves no point of the spheroid farther than δ times its longer semi-axis.
-    """
-    frames = frames_of(upward)
-    lean = (upward[:, :2] != 0).any(axis=1)
-    size = np.maximum(np.abs(start).sum(axis=1), np.abs(end).sum(axis=1)) + max(mover.b, mover.d)
-    own_axes = np.broadcast_to(UPRIGHT, start.shape) if axes is None else axes
-    error = np.where(lean, ERROR * size + LEAST, 0.0)
-    return turned(frames, start), turned(frames, end), turned(frames, own_axes), error
-
-
-def frames_of(axes: Floats) -> Floats:
-    """Frames (n, 3, 3): the rows are two unit vectors across an axis and one along it; I where that is vertical.
-
-    They are within 16 u of an exact frame, so that what is turned into one is off by 64 u of its size at most.
-    """
-    frames = np.tile(np.eye(3), (len(axes), 1, 1))
-    lean = np.flatnonzero((axes[:, :2] != 0).any(axis=1))
-    along = axes[lean] / np.abs(axes[lean]).max(axis=1, keepdims=True)
-    along /= np.linalg.norm(along, axis=1, keepdims=True)
-    least = np.eye(3)[np.abs(along).argmin(axis=1)]  # the coordinate axis that is farthest from it
-    across = np.cross(least, along)
-    across /= np.linalg.norm(across, axis=1, keepdims=True)
-    frames[lean] = np.stack([across, np.cross(along, across), along], axis=1)
-    return frames
-
-
-def turned(frames: Floats, vectors: Floats) -> Floats:
-    """Vectors (n, 3) in frames (n, 3, 3)."""
-    found: Floats = np.einsum("nij,nj->ni", frames, vectors)
-    return found
-
-
-@dataclass(frozen=True, slots=True)
-class Way:
-    """Where a spheroid goes straight, in the scene's coordinates, and its axis."""
-
-    start: Sequence[float]
-    end: Sequence[float]
-    axis: Sequence[float]
-
-
-Times = tuple[Fraction, Fraction]
-"""A first and a last time; none, where the last is before the first."""
-
-
-def is_clear(bodies: Bodies, index: int, spheroids: Sequence[tuple[float, float, Way]], mover: Way) -> bool:
-    """Whether spheroids (b, d, way) stay clear of a hyperboloid, on one side, while a mover is at its modelled height.
-
-    Ends of that height may be irrational, where the hyperboloid leans. They are enclosed ever more narrowly, until
-    between the outer ones all is clear, or between the inner ones it is not. A contact at the very instant, within
-    2^−_MOST_BITS of it, counts as one.
-    """
-    shape, origin, span, upward = (
-        column[index].tolist() for column in (bodies.shapes, bodies.origins, bodies.spans, bodies.axes)
-    )
-    for outer, inner in _times_within(mover, origin, span, upward):
-        if _stays_clear(shape, origin, upward, spheroids, outer):
-            return True
-        if inner == outer or not _stays_clear(shape, origin, upward, spheroids, inner):
-            return False
-    return False
-
-
-def _stays_clear(
-    shape: Sequence[float],
-    origin: Sequence[float],
-    upward: Sequence[float],
-    spheroids: Sequence[tuple[float, float, Way]],
-    times: Times,
-) -> bool:
-    if times[0] > times[1]:
-        return True
-    found = set()
-    for b, d, way in spheroids:
-        here, there = (
-            [Fraction(part) - Fraction(centre) for part, centre in zip(point, origin, strict=True)]
-            for point in (way.start, way.end)
-        )
-        ends = [[low + time * (high - low) for low, high in zip(here, there, strict=True)] for time in times]
-        what = passage((*shape, b, d), ends[0], ends[1], way.axis, upward)
-        found.add(Position.CONTACT if what.hit else what.start)
-    return len(found) == 1 and Position.CONTACT not in found
-
-
-_MOST_BITS = 1024
-
-
-def _times_within(
-    way: Way, origin: Sequence[float], span: Sequence[float], upward: Sequence[float]
-) -> Iterator[tuple[Times, Times]]:
-    """Enclosures, from without and from within, of the times at which a centre is at heights above an origin.
-
-    The height is w·(X − c)/|w|. Where |w| is rational both are the same, and the only ones.
-    """
-    w: list[int] = to_integers(upward)
-    below, above = (
-        sum((Fraction(part) - Fraction(centre)) * along for part, centre, along in zip(point, origin, w, strict=True))
-        for point in (way.start, way.end)
-    )
-    square, bits = sum(along * along for along in w), 64
-    while bits <= _MOST_BITS:
-        root = Fraction(isqrt(square << 2 * bits), 1 << bits)
-        exact = root * root == square
-        lengths = (root, root if exact else root + Fraction(1, 1 << bits))
-        outer, inner = (
-            _crossing_times(Fraction(below), Fraction(above), span, lengths, wide) for wide in (True, False)
-        )
-        yield outer, outer if exact else inner
-        if exact:
-            return
-        bits *= 2
-
-
-def _crossing_times(
-    below: Fraction, above: Fraction, span: Sequence[float], lengths: tuple[Fraction, Fraction], wide: bool
-) -> Times:
-    """The first and last time in [0, 1] at which a number that goes from `below` to `above` is in the span · |w|.
-
-    |w| lies between two lengths; `wide` takes the ones with which the times are more, not fewer.
-    """
-    low, high = (
-        None if abs(end) == inf else pick(Fraction(end) * length for length in lengths)
-        for end, pick in zip(span, (min, max) if wide else (max, min), strict=True)
-    )
-    if above == below:
-        inside = (low is None or low <= below) and (high is None or below <= high)
-        return Fraction(0), Fraction(1) if inside else Fraction(-1)
-    at = [None if level is None else (level - below) / (above - below) for level in (low, high)]
-    enters, leaves = at if above > below else reversed(at)
-    first = Fraction(0) if enters is None else max(Fraction(0), enters)
-    last = Fraction(1) if leaves is None else min(Fraction(1), leaves)
-    return first, last
-
-
-def meets_height(bodies: Bodies, index: int, way: Way) -> bool:
-    """Whether a mover on its way is at some time at the modelled height of a hyperboloid."""
-    origin, span, upward = (column[index].tolist() for column in (bodies.origins, bodies.spans, bodies.axes))
-    times = [outer for outer, _ in _times_within(way, origin, span, upward)][-1]
-    return times[0] <= times[1]
-
-
-def places_of_parts(
-    parts: Sequence[MoverPart], centre: Sequence[float], heading: float, axis: Sequence[float]
-) -> list[Point]:
-    """The centres of a mover's parts, rounded.
-
-    A mover that leans is turned from upright about a horizontal line, the shortest way, to the axis u = v/|v| or −u,
-    whichever does not point down. That takes a horizontal p to p − (p·u)/(1 + u_z) (u_x, u_y, 0) − (p·u) e_z.
-    """
-    x, y, z = centre
-    turns = [(part.arm, radians(heading + part.angle)) for part in parts]
-    arms = [(arm * cos(turn), arm * sin(turn)) for arm, turn in turns]
-    if axis[0] == axis[1] == 0:
-        return [(x + across, y + along, z) for across, along in arms]
-    largest = max(map(abs, axis)) * (-1 if axis[2] < 0 else 1)
-    u, v, w = (part / largest for part in axis)
-    norm = sqrt(u * u + v * v + w * w)
-    u, v, w = u / norm, v / norm, w / norm
-    places = []
-    for across, along in arms:
-        sink = across * u + along * v
-        back = sink / (1 + w)
-        places.append((x + (across - back * u), y + (along - back * v), z - sink))
-    return places

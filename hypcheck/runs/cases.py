@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.geometry.rows import Positions, Rows
-from hypcheck.runs import judge
 from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judges import truth_of
+from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import TiltedVector
 from hypcheck.vectors.families import FAMILIES, case_id, family_of
@@ -268,9 +268,9 @@ def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np
     if not len(measured) or not (frozen or len(made.columns) == len(COLUMNS)):
         return np.empty(0)
     if chunk.seed is not None:
-        return judge.flip_exponents(made.rows[measured])
+        return flip_exponents(made.rows[measured])
     flips = frozen_vectors(chunk.family).exponents[chunk.start + measured]
     unknown = np.flatnonzero(np.isnan(flips))
     if len(unknown):  # none of tilted spheroids
-        flips[unknown] = judge.flip_exponents(made.rows[measured[unknown]])
+        flips[unknown] = flip_exponents(made.rows[measured[unknown]])
     return flips

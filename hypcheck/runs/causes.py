@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from hypcheck import toml
 from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import WAYS, Floats, Indices, Mask, Positions, Rows
-from hypcheck.implementations.description import UNIT_ROUNDOFF
+from hypcheck.implementations.domain import UNIT_ROUNDOFF
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion

@@ -22,7 +22,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from hypcheck.geometry.rows import WAYS, Positions, Rows
-from hypcheck.implementations.description import QUESTIONS, Domain, claimed
+from hypcheck.implementations.description import QUESTIONS
+from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, Answers, Asked, Cause, Standing, subject_of
 from hypcheck.runs.judge import Criterion, Status, WrongCase

@@ -25,7 +25,7 @@ from hypcheck.derivation.formulas import FORMULAS, Formula, answering
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.implementations import not_asked
-from hypcheck.implementations.description import EVERYWHERE, claimed
+from hypcheck.implementations.domain import EVERYWHERE, claimed
 from hypcheck.implementations.method import Method
 from hypcheck.implementations.session import Answered
 from hypcheck.record.lines import FindingLine, GroupLine, MapLine

@@ -16,7 +16,7 @@ from fractions import Fraction
 import numpy as np
 
 from hypcheck.geometry.rows import Indices, Layout, Rows
-from hypcheck.implementations.description import Domain, claimed
+from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.messages import counted
 from hypcheck.runs import judge

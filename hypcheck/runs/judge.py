@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import CANNOT_SAY, Layout, Positions, Rows
-from hypcheck.implementations.description import PRECISIONS, QUESTIONS, UNIT_ROUNDOFF
+from hypcheck.implementations.description import QUESTIONS
+from hypcheck.implementations.domain import PRECISIONS, UNIT_ROUNDOFF
 from hypcheck.truth import backward_error, exact, float_filter
-from hypcheck.truth import flip_exponents as flips
 from hypcheck.truth.exact import Decision
 
 DEFAULT_TOLERANCE = Fraction(8)
@@ -177,9 +177,6 @@ def measured(case: WrongCase, question: str) -> float:
     if case.least:
         return case.least
     return _measured(Pair.from_row(case.row), case.answer, question, case.status in (Status.WRONG, Status.EXCUSED))
-
-
-flip_exponents = flips.flip_exponents
 
 
 KEPT = 4096

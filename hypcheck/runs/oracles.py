@@ -1,8 +1,8 @@
 """The five oracles behind one interface, and the cross-check that compares each with the exact decision.
 
 An oracle maps rows to opinions; an opinion may be that it cannot decide. The roots oracle is also compared with the
-repaired coefficient rule in exact rationals. Rows of ten numbers go to the oracles for tilted spheroids; these are
-asked about frozen vectors, whose positions are proved.
+repaired coefficient rule in exact rationals. Tilted spheroids are
+those of frozen vectors, whose positions are proved.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ class Opinion:
 
 @dataclass(frozen=True, slots=True)
 class Oracle:
-    """An oracle: `ask` maps rows (n, 7) to n opinions; `available` gives the reason why it cannot run here, or None.
+    """An oracle: `ask` maps rows to n opinions; `available` gives the reason why it cannot run here, or None.
 
-    `ask_tilted` maps rows (n, 10) of tilted spheroids to n opinions; None where it knows upright ones alone.
+    Rows are (n, 7), or (n, 10) with an axis unless it is `upright_only`.
     """
 
     ask: Callable[[Rows], Sequence[Opinion]]
-    ask_tilted: Callable[[Rows], Sequence[Opinion]] | None = None
+    upright_only: bool = False
     available: Callable[[], str | None] = lambda: None
 
 
@@ -120,11 +120,11 @@ def _mesh(row: list[float]) -> Opinion:
 
 
 ORACLES = {
-    "exact": Oracle(_each(_exact), _each(_exact)),
-    "nearest": Oracle(_nearest, _nearest),
-    "roots": Oracle(_each(_roots), _each(_roots)),
-    "heights": Oracle(_each(_heights)),
-    "mesh": Oracle(_each(_mesh), _each(_mesh), mesh.availability),
+    "exact": Oracle(_each(_exact)),
+    "nearest": Oracle(_nearest),
+    "roots": Oracle(_each(_roots)),
+    "heights": Oracle(_each(_heights), upright_only=True),
+    "mesh": Oracle(_each(_mesh), available=mesh.availability),
 }
 
 
@@ -159,7 +159,7 @@ def shares(plan: SelfCheckPlan, families: int, *, tilted: bool = False) -> dict[
         "heights": plan.count,
         "mesh": -(-plan.meshes // families),
     }
-    return {name: every[name] for name in plan.oracles if not tilted or ORACLES[name].ask_tilted}
+    return {name: every[name] for name in plan.oracles if not (tilted and ORACLES[name].upright_only)}
 
 
 def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
@@ -171,8 +171,7 @@ def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
 def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
     """The line about an oracle's opinions on the first rows of a batch, beside the exact decisions."""
     started = time.perf_counter()
-    asked = ORACLES[oracle]
-    opinions = (asked.ask if rows.shape[1] == len(COLUMNS) or asked.ask_tilted is None else asked.ask_tilted)(rows)
+    opinions = ORACLES[oracle].ask(rows)
     seconds = time.perf_counter() - started
     differences = [_difference(batch, index, opinion) for index, opinion in enumerate(opinions)]
     disagreements = [

@@ -12,7 +12,8 @@ from pathlib import Path
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, WAYS
 from hypcheck.implementations import not_asked
-from hypcheck.implementations.description import Description, Domain
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
 from hypcheck.runs.cases import (

@@ -26,7 +26,8 @@ from hypcheck.geometry.pair import (
     trouble_with_row,
 )
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Layout
-from hypcheck.implementations.description import Description, representable
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import representable
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.spec import begins_as_spec
 from hypcheck.record import read

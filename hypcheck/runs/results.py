@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import Floats, Indices, Rows
 from hypcheck.implementations import not_asked
-from hypcheck.implementations.description import Domain, claimed
+from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
 from hypcheck.record.lines import Retest

@@ -15,7 +15,8 @@ from dataclasses import dataclass, field, replace
 from itertools import islice, takewhile
 
 from hypcheck.errors import Exit, HypcheckError
-from hypcheck.implementations.description import Description, Domain
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import Crashed, Implementation, open_implementation
 from hypcheck.implementations.session import Allowance, Limits, StartError
 from hypcheck.runs.cases import PACE, CaseChunk, Pace

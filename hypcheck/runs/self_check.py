@@ -25,10 +25,11 @@ from hypcheck.implementations.method import Answers, Method
 from hypcheck.processes import Advance, Stage, in_order
 from hypcheck.record import Recorder, lines
 from hypcheck.record.lines import FindingLine, GroupLine, OracleLine, TimingLine
-from hypcheck.runs import findings, judge, oracles
+from hypcheck.runs import findings, oracles
 from hypcheck.runs.findings import KnownFinding, SelfCheckPlan, batch_of
 from hypcheck.runs.judge import Status
 from hypcheck.runs.oracles import ORACLES
+from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
 
 if TYPE_CHECKING:
@@ -177,7 +178,7 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
         for finding in findings.mathematical_findings(formula, batch, plan)
     ]
     head = batch.head(plan.judged)
-    exponents = judge.flip_exponents(head.rows)
+    exponents = flip_exponents(head.rows)
     with shared_meshes():
         groups = [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)]
     return FamilyLines(found, groups, opinions)

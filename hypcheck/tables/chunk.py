@@ -91,7 +91,7 @@ def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
     if set(missing) <= set(AXIS):
         return f"an axis needs {', '.join(AXIS)}, in any order"
     if set(missing) <= set(END):
-        return f"the end of a motion needs {', '.join(END)}, in any order"
+        return f"the end of a sweep needs {', '.join(END)}, in any order"
     return f"it needs {', '.join(COLUMNS)}, in any order"
 
 

@@ -13,7 +13,7 @@ from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.runs import judge
+from hypcheck.truth.flip_exponents import flip_exponents
 from tests.support import exactly
 
 INF = math.inf
@@ -23,7 +23,7 @@ INF = math.inf
 def truth():
     workload = WORKLOADS["near-contact"]
     rows = workload.rows(5, 120)
-    return WorkloadTruth(workload, rows, exactly.positions(rows), judge.flip_exponents(rows))
+    return WorkloadTruth(workload, rows, exactly.positions(rows), flip_exponents(rows))
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import QUICK, BenchPlan
 from hypcheck.errors import Exit
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations.description import Domain
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.meshes import FCL, scene_mesh
 from hypcheck.record.measurements import KernelLine
 from tests.support.fractions_truth import exact_position

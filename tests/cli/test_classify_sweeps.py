@@ -125,7 +125,7 @@ def test_invalid_sweep_of_a_table_is_named_or_flagged(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"y1": 1.0}, "keys x1, z1 are missing; the end of a motion needs x1, y1, z1, in any order"),
+        ({"y1": 1.0}, "keys x1, z1 are missing; the end of a sweep needs x1, y1, z1, in any order"),
         ({"z_max": 1.0}, "key 'z_max' says where a hyperboloid ends, and none that ends is classified here"),
         ({"Solid": 1}, "key 'Solid' says where a hyperboloid ends"),
     ],

@@ -8,7 +8,8 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.builtin import builtin, builtin_methods
-from hypcheck.implementations.description import QUESTIONS, UNIT_ROUNDOFF, representable
+from hypcheck.implementations.description import QUESTIONS
+from hypcheck.implementations.domain import UNIT_ROUNDOFF, representable
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.vectors.families import select

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.implementations.description import Description, Domain, domain_of, in_regime, representable
+from hypcheck.implementations.description import Description, domain_of
+from hypcheck.implementations.domain import Domain, in_regime, representable
 from tests.support.pairs import pairs
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.implementations.description import Domain
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
 from hypcheck.implementations.worker import Leftovers, mode_in_use

@@ -7,7 +7,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import with_axis
-from hypcheck.implementations.description import Domain, claimed, representable
+from hypcheck.implementations.domain import Domain, claimed, representable
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.protocol import row_text
 from hypcheck.implementations.session import StartError

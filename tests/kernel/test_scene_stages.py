@@ -13,7 +13,7 @@ from hypcheck.derivation.evaluation import evaluate, outputs
 from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, float_arithmetic
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
-from hypcheck.implementations.description import representable
+from hypcheck.implementations.domain import representable
 from hypcheck.kernel.specialise.first_stages import entry, line_at, thresholds
 from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant, search, search_begin
 from hypcheck.kernel.specialise.settings import FORMATS, Box, ScaledSetting, Setting, position_of_box, scaled

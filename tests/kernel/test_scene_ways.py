@@ -283,3 +283,32 @@ def test_ways_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone
     ends = np.array([[far, 0.0, 0.0], [far, 1e300, 0.0], [1e30, 1.0, 0.0], [1.0, 0.0, 0.0]])
     assert trees.passage(ends, ends).tolist() == [0, 0, 0, 1]
     assert trees.classify(*ends.T).tolist() == [-1, 1, 1, 0]
+
+
+def test_ways_beside_a_hyperboloid_whose_axis_points_down_are_those_beside_the_upright_one():
+    starts, ends = np.random.default_rng(1).uniform(-3, 3, (2, 400, 3))
+    said = [
+        Scene(SceneModel("tree", "position", (body,), Mover(0.2, 0.2))).passage(starts, ends).tolist()
+        for body in (
+            Hyperboloid("up", 0.5, 2.0, (0.0, 0.0, 0.0), Span(-2.0, 1.0)),
+            Hyperboloid("down", 0.5, 2.0, (0.0, 0.0, 0.0), Span(-1.0, 2.0), (0.0, 0.0, -1.0)),
+            Hyperboloid("far down", 0.5, 2.0, (0.0, 0.0, 0.0), Span(-1.0, 2.0), (0.0, 0.0, -3e-320)),
+        )
+    ]
+    assert said[1] == said[2] == said[0]
+    assert set(said[0]) == {0, 1, 2}
+
+
+@pytest.mark.parametrize("scale", [5e-324, 1e-300, 5.9e307])
+def test_length_of_an_axis_of_any_exponent_means_nothing_beside_a_tilted_hyperboloid(scale):
+    draw = np.random.default_rng(1)
+    starts, ends = draw.uniform(-3, 3, (2, 300, 3))
+    axes = draw.integers(-3, 4, (300, 3)).astype(float)
+    axes[(axes == 0).all(axis=1)] = 1.0
+    tree = Hyperboloid("fir", 0.5, 2.0, (0.0, 0.0, 0.0), None, (1.0, 2.0, 4.0))
+    scene = Scene(SceneModel("tree", "position", (tree,), Mover(0.6, 0.1, axis=FREE)))
+    scaled = scene.passage(starts, ends, axis=axes * scale)
+    assert scaled.tolist() == scene.passage(starts, ends, axis=axes).tolist()
+    assert set(scaled.tolist()) == {0, 1}
+    found, other = scene.nearest(*starts.T, axis=axes), scene.nearest(*starts.T, axis=axes * scale)
+    assert np.allclose(other.distance_upper, found.distance_upper, rtol=0, atol=1e-9)

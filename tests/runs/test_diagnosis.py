@@ -9,7 +9,7 @@ from hypcheck import classify, toml
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.implementations.description import EVERYWHERE
+from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.session import Answered
 from hypcheck.runs.causes import SILENT, Asked, Standing
 from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged

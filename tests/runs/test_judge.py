@@ -14,6 +14,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
+from hypcheck.truth.flip_exponents import flip_exponents
 from tests.support import exactly
 from tests.support.judging import ends_of, wrong_cases
 from tests.support.pairs import ordinary_pairs
@@ -123,7 +124,7 @@ def test_exponent_of_a_wrong_case_contains_its_measured_error(some, seed):
 
 def test_flip_exponents_are_those_of_the_distance_to_the_nearest_other_position():
     """CROSS: exterior after 1/11 (see test_backward_error), interior only later; TOUCH: 0."""
-    assert judge.flip_exponents(np.array([CROSS, TOUCH])).tolist() == [-4.0, -math.inf]
+    assert flip_exponents(np.array([CROSS, TOUCH])).tolist() == [-4.0, -math.inf]
     assert Position.CONTACT not in judge.right_positions(Position.CONTACT, 0, "contact")
 
 
@@ -148,7 +149,7 @@ def test_the_distance_of_a_leaning_spheroid_to_the_other_answer_is_estimated_nea
     proved = ends_of(leaning, 0)[1]
     assert 0 < proved < 0.01
     assert judge.about_error_of(leaning, 0, "position") == pytest.approx(proved, rel=0.05)
-    assert judge.flip_exponents(np.array([leaning])).tolist() == [math.floor(math.log2(proved))]
+    assert flip_exponents(np.array([leaning])).tolist() == [math.floor(math.log2(proved))]
 
 
 def test_the_distance_of_an_upright_spheroid_is_the_same_with_and_without_its_axis():
@@ -156,8 +157,8 @@ def test_the_distance_of_an_upright_spheroid_is_the_same_with_and_without_its_ax
     assert judge.about_error_of((*upright, 0.0, 0.0, 1.0), 0, "position") == judge.about_error_of(
         upright, 0, "position"
     )
-    with_axis = judge.flip_exponents(np.array([(*upright, 0.0, 0.0, 1.0)]))
-    assert with_axis.tolist() == judge.flip_exponents(np.array([upright])).tolist()
+    with_axis = flip_exponents(np.array([(*upright, 0.0, 0.0, 1.0)]))
+    assert with_axis.tolist() == flip_exponents(np.array([upright])).tolist()
 
 
 def test_every_wrong_answer_about_leaning_rows_is_judged_where_some_are_proved_at_once():

@@ -54,7 +54,7 @@ def test_four_oracles_are_asked_about_tilted_spheroids_and_agree_with_the_labels
 
 @pytest.mark.parametrize("name", ASKED)
 def test_wrong_oracle_for_tilted_spheroids_is_reported_as_disagreeing(monkeypatch, batches, name):
-    wrong = replace(ORACLES[name], ask_tilted=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
+    wrong = replace(ORACLES[name], ask=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, name, wrong)
     ring = next(batch for batch in batches if batch.family.name == "tilted-ring")
     (found,) = oracles.oracle_lines(ring, {name: 4})
@@ -65,7 +65,7 @@ def test_wrong_oracle_for_tilted_spheroids_is_reported_as_disagreeing(monkeypatc
 
 
 def test_a_tangency_that_an_oracle_calls_a_crossing_is_a_disagreement(monkeypatch, batches):
-    wrong = replace(ORACLES["roots"], ask_tilted=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
+    wrong = replace(ORACLES["roots"], ask=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, "roots", wrong)
     tangent = next(batch for batch in batches if batch.family.name == "tilted-tangent")
     (found,) = oracles.oracle_lines(tangent, {"roots": 4})

@@ -192,7 +192,7 @@ def of_method(name: str, questions: Questions) -> list[int]:
 def of_oracle(name: str, questions: Questions) -> list[int]:
     """The positions of an oracle; where it says them, a case's tangency and kind must be those of its label."""
     oracle = ORACLES[name]
-    opinions = (oracle.ask_tilted if questions.groups else oracle.ask)(questions.rows)
+    opinions = oracle.ask(questions.rows)
     for case, opinion in zip(questions.cases, opinions, strict=False):
         assert opinion.tangent in (None, case["tangent"]), case["id"]
         assert None in (opinion.kind, case.get("kind")) or opinion.kind == case["kind"], case["id"]

@@ -16,7 +16,8 @@ from uuid import uuid4
 import numpy as np
 import pytest
 
-from hypcheck.implementations.description import domain_of, representable
+from hypcheck.implementations.description import domain_of
+from hypcheck.implementations.domain import representable
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import description, emitted
 from hypcheck.kernel.specialise.plan import plan_of

@@ -11,7 +11,8 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.implementations import not_asked
-from hypcheck.implementations.description import Domain, parse_domain
+from hypcheck.implementations.description import parse_domain
+from hypcheck.implementations.domain import Domain
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.vectors.frozen import load
@@ -110,7 +111,7 @@ def test_family_of_subnormal_rows_that_is_asked_for_by_its_name_is_asked(flushes
 def test_subnormal_numbers_are_representable_only_if_the_precision_holds_them_exactly():
     step = 2.0**-149
     rows = np.array([[2.0, 1, 1, 1, 3, 0, step], [2.0, 1, 1, 1, 3, 0, 1.5 * step], [2.0, 1, 1, 1, 3, 0, 2.0**-126]])
-    from hypcheck.implementations.description import representable
+    from hypcheck.implementations.domain import representable
 
     assert representable(rows, "float32").tolist() == [False, False, True]
     assert representable(rows, "float32", subnormal=True).tolist() == [True, False, True]

@@ -12,7 +12,8 @@ from hypcheck.cli.main import main
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import PAIRS
-from hypcheck.implementations.description import Description, Domain
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.session import Answered, Limits
 from hypcheck.isolation.launch import Isolation
 from hypcheck.record import Recorder, read

@@ -10,7 +10,7 @@ import pytest
 from hypcheck.geometry.rows import invalid
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt_search import MOVERS
-from hypcheck.runs.judge import flip_exponents
+from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES
 from tests.support.fractions_truth import exact_position

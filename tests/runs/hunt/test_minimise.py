@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import PAIRS
-from hypcheck.implementations.description import Domain
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.runs.hunt import target_of
 from hypcheck.runs.judge import Status

@@ -10,13 +10,15 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY, FixedSizes
-from hypcheck.implementations.description import Description, Domain
+from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt import Hunt, HuntPlan, target_of
 from hypcheck.runs.hunt_search import neighbours, run_hunt
-from hypcheck.runs.judge import Mistake, Status, flip_exponents
+from hypcheck.runs.judge import Mistake, Status
+from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.draw import Draw
 from tests.support import exactly
 from tests.support.fractions_truth import exact_position

@@ -20,7 +20,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Rows
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
-from hypcheck.runs import judge, results
+from hypcheck.runs import cases, judge, results
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import passage_error
 from hypcheck.truth.exact import Decision
@@ -96,7 +96,7 @@ def run(spec: str, options: Options) -> Ruling:
     return Ruling(code, killed_by, sum(line.asked for line in groups), said.getvalue())
 
 
-_flip_octaves, _judged = judge.flip_exponents, judge._judged
+_flip_octaves, _judged = cases.flip_exponents, judge._judged
 _octaves: dict[bytes, Any] = {}
 _cases: dict[Any, judge.WrongCase] = {}
 
@@ -121,7 +121,7 @@ def _judged_before(index: int, pair: Pair, truth: Decision, answer: int, criteri
 
 
 _KEPT = (
-    (judge, "flip_exponents", _remembered),
+    (cases, "flip_exponents", _remembered),
     (judge, "_judged", _judged_before),
     (results, "cases_of_chunk", lru_cache(maxsize=256)(results.cases_of_chunk)),
     (passage_error, "is_tolerated", lru_cache(maxsize=1 << 16)(passage_error.is_tolerated)),

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.implementations.description import Domain, representable
+from hypcheck.implementations.domain import Domain, representable
 from hypcheck.tables.numbers import Literal, decimal_of, exact_text, hex_of, is_shortest, rational_of
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.prove import prove
