@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from fractions import Fraction
 from types import MappingProxyType
@@ -55,6 +55,9 @@ Sizes = tuple[float, float, float, float]
 Axis = tuple[float, float, float]
 """axis_x, axis_y, axis_z of one spheroid."""
 
+Heights = tuple[float, float, float]
+"""z_min, z_max, solid of one hyperboloid."""
+
 Vector = tuple[int, int, int]
 
 
@@ -77,10 +80,10 @@ REFUSED = 127
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """A valid query: sizes finite and > 0, centre finite, axis finite and not 0, no negative zero.
+    """A valid query: sizes finite and > 0, centre finite, axis finite and not 0, z_min < z_max, no negative zero.
 
-    All lengths are in one unit, the axis in any. Without an axis the spheroid is upright. Construction from anything
-    else raises InputError, which names the column and the value.
+    All lengths are in one unit, the axis in any. Without an axis the spheroid is upright, without heights the
+    hyperboloid has no ends. Construction from anything else raises InputError, which names the column and the value.
     """
 
     alpha: float
@@ -93,24 +96,50 @@ class Pair:
     axis_x: float = 0.0
     axis_y: float = 0.0
     axis_z: float = 1.0
+    z_min: float = -math.inf
+    z_max: float = math.inf
+    solid: float = 0.0
 
     def __post_init__(self) -> None:
-        trouble = trouble_with_row((*self.row[: len(COLUMNS)], *self.axis))
+        trouble = trouble_with_row((*self._seven, *self.axis, *self.heights))
         if trouble is not None:
             raise InputError(trouble)
-        for name in TILTED_COLUMNS:
+        for name in TILTED_COLUMNS + HEIGHTS:
             object.__setattr__(self, name, float(getattr(self, name)) + 0.0)  # + 0.0 turns −0.0 into 0.0
 
     @classmethod
     def from_row(cls, row: Iterable[float]) -> Pair:
-        """The pair of a row of seven numbers, or of ten with an axis."""
+        """The pair of a row of seven numbers, of ten with an axis, or of thirteen with an axis and heights."""
         return cls(*row)
 
     @property
     def row(self) -> tuple[float, ...]:
-        """The numbers in the order of COLUMNS, those of the axis behind them unless it is UPRIGHT."""
-        row = (self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z)
-        return row if self.axis == UPRIGHT else row + self.axis
+        """The numbers in the order of COLUMNS, those of the axis behind them unless it is UPRIGHT, then the heights.
+
+        Where the hyperboloid ends, both are there.
+        """
+        if self.has_ends:
+            return self._seven + self.axis + self.heights
+        return self._seven if self.axis == UPRIGHT else self._seven + self.axis
+
+    @property
+    def _seven(self) -> tuple[float, ...]:
+        return (self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z)
+
+    @property
+    def heights(self) -> Heights:
+        """The heights between which the hyperboloid ends, and 1.0 if flat ends belong to it."""
+        return (self.z_min, self.z_max, self.solid)
+
+    @property
+    def has_ends(self) -> bool:
+        """Whether the hyperboloid ends at one of the heights."""
+        return self.z_min != -math.inf or self.z_max != math.inf
+
+    @property
+    def without_ends(self) -> Pair:
+        """The same pair with the whole hyperboloid."""
+        return replace(self, **dict(zip(HEIGHTS, WITHOUT_ENDS, strict=True))) if self.has_ends else self
 
     @property
     def axis(self) -> Axis:
@@ -125,12 +154,12 @@ class Pair:
     @property
     def upright(self) -> Pair:
         """The same question without an axis, of a pair that is_upright."""
-        return self if self.axis == UPRIGHT else Pair(self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z)
+        return self if self.axis == UPRIGHT else Pair(*self._seven, *UPRIGHT, *self.heights)
 
     @property
     def lengths(self) -> Lengths:
         """The same pair in integers: see Lengths."""
-        return Lengths.of((self.alpha, self.gamma, self.b, self.d, self.x, self.y, self.z, *self.axis))
+        return Lengths.of((*self._seven, *self.axis, *self.heights))
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +171,8 @@ class Lengths:
     direction of the axis, whose unit means nothing. Every float64 or rational pair can be written so without rounding.
 
     `upward` is a vector along the hyperboloid's axis, in a unit of its own. Where it is not vertical, all lengths are
-    in one unit.
+    in one unit. `low` and `high` are the heights along it between which the hyperboloid ends, in the unit of z; None is
+    infinite. `solid` says that flat ends belong to it.
     """
 
     alpha: int
@@ -154,16 +184,30 @@ class Lengths:
     z: int
     axis: Vector = (0, 0, 1)
     upward: Vector = (0, 0, 1)
+    low: int | None = None
+    high: int | None = None
+    solid: bool = False
 
     @classmethod
     def of(cls, row: Sequence[float | Fraction]) -> Lengths:
-        """The integers of seven valid numbers, or of ten with an axis, float64 or rational."""
-        alpha, gamma, b, d, x, y, z, *axis = row
-        radial, axial = (alpha, b, x, y), (gamma, d, z)
+        """The integers of seven valid numbers, with an axis and heights behind them or not, float64 or rational."""
+        alpha, gamma, b, d, x, y, z, *others = row
+        axis, ends = others[:3], [height for height in others[3:5] if abs(height) != math.inf]
+        radial, axial = (alpha, b, x, y), (gamma, d, z, *ends)
         if not axis or axis[0] == axis[1] == 0 or b == d:
-            return cls(*to_integers(radial), *to_integers(axial))
-        a, b, x, y, g, d, z = _smallest(radial + axial)
-        return cls(a, b, x, y, g, d, z, axis=_smallest(axis))
+            (a, b, x, y), (g, d, z, *ends), axis = to_integers(radial), to_integers(axial), (0, 0, 1)
+        else:
+            (a, b, x, y, g, d, z, *ends), axis = _smallest(radial + axial), _smallest(axis)
+        if not ends:
+            return cls(a, b, x, y, g, d, z, axis)
+        low = None if others[3] == -math.inf else ends[0]
+        high = None if others[4] == math.inf else ends[-1]
+        return cls(a, b, x, y, g, d, z, axis, low=low, high=high, solid=bool(others[5]))
+
+    @property
+    def has_ends(self) -> bool:
+        """Whether the hyperboloid ends at one of the heights."""
+        return self.low is not None or self.high is not None
 
     @property
     def is_upright(self) -> bool:
@@ -193,16 +237,32 @@ def trouble_with_axis(axis: Sequence[object]) -> str | None:
     return next((each for each in troubles if each), None if any(axis) else NO_DIRECTION)
 
 
+def trouble_with_heights(heights: Sequence[object]) -> str | None:
+    """Why three values are no z_min, z_max, solid, as the end of a sentence, or None when they are."""
+    low, high, solid = heights
+    for name, value in zip(HEIGHTS, heights, strict=True):
+        infinite = value in (-math.inf, math.inf) and name != "solid"
+        trouble = None if infinite or (name == "solid" and isinstance(value, bool)) else trouble_with(name, value)
+        if trouble is not None:
+            return trouble.replace("must be finite", "must be a number or infinite") if name != "solid" else trouble
+    if not low < high:  # type: ignore[operator]  # both are numbers
+        return f"z_min is {low!r} and z_max is {high!r}; z_min must be less than z_max"
+    return None if solid in (0, 1) else f"solid is {solid!r}; it must be 0 or 1"
+
+
 def trouble_with_row(row: Sequence[object], columns: Sequence[str] = COLUMNS) -> str | None:
     """Why values for these columns, with those of an axis behind or not, are no valid row: the first trouble, or None.
 
-    The trouble is the end of a sentence. By default the row is one of seven or ten numbers.
+    Behind those of an axis there may be those of heights. The trouble is the end of a sentence. By default the row is
+    one of seven, ten or thirteen numbers.
     """
     for name, value in zip(columns, row, strict=False):
         trouble = trouble_with(name, value)
         if trouble is not None:
             return trouble
-    return trouble_with_axis(row[len(columns) :]) if len(row) > len(columns) else None
+    others = row[len(columns) :]
+    trouble = trouble_with_axis(others[:3]) if others else None
+    return trouble_with_heights(others[3:]) if trouble is None and len(others) > len(AXIS) else trouble
 
 
 def to_integers(values: Sequence[float | Fraction]) -> Any:  # noqa: ANN401 - as many integers as values

@@ -33,6 +33,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.truth import ends
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.pencil import Cubic, Number, Quartic, cubic, quartic, sign_at, sign_at_ratio
 from hypcheck.truth.rationals import sign_with_root
@@ -57,12 +58,23 @@ class Decision:
 
 
 def position(lengths: Lengths) -> Position:
-    """The exact position of the two surfaces."""
-    return _upright_position(cubic(lengths)) if lengths.is_upright else _tilted(quartic(lengths)).position
+    """The exact position of the spheroid."""
+    whole = _upright_position(cubic(lengths)) if lengths.is_upright else _tilted(quartic(lengths)).position
+    return ends.position(lengths, whole) if lengths.has_ends else whole
 
 
 def decide(lengths: Lengths) -> Decision:
-    """The exact position of the two surfaces, whether they are tangent, and the kind of an upright pair."""
+    """The exact position of the spheroid, whether it only touches, and the kind of an upright pair without ends."""
+    whole = _without_ends(lengths)
+    if not lengths.has_ends:
+        return whole
+    where = ends.position(lengths, whole.position)
+    touching = where is Position.CONTACT
+    return Decision(where, ends.limit_of(lengths, whole.position, whole.limit_of) if touching else None)
+
+
+def _without_ends(lengths: Lengths) -> Decision:
+    """The decision about the whole hyperboloid."""
     if not lengths.is_upright:
         return _tilted(quartic(lengths))
     kind = kind_of(lengths)

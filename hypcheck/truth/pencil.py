@@ -32,7 +32,7 @@ from typing import Any, TypeAlias
 
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomial_roots import polynomial_product
-from hypcheck.truth.rationals import power_near
+from hypcheck.truth.rationals import power_near, sign_with_root
 
 Number: TypeAlias = Any
 """An integer, or a polynomial in time (journey.py): whatever has +, −, · among its kind and with integers."""
@@ -75,6 +75,13 @@ def across_and_along(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[N
     along = x * u + y * v + z * w
     height = along * along
     return (x * x + y * y + z * z) * (u * u + v * v + w * w) - height, height
+
+
+def side_of_center(lengths: Lengths) -> int:
+    """The sign of the hyperboloid's equation at the spheroid's centre: 1 outside, −1 inside, 0 on it."""
+    p, s, _, _ = _squares(lengths)
+    R, Z = across_and_along(lengths, lengths.x, lengths.y, lengths.z)
+    return sign_with_root(R * s - Z * p - p * s, 0, 0)
 
 
 _VERTICAL = (0, 0, 1)
