@@ -154,7 +154,7 @@ class Pair:
     @property
     def upright(self) -> Pair:
         """The same question without an axis, of a pair that is_upright."""
-        return self if self.axis == UPRIGHT else Pair(*self._seven, *UPRIGHT, *self.heights)
+        return self if self.axis == UPRIGHT else Pair.from_row((*self._seven, *UPRIGHT, *self.heights))
 
     @property
     def lengths(self) -> Lengths:
@@ -192,12 +192,12 @@ class Lengths:
     def of(cls, row: Sequence[float | Fraction]) -> Lengths:
         """The integers of seven valid numbers, with an axis and heights behind them or not, float64 or rational."""
         alpha, gamma, b, d, x, y, z, *others = row
-        axis, ends = others[:3], [height for height in others[3:5] if abs(height) != math.inf]
+        direction, ends = others[:3], [height for height in others[3:5] if abs(height) != math.inf]
         radial, axial = (alpha, b, x, y), (gamma, d, z, *ends)
-        if not axis or axis[0] == axis[1] == 0 or b == d:
+        if not direction or direction[0] == direction[1] == 0 or b == d:
             (a, b, x, y), (g, d, z, *ends), axis = to_integers(radial), to_integers(axial), (0, 0, 1)
         else:
-            (a, b, x, y, g, d, z, *ends), axis = _smallest(radial + axial), _smallest(axis)
+            (a, b, x, y, g, d, z, *ends), axis = _smallest(radial + axial), _smallest(direction)
         if not ends:
             return cls(a, b, x, y, g, d, z, axis)
         low = None if others[3] == -math.inf else ends[0]

@@ -1,7 +1,8 @@
 """Many pairs at once: the types of arrays, rows that are checked, and ranges of rows.
 
 Rows are float64 arrays of shape (n, 7), their columns in the order of pair.COLUMNS, or (n, 10) of tilted spheroids,
-in the order of pair.TILTED_COLUMNS. Rows about a way have (n, 10) or (n, 13): a Layout says what columns mean.
+in the order of pair.TILTED_COLUMNS, or (n, 13) where hyperboloids end, with pair.HEIGHTS behind. Rows about a way have
+(n, 10), (n, 13) or (n, 16): a Layout says what columns mean.
 First the types and the functions that make rows from what a caller passes, then the check of their values, then the
 ranges of ratios and of lengths on which an implementation is judged.
 """
@@ -52,7 +53,10 @@ CANNOT_SAY = 2
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The columns of rows: `upright` are the names of those of upright spheroids; for tilted ones, AXIS is behind."""
+    """The columns of rows: `upright` are the names of those of upright spheroids; for tilted ones, AXIS is behind.
+
+    Where hyperboloids end, HEIGHTS are behind AXIS, which is there for upright spheroids too.
+    """
 
     upright: tuple[str, ...]
 
@@ -61,13 +65,22 @@ class Layout:
         """The names of the columns of tilted spheroids."""
         return self.upright + AXIS
 
+    @property
+    def ended(self) -> tuple[str, ...]:
+        """The names of the columns of rows whose hyperboloids end."""
+        return self.tilted + HEIGHTS
+
     def columns(self, width: int) -> tuple[str, ...]:
         """The names of the columns of a row with that many numbers."""
-        return self.upright if width == len(self.upright) else self.tilted
+        return self.ended[:width]
 
     def lean(self, rows: Rows) -> bool:
         """Whether the rows have the columns of an axis."""
-        return bool(rows.shape[1] == len(self.tilted))
+        return bool(rows.shape[1] > len(self.upright))
+
+    def end(self, rows: Rows) -> bool:
+        """Whether the rows have the columns of heights."""
+        return bool(rows.shape[1] > len(self.tilted))
 
 
 PAIRS = Layout(COLUMNS)
@@ -77,18 +90,20 @@ WAYS = Layout(WAY_COLUMNS)
 """The way between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
 
 
-def as_rows(values: Table | ArrayLike, *, tilted: bool = False, layout: Layout = PAIRS) -> Rows:
+def as_rows(values: Table | ArrayLike, *, tilted: bool = False, heights: bool = False, layout: Layout = PAIRS) -> Rows:
     """`values` as a float64 array (n, 7), or where `tilted` also (n, 10); contiguous float64 input is not copied.
 
-    With another layout, the widths are those of its columns. `values` may also be a table of the columns by name: a
-    dict, a data frame, a structured array, or whatever else has names and gives a column for each; columns and numbers
-    are broadcast. Raises InputError if the shape or the type is another, a name is unknown or missing, or values are
-    masked. It does not check the values.
+    Where `heights`, also (n, 13). With another layout, the widths are those of its columns. `values` may also be a
+    table of the columns by name: a dict, a data frame, a structured array, or whatever else has names and gives a
+    column for each; columns and numbers are broadcast, and where heights are given what is missing of them and of an
+    axis is filled in. Raises InputError if the shape or the type is another, a name is unknown or missing, or values
+    are masked. It does not check the values.
     """
+    allowed = (layout.upright, layout.tilted, layout.ended)[: 1 + tilted + heights]
     table_names = _names_of(values)
     if table_names is not None:
-        return _rows_of_table(cast("Table", values), table_names, layout.tilted if tilted else layout.upright)
-    names = {len(each): ", ".join(each) for each in ((layout.upright, layout.tilted) if tilted else (layout.upright,))}
+        return _rows_of_table(cast("Table", values), table_names, layout, allowed[-1])
+    names = {len(columns): ", ".join(columns) for columns in allowed}
     wanted = ", or ".join(f"(n, {width}) of numbers: {columns}" for width, columns in names.items())
     rows = np.ascontiguousarray(as_numbers("the rows are", values, f"they must be an array {wanted}"))
     if rows.ndim != 2 or rows.shape[1] not in names:
@@ -109,17 +124,24 @@ def _names_of(values: object) -> list[str] | None:
     return list(names()) if callable(names) and hasattr(values, "__getitem__") else None
 
 
-def _rows_of_table(table: Table, names: Sequence[object], known: tuple[str, ...]) -> Rows:
-    """The rows of a table of these columns, of which those of an axis may be missing."""
-    wanted = known[: -len(AXIS)] if known[-1] == AXIS[-1] and set(AXIS).isdisjoint(names) else known
+def _rows_of_table(table: Table, names: Sequence[object], layout: Layout, known: tuple[str, ...]) -> Rows:
+    """The rows of a table of these columns, of which those of an axis and of heights may be missing."""
     for name in names:
         if name not in known:
             raise InputError(f"there is no column {escaped(repr(name), 60)}; the columns are {', '.join(known)}")
+    ended, tilted = (not set(group).isdisjoint(names) for group in (HEIGHTS, AXIS))
+    wanted = layout.tilted if tilted else layout.upright
     missing = [name for name in wanted if name not in names]
     if missing:
         nouns, verb = ("column", "is") if len(missing) == 1 else ("columns", "are")
         raise InputError(f"the {nouns} {', '.join(missing)} {verb} missing; a row needs {', '.join(wanted)}")
-    return np.stack(as_columns(wanted, [table[name] for name in wanted]), axis=1)
+    columns = layout.ended if ended else wanted
+    values = [table[name] if name in names else _DEFAULTS[name] for name in columns]
+    return np.stack(as_columns(columns, values), axis=1)
+
+
+_DEFAULTS: Mapping[str, float] = dict(zip((*AXIS, *HEIGHTS), (*UPRIGHT, *WITHOUT_ENDS), strict=True))
+"""What a column that is missing stands for."""
 
 
 def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
@@ -128,7 +150,12 @@ def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats
     Raises InputError naming the value that is neither, or the shapes that do not fit together.
     """
     wanted = "it must be a number or an array (n,) of numbers"
-    columns = [np.atleast_1d(as_numbers(f"{name} is", each, wanted)) for name, each in zip(names, given, strict=True)]
+    values = [
+        truth_values_as_numbers(value) if name == "solid" else value for name, value in zip(names, given, strict=True)
+    ]
+    columns = [
+        np.atleast_1d(as_numbers(f"{name} is", value, wanted)) for name, value in zip(names, values, strict=True)
+    ]
     try:
         shape = np.broadcast_shapes(*(each.shape for each in columns))
     except ValueError:
@@ -164,6 +191,12 @@ def as_numbers(subject: str, values: object, wanted: str) -> Floats:
         return array.astype(np.float64, copy=False)
 
 
+def truth_values_as_numbers(values: ArrayLike) -> ArrayLike:
+    """`values`, true and false as 1 and 0."""
+    array = np.asarray(values)
+    return array.astype(np.float64) if array.dtype == np.bool_ else values
+
+
 def require_unmasked(subject: str, values: object) -> None:
     """Raise InputError for an array with masked values: without the mask they would be taken for ordinary ones."""
     ma = sys.modules.get("numpy.ma")  # until something imports it nothing can be masked; importing it here costs time
@@ -174,10 +207,20 @@ def require_unmasked(subject: str, values: object) -> None:
 
 def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
     """A mask (n,) of the rows that are no valid query: see pair.Pair."""
-    valid = np.isfinite(rows).all(axis=1) & (rows[:, : len(SIZES)] > 0).all(axis=1)
+    others, axis, heights = parts_of(rows, layout)
+    valid = np.isfinite(rows[:, : len(layout.tilted)]).all(axis=1) & (others[:, : len(SIZES)] > 0).all(axis=1)
     if layout.lean(rows):
-        valid &= (rows[:, len(layout.upright) :] != 0).any(axis=1)
+        valid &= (axis != 0).any(axis=1)
+    if layout.end(rows):
+        low, high, solid = heights.T
+        valid &= (low < high) & ((solid == 0) | (solid == 1))
     return np.asarray(~valid)
+
+
+def parts_of(rows: Rows, layout: Layout = PAIRS) -> tuple[Rows, Rows, Rows]:
+    """The columns of rows in three: sizes and centres, the axis, the heights; (n, 0) what is not there."""
+    places = len(layout.upright), len(layout.tilted)
+    return rows[:, : places[0]], rows[:, places[0] : places[1]], rows[:, places[1] :]
 
 
 def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
@@ -189,9 +232,11 @@ def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
     return wide
 
 
-def with_heights(rows: Rows) -> Rows:
-    """The same queries about hyperboloids without ends, the columns of heights behind the others."""
-    return np.hstack([rows, np.broadcast_to(WITHOUT_ENDS, (len(rows), len(HEIGHTS)))])
+def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
+    """The same queries with an axis and heights: rows without them get those that mean upright and without ends."""
+    if layout.end(rows):
+        return rows
+    return np.hstack([with_axis(rows, layout), np.broadcast_to(WITHOUT_ENDS, (len(rows), len(HEIGHTS)))])
 
 
 def first_trouble(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> str | None:

@@ -44,9 +44,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Lengths, Pair, Position
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
-from hypcheck.truth import exact
+from hypcheck.truth import ends, exact
 
 LINE_MARGIN = 64 * 2.0**-53
 SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
@@ -145,17 +145,42 @@ Squares = tuple[Floats, ...]
 
 
 def positions(rows: Rows) -> Positions:
-    """The exact position of every row, (n, 7) or (n, 10): int8 (n,). Raises InputError about the first invalid row.
+    """The exact position of every row, (n, 7), (n, 10) or (n, 13): int8 (n,).
 
     Rows of seven whose columns lie in memory one behind the other (the transpose of a (7, n) array) are decided
-    fastest; each row of ten is decided on its own.
+    fastest; each row of ten is decided on its own. Raises InputError about the first invalid row.
     """
+    if rows.shape[1] > len(TILTED_COLUMNS):
+        require_valid(rows)
+        return _between_ends(rows)
     if rows.shape[1] != len(COLUMNS):
         require_valid(rows)
         return np.array([exact.position(Lengths.of(row)) for row in rows.tolist()], dtype=np.int8)
     result = np.empty(len(rows), dtype=np.int8)
     for start in range(0, len(rows), CHUNK):
         result[start : start + CHUNK] = _chunk(rows[start : start + CHUNK], start)
+    return result
+
+
+def _between_ends(rows: Rows) -> Positions:
+    """The positions of valid rows (n, 13).
+
+    A spheroid reaches no farther up or down than its greater semi-axis. Where it therefore lies between the ends, or
+    beyond one, the position without ends tells. z ∓ r and its difference from an end are within 3u (|z| + r + |end|).
+    """
+    upright = (rows[:, 7:9] == 0).all(axis=1)
+    whole = np.empty(len(rows), dtype=np.int8)
+    for some, width in ((upright, len(COLUMNS)), (~upright, len(TILTED_COLUMNS))):
+        whole[some] = positions(np.ascontiguousarray(rows[some, :width]))
+    z, r, ends_at, solid = rows[:, 6], rows[:, 2:4].max(axis=1), rows[:, 10:12].T, rows[:, 12]
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows compares false
+        slack = np.where(np.isinf(ends_at), 0, 4 * 2.0**-53 * (np.abs(z) + r + np.abs(ends_at)))
+        depth = np.stack([z - ends_at[0], ends_at[1] - z])
+        between, beyond = (depth > r + slack).all(axis=0), (depth < -(r + slack)).any(axis=0)
+    result = np.where(between, whole, Position.EXTERIOR).astype(np.int8)
+    clear = beyond | ((whole == Position.EXTERIOR) & (solid != 0))
+    for index in np.flatnonzero(~(between | clear)):
+        result[index] = ends.position(Lengths.of(rows[index].tolist()), Position(int(whole[index])))
     return result
 
 

@@ -48,8 +48,8 @@ Height = int | None
 class Sections:
     """What the horizontal planes cut out: polynomials in the height, each up to a positive factor.
 
-    `cubic` is c3, c2, c1, c0. `above` is the height over the spheroid's centre. `inside` is k, ≥ 0 where the plane meets
-    the spheroid. `off` is η² + ξ² − r², ≤ 0 where the ellipse's centre lies in the circle. `unit` is U.
+    `cubic` is c3, c2, c1, c0. `above` is the height over the spheroid's centre. `inside` is k, ≥ 0 where the plane
+    meets the spheroid. `off` is η² + ξ² − r², ≤ 0 where the ellipse's centre lies in the circle. `unit` is U.
     """
 
     cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]
@@ -90,7 +90,7 @@ class Sections:
 
     def circle_misses(self, height: int | Fraction) -> bool:
         """Whether the circle at this height and the spheroid have no point in common."""
-        c3, c2, c1, c0 = (self.sign(c, height) for c in self.cubic)
+        _, c2, c1, c0 = (self.sign(c, height) for c in self.cubic)
         if max(c2, c1) <= 0:
             return False
         return c0 == c1 == 0 or self.sign(discriminant(self.cubic), height) > 0
