@@ -34,7 +34,7 @@ def limit_of(lengths: Lengths, whole: Position, whole_limit: Position | None) ->
     if lengths.solid and any(sections.disc_crosses(end) for end, _ in _ends(lengths)):
         return None
     if whole is Position.CONTACT:
-        lowest, highest = sections.reach
+        lowest, highest = sections.reach_in_heights
         low = lowest if lengths.low is None else lengths.low
         high = highest if lengths.high is None else lengths.high
         if sections.wall_crosses(low, high):

@@ -105,17 +105,38 @@ class Sections:
 
     @property
     def reach(self) -> tuple[int, int]:
-        """Heights between which the spheroid lies."""
+        """Values of the variable, w √U, between which the spheroid lies."""
         (_, center), (leading, _, last) = self.above, self.inside
         half = math.isqrt((last * -leading + (leading * center) ** 2) // leading**2) + 1
-        return _floor(-center - half, self.unit), -_floor(center - half, self.unit)
+        return -center - half, half - center
+
+    @property
+    def reach_in_heights(self) -> tuple[int, int]:
+        """Heights between which the spheroid lies."""
+        first, last = self.reach
+        return _floor_of_quotient(first, self.unit), -_floor_of_quotient(-last, self.unit)
+
+    def between(self, low: Height, high: Height) -> tuple[int, int]:
+        """Values of the variable between which both the spheroid and the wall lie where they may meet."""
+        first, last = self.reach
+        if low is not None:
+            first = max(first, _floor_of_multiple(low, self.unit))
+        if high is not None:
+            last = min(last, -_floor_of_multiple(-high, self.unit))
+        return first, last
 
     def wall_misses(self, low: Height, high: Height) -> bool:
         """Whether the wall between two heights and the spheroid have no point in common."""
         if not all(self.circle_misses(height) for height in (low, high) if height is not None):
             return False
         _, c2, c1, c0 = self.cubic
-        f, apart = self.critical, common_divisor(c0, c1)
+        apart = common_divisor(c0, c1)
+        if len(apart) <= 1:
+            lowest, highest = self.between(low, high)
+            some = has_root(discriminant(self.cubic) if apart else c2, lowest, highest)
+            if some is not None and (self.unit == 1 or not some):
+                return not some
+        f = self.critical
         roots = self.roots(_chain(f, _derivative(f)), low, high)
         if len(apart) <= 1 or not roots:
             return roots == 0
@@ -281,10 +302,72 @@ def _product(f: Polynomial, g: Polynomial) -> Polynomial:
     return tuple(result)
 
 
-def _floor(number: int, unit: int) -> int:
+def _floor_of_multiple(number: int, unit: int) -> int:
+    """number √unit, rounded down."""
+    if unit == 1:
+        return number
+    root = math.isqrt(number * number * unit)
+    return root if number >= 0 else -root - 1
+
+
+def _floor_of_quotient(number: int, unit: int) -> int:
     """number/√unit, rounded down."""
     root = math.isqrt(number * number // unit)
     return root if number >= 0 else -root - 1
+
+
+MOST_HALVINGS = 8
+"""After so many halvings Sturm's theorem is asked in place of Descartes' rule, which a multiple root never satisfies."""
+
+
+def has_root(f: Polynomial, low: int, high: int) -> bool | None:
+    """Whether f has a root between two numbers, `low` < `high`, that are none; None where Descartes' rule cannot tell.
+
+    With x = (low + high t)/(1 + t) the numbers between are those with t > 0: no change of sign among the coefficients
+    in t means no root, one change means one.
+    """
+    pending = [(0, _coefficients_between(f, low, high))]
+    while pending:
+        halvings, g = pending.pop()
+        changes = _changes_of_sign(_shifted_by_one(g[::-1]))
+        if changes == 1:
+            return True
+        if changes:
+            if halvings == MOST_HALVINGS:
+                return None
+            first = [coefficient << place for place, coefficient in enumerate(g)]
+            second = _shifted_by_one(first)
+            if not second[-1]:
+                return True  # the middle
+            pending += [(halvings + 1, first), (halvings + 1, second)]
+    return False
+
+
+def _coefficients_between(f: Polynomial, low: int, high: int) -> list[int]:
+    """The coefficients of f(low + (high − low) s), the highest power of s first."""
+    shifted = list(f)
+    for last in range(len(f) - 1, 0, -1):  # Horner's scheme, from powers of x to powers of x − low
+        for place in range(1, last + 1):
+            shifted[place] += low * shifted[place - 1]
+    width, power = high - low, 1
+    for place in range(len(f) - 2, -1, -1):
+        power *= width
+        shifted[place] *= power
+    return shifted
+
+
+def _shifted_by_one(f: Sequence[int]) -> list[int]:
+    """The coefficients of f(s + 1)."""
+    shifted = list(f)
+    for last in range(len(f) - 1, 0, -1):
+        for place in range(1, last + 1):
+            shifted[place] += shifted[place - 1]
+    return shifted
+
+
+def _changes_of_sign(numbers: Sequence[int]) -> int:
+    signs = [number > 0 for number in numbers if number]
+    return sum(one != other for one, other in itertools.pairwise(signs))
 
 
 def _dot(one: Sequence[int], other: Sequence[int]) -> int:
