@@ -24,6 +24,7 @@ from hypcheck.geometry.pair import (
     trouble_with_row,
 )
 from hypcheck.geometry.rows import (
+    PAIRS,
     Columns,
     Floats,
     Positions,
@@ -140,24 +141,33 @@ def classify(
 
     `rows` is (n, 7): alpha, gamma, b, d, x, y, z, lengths in one unit, as float64 (C-contiguous is not copied) or what
     converts to it. Rows (n, 10) have axis_x, axis_y, axis_z besides, any finite vector ≠ 0 along the spheroid's axis of
-    revolution, whose length and sign mean nothing; those of seven are upright, as is 0, 0, 1. In place of an array
-    `rows` may be a table of these columns by name, such as {"alpha": 2, …, "z": zs}, a data frame, a structured array:
-    numbers and columns are broadcast. `out`, int8 (n,), is
-    filled and returned in place of a new array; it may overlap `rows`. `question` "exterior", "interior" or "contact"
-    asks for 1 (yes) or 0 (no) instead. `threads` is how many threads share the work; by default one, and more for
-    millions of rows (HYPCHECK_THREADS limits them).
+    revolution, whose length and sign mean nothing; those of seven are upright, as is 0, 0, 1. Rows (n, 13) have z_min,
+    z_max, solid behind the axis: the heights between which the hyperboloid ends, and 1 if flat ends belong to it. In
+    place of an array `rows` may be a table of these columns by name, such as {"alpha": 2, …, "z": zs, "z_max": 17.8}, a
+    data frame, a structured array: numbers and columns are broadcast. `out`, int8 (n,), is filled and returned in place
+    of a new array; it may overlap `rows`. `question` "exterior", "interior" or "contact" asks for 1 (yes) or 0 (no)
+    instead. `threads` is how many threads share the work; by default one, and more for millions of rows
+    (HYPCHECK_THREADS limits them).
 
-    A row is valid when its sizes are finite and > 0, its centre finite, and its axis finite and not 0. The first that
-    is not raises InputError (its index counted from 0) and `out` is left alone; with on_invalid="flag" such rows are
-    marked 127.
+    A row is valid when its sizes are finite and > 0, its centre finite, its axis finite and not 0, z_min < z_max (they
+    may be infinite) and solid 0 or 1. The first that is not raises InputError (its index counted from 0) and `out` is
+    left alone; with on_invalid="flag" such rows are marked 127.
     """
     number = required(question, threads, on_invalid)
-    queries = as_rows(rows, tilted=True)
+    queries = as_rows(rows, tilted=True, heights=True)
     _require_fitting(out, len(queries))
-    result, refused = kernel().answer_rows(queries, question, number)
+    result, refused = _answer(queries, question, number)
     if refused and on_invalid == "raise":
         require_valid(queries)
     return _into(out, result)
+
+
+def _answer(queries: Rows, question: Question, threads: int | None) -> tuple[Positions, int]:
+    if not PAIRS.end(queries):
+        return kernel().answer_rows(queries, question, threads)
+    from hypcheck.kernel.ended import answer_ended_rows  # noqa: PLC0415 - rows with heights alone need it
+
+    return answer_ended_rows(queries, question, threads)
 
 
 @in_default_environment

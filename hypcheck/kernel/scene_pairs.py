@@ -102,17 +102,16 @@ def position_beside(
         + abs((y - back_y) - (there_y - (back_y - along)))
         + abs((z - back_z) - (there_z - (back_z - up)))
     )
-    mover = {} if axis is None else {"axis": axis}
     if lost == 0:
-        return position(alpha, gamma, b, d, across, along, up, **mover)
+        return position(alpha, gamma, b, d, across, along, up, axis=axis)
     least = min(b, d)
     if LEAST < least and max(b, d) < GREATEST and lost < GREATEST:
         stretch = lost / least * (1 + MARGIN) + ROUNDED
-        outer = position(alpha, gamma, b * (1 + stretch), d * (1 + stretch), across, along, up, **mover)
+        outer = position(alpha, gamma, b * (1 + stretch), d * (1 + stretch), across, along, up, axis=axis)
         if outer != Position.CONTACT:
             return outer
         if stretch < 1:
-            inner = position(alpha, gamma, b * (1 - stretch), d * (1 - stretch), across, along, up, **mover)
+            inner = position(alpha, gamma, b * (1 - stretch), d * (1 - stretch), across, along, up, axis=axis)
             if inner == outer:
                 return outer
     origin = (there_x, there_y, there_z)

@@ -45,13 +45,9 @@ class Opinion:
 
 @dataclass(frozen=True, slots=True)
 class Oracle:
-    """An oracle: `ask` maps rows to n opinions; `available` gives the reason why it cannot run here, or None.
-
-    Rows are (n, 7), or (n, 10) with an axis unless it is `upright_only`.
-    """
+    """An oracle: `ask` maps rows (n, 7) or (n, 10) to n opinions; `available` gives why it cannot run here, or None."""
 
     ask: Callable[[Rows], Sequence[Opinion]]
-    upright_only: bool = False
     available: Callable[[], str | None] = lambda: None
 
 
@@ -109,8 +105,8 @@ def _coefficient_rule() -> Callable[[Mapping[str, float]], int]:
 
 
 def _heights(row: list[float]) -> Opinion:
-    """Whether a plane at some height cuts both surfaces where they meet: the real roots of a quartic in the height."""
-    return Opinion(heights.position(Pair.from_row(row)), stage="Sturm's chain")
+    """Whether a plane at some height cuts both surfaces where they meet: real roots of a polynomial in the height."""
+    return Opinion(heights.position(Pair.from_row(row)), stage="rule in the height")
 
 
 def _mesh(row: list[float]) -> Opinion:
@@ -123,7 +119,7 @@ ORACLES = {
     "exact": Oracle(_each(_exact)),
     "nearest": Oracle(_nearest),
     "roots": Oracle(_each(_roots)),
-    "heights": Oracle(_each(_heights), upright_only=True),
+    "heights": Oracle(_each(_heights)),
     "mesh": Oracle(_each(_mesh), available=mesh.availability),
 }
 
@@ -147,19 +143,20 @@ def _limit_of(case: TiltedVector) -> Position | None:
 
 
 TILTED_ROOTS = 10
-"""As many upright rows as one tilted one takes as long as in the roots oracle, which counts it so often."""
+"""As many upright rows as one tilted one takes as long as where roots are counted, which counts it so often."""
 
 
 def shares(plan: SelfCheckPlan, families: int, *, tilted: bool = False) -> dict[str, int]:
     """The number of each family's cases that each oracle of the plan is asked, if there are so many families."""
+    roots = -(-plan.roots // (families * (TILTED_ROOTS if tilted else 1)))
     every = {
         "exact": plan.count,
         "nearest": plan.count,
-        "roots": -(-plan.roots // (families * (TILTED_ROOTS if tilted else 1))),
-        "heights": plan.count,
+        "roots": roots,
+        "heights": min(roots, plan.count) if tilted else plan.count,
         "mesh": -(-plan.meshes // families),
     }
-    return {name: every[name] for name in plan.oracles if not (tilted and ORACLES[name].upright_only)}
+    return {name: every[name] for name in plan.oracles}
 
 
 def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:

@@ -7,15 +7,15 @@ closed solid spheroid.
 - Solid: contact if and only if E meets W or one of the two discs in which K ends; else E lies in K or is disjoint from
   it, and the centre says which.
 
-E meets W only where it meets the whole hyperboloid. So the position without ends comes first, and heights.py is asked
-about the wall only where that is contact and E reaches beyond an end.
+E meets W only where it meets the whole hyperboloid. So the position without ends comes first, and sections.py is
+asked about the wall only where that is contact and E reaches beyond an end.
 """
 
 from __future__ import annotations
 
 from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.truth.heights import Sections
 from hypcheck.truth.pencil import side_of_center
+from hypcheck.truth.sections import Sections
 
 
 def position(lengths: Lengths, whole: Position) -> Position:

@@ -163,24 +163,13 @@ def positions(rows: Rows) -> Positions:
 
 
 def _between_ends(rows: Rows) -> Positions:
-    """The positions of valid rows (n, 13).
-
-    A spheroid reaches no farther up or down than its greater semi-axis. Where it therefore lies between the ends, or
-    beyond one, the position without ends tells. z ∓ r and its difference from an end are within 3u (|z| + r + |end|).
-    """
+    """The positions of valid rows (n, 13): those without ends, then the ends one by one."""
     upright = (rows[:, 7:9] == 0).all(axis=1)
-    whole = np.empty(len(rows), dtype=np.int8)
+    result = np.empty(len(rows), dtype=np.int8)
     for some, width in ((upright, len(COLUMNS)), (~upright, len(TILTED_COLUMNS))):
-        whole[some] = positions(np.ascontiguousarray(rows[some, :width]))
-    z, r, ends_at, solid = rows[:, 6], rows[:, 2:4].max(axis=1), rows[:, 10:12].T, rows[:, 12]
-    with np.errstate(over="ignore", invalid="ignore"):  # what overflows compares false
-        slack = np.where(np.isinf(ends_at), 0, 4 * 2.0**-53 * (np.abs(z) + r + np.abs(ends_at)))
-        depth = np.stack([z - ends_at[0], ends_at[1] - z])
-        between, beyond = (depth > r + slack).all(axis=0), (depth < -(r + slack)).any(axis=0)
-    result = np.where(between, whole, Position.EXTERIOR).astype(np.int8)
-    clear = beyond | ((whole == Position.EXTERIOR) & (solid != 0))
-    for index in np.flatnonzero(~(between | clear)):
-        result[index] = ends.position(Lengths.of(rows[index].tolist()), Position(int(whole[index])))
+        result[some] = positions(np.ascontiguousarray(rows[some, :width]))
+    for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)):
+        result[index] = ends.position(Lengths.of(rows[index].tolist()), Position(int(result[index])))
     return result
 
 

@@ -213,18 +213,25 @@ static int axis_of(PyObject *object, double axis[3]) {
 
 static PyObject *py_position(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
     double row[10];
-    int floats = 1, k;
+    int floats = 1, ended = 0, k;
     int8_t answer = 127;
     (void)self;
     if (count != 7) {
         PyErr_Format(PyExc_TypeError, "position() takes 7 numbers: alpha, gamma, b, d, x, y, z (%zd given)", count);
         return NULL;
     }
-    if (keywords != NULL && (PyTuple_GET_SIZE(keywords) != 1 ||
-                             PyUnicode_CompareWithASCIIString(PyTuple_GET_ITEM(keywords, 0), "axis") != 0)) {
-        PyErr_SetString(PyExc_TypeError, "position() takes one keyword: axis");
-        return NULL;
+    for (k = 0; keywords != NULL && k < PyTuple_GET_SIZE(keywords); k++) {
+        static const char *const known[4] = {"axis", "z_min", "z_max", "solid"};
+        int which = 0;
+        while (which < 4 && PyUnicode_CompareWithASCIIString(PyTuple_GET_ITEM(keywords, k), known[which]) != 0) which++;
+        if (which == 4) {
+            PyErr_Format(PyExc_TypeError, "position() takes the keywords axis, z_min, z_max, solid, not %R",
+                         PyTuple_GET_ITEM(keywords, k));
+            return NULL;
+        }
+        ended |= which > 0;
     }
+    if (ended && slow_position != NULL) return PyObject_Vectorcall(slow_position, arguments, (size_t)count, keywords);
     for (k = 0; k < 7; k++) floats &= PyFloat_CheckExact(arguments[k]);
     if (!floats)
         for (floats = 1, k = 0; k < 7; k++) floats &= PyFloat_Check(arguments[k]);
@@ -302,7 +309,7 @@ static PyMethodDef functions[] = {
     {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
     {"clearance", py_clearance, METH_VARARGS, "clearance(rows, positions, found) -> the number of invalid rows; eleven numbers a row"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,
-     "position(alpha, gamma, b, d, x, y, z, *, axis=None) -> int"},
+     "position(alpha, gamma, b, d, x, y, z, *, axis=None, z_min=-inf, z_max=inf, solid=False) -> int"},
     {"set_slow_position", py_set_slow_position, METH_O, "set_slow_position(function): what position calls where it has no answer"},
     {"level", py_level, METH_NOARGS, "level() -> the name of the instruction set in use"},
     {"use_level", py_use_level, METH_O, "use_level(name) -> whether this machine and build have it"},

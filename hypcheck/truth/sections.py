@@ -1,0 +1,370 @@
+"""The rule in the height: in which horizontal planes the spheroid meets the hyperboloid's circle.
+
+Horizontal means across the hyperboloid's axis. At height w the plane cuts the hyperboloid in a circle of radius r,
+r² = α² (1 + w²/γ²), and the solid spheroid in an ellipse whose axes have the same directions at every height: one is
+horizontal and perpendicular to the spheroid's axis (eigenvalue μ₁ = 1/b²), the other in the plane of both axes (μ₂).
+With (η, ξ) the centre of the ellipse in these directions and k = 1 − (w − z)²/(its half height)²,
+
+    e = μ₁ (X − η)² + μ₂ (Y − ξ)² − k ≤ 0 in the ellipse.
+
+By Lagrange's duality for one quadratic equation (the trust region's boundary) the least e on the circle is the
+supremum of φ(λ) for λ > −μ, μ the smaller eigenvalue, where (μ₁ + λ)(μ₂ + λ) φ(λ) is the cubic
+
+    g(λ) = −(k + λ r²)(μ₁ + λ)(μ₂ + λ) + λ μ₁ η² (μ₂ + λ) + λ μ₂ ξ² (μ₁ + λ).
+
+In ν = λ + μ its coefficients c3 < 0, c2, c1, c0 ≤ 0 are polynomials in w of degree 2, and g(−μ) ≤ 0. So by Descartes'
+rule the circle misses the ellipse, that is g > 0 for some ν > 0, if and only if
+
+    c2 > 0 or c1 > 0,   and   the discriminant Δ > 0 or c0 = c1 = 0.
+
+The least e on the circle is continuous in w, and where it is 0, Δ = 0. Between two heights whose circles miss the
+spheroid, the wall therefore meets it if and only if Δ has a root there at which not c0 = c1 = 0 < c2. Sturm's theorem
+counts the roots of Δ, Tarski's the others. Where c0 = 0 at all heights, Δ = c1² (c2² − 4 c3 c1), and where c1 = 0 too,
+c2 alone decides. For an upright spheroid c2² − 4 c3 c1 is the quartic Q² − 4 R r² of docs/mathematics.md.
+
+All is done in integers. `upward` u need not be vertical or of length 1: with U = u·u the variable is w √U, and a height
+z is the number z √U. There is no λ of the pencil S + λH here, and no distance.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from hypcheck.geometry.pair import Lengths, to_integers
+from hypcheck.truth.rationals import sign_with_root
+
+Polynomial = tuple[int, ...]
+"""In w √U, the highest power first."""
+
+Height = int | None
+"""A height over √U; None is infinite: −∞ at the lower end, ∞ at the upper."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sections:
+    """What the horizontal planes cut out: polynomials in the height, each up to a positive factor.
+
+    `cubic` is c3, c2, c1, c0. `above` is the height over the spheroid's centre. `inside` is k, ≥ 0 where the plane
+    meets the spheroid. `off` is η² + ξ² − r², ≤ 0 where the ellipse's centre lies in the circle. `unit` is U.
+    """
+
+    cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]
+    above: Polynomial
+    inside: Polynomial
+    off: Polynomial
+    unit: int
+
+    @classmethod
+    def of(cls, lengths: Lengths) -> Sections:
+        """The sections of a pair."""
+        q, t = lengths.b**2, lengths.d**2
+        u, v, C = lengths.upward, lengths.axis, (lengths.x, lengths.y, lengths.z)
+        U, V, lean, height, along = _dot(u, u), _dot(v, v), _dot(v, u), _dot(C, u), _dot(C, v)
+        W = V * U - lean * lean
+        m1 = t * U * V
+        m2 = m1 + (q - t) * W
+        p, s = lengths.alpha**2, lengths.gamma**2 * U
+        above = (1, -height)
+        k = _sum((m2,), _scaled(-V, _product(above, above)))
+        r2 = (p, 0, p * s)
+        if W:
+            line = _sum(((U * along - lean * height) * m2,), _scaled(-(q - t) * W * lean, above))
+            eta, xi = (m2 * s * m1 * _volume(C, u, v) ** 2,), _scaled(lengths.gamma**2, _product(line, line))
+        else:
+            W, eta, xi = 1, (m2 * lengths.gamma**2 * m1 * (U * _dot(C, C) - height * height),), ()
+        A0, A1 = _scaled(s * W * q * m1, k), _scaled(m2 * W, r2)
+        return cls(_shifted(A0, A1, eta, xi, m1, m2), above, k, _off(A1, eta, xi, m1, m2), U)
+
+    def sign(self, f: Polynomial, height: int | Fraction) -> int:
+        """The sign of a polynomial at a height."""
+        even: int | Fraction = 0
+        odd: int | Fraction = 0
+        for place, coefficient in enumerate(reversed(f)):
+            term = coefficient * height**place * self.unit ** (place // 2)
+            even, odd = (even, odd + term) if place % 2 else (even + term, odd)
+        return sign_with_root(even, odd, self.unit)
+
+    def circle_misses(self, height: int | Fraction) -> bool:
+        """Whether the circle at this height and the spheroid have no point in common."""
+        _, c2, c1, c0 = (self.sign(c, height) for c in self.cubic)
+        if max(c2, c1) <= 0:
+            return False
+        return c0 == c1 == 0 or self.sign(discriminant(self.cubic), height) > 0
+
+    def disc_misses(self, height: int) -> bool:
+        """Whether the disc within that circle and the spheroid have none."""
+        return self.circle_misses(height) and (self.sign(self.inside, height) < 0 or self.sign(self.off, height) > 0)
+
+    def disc_crosses(self, height: int) -> bool:
+        """Whether points of the disc, not all on its rim, lie inside the spheroid."""
+        return self.sign(self.inside, height) > 0 and self.sign(self.off, height) < 0
+
+    @property
+    def reach(self) -> tuple[int, int]:
+        """Values of the variable, w √U, between which the spheroid lies."""
+        (_, center), (leading, _, last) = self.above, self.inside
+        half = math.isqrt((last * -leading + (leading * center) ** 2) // leading**2) + 1
+        return -center - half, half - center
+
+    @property
+    def reach_in_heights(self) -> tuple[int, int]:
+        """Heights between which the spheroid lies."""
+        first, last = self.reach
+        return _floor_of_quotient(first, self.unit), -_floor_of_quotient(-last, self.unit)
+
+    def between(self, low: Height, high: Height) -> tuple[int, int]:
+        """Values of the variable between which both the spheroid and the wall lie where they may meet."""
+        first, last = self.reach
+        if low is not None:
+            first = max(first, _floor_of_multiple(low, self.unit))
+        if high is not None:
+            last = min(last, -_floor_of_multiple(-high, self.unit))
+        return first, last
+
+    def wall_misses(self, low: Height, high: Height) -> bool:
+        """Whether the wall between two heights and the spheroid have no point in common."""
+        if not all(self.circle_misses(height) for height in (low, high) if height is not None):
+            return False
+        _, c2, c1, c0 = self.cubic
+        apart = common_divisor(c0, c1)
+        if len(apart) <= 1:
+            lowest, highest = self.between(low, high)
+            some = has_root(discriminant(self.cubic) if apart else c2, lowest, highest)
+            if some is not None and (self.unit == 1 or not some):
+                return not some
+        f = self.critical
+        roots = self.roots(_chain(f, _derivative(f)), low, high)
+        if len(apart) <= 1 or not roots:
+            return roots == 0
+        apart = _squarefree(apart)  # at its roots the circle misses where c2 > 0, though Δ = 0
+        chains = _chain(apart, _derivative(apart)), _chain(apart, _product(_derivative(apart), c2))
+        return 2 * roots == sum(self.roots(chain, low, high) for chain in chains)
+
+    def wall_crosses(self, low: int, high: int) -> bool:
+        """Whether points of the wall between two heights lie inside the spheroid, and not on its surface alone.
+
+        Between two roots next to each other of the critical polynomial the least e of the circles keeps its sign.
+        """
+        f = self.critical
+        chain, pending = _chain(f, _derivative(f)), [(Fraction(low), Fraction(high))]
+        while pending:
+            first, last = pending.pop()
+            ends_at_roots = [self.sign(f, height) == 0 for height in (first, last)]
+            if any(
+                not at_root and not self.circle_misses(height)
+                for height, at_root in zip((first, last), ends_at_roots, strict=True)
+            ):
+                return True
+            inner = self.roots(chain, first, last) - ends_at_roots[1]
+            if inner + sum(ends_at_roots) > 1:
+                middle = (first + last) / 2
+                pending += [(first, middle), (middle, last)]
+        return False
+
+    @property
+    def critical(self) -> Polynomial:
+        """A polynomial with simple roots that is 0 at all heights where the circle just touches the spheroid."""
+        _, c2, c1, c0 = self.cubic
+        return _squarefree(discriminant(self.cubic) if c0 or c1 else c2)
+
+    def roots(self, chain: Sequence[Polynomial], low: Height | Fraction, high: Height | Fraction) -> int:
+        """The roots of f from `low` to `high` for the chain of (f, f′); for (f, f′ h) the sum of the signs of h there.
+
+        `low` itself is left out, f has simple roots. Where `low` or `high` is one of them, h must be > 0 there.
+        """
+        return self._changes(chain, low, -1) - self._changes(chain, high, 1)
+
+    def _changes(self, chain: Sequence[Polynomial], height: Height | Fraction, far: int) -> int:
+        """How often the sign changes in the chain at a height, or at −∞ or ∞."""
+        if height is None:
+            signs = [(1 if f[0] > 0 else -1) * (far if len(f) % 2 == 0 else 1) for f in chain]
+        else:
+            signs = [sign for sign in (self.sign(f, height) for f in chain) if sign]
+        return sum(one != other for one, other in itertools.pairwise(signs))
+
+
+def discriminant(cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]) -> Polynomial:
+    """Δ of the cubic in ν, but for a constant factor > 0."""
+    c3, c2, c1, c0 = cubic
+    square = _product(c2, c2)
+    rest = _sum(square, _scaled(-4, _product(c3, c1)))
+    if not c0 and len(c1) == 1:
+        return rest
+    return _sum(
+        _product(_product(c1, c1), rest),
+        _product(c0, _sum(_scaled(-4, _product(square, c2)), _scaled(18, _product(_product(c3, c2), c1)))),
+        _scaled(-27, _product(_product(c3, c3), _product(c0, c0))),
+    )
+
+
+def _shifted(
+    A0: Polynomial, A1: Polynomial, eta: Polynomial, xi: Polynomial, m1: int, m2: int
+) -> tuple[Polynomial, Polynomial, Polynomial, Polynomial]:
+    """The coefficients of −(A0 + κ A1)(m1 + κ)(m2 + κ) + κ eta (m2 + κ) + κ xi (m1 + κ) in ν = κ + min(m1, m2)."""
+    m, gap = min(m1, m2), abs(m2 - m1)
+    first, second = (eta, xi) if m1 <= m2 else (xi, eta)
+    at_least = _sum(A0, _scaled(-m, A1))
+    c2 = _sum(_scaled(-1, at_least), _scaled(-gap, A1), first, second)
+    c1 = _sum(_scaled(-gap, at_least), _scaled(gap - m, first), _scaled(-m, second))
+    return _over_content(_scaled(-1, A1), c2, c1, _scaled(-m * gap, first))
+
+
+def _off(A1: Polynomial, eta: Polynomial, xi: Polynomial, m1: int, m2: int) -> Polynomial:
+    return primitive(_sum(_scaled(m2, eta), _scaled(m1, xi), _scaled(-m1 * m2, A1)))
+
+
+def _over_content(*polynomials: Polynomial) -> tuple[Polynomial, Polynomial, Polynomial, Polynomial]:
+    """Four polynomials over the greatest number that divides all coefficients."""
+    content = math.gcd(*(coefficient for f in polynomials for coefficient in f))
+    c3, c2, c1, c0 = (tuple(coefficient // content for coefficient in f) for f in polynomials)
+    return c3, c2, c1, c0
+
+
+def _chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
+    """f, g and the negated remainders of Euclid's algorithm, each up to a positive factor."""
+    chain = [f]
+    while g:
+        chain.append(primitive(g))
+        g = tuple(-number for number in _remainder(chain[-2], chain[-1]))
+    return chain
+
+
+def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
+    """The greatest common divisor, up to a constant factor; () of twice 0."""
+    while g:
+        f, g = g, _remainder(f, g)
+    return f
+
+
+def _squarefree(f: Polynomial) -> Polynomial:
+    """A multiple of the polynomial that has its roots, each of them simple."""
+    common = common_divisor(f, _derivative(f))
+    rest, quotient = [Fraction(number) for number in f], []
+    while len(rest) >= len(common) > 1:
+        quotient.append(rest[0] / common[0])
+        tail = [*common[1:], *[0] * (len(rest) - len(common))]
+        rest = [a - quotient[-1] * b for a, b in zip(rest[1:], tail, strict=True)]
+    return primitive(to_integers(quotient) if quotient else f)
+
+
+def _remainder(f: Polynomial, g: Polynomial) -> Polynomial:
+    """A positive multiple of the remainder, without leading zeros and common factors; () for 0."""
+    rest = list(f)
+    while len(rest) >= len(g):
+        factor, lead = rest[0] if g[0] > 0 else -rest[0], abs(g[0])
+        tail = [*g[1:], *[0] * (len(rest) - len(g))]
+        rest = [lead * a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
+    return primitive(rest)
+
+
+def primitive(f: Sequence[int]) -> Polynomial:
+    """The polynomial without leading zeros and over the gcd of its coefficients, signs kept; () for 0."""
+    first, common = next((place for place, number in enumerate(f) if number), len(f)), math.gcd(*f)
+    return tuple(number // common for number in f[first:])
+
+
+def _derivative(f: Polynomial) -> Polynomial:
+    return tuple(coefficient * (len(f) - 1 - place) for place, coefficient in enumerate(f[:-1]))
+
+
+def _sum(*terms: Polynomial) -> Polynomial:
+    columns = itertools.zip_longest(*(term[::-1] for term in terms), fillvalue=0)
+    total = [sum(column) for column in columns]
+    while total and not total[-1]:
+        total.pop()
+    return tuple(total[::-1])
+
+
+def _scaled(factor: int, f: Polynomial) -> Polynomial:
+    return tuple(factor * coefficient for coefficient in f) if factor else ()
+
+
+def _product(f: Polynomial, g: Polynomial) -> Polynomial:
+    if not f or not g:
+        return ()
+    result = [0] * (len(f) + len(g) - 1)
+    for i, a in enumerate(f):
+        for j, b in enumerate(g):
+            result[i + j] += a * b
+    return tuple(result)
+
+
+def _floor_of_multiple(number: int, unit: int) -> int:
+    """number √unit, rounded down."""
+    if unit == 1:
+        return number
+    root = math.isqrt(number * number * unit)
+    return root if number >= 0 else -root - 1
+
+
+def _floor_of_quotient(number: int, unit: int) -> int:
+    """number/√unit, rounded down."""
+    root = math.isqrt(number * number // unit)
+    return root if number >= 0 else -root - 1
+
+
+MOST_HALVINGS = 8
+"""After so many halvings Sturm's theorem is asked: Descartes' rule never tells where a root is multiple."""
+
+
+def has_root(f: Polynomial, low: int, high: int) -> bool | None:
+    """Whether f has a root between two numbers, `low` < `high`, that are none; None where Descartes' rule cannot tell.
+
+    With x = (low + high t)/(1 + t) the numbers between are those with t > 0: no change of sign among the coefficients
+    in t means no root, one change means one.
+    """
+    pending = [(0, _coefficients_between(f, low, high))]
+    while pending:
+        halvings, g = pending.pop()
+        changes = _changes_of_sign(_shifted_by_one(g[::-1]))
+        if changes == 1:
+            return True
+        if changes:
+            if halvings == MOST_HALVINGS:
+                return None
+            first = [coefficient << place for place, coefficient in enumerate(g)]
+            second = _shifted_by_one(first)
+            if not second[-1]:
+                return True  # the middle
+            pending += [(halvings + 1, first), (halvings + 1, second)]
+    return False
+
+
+def _coefficients_between(f: Polynomial, low: int, high: int) -> list[int]:
+    """The coefficients of f(low + (high − low) s), the highest power of s first."""
+    shifted = list(f)
+    for last in range(len(f) - 1, 0, -1):  # Horner's scheme, from powers of x to powers of x − low
+        for place in range(1, last + 1):
+            shifted[place] += low * shifted[place - 1]
+    width, power = high - low, 1
+    for place in range(len(f) - 2, -1, -1):
+        power *= width
+        shifted[place] *= power
+    return shifted
+
+
+def _shifted_by_one(f: Sequence[int]) -> list[int]:
+    """The coefficients of f(s + 1)."""
+    shifted = list(f)
+    for last in range(len(f) - 1, 0, -1):
+        for place in range(1, last + 1):
+            shifted[place] += shifted[place - 1]
+    return shifted
+
+
+def _changes_of_sign(numbers: Sequence[int]) -> int:
+    signs = [number > 0 for number in numbers if number]
+    return sum(one != other for one, other in itertools.pairwise(signs))
+
+
+def _dot(one: Sequence[int], other: Sequence[int]) -> int:
+    return sum(a * b for a, b in zip(one, other, strict=True))
+
+
+def _volume(C: Sequence[int], u: Sequence[int], v: Sequence[int]) -> int:
+    """The determinant of three vectors."""
+    return sum(C[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3))
