@@ -14,9 +14,10 @@ from typing import Any
 
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.pair import TILTED_COLUMNS, Pair, Position
+from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
-from hypcheck.truth import exact
-from hypcheck.truth.certificate import Certificate, Point, check_certificate, pivots, surfaces
+from hypcheck.truth import ended_clearance, ended_prove, exact
+from hypcheck.truth.certificate import Certificate, Piece, Point, check_certificate, pivots, surfaces
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.nearest import nearest
@@ -76,15 +77,23 @@ def answer(pair: Pair) -> Answer:
     """
     pair = pair.upright if pair.is_upright else pair
     decision = exact.decide(pair.lengths)
+    if pair.has_ends:
+        return Answer(pair, decision, ended_clearance.clearance(pair, decision), proved(pair, decision))
     return Answer(pair, decision, measured_clearance(pair, decision), proved(pair, decision))
 
 
 def proved(pair: Pair, decision: Decision) -> Certificate:
     """The checked proof of an exact decision. Raises DisagreementError if it does not hold."""
-    certificate = prove(pair, decision)
-    if certificate.position is not decision.position or not check_certificate(pair, certificate):
+    certificate = ended_prove.prove(pair, decision) if pair.has_ends else prove(pair, decision)
+    unproved = not check_certificate(pair, certificate) and not is_rule(certificate)
+    if certificate.position is not decision.position or unproved:
         raise _unproved(pair)
     return certificate
+
+
+def is_rule(certificate: Certificate) -> bool:
+    """Whether a contact with a hyperboloid that ends is said without a witness: by the exact rule alone."""
+    return certificate.position is Position.CONTACT and not certificate.points and certificate.double_root is None
 
 
 def _unproved(pair: Pair) -> DisagreementError:
@@ -149,6 +158,8 @@ def answer_as_json(answer: Answer) -> str:
 
 def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
     """A certificate about a pair, and the numbers that check it, as values for JSON."""
+    if pair.has_ends:
+        return _ended_proof_as_json(pair, certificate)
     if not pair.is_upright:
         return _tilted_proof_as_json(pair, certificate)
     squares = PairSquares.of(pair)
@@ -169,6 +180,27 @@ def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
             **_squares_as_json(squares),
         }
     return _points_as_json(pair, certificate.points)
+
+
+def _ended_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
+    """The same where the hyperboloid ends."""
+    if certificate.points:
+        return _points_as_json(pair, certificate.points)
+    if certificate.multiplier is not None:
+        return {"by": "multiplier", "lambda": exact_text(certificate.multiplier)}
+    if certificate.pieces:
+        return {"by": "pieces", "pieces": [_piece_as_json(piece) for piece in certificate.pieces]}
+    return {"by": "rule in the height"}
+
+
+def _piece_as_json(piece: Piece) -> dict[str, str]:
+    low, high = piece.low, piece.high
+    return {
+        "low": "-inf" if low is None else exact_text(low),
+        "high": "inf" if high is None else exact_text(high),
+        "lambda": exact_text(piece.multiplier),
+        "mu": exact_text(piece.plane),
+    }
 
 
 def _tilted_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
@@ -248,6 +280,8 @@ def kind_as_text(kind: Kind) -> str:
 
 def proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
     """A certificate about a pair as lines of text, and how to check it by hand."""
+    if pair.has_ends:
+        return _with_note(_ended_proof_lines(pair, certificate))
     if not pair.is_upright:
         return _tilted_proof_lines(pair, certificate)
     if certificate.multiplier is not None:
@@ -266,6 +300,42 @@ _CENTER = "centre (x₀, y₀, z₀)"
 def _with_note(lines: list[str]) -> list[str]:
     rounded = any("≈" in line for line in lines)
     return [*lines, *(["≈ marks a rounded number; --json gives all of them exactly."] if rounded else [])]
+
+
+_FORMS = "S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² − z²/γ² − 1"
+
+
+def _ended_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
+    matrix = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
+    if certificate.points:
+        return [*_by_points(pair, certificate.points), f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {matrix};", _ENDS_OF_POINTS]
+    if certificate.multiplier is not None:
+        return [
+            f"λ {equals_text(certificate.multiplier)} makes S + λH positive definite, so that the spheroid misses all",
+            "of the surface, with or without ends; the heights of the spheroid and its centre say the rest.",
+            f"{_FORMS}, {matrix}.",
+        ]
+    if certificate.pieces:
+        count = counted(len(certificate.pieces), "piece")
+        return [
+            f"the heights are cut into {count}, each with numbers λ and μ for which S + λH + μZ is positive",
+            "definite, so that the spheroid misses that part; Z = (z−low)(z−high), or low−z, or z−high:",
+            *(_piece_line(piece) for piece in certificate.pieces),
+            f"{_FORMS}, {matrix}.",
+        ]
+    return [
+        "no point can be written in rational numbers that shows this contact: it is a touch, or too near to one. The",
+        'rule in the height decides it in integers (docs/mathematics.md, "Towers that end").',
+    ]
+
+
+_ENDS_OF_POINTS = "both points lie between the ends, or one of them in the solid body and one not in its inner part."
+
+
+def _piece_line(piece: Piece) -> str:
+    low = "−∞" if piece.low is None else readable_text(piece.low)
+    high = "∞" if piece.high is None else readable_text(piece.high)
+    return f"from {low} to {high}: λ {equals_text(piece.multiplier)}, μ {equals_text(piece.plane)}"
 
 
 def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:

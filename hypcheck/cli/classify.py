@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 import click
 
@@ -23,16 +25,22 @@ its centre, would just touch the hyperboloid.
 One pair:  hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0
 Tilted:    hypcheck classify --alpha 1 --gamma 2 --b 1 --d 0.5 --center 2.5 0 0 --axis 1 0 2
 A sweep:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 4 0 0 --end 0 0.5 0
+It ends:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2 0 4 --z-max 3 --solid
 A table:   hypcheck classify --input pairs.csv --output answers.csv
 
 A sweep is the straight motion of the centre to --end. The answer is contact or none on the way, both ends included,
 and between which two numbers the time of the first contact lies, from 0 at the start to 1 at the end.
 
+The hyperboloid ends at --z-min and --z-max. Without --solid its wall alone is there: contact is contact with the wall,
+and a spheroid without contact is interior if its centre lies within the wall and between the ends. With --solid flat
+ends belong to it, as to a trunk.
+
 A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order, and axis_x, axis_y, axis_z where spheroids
 are tilted; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added. With x1,
-y1, z1, the end of a sweep, hit (1 or 0), label, first_lower and first_upper are. A .npy file is float64 (n, 7) or
-(n, 10), the axis behind, and int8 (n,) as output. A file appears when it is complete, or not at all; standard output is
-written as the rows come.
+y1, z1, the end of a sweep, hit (1 or 0), label, first_lower and first_upper are. z_min, z_max and solid (0 or 1) say
+where the hyperboloid ends; one of them is enough. A .npy file is float64 (n, 7), (n, 10), the axis behind, or (n, 13),
+z_min, z_max and solid behind the axis, and int8 (n,) as output. A file appears when it is complete, or not at all;
+standard output is written as the rows come.
 """
 
 
@@ -44,6 +52,9 @@ written as the rows come.
 @click.option("--center", nargs=3, metavar="X Y Z", help="Centre of the spheroid; the hyperboloid's is the origin.")
 @click.option("--axis", nargs=3, metavar="X Y Z", help="The spheroid's axis, of any length; without it, upright.")
 @click.option("--end", nargs=3, metavar="X Y Z", help="Where the centre moves to, straight; without it, no motion.")
+@click.option("--z-min", metavar="NUMBER", help="Height where the hyperboloid ends below; without it, it does not.")
+@click.option("--z-max", metavar="NUMBER", help="Height where it ends above.")
+@click.option("--solid", is_flag=True, help="Flat ends belong to it.")
 @click.option("--json", "as_json", is_flag=True, help="Answer with one JSON object, its proof in exact numbers.")
 @click.option(
     "--input", "source", metavar="FILE", help="A table of pairs: .csv, .jsonl, .npy, or - for standard input."
@@ -65,6 +76,9 @@ def classify(
     center: tuple[str, str, str] | None,
     axis: tuple[str, str, str] | None,
     end: tuple[str, str, str] | None,
+    z_min: str | None,
+    z_max: str | None,
+    solid: bool,
     as_json: bool,
     source: str | None,
     target: str | None,
@@ -74,14 +88,17 @@ def classify(
     """Answer about one pair, or about a table if --input names one."""
     sizes = dict(zip(SIZES, (alpha, gamma, b, d), strict=True))
     vectors = {"--center": center is not None, "--axis": axis is not None, "--end": end is not None}
+    heights = {"--z-min": z_min is not None, "--z-max": z_max is not None, "--solid": solid}
     for_a_pair = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
     for_a_table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
     if source is not None:
-        _refuse(for_a_pair | vectors, "is for one pair, and --input for a table; use one of them")
+        _refuse(for_a_pair | vectors | heights, "is for one pair, and --input for a table; use one of them")
         _answer_table(source, target, said, mark=on_invalid == "flag")
         return
     _refuse(for_a_table, "is for tables; name one with --input")
-    pair = _pair_of(sizes, center, axis)
+    pair = _with_heights(_pair_of(sizes, center, axis), z_min, z_max, solid)
+    if end is not None:
+        _refuse(heights, "says where a hyperboloid ends, and sweeps beside one that ends are not answered here")
     click.echo(_answered(pair, as_json=as_json) if end is None else _swept(pair, end, as_json=as_json))
 
 
@@ -142,6 +159,15 @@ def _pair_of(
     if not any(direction):
         raise InputError(f"--axis: {NO_DIRECTION}")
     return Pair.from_row(numbers + direction)
+
+
+def _with_heights(pair: Pair, z_min: str | None, z_max: str | None, solid: bool) -> Pair:
+    """The pair with these ends. Raises InputError naming what is no valid height."""
+    if solid and z_min is None and z_max is None:
+        raise InputError("--solid says that flat ends belong to the hyperboloid; give --z-min, --z-max or both")
+    low = -math.inf if z_min is None else _number("--", "z_min", z_min)
+    high = math.inf if z_max is None else _number("--", "z_max", z_max)
+    return replace(pair, z_min=low, z_max=high, solid=float(solid))
 
 
 def _number(begin: str, name: str, text: str) -> float:

@@ -12,6 +12,18 @@ S + λH is positive definite, λh > −s ≥ 0 on the whole closed ellipsoid. So
   have one of order k + 1 at least; φ is not > 0 before m if f is not: if its derivative of order k + 1 is 0 or has the
   sign that makes f < 0 between 0 and m.
 
+Where the hyperboloid ends, with the body K = {h ≤ 0, z_min ≤ z ≤ z_max} and its wall, where h = 0:
+
+- the wall is missed: the heights are covered by pieces [l, u], each with a λ and a μ ≥ 0 for which S + λH + μZ is
+  positive definite, Z = (z − l)(z − u), or l − z or z − u where a piece has one end. On the piece h = 0 and Z ≤ 0, so
+  that s > 0. Where every λ ≥ 0, s > 0 on all of K. One λ for all heights needs no pieces. Then the side of the centre
+  is the position (open), or a solid body is exterior;
+- inside a solid: interior without ends, and the lowest and highest points lie strictly between the ends;
+- contact: two points of the ellipsoid between the ends on opposite sides of h; with a solid, one in K and one that is
+  not in its inner part.
+
+A contact that is a touch is said without points: what proves it is the exact rule alone (ends.py).
+
 Nothing here needs the ellipsoid or the quadric to be round, or an axis to be vertical. `surfaces` makes the matrices of
 a spheroid and a hyperboloid. This module shares no code with what makes certificates: it starts from the numbers of a
 row and the definitions.
@@ -33,13 +45,27 @@ Matrix = list[list[Fraction]]
 
 
 @dataclass(frozen=True, slots=True)
+class Piece:
+    """Heights from `low` to `high`, None where they go on for ever, with the λ and the μ that prove them clear."""
+
+    low: Fraction | None
+    high: Fraction | None
+    multiplier: Fraction
+    plane: Fraction
+
+
+@dataclass(frozen=True, slots=True)
 class Certificate:
-    """A claim with its witness: `multiplier` λ, or `points` (in the caller's coordinates), or `double_root` m."""
+    """A claim with its witness: `multiplier` λ, or `points` (in the caller's coordinates), or `double_root` m.
+
+    Where the hyperboloid ends also `pieces`; a contact without any of these is no proof.
+    """
 
     position: Position
     multiplier: Fraction | None = None
     points: tuple[Point, ...] = ()
     double_root: Fraction | None = None
+    pieces: tuple[Piece, ...] = ()
 
 
 class Query(Protocol):
@@ -53,6 +79,10 @@ class Query(Protocol):
     def axis(self) -> Sequence[float | Fraction]:
         """A vector along the spheroid's axis of revolution."""
 
+    @property
+    def heights(self) -> Sequence[float | Fraction]:
+        """z_min, z_max and whether the body is solid."""
+
 
 def check_certificate(pair: Query, certificate: Certificate) -> bool:
     """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone.
@@ -60,7 +90,83 @@ def check_certificate(pair: Query, certificate: Certificate) -> bool:
     Numbers of other types are taken as the rationals that they are: with one float all would be rounded, and a pivot
     above 0 could come of that. Raises ValueError for a claim that is no position, and for NaN.
     """
+    low, high, _ = pair.heights
+    if low != -math.inf or high != math.inf:
+        return _proves_between(*surfaces(pair), pair, certificate)
     return proves(*surfaces(pair), certificate)
+
+
+def _proves_between(S: Matrix, H: Matrix, pair: Query, certificate: Certificate) -> bool:
+    """Whether the certificate proves its claim about a hyperboloid that ends."""
+    low, high, solid = pair.heights
+    claim = Position(certificate.position)
+    if claim is Position.CONTACT:
+        return _crosses_border(S, H, low, high, certificate.points, solid=bool(solid))
+    at = certificate.multiplier
+    pieces = certificate.pieces if at is None else (Piece(None, None, Fraction(at), Fraction(0)),)
+    if solid and claim is Position.INTERIOR:
+        return at is not None and at < 0 and is_positive(S, H, pieces[0]) and _lies_between(pair)
+    if not _cover(pieces, low, high) or not all(is_positive(S, H, piece) for piece in pieces):
+        return False
+    if solid:
+        return all(piece.multiplier >= 0 for piece in pieces)
+    center = [*(Fraction(number) for number in pair.row[4:7]), Fraction(1)]
+    inside = _at(H, center) <= 0 and low <= center[2] <= high
+    return inside == (claim is Position.INTERIOR)
+
+
+def _crosses_border(
+    S: Matrix, H: Matrix, low: float | Fraction, high: float | Fraction, points: Sequence[Point], *, solid: bool
+) -> bool:
+    """Whether points of the ellipsoid lie on both sides of the border of the body, or one of them on it."""
+    sides = set()
+    for point in points:
+        place = [*map(Fraction, point), Fraction(1)]
+        between = low <= place[2] <= high
+        if _at(S, place) > 0 or not (solid or between):
+            return False
+        height = _at(H, place)
+        if solid:
+            inner = height < 0 and low < place[2] < high
+            sides.add(-1 if inner else 0 if height <= 0 and between else 1)
+        else:
+            sides.add((height > 0) - (height < 0))
+    return 0 in sides or sides == {-1, 1}
+
+
+def _lies_between(pair: Query) -> bool:
+    """Whether the lowest and the highest point of the spheroid lie strictly between the ends."""
+    b, d, z = (Fraction(pair.row[place]) for place in (2, 3, 6))
+    v = [Fraction(part) for part in pair.axis]
+    reach = b * b + (d * d - b * b) * v[2] * v[2] / sum((part * part for part in v), Fraction(0))
+    low, high, _ = pair.heights
+    rooms = [away for away, end in ((z - low, low), (high - z, high)) if abs(end) != math.inf]
+    return all(away > 0 and Fraction(away) ** 2 > reach for away in rooms)
+
+
+def _cover(pieces: Sequence[Piece], low: float | Fraction, high: float | Fraction) -> bool:
+    """Whether pieces cover all heights from `low` to `high`, which may be infinite."""
+    reached: float | Fraction | None = low
+    for piece in pieces:
+        if reached is None or (piece.low is not None and piece.low > reached):
+            break
+        reached = piece.high
+    return bool(pieces) and (reached is None or reached >= high)
+
+
+def is_positive(S: Matrix, H: Matrix, piece: Piece) -> bool:
+    """Whether S + λH + μZ of a piece is positive definite, and μ ≥ 0."""
+    form, (low, high, mu) = pencil(S, H, piece.multiplier), (piece.low, piece.high, piece.plane)
+    if low is not None and high is not None:
+        form[2][2] += mu
+        tilt, level = -(low + high) / 2, low * high
+    else:
+        tilt = Fraction(0) if low is None and high is None else Fraction(-1 if high is None else 1, 2)
+        level = low if low is not None else -high if high is not None else Fraction(0)
+    form[2][3] += mu * tilt
+    form[3][2] += mu * tilt
+    form[3][3] += mu * level
+    return mu >= 0 and all(pivot > 0 for pivot in pivots(form))
 
 
 def surfaces(pair: Query) -> tuple[Matrix, Matrix]:

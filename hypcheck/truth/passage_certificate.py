@@ -22,7 +22,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, Position
+from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, WITHOUT_ENDS, Position
 from hypcheck.truth.certificate import Certificate, Point, check_certificate, surfaces
 
 Rationals = tuple[Fraction, ...]
@@ -34,6 +34,7 @@ class PairAtTime:
 
     row: Rationals
     axis: Rationals
+    heights: Sequence[float] = WITHOUT_ENDS
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,7 +35,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, to_integers
-from hypcheck.truth.rationals import sign_with_root
+from hypcheck.truth.rationals import root_of, sign_with_root
 
 Polynomial = tuple[int, ...]
 """In w √U, the highest power first."""
@@ -50,6 +50,7 @@ class Sections:
 
     `cubic` is c3, c2, c1, c0. `above` is the height over the spheroid's centre. `inside` is k, ≥ 0 where the plane
     meets the spheroid. `off` is η² + ξ² − r², ≤ 0 where the ellipse's centre lies in the circle. `unit` is U.
+    The λ of S + λH is (ν − `pole`)/`scale`.
     """
 
     cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]
@@ -57,6 +58,8 @@ class Sections:
     inside: Polynomial
     off: Polynomial
     unit: int
+    pole: int
+    scale: Fraction
 
     @classmethod
     def of(cls, lengths: Lengths) -> Sections:
@@ -77,7 +80,9 @@ class Sections:
         else:
             W, eta, xi = 1, (m2 * lengths.gamma**2 * m1 * (U * _dot(C, C) - height * height),), ()
         A0, A1 = _scaled(s * W * q * m1, k), _scaled(m2 * W, r2)
-        return cls(_shifted(A0, A1, eta, xi, m1, m2), above, k, _off(A1, eta, xi, m1, m2), U)
+        return cls(
+            _shifted(A0, A1, eta, xi, m1, m2), above, k, _off(A1, eta, xi, m1, m2), U, min(m1, m2), Fraction(q * m1, p)
+        )
 
     def sign(self, f: Polynomial, height: int | Fraction) -> int:
         """The sign of a polynomial at a height."""
@@ -87,6 +92,13 @@ class Sections:
             term = coefficient * height**place * self.unit ** (place // 2)
             even, odd = (even, odd + term) if place % 2 else (even + term, odd)
         return sign_with_root(even, odd, self.unit)
+
+    def multiplier(self, height: Fraction) -> Fraction:
+        """About the λ at which S + λH is greatest on the plane at this height; U is 1."""
+        c3, c2, c1, _ = (_value(c, height) for c in self.cubic)
+        inner = c2 * c2 - 3 * c3 * c1
+        top = (c2 + root_of(inner, 64)) / (-3 * c3) if inner > 0 else c2 / (-3 * c3)
+        return (top - self.pole) / self.scale
 
     def circle_misses(self, height: int | Fraction) -> bool:
         """Whether the circle at this height and the spheroid have no point in common."""
@@ -277,6 +289,13 @@ def _sum(*terms: Polynomial) -> Polynomial:
     while total and not total[-1]:
         total.pop()
     return tuple(total[::-1])
+
+
+def _value(f: Polynomial, at: Fraction) -> Fraction:
+    total = Fraction(0)
+    for coefficient in f:
+        total = total * at + coefficient
+    return total
 
 
 def _scaled(factor: int, f: Polynomial) -> Polynomial:
