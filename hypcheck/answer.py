@@ -8,15 +8,16 @@ Loads no numpy.
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from hypcheck.errors import Exit, HypcheckError
-from hypcheck.geometry.pair import TILTED_COLUMNS, Pair, Position
+from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, Pair, Position
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
-from hypcheck.truth import ended_clearance, ended_prove, exact
+from hypcheck.truth import ended_clearance, ended_prove, exact, least
 from hypcheck.truth.certificate import Certificate, Piece, Point, check_certificate, pivots, surfaces
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
@@ -39,11 +40,16 @@ def require_agreement(row: tuple[float, ...], decided: tuple[int, bool], measure
     position, tangent = decided
     if measured[0] == position and (measured[1] == 0) == tangent:
         return
-    pair = ", ".join(f"{name} {value!r}" for name, value in zip(TILTED_COLUMNS, row, strict=False))
+    other = f"by the nearest point {Position(measured[0]).label} with clearance {measured[1]!r}"
+    raise _disagreement(row, position, tangent, other)
+
+
+def _disagreement(row: tuple[float, ...], position: int, tangent: bool, other: str) -> DisagreementError:
+    pair = ", ".join(f"{name} {value!r}" for name, value in zip(TILTED_COLUMNS + HEIGHTS, row, strict=False))
     said = f"{Position(position).label}{' (tangent)' if tangent else ''}"
-    raise DisagreementError(
-        f"two oracles disagree about {pair}: by exact decision {said}, by the nearest point "
-        f"{Position(measured[0]).label} with clearance {measured[1]!r}; please report this, it is a fault of hypcheck"
+    return DisagreementError(
+        f"two oracles disagree about {pair}: by exact decision {said}, {other}; please report this, it is a fault of "
+        "hypcheck"
     )
 
 
@@ -70,6 +76,14 @@ def measured_clearance(pair: Pair, decision: Decision) -> float:
     return measured.clearance
 
 
+def ended_clearance_of(pair: Pair, decision: Decision) -> float:
+    """The clearance beside a hyperboloid that ends. Raises DisagreementError if the least value contradicts."""
+    other = least.position(pair)
+    if other not in (None, decision.position):
+        raise _disagreement(pair.row, decision.position, decision.tangent, f"by the least value {other.label}")
+    return ended_clearance.clearance(pair, decision)
+
+
 def answer(pair: Pair) -> Answer:
     """Decide, measure and prove. Raises DisagreementError where two oracles, or a proof and its claim, contradict.
 
@@ -78,7 +92,7 @@ def answer(pair: Pair) -> Answer:
     pair = pair.upright if pair.is_upright else pair
     decision = exact.decide(pair.lengths)
     if pair.has_ends:
-        return Answer(pair, decision, ended_clearance.clearance(pair, decision), proved(pair, decision))
+        return Answer(pair, decision, ended_clearance_of(pair, decision), proved(pair, decision))
     return Answer(pair, decision, measured_clearance(pair, decision), proved(pair, decision))
 
 
@@ -308,7 +322,9 @@ _FORMS = "S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² 
 def _ended_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
     matrix = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
     if certificate.points:
-        return [*_by_points(pair, certificate.points), f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {matrix};", _ENDS_OF_POINTS]
+        head = "one in the solid body, one not in its inner part" if pair.solid else "h > 0 and h < 0, between the ends"
+        first = f"two points of the spheroid (s ≤ 1), {head}, so that they meet:"
+        return [first, *_point_lines(pair, certificate.points), f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {matrix}."]
     if certificate.multiplier is not None:
         return [
             f"λ {equals_text(certificate.multiplier)} makes S + λH positive definite, so that the spheroid misses all",
@@ -327,9 +343,6 @@ def _ended_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
         "no point can be written in rational numbers that shows this contact: it is a touch, or too near to one. The",
         'rule in the height decides it in integers (docs/mathematics.md, "Towers that end").',
     ]
-
-
-_ENDS_OF_POINTS = "both points lie between the ends, or one of them in the solid body and one not in its inner part."
 
 
 def _piece_line(piece: Piece) -> str:
@@ -411,7 +424,12 @@ def _by_points(pair: Pair, points: tuple[Point, ...]) -> list[str]:
             "two points of the spheroid (s ≤ 1) lie on different sides of the hyperboloid, outside (h > 0) and",
             "inside (h < 0), so the surfaces meet:",
         ]
-    for point in on_hyperboloid or points:
-        h, s = height_of_point(pair, point), reach_of_point(pair, point)
-        lines.append(f"({', '.join(map(readable_text, point))}) has s {equals_text(s)} and h {equals_text(h)},")
-    return lines
+    return [*lines, *_point_lines(pair, on_hyperboloid or points)]
+
+
+def _point_lines(pair: Pair, points: Sequence[Point]) -> list[str]:
+    return [
+        f"({', '.join(map(readable_text, point))}) has s {equals_text(reach_of_point(pair, point))} and h "
+        f"{equals_text(height_of_point(pair, point))},"
+        for point in points
+    ]

@@ -12,10 +12,10 @@ from functools import partial
 
 import numpy as np
 
-from hypcheck.answer import require_agreement
+from hypcheck.answer import ended_clearance_of, require_agreement
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, REFUSED, Pair
-from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows
+from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
+from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid
 from hypcheck.kernel.classify import kernel
 from hypcheck.processes import in_order, usable_processors
 from hypcheck.tables.chunk import SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
@@ -30,10 +30,12 @@ from hypcheck.truth.swept import passage
 
 
 def answers(rows: Rows) -> TableAnswers:
-    """Position, tangency and clearance of every row; float64 (n, 7) or (n, 10) in, (n,) each out.
+    """Position, tangency and clearance of every row; float64 (n, 7), (n, 10) or (n, 13) in, (n,) each out.
 
     Raises InputError about the first invalid row, DisagreementError if two oracles disagree about a row.
     """
+    if PAIRS.end(rows):
+        return _answers_between_ends(rows)
     measured = nearest_rows.clearances(rows)
     positions, tangent = _decided(rows, measured.stage == NearestStage.DOUBLE_DOUBLE)
     doubtful = (measured.position != positions) | ((measured.clearance == 0) != tangent)
@@ -44,6 +46,18 @@ def answers(rows: Rows) -> TableAnswers:
             (int(measured.position[index]), float(measured.clearance[index])),
         )
     return TableAnswers(positions, tangent, measured.clearance)
+
+
+def _answers_between_ends(rows: Rows) -> TableAnswers:
+    """Those of rows with heights: those of the rest as without ends, the others one by one."""
+    require_valid(rows)
+    found = answers(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]))
+    for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)).tolist():
+        pair = Pair.from_row(rows[index].tolist())
+        decision = exact.decide(pair.lengths)
+        found.positions[index], found.tangent[index] = decision.position, decision.tangent
+        found.clearance[index] = ended_clearance_of(pair, decision)
+    return found
 
 
 def _decided(rows: Rows, certain: Mask) -> tuple[Positions, Mask]:

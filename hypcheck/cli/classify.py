@@ -165,8 +165,8 @@ def _with_heights(pair: Pair, z_min: str | None, z_max: str | None, solid: bool)
     """The pair with these ends. Raises InputError naming what is no valid height."""
     if solid and z_min is None and z_max is None:
         raise InputError("--solid says that flat ends belong to the hyperboloid; give --z-min, --z-max or both")
-    low = -math.inf if z_min is None else _number("--", "z_min", z_min)
-    high = math.inf if z_max is None else _number("--", "z_max", z_max)
+    low = -math.inf if z_min is None else _number("--", "z-min", z_min)
+    high = math.inf if z_max is None else _number("--", "z-max", z_max)
     return replace(pair, z_min=low, z_max=high, solid=float(solid))
 
 

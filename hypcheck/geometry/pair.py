@@ -33,7 +33,8 @@ WAY_COLUMNS = SIZES + START + END
 TILTED_WAY_COLUMNS = WAY_COLUMNS + AXIS
 """Those of the way of a tilted spheroid, whose axis stays as it is on the way."""
 
-HEIGHTS = ("z_min", "z_max", "solid")
+ENDS = ("z_min", "z_max")
+HEIGHTS = (*ENDS, "solid")
 """The heights between which the hyperboloid ends, in its own frame, and whether flat ends belong to it: 0 or 1."""
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType({"end": END, "axis": AXIS, "heights": HEIGHTS})

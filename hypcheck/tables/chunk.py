@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TypeAlias, TypeVar
@@ -17,15 +17,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, COLUMNS, END, HEIGHTS, REFUSED, UPRIGHT, Position, trouble_with_row
-from hypcheck.geometry.rows import PAIRS, Layout, Positions, Rows
+from hypcheck.geometry.pair import (
+    AXIS,
+    COLUMNS,
+    END,
+    HEIGHTS,
+    REFUSED,
+    UPRIGHT,
+    WITHOUT_ENDS,
+    Position,
+    trouble_with_row,
+)
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Positions, Rows
 from hypcheck.tables.numbers import shown
 
 ADDED = ("position", "label", "tangent", "clearance")
 ADDED_TO_SWEEPS = ("hit", "label", "first_lower", "first_upper")
 """The names of what is added to a row, and to one with an end."""
 
-_GIVEN = frozenset((*COLUMNS, *END, *AXIS))
+_GIVEN = frozenset((*COLUMNS, *END, *AXIS, *HEIGHTS))
 _MOST_COMPARED = 200
 _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "xc": "x", "yc": "y", "zc": "z"}
 
@@ -44,12 +54,12 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
             raise InputError(
                 f"{where}: {noun} {name!r} has the name of a {noun} that the output adds; rename or remove it"
             )
-    for name in names:
-        if name.casefold() in HEIGHTS:
-            raise InputError(
-                f"{where}: {noun} {shown(name)} says where a hyperboloid ends, and none that ends is classified here; "
-                f"rename or remove the {noun}s {', '.join(HEIGHTS)}"
-            )
+    heights = [name for name in names if name.casefold() in HEIGHTS]
+    if heights and END[0] in columns:
+        raise InputError(
+            f"{where}: {noun} {shown(heights[0])} says where a hyperboloid ends, and sweeps beside one that ends are "
+            f"not answered here; rename or remove the {noun}s {', '.join(HEIGHTS)}"
+        )
     missing = [name for name in columns if name not in names]
     if missing:
         nouns = noun if len(missing) == 1 else f"{noun}s"
@@ -58,9 +68,30 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
 
 
 def columns_of(names: Iterable[str]) -> tuple[str, ...]:
-    """The columns that a table of these names must have: seven, and an end and an axis where one is among them."""
+    """The columns that a table of these names must have: seven, and an end and an axis where one is among them.
+
+    Of heights those that are there: what is missing of them stands for no end, or for an open one.
+    """
     folded = {name.casefold() for name in names}
-    return COLUMNS + (END if folded & set(END) else ()) + (AXIS if folded & set(AXIS) else ())
+    heights = tuple(name for name in HEIGHTS if name in folded)
+    return COLUMNS + (END if folded & set(END) else ()) + (AXIS if folded & set(AXIS) else ()) + heights
+
+
+def layout_of(columns: Sequence[str]) -> Layout:
+    """The layout of rows of these columns."""
+    return WAYS if END[0] in columns else PAIRS
+
+
+def in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
+    """The rows of numbers (n, len(columns)) of these columns: with heights all that a row with heights has."""
+    if frozenset(HEIGHTS).isdisjoint(columns):
+        return numbers
+    base = len(layout.upright)
+    rows = np.empty((len(numbers), len(layout.ended)))
+    rows[:, :base] = numbers[:, :base]
+    for place, (name, otherwise) in enumerate(zip((*AXIS, *HEIGHTS), (*UPRIGHT, *WITHOUT_ENDS), strict=True)):
+        rows[:, base + place] = numbers[:, columns.index(name)] if name in columns else otherwise
+    return rows
 
 
 def added_to(columns: Sequence[str]) -> tuple[str, ...]:
@@ -90,6 +121,8 @@ def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
         return "columns are separated by commas"
     if set(missing) <= set(AXIS):
         return f"an axis needs {', '.join(AXIS)}, in any order"
+    if set(missing) <= set(HEIGHTS):
+        return f"heights are written {', '.join(HEIGHTS)}"
     if set(missing) <= set(END):
         return f"the end of a sweep needs {', '.join(END)}, in any order"
     return f"it needs {', '.join(COLUMNS)}, in any order"
@@ -200,18 +233,18 @@ class RowPlaces:
 
 
 def read_values(
-    values: Iterable[Sequence[Value]],
+    values: Iterable[Mapping[str, Value]],
     number_of: Callable[[str, Value], float],
     places: RowPlaces,
     *,
     mark: bool,
     layout: Layout = PAIRS,
 ) -> tuple[Rows, NDArray[np.bool_]]:
-    """The rows of these values, with an axis or without, and which of them are refused, (n,).
+    """The rows of these values by column, and which of them are refused, (n,).
 
-    Where one has an axis all rows have one, and those without are upright. `number_of(column, value)` raises ValueError
-    with the end of a sentence about a value that is wrong. Without `mark` the first such row raises InputError; with it
-    the row is refused, and NaN stands in it.
+    Where one has an axis or heights all rows have them, and those without are upright, or have no ends.
+    `number_of(column, value)` raises ValueError with the end of a sentence about a value that is wrong. Without `mark`
+    the first such row raises InputError; with it the row is refused, and NaN stands in it.
     """
     rows: list[list[float]] = []
     refused: list[bool] = []
@@ -222,17 +255,24 @@ def read_values(
         except ValueError as trouble:  # noqa: PERF203 - each row has its own
             if not mark:
                 raise InputError(f"{places.of(index)}: {trouble}") from None
-            rows.append([math.nan] * len(row))
+            rows.append([math.nan] * len(layout.upright))
             refused.append(True)
     width = max(map(len, rows), default=len(layout.upright))
-    wide = [row if len(row) == width else [*row, *UPRIGHT] for row in rows]
+    filling = (*UPRIGHT, *WITHOUT_ENDS)
+    wide = [[*row, *filling[len(row) - len(layout.upright) : width - len(layout.upright)]] for row in rows]
     return np.array(wide, dtype=np.float64).reshape(len(wide), width), np.array(refused, dtype=np.bool_)
 
 
-def _numbers(values: Sequence[Value], number_of: Callable[[str, Value], float], layout: Layout) -> list[float]:
+def _numbers(values: Mapping[str, Value], number_of: Callable[[str, Value], float], layout: Layout) -> list[float]:
     """The row of these values. Raises ValueError as `number_of`."""
     base = COLUMNS if layout == PAIRS else COLUMNS + END
-    row = [number_of(name, value) for name, value in zip(base + AXIS, values, strict=False)]
+    numbers = {name: number_of(name, value) for name, value in values.items()}
+    row = [numbers[name] for name in base]
+    ended = not frozenset(HEIGHTS).isdisjoint(numbers)
+    if ended or AXIS[0] in numbers:
+        row += [numbers.get(name, value) for name, value in zip(AXIS, UPRIGHT, strict=True)]
+    if ended:
+        row += [numbers.get(name, value) for name, value in zip(HEIGHTS, WITHOUT_ENDS, strict=True)]
     trouble = trouble_with_row(row, base)
     if trouble is not None:
         raise ValueError(trouble)

@@ -7,7 +7,7 @@ are left out; line ends become those of the header; a byte order mark stays.
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from itertools import chain, islice, tee
@@ -17,8 +17,8 @@ from typing import NoReturn
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import COLUMNS, END, REFUSED
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows, invalid
+from hypcheck.geometry.pair import REFUSED
+from hypcheck.geometry.rows import Layout, Rows, invalid
 from hypcheck.tables.chunk import (
     CHUNK,
     LABELS,
@@ -32,6 +32,8 @@ from hypcheck.tables.chunk import (
     added_to,
     check_names,
     columns_of,
+    in_layout,
+    layout_of,
     read_values,
 )
 from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_text
@@ -116,8 +118,7 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
     text = records.text
     line_end = "\r\n" if text.endswith("\r\n") else "\n"
     columns = columns_of(names)
-    layout = WAYS if END[0] in columns else PAIRS
-    chunks = _chunks(records, len(names), [names.index(column) for column in columns], layout, mark=mark)
+    chunks = _chunks(records, len(names), {column: names.index(column) for column in columns}, mark=mark)
     return Table(chunks, records.byte_order_mark + text.rstrip("\r\n"), line_end, columns)
 
 
@@ -150,13 +151,13 @@ _CELLS = {
 }
 
 
-def _chunks(records: _Records, width: int, columns: list[int], layout: Layout, *, mark: bool) -> Iterator[UnreadChunk]:
-    pick = itemgetter(*columns)
+def _chunks(records: _Records, width: int, places_of: Mapping[str, int], *, mark: bool) -> Iterator[UnreadChunk]:
+    columns, pick = tuple(places_of), itemgetter(*places_of.values())
     count = 0
     while True:
         while (block := records.block()) is not None:
             places = RowPlaces(records.name, count, range(block.first, block.first + block.count))
-            yield partial(_chunk_of_block, block, width, pick, places, layout, mark=mark)
+            yield partial(_chunk_of_block, block, width, pick, places, columns, mark=mark)
             count += block.count
         lines: list[int] = []
         cells: list[tuple[str, ...]] = []
@@ -165,7 +166,7 @@ def _chunks(records: _Records, width: int, columns: list[int], layout: Layout, *
         while len(texts) < CHUNK and (record := records.next()) is not None:
             lines.append(records.line)
             if len(record) != width:
-                yield partial(_broken, cells, texts, places, record, width, layout, mark=mark)
+                yield partial(_broken, cells, texts, places, record, width, columns, mark=mark)
                 return
             cells.append(pick(record))
             texts.append(records.text.rstrip("\r\n"))
@@ -173,7 +174,7 @@ def _chunks(records: _Records, width: int, columns: list[int], layout: Layout, *
                 break
         if not texts:
             break
-        yield partial(_chunk, cells, texts, places, layout, mark=mark)
+        yield partial(_chunk, cells, texts, places, columns, mark=mark)
         count += len(texts)
     if count == 0:
         raise NothingJudgedError(f"{records.name} has no rows below its header; nothing was asked")
@@ -184,7 +185,7 @@ def _chunk_of_block(
     width: int,
     pick: Callable[[list[str]], tuple[str, ...]],
     places: RowPlaces,
-    layout: Layout,
+    columns: Sequence[str],
     *,
     mark: bool,
 ) -> TableChunk:
@@ -193,8 +194,8 @@ def _chunk_of_block(
     records = [text.split(",") for text in texts]
     for index, record in enumerate(records):
         if len(record) != width:
-            _broken([pick(good) for good in records[:index]], texts, places, record, width, layout, mark=mark)
-    return _chunk(list(map(pick, records)), texts, places, layout, mark=mark)
+            _broken([pick(good) for good in records[:index]], texts, places, record, width, columns, mark=mark)
+    return _chunk(list(map(pick, records)), texts, places, columns, mark=mark)
 
 
 def _broken(
@@ -203,26 +204,28 @@ def _broken(
     places: RowPlaces,
     record: list[str],
     width: int,
-    layout: Layout,
+    columns: Sequence[str],
     *,
     mark: bool,
 ) -> NoReturn:
     """Raise InputError about the first bad one of these rows, or else about the record of another width after them."""
-    _chunk(cells, texts, places, layout, mark=mark)
+    _chunk(cells, texts, places, columns, mark=mark)
     noun = "cell" if len(record) == 1 else "cells"
     raise InputError(f"{places.of(len(cells))}: {len(record)} {noun}; the header has {width}")
 
 
 def _chunk(
-    cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool
+    cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, columns: Sequence[str], *, mark: bool
 ) -> TableChunk:
-    rows = _rows_if_valid(cells, layout)
+    layout = layout_of(columns)
+    rows = _rows_if_valid(cells, columns, layout)
     if rows is not None:
         return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts, layout)
-    return TableChunk(*read_values(cells, number_of_text, places, mark=mark, layout=layout), texts, layout)
+    named = (dict(zip(columns, row, strict=True)) for row in cells)
+    return TableChunk(*read_values(named, number_of_text, places, mark=mark, layout=layout), texts, layout)
 
 
-def _rows_if_valid(cells: Sequence[tuple[str, ...]], layout: Layout) -> Rows | None:
+def _rows_if_valid(cells: Sequence[tuple[str, ...]], columns: Sequence[str], layout: Layout) -> Rows | None:
     """The rows if all of them are valid, else None."""
     flat = list(chain.from_iterable(cells))
     if "".join(flat).encode().translate(None, CHARACTERS):
@@ -231,5 +234,5 @@ def _rows_if_valid(cells: Sequence[tuple[str, ...]], layout: Layout) -> Rows | N
         numbers = np.fromiter(map(float, flat), dtype=np.float64, count=len(flat))
     except ValueError:
         return None
-    rows = numbers.reshape(len(cells), len(cells[0]) if cells else len(COLUMNS))
+    rows = in_layout(numbers.reshape(len(cells), len(columns)), columns, layout)
     return None if invalid(rows, layout).any() else rows

@@ -18,7 +18,7 @@ from operator import itemgetter
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import AXIS, COLUMNS, END, HEIGHTS, REFUSED, TILTED_COLUMNS
+from hypcheck.geometry.pair import AXIS, COLUMNS, END, ENDS, HEIGHTS, REFUSED, TILTED_COLUMNS
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows, invalid
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import (
@@ -35,6 +35,7 @@ from hypcheck.tables.chunk import (
     UnreadChunk,
     check_names,
     columns_of,
+    layout_of,
     read_values,
 )
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
@@ -83,8 +84,12 @@ _REFUSED_KEYS = f', "position": {REFUSED}, "label": "{LABELS[REFUSED]}", "tangen
 
 def _object(row: list[float], layout: Layout) -> str:
     """The object of a row; null stands for a number that JSON does not have (in a refused row)."""
-    named = zip((COLUMNS if layout == PAIRS else COLUMNS + END) + AXIS, row, strict=False)
-    return json.dumps({name: value if isfinite(value) else None for name, value in named})
+    named = zip((COLUMNS if layout == PAIRS else COLUMNS + END) + AXIS + HEIGHTS, row, strict=False)
+    return json.dumps({name: _json_number(name, value) for name, value in named})
+
+
+def _json_number(name: str, value: float) -> float | str | None:
+    return value if isfinite(value) else str(value) if name in ENDS and value == value else None  # noqa: PLR0124 - NaN
 
 
 _DECODER, _LITERAL_DECODER = strict_decoder(), strict_decoder(Literal)
@@ -125,7 +130,7 @@ def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
 def _layout_of(text: str) -> Layout:
     """The layout of the first row, which all have; of what is no row, of which its chunk says so, PAIRS."""
     try:
-        return WAYS if END[0] in columns_of(_DECODER.decode(text)) else PAIRS
+        return layout_of(columns_of(_DECODER.decode(text)))
     except (ValueError, TypeError, AttributeError, RecursionError):
         return PAIRS
 
@@ -142,11 +147,11 @@ def _chunk(texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool) -
     return TableChunk(*read_values(values, number_of_json, places, mark=mark, layout=layout), texts, layout)
 
 
-def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -> Iterator[tuple[object, ...]]:
-    """The values of each line. Raises InputError about the first that has an end where others have none."""
+def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -> Iterator[dict[str, object]]:
+    """The values of each line by column. Raises InputError about the first that has an end where others have none."""
     for index, text in enumerate(texts):
-        columns, values = _values(text, places.of(index))
-        if (END[0] in columns) != (layout == WAYS):
+        values = _values(text, places.of(index))
+        if (END[0] in values) != (layout == WAYS):
             end = f"{'no' if layout == WAYS else 'an'} end {', '.join(END)}"
             raise InputError(f"{places.of(index)}: {end}, unlike the first row; all rows have an end, or none has")
         yield values
@@ -174,8 +179,8 @@ def _columns_or_heights(row: dict[str, object]) -> tuple[str, ...]:
     return columns_of(row) if frozenset(HEIGHTS).isdisjoint(map(str.casefold, row)) else HEIGHTS
 
 
-def _values(text: str, where: str) -> tuple[tuple[str, ...], tuple[object, ...]]:
-    """The columns and the values of a line, numbers as Literal or int. Raises InputError if it is no object of them."""
+def _values(text: str, where: str) -> dict[str, object]:
+    """The values of a line by column, numbers as Literal or int. Raises InputError if it is no object of them."""
     try:
         row = _LITERAL_DECODER.decode(text)
     except json.JSONDecodeError as error:
@@ -188,5 +193,4 @@ def _values(text: str, where: str) -> tuple[tuple[str, ...], tuple[object, ...]]
     if not isinstance(row, dict):
         raise InputError(f"{where}: {shown_json(row)} is not an object; it must be one, with {', '.join(COLUMNS)}")
     check_names(list(row), where, noun="key")
-    columns = columns_of(row)
-    return columns, tuple(row[name] for name in columns)
+    return {name: row[name] for name in columns_of(row)}

@@ -1,4 +1,4 @@
-"""numpy's .npy files: float64 (n, 7) or (n, 10) in, int8 (n,) out, read in blocks and never unpickled.
+"""numpy's .npy files: float64 (n, 7), (n, 10) or (n, 13) in, int8 (n,) out, read in blocks and never unpickled.
 
 Files are not mapped into memory: if another process shortens a mapped file, the next access ends this process with
 SIGBUS, and a pipe cannot be mapped.
@@ -18,13 +18,16 @@ import numpy as np
 from numpy.lib import format as npy
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import AXIS, COLUMNS, TILTED_COLUMNS
-from hypcheck.geometry.rows import Rows, first_trouble, invalid
+from hypcheck.geometry.pair import AXIS, COLUMNS, HEIGHTS, TILTED_COLUMNS
+from hypcheck.geometry.rows import PAIRS, Rows, first_trouble, invalid
 from hypcheck.messages import counted
 from hypcheck.tables.chunk import CHUNK, Sink, SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.streams import Reader, Writer
 
-_SHAPES = f"(n, {len(COLUMNS)}): {', '.join(COLUMNS)}, or (n, {len(TILTED_COLUMNS)}): {', '.join(AXIS)} besides"
+_SHAPES = (
+    f"(n, {len(COLUMNS)}): {', '.join(COLUMNS)}, or (n, {len(TILTED_COLUMNS)}): {', '.join(AXIS)} besides, or "
+    f"(n, {len(PAIRS.ended)}): {', '.join(HEIGHTS)} behind these"
+)
 _COPIED_AT_ONCE = 1 << 20
 _TOO_LONG = 1 << 63
 
@@ -35,7 +38,7 @@ def read_npy(reader: Reader, *, mark: bool) -> Table:
     With `mark` a row that is no valid query is marked as refused.
     """
     layout = _layout(reader)
-    return Table(_chunks(reader, layout, mark=mark), columns=TILTED_COLUMNS[: layout.width])
+    return Table(_chunks(reader, layout, mark=mark), columns=PAIRS.ended[: layout.width])
 
 
 @contextmanager
@@ -75,13 +78,13 @@ class _NpyLayout:
 
 
 def _layout(reader: Reader) -> _NpyLayout:
-    """The layout of a .npy file. Raises InputError unless it holds float64 (n, 7) or (n, 10), and all of it."""
+    """The layout of a .npy file. Raises InputError unless it holds float64 of such a shape, and all of it."""
     shape, by_columns, stored = _header(reader)
     if stored.kind != "f" or stored.itemsize != 8:
         raise InputError(f"{reader.name} holds {stored}; it must hold float64")
     if max(map(abs, shape), default=0) >= _TOO_LONG:  # which could have more digits than Python writes
         raise InputError(f"{reader.name} has a number of 2^63 or more in its shape; the shape must be {_SHAPES}")
-    if len(shape) != 2 or shape[1] not in (len(COLUMNS), len(TILTED_COLUMNS)) or shape[0] < 0:
+    if len(shape) != 2 or shape[1] not in (len(COLUMNS), len(TILTED_COLUMNS), len(PAIRS.ended)) or shape[0] < 0:
         raise InputError(f"{reader.name} has shape {shape}; it must be {_SHAPES}")
     if shape[0] == 0:
         raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")

@@ -14,7 +14,7 @@ import re
 from decimal import Context, Decimal, InvalidOperation
 from fractions import Fraction
 
-from hypcheck.geometry.pair import SIZES, trouble_with
+from hypcheck.geometry.pair import ENDS, HEIGHTS, SIZES, trouble_with
 from hypcheck.messages import escaped
 
 CHARACTERS = b"0123456789+-.eE \t"
@@ -32,11 +32,20 @@ def number_of_text(name: str, text: str) -> float:
     """The float64 nearest to `text`, valid in column `name`. Raises ValueError, a sentence about `name`."""
     if not text.strip():
         raise ValueError(f"{name} is empty; it must be a number")
+    if name in HEIGHTS and (height := _WORDS[name].get(text.strip().casefold())) is not None:
+        return height
     if _UNBOUNDED.fullmatch(text):
+        if name in ENDS:
+            raise ValueError(f"{name} is {shown(text)}; it must be a number, inf or -inf")
         raise ValueError(f"{name} is {shown(text)}; it must be finite")
     if not is_number(text):
         raise ValueError(f"{name} is {shown(text)}; it must be a decimal number such as 2.5 or -1e-3")
     return _valid(name, float(text), shown(text.strip(" \t"), quoted=False))
+
+
+_INFINITE = {"inf": math.inf, "+inf": math.inf, "-inf": -math.inf, "infinity": math.inf, "-infinity": -math.inf}
+_WORDS = {"z_min": _INFINITE, "z_max": _INFINITE, "solid": {"true": 1.0, "false": 0.0}}
+"""What stands for a height besides a decimal number."""
 
 
 def is_number(text: str) -> bool:
@@ -58,8 +67,13 @@ class Literal(float):
 
 def number_of_json(name: str, value: object) -> float:
     """The float64 nearest to a JSON number (Literal, float or int), as number_of_text. Raises ValueError."""
+    if name in HEIGHTS and isinstance(value, (str, bool)):
+        height = _WORDS[name].get(str(value).casefold() if isinstance(value, bool) else value)
+        if height is not None:
+            return height
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(f"{name} is {shown_json(value)}; it must be a number")  # noqa: TRY004 - the value is at fault
+        right = 'a number, "inf" or "-inf"' if name in ENDS else "0 or 1" if name in HEIGHTS else "a number"
+        raise ValueError(f"{name} is {shown_json(value)}; it must be {right}")  # noqa: TRY004 - the value is at fault
     try:
         number = float(value)
     except OverflowError:

@@ -13,12 +13,12 @@ from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact, least
 from hypcheck.truth.exact import Decision
 
-_BITS = 40
+_GUESSED, _BITS = 40, 56
 _FARTHEST = 2200
 
 
 def clearance(pair: Pair, decision: Decision) -> float:
-    """The clearance in spheroid radii, within 2⁻³⁸ of 1 + clearance; 0 for a touch, −1 for a centre on the wall."""
+    """The clearance in spheroid radii, within 2⁻⁵⁴ of 1 + clearance; 0 for a touch, −1 for a centre on the wall."""
     if decision.tangent:
         return 0.0
     low, high = _bracket(pair)
@@ -36,12 +36,12 @@ def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
     """Two factors, the spheroid scaled by the first being clear and by the second in contact."""
     guess = least.to_border(pair)
     if math.isfinite(guess.upper) and guess.lower > 0:
-        loose = Fraction(1, 2**_BITS)
+        loose = Fraction(1, 2**_GUESSED)
         low, high = Fraction(guess.lower) * (1 - loose), Fraction(guess.upper) * (1 + loose)
         if not _meets(pair, low) and _meets(pair, high):
             return low, high
     if _meets(pair, _power(-_FARTHEST)):
-        return Fraction(0), _power(-_FARTHEST) / 2**_BITS
+        return Fraction(0), Fraction(0)  # the centre lies on the border
     first, last = -_FARTHEST, _FARTHEST
     while last - first > 1:
         middle = (first + last) // 2

@@ -2,8 +2,8 @@
 
 With M the spheroid's matrix let n(X) = √((X − C)ᵀ M (X − C)). The spheroid meets the wall if and only if n ≤ 1
 somewhere on it, and 1 + clearance is the least n on the wall, or on the whole border of a solid body. In an end disc n
-is least at the rim or, where the ellipse of the spheroid's own height there has its centre in the disc, |z_end − z| over the
-half height of the spheroid.
+is least at the rim or, where the ellipse of the spheroid's own height there has its centre in the disc, |z_end − z|
+over the half height of the spheroid.
 
 On the wall X(w, θ) = (r cos θ, r sin θ, w), r = α √(1 + w²/γ²), branch and bound. In a cell of half widths h, k about
 its middle, by Taylor's formula for n² = q,

@@ -30,7 +30,7 @@ from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import count
 from hypcheck.geometry.pair import Position
 from hypcheck.implementations.method import RECIPROCAL, by_rows
-from hypcheck.runs.judge import flip_exponents
+from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.families import FAMILIES
 from tests.support import exactly
 
