@@ -24,6 +24,7 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.truth import float_boxes
 from hypcheck.truth.box_form import Goal
 from hypcheck.truth.changes import BITS, CUTS, Flip, goal_of
+from hypcheck.truth.ended_error import EndedFlip
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.rationals import power_of_two, rounded, rounded_toward
 
@@ -46,7 +47,7 @@ STEPS = 8
 """How often a bracket that first derivatives did not make narrow enough is halved."""
 
 
-def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | float:
+def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | EndedFlip | float:
     """What makes an answer right; the backward error itself where that is known at once: 0 or inf.
 
     It is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). No relative
@@ -54,6 +55,9 @@ def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | float:
     """
     if answer in (truth.position, truth.limit_of):
         return 0.0
+    if pair.has_ends:
+        ended = EndedFlip(pair, truth.position, answer)
+        return 0.0 if ended.free else ended
     goal = goal_of(truth.position, answer)
     on_axis = pair.x == pair.y == 0
     return math.inf if on_axis and goal == Goal(Position.EXTERIOR, leave=False) else Flip.of(pair, goal)
@@ -66,10 +70,10 @@ def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: 
     flips = [_flip(pair, truth, answer) for answer in answers]
     if 0.0 in flips:
         return True
-    searched = [flip for flip in flips if isinstance(flip, Flip)]
+    searched = [flip for flip in flips if not isinstance(flip, float)]
     if change >= 1:
         return bool(searched)
-    if pair.is_upright:
+    if _is_sharp(pair):
         return any(flip.reached(change) for flip in searched)
     if all(flip.excluded(change, cuts=0) for flip in searched):  # most wrong answers are wrong by far
         return False
@@ -103,6 +107,8 @@ def quick_bracket(pair: Pair, truth: Decision, answer: Position) -> Bracket:
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
         return Bracket(flip, flip)
+    if isinstance(flip, EndedFlip):
+        return bracket(pair, truth, answer)
     if pair.is_upright:
         error = _bisected(flip)
         return Bracket(error, error)
@@ -130,7 +136,7 @@ def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
         return flip
-    if pair.is_upright:
+    if isinstance(flip, Flip) and pair.is_upright:
         return _bisected(flip)
     return rounded_toward(_excluded_end(flip, flip.estimate())[0], -math.inf)
 
@@ -138,17 +144,17 @@ def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
 def lower_ends(pairs: Sequence[Pair], truths: Sequence[Decision], answers: Sequence[Sequence[Position]]) -> list[float]:
     """A lower end, proved in float64, of the least error of several answers to each pair; 0 where none is found.
 
-    None is looked for where the pair is upright: there `tolerated` takes little time. inf where no change up to 1 is
-    enough.
+    None is looked for where the pair is upright, since there `tolerated` takes little time, and where the hyperboloid
+    ends. inf where no change up to 1 is enough.
     """
-    ends = [0.0 if pair.is_upright else math.inf for pair in pairs]
+    ends = [0.0 if _is_sharp(pair) or pair.has_ends else math.inf for pair in pairs]
     owners, goals = [], []
     for place, (pair, truth, some) in enumerate(zip(pairs, truths, answers, strict=True)):
-        for answer in () if pair.is_upright else some:
+        for answer in () if _is_sharp(pair) or pair.has_ends else some:
             flip = _flip(pair, truth, answer)
             if isinstance(flip, float):
                 ends[place] = min(ends[place], flip)
-            else:
+            elif isinstance(flip, Flip):
                 owners.append(place)
                 goals.append(flip.goal)
     for place, end in zip(owners, float_boxes.lower_ends(_tens([pairs[k] for k in owners]), goals), strict=True):
@@ -169,7 +175,7 @@ def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
         return flip
-    return _bisected(flip) if pair.is_upright else float(flip.estimate())
+    return _bisected(flip) if isinstance(flip, Flip) and pair.is_upright else float(flip.estimate())
 
 
 def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
@@ -248,7 +254,12 @@ def _last(holds: Callable[[int], bool], low: int, high: int) -> int:
     return low
 
 
-def _reached_end(flip: Flip) -> Fraction:
+def _is_sharp(pair: Pair) -> bool:
+    """Whether one exact decision tells of every change whether it is enough."""
+    return pair.is_upright and not pair.has_ends
+
+
+def _reached_end(flip: Flip | EndedFlip) -> Fraction:
     """A change that is reached, less than 9/8 of one that is not found to be."""
     missed = rounded(flip.estimate(), BITS)
     high, step = rounded(missed * Fraction(11, 10), BITS), 2
@@ -261,7 +272,7 @@ def _reached_end(flip: Flip) -> Fraction:
     return high
 
 
-def _excluded_end(flip: Flip, high: Fraction) -> tuple[Fraction, Fraction]:
+def _excluded_end(flip: Flip | EndedFlip, high: Fraction) -> tuple[Fraction, Fraction]:
     """A change below `high` that one certificate excludes, 0 where none is found; and `high`."""
     low, step = rounded(high * Fraction(4, 5), BITS), 2
     while not flip.excluded(low, cuts=0):
@@ -274,7 +285,9 @@ def _excluded_end(flip: Flip, high: Fraction) -> tuple[Fraction, Fraction]:
 _LARGEST_STEP = 2**128
 
 
-def _narrowed(flip: Flip, cuts: int, steps: int, ends: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
+def _narrowed(
+    flip: Flip | EndedFlip, cuts: int, steps: int, ends: tuple[Fraction, Fraction]
+) -> tuple[Fraction, Fraction]:
     """The ends brought nearer to each other, by so many halvings at most."""
     low, high = ends
     doubtful = high

@@ -1,0 +1,144 @@
+"""Changes of a pair whose hyperboloid ends: of one size, whether some is found that gives an answer, or none can.
+
+A pair changed by ε has α', γ', b', d', C', an axis v' and heights, each number within a relative ε of its own. Scaling
+space by T = diag(α/α', α/α', γ/γ') makes the hyperboloid the given one; let δ = 2ε/(1 − ε), more than a quotient of two
+such numbers is off. Then heights and the centre's coordinates are off by δ of themselves. With ‖V‖ = √(VᵀMV) and
+K = max(b, d)/min(b, d),
+
+- the axis turns by less than 1.01 ε, so that ‖RV‖ ≤ (1 + 1.01 ε K)‖V‖, and ‖TV‖ ≤ (1 + 1.02 ε K)‖V‖ for ε ≤ 0.01;
+  where the axis is vertical it does not turn and T keeps the directions of the spheroid's axes, so that K may be 1;
+- the semi-axes differ by a factor between 1 − ε and 1 + ε, and ‖TC' − C‖ ≤ δ Σ |C_i| √M_ii.
+
+So the changed spheroid lies in the given one grown by 1 + η, and holds that shrunk by 1 − η,
+
+    η = (1 + 1.01 ε K)(1 + 1.02 ε K)(1 + ε)/(1 − ε) − 1 + δ Σ |C_i| √M_ii.
+
+A grown spheroid beside the longest wall that is clear is clear however the pair is changed, and a shrunk one beside the
+shortest wall that has contact has contact. Of a solid, disjoint is disjoint from the longest body, inside is inside the
+shortest.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+
+from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import exact
+from hypcheck.truth.rationals import power_of_two, root_of, rounded
+
+_LARGEST = Fraction(1, 100)
+_LEAST_OCTAVE = -1100
+_BITS = 24
+
+
+@dataclass(frozen=True, slots=True)
+class EndedFlip:
+    """The changes of a pair that give the answer: as changes.Flip, where the hyperboloid ends."""
+
+    pair: Pair
+    truth: Position
+    answer: Position
+
+    @property
+    def free(self) -> bool:
+        """Whether the answer is as right as the truth: a centre at an end of an open wall has two sides."""
+        pair, sides = self.pair, {self.truth, self.answer}
+        return not pair.solid and Position.CONTACT not in sides and pair.z in (pair.z_min, pair.z_max)
+
+    def estimate(self) -> Fraction:
+        """A power of two that is not excluded, and its half is; or the least that is asked."""
+        low, high = _LEAST_OCTAVE, 0
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (middle, high) if self.excluded(power_of_two(middle)) else (low, middle)
+        return power_of_two(high)
+
+    def excluded(self, change: Fraction, cuts: int = 0) -> bool:  # noqa: ARG002 - as changes.Flip has it
+        """Whether no change up to that size gives the answer; False says nothing."""
+        if change > _LARGEST:
+            return False
+        off, growth = 2 * change / (1 - change), self._growth(change)
+        if self.answer is Position.CONTACT:
+            if not self.pair.solid:
+                return self._position(1 + growth, off) is not Position.CONTACT
+            outside = self._position(1 + growth, off) is Position.EXTERIOR
+            return outside or self._position(1 + growth, -off) is Position.INTERIOR
+        if self.pair.solid:
+            if self.answer is Position.EXTERIOR:
+                return self._position(1 - growth, -off) is not Position.EXTERIOR
+            return self._position(1 - growth, off) is not Position.INTERIOR
+        return self._sure_side(off) not in (None, self.answer) or self._position(1 - growth, -off) is Position.CONTACT
+
+    def reached(self, change: Fraction) -> bool:
+        """Whether a change of that size is found that gives the answer."""
+        return any(exact.position(Lengths.of(row)) is self.answer for row in self._changed(change))
+
+    def _changed(self, change: Fraction) -> Iterator[tuple[Fraction | float, ...]]:
+        """The pair with every number changed by that much, in many combinations of directions."""
+        pair = self.pair
+        size = 1 + change if self.answer is Position.CONTACT else 1 - change
+        for a, g, r, h, low, high in product((1 + change, 1 - change), repeat=6):
+            ends = (_times(pair.z_min, low), _times(pair.z_max, high))
+            if ends[0] < ends[1]:
+                yield (
+                    *(
+                        Fraction(pair.alpha) * a,
+                        Fraction(pair.gamma) * g,
+                        Fraction(pair.b) * size,
+                        Fraction(pair.d) * size,
+                    ),
+                    *(Fraction(pair.x) * r, Fraction(pair.y) * r, Fraction(pair.z) * h),
+                    *(*pair.axis, *ends, pair.solid),
+                )
+
+    def _growth(self, change: Fraction) -> Fraction:
+        """η, rounded up."""
+        pair = self.pair
+        b, d = Fraction(pair.b), Fraction(pair.d)
+        v2 = sum((Fraction(part) ** 2 for part in pair.axis), Fraction(0))
+        upright = pair.axis_x == pair.axis_y == 0
+        K = Fraction(1) if upright or b == d else max(b, d) / min(b, d)
+        moved = Fraction(0)
+        for part, along in zip((pair.x, pair.y, pair.z), pair.axis, strict=True):
+            square = 1 / b**2 + (1 / d**2 - 1 / b**2) * Fraction(along) ** 2 / v2
+            moved += abs(Fraction(part)) * root_of(square, _BITS, upward=True)
+        turned = (1 + Fraction(101, 100) * change * K) * (1 + Fraction(102, 100) * change * K)
+        eta = turned * (1 + change) / (1 - change) - 1 + 2 * change / (1 - change) * moved
+        return rounded(eta, _BITS) * Fraction(1001, 1000) if eta else eta
+
+    def _position(self, factor: Fraction, longer: Fraction) -> Position | None:
+        """The position of the spheroid times that factor beside a wall longer by that much; None of what is none."""
+        pair = self.pair
+        low = _times(pair.z_min, 1 + longer if pair.z_min < 0 else 1 - longer)
+        high = _times(pair.z_max, 1 + longer if pair.z_max > 0 else 1 - longer)
+        if factor <= 0 or not low < high:
+            return None
+        b, d = factor * Fraction(pair.b), factor * Fraction(pair.d)
+        row = (pair.alpha, pair.gamma, b, d, pair.x, pair.y, pair.z, *pair.axis, low, high, pair.solid)
+        return exact.position(Lengths.of(row))
+
+    def _sure_side(self, off: Fraction) -> Position | None:
+        """The side of the centre, however it is moved by that much of itself; None where it can have both."""
+        pair = self.pair
+        x, y, z = (Fraction(part) for part in (pair.x, pair.y, pair.z))
+        outward = (x * x + y * y) / Fraction(pair.alpha) ** 2
+        along = (z / Fraction(pair.gamma)) ** 2
+        more, less = (1 + off) ** 2, (1 - off) ** 2
+        ends = [Fraction(end) for end in (pair.z_min, pair.z_max) if math.isfinite(end)]
+        apart = [abs(z - end) > off * (abs(z) + abs(end)) for end in ends]
+        between = pair.z_min < z < pair.z_max
+        if not between and any(
+            room and (z < end) == (end == pair.z_min) for room, end in zip(apart, ends, strict=True)
+        ):
+            return Position.EXTERIOR
+        if outward * less > along * more + 1:
+            return Position.EXTERIOR
+        return Position.INTERIOR if between and all(apart) and outward * more <= along * less + 1 else None
+
+
+def _times(height: float, factor: Fraction) -> float | Fraction:
+    return Fraction(height) * factor if math.isfinite(height) else height
