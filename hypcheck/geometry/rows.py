@@ -99,7 +99,8 @@ def as_rows(values: Table | ArrayLike, *, tilted: bool = False, heights: bool = 
     axis is filled in. Raises InputError if the shape or the type is another, a name is unknown or missing, or values
     are masked. It does not check the values.
     """
-    allowed = (layout.upright, layout.tilted, layout.ended)[: 1 + tilted + heights]
+    wide = (layout.tilted,) * tilted + (layout.ended,) * heights
+    allowed = (layout.upright, *wide)
     table_names = _names_of(values)
     if table_names is not None:
         return _rows_of_table(cast("Table", values), table_names, layout, allowed[-1])
@@ -239,6 +240,13 @@ def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
     return np.hstack([with_axis(rows, layout), np.broadcast_to(WITHOUT_ENDS, (len(rows), len(HEIGHTS)))])
 
 
+def as_wide(parts: Sequence[Rows], layout: Layout = PAIRS) -> list[Rows]:
+    """The same queries with an axis, and heights, each where one of the parts has them."""
+    if any(layout.end(part) for part in parts):
+        return [with_heights(part, layout) for part in parts]
+    return [with_axis(part, layout) for part in parts] if any(layout.lean(part) for part in parts) else list(parts)
+
+
 def first_trouble(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> str | None:
     """The sentence about the first invalid row, counted from `first_number`, or None where all rows are valid."""
     bad = np.flatnonzero(invalid(rows, layout))
@@ -270,14 +278,17 @@ def within(
     """A mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
 
     The least magnitude applies to semi-axes alone: a coordinate may be arbitrarily near to 0, since a centre close to
-    the axis or to the waist is ordinary. The axis of a spheroid is no length of either body, and may be of any.
+    the axis or to the waist is ordinary, and so may an end, which may be infinite too. The axis of a spheroid is no
+    length of either body, and may be of any.
     """
     alpha, gamma, b, d = rows[:, :4].T
     with np.errstate(over="ignore", under="ignore"):
         ratios = np.stack([alpha / b, gamma / d], axis=1)
     inside = ((ratios >= ratio[0]) & (ratios <= ratio[1])).all(axis=1)
-    lengths = np.abs(rows[:, : len(layout.upright)])
-    inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & (lengths <= magnitude[1]).all(axis=1)
+    others, _, heights = parts_of(rows, layout)
+    lengths = np.abs(np.hstack([others, heights[:, :2]]))
+    fitting = (lengths <= magnitude[1]) | (np.isinf(lengths) & (np.arange(lengths.shape[1]) >= others.shape[1]))
+    inside &= (rows[:, :4] >= magnitude[0]).all(axis=1) & fitting.all(axis=1)
     return np.asarray(inside)
 
 

@@ -122,6 +122,7 @@ def representable(rows: Rows, precision: str, *, subnormal: bool = False) -> Mas
         return np.ones(len(rows), dtype=bool)
     lengths, (least, greatest) = np.abs(rows), limits
     held = ((lengths >= least) & (lengths <= greatest)) | (rows == 0)
+    held |= np.isinf(rows)  # an end that is none, in any precision
     if subnormal:
         step = least * float(2 * UNIT_ROUNDOFF[precision])  # 2u is the distance from 1 to the next number
         held |= (lengths < least) & (np.fmod(lengths, step) == 0)
@@ -142,7 +143,7 @@ def claimed(
     `extreme` is as in Domain.holds, `subnormal` as in representable.
     """
     with np.errstate(all="ignore"):
-        if not domain.settings:
+        if not domain.settings and not np.isinf(rows[:, len(layout.upright) :]).any():
             corners = _corners(rows)
             if (domain.holds(corners, extreme=extreme, layout=layout) & representable(corners, precision)).all():
                 return np.arange(len(rows))

@@ -13,7 +13,8 @@ from types import TracebackType
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, with_axis
+from hypcheck.geometry.pair import UPRIGHT
+from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, parts_of, with_axis
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.frames import LARGEST
@@ -189,9 +190,11 @@ class Implementation:
         return times[0]
 
     def _rows(self, rows: Rows) -> Rows:
-        """The rows as it is asked them; raises InputError where they are none, or tilted and it does not take these."""
+        """The rows as it is asked them; raises InputError where they are none, or have what it does not take."""
         tilt, layout = self.description.tilt, self.description.asked.layout
-        rows = as_rows(rows, tilted=tilt, layout=layout)
+        rows = as_rows(rows, tilted=tilt, heights=self.description.heights, layout=layout)
+        if not tilt and layout.end(rows) and (parts_of(rows, layout)[1] != UPRIGHT).any():
+            raise InputError(f"{self.spec} takes no axis, and not all of the rows are upright")
         return with_axis(rows, layout) if tilt else rows
 
     def _check_scene(self, rows: Rows, *, by_scene: bool) -> None:

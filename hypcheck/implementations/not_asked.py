@@ -31,6 +31,7 @@ FAMILIES: Mapping[str, str] = MappingProxyType(
         "filter": "left out by --families",
         "extreme": "of extreme lengths (--families extreme asks them)",
         "tilt": "of tilted spheroids (it takes none)",
+        "heights": "of hyperboloids that end (it takes no heights)",
         "question": "about another question",
     }
 )

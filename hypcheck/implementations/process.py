@@ -21,7 +21,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import IO, cast
 
+import numpy as np
+
 from hypcheck.errors import limit_reached, system_reason
+from hypcheck.geometry.pair import HEIGHTS
 from hypcheck.geometry.rows import Rows, with_heights
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.frames import OutputTail, stderr_excerpt
@@ -296,8 +299,12 @@ class ProcessSession:
         raise NotImplementedError
 
     def _columns(self, rows: Rows) -> Rows:
-        """The rows with every column that the description takes."""
-        return with_heights(rows) if self.description.heights else rows
+        """The rows with exactly the columns that the description takes."""
+        layout = self.description.asked.layout
+        if not self.description.heights:
+            return rows
+        rows = with_heights(rows, layout)
+        return rows if self.description.tilt else np.hstack([rows[:, : len(layout.upright)], rows[:, -len(HEIGHTS) :]])
 
     @property
     def evidence(self) -> str:

@@ -108,6 +108,9 @@ Centre = Annotated[tuple[_Finite, ...], _THREE]
 Axis = Annotated[tuple[_Finite, ...], _THREE]
 """axis_x, axis_y, axis_z of a row of ten numbers, which stands beside the row of its other seven."""
 
+Heights = Annotated[tuple[_Any, ...], _THREE]
+"""z_min, z_max, solid of a row about a hyperboloid that ends; the first two may be infinite."""
+
 InvalidRow = Annotated[tuple[_Any, ...], _SEVEN]
 """Like a row, but NaN and infinities are allowed: rows that must be refused."""
 
@@ -139,18 +142,21 @@ class _CasePart(Protocol):
     def end(self) -> tuple[str, ...] | UnsetType: ...
     @property
     def axis(self) -> tuple[str, ...] | UnsetType: ...
+    @property
+    def heights(self) -> tuple[str, ...] | UnsetType: ...
 
 
 def numbers_of(case: _CasePart) -> tuple[str, ...]:
-    """All numbers of a case's row: of a position, then the end of a way, then the axis of a tilted spheroid."""
-    return (*case.row, *(case.end or ()), *(case.axis or ()))
+    """All numbers of a case's row: of a position, the end of a way, the axis of a tilted spheroid, the heights."""
+    return (*case.row, *(case.end or ()), *(case.axis or ()), *(case.heights or ()))
 
 
 def row_fields(row: Sequence[float], layout: Layout = PAIRS) -> dict[str, Any]:
-    """The fields row, end and axis of a row of this layout."""
+    """The fields row, end, axis and heights of a row of this layout."""
     digits = tuple(value.hex() for value in row)
-    upright = len(layout.upright)
-    return {"row": digits[:7], "end": digits[7:upright] or UNSET, "axis": digits[upright:] or UNSET}
+    upright, tilted = len(layout.upright), len(layout.tilted)
+    parts = {"end": digits[7:upright], "axis": digits[upright:tilted], "heights": digits[tilted:]}
+    return {"row": digits[:7]} | {name: part or UNSET for name, part in parts.items()}
 
 
 class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_type_of):

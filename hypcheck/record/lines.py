@@ -10,7 +10,8 @@ scenes and forests; 1.4.0 adds to the header the settings of a run and the sha25
 adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 adds the question passage, the end of a
 way, times of first contact with the mistakes late and early, the axis of fixed sizes in a domain, and in a benchmark
 the end of a way and the kinds sampling and advancement; 1.7.0 adds to the header how implementations were isolated, and
-the causes of wrong answers; 1.8.0 adds why rows and families were not asked, and how many fresh rows were.
+the causes of wrong answers; 1.8.0 adds why rows and families were not asked, and how many fresh rows were; 1.9.0
+adds heights of hyperboloids that end, and that an implementation takes them.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from hypcheck.record.fields import (
     Centre,
     Count,
     Counts,
+    Heights,
     Interval,
     InvalidAxis,
     InvalidCentre,
@@ -46,7 +48,7 @@ from hypcheck.record.fields import (
     require_possible,
 )
 
-SCHEMA = "1.8.0"
+SCHEMA = "1.9.0"
 """The version of the records that are written."""
 
 
@@ -148,6 +150,7 @@ class DisagreementPart(LinePart, frozen=True, kw_only=True):
     row: Row
     end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
+    heights: Heights | UnsetType = UNSET
     exact: str
     opinion: str
 
@@ -196,6 +199,7 @@ class WrongAnswer(LinePart, frozen=True, kw_only=True):
     row: Row
     end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
+    heights: Heights | UnsetType = UNSET
     truth: Truth
     answer: int
     mistake: Mistake
@@ -213,6 +217,7 @@ class FaultPart(LinePart, frozen=True, kw_only=True):
     row: InvalidRow
     end: InvalidCentre | UnsetType = UNSET
     axis: InvalidAxis | UnsetType = UNSET
+    heights: Heights | UnsetType = UNSET
     status: str
     reason: str
 
@@ -280,7 +285,8 @@ class DomainPart(LinePart, frozen=True, kw_only=True):
 class DescriptionPart(LinePart, frozen=True, kw_only=True):
     """What an implementation says of itself, or is taken for.
 
-    `tilt`, since 1.5.0, where rows have an axis; `times`, since 1.6.0, where it gives times of first contact.
+    `tilt`, since 1.5.0, where rows have an axis; `times`, since 1.6.0, where it gives times of first contact;
+    `heights`, since 1.9.0, where rows have the heights at which the hyperboloid ends.
     """
 
     name: str
@@ -294,6 +300,7 @@ class DescriptionPart(LinePart, frozen=True, kw_only=True):
     time: bool
     tilt: bool | UnsetType = UNSET
     times: bool | UnsetType = UNSET
+    heights: bool | UnsetType = UNSET
 
 
 class Retest(LinePart, frozen=True, kw_only=True):

@@ -16,6 +16,7 @@ from hypcheck.record.fields import (
     Centre,
     Count,
     Counts,
+    Heights,
     Interval,
     LinePart,
     Question,
@@ -136,6 +137,7 @@ class Mistaken(LinePart, frozen=True, kw_only=True):
     row: Row
     end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
+    heights: Heights | UnsetType = UNSET
     truth: Truth
     answer: int
     flip_distance: Unsigned

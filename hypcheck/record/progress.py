@@ -11,6 +11,7 @@ from hypcheck.record.fields import (
     Centre,
     Count,
     Extended,
+    Heights,
     InvalidAxis,
     InvalidCentre,
     InvalidRow,
@@ -69,6 +70,7 @@ class SavedAnswer(LinePart, frozen=True, kw_only=True):
     row: Row
     end: Centre | UnsetType = UNSET
     axis: Axis | UnsetType = UNSET
+    heights: Heights | UnsetType = UNSET
     truth: Truth
     answer: Annotated[int, Meta(ge=-128, le=127)]
     mistake: Mistake
@@ -85,6 +87,7 @@ class SavedFault(LinePart, frozen=True, kw_only=True):
     row: InvalidRow
     end: InvalidCentre | UnsetType = UNSET
     axis: InvalidAxis | UnsetType = UNSET
+    heights: Heights | UnsetType = UNSET
     status: str
     reason: str
 

@@ -163,6 +163,8 @@ def description_text(description: DescriptionPart) -> str:
         parts.append("refuses invalid rows")
     if description.tilt:
         parts.append("takes tilted spheroids")
+    if description.heights:
+        parts.append("takes hyperboloids that end")
     if description.times:
         parts.append("gives times of first contact")
     return ", ".join(parts)

@@ -62,7 +62,8 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     fixed_sizes = {family: plan.count for family in tallied if MARK in family and not plan.filtered}
     question = whole.used.question
     refuses = INVALID_NAMES[QUESTIONS[question].layout][0] in tallied
-    used = Description(whole.used.name, question=question, refuses=refuses, tilt=whole.used.tilt is True)
+    tilt, heights = whole.used.tilt is True, whole.used.heights is True
+    used = Description(whole.used.name, question=question, refuses=refuses, tilt=tilt, heights=heights)
     planned = planned_cases(plan, used)
     trouble = _difference(tallied, planned | fixed_sizes)
     for line in groups:

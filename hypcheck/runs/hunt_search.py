@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.geometry.rows import PAIRS, WAYS, FixedSizes, Floats, Layout, Mask, Positions, Rows, invalid, with_axis
+from hypcheck.geometry.rows import PAIRS, WAYS, FixedSizes, Floats, Layout, Mask, Positions, Rows, as_wide, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt
 from hypcheck.runs.judges import truth_of
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
@@ -272,9 +272,7 @@ def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) 
     """The neighbours of the climbers, rows of this layout."""
     with np.errstate(all="ignore"):  # rows that leave float64 are not valid, and not asked
         around = [_around(climber, layout) for climber in climbers]
-    if len({part.shape[1] for part in around}) > 1:  # of upright and of tilted spheroids
-        around = [with_axis(part, layout) for part in around]
-    rows = np.concatenate(around)
+    rows = np.concatenate(as_wide(around, layout))
     owners = np.repeat(np.arange(len(climbers)), [len(part) for part in around])
     valid = ~invalid(rows, layout)
     rows, owners = rows[valid], owners[valid]

@@ -33,7 +33,7 @@ from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
 from hypcheck.vectors import fixed_sizes
 from hypcheck.vectors.families import ALL, select
 from hypcheck.vectors.family import BLOCK, Family
-from hypcheck.vectors.invalid_rows import INVALID_NAMES
+from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_NAMES
 
 FAIL_ON = ("wrong", "false-clear")
 
@@ -131,18 +131,30 @@ def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
 
 
 def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
-    """The invalid rows that an implementation is asked: with an axis too if it takes tilt; none unless it refuses."""
+    """The invalid rows that an implementation is asked: with an axis too if it takes tilt; none unless it refuses.
+
+    Those with heights have an axis, so that an implementation has to take both.
+    """
     names = INVALID_NAMES[used.asked.layout][: 1 + used.tilt]
+    if used.asked.layout is PAIRS and used.heights and used.tilt:
+        names = (*names, ENDED_INVALID)
     return tuple(map(InvalidRows, names)) if used.refuses else ()
 
 
 def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, ...]:
     """The families of the plan that an implementation with this description answers about.
 
-    Their rows have its layout, and an axis only if it takes tilt. Raises InputError naming one that does not exist.
+    Their rows have its layout, an axis only if it takes tilt, and heights only if it takes these. Raises InputError
+    naming one that does not exist.
     """
-    named = select(plan.families, tilted=True, layout=None)
-    return tuple(each for each in named if (used.tilt or not each.tilted) and each.layout is used.asked.layout)
+    named = select(plan.families, tilted=True, ended=True, layout=None)
+    return tuple(
+        family
+        for family in named
+        if (used.tilt or not family.tilted)
+        and (used.heights or not family.ended)
+        and family.layout is used.asked.layout
+    )
 
 
 def planned_size(plan: ConformancePlan) -> int:
@@ -152,7 +164,7 @@ def planned_size(plan: ConformancePlan) -> int:
     more or fewer, which is known once they have described themselves.
     """
     if plan.filtered:
-        return sum(_cases_of(plan, select(plan.families, tilted=True, layout=None)).values())
+        return sum(_cases_of(plan, select(plan.families, tilted=True, ended=True, layout=None)).values())
     return sum(planned_cases(plan, Description("")).values())
 
 
@@ -170,13 +182,14 @@ def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
 def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, dict[str, int]]:
     """The families of which an implementation is asked no row, with their numbers of rows, by not_asked.FAMILIES."""
     asked, found = planned_cases(plan, used), {reason: dict[str, int]() for reason in not_asked.FAMILIES}
-    chosen = {each.name for each in select(plan.families, tilted=True, layout=None)}
+    chosen = {family.name for family in select(plan.families, tilted=True, ended=True, layout=None)}
     for name, cases in _cases_of(plan, ALL.values()).items():
         if name in asked or not cases:
             continue
         other = ALL[name].layout is not used.asked.layout
+        lacking = "heights" if ALL[name].ended and not used.heights else "tilt"
         unwanted = "filter" if plan.filtered else "extreme" if ALL[name].extreme else ""
-        reason = unwanted if name not in chosen and unwanted else "question" if other else "tilt"
+        reason = unwanted if name not in chosen and unwanted else "question" if other else lacking
         found[reason][name] = cases
     searched = () if not plan.filtered or used.asked.layout is not PAIRS else searched_chunks()
     found["filter"] |= {chunk.family: len(chunk) for chunk in searched}
@@ -195,6 +208,11 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
             raise InputError(
                 f"--families names {name}, which has no cases for the question {used.question!r}; "
                 f"leave it out, or name an implementation whose question is {_QUESTION_ABOUT[family.layout]}"
+            )
+        if family.ended and not used.heights:
+            raise InputError(
+                f"--families names {name}, a family of hyperboloids that end, and {used.name} takes no heights; leave "
+                'it out, or let its description say "takes": ["heights"]'
             )
         if family.tilted and not used.tilt:
             raise InputError(
@@ -234,6 +252,11 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
     where it takes none, or those of the other layout.
     """
     families = chosen_families(plan, used)
+    if not families and any(family.ended for family in chosen_families(plan, replace(used, tilt=True, heights=True))):
+        raise InputError(
+            f"{', '.join(plan.families)}: these are families of hyperboloids that end, and {used.name} does not take "
+            'them; its description must say "takes": ["heights"], and "axis" besides where spheroids are tilted'
+        )
     if not families and not chosen_families(plan, replace(used, tilt=True)):
         raise InputError(
             f"{', '.join(plan.families)}: none of these families has cases for the question {used.question!r}"

@@ -201,7 +201,12 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     """
     declared, used = implementation.declared, implementation.description
     case = of_question(case, used)
-    if len(case.row) != len(used.asked.layout.upright) and not used.tilt:
+    if len(case.row) > len(used.asked.layout.tilted) and not used.heights:
+        raise InputError(
+            f"{case.name} has heights where the hyperboloid ends, and {used.name} takes none; its description must have "
+            '"takes": ["heights"]'
+        )
+    if len(case.row) == len(used.asked.layout.tilted) and not used.tilt:
         raise InputError(
             f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
             "true"
@@ -212,12 +217,12 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     truth = passage_of(case.row) if case.layout is WAYS else truth_of(Pair.from_row(case.row))
     judgement = _judged(implementation, case.row, truth, criterion)
     choice, causes = None, tuple[Cause, ...]()
-    if isinstance(truth, ProvedTruth) and truth.pair.is_upright:
+    if isinstance(truth, ProvedTruth) and truth.pair.is_upright and not truth.pair.has_ends:
         causes = _causes(truth, judgement, criterion)
         answered = None if judgement.answer == CANNOT_SAY else judgement.answer
         choice = choose_formula(implementation, answered, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
-        about = "a way" if case.layout is WAYS else "a tilted spheroid"
+        about = "a way" if case.layout is WAYS else "a tilted spheroid or a hyperboloid that ends"
         raise InputError(f"--formula is {formula!r}, but {case.name} is about {about}, which no formula takes")
     return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice, causes)
 
@@ -225,7 +230,9 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
 def of_question(case: ReplayCase, used: Description) -> ReplayCase:
     """The case with the layout of the question. Raises InputError if it is of another, or a given row is invalid."""
     layout = used.asked.layout
-    if case.layout not in (None, layout) or len(case.row) not in (len(layout.upright), len(layout.tilted)):
+    if case.layout not in (None, layout) or len(case.row) not in map(
+        len, (layout.upright, layout.tilted, layout.ended)
+    ):
         this = "a position" if layout is WAYS else "a way between two positions"
         raise InputError(f"{case.name} is {this}, and {used.name} answers {used.question!r}")
     if case.layout is None and (trouble := trouble_with_row(case.row, layout.upright)) is not None:

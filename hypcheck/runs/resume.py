@@ -60,7 +60,7 @@ Json = dict[str, Any]
 def recorded_description(description: Description) -> DescriptionPart:
     """An implementation's description as the record has it."""
     told = asdict(description)
-    for name in ("tilt", "times"):
+    for name in ("tilt", "times", "heights"):
         if not told[name]:  # as in records from before there was such a key
             del told[name]
     for setting in told["domain"]["settings"]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions, Rows, with_axis
+from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions, Rows, as_wide
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.record.lines import Retest
@@ -163,9 +163,8 @@ def _differs(before: Answered, places: Indices, now: Answered) -> Mask:
 
 
 def _stacked(parts: list[Rows], layout: Layout) -> Rows:
-    """All rows, with an axis each where some of them are of tilted spheroids."""
-    widths = {part.shape[1] for part in parts}
-    return np.concatenate(parts if len(widths) == 1 else [with_axis(part, layout) for part in parts])
+    """All rows, with an axis and heights each where some of them have these."""
+    return np.concatenate(as_wide(parts, layout))
 
 
 def _moments(each: PendingRetest) -> NDArray[np.int64]:

@@ -16,8 +16,8 @@ K the largest second derivatives in the cell. With m = min(b, d), |V|_M ≤ |V|/
 
 where r' ≤ α/γ, r'' ≤ α²/(γ² r) at the least r of the cell, and N ≤ n₀ + (√(1 + r'²) h + r k)/m. Cells whose bound is
 above what some point has are dropped, the others halved, so that few are left about each minimum. Each coordinate of
-X − C is within 16u (|X| + |C|), so that n is within 16u (|X| + |C|)/m √3, besides 16u of itself; _SLACK covers both. No
-polynomial of the pair and no multiplier is used.
+X − C, and of its parts along and across the axis, is within 32u (|X| + |C|), so that n is within 64u (|X| + |C|)/m,
+besides 16u of itself; _SLACK covers both. No polynomial of the pair and no multiplier is used.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def _to_disc(pair: Pair, v: Floats, end: float) -> Least | None:
     if not math.isfinite(end):
         return Least(math.inf, math.inf, NOTHING.point)
     b2, d2 = pair.b * pair.b, pair.d * pair.d
-    half = b2 + (d2 - b2) * float(v[2] * v[2])
+    half = b2 * float(v[0] * v[0] + v[1] * v[1]) + d2 * float(v[2] * v[2])
     rise = end - pair.z
     across = (d2 - b2) * v[2] * v[:2] / half * rise + (pair.x, pair.y)
     radius = pair.alpha * math.hypot(1, end / pair.gamma)
@@ -161,10 +161,10 @@ def _values(pair: Pair, v: Floats, w: Floats, t: Floats) -> tuple[Floats, ...]:
     cosine, sine = np.cos(t), np.sin(t)
     X = np.stack([r * cosine, r * sine, w])
     D = X - np.array([[pair.x], [pair.y], [pair.z]])
-    extra = 1 / pair.d**2 - 1 / pair.b**2
     along = v @ D
-    q = (D * D).sum(axis=0) / pair.b**2 + extra * along**2
-    grad = 2 * (D / pair.b**2 + extra * along * v[:, None])
+    across = D - along * v[:, None]
+    q = (across * across).sum(axis=0) / pair.b**2 + (along / pair.d) ** 2
+    grad = 2 * (across / pair.b**2 + along / pair.d**2 * v[:, None])
     qw = grad[0] * slope * cosine + grad[1] * slope * sine + grad[2]
     qt = r * (grad[1] * cosine - grad[0] * sine)
     size = np.abs(X) + np.abs([[pair.x], [pair.y], [pair.z]])

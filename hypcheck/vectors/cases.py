@@ -17,7 +17,7 @@ from hypcheck.geometry.rows import WAYS
 from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
 from hypcheck.truth.backward_error import Bracket
-from hypcheck.truth.certificate import Certificate
+from hypcheck.truth.certificate import Certificate, Piece
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_certificate import PassageCertificate, place
 from hypcheck.vectors.family import Row
@@ -53,12 +53,14 @@ class StoredCertificate:
 
     Points are offsets (s, t, w) from the spheroid's centre, so that short numbers do. Of an upright spheroid the point
     is (x + b s, y + b t, z + d w), and belongs to it if s² + t² + w² ≤ 1.
-    Of a tilted one it is (x, y, z) + b (s, t, w).
+    Of a tilted one, and where the hyperboloid ends, it is (x, y, z) + b (s, t, w). `pieces` are those of a hyperboloid
+    that ends; without any of these a contact rests on the exact rule in the height.
     """
 
     multiplier: Fraction | None = None
     offsets: tuple[Offset, ...] = ()
     double_root: Fraction | None = None
+    pieces: tuple[Piece, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +92,29 @@ class Vector(Generic[Flip]):
         """What proves the position, its points in the caller's coordinates."""
         points = tuple(point_at(self.row, offset) for offset in self.witness.offsets)
         return Certificate(self.position, self.witness.multiplier, points, self.witness.double_root)
+
+
+@dataclass(frozen=True, slots=True)
+class EndedVector:
+    """A case: a valid row of thirteen numbers, its position, whether that is a touch, and what proves it."""
+
+    id: str
+    row: Row
+    position: Position
+    tangent: bool
+    witness: StoredCertificate
+    flags: tuple[str, ...] = ()
+
+    @property
+    def answer(self) -> int:
+        """The position as a number."""
+        return int(self.position)
+
+    @property
+    def certificate(self) -> Certificate:
+        """What proves the position, its points in the caller's coordinates."""
+        points = tuple(point_at(self.row, offset) for offset in self.witness.offsets)
+        return Certificate(self.position, self.witness.multiplier, points, pieces=self.witness.pieces)
 
 
 UprightVector = Vector[float]
@@ -160,7 +185,7 @@ class WayVector:
         return PassageCertificate(self.witness.pieces, time, points, self.witness.double_root)
 
 
-AnyVector = UprightVector | TiltedVector | WayVector
+AnyVector = UprightVector | TiltedVector | WayVector | EndedVector
 """A case with an answer."""
 
 _POSITION_FIELDS = (
@@ -168,6 +193,7 @@ _POSITION_FIELDS = (
     *("flips", "certificate", "flags"),
 )
 _WAY_FIELDS = ("id", "row", "hex", "hit", "first", "first_hex", "certificate", "flags")
+_ENDED_FIELDS = ("id", "row", "hex", "position", "tangent", "certificate")
 _CERTIFICATES = ("multiplier", "points", "double_root")
 _PASSAGE_FIELDS = ("pieces", "time", "points", "double_root")
 _KINDS = {kind.value: kind for kind in Kind}
@@ -175,6 +201,8 @@ _KINDS = {kind.value: kind for kind in Kind}
 
 def case_fields(content: Content) -> tuple[str, ...]:
     """The fields of a case in a file with that content, in order."""
+    if content.ended:
+        return _ENDED_FIELDS
     if content.layout is WAYS:
         return _WAY_FIELDS
     return tuple(name for name in _POSITION_FIELDS if name != "kind" or not content.tilted)
@@ -197,28 +225,55 @@ def cases_of(document: JsonDocument, path: str, content: Content | None = None) 
         raise InputError(f"{said}: content is {found.name!r}; here it must be {wanted}")
     if found.refused:
         return invalid_rows_of(document, path)
-    return file_of(document, path, case_fields(found), _way if found.layout is WAYS else _vector)
+    read = _ended if found.ended else _way if found.layout is WAYS else _vector
+    return file_of(document, path, case_fields(found), read)
 
 
 def _vector(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> Vector[Any]:
-    position = fields["position"]
-    if not is_integer(position) or position not in (-1, 0, 1):
-        raise InputError(f"{at}: position is {shown_json(position)}; it must be 1, 0 or -1")
-    if not isinstance(fields["tangent"], bool):
-        raise InputError(f"{at}: tangent is {shown_json(fields['tangent'])}; it must be true or false")
+    position, tangent = _position(at, fields)
     clearance = _measure(at, "clearance", fields["clearance"])
     check_hex(at, "clearance_hex", fields["clearance_hex"], clearance)
     return Vector(
         id=fields["id"],
         row=row_of(at, fields["row"], fields["hex"], content),
-        position=Position(position),
-        tangent=fields["tangent"],
+        position=position,
+        tangent=tangent,
         kind=None if content.tilted else _kind(at, fields["kind"]),
         clearance=clearance,
-        flips=_flips(at, fields["flips"], Position(position), _bracket if content.tilted else _distance),
+        flips=_flips(at, fields["flips"], position, _bracket if content.tilted else _distance),
         witness=_certificate(at, fields["certificate"]),
         flags=flags_of_case(at, fields["flags"], flags),
     )
+
+
+def _position(at: JsonPlace, fields: dict[str, Any]) -> tuple[Position, bool]:
+    position, tangent = fields["position"], fields["tangent"]
+    if not is_integer(position) or position not in (-1, 0, 1):
+        raise InputError(f"{at}: position is {shown_json(position)}; it must be 1, 0 or -1")
+    if not isinstance(tangent, bool):
+        raise InputError(f"{at}: tangent is {shown_json(tangent)}; it must be true or false")
+    return Position(position), tangent
+
+
+def _ended(at: JsonPlace, fields: dict[str, Any], content: Content, _flags: Mapping[str, FlagFacts]) -> EndedVector:
+    row = row_of(at, fields["row"], fields["hex"], content)
+    return EndedVector(fields["id"], row, *_position(at, fields), _ended_certificate(at, fields["certificate"]))
+
+
+def _ended_certificate(at: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
+    if value == {"rule": "height"}:
+        return StoredCertificate()
+    if not isinstance(value, dict) or set(value) != {"pieces"}:
+        return _certificate(at, value)
+    return StoredCertificate(pieces=tuple(_piece(at, piece) for piece in listed(at, "pieces", value["pieces"])))
+
+
+def _piece(at: JsonPlace, value: Any) -> Piece:  # noqa: ANN401 - JSON
+    low, high, *numbers = listed(at, "a piece", value, 4)
+    multiplier, plane = (rational_at(at, "a piece", number) for number in numbers)
+    bottom = None if low == "-inf" else rational_at(at, "a piece", low)
+    top = None if high == "inf" else rational_at(at, "a piece", high)
+    return Piece(bottom, top, multiplier, plane)
 
 
 def _kind(at: JsonPlace, value: Any) -> Kind:  # noqa: ANN401 - JSON
@@ -338,10 +393,17 @@ def case_text(case: AnyVector | InvalidRow) -> str:
             "id": json_text(case.id),
             "row": numbers_text(case.row),
             "hex": json_text([hex_of(value) for value in case.row]),
-            **(_way_members(case) if isinstance(case, WayVector) else _position_members(case)),
-            "flags": json_text(case.flags),
+            **_members(case),
         }
     )
+
+
+def _members(case: AnyVector) -> dict[str, str]:
+    if isinstance(case, EndedVector):
+        certificate = json_text(_certificate_members(case.witness))
+        return {"position": str(case.answer), "tangent": json_text(case.tangent), "certificate": certificate}
+    members = _way_members(case) if isinstance(case, WayVector) else _position_members(case)
+    return members | {"flags": json_text(case.flags)}
 
 
 def _position_members(case: UprightVector | TiltedVector) -> dict[str, str]:
@@ -365,7 +427,17 @@ def _certificate_members(witness: StoredCertificate) -> dict[str, Any]:
         return {"multiplier": exact_text(witness.multiplier)}
     if witness.double_root is not None:
         return {"double_root": exact_text(witness.double_root)}
+    if witness.pieces:
+        return {"pieces": [_piece_members(piece) for piece in witness.pieces]}
+    if not witness.offsets:
+        return {"rule": "height"}
     return {"points": [list(map(exact_text, point)) for point in witness.offsets]}
+
+
+def _piece_members(piece: Piece) -> list[str]:
+    low = "-inf" if piece.low is None else exact_text(piece.low)
+    high = "inf" if piece.high is None else exact_text(piece.high)
+    return [low, high, exact_text(piece.multiplier), exact_text(piece.plane)]
 
 
 def _way_members(case: WayVector) -> dict[str, str]:

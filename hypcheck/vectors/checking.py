@@ -24,7 +24,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import WAYS
 from hypcheck.tables.numbers import decimal_of, shown_json
 from hypcheck.tables.strict_json import read_document
-from hypcheck.truth import exact
+from hypcheck.truth import exact, least
 from hypcheck.truth.backward_error import excluded_at_once, is_bracket
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.changes import goal_of
@@ -35,6 +35,8 @@ from hypcheck.truth.roots import classify_by_roots
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
     AnyVector,
+    EndedVector,
+    StoredCertificate,
     TiltedVector,
     UprightVector,
     WayVector,
@@ -61,6 +63,8 @@ def faults_of(file: CaseFile[Any]) -> list[LabelFault]:
     found: Iterable[Iterator[str]]
     if file.content.refused:
         found = (_wrong_columns(case, file.content.columns) for case in file.cases)
+    elif file.content.ended:
+        found = map(_ended_sentences, file.cases)
     elif file.content.layout is WAYS:
         found = map(_way_sentences, file.cases)
     elif file.content.tilted:
@@ -109,6 +113,20 @@ def _tilted_sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str
             said = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
             yield f"the flip to {other.label} is {said}; no proof of both ends is found"
     yield from _wrong_flags(case, tilted_flags(pair, truth))
+
+
+def _ended_sentences(case: EndedVector) -> Iterator[str]:
+    """Of a case whose hyperboloid ends; a touch rests on the exact rule, which the least value must not contradict."""
+    pair = Pair.from_row(case.row)
+    truth, other = exact.decide(pair.lengths), least.position(pair)
+    claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
+    by_rule = case.witness == StoredCertificate() and case.position is Position.CONTACT
+    if not by_rule and not check_certificate(pair, case.certificate):
+        yield f"the certificate does not prove {claim}"
+    if (truth.position, truth.tangent) != (case.position, case.tangent):
+        yield f"the label is {claim}; the exact decision is {truth.position.label}{', tangent' * truth.tangent}"
+    if other not in (None, case.position):
+        yield f"position is {case.position.label}; the least value says {other.label}"
 
 
 def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:

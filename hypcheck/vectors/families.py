@@ -10,7 +10,7 @@ from fnmatch import fnmatchcase
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout
 from hypcheck.messages import suggestion
-from hypcheck.vectors import coincidences, extremes, random_pairs, scenes, tilted, ways
+from hypcheck.vectors import coincidences, ended, extremes, random_pairs, scenes, tilted, ways
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
 
@@ -109,7 +109,13 @@ WAY_FAMILIES = _table(
 )
 """Those of ways between two positions: rows as geometry.rows.WAYS has them, upright or tilted."""
 
-ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES}
+ENDED_FAMILIES = _table(
+    *(Family(name, make, frozen, ended=True) for name, (make, frozen) in ended.FAMILIES.items()),
+    *(Family(name, make, frozen, tilted=True, ended=True) for name, (make, frozen) in ended.TILTED.items()),
+)
+"""Those of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
+
+ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES, **ENDED_FAMILIES}
 """All of them, in the order in which they are listed."""
 
 EXTREME = "extreme"
@@ -130,18 +136,20 @@ class CaseId:
     index: int
 
 
-def select(patterns: Sequence[str] = (), *, tilted: bool = False, layout: Layout | None = PAIRS) -> tuple[Family, ...]:
+def select(
+    patterns: Sequence[str] = (), *, tilted: bool = False, ended: bool = False, layout: Layout | None = PAIRS
+) -> tuple[Family, ...]:
     """The families of these names and globs in the order of the tables; without patterns all but the extreme ones.
 
     Only those of rows with this layout, or of all layouts where it is None. With `tilted` those of tilted spheroids are
-    among them. A glob reaches every family whose name it matches, the
+    among them, with `ended` those of hyperboloids that end. A glob reaches every family whose name it matches, the
     extreme ones too: "*" is all; "extreme" is all of the extreme ones. Raises InputError for a pattern that names
     nothing, with the names nearest to it, or nothing but tilted spheroids where these are not wanted.
     """
     known = {
         name: family
         for name, family in ALL.items()
-        if (tilted or not family.tilted) and layout in (None, family.layout)
+        if (tilted or not family.tilted) and (ended or not family.ended) and layout in (None, family.layout)
     }
     if not patterns:
         return tuple(family for family in known.values() if not family.extreme)
@@ -151,6 +159,10 @@ def select(patterns: Sequence[str] = (), *, tilted: bool = False, layout: Layout
         if not named and _named(pattern, TILTED_FAMILIES):
             raise InputError(
                 f"{pattern!r} names tilted spheroids, which only an implementation with tilt is asked about"
+            )
+        if not named and _named(pattern, ENDED_FAMILIES):
+            raise InputError(
+                f"{pattern!r} names hyperboloids that end, about which only implementations that take heights are asked"
             )
         if not named and _named(pattern, WAY_FAMILIES):
             raise InputError(f"{pattern!r} names ways, which only the question passage is about")

@@ -74,7 +74,8 @@ class Family:
     near the end of a float format, so the family is taken only when it is asked for. `by_place`: the generator works
     place by place, so that it can make several blocks at one go. `movement`: so many consecutive rows follow one object
     from moment to moment; 1 where none do. `layout` says what rows are about, a position or a way. `tilted`: they have
-    three numbers more, the axis of the spheroid behind the others.
+    three numbers more, the axis of the spheroid behind the others. `ended`: the hyperboloid ends, and rows have heights
+    behind an axis, which is vertical unless `tilted`.
     """
 
     name: str
@@ -85,6 +86,7 @@ class Family:
     by_place: bool = False
     movement: int = 1
     tilted: bool = False
+    ended: bool = False
     layout: Layout = PAIRS
 
     def described(self, made_by: str) -> Metadata:
@@ -94,7 +96,8 @@ class Family:
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the numbers of a row."""
-        return self.layout.tilted if self.tilted else self.layout.upright
+        layout = self.layout
+        return layout.ended if self.ended else layout.tilted if self.tilted else layout.upright
 
     def block(self, seed: int, number: int) -> Rows:
         """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, len(columns)), all valid."""

@@ -7,6 +7,7 @@ case holds is in cases.py and, of rows that must be refused, in invalid_rows.py.
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
@@ -16,7 +17,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import NO_DIRECTION, trouble_with
+from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, NO_DIRECTION, trouble_with, trouble_with_heights
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Positions, Rows
 from hypcheck.tables.numbers import Literal, decimal_of, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of
@@ -30,15 +31,18 @@ TILTED_SCHEMA = "1.1.0"
 """The version of the schemas of files about tilted spheroids."""
 
 WAY_SCHEMA = "1.2.0"
-"""The version of the schemas of files about ways; a reader refuses any other than these three."""
+"""The version of the schemas of files about ways."""
+
+ENDED_SCHEMA = "1.3.0"
+"""The version of the schemas of files about hyperboloids that end; a reader refuses any other than these four."""
 
 
 @dataclass(frozen=True, slots=True)
 class Content:
     """What a file holds, by the name that it has there, and the version of its schema.
 
-    `layout` says what rows are about, a position or a way. `tilted`: they have the spheroid's axis behind. `refused`:
-    they are no valid query and have no answers.
+    `layout` says what rows are about, a position or a way. `tilted`: they have the spheroid's axis behind. `ended`:
+    they have an axis and the heights where the hyperboloid ends. `refused`: they are no valid query, without answers.
     """
 
     name: str
@@ -46,17 +50,19 @@ class Content:
     layout: Layout = PAIRS
     tilted: bool = False
     refused: bool = False
+    ended: bool = False
 
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the numbers of a row."""
-        return self.layout.tilted if self.tilted else self.layout.upright
+        layout = self.layout
+        return layout.ended if self.ended else layout.tilted if self.tilted else layout.upright
 
     @property
     def flags(self) -> Mapping[str, FlagFacts]:
         """The flags that a case may have; none where it has no answer."""
         known = WAY_FLAGS if self.layout is WAYS else TILTED_FLAGS if self.tilted else FLAGS
-        return {} if self.refused else known
+        return {} if self.refused or self.ended else known
 
 
 CONTENTS = {
@@ -70,15 +76,22 @@ CONTENTS = {
         Content("tilted-ways", WAY_SCHEMA, WAYS, tilted=True),
         Content("way-refusals", WAY_SCHEMA, WAYS, refused=True),
         Content("tilted-way-refusals", WAY_SCHEMA, WAYS, tilted=True, refused=True),
+        Content("ended-positions", ENDED_SCHEMA, tilted=True, ended=True),
+        Content("ended-refusals", ENDED_SCHEMA, tilted=True, refused=True, ended=True),
     )
 }
 """All contents by name."""
 
 
-def content_with(layout: Layout = PAIRS, *, tilted: bool = False, refused: bool = False) -> Content:
-    """The content of files with such rows."""
+def content_with(
+    layout: Layout = PAIRS, *, tilted: bool = False, refused: bool = False, ended: bool = False
+) -> Content:
+    """The content of files with such rows; where hyperboloids end, rows have an axis."""
+    wanted = (layout, tilted or ended, refused, ended)
     (found,) = (
-        each for each in CONTENTS.values() if (each.layout, each.tilted, each.refused) == (layout, tilted, refused)
+        content
+        for content in CONTENTS.values()
+        if (content.layout, content.tilted, content.refused, content.ended) == wanted
     )
     return found
 
@@ -147,7 +160,8 @@ def content_of(document: JsonDocument, path: str) -> Content:
     if not known:
         raise InputError(
             f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}, "
-            f"{TILTED_SCHEMA!r} about tilted spheroids and {WAY_SCHEMA!r} about ways"
+            f"{TILTED_SCHEMA!r} about tilted spheroids, {WAY_SCHEMA!r} about ways and {ENDED_SCHEMA!r} about "
+            "hyperboloids that end"
         )
     place, content = document.members["content"]
     if content not in tuple(known):
@@ -267,15 +281,25 @@ def row_of(place: JsonPlace, numbers: Any, hexes: Any, content: Content) -> Row:
     for name, value, text in zip(
         columns, listed(place, "row", numbers, count), listed(place, "hex", hexes, count), strict=True
     ):
-        number = number_of(place, name, value)
-        trouble = trouble_with(name, number)
+        number = _height_of(value) if name in ENDS and isinstance(value, str) else number_of(place, name, value)
+        if number is None:
+            raise InputError(f'{place}: {name} is {shown_json(value)}; it must be a number, "inf" or "-inf"')
+        trouble = None if name in HEIGHTS else trouble_with(name, number)
         if trouble is not None:
             raise InputError(f"{place}: {trouble}")
         check_hex(place, f"the hex of {name}", text, number)
         row.append(number)
-    if content.tilted and not any(row[len(content.layout.upright) :]):
+    others = row[len(content.layout.upright) :]
+    if content.tilted and not any(others[: len(AXIS)]):
         raise InputError(f"{place}: {NO_DIRECTION}")
+    trouble = trouble_with_heights(others[len(AXIS) :]) if content.ended else None
+    if trouble is not None:
+        raise InputError(f"{place}: {trouble}")
     return tuple(row)
+
+
+def _height_of(text: str) -> float | None:
+    return {"inf": math.inf, "-inf": -math.inf}.get(text)
 
 
 def check_hex(place: JsonPlace, what: str, text: Any, number: float) -> None:  # noqa: ANN401 - JSON

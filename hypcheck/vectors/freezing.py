@@ -78,7 +78,12 @@ def _content_of(name: str) -> Content:
     if name in INVALID_CONTENTS:
         return INVALID_CONTENTS[name]
     family = ALL.get(name)
-    return content_with(family.layout, tilted=family.tilted) if family else content_with()
+    return content_of_family(family) if family else content_with()
+
+
+def content_of_family(family: Family) -> Content:
+    """The content of files with rows of a family."""
+    return content_with(family.layout, tilted=family.tilted, ended=family.ended)
 
 
 def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
@@ -131,7 +136,7 @@ def _next_number(ids: Iterable[str]) -> int:
 def generated_case(name: str) -> tuple[AnyVector, Content]:
     """The generated case of that id, labelled and proved, and the content of its file. Raises InputError."""
     case = parse_case_id(name)
-    content = content_with(case.family.layout, tilted=case.family.tilted)
+    content = content_of_family(case.family)
     row = case.family.row(case.seed, case.index)
     (found,) = labelled(content, [(case_id(case.family, case.seed, case.index), row)])
     return found, content
@@ -141,7 +146,7 @@ def generated_text(family: Family, seed: int, count: int) -> str:
     """A vector file of the first rows of a family's seed, with generated ids."""
     named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
     head = family.described(f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
-    content = content_with(family.layout, tilted=family.tilted)
+    content = content_of_family(family)
     return cases_text(assembled(head, content, labelled(content, named)))
 
 

@@ -16,10 +16,10 @@ from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import suggestion
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import read_cases
-from hypcheck.vectors.families import ALL, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.families import ALL, ENDED_FAMILIES, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import Metadata, described
 from hypcheck.vectors.format import CaseFile
-from hypcheck.vectors.invalid_rows import INVALID_NAMES
+from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_NAMES
 
 NAMES = (*FAMILIES, cancellation.NAME)
 """The files of upright spheroids with answers; INVALID_CONTENTS names those of rows without."""
@@ -30,10 +30,14 @@ TILTED_NAMES = tuple(TILTED_FAMILIES)
 WAY_NAMES = tuple(WAY_FAMILIES)
 """Those of ways; the rows of names that begin with tilted have an axis."""
 
+ENDED_NAMES = tuple(ENDED_FAMILIES)
+"""Those of hyperboloids that end, upright and tilted."""
+
 ALL_NAMES = (
     *(*NAMES, "invalid"),
     *(*TILTED_NAMES, "tilted-invalid"),
     *(*WAY_NAMES, *INVALID_NAMES[WAYS]),
+    *(*ENDED_NAMES, ENDED_INVALID),
 )
 """All files, in the order in which they are listed."""
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, REFUSED, SIZES, trouble_with
+from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, REFUSED, SIZES, trouble_with
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace
@@ -35,11 +35,15 @@ INVALID_CONTENTS = {
     "tilted-invalid": content_with(tilted=True, refused=True),
     "way-invalid": content_with(WAYS, refused=True),
     "tilted-way-invalid": content_with(WAYS, tilted=True, refused=True),
+    "ended-invalid": content_with(refused=True, ended=True),
 }
 """The files of rows without an answer by name, and the content of each."""
 
+ENDED_INVALID = "ended-invalid"
+"""That of hyperboloids that end."""
+
 INVALID_NAMES = {
-    layout: tuple(name for name, content in INVALID_CONTENTS.items() if content.layout is layout)
+    layout: tuple(name for name, content in INVALID_CONTENTS.items() if content.layout is layout and not content.ended)
     for layout in (PAIRS, WAYS)
 }
 """The names of these files by layout, of upright spheroids and of tilted ones."""
@@ -106,16 +110,24 @@ def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
 
 def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
     """The columns of these names whose values are not allowed; all three of an axis without a direction."""
-    found = [name for name, value in zip(names, row, strict=True) if trouble_with(name, value) is not None]
-    axis = row[-len(AXIS) :] if names[-len(AXIS) :] == AXIS else ()
-    return (*found, *AXIS) if axis and not any(axis) else tuple(found)
+    values = dict(zip(names, row, strict=True))
+    found = [name for name, value in values.items() if name not in HEIGHTS and trouble_with(name, value) is not None]
+    if AXIS[0] in values and not any(values[name] for name in AXIS):
+        found += AXIS
+    if ENDS[0] in values:
+        low, high = (values[name] for name in ENDS)
+        numbers = [name for name in ENDS if math.isnan(values[name])]
+        found += numbers or ENDS[: 2 * (not low < high)]
+        found += HEIGHTS[2:] if values["solid"] not in (0, 1) else ()
+    return tuple(found)
 
 
 def invalid_rows(name: str) -> InvalidRowFile:
     """The file of that name, made anew."""
     content = INVALID_CONTENTS[name]
     cases = []
-    for number, bits in enumerate(dict.fromkeys((_bad_tilted_rows if content.tilted else _bad_rows)(content.layout))):
+    made = _bad_ended_rows() if content.ended else (_bad_tilted_rows if content.tilted else _bad_rows)(content.layout)
+    for number, bits in enumerate(dict.fromkeys(made)):
         row = tuple(rows_from_bits([bits])[0].tolist())
         cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row, content.columns)))
     return InvalidRowFile(described(name, f"hypcheck cases freeze {name}"), content, tuple(cases))
@@ -182,6 +194,31 @@ def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
     yield (infinite,) * len(row)
 
 
+def _bad_ended_rows() -> Iterator[tuple[int, ...]]:
+    """Ends in the wrong order or equal, NaN for an end, numbers for `solid` that are neither, then others."""
+    sound = [
+        (*_bits(row), *_bits(axis), *_bits(heights))
+        for row, axis, heights in zip(_SOUND[PAIRS], _AXES, _HEIGHTS, strict=True)
+    ]
+    infinite, minus = _word(math.inf), _word(-math.inf)
+    for row in sound:
+        low, high = row[10], row[11]
+        for words in ((high, low), (high, high), (0, _SIGN), (infinite, infinite), (minus, minus), (infinite, minus)):
+            yield _replaced(row, dict(zip((10, 11), words, strict=True)))
+        for place in (10, 11, 12):
+            for word in _NANS.values():
+                yield _replaced(row, {place: word})
+        for value in (0.5, 2.0, -1.0, 5e-324, math.inf, -math.inf):
+            yield _replaced(row, {12: _word(value)})
+        yield _replaced(row, {10: _NANS["nan"], 11: _NANS["nan"]})
+        yield _replaced(row, {7: 0, 8: 0, 9: 0})
+        yield _replaced(row, {0: 0})
+        yield _replaced(row, {6: infinite, 11: infinite})
+    yield (0,) * len(sound[0])
+    yield (_NANS["nan"],) * len(sound[0])
+
+
+_HEIGHTS = ((-1.0, 2.0, 0.0), (-17.75, 17.75, 1.0), (-math.inf, 0.5, 0.0))
 _AXES = ((3.0, 4.0, 12.0), (0.0, 0.0, 1.0), (-1.0, 0.5, 0.0))
 
 

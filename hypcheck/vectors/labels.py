@@ -13,7 +13,7 @@ from typing import Any
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import WAYS
-from hypcheck.truth import exact
+from hypcheck.truth import ended_prove, exact
 from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
@@ -22,6 +22,7 @@ from hypcheck.truth.passage_certificate import place
 from hypcheck.truth.passage_prove import prove as prove_passage
 from hypcheck.truth.prove import prove
 from hypcheck.vectors.cases import (
+    EndedVector,
     Offset,
     StoredCertificate,
     StoredPassage,
@@ -44,6 +45,8 @@ def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
 
     Raises ValueError as passage_prove.prove does.
     """
+    if content.ended:
+        return [_labelled_ended(*case) for case in cases]
     if content.layout is WAYS:
         return [_labelled_way(*each) for each in cases]
     return [_labelled_tilted(*each) for each in cases] if content.tilted else _labelled_upright(list(cases))
@@ -84,6 +87,16 @@ def _labelled_tilted(name: str, row: Row) -> TiltedVector:
         witness=stored_certificate(row, prove(pair, decision)),
         flags=tilted_flags(pair, decision),
     )
+
+
+def _labelled_ended(name: str, row: Row) -> EndedVector:
+    pair = Pair.from_row(row)
+    decision = exact.decide(pair.lengths)
+    proof = ended_prove.prove(pair, decision) if pair.has_ends else prove(pair, decision)
+    witness = StoredCertificate(
+        proof.multiplier, tuple(offset_to(row, point) for point in proof.points), proof.double_root, proof.pieces
+    )
+    return EndedVector(name, row, decision.position, decision.tangent, witness)
 
 
 def _labelled_way(name: str, row: Row) -> WayVector:

@@ -18,7 +18,7 @@ from hypcheck.tables.streams import writing
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
-from hypcheck.vectors.cases import AnyVector, TiltedVector, UprightVector, WayVector, case_text
+from hypcheck.vectors.cases import AnyVector, EndedVector, TiltedVector, UprightVector, WayVector, case_text
 from hypcheck.vectors.families import EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata
 from hypcheck.vectors.format import Content, read_metadata
@@ -56,7 +56,7 @@ def family_lines(name: str) -> Iterator[str]:
         yield from _titled("answers", _counted("contact" if case.hit else "clear" for case in file.cases))
     else:
         yield from _titled("positions", _counted(case.position.label for case in file.cases))
-        if not file.content.tilted:
+        if not file.content.tilted and not file.content.ended:
             yield from _titled("kinds", _counted(case.kind.value for case in file.cases))
     for flag, facts in file.flags.items():
         count = sum(flag in case.flags for case in file.cases)
@@ -82,8 +82,11 @@ def _invalid_row_lines(case: InvalidRow, content: Content) -> Iterator[str]:
     yield from _titled("expected", EXPECTED)
 
 
-def _position_lines(case: UprightVector | TiltedVector) -> Iterator[str]:
+def _position_lines(case: UprightVector | TiltedVector | EndedVector) -> Iterator[str]:
     yield from _titled("position", f"{case.position.label}, tangent" if case.tangent else case.position.label)
+    if isinstance(case, EndedVector):
+        yield from _titled("proof", _ended_proof(case))
+        return
     if case.kind is not None:
         yield from _titled("kind", f"{case.kind.value}: {case.kind.description}")
     yield from _titled("clearance", f"{case.clearance!r} spheroid radii ({hex_of(case.clearance)})")
@@ -170,6 +173,21 @@ def _proof(case: UprightVector | TiltedVector) -> str:
     where = "on the surface" if len(witness.offsets) == 1 else "on both sides of the surface"
     step = "b (s, t, w)" if tilted else "(b s, b t, d w)"
     return f"in the spheroid and {where}: the centre + {step} for (s, t, w) = {points}"
+
+
+def _ended_proof(case: EndedVector) -> str:
+    witness = case.witness
+    if witness.multiplier is not None:
+        return f"S + λH is positive definite at λ {equals_text(witness.multiplier)}, with or without ends"
+    if witness.pieces:
+        pieces = counted(len(witness.pieces), "piece")
+        return f"S + λH + μZ is positive definite in each of {pieces} of the heights"
+    if witness.offsets:
+        points = " and ".join(f"({', '.join(map(readable_text, point))})" for point in witness.offsets)
+        return (
+            f"two points of the spheroid on both sides of the border: the centre + b (s, t, w) for (s, t, w) = {points}"
+        )
+    return "the exact rule in the height"
 
 
 def _counted(names: Iterable[str]) -> str:

@@ -223,7 +223,7 @@ def _gated_rows(name: str, line: ImplementationLine) -> Iterator[Row]:
             shown,
             what,
             description.question,
-            "upright and tilted" if description.tilt else "upright",
+            ("upright and tilted" if description.tilt else "upright") + ", with ends" * (description.heights is True),
             description.precision,
             domain_text(description.domain),
             description.language or MISSING,

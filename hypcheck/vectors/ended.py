@@ -1,0 +1,278 @@
+"""Hyperboloids that end: rows of thirteen numbers, with the traps of rims, openings, discs and thin slabs.
+
+Every other row is about a solid body. Most are made for the upper end, and half of them are mirrored at z = 0. A rim at
+height w has the radius r = α √(1 + w²/γ²); a spheroid whose centre is X + Σ N/√(NᵀΣN), Σ its matrix of squared
+semi-axes, touches the plane through X across N, and so the rim if X lies on it and N points away from the wall there.
+Exact touches have w/γ, the direction of N and the azimuth from Pythagorean triples.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hypcheck.geometry.pair import UPRIGHT
+from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.vectors import random_pairs, tilted
+from hypcheck.vectors.draw import Draw, Integers, Maker, ldexp, stepped, turns
+from hypcheck.vectors.random_pairs import Sizes, all_regimes, sizes
+from hypcheck.vectors.tilted import Vectors, anywhere
+
+TRIPLES = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (8, 15, 17), (15, 8, 17), (0, 1, 1)])
+_ALONG = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (0, 1, 1), (-3, 4, 5), (-4, 3, 5), (-5, 12, 13)])
+
+
+def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers | None = None) -> Rows:
+    """Rows with these ends, an axis where they have none, every other one solid and half of them mirrored."""
+    n = len(rows)
+    axis = rows[:, 7:10] if rows.shape[1] > 7 else np.broadcast_to(UPRIGHT, (n, 3))
+    made = np.hstack([rows[:, :7], axis, np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)])
+    down = draw.signs(n) < 0
+    made[down, 6] *= -1
+    if axis[:, :2].any():
+        made[down, 9] *= -1
+    made[down, 10], made[down, 11] = -made[down, 11], -made[down, 10]
+    return np.asarray(made + 0.0)
+
+
+def _lower(draw: Draw, high: Floats, unit: Floats) -> Floats:
+    """A lower end some units below, or none."""
+    n = len(high)
+    return np.asarray(np.where(turns(n, True, False, False), -np.inf, high - unit * draw.log_uniform(n, -3, 6)))
+
+
+def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
+    """Sizes of every regime, and heights of a rim in γ."""
+    return sizes(draw, *all_regimes(draw, n)), draw.signs(n) * draw.log_uniform(n, -6, 1)
+
+
+def _hair(draw: Draw, n: int) -> Floats:
+    """1, and a little more or less."""
+    return np.asarray(1 + draw.signs(n) * draw.log_uniform(n, -50, -3))
+
+
+def uniform(draw: Draw, n: int) -> Rows:
+    """All regimes and places, the upper end within one and a half radii of the centre's height."""
+    rows = random_pairs.uniform(draw, n)
+    return _beside_an_end(draw, rows, rows[:, 3])
+
+
+def tilted_uniform(draw: Draw, n: int) -> Rows:
+    """The same with axes in every direction."""
+    rows = tilted.uniform(draw, n)
+    return _beside_an_end(draw, rows, np.maximum(rows[:, 2], rows[:, 3]))
+
+
+def _beside_an_end(draw: Draw, rows: Rows, unit: Floats) -> Rows:
+    high = rows[:, 6] + unit * draw.between(len(rows), -1.5, 1.5)
+    return _rows(draw, rows, _lower(draw, high, unit), high)
+
+
+def _touching(size: Sizes, axis: Vectors, point: Vectors, normal: Vectors, share: Floats) -> Rows:
+    """Rows whose spheroid, `share` times as far away, touches the plane through the point across the normal."""
+    length = np.sqrt(sum(part * part for part in axis))
+    unit = [part / length for part in axis]
+    along = sum(p * q for p, q in zip(normal, unit, strict=True))
+    shift = [size.b**2 * (p - along * q) + size.d**2 * along * q for p, q in zip(normal, unit, strict=True)]
+    half = np.sqrt(sum(p * q for p, q in zip(normal, shift, strict=True)))
+    center = [p + share * q / half for p, q in zip(point, shift, strict=True)]
+    return tilted.stack(size, center, axis)
+
+
+def _at_rim(draw: Draw, size: Sizes, height: Floats, axis: Vectors) -> Rows:
+    """Rows near contact with a rim at this height in γ, above it, outside or inside."""
+    n = len(height)
+    cosine, sine = draw.circle(n)
+    out, up = draw.circle(n)
+    radius, up = size.alpha * np.sqrt(1 + height * height), np.abs(up)
+    point = (radius * cosine, radius * sine, size.gamma * height)
+    rows = _touching(size, axis, point, (out * cosine, out * sine, up), _hair(draw, n))
+    high = size.gamma * height
+    return _rows(draw, rows, _lower(draw, high, size.d), high)
+
+
+def _upward(n: int) -> Vectors:
+    return np.zeros(n), np.zeros(n), np.ones(n)
+
+
+def rim(draw: Draw, n: int) -> Rows:
+    """From 2⁻⁵⁰ to 2⁻³ radii off contact with a rim, from above, from beside and from within."""
+    size, height = _ordinary(draw, n)
+    return _at_rim(draw, size, height, _upward(n))
+
+
+def tilted_rim(draw: Draw, n: int) -> Rows:
+    """The same with axes in every direction."""
+    size, height = _ordinary(draw, n)
+    return _at_rim(draw, size, height, anywhere(draw, n))
+
+
+def stiff(draw: Draw, n: int) -> Rows:
+    """Near contact with a rim, ratios of sizes up to 2²⁷."""
+    size = sizes(draw, draw.log_uniform(n, -13, 13), draw.log_uniform(n, -13, 13), units=(-12, 12))
+    return _at_rim(draw, size, draw.signs(n) * draw.log_uniform(n, -18, 3), _upward(n))
+
+
+def rim_tangent(draw: Draw, n: int) -> Rows:
+    """The rim touched exactly: whole numbers times one power of two."""
+    rise, leg, hypotenuse = TRIPLES[draw.integers(n, 0, len(TRIPLES) - 1)].T
+    out, up, radius = _ALONG[draw.integers(n, 0, len(_ALONG) - 1)].T
+    p, q, turn = TRIPLES[draw.integers(n, 0, len(TRIPLES) - 1)].T
+    wide, tall, b, d = (draw.integers(n, 1, 40) for _ in range(4))
+    center = hypotenuse * wide + out * b
+    whole = [leg * wide * turn, leg * tall, radius * b * turn, radius * d, center * p, center * q, rise * tall + up * d]
+    unit = ldexp(np.ones(n), draw.integers(n, -9, 2))
+    rows = np.stack(whole, axis=1).astype(np.float64) * unit[:, None]
+    high = (rise * tall).astype(np.float64) * unit
+    return _rows(draw, rows, _lower(draw, high, rows[:, 3]), high)
+
+
+def rim_neighbourhood(draw: Draw, n: int) -> Rows:
+    """Exact touches of a rim, one number moved by one to four ulps."""
+    rows = rim_tangent(draw, n)
+    column = np.asarray([0, 1, 2, 3, 4, 5, 6, 11])[draw.integers(n, 0, 7)]
+    here = np.arange(n)
+    column = np.where(np.isfinite(rows[here, column]), column, 6)
+    steps = draw.integers(n, 1, 4) * draw.signs(n).astype(np.int64)
+    rows[here, column] = stepped(rows[here, column], steps)
+    return rows
+
+
+def opening(draw: Draw, n: int) -> Rows:
+    """Narrower than the mouth, on its way out of it: the side changes, with contact or without."""
+    size = sizes(draw, draw.log_uniform(n, 0, 4), draw.log_uniform(n, -2, 5))
+    height = draw.log_uniform(n, -4, 1)
+    radius = size.alpha * np.sqrt(1 + height * height)
+    cosine, sine = draw.circle(n)
+    across = np.where(turns(n, True, False, False), 0.0, radius * draw.between(n, 0, 1))
+    high = size.gamma * height
+    z = np.where(turns(n, True, False, False, False), high, high + size.d * draw.between(n, -1.5, 1.5))
+    rows = random_pairs.stack(size, across * cosine, across * sine, z)
+    return _rows(draw, rows, _lower(draw, high, size.d), high)
+
+
+def thin(draw: Draw, n: int) -> Rows:
+    """Near contact with the surface, of which a thin slab is left somewhere within reach."""
+    return _thin(draw, random_pairs.uniform(draw, n), draw.between(n, -1.2, 1.2))
+
+
+def tilted_thin(draw: Draw, n: int) -> Rows:
+    """The same with axes in every direction."""
+    return _thin(draw, tilted.near_contact(draw, n), draw.between(n, -1.2, 1.2))
+
+
+def _thin(draw: Draw, rows: Rows, shift: Floats) -> Rows:
+    unit = rows[:, 3]
+    low = rows[:, 6] + unit * shift
+    high = low + np.maximum(unit * draw.log_uniform(len(rows), -30, -1), np.abs(low) * 2.0**-50)
+    return _rows(draw, rows, low, high)
+
+
+def swallowed(draw: Draw, n: int) -> Rows:
+    """A ring that lies wholly or all but wholly within the spheroid."""
+    size = sizes(draw, draw.log_uniform(n, -6, 0), draw.log_uniform(n, -6, 2))
+    cosine, sine = draw.circle(n)
+    across, z = size.b * draw.between(n, 0, 1.2), size.d * draw.between(n, -1, 1)
+    rows = random_pairs.stack(size, across * cosine, across * sine, z)
+    low = z - size.d * draw.between(n, 0, 1.1)
+    return _rows(draw, rows, low, low + size.d * draw.log_uniform(n, -8, 0))
+
+
+def disc(draw: Draw, n: int) -> Rows:
+    """Above an end, the lowest point all but at it or exactly at it, over the opening or the flat end."""
+    size, height = _ordinary(draw, n)
+    return _at_disc(draw, size, height, _upward(n))
+
+
+def tilted_disc(draw: Draw, n: int) -> Rows:
+    """The same with axes in every direction."""
+    size, height = _ordinary(draw, n)
+    return _at_disc(draw, size, height, anywhere(draw, n))
+
+
+def _at_disc(draw: Draw, size: Sizes, height: Floats, axis: Vectors) -> Rows:
+    n = len(height)
+    cosine, sine = draw.circle(n)
+    across = size.alpha * np.sqrt(1 + height * height) * draw.between(n, 0, 1.05)
+    high = size.gamma * height
+    share = np.where(turns(n, True, False, False), 1.0, _hair(draw, n))
+    point = (across * cosine, across * sine, high)
+    rows = _touching(size, axis, point, (np.zeros(n), np.zeros(n), np.ones(n)), share)
+    return _rows(draw, rows, _lower(draw, high, size.d), high, solid=turns(n, 1, 1, 0))
+
+
+def groove(draw: Draw, n: int) -> Rows:
+    """All but resting on both flanks of the groove, of which the ends leave one, both or none.
+
+    The normal of the point at height ζ of the hyperboloid a, c meets the plane of the waist c² times its length away.
+    """
+    a, c, zeta = draw.log_uniform(n, 0, 4), draw.log_uniform(n, -3, 0), draw.log_uniform(n, -4, 1)
+    flank = a * np.sqrt(1 + (zeta / c) * (zeta / c))
+    ball = c * c * np.sqrt((flank / (a * a)) ** 2 + (zeta / (c * c)) ** 2)
+    size = sizes(draw, a / ball, c / ball)
+    cosine, sine = draw.circle(n)
+    across = size.b * (flank + c * c * flank / (a * a)) / ball * _hair(draw, n)
+    rows = random_pairs.stack(size, across * cosine, across * sine, np.zeros(n))
+    shares = [np.asarray(turns(n, *values)) for values in ((0.5, 1.0, 2.0, 0.9, np.inf), (2.0, 0.5, 1.0))]
+    high, low = (size.d * zeta / ball * share * _hair(draw, n) for share in shares)
+    return _rows(draw, rows, -low, high)
+
+
+def waist(draw: Draw, n: int) -> Rows:
+    """An end at the waist itself, or a hair from it."""
+    size, _ = _ordinary(draw, n)
+    height = np.where(turns(n, True, False), 0.0, draw.signs(n) * draw.log_uniform(n, -40, -8))
+    return _at_rim(draw, size, height, _upward(n))
+
+
+def far(draw: Draw, n: int) -> Rows:
+    """Near contact, the ends far away or infinite: as without them."""
+    size, _ = _ordinary(draw, n)
+    rows = random_pairs.beside(draw, size, random_pairs.heights(draw, size.c), draw.signs(n) * _hair(draw, n))
+    unit = rows[:, 1] + np.maximum(rows[:, 2], rows[:, 3])
+    reach = unit * draw.log_uniform(n, 5, 40)
+    low = np.where(turns(n, True, False, False, False), -np.inf, rows[:, 6] - reach)
+    high = np.where(turns(n, False, True, True), np.inf, rows[:, 6] + reach)
+    return _rows(draw, rows, low, high)
+
+
+def integers(draw: Draw, n: int) -> Rows:
+    """Whole numbers as a person types them, upright."""
+    return _integers(draw, n, upright=True)
+
+
+def tilted_integers(draw: Draw, n: int) -> Rows:
+    """The same with axes of whole numbers."""
+    return _integers(draw, n, upright=False)
+
+
+def _integers(draw: Draw, n: int, *, upright: bool) -> Rows:
+    rows = tilted.small_integers(draw, n)
+    rows = rows[:, :7] if upright else rows
+    high = (rows[:, 6] + draw.integers(n, -6, 6)).astype(np.float64)
+    low = np.where(turns(n, True, False, False), -np.inf, high - draw.integers(n, 1, 12))
+    return _rows(draw, rows, low, high)
+
+
+FAMILIES: dict[str, tuple[Maker, int]] = {
+    "ended-uniform": (uniform, 60),
+    "ended-rim": (rim, 60),
+    "ended-rim-tangent": (rim_tangent, 60),
+    "ended-rim-neighbourhood": (rim_neighbourhood, 60),
+    "ended-opening": (opening, 48),
+    "ended-thin": (thin, 48),
+    "ended-swallowed": (swallowed, 48),
+    "ended-disc": (disc, 48),
+    "ended-groove": (groove, 60),
+    "ended-waist": (waist, 40),
+    "ended-far": (far, 40),
+    "ended-stiff": (stiff, 40),
+    "ended-small-integers": (integers, 60),
+}
+TILTED: dict[str, tuple[Maker, int]] = {
+    "tilted-ended-uniform": (tilted_uniform, 48),
+    "tilted-ended-rim": (tilted_rim, 48),
+    "tilted-ended-thin": (tilted_thin, 40),
+    "tilted-ended-disc": (tilted_disc, 48),
+    "tilted-ended-small-integers": (tilted_integers, 60),
+}
+"""The generators by the names of their families, upright and tilted, each with how many rows are frozen."""
