@@ -203,8 +203,8 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     case = of_question(case, used)
     if len(case.row) > len(used.asked.layout.tilted) and not used.heights:
         raise InputError(
-            f"{case.name} has heights where the hyperboloid ends, and {used.name} takes none; its description must have "
-            '"takes": ["heights"]'
+            f"{case.name} has heights at which the hyperboloid ends, and {used.name} takes none; its description must "
+            'have "takes": ["heights"]'
         )
     if len(case.row) == len(used.asked.layout.tilted) and not used.tilt:
         raise InputError(
