@@ -1,8 +1,8 @@
 """The frozen cases of `cases/`, read as a stranger reads them: JSON, without any code of hypcheck.
 
 A case asks a question by its row. Its columns are in groups: the sizes and the centre; the end of a straight motion;
-the axis; the heights where the hyperboloid ends. What is asked of a decider is a `Questions`: rows of one set of groups,
-as columns.
+the axis; the heights where the hyperboloid ends. What is asked of a decider is a `Questions`: rows of one set of
+groups, as columns.
 """
 
 from __future__ import annotations
