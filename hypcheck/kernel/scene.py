@@ -163,9 +163,8 @@ class Scene:
             way = query[pair]
             own_axis = UPRIGHT if movers is None else movers[way].tolist()
             whole = Sweep(starts[way].tolist(), ends[way].tolist(), own_axis)
-            places = (
-                places_of_parts(mover.parts, point, float(headings[way]), own_axis) for point in (whole.start, whole.end)
-            )
+            heading_of = float(headings[way])
+            places = (places_of_parts(mover.parts, at, heading_of, own_axis) for at in (whole.start, whole.end))
             parts = [
                 (part.b, part.d, Sweep(here, there, own_axis))
                 for part, here, there in zip(mover.parts, *places, strict=True)
@@ -181,7 +180,8 @@ class Scene:
 
         `x`, `y`, `z` are (n,) each or single numbers. The distance is Euclidean, from the mover itself, not its parts,
         to what stands of the surface, and to flat ends where they belong to it, wherever the mover is, whatever the
-        scene's question is; it is 0 in contact, and only there. `axis` is as in classify. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        scene's question is; it is 0 in contact, and only there. `axis` is as in classify. Raises InputError for numbers
+        that are not finite, and for an axis where the scene fixes it.
         """
         mover = self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
@@ -209,7 +209,9 @@ class Scene:
         said = self._of_one(index, (mover.b, mover.d), centre, axis)
         return self._of_parts(index, centre, heading, axis) if said == CONTACT and mover.parts else said
 
-    def _of_one(self, index: int, semi_axes: tuple[float, float], centre: Sequence[float], axis: Sequence[float]) -> int:
+    def _of_one(
+        self, index: int, semi_axes: tuple[float, float], centre: Sequence[float], axis: Sequence[float]
+    ) -> int:
         """The position of one spheroid with these semi-axes beside a hyperboloid."""
         body = self.model.hyperboloids[index]
         whole = position_leaning((body.alpha, body.gamma, *semi_axes), centre, body.center, axis, body.axis)
@@ -227,7 +229,7 @@ class Scene:
         bodies, body = self._bodies, self.model.hyperboloids[index]
         upward, span = bodies.axes[index].tolist(), bodies.spans[index].tolist()
         sizes = (body.alpha, body.gamma, *semi_axes)
-        return position_with_ends(whole, sizes, centre, body.center, axis, upward, span, body.solid)
+        return position_with_ends(whole, sizes, centre, body.center, axis, upward, span, solid=body.solid)
 
     def _answer(self, position: int) -> int:
         question = self.model.question
@@ -286,9 +288,8 @@ class Scene:
         some = np.flatnonzero(~between & (result != EXTERIOR))
         if len(some):
             axes = np.broadcast_to(UPRIGHT, (len(some), 3)) if movers is None else movers[query[some]]
-            result[some] = positions_with_ends(
-                result[some], sizes[some], *(points[some] for points in pairs), axes, bodies, body[some]
-            )
+            places = pairs[0][some], pairs[1][some], axes
+            result[some] = positions_with_ends(result[some], sizes[some], *places, bodies, body[some])
         for pair in np.flatnonzero(result == CONTACT).tolist() if mover.parts else ():
             asked = query[pair]
             axis = UPRIGHT if movers is None else movers[asked].tolist()
@@ -310,7 +311,7 @@ class Scene:
         question = self.model.question
         if question == "position":
             return positions
-        return (positions == POSITION_OF[question]).astype(np.int8)
+        return np.asarray(positions == POSITION_OF[question], np.int8)
 
     def _body(self, index: int) -> tuple[Body, float, float, float, float]:
         """A hyperboloid's numbers, and its limits, without arrays; each is kept once it was asked."""

@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS, Lengths, Position
+from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.scene_index import Bodies
 from hypcheck.kernel.scene_pairs import GREATEST, LEAST, MARGIN, along_and_across, height_and_distance
@@ -42,9 +42,9 @@ def limits_of(bodies: Bodies, mover: Mover) -> Floats:
     reach = max(mover.b, mover.d) if leans(mover.axis) else mover.d
     low, high = bodies.heights.T
     with np.errstate(all="ignore"):
-        size = np.abs(bodies.origins[:, 2]) + reach
-        far = [reach + MARGIN * reach + 2.0**-45 * (size + np.where(np.isinf(end), 0, np.abs(end))) for end in (low, high)]
-        found = np.stack([low - far[0], high + far[1], low + far[0], high - far[1]], axis=1)
+        ends = np.where(np.isinf(bodies.heights), 0, np.abs(bodies.heights)).max(axis=1)
+        far = reach * (1 + MARGIN) + 2.0**-45 * (np.abs(bodies.origins[:, 2]) + reach + ends)
+        found = np.stack([low - far, high + far, low + far, high - far], axis=1)
     tilted = bodies.leaning & np.isfinite(bodies.spans).any(axis=1)
     found[tilted] = -inf, inf, inf, -inf
     return found
@@ -93,7 +93,8 @@ def meets_for_sure(mover: Mover, shapes: Rows, spans: Rows, places: Rows, lost: 
         across = np.hypot(places[:, 0], places[:, 1])
         error = 2 * lost + MARGIN * size + LEAST
         least = min(mover.b, mover.d)
-        place = _Place(*shapes.T, places[:, 2], across, error, *spans.T, least, least)
+        alpha, gamma, low, high = shapes[:, 0], shapes[:, 1], spans[:, 0], spans[:, 1]
+        place = _Place(alpha, gamma, places[:, 2], across, error, low, high, least, least)
         return np.asarray(place.centre_between_and_beyond()[0] & place.crosses() & (size < GREATEST))
 
 
@@ -107,11 +108,10 @@ def positions_with_ends(
     axes, spans, solid = bodies.axes[body], bodies.spans[body], bodies.solid[body]
     with np.errstate(all="ignore"):
         upright = (movers[:, :2] == 0).all(axis=1) & ~bodies.leaning[body]
-        b, d = sizes[:, 2], sizes[:, 3]
-        place = _Place(
-            sizes[:, 0], sizes[:, 1], *along_and_across(centres, origins, axes), *spans.T,
-            np.where(upright, d, np.maximum(b, d)), np.where(upright, b, np.minimum(b, d)),
-        )  # fmt: skip
+        (alpha, gamma, b, d), (low, high) = sizes.T, spans.T
+        along, across, error = along_and_across(centres, origins, axes)
+        reach, least = np.where(upright, d, np.maximum(b, d)), np.where(upright, b, np.minimum(b, d))
+        place = _Place(alpha, gamma, along, across, error, low, high, reach, least)
         between, beyond = place.between_and_beyond()
         inner, outer = place.centre_between_and_beyond()
         open_inside = (whole == Position.INTERIOR) & ~solid
@@ -120,9 +120,10 @@ def positions_with_ends(
     known = between | (open_inside & inner) | crosses
     result = np.where(exterior, Position.EXTERIOR, whole).astype(np.int8)
     for index in np.flatnonzero(~(exterior | known)).tolist():
-        columns = (sizes, centres, origins, movers, axes, spans)
-        row = [column[index].tolist() for column in columns]
-        result[index] = exact_position(int(whole[index]), *row, bool(solid[index]))
+        row, centre, origin, mover, axis, span = (
+            column[index].tolist() for column in (sizes, centres, origins, movers, axes, spans)
+        )
+        result[index] = _exactly(int(whole[index]), row, centre, origin, mover, axis, span, solid=bool(solid[index]))
     return result
 
 
@@ -134,14 +135,15 @@ def position_with_ends(
     mover: Sequence[float],
     axis: Sequence[float],
     span: Sequence[float],
-    solid: bool,  # noqa: FBT001 - a column as the others
+    *,
+    solid: bool,
 ) -> int:
     """The same of one pair."""
-    alpha, gamma, b, d = sizes
+    (alpha, gamma, b, d), (low, high) = sizes, span
     upright = mover[0] == mover[1] == axis[0] == axis[1] == 0
     along, across, error = height_and_distance(centre, origin, axis)
     reach, least = (d, b) if upright else (max(b, d), min(b, d))
-    place = _Place(alpha, gamma, along, across, error, *span, reach, least)
+    place = _Place(alpha, gamma, along, across, error, low, high, reach, least)
     between, beyond = place.between_and_beyond()
     if between:
         return whole
@@ -152,10 +154,10 @@ def position_with_ends(
         return int(Position.INTERIOR if inner else Position.EXTERIOR)
     if whole == Position.CONTACT and inner and place.crosses():
         return whole
-    return exact_position(whole, sizes, centre, origin, mover, axis, span, solid)
+    return _exactly(whole, sizes, centre, origin, mover, axis, span, solid=solid)
 
 
-def exact_position(
+def _exactly(
     whole: int,
     sizes: Sequence[float],
     centre: Sequence[float],
@@ -163,7 +165,8 @@ def exact_position(
     mover: Sequence[float],
     axis: Sequence[float],
     span: Sequence[float],
-    solid: bool,  # noqa: FBT001 - a column as the others
+    *,
+    solid: bool,
 ) -> int:
     """The same in integers."""
     if tuple(span) == WITHOUT_ENDS[:2]:

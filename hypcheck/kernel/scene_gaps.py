@@ -1,14 +1,14 @@
-"""Distances between spheroids and what stands of hyperboloids that end, in the hyperboloids' frames: branch and bound.
+"""Distances from spheroids to what stands of hyperboloids that end, in the frames of these: branch and bound.
 
 With f(X) the distance from the spheroid to a point X outside of it, and n the unit vector along which that is, the
-spheroid lies in a half space: f(Y) ≥ n·(Y − C) − h(n) for every Y, h(n) = √(b² + (d² − b²)(n·v)²) and v its axis. So the
-least n·Y in a cell of the wall is a lower bound for all of the cell, whatever n is, and its place a point to try. It is
-known in closed form:
+spheroid lies in a half space: f(Y) ≥ n·(Y − C) − h(n) for every Y, with h(n) = √(b² + (d² − b²)(n·v)²) and v its axis.
+So the least n·Y in a cell of the wall is a lower bound for the cell, whatever n is, and its place a point to try.
+It is known in closed form:
 
-- beside a tilted spheroid cells are pieces of the rulings Y = (α (cos φ − w/γ sin φ), α (sin φ + w/γ cos φ), w): linear in w,
-  a cosine in φ, so that the least is at an end of w, and in φ at an end or where the cosine is −1;
-- beside an upright one Y = (ρ(w), w) in the meridian half plane of C, ρ = α √(1 + w²/γ²), has all that is needed: n_r ρ + n_z w
-  is least where its slope is 0, or at an end.
+- beside a tilted spheroid cells are pieces of the rulings Y = (α (cos φ − w/γ sin φ), α (sin φ + w/γ cos φ), w),
+  linear in w and a cosine in φ, so that the least is at an end of w, and in φ at an end or where the cosine is −1;
+- beside an upright one Y = (ρ(w), w) in the meridian half plane of C, ρ = α √(1 + w²/γ²), has all that is needed:
+  n_r ρ + n_z w is least where its slope is 0, or at an end.
 
 Cells above what some point reaches are dropped, the others halved. The distance to an end disc is that to its rim, a
 border of the wall, or where the spheroid's point nearest to the disc's plane is above the disc, that to the plane.
@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -73,7 +74,8 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
     with np.errstate(all="ignore"):
         unit_of = -np.frexp(np.maximum(np.abs(centres).max(axis=1), sizes[:, 2:].max(axis=1)))[1]  # squares overflow
         sizes, centres, spans = (np.ldexp(column, unit_of[:, None]) for column in (sizes, centres, spans))
-        pairs = _Pairs(*np.ascontiguousarray(sizes.T), centres, unit, upright)
+        alpha, gamma, b, d = np.ascontiguousarray(sizes.T)
+        pairs = _Pairs(alpha, gamma, b, d, centres, unit, upright)
         found = _to_walls(pairs, spans, np.ldexp(farthest, unit_of))
         for end in (0, 1):
             _to_discs(found, pairs, spans[:, end], solid)
@@ -118,7 +120,7 @@ def _first_cells(pairs: _Pairs, spans: Rows, farthest: Floats) -> tuple[Indices,
     owners, cells = [], []
     for upright in (True, False):
         of = np.flatnonzero(pairs.upright == upright)
-        across = [(0.0, 0.0)] if upright else list(zip(turns[:-1], turns[1:], strict=True))
+        across = [(0.0, 0.0)] if upright else list(pairwise(turns.tolist()))
         for place in range(_FIRST):
             for begin, end in across:
                 ends = (edges[of, place], edges[of, place + 1], np.full(len(of), begin), np.full(len(of), end))

@@ -114,10 +114,11 @@ def is_clear(
     """
     spheroids = [mover, *parts]
     if all(_between_ends(bodies, index, *spheroid) for spheroid in spheroids):
-        sweeps = [swept.passage(*_from(bodies, index, *spheroid)) for spheroid in (parts or [mover])]
+        sweeps = [swept.passage(*_between(bodies, index, *spheroid)) for spheroid in (parts or [mover])]
         return not any(sweep.hit for sweep in sweeps) and len({sweep.start for sweep in sweeps}) == 1
-    heights = (*bodies.spans[index].tolist(), float(bodies.solid[index]))
-    whole, *others = (swept.journey_of(*_from(bodies, index, *spheroid), heights) for spheroid in spheroids)
+    low, high = bodies.spans[index].tolist()
+    heights = (low, high, float(bodies.solid[index]))
+    whole, *others = (swept.journey_of(*_between(bodies, index, *spheroid), heights) for spheroid in spheroids)
     return not ended_sweeps.meets(EndedSweep(whole, tuple(others)))
 
 
@@ -131,7 +132,12 @@ def _between_ends(bodies: Bodies, index: int, b: float, d: float, sweep: Sweep) 
     )
 
 
-def _from(bodies: Bodies, index: int, b: float, d: float, sweep: Sweep) -> tuple[Sequence[float | Fraction], ...]:
+_Numbers = Sequence[float | Fraction]
+
+
+def _between(
+    bodies: Bodies, index: int, b: float, d: float, sweep: Sweep
+) -> tuple[_Numbers, _Numbers, _Numbers, _Numbers, _Numbers]:
     """The sizes, the exact start and end from the hyperboloid's centre, and the axes of both."""
     origin = bodies.origins[index].tolist()
     start, end = (

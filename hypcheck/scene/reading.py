@@ -165,7 +165,7 @@ def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
             center=table.optional("center", tables.point, (0.0, 0.0, 0.0)),
             height=table.optional("height", tables.height, None),
             axis=table.optional("axis", tables.axis, UPRIGHT),
-            solid=table.optional("solid", tables.truth, False),  # noqa: FBT003 - the value where the key is not there
+            solid=table.optional("solid", tables.truth, False),
         )
         first = found.setdefault(body.name, number)
         if first != number:

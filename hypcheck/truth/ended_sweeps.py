@@ -1,18 +1,18 @@
 """Sweeps beside a hyperboloid that ends: whether a spheroid that moves straight meets its wall or its discs, and when.
 
-Contact begins and ends where the spheroid E touches the wall or a disc without crossing it. The point of touch lies
+Contact begins and ends where the spheroid E touches the wall or a disc without crossing it. The point of touch is
 
-- on the wall between its ends: E is tangent to the whole hyperboloid there, and the discriminant of F is 0 (journey.py);
+- on the wall between its ends: E is tangent to the whole hyperboloid, and the discriminant of F is 0 (journey.py);
 - on a rim: the circle just touches the ellipse of its plane, and Δ of the cubic g at that height is 0 (sections.py);
 - within a disc: its plane is tangent to E, and k at that height is 0.
 
-All of these are polynomials in the time t: the coefficients of g, and k, are quadratic in the centre and so in t. An end
-of a tilted hyperboloid is at a height w √U, so that they are u + v √U with polynomials u, v; then the norm u² − U v² is
-taken. Between two neighbouring roots of them all nothing changes, and one exact decision finds it.
+All of these are polynomials in the time t: the coefficients of g, and k, are quadratic in the centre and so in t. An
+end of a tilted hyperboloid is at a height w √U, so that they are u + v √U with polynomials u, v; then the norm
+u² − U v² is taken. Between two neighbouring roots of them all nothing changes, and one exact decision finds it.
 
 Roots are enclosed ever more narrowly. What is closer together than that counts as one cluster. A cluster between two
-clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for an
-instant, or comes nearer than 2^−_BITS[-1] of its way; both count as contact.
+clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for
+an instant, or comes nearer than 2^−_BITS[-1] of its way; both count as contact.
 """
 
 from __future__ import annotations
@@ -180,7 +180,7 @@ def _gaps(clusters: Sequence[Interval]) -> list[Fraction | None]:
 
 
 def _first_of(sweep: EndedSweep, clusters: Sequence[Interval]) -> tuple[Interval | None, bool]:
-    """The first cluster with contact in it or behind it, and whether all before are surely clear; the start is clear."""
+    """The first cluster with contact in it or behind it, the start being clear, and whether that is certain."""
     for (low, high), behind in zip(clusters, _gaps(clusters)[1:], strict=True):
         if low == high:
             if sweep.meets(low):

@@ -184,11 +184,11 @@ def passage(
     """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
     `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the way, and `upward` any
-    along the hyperboloid's; they are vertical where they are None. `heights` are z_min, z_max, where the hyperboloid ends
-    along its axis, and 1 if flat ends belong to it. Exact for every valid value, in every regime; where the hyperboloid
-    ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is not finite and
-    > 0, a coordinate not finite, an axis without direction, heights that are none, or their number not 4, 3, 3, 3, 3
-    and 3.
+    along the hyperboloid's; they are vertical where they are None. `heights` are z_min and z_max, where the hyperboloid
+    ends along its axis, and 1 if flat ends belong to it. Exact for every valid value, in every regime; where the
+    hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is not
+    finite and > 0, a coordinate not finite, an axis without direction, heights that are none, or their number not 4, 3,
+    3, 3, 3 and 3.
     """
     journey = journey_of(sizes, start, end, axis, upward, heights)
     if journey.start.has_ends:

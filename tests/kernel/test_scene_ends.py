@@ -76,7 +76,7 @@ def frame(body):
 
 
 def near(draw, body, mover, axis):
-    """A centre from which the mover nearly touches a rim, a disc or the wall, within 1e-9 or 1e-16 or as floats fall."""
+    """A centre from which the mover nearly touches a rim, a disc or the wall, within 1e-9 or as floats fall."""
     end = draw.choice([height for height in body.height.ends if np.isfinite(height)])
     bottom = max(body.height.low, body.height.high - 2)
     where, turn = draw.choice(["rim", "rim", "disc", "wall"]), draw.uniform(0, 2 * np.pi)
@@ -168,15 +168,15 @@ def test_nearest_distance_is_the_least_over_points_of_what_stands(seed):
     assert to_point[clear] == pytest.approx(found.distance_upper[clear], abs=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(0, 8, 2))
 def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before_the_first(seed):
     """Exact positions at 33 times of each sweep; the first contact is enclosed within 2^-58 of the whole."""
-    draw = np.random.default_rng(seed)
-    body = random_body(draw, 0, tilted=seed % 2 == 1)
-    axis = draw.normal(size=3).tolist() if seed % 4 > 1 else list(UPRIGHT)
-    mover, hits = Mover(*draw.uniform(0.05, 0.8, 2).tolist(), axis=tuple(axis)), set()
-    asked = scene(body, mover=mover)
-    for _ in range(9):
+    draw, hits = np.random.default_rng(seed), set()
+    for number in range(9):
+        body = random_body(draw, 0, tilted=number % 2 == 1)
+        axis = draw.normal(size=3).tolist() if seed % 4 > 1 else list(UPRIGHT)
+        mover = Mover(*draw.uniform(0.05, 0.8, 2).tolist(), axis=tuple(axis))
+        asked = scene(body, mover=mover)
         start = near(draw, body, mover, axis) if draw.random() < 0.3 else (draw.normal(size=3) * 1.5).tolist()
         end = near(draw, body, mover, axis) if draw.random() < 0.3 else (draw.normal(size=3) * 1.5).tolist()
         hit = bool(asked.passage(start, end)[0])
@@ -186,7 +186,8 @@ def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before
         found = passage(sizes, *offsets, axis, body.axis, heights)
         assert found.hit == hit
         times = [Fraction(k, 32) for k in range(33)]
-        places = [[a + time * (b - a) for a, b in zip(map(Fraction, start), map(Fraction, end), strict=True)] for time in times]
+        way = [(Fraction(here), Fraction(there)) for here, there in zip(start, end, strict=True)]
+        places = ([here + time * (there - here) for here, there in way] for time in times)
         said = [truth_beside(body, (mover.b, mover.d), axis, place) for place in places]
         touching = [time for time, position in zip(times, said, strict=True) if position is Position.CONTACT]
         if found.first is None:
@@ -202,7 +203,8 @@ def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before
 
 def test_passage_that_grazes_a_rim_at_an_irrational_time_hits_and_a_hair_above_does_not():
     """A ball of radius 1/4 comes down and goes past (15/8, 0, 1), a point of the rim, along a line at distance 1/4."""
-    body, rim = Hyperboloid("tower", 1.125, 0.75, (0.0, 0.0, 0.0), Span(0.0, 1.0)), 1.875  # 9/8 · 5/3, as 1 + 16/9 = 25/9
+    body = Hyperboloid("tower", 1.125, 0.75, (0.0, 0.0, 0.0), Span(0.0, 1.0))
+    rim = 1.875  # 9/8 · 5/3, as 1 + 16/9 = 25/9
     ball = scene(body, mover=Mover(0.25, 0.25))
     for lift, hit in ((0.0, 1), (2.0**-40, 0), (-(2.0**-40), 1)):
         level = 1.25 + lift

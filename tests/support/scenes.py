@@ -56,7 +56,7 @@ def random_scene(seed):
 
 
 def truth_beside(body, semi_axes, axis, centre):
-    """The exact position of one spheroid, its centre in the scene's coordinates, beside what stands of a hyperboloid."""
+    """The exact position of one spheroid, its centre in the scene's coordinates, beside a hyperboloid that may end."""
     offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
     heights = (-math.inf, math.inf) if body.height is None else body.height.ends
     row = (body.alpha, body.gamma, *semi_axes, *offset, *axis, *heights, body.solid)

@@ -156,8 +156,9 @@ def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
     """The hyperboloid where a mover that reaches so far up and down can touch what stands of it."""
     if body.height is None:
         return body
-    low, high = (float(end + sign * reach * (1 + 2.0**-40)) for sign, end in zip((-1, 1), body.height.ends, strict=True))
-    return replace(body, height=Span(float(np.nextafter(low, -np.inf)), float(np.nextafter(high, np.inf))))
+    far = reach * (1 + 2.0**-40)
+    low, high = np.nextafter((body.height.low - far, body.height.high + far), (-np.inf, np.inf)).tolist()
+    return replace(body, height=Span(low, high))
 
 
 def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
