@@ -8,8 +8,9 @@ Of a mover that reaches over an end, in the hyperboloid's frame:
 
 - exterior beside the whole hyperboloid is exterior;
 - interior is interior, or exterior beyond the end, if the hyperboloid is open;
-- contact is contact if the centre lies between the ends and the mover reaches to both sides of the wall at its own
-  height, where it reaches b across the axis, or the shorter semi-axis at least.
+- contact is contact if the mover reaches to both sides of the wall at its own height, or at the end if it is beyond: at
+  its own height it reaches b across the axis, or its shorter semi-axis at least, and e above or below, where both are
+  upright, b √(1 − e²/d²).
 
 What is left is decided by truth/ends.py. Heights and distances from an axis are those of along_and_across, with a bound
 of their error; ρ is wrong by α/γ of the error of the height and MARGIN of itself.
@@ -61,9 +62,15 @@ class _Place:
     error: Any
     low: Any
     high: Any
+    level: Any
+    """The height next to `along` between the ends."""
+
     reach: Any
     least: Any
-    """How far the mover reaches along the axis at most, and across it, at its own height, at least."""
+    half: Any
+    """How far the mover reaches along the axis at most, and across it, at its own height, at least; and d, inf where
+    one of the axes is tilted.
+    """
 
     def between_and_beyond(self) -> tuple[Any, Any]:
         """Whether the mover surely lies between the ends, and beyond an end."""
@@ -76,11 +83,14 @@ class _Place:
         return (below > self.error) & (above > self.error), (below < -self.error) | (above < -self.error)
 
     def crosses(self) -> Any:  # noqa: ANN401 - as the numbers are
-        """Whether the mover surely reaches to both sides of the wall at its own height."""
-        share = self.along / self.gamma
-        radius = self.alpha * (1 + share * share) ** 0.5
+        """Whether the mover surely reaches to both sides of the wall, at its own height or, upright, at an end."""
+        share, away = self.level / self.gamma, abs(self.level - self.along)
+        fall = (away + self.error) / self.half
+        room = 1 - fall * fall
+        radius, least = self.alpha * (1 + share * share) ** 0.5, self.least * ((room + abs(room)) / 2) ** 0.5
         loose = self.error * (2 + self.alpha / self.gamma) + MARGIN * (radius + self.across + self.least)
-        return (self.across + self.least > radius + loose) & (self.across - self.least < radius - loose)
+        crosses = (self.across + least > radius + loose) & (self.across - least < radius - loose)
+        return crosses & (self.centre_between_and_beyond()[0] | (self.half < inf))
 
 
 def meets_for_sure(mover: Mover, shapes: Rows, spans: Rows, places: Rows, lost: Floats) -> Mask:
@@ -94,8 +104,9 @@ def meets_for_sure(mover: Mover, shapes: Rows, spans: Rows, places: Rows, lost: 
         error = 2 * lost + MARGIN * size + LEAST
         least = min(mover.b, mover.d)
         alpha, gamma, low, high = shapes[:, 0], shapes[:, 1], spans[:, 0], spans[:, 1]
-        place = _Place(alpha, gamma, places[:, 2], across, error, low, high, least, least)
-        return np.asarray(place.centre_between_and_beyond()[0] & place.crosses() & (size < GREATEST))
+        level = np.clip(places[:, 2], low, high)
+        place = _Place(alpha, gamma, places[:, 2], across, error, low, high, level, least, least, inf)
+        return np.asarray(place.crosses() & (size < GREATEST))
 
 
 def positions_with_ends(
@@ -111,11 +122,12 @@ def positions_with_ends(
         (alpha, gamma, b, d), (low, high) = sizes.T, spans.T
         along, across, error = along_and_across(centres, origins, axes)
         reach, least = np.where(upright, d, np.maximum(b, d)), np.where(upright, b, np.minimum(b, d))
-        place = _Place(alpha, gamma, along, across, error, low, high, reach, least)
+        level, half = np.clip(along, low, high), np.where(upright, d, inf)
+        place = _Place(alpha, gamma, along, across, error, low, high, level, reach, least, half)
         between, beyond = place.between_and_beyond()
         inner, outer = place.centre_between_and_beyond()
         open_inside = (whole == Position.INTERIOR) & ~solid
-        crosses = place.crosses() & inner & (whole == Position.CONTACT)
+        crosses = place.crosses() & (whole == Position.CONTACT)
     exterior = beyond | (whole == Position.EXTERIOR) | (open_inside & outer)
     known = between | (open_inside & inner) | crosses
     result = np.where(exterior, Position.EXTERIOR, whole).astype(np.int8)
@@ -142,8 +154,9 @@ def position_with_ends(
     (alpha, gamma, b, d), (low, high) = sizes, span
     upright = mover[0] == mover[1] == axis[0] == axis[1] == 0
     along, across, error = height_and_distance(centre, origin, axis)
-    reach, least = (d, b) if upright else (max(b, d), min(b, d))
-    place = _Place(alpha, gamma, along, across, error, low, high, reach, least)
+    reach, least, half = (d, b, d) if upright else (max(b, d), min(b, d), inf)
+    level = min(max(along, low), high)
+    place = _Place(alpha, gamma, along, across, error, low, high, level, reach, least, half)
     between, beyond = place.between_and_beyond()
     if between:
         return whole
@@ -152,7 +165,7 @@ def position_with_ends(
     inner, outer = place.centre_between_and_beyond()
     if whole == Position.INTERIOR and not solid and (inner or outer):
         return int(Position.INTERIOR if inner else Position.EXTERIOR)
-    if whole == Position.CONTACT and inner and place.crosses():
+    if whole == Position.CONTACT and place.crosses():
         return whole
     return _exactly(whole, sizes, centre, origin, mover, axis, span, solid=solid)
 

@@ -28,7 +28,6 @@ from hypcheck.geometry.pair import (
     AXIS,
     CENTER,
     COLUMNS,
-    HEIGHTS,
     NO_DIRECTION,
     SIZES,
     UPRIGHT,
@@ -179,18 +178,21 @@ def passage(
     end: Sequence[Rational],
     axis: Sequence[Rational] | None = None,
     upward: Sequence[Rational] | None = None,
-    heights: Sequence[float] = WITHOUT_ENDS,
+    *,
+    z_min: float = -math.inf,
+    z_max: float = math.inf,
+    solid: float = False,
 ) -> Passage:
     """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
     `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the way, and `upward` any
-    along the hyperboloid's; they are vertical where they are None. `heights` are z_min and z_max, where the hyperboloid
-    ends along its axis, and 1 if flat ends belong to it. Exact for every valid value, in every regime; where the
-    hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is not
-    finite and > 0, a coordinate not finite, an axis without direction, heights that are none, or their number not 4, 3,
-    3, 3, 3 and 3.
+    along the hyperboloid's; they are vertical where they are None. The hyperboloid ends at the heights `z_min` and
+    `z_max` along its axis; with `solid`, flat ends belong to it. Exact for every valid value, in every regime; where
+    the hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is
+    not finite and > 0, a coordinate not finite, an axis without direction, z_min not less than z_max, or their number
+    not 4, 3, 3, 3 and 3.
     """
-    journey = journey_of(sizes, start, end, axis, upward, heights)
+    journey = journey_of(sizes, start, end, axis, upward, (z_min, z_max, solid))
     if journey.start.has_ends:
         return beside_ends(journey)
     return by_steps(journey) or by_roots(journey)
@@ -261,7 +263,7 @@ def journey_of(
     heights: Sequence[float] = WITHOUT_ENDS,
 ) -> Journey:
     """The way of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
-    trouble = trouble_with_heights(checked_sequence("the heights", HEIGHTS, heights))
+    trouble = trouble_with_heights(heights)
     if trouble is not None:
         raise InputError(trouble)
     ends = [Fraction(height) for height in heights[:2] if math.isfinite(height)]

@@ -181,9 +181,8 @@ def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before
         end = near(draw, body, mover, axis) if draw.random() < 0.3 else (draw.normal(size=3) * 1.5).tolist()
         hit = bool(asked.passage(start, end)[0])
         offsets = [[Fraction(a) - Fraction(b) for a, b in zip(p, body.center, strict=True)] for p in (start, end)]
-        heights = (*body.height.ends, float(body.solid))
-        sizes = (body.alpha, body.gamma, mover.b, mover.d)
-        found = passage(sizes, *offsets, axis, body.axis, heights)
+        sizes, (low, high) = (body.alpha, body.gamma, mover.b, mover.d), body.height.ends
+        found = passage(sizes, *offsets, axis, body.axis, z_min=low, z_max=high, solid=body.solid)
         assert found.hit == hit
         times = [Fraction(k, 32) for k in range(33)]
         way = [(Fraction(here), Fraction(there)) for here, there in zip(start, end, strict=True)]

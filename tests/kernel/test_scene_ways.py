@@ -48,8 +48,10 @@ def passage_beside(body, semi_axes, start, end, axis=None):
         [Fraction(there) - Fraction(here) for there, here in zip(point, body.center, strict=True)]
         for point in (start, end)
     )
-    heights = WITHOUT_ENDS if body.height is None else (*body.height.ends, float(body.solid))
-    return passage((body.alpha, body.gamma, *semi_axes), *ends, axis, body.axis, heights)
+    low, high = WITHOUT_ENDS[:2] if body.height is None else body.height.ends
+    return passage(
+        (body.alpha, body.gamma, *semi_axes), *ends, axis, body.axis, z_min=low, z_max=high, solid=body.solid
+    )
 
 
 def brute_force(scene, start, end, axis=None):
