@@ -190,20 +190,21 @@ class Lengths:
     solid: bool = False
 
     @classmethod
-    def of(cls, row: Sequence[float | Fraction]) -> Lengths:
+    def of(cls, row: Sequence[float | Fraction], upward: Sequence[float | Fraction] = UPRIGHT) -> Lengths:
         """The integers of seven valid numbers, with an axis and heights behind them or not, float64 or rational."""
         alpha, gamma, b, d, x, y, z, *others = row
         direction, ends = others[:3], [height for height in others[3:5] if abs(height) != math.inf]
         radial, axial = (alpha, b, x, y), (gamma, d, z, *ends)
-        if not direction or direction[0] == direction[1] == 0 or b == d:
-            (a, b, x, y), (g, d, z, *ends), axis = to_integers(radial), to_integers(axial), (0, 0, 1)
+        if upward[0] == upward[1] == 0 and (not direction or direction[0] == direction[1] == 0 or b == d):
+            (a, b, x, y), (g, d, z, *ends), axis, along = to_integers(radial), to_integers(axial), (0, 0, 1), (0, 0, 1)
         else:
-            (a, b, x, y, g, d, z, *ends), axis = _smallest(radial + axial), _smallest(direction)
+            (a, b, x, y, g, d, z, *ends), axis = _smallest(radial + axial), _smallest(direction or UPRIGHT)
+            along = _smallest(upward)
         if not ends:
-            return cls(a, b, x, y, g, d, z, axis)
+            return cls(a, b, x, y, g, d, z, axis, along)
         low = None if others[3] == -math.inf else ends[0]
         high = None if others[4] == math.inf else ends[-1]
-        return cls(a, b, x, y, g, d, z, axis, low=low, high=high, solid=bool(others[5]))
+        return cls(a, b, x, y, g, d, z, axis, along, low=low, high=high, solid=bool(others[5]))
 
     @property
     def has_ends(self) -> bool:

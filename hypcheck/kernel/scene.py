@@ -1,9 +1,8 @@
 """A scene prepared once, then asked again and again: exact answers about the mover, wherever it stands in the scene.
 
-The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior. A
-hyperboloid gives no answer for a centre beyond its modelled height, and where none gives one, the scene gives none.
+The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior.
 Parts of the mover are asked where the mover itself is in contact: an answer that all parts share is then the answer.
-scene_pairs.py and scene_sweeps.py give the answer of each hyperboloid.
+scene_pairs.py, scene_ends.py and scene_sweeps.py give the answer of each hyperboloid.
 """
 
 from __future__ import annotations
@@ -21,32 +20,29 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, trouble_with_axis
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, as_columns, as_numbers
+from hypcheck.geometry.rows import Floats, Indices, Positions, as_columns, as_numbers
 from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.choice import POSITION_OF
+from hypcheck.kernel.scene_ends import limits_of, position_with_ends, positions_with_ends
 from hypcheck.kernel.scene_frames import places_of_parts
 from hypcheck.kernel.scene_index import (
     Bodies,
-    Levels,
     PlaneGrid,
     bodies_of,
     grid_of,
     in_reach,
-    levels_of,
     near_ways,
     reaches,
 )
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     Body,
-    is_within_height,
     position_beside,
     position_leaning,
     positions_beside,
     positions_leaning,
-    within_height,
 )
-from hypcheck.kernel.scene_sweeps import Sweep, hits_beside, is_clear, meets_height
+from hypcheck.kernel.scene_sweeps import Sweep, hits_beside, is_clear
 from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
 from hypcheck.scene.reading import parse_scene, read_scene
 
@@ -56,8 +52,8 @@ _ASKED = (*CENTER, "heading")
 _POINTS = f"it must be three numbers, {', '.join(CENTER)}, or an array (n, 3) of them"
 
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
-_OF_RANK = (CANNOT_SAY, EXTERIOR, INTERIOR, CONTACT)
-"""The greater rank prevails where hyperboloids give different answers; 0 means that none of the near ones gives any."""
+_OF_RANK = (EXTERIOR, EXTERIOR, INTERIOR, CONTACT)
+"""The greater rank prevails where hyperboloids give different answers; 0 means that none is near."""
 
 
 @dataclass(frozen=True)
@@ -101,9 +97,9 @@ class Scene:
 
         `x`, `y`, `z` are (n,) each or single numbers, `heading` the mover's direction in degrees, which places its
         parts. `axis`, (3,) or (n, 3), is the mover's where the scene says that it is free, any vector ≠ 0 along its
-        axis of revolution. Positions are +1, 0, −1, and other questions are answered 1 yes, 0 no; 2 is said beyond
-        every modelled height. Offsets between centres are taken exactly, not rounded; a part stands where its rounded
-        centre is. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        axis of revolution. Positions are +1, 0, −1, and other questions are answered 1 yes, 0 no. Offsets between
+        centres are taken exactly, not rounded; a part stands where its rounded centre is. Raises InputError for numbers
+        that are not finite, and for an axis where the scene fixes it.
         """
         axes = self._axes(axis) if axis is not None or self._leaning else ()
         asked = (*_ASKED, *AXIS[: len(axes)])
@@ -112,10 +108,7 @@ class Scene:
         query, body = self._pairs(centres)
         movers = _directions(columns[4:]) if axes else None
         said = self._said(query, body, centres, columns[3], movers)
-        found = _combined(said, query, len(centres))
-        silent = np.flatnonzero(found == CANNOT_SAY)
-        found[silent] = np.where(self._modelled(centres[silent]), EXTERIOR, CANNOT_SAY)
-        return self._answers(found)
+        return self._answers(_combined(said, query, len(centres)))
 
     @in_default_environment
     def position(
@@ -132,18 +125,21 @@ class Scene:
             x, y, z, heading = map(_number, _ASKED, (x, y, z, heading))
         if axis is not None or self._leaning:
             return self._position_leaning((x, y, z), heading, axis)
-        mover, found = self.model.mover, 0
+        mover, found = self.model.mover, EXTERIOR
         for index in self._near(x, y, z):
-            body = self._body(index)
-            if body[5] <= z <= body[6]:
-                said = position_beside(body, mover.b, mover.d, x, y, z)
-                if said == CONTACT and mover.parts:
-                    said = self._of_parts(index, (x, y, z), heading, UPRIGHT)
-                if said == CONTACT:
-                    found = _RANK[CONTACT]
-                    break
-                found = max(found, _RANK[said])
-        return self._answer(_OF_RANK[found] if found or not self._levels.hold(z) else EXTERIOR)
+            body, low, high, inner_low, inner_high = self._body(index)
+            if z < low or z > high:  # beyond an end
+                continue
+            said = position_beside(body, mover.b, mover.d, x, y, z)
+            if said != EXTERIOR and not inner_low <= z <= inner_high:
+                said = self._with_ends(said, index, (mover.b, mover.d), (x, y, z), UPRIGHT)
+            if said == CONTACT and mover.parts:
+                said = self._of_parts(index, (x, y, z), heading, UPRIGHT)
+            if said == CONTACT:
+                return self._answer(CONTACT)
+            if said == INTERIOR:
+                found = INTERIOR
+        return self._answer(found)
 
     @in_default_environment
     def passage(
@@ -153,10 +149,9 @@ class Scene:
 
         `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, and `axis`, as in
         classify, are the same all along. 1 is contact somewhere, 0 clear all along, whatever the scene's question is. A
-        hyperboloid says nothing while the mover's centre is beyond its modelled height; 2 is said where none says
-        anything all along. A part goes straight from where it stands at the start to where it stands at the end; it is
-        asked where the mover has contact. Raises InputError for numbers that are not finite, and for an axis where the
-        scene fixes it.
+        part goes straight from where it stands at the start to where it stands at the end; it is asked where the mover
+        has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts as
+        contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
@@ -167,23 +162,16 @@ class Scene:
         for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
             way = query[pair]
             own_axis = UPRIGHT if movers is None else movers[way].tolist()
-            ends_of = Sweep(starts[way].tolist(), ends[way].tolist(), own_axis)
-            places = (
-                places_of_parts(mover.parts, point, float(headings[way]), own_axis)
-                for point in (ends_of.start, ends_of.end)
-            )
+            whole = Sweep(starts[way].tolist(), ends[way].tolist(), own_axis)
+            heading_of = float(headings[way])
+            places = (places_of_parts(mover.parts, at, heading_of, own_axis) for at in (whole.start, whole.end))
             parts = [
                 (part.b, part.d, Sweep(here, there, own_axis))
                 for part, here, there in zip(mover.parts, *places, strict=True)
             ]
-            hits[pair] = not is_clear(bodies, int(body[pair]), parts, ends_of)
-        low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
-        result = np.where(self._levels.meet_each(low, high), 0, CANNOT_SAY).astype(np.int8)
+            hits[pair] = not is_clear(bodies, int(body[pair]), (mover.b, mover.d, whole), parts)
+        result = np.zeros(len(starts), np.int8)
         result[query[hits]] = 1
-        for index in np.flatnonzero(result == CANNOT_SAY).tolist() if bodies.leaning.any() else ():
-            way_of = Sweep(starts[index].tolist(), ends[index].tolist(), UPRIGHT)
-            if any(meets_height(bodies, body, way_of) for body in np.flatnonzero(bodies.leaning).tolist()):
-                result[index] = 0
         return result
 
     @in_default_environment
@@ -191,8 +179,9 @@ class Scene:
         """Which hyperboloid is nearest to the mover, its distance between proved numbers, and the nearest point.
 
         `x`, `y`, `z` are (n,) each or single numbers. The distance is Euclidean, from the mover itself, not its parts,
-        to the surface within its modelled height, wherever the mover is, whatever the scene's question is. `axis` is as
-        in classify. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        to what stands of the surface, and to flat ends where they belong to it, wherever the mover is, whatever the
+        scene's question is; it is 0 in contact, and only there. `axis` is as in classify. Raises InputError for numbers
+        that are not finite, and for an axis where the scene fixes it.
         """
         mover = self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
@@ -212,28 +201,41 @@ class Scene:
         if trouble is not None:
             raise InputError(trouble)
         said = [self._said_leaning(index, centre, heading, mover_axis) for index in self._near(*centre)]
-        found = max((_RANK[each] for each in said if each != CANNOT_SAY), default=0)
-        return self._answer(_OF_RANK[found] if found or not self._modelled(np.array([centre]))[0] else EXTERIOR)
+        return self._answer(_OF_RANK[max((_RANK[position] for position in said), default=0)])
 
     def _said_leaning(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
         """What a hyperboloid says about one centre."""
-        body, mover = self.model.hyperboloids[index], self.model.mover
-        _, _, _, _, _, low, high = self._body(index)
-        height = body.height
-        if leans(body.axis):
-            inside = height is None or is_within_height((height.low, height.high), centre, body.center, body.axis)
-        else:
-            inside = low <= centre[2] <= high
-        if not inside:
-            return CANNOT_SAY
-        said = position_leaning((body.alpha, body.gamma, mover.b, mover.d), centre, body.center, axis, body.axis)
+        mover = self.model.mover
+        said = self._of_one(index, (mover.b, mover.d), centre, axis)
         return self._of_parts(index, centre, heading, axis) if said == CONTACT and mover.parts else said
+
+    def _of_one(
+        self, index: int, semi_axes: tuple[float, float], centre: Sequence[float], axis: Sequence[float]
+    ) -> int:
+        """The position of one spheroid with these semi-axes beside a hyperboloid."""
+        body = self.model.hyperboloids[index]
+        whole = position_leaning((body.alpha, body.gamma, *semi_axes), centre, body.center, axis, body.axis)
+        return whole if body.height is None else self._with_ends(whole, index, semi_axes, centre, axis)
+
+    def _with_ends(
+        self,
+        whole: int,
+        index: int,
+        semi_axes: tuple[float, float],
+        centre: Sequence[float],
+        axis: Sequence[float],
+    ) -> int:
+        """The same from the position beside the whole hyperboloid."""
+        bodies, body = self._bodies, self.model.hyperboloids[index]
+        upward, span = bodies.axes[index].tolist(), bodies.spans[index].tolist()
+        sizes = (body.alpha, body.gamma, *semi_axes)
+        return position_with_ends(whole, sizes, centre, body.center, axis, upward, span, solid=body.solid)
 
     def _answer(self, position: int) -> int:
         question = self.model.question
         if question == "position":
             return position
-        return CANNOT_SAY if position == CANNOT_SAY else int(position == POSITION_OF[question])
+        return int(position == POSITION_OF[question])
 
     def _axes(self, axis: ArrayLike | None) -> tuple[float, float, float] | tuple[Floats, Floats, Floats]:
         """The three numbers of the mover's axis: the scene's, or the query's where the scene leaves it free."""
@@ -252,18 +254,6 @@ class Scene:
         if given.ndim not in (1, 2) or given.shape[-1] != 3:
             raise InputError(f"axis is of shape {given.shape}; {wanted}")
         return given[..., 0], given[..., 1], given[..., 2]
-
-    def _modelled(self, centres: Floats) -> Mask:
-        """Whether each centre is within the modelled height of some hyperboloid."""
-        bodies = self._bodies
-        found = self._levels.hold_each(centres[:, 2])
-        for body in np.flatnonzero(bodies.leaning).tolist():
-            some = np.flatnonzero(~found)
-            span, origin, axis = (
-                np.tile(each[body], (len(some), 1)) for each in (bodies.spans, bodies.origins, bodies.axes)
-            )
-            found[some] = within_height(span, centres[some], origin, axis)
-        return found
 
     def _near(self, x: float, y: float, z: float) -> Sequence[int]:
         height = self.model.region.z
@@ -286,30 +276,32 @@ class Scene:
     ) -> Positions:
         """What each hyperboloid says about its centre; `movers` are the mover's axes where something leans."""
         bodies, mover = self._bodies, self.model.mover
+        level, (low, high, inner_low, inner_high) = centres[query, 2], self._limits[body].T
+        beyond, between = (level < low) | (level > high), (level >= inner_low) & (level <= inner_high)
         sizes = np.concatenate([bodies.shapes[body], np.broadcast_to((mover.b, mover.d), (len(body), 2))], axis=1)
         pairs = centres[query], bodies.origins[body]
-        level = centres[query, 2]
-        silent = (level < bodies.heights[body, 0]) | (level > bodies.heights[body, 1])
         if movers is None:
             result = positions_beside(sizes, *pairs)
         else:
             result = positions_leaning(sizes, *pairs, movers[query], bodies.axes[body])
-            lean = np.flatnonzero(bodies.leaning[body])
-            those = body[lean]
-            silent[lean] = ~within_height(bodies.spans[those], pairs[0][lean], pairs[1][lean], bodies.axes[those])
-        for pair in np.flatnonzero((result == CONTACT) & ~silent).tolist() if mover.parts else ():
+        result[beyond] = EXTERIOR
+        some = np.flatnonzero(~between & (result != EXTERIOR))
+        if len(some):
+            axes = np.broadcast_to(UPRIGHT, (len(some), 3)) if movers is None else movers[query[some]]
+            places = pairs[0][some], pairs[1][some], axes
+            result[some] = positions_with_ends(result[some], sizes[some], *places, bodies, body[some])
+        for pair in np.flatnonzero(result == CONTACT).tolist() if mover.parts else ():
             asked = query[pair]
             axis = UPRIGHT if movers is None else movers[asked].tolist()
             result[pair] = self._of_parts(int(body[pair]), centres[asked].tolist(), float(heading[asked]), axis)
-        result[silent] = CANNOT_SAY
         return result
 
     def _of_parts(self, index: int, centre: Sequence[float], heading: float, mover: Sequence[float]) -> int:
         """The position that all parts of a mover with this axis have in common beside a hyperboloid, else contact."""
-        found, body, axis = CONTACT, self._body(index), self.model.hyperboloids[index].axis
+        found = CONTACT
         for number, place in enumerate(places_of_parts(self.model.mover.parts, centre, heading, mover)):
             part = self.model.mover.parts[number]
-            said = position_leaning((body[0], body[1], part.b, part.d), place, body[2:5], mover, axis)
+            said = self._of_one(index, (part.b, part.d), place, mover)
             if said == CONTACT or (number and said != found):
                 return CONTACT
             found = said
@@ -319,16 +311,17 @@ class Scene:
         question = self.model.question
         if question == "position":
             return positions
-        return np.where(positions == CANNOT_SAY, CANNOT_SAY, positions == POSITION_OF[question]).astype(np.int8)
+        return np.asarray(positions == POSITION_OF[question], np.int8)
 
-    def _body(self, index: int) -> Body:
-        """A hyperboloid's numbers without arrays; each is kept once it was asked."""
+    def _body(self, index: int) -> tuple[Body, float, float, float, float]:
+        """A hyperboloid's numbers, and its limits, without arrays; each is kept once it was asked."""
         found = self._asked.get(index)
         if found is None:
             of = self._bodies
-            columns = (of.shapes[index], of.origins[index], of.heights[index])
-            alpha, gamma, x, y, z, low, high = (number for column in columns for number in column.tolist())
-            found = self._asked[index] = (alpha, gamma, x, y, z, low, high)
+            columns = (of.shapes[index], of.origins[index], self._limits[index])
+            alpha, gamma, x, y, z, *limits = (number for column in columns for number in column.tolist())
+            low, high, inner_low, inner_high = limits
+            found = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
         return found
 
     @cached_property
@@ -336,7 +329,7 @@ class Scene:
         return self.model.leaning
 
     @cached_property
-    def _asked(self) -> dict[int, Body]:
+    def _asked(self) -> dict[int, tuple[Body, float, float, float, float]]:
         return {}
 
     @cached_property
@@ -349,8 +342,8 @@ class Scene:
         return reaches(self._bodies, self.model.mover, self.model.region.z)
 
     @cached_property
-    def _levels(self) -> Levels:
-        return levels_of(self._bodies.heights[~self._bodies.leaning])
+    def _limits(self) -> Floats:
+        return limits_of(self._bodies, self.model.mover)
 
     @cached_property
     def _bodies(self) -> Bodies:
@@ -409,7 +402,7 @@ def _number(name: str, value: object) -> float:
 
 
 def _combined(said: Positions, query: Indices, count: int) -> Positions:
-    """The answer at each centre by the near hyperboloids: contact, else interior, else exterior, else none."""
+    """The answer at each centre by the near hyperboloids: contact, else interior, else exterior."""
     rank = np.select([said == position for position in _RANK], list(_RANK.values()), 0).astype(np.int8)
     highest = np.zeros(count, np.int8)
     np.maximum.at(highest, query, rank)

@@ -6,9 +6,9 @@ heights z − d … z + d and reaches b from its centre. The surface is nowhere 
 in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers them, and the rounding of a
 distance that is compared with it; LEAST covers what underflows.
 
-A spheroid that leans lies in the ball of its longer semi-axis r, which takes the place of b and d. Beside a hyperboloid
-that leans, its centre is asked about only within the modelled height h along that axis; there it is at most ρ + r from
-the axis, with ρ = α √(1 + ((h + r)/γ)²), and so at most √(h² + (ρ + r)²) from the hyperboloid's centre.
+A spheroid that leans lies in the ball of its longer semi-axis r, which takes the place of b and d. A hyperboloid that
+leans and ends h from its centre lies in the ball of radius √(h² + ρ²) about that, with ρ = α √(1 + (h/γ)²); what
+touches it is r farther away at most.
 
 Each cell of the grid has the hyperboloids that can be touched from within it. Cells share the places of a table by a
 hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection"): a hyperboloid that falls into a place
@@ -25,7 +25,6 @@ sum, is far more than either; LEAST_OF_WAYS covers what underflows.
 from __future__ import annotations
 
 from array import array
-from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -37,15 +36,16 @@ from numpy.typing import NDArray
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.scene.model import Hyperboloid, Mover, Span, leans
+from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Span, leans
 
 
 @dataclass(frozen=True)
 class Bodies:
-    """α and γ (m, 2), centres (m, 3), and how far from its centre each is modelled, up or down, (m,).
+    """α and γ (m, 2), centres (m, 3), and how far from its centre each stands, up or down, (m,).
 
-    `heights` (m, 2) are the lowest and the highest float z of the scene that is within the modelled height, exactly; of
-    those that lean, without end. `spans` (m, 2) are the modelled heights along the axes (m, 3), from the centres.
+    `spans` (m, 2) are the heights along the axes (m, 3), from the centres, between which they stand, and `solid` (m,)
+    says that flat ends belong to them. `heights` (m, 2) enclose those of what stands in the scene's z, of upright ones
+    within a rounding; of those that lean, without end. An axis that is vertical points up.
     """
 
     shapes: Floats
@@ -54,6 +54,7 @@ class Bodies:
     heights: Floats
     spans: Floats
     axes: Floats
+    solid: Mask
 
     @cached_property
     def leaning(self) -> Mask:
@@ -63,54 +64,22 @@ class Bodies:
 
 def bodies_of(hyperboloids: Sequence[Hyperboloid]) -> Bodies:
     """The columns of these hyperboloids."""
-    table = np.fromiter((number for body in hyperboloids for number in _numbers(body)), np.float64).reshape(-1, 10)
-    origins, relative, axes = table[:, 2:5], table[:, 5:7], table[:, 7:]
-    down = (axes[:, 2] < 0) & (axes[:, :2] == 0).all(axis=1)
+    table = np.fromiter((number for body in hyperboloids for number in _numbers(body)), np.float64).reshape(-1, 11)
+    origins, relative, axes, solid = table[:, 2:5], table[:, 5:7], table[:, 7:10], table[:, 10] != 0
+    vertical = (axes[:, :2] == 0).all(axis=1)
+    down = vertical & (axes[:, 2] < 0)
     relative[down] = -relative[down, ::-1]
+    axes[vertical & (axes[:, 2] != 0) & np.isfinite(axes[:, 2])] = UPRIGHT
     with np.errstate(all="ignore"):
         ends, lost = two_sum(origins[:, 2:], relative)
-    low = np.where(lost[:, 0] > 0, np.nextafter(ends[:, 0], inf), ends[:, 0])
-    high = np.where(lost[:, 1] < 0, np.nextafter(ends[:, 1], -inf), ends[:, 1])
-    heights = np.stack([low, high], axis=1)
-    heights[(axes[:, :2] != 0).any(axis=1)] = -inf, inf
-    return Bodies(table[:, :2], origins, np.abs(relative).max(axis=1), heights, relative, axes)
+    heights = np.where(lost == 0, ends, np.nextafter(ends, (-inf, inf)))  # what was lost is NaN where a sum overflowed
+    heights[~vertical] = -inf, inf
+    return Bodies(table[:, :2], origins, np.abs(relative).max(axis=1), heights, relative, axes, solid)
 
 
 def _numbers(body: Hyperboloid) -> tuple[float, ...]:
     low, high = (-inf, inf) if body.height is None else (body.height.low, body.height.high)
-    return (body.alpha, body.gamma, *body.center, low, high, *body.axis)
-
-
-@dataclass(frozen=True)
-class Levels:
-    """The heights in which some hyperboloid stands: disjoint spans of z, from the lowest up."""
-
-    starts: list[float]
-    ends: list[float]
-
-    def hold(self, z: float) -> bool:
-        """Whether some hyperboloid is modelled at this height."""
-        place = bisect_right(self.starts, z) - 1
-        return place >= 0 and z <= self.ends[place]
-
-    def meet_each(self, low: Floats, high: Floats) -> Mask:
-        """Whether some hyperboloid is modelled at some height between two, (n,) each."""
-        place = np.searchsorted(np.array(self.starts), high, side="right") - 1
-        return np.asarray((place >= 0) & (low <= np.append(self.ends, -inf)[place]))
-
-    def hold_each(self, z: Floats) -> Mask:
-        """The same of many heights, (n,)."""
-        return self.meet_each(z, z)
-
-
-def levels_of(heights: Floats) -> Levels:
-    """The union of spans (m, 2)."""
-    spans = heights[heights[:, 0] <= heights[:, 1]]
-    spans = spans[np.argsort(spans[:, 0])]
-    top = np.maximum.accumulate(spans[:, 1]) if len(spans) else spans[:, 1]
-    begins = np.append(True, spans[1:, 0] > top[:-1])[: len(spans)]
-    closes = np.append(begins[1:], True)[: len(spans)]
-    return Levels(spans[begins, 0].tolist(), top[closes].tolist())
+    return (body.alpha, body.gamma, *body.center, low, high, *body.axis, body.solid)
 
 
 OUTWARD = 1 + 2.0**-40
@@ -129,7 +98,7 @@ def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
         far = _farthest(bodies, np.minimum(most, bodies.tall * OUTWARD), b, d)
         if bodies.leaning.any():
             tall = bodies.tall * OUTWARD
-            far[bodies.leaning] = np.hypot(tall, _farthest(bodies, tall, longest, longest))[bodies.leaning]
+            far[bodies.leaning] = (np.hypot(tall, _farthest(bodies, tall, 0.0, 0.0)) + longest)[bodies.leaning]
         return np.asarray(far * OUTWARD + LEAST)
 
 
@@ -300,7 +269,10 @@ def near_ways(
             far = reaches(bodies, mover, Span(float(low[alone]), float(high[alone])))
             take(np.full(len(far), alone), np.arange(len(far)), far)
     way, body = (np.concatenate(each) for each in zip(*found, strict=True))
-    keep = (high[way] >= bodies.heights[body, 0]) & (low[way] <= bodies.heights[body, 1])
+    with np.errstate(all="ignore"):
+        reach = max(mover.b, mover.d) * OUTWARD + PAD * (np.abs(low) + np.abs(high))
+        keep = (high + reach)[way] >= bodies.heights[body, 0]
+        keep &= (low - reach)[way] <= bodies.heights[body, 1]
     pairs = np.unique(way[keep] * len(bodies.tall) + body[keep])
     return pairs // len(bodies.tall), pairs % len(bodies.tall)
 

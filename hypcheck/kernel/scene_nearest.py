@@ -5,15 +5,16 @@ coordinate of the offset is rounded by u of its size at most, which _ROUNDED of 
 moved, their distance changes by no more than that. Whether a pair is in contact is decided from the exact offset, as
 Scene.position decides it: the upper bound is 0 in contact, and only there.
 
-A hyperboloid with a modelled height ends there. The distance to the endless one is a lower bound of that to the part
-which stands; it is the same where the nearest point is on that part. Else a point P at the near end gives the upper
-bound: with f the factor by which the spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away.
+The distance to a whole hyperboloid is a lower bound of that to the wall between its ends; it is the same where the
+nearest point lies between them. Else a point P at the near end gives an upper bound: with f the factor by which the
+spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away. An end disc is no nearer than its plane. Pairs
+that may be the nearest by these bounds are then asked for what stands of the hyperboloid (scene_gaps.py).
 
 **A hyperboloid that leans** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
 So the offset is off by TURNING of its size, and the spheroid, by its axis, by TURNING of its longer semi-axis: both are
 less than _ROUNDED of the sizes and coordinates.
 
-Pairs are left out by the cylinder about the standing part: the mover is no nearer to the part than to the cylinder.
+Pairs are left out by the cylinder about what stands: the mover is no nearer to that than to the cylinder.
 """
 
 from __future__ import annotations
@@ -22,10 +23,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck.geometry.pair import SIZES, UPRIGHT, Position
+from hypcheck.geometry.pair import COLUMNS, UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearance
+from hypcheck.kernel.scene_ends import positions_with_ends
 from hypcheck.kernel.scene_frames import frames_of, turned, turned_axes
+from hypcheck.kernel.scene_gaps import gaps
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
 from hypcheck.kernel.scene_pairs import along_and_across, positions_leaning
 from hypcheck.scene.model import Mover
@@ -82,7 +85,13 @@ def _fill(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, places: 
 def _ask(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: Indices, body: Indices) -> None:
     """Take these pairs into account: each centre's with the least upper bound, and whether others may be as near."""
     centres, axes = movers
-    low, high, point = _distances(bodies, mover, centres[query], None if axes is None else axes[query], body)
+    pairs = _pairs_of(bodies, mover, centres[query], None if axes is None else axes[query], body)
+    low, high, point, cut = _to_wholes(pairs)
+    most = found.distance_upper.copy()
+    np.minimum.at(most, query, high)
+    _to_what_stands(pairs, (low, high, point), np.flatnonzero(cut & (low <= most[query]) & np.isfinite(high)))
+    _decide_contact(pairs, low, high)
+    point = pairs.in_scene(point)
     order = np.argsort(high, kind="stable")
     best, first = np.unique(query[order], return_index=True)
     nearer = high[order][first] < found.distance_upper[best]
@@ -104,7 +113,7 @@ def _ask(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: In
 
 
 def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
-    """A lower bound of each distance, (n, m), by the cylinder about the standing part; inf where nothing stands."""
+    """A lower bound of each distance, (n, m), by the cylinder about what stands."""
     with np.errstate(all="ignore"):
         across = np.hypot(*(centres[:, k, None] - bodies.origins[:, k] for k in (0, 1)))
         low, high = bodies.heights.T
@@ -118,20 +127,50 @@ def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
             across[:, body] -= error
         wide = bodies.shapes[:, 0] * np.sqrt(1 + (bodies.tall / bodies.shapes[:, 1]) ** 2) * OUTWARD
         beside = np.maximum(across - wide * OUTWARD, 0)
-        lost = _LEAST + _ROUNDED * (across + wide)
+        lost = _LEAST + _ROUNDED * (across + wide + np.where(beyond > 0, np.abs(centres[:, 2, None]) + beyond, 0))
         least = np.hypot(beside, beyond) * (1 - 2.0**-40) - max(mover.b, mover.d) - lost
-        least = np.where(np.isfinite(least), np.maximum(least, 0), 0)
-        return np.asarray(np.where(low <= high, least, np.inf))
+        return np.asarray(np.where(np.isfinite(least), np.maximum(least, 0), 0))
 
 
-def _distances(
-    bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None, body: Indices
-) -> tuple[Floats, Floats, Floats]:
-    """Lower and upper bounds of the distances of pairs, and a point that proves each upper one."""
+@dataclass(frozen=True)
+class _Pairs:
+    """Movers beside hyperboloids, `body` (n,) of `bodies`: in the scene, and in frames of the hyperboloids.
+
+    `rows` are those of clearance, in these frames; `rounded` (n,) bounds how far they are off. `beyond` (n,) are those
+    whose difference of centres overflows: of them nothing is known but whether there is contact.
+    """
+
+    bodies: Bodies
+    body: Indices
+    mover: Mover
+    centres: Floats
+    axes: Floats
+    rows: Floats
+    frames: Floats | None
+    rounded: Floats
+    beyond: Mask
+
+    @property
+    def spans(self) -> Floats:
+        """Between which heights the hyperboloids stand, (n, 2)."""
+        return self.bodies.spans[self.body]
+
+    @property
+    def own_axes(self) -> Floats | None:
+        """The movers' axes in the frames; None where all are upright there."""
+        return self.rows[:, len(COLUMNS) :] if self.rows.shape[1] > len(COLUMNS) else None
+
+    def in_scene(self, point: Floats) -> Floats:
+        """Points of the frames (n, 3) in the scene; NaN for those beyond."""
+        turned_back = point if self.frames is None else turned(self.frames.transpose(0, 2, 1), point)
+        return np.where(self.beyond[:, None], np.nan, turned_back + self.bodies.origins[self.body])
+
+
+def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None, body: Indices) -> _Pairs:
     origins = bodies.origins[body]
     with np.errstate(over="ignore"):
         offset = centres - origins
-    beyond = ~np.isfinite(offset).all(axis=1)  # of which nothing is known but whether there is contact
+    beyond = ~np.isfinite(offset).all(axis=1)
     offset[beyond] = 0.0
     frames = frames_of(bodies.axes[body]) if bodies.leaning.any() else None
     own_axes = axes
@@ -139,35 +178,59 @@ def _distances(
         offset, own_axes = turned(frames, offset), turned_axes(frames, axes)
     sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(body), 1))], axis=1)
     rows = np.concatenate([sizes, offset] if own_axes is None else [sizes, offset, own_axes], axis=1)
+    with np.errstate(all="ignore"):
+        rounded = _LEAST + _ROUNDED * (np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + sizes.sum(axis=1))
+    axes = np.broadcast_to(UPRIGHT, centres.shape) if axes is None else axes
+    return _Pairs(bodies, body, mover, centres, axes, rows, frames, rounded, np.asarray(beyond))
+
+
+def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
+    """Bounds of the distances, by those to the whole hyperboloids, points for the upper ones, and where ends matter."""
+    rows, rounded, (bottom, top) = pairs.rows, pairs.rounded, pairs.spans.T
     said = clearance(rows)
     with np.errstate(all="ignore"):
-        rounded = _LEAST + _ROUNDED * (
-            np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + rows[:, : len(SIZES)].sum(axis=1)
-        )
-        low = np.maximum(said.distance_lower - rounded, 0)
-        doubtful = np.flatnonzero((low == 0) | beyond)  # the others are clear: moved so far, they do not touch
-        touching = np.zeros(len(body), np.bool_)
-        movers = np.broadcast_to(UPRIGHT, centres.shape) if axes is None else axes
-        position = positions_leaning(
-            sizes[doubtful], centres[doubtful], origins[doubtful], movers[doubtful], bodies.axes[body[doubtful]]
-        )
-        touching[doubtful] = position == Position.CONTACT
-        high = np.where(touching, 0, said.distance_upper + rounded)
-        point, bottom, top = said.nearest.copy(), *bodies.spans[body].T
-        level = point[:, 2]
-        cut = np.flatnonzero(~((level - rounded >= bottom) & (level + rounded <= top)) & np.isfinite(bodies.tall[body]))
-        point[cut] = _at_height(rows[cut], point[cut], np.clip(level[cut], bottom[cut], top[cut]))
-        high[cut] = _reached(mover, None if own_axes is None else own_axes[cut], point[cut] - offset[cut])
-        steep = 1 + rows[cut, 0] / rows[cut, 1]
-        high[cut] += rounded[cut] * steep + _ROUNDED * np.abs(point[cut]).sum(axis=1)
-    low[beyond], point[beyond] = 0.0, np.nan
-    high[beyond] = np.where(touching[beyond] & ~np.isfinite(bodies.tall[body[beyond]]), 0.0, np.inf)
-    high[np.isnan(high)] = np.inf
-    lowest, highest = bodies.heights[body].T
-    empty = lowest > highest
-    if frames is not None:
-        point = turned(frames.transpose(0, 2, 1), point)
-    return np.where(empty, np.inf, low), np.where(empty, np.inf, high), point + origins
+        low, high = np.maximum(said.distance_lower - rounded, 0), said.distance_upper + rounded
+        point = said.nearest.copy()
+        level, ended = point[:, 2], np.isfinite(pairs.spans).any(axis=1)
+        solid = pairs.bodies.solid[pairs.body] & ended
+        cut = ended & (solid | ~((level - rounded >= bottom) & (level + rounded <= top)))
+        to_planes = np.nanmin(np.abs(rows[:, 6:7] - pairs.spans), axis=1) - rows[:, 2:4].max(axis=1) - rounded
+        low[solid] = np.minimum(low, np.maximum(to_planes, 0))[solid]
+        some = np.flatnonzero(cut)
+        at = _at_height(rows[some], point[some], np.clip(level[some], bottom[some], top[some]))
+        axes = pairs.own_axes
+        point[some] = at
+        high[some] = _reached(pairs.mover, None if axes is None else axes[some], at - rows[some, 4:7])
+        steep = 1 + rows[some, 0] / rows[some, 1]
+        high[some] += rounded[some] * steep + _ROUNDED * np.abs(at).sum(axis=1)
+    low[pairs.beyond], high[pairs.beyond | np.isnan(high)] = 0.0, np.inf
+    return low, high, point, cut
+
+
+def _to_what_stands(pairs: _Pairs, bounds: tuple[Floats, Floats, Floats], some: Indices) -> None:
+    """Replace the bounds and points of some pairs by those of the walls between their ends, and of end discs."""
+    if not len(some):
+        return
+    low, high, point = bounds
+    axes = pairs.own_axes
+    found = gaps(
+        pairs.rows[some, :4], pairs.rows[some, 4:7], None if axes is None else axes[some],
+        pairs.spans[some], pairs.bodies.solid[pairs.body[some]], high[some],
+    )  # fmt: skip
+    low[some] = np.maximum(low[some], found.lower - pairs.rounded[some])
+    better = found.upper + pairs.rounded[some] < high[some]
+    high[some[better]] = (found.upper + pairs.rounded[some])[better]
+    point[some[better]] = found.point[better]
+
+
+def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:
+    """Decide exactly of those that bounds leave open whether there is contact: the upper bound is 0 there alone."""
+    some = np.flatnonzero((low == 0) | pairs.beyond)
+    bodies, body, mover = pairs.bodies, pairs.body[some], pairs.mover
+    sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(some), 1))], axis=1)
+    places = sizes, pairs.centres[some], bodies.origins[body], pairs.axes[some]
+    position = positions_with_ends(positions_leaning(*places, bodies.axes[body]), *places, bodies, body)
+    high[some[position == Position.CONTACT]] = 0.0
 
 
 def _at_height(rows: Rows, point: Rows, height: Floats) -> Rows:

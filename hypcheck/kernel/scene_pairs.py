@@ -25,14 +25,14 @@ from math import inf, sqrt
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.pair import UPRIGHT, Position, to_integers
+from hypcheck.geometry.pair import UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.scalar import position
 from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
 
-Body = tuple[float, float, float, float, float, float, float]
-"""α, γ, the centre x, y, z, and the lowest and highest modelled z, of a hyperboloid."""
+Body = tuple[float, float, float, float, float]
+"""α, γ, and the centre x, y, z, of a hyperboloid."""
 
 ERROR = 64 * 2.0**-53
 """Of h and ϱ, in units of the sum of all coordinates."""
@@ -93,7 +93,7 @@ def position_beside(
     body: Body, b: float, d: float, x: float, y: float, z: float, axis: Sequence[float] | None = None
 ) -> int:
     """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
-    alpha, gamma, there_x, there_y, there_z, _, _ = body
+    alpha, gamma, there_x, there_y, there_z = body
     across, along, up = x - there_x, y - there_y, z - there_z
     # TwoSum: what the differences have lost together; 0 where they are exact, NaN where that is not known.
     back_x, back_y, back_z = across + there_x, along + there_y, up + there_z
@@ -137,7 +137,7 @@ def position_leaning(
     """The same of one pair."""
     if axis[0] == axis[1] == 0:
         (alpha, gamma, b, d), (x, y, z), (u, v, w) = sizes, centre, origin
-        return position_beside((alpha, gamma, u, v, w, -inf, inf), b, d, x, y, z, mover)
+        return position_beside((alpha, gamma, u, v, w), b, d, x, y, z, mover)
     found = _by_ball(sizes, centre, origin, axis)
     return _from_exact_difference(sizes, centre, origin, mover, axis) if found is None else int(found)
 
@@ -147,7 +147,7 @@ def _by_ball(
 ) -> Position | None:
     """The position beside a hyperboloid that leans, where the spheroid's ball has one; as _beside_leaning."""
     alpha, gamma, b, d = sizes
-    height, distance, error = _height_and_distance(centre, origin, axis)
+    height, distance, error = height_and_distance(centre, origin, axis)
     if not (LEAST < min(sizes) and max(sizes) < GREATEST and error < GREATEST):
         return None
     longest = max(b, d) * (1 + MARGIN) + error
@@ -159,7 +159,7 @@ def _by_ball(
     return None
 
 
-def _height_and_distance(
+def height_and_distance(
     centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
 ) -> tuple[float, float, float]:
     """As along_and_across, of one pair; the bound of the error is inf where it is not known."""
@@ -221,42 +221,3 @@ def along_and_across(centres: Rows, origins: Rows, axes: Rows) -> tuple[Floats, 
     across = np.cross(unit, way)
     error = np.where(ordinary, ERROR * size + LEAST, np.nan)
     return along, np.sqrt((across * across).sum(axis=1)), error
-
-
-def within_height(spans: Rows, centres: Rows, origins: Rows, axes: Rows) -> Mask:
-    """Whether each centre lies within a modelled height (n, 2) along an axis (n, 3), exactly; (n,)."""
-    low, high = spans[:, 0], spans[:, 1]
-    with np.errstate(all="ignore"):
-        height, _, error = along_and_across(centres, origins, axes)
-        inside = (height - error >= low) & (height + error <= high)
-        outside = (height + error < low) | (height - error > high)
-    inside |= (low == -np.inf) & (high == np.inf)
-    for index in np.flatnonzero(~(inside | outside)).tolist():
-        columns = (spans, centres, origins, axes)
-        inside[index] = is_within_height(*(column[index].tolist() for column in columns))
-    return np.asarray(inside)
-
-
-def is_within_height(
-    span: Sequence[float], centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
-) -> bool:
-    """The same of one: low ≤ w·(X − c)/|w| ≤ high, squares compared."""
-    height, _, error = _height_and_distance(centre, origin, axis)
-    if span[0] <= height - error and height + error <= span[1]:
-        return True
-    if height + error < span[0] or span[1] < height - error:
-        return False
-    if span[0] == -inf and span[1] == inf:
-        return True
-    w: list[int] = to_integers(axis)
-    along = sum(
-        ((Fraction(there) - Fraction(here)) * each for there, here, each in zip(centre, origin, w, strict=True)),
-        Fraction(0),
-    )
-    square = sum(each * each for each in w)
-    low, high = (_signed_square(Fraction(each)) * square for each in span)
-    return low <= _signed_square(along) <= high
-
-
-def _signed_square(value: Fraction) -> Fraction:
-    return value * abs(value)

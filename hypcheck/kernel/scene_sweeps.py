@@ -3,35 +3,39 @@
 The kernel's answer about sweeps (core/parts/ways.h) is asked twice: about a spheroid that is larger, and about one that
 is smaller, by what the rounding of the difference of two centres may be in radii, as for positions (scene_pairs.py).
 The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the exact differences
-by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about sweeps is known. So is a
-sweep that may hit, and leaves the modelled height: of it the part at that height counts. Beside a tilted hyperboloid
-both ends and the mover's axis are turned into its frame (scene_frames.py), and the roundings of that are added.
+by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about sweeps is known. Beside a
+tilted hyperboloid both ends and the mover's axis are turned into its frame (scene_frames.py), and the roundings of that
+are added.
+
+Where the hyperboloid ends, what is clear of the whole one is clear of its wall. A mover that reaches beyond an end, and
+no other, is asked about the ends as well: those decide where it may hit, and of a solid one always.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, isqrt
 
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.pair import UPRIGHT, Position, to_integers
+from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.kernel.classify import kernel
+from hypcheck.kernel.classify import classify, kernel
+from hypcheck.kernel.scene_ends import meets_for_sure
 from hypcheck.kernel.scene_frames import TURNING, frames_of, turned, turned_axes
 from hypcheck.kernel.scene_index import Bodies
-from hypcheck.kernel.scene_pairs import LEAST, larger_and_smaller
+from hypcheck.kernel.scene_pairs import LEAST, MARGIN, height_and_distance, larger_and_smaller
 from hypcheck.scene.model import Mover
-from hypcheck.truth.swept import passage
+from hypcheck.truth import ended_sweeps, swept
+from hypcheck.truth.ended_sweeps import EndedSweep
 
 
 def hits_beside(
     bodies: Bodies, body: Indices, mover: Mover, starts: Rows, ends: Rows, axes: Rows | None = None
 ) -> Mask:
-    """Which ways of a mover have contact with their hyperboloid, where it is modelled, (n,).
+    """Which sweeps of a mover have contact with their hyperboloid, (n,).
 
     `starts` and `ends`, (n, 3), are in the scene's coordinates, and `axes`, (n, 3), the mover's; None: it is upright.
     """
@@ -43,24 +47,39 @@ def hits_beside(
         if bodies.leaning[body].any():
             start, end, own_axes, turning = _in_frames(bodies.axes[body], mover, start, end, axes)
             lost = lost + turning
-        low = np.minimum(start[:, 2], end[:, 2]) - lost
-        high = np.maximum(start[:, 2], end[:, 2]) + lost
-        leaves, beyond = (low < spans[:, 0]) | (high > spans[:, 1]), (high < spans[:, 0]) | (low > spans[:, 1])
+        reach = max(mover.b, mover.d) * (1 + MARGIN) + lost + MARGIN * (np.abs(start[:, 2]) + np.abs(end[:, 2]))
+        low, high = np.minimum(start[:, 2], end[:, 2]), np.maximum(start[:, 2], end[:, 2])
+        leaves = ~((low - reach > spans[:, 0]) & (high + reach < spans[:, 1])) & np.isfinite(spans).any(axis=1)
+        beyond = (high + reach < spans[:, 0]) | (low - reach > spans[:, 1])
     larger, smaller, fits = larger_and_smaller(np.broadcast_to((mover.b, mover.d), (len(body), 2)), lost)
     place = [start, end] if own_axes is None else [start, end, own_axes]
     hits = np.zeros(len(body), np.bool_)
     open_ways = ~fits & ~beyond
     asked = np.flatnonzero(fits & ~beyond)
     said = kernel().answer_ways(np.concatenate([shapes, larger, *place], axis=1)[asked])[0]
+    clear = asked[said == 0]
+    some = clear[leaves[clear] & bodies.solid[body[clear]]]
+    begin = np.concatenate([shapes, larger, *place[:1], *place[2:]], axis=1)[some]
+    open_ways[some] = classify(begin) != Position.EXTERIOR
     asked = asked[said != 0]
     said = kernel().answer_ways(np.concatenate([shapes, smaller, *place], axis=1)[asked])[0]
     hits[asked] = said == 1
     open_ways[asked] = (said != 1) | leaves[asked]
+    some = asked[leaves[asked]]
+    open_ways[some] &= ~_meet_on_the_way(mover, shapes[some], spans[some], start[some], end[some], lost[some])
     for index in np.flatnonzero(open_ways).tolist():
         axis = UPRIGHT if axes is None else axes[index].tolist()
-        way = Sweep(starts[index].tolist(), ends[index].tolist(), axis)
-        hits[index] = not is_clear(bodies, int(body[index]), [(mover.b, mover.d, way)], way)
+        sweep = Sweep(starts[index].tolist(), ends[index].tolist(), axis)
+        hits[index] = not is_clear(bodies, int(body[index]), (mover.b, mover.d, sweep))
     return hits
+
+
+def _meet_on_the_way(mover: Mover, shapes: Rows, spans: Rows, start: Floats, end: Floats, lost: Floats) -> Mask:
+    """Whether bounds show contact at one of five times, in the frames of hyperboloids with these ends."""
+    found = np.zeros(len(shapes), np.bool_)
+    for share in (0.0, 0.25, 0.5, 0.75, 1.0):
+        found |= meets_for_sure(mover, shapes, spans, start + share * (end - start), lost)
+    return found
 
 
 def _in_frames(
@@ -86,106 +105,43 @@ class Sweep:
     axis: Sequence[float]
 
 
-Times = tuple[Fraction, Fraction]
-"""A first and a last time; none, where the last is before the first."""
-
-
-def is_clear(bodies: Bodies, index: int, spheroids: Sequence[tuple[float, float, Sweep]], mover: Sweep) -> bool:
-    """Whether spheroids (b, d, way) stay clear of a hyperboloid, on one side, while a mover is at its modelled height.
-
-    Ends of that height may be irrational, where the hyperboloid is tilted. They are enclosed ever more narrowly, until
-    between the outer ones all is clear, or between the inner ones it is not. A contact at the very instant, within
-    2^−_MOST_BITS of it, counts as one.
-    """
-    shape, origin = bodies.shapes[index].tolist(), bodies.origins[index].tolist()
-    span, upward = _span_and_axis(bodies, index)
-    for outer, inner in _times_within(mover, origin, span, upward):
-        if _stays_clear(shape, origin, upward, spheroids, outer):
-            return True
-        if inner == outer or not _stays_clear(shape, origin, upward, spheroids, inner):
-            return False
-    return False
-
-
-def _span_and_axis(bodies: Bodies, index: int) -> tuple[list[float], Sequence[float]]:
-    """The modelled heights and the direction in which they are counted, which is up where the axis is vertical."""
-    return bodies.spans[index].tolist(), bodies.axes[index].tolist() if bodies.leaning[index] else UPRIGHT
-
-
-def _stays_clear(
-    shape: Sequence[float],
-    origin: Sequence[float],
-    upward: Sequence[float],
-    spheroids: Sequence[tuple[float, float, Sweep]],
-    times: Times,
+def is_clear(
+    bodies: Bodies, index: int, mover: tuple[float, float, Sweep], parts: Sequence[tuple[float, float, Sweep]] = ()
 ) -> bool:
-    if times[0] > times[1]:
-        return True
-    found = set()
-    for b, d, way in spheroids:
-        here, there = (
-            [Fraction(part) - Fraction(centre) for part, centre in zip(point, origin, strict=True)]
-            for point in (way.start, way.end)
-        )
-        ends = [[low + time * (high - low) for low, high in zip(here, there, strict=True)] for time in times]
-        what = passage((*shape, b, d), ends[0], ends[1], way.axis, upward)
-        found.add(Position.CONTACT if what.hit else what.start)
-    return len(found) == 1 and Position.CONTACT not in found
+    """Whether a mover (b, d, sweep) stays clear of a hyperboloid, or its parts do, always together on one side.
 
-
-_MOST_BITS = 1024
-
-
-def _times_within(
-    way: Sweep, origin: Sequence[float], span: Sequence[float], upward: Sequence[float]
-) -> Iterator[tuple[Times, Times]]:
-    """Enclosures, from without and from within, of the times at which a centre is at heights above an origin.
-
-    The height is w·(X − c)/|w|. Where |w| is rational both are the same, and the only ones.
+    The parts are asked at the times at which the mover is in contact.
     """
-    w: list[int] = to_integers(upward)
-    below, above = (
-        sum((Fraction(part) - Fraction(centre)) * along for part, centre, along in zip(point, origin, w, strict=True))
-        for point in (way.start, way.end)
+    spheroids = [mover, *parts]
+    if all(_between_ends(bodies, index, *spheroid) for spheroid in spheroids):
+        sweeps = [swept.passage(*_between(bodies, index, *spheroid)) for spheroid in (parts or [mover])]
+        return not any(sweep.hit for sweep in sweeps) and len({sweep.start for sweep in sweeps}) == 1
+    low, high = bodies.spans[index].tolist()
+    heights = (low, high, float(bodies.solid[index]))
+    whole, *others = (swept.journey_of(*_between(bodies, index, *spheroid), heights) for spheroid in spheroids)
+    return not ended_sweeps.meets(EndedSweep(whole, tuple(others)))
+
+
+def _between_ends(bodies: Bodies, index: int, b: float, d: float, sweep: Sweep) -> bool:
+    """Whether a spheroid surely stays between the ends of a hyperboloid."""
+    (low, high), origin, axis = (column[index].tolist() for column in (bodies.spans, bodies.origins, bodies.axes))
+    reach = (d if sweep.axis[0] == sweep.axis[1] == axis[0] == axis[1] == 0 else max(b, d)) * (1 + MARGIN)
+    places = (height_and_distance(point, origin, axis) for point in (sweep.start, sweep.end))
+    return (low, high) == WITHOUT_ENDS[:2] or all(
+        low + reach + error < along < high - reach - error for along, _, error in places
     )
-    square, bits = sum(along * along for along in w), 64
-    while bits <= _MOST_BITS:
-        root = Fraction(isqrt(square << 2 * bits), 1 << bits)
-        exact = root * root == square
-        lengths = (root, root if exact else root + Fraction(1, 1 << bits))
-        outer, inner = (
-            _crossing_times(Fraction(below), Fraction(above), span, lengths, wide) for wide in (True, False)
-        )
-        yield outer, outer if exact else inner
-        if exact:
-            return
-        bits *= 2
 
 
-def _crossing_times(
-    below: Fraction, above: Fraction, span: Sequence[float], lengths: tuple[Fraction, Fraction], wide: bool
-) -> Times:
-    """The first and last time in [0, 1] at which a number that goes from `below` to `above` is in the span · |w|.
+_Numbers = Sequence[float | Fraction]
 
-    |w| lies between two lengths; `wide` takes the ones with which the times are more, not fewer.
-    """
-    low, high = (
-        None if abs(end) == inf else pick(Fraction(end) * length for length in lengths)
-        for end, pick in zip(span, (min, max) if wide else (max, min), strict=True)
+
+def _between(
+    bodies: Bodies, index: int, b: float, d: float, sweep: Sweep
+) -> tuple[_Numbers, _Numbers, _Numbers, _Numbers, _Numbers]:
+    """The sizes, the exact start and end from the hyperboloid's centre, and the axes of both."""
+    origin = bodies.origins[index].tolist()
+    start, end = (
+        [Fraction(part) - Fraction(centre) for part, centre in zip(point, origin, strict=True)]
+        for point in (sweep.start, sweep.end)
     )
-    if above == below:
-        inside = (low is None or low <= below) and (high is None or below <= high)
-        return Fraction(0), Fraction(1) if inside else Fraction(-1)
-    at = [None if level is None else (level - below) / (above - below) for level in (low, high)]
-    enters, leaves = at if above > below else reversed(at)
-    first = Fraction(0) if enters is None else max(Fraction(0), enters)
-    last = Fraction(1) if leaves is None else min(Fraction(1), leaves)
-    return first, last
-
-
-def meets_height(bodies: Bodies, index: int, way: Sweep) -> bool:
-    """Whether a mover on its way is at some time at the modelled height of a hyperboloid."""
-    times = [outer for outer, _ in _times_within(way, bodies.origins[index].tolist(), *_span_and_axis(bodies, index))][
-        -1
-    ]
-    return times[0] <= times[1]
+    return (*bodies.shapes[index].tolist(), b, d), start, end, sweep.axis, bodies.axes[index].tolist()

@@ -33,6 +33,11 @@ class Span:
     high: float
 
     @property
+    def ends(self) -> tuple[float, float]:
+        """Both ends."""
+        return self.low, self.high
+
+    @property
     def fixed(self) -> bool:
         """Whether it is a single number."""
         return self.low == self.high
@@ -46,8 +51,9 @@ class Span:
 class Hyperboloid:
     """x²/α² + y²/α² − z²/γ² = 1 about `center` (equation (1) of the paper), of its own `name`.
 
-    `height` is the range of z, from the centre's level, in which the surface stands in the world; None: everywhere.
-    `axis` points along the z of these, not 0 and of any length.
+    `height` is the range of z, from the centre's level, between whose ends the surface stands in the world; an end may
+    be infinite, and None is without ends. Where it is `solid`, flat ends belong to it; else it is an open wall. `axis`
+    points along the z of these, not 0 and of any length.
     """
 
     name: str
@@ -56,6 +62,7 @@ class Hyperboloid:
     center: Point = (0.0, 0.0, 0.0)
     height: Span | None = None
     axis: Point = UPRIGHT
+    solid: bool = False
 
 
 @dataclass(frozen=True, slots=True)

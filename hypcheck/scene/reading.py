@@ -1,11 +1,12 @@
 """Reading a scene file: TOML, complete and strict. An unknown key or an impossible value is refused in one sentence.
 
-docs/scenes.md explains the keys; schemas/scene-1.1.0.json has them for editors and other programs. The tables [flight]
+docs/scenes.md explains the keys; schemas/scene-1.2.0.json has them for editors and other programs. The tables [flight]
 and [walk] say how `hypcheck simulate` moves the mover.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from fractions import Fraction
 from importlib import resources
@@ -93,7 +94,7 @@ MOST_PARTS = 100
 """Of a file. A scene that is made in Python (hypcheck.scene.model) may have more hyperboloids."""
 
 _SCENE = ("name", "question", "hyperboloid", "mover", "region", "flight", "walk")
-_HYPERBOLOID = ("name", "alpha", "gamma", "center", "height", "axis")
+_HYPERBOLOID = ("name", "alpha", "gamma", "center", "height", "axis", "solid")
 _MOVER = ("b", "d", "part", "axis")
 _PART = ("b", "d", "arm", "angle")
 _REGION = ("x", "y", "z")
@@ -128,9 +129,12 @@ def _scene(top: TomlTable) -> SceneModel:
     question = top.optional("question", tables.one_of(*QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
     scene = SceneModel(name, question, hyperboloids, _mover(top), _region(top), _flight(top), _walk(top))
-    if scene.leaning:
-        for key, moving in (("flight", scene.flight), ("walk", scene.walk)):
-            if moving is not None:
+    endless = any(body.height and math.inf in map(abs, body.height.ends) for body in hyperboloids)
+    for key, moving in (("flight", scene.flight), ("walk", scene.walk)):
+        if moving is not None:
+            if endless:
+                top.refuse(f"[{key}] is of a scene in which a height is infinite; leave out such a height", key)
+            if scene.leaning:
                 top.refuse(
                     f"[{key}] is of a scene in which something leans; simulations fly and walk upright among what is "
                     "upright: leave out axis (simulate tower --pitch leans)",
@@ -159,8 +163,9 @@ def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
             alpha=table.required("alpha", tables.positive),
             gamma=table.required("gamma", tables.positive),
             center=table.optional("center", tables.point, (0.0, 0.0, 0.0)),
-            height=table.optional("height", tables.span, None),
+            height=table.optional("height", tables.height, None),
             axis=table.optional("axis", tables.axis, UPRIGHT),
+            solid=table.optional("solid", tables.truth, False),
         )
         first = found.setdefault(body.name, number)
         if first != number:

@@ -202,12 +202,18 @@ def axis_or_free(value: object) -> Point | Literal["free"]:
         raise ValueError(f'{error}, or "{FREE}"') from None
 
 
-def span(value: object) -> Span:
+def height(value: object) -> Span:
+    """The two heights between which something stands; infinite where it does not end."""
+    return span(value, "two numbers, finite or infinite, [low, high] with low < high", infinite=True)
+
+
+def span(
+    value: object, wanted: str = "two finite numbers, [low, high] with low < high", *, infinite: bool = False
+) -> Span:
     """A range of more than one number."""
-    wanted = "two finite numbers, [low, high] with low < high"
     if not isinstance(value, list) or len(value) != 2:
         raise ValueError(wanted)
-    low, high = (_number(each, wanted) for each in value)
+    low, high = (_number(end, wanted, infinite=infinite) for end in value)
     if not low < high:
         raise ValueError(wanted)
     return Span(low, high)
@@ -221,14 +227,14 @@ def span_or_number(value: object) -> Span:
     return Span(only, only)
 
 
-def _number(value: object, wanted: str) -> float:
+def _number(value: object, wanted: str, *, infinite: bool = False) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
     try:
         result = float(value) + 0.0  # + 0.0 turns −0.0 into 0.0
     except OverflowError:
         raise ValueError(f"{wanted} that float64 holds") from None
-    if not math.isfinite(result):
+    if math.isnan(result) or (math.isinf(result) and not infinite):
         raise ValueError(wanted)
     return result
 

@@ -105,7 +105,9 @@ class Journey:
         n, m = time.numerator, time.denominator
         here, (u, v, w) = self.start, self.way
         x, y, z = here.x * m + u * n, here.y * m + v * n, here.z * m + w * n
-        return Lengths(here.alpha * m, here.b * m, x, y, here.gamma * m, here.d * m, z, here.axis, here.upward)
+        low, high = (None if end is None else end * m for end in (here.low, here.high))
+        lengths = (here.alpha * m, here.b * m, x, y, here.gamma * m, here.d * m, z)
+        return Lengths(*lengths, here.axis, here.upward, low, high, here.solid)
 
     def position(self, time: Fraction) -> Position:
         """The exact position at a rational time."""
@@ -128,13 +130,17 @@ class Journey:
         return _at_local_maximum(self.at(time)) if self.is_upright else _at_maximum(quartic(self.at(time)))
 
     def critical(self) -> Polynomial:
-        """A polynomial in t, not 0, with a root wherever the position changes, primitive.
+        """A polynomial in t, not 0, with a root wherever the position beside the whole hyperboloid changes, primitive.
 
         The discriminant of F. That of an upright way is not 0 for every t (docs/motion.md); where that of a tilted one
         is, another polynomial takes its place.
         """
+        return self.discriminant() or self._where_always_double()
+
+    def discriminant(self) -> Polynomial:
+        """The discriminant of F, primitive: 0 wherever the surfaces, both without ends, are tangent; () if always."""
         discriminant = exact.cubic_discriminant if self.is_upright else exact.quartic_discriminant
-        return primitive(discriminant(*map(_InTime, self.pencil)).f) or self._where_always_double()
+        return primitive(discriminant(*map(_InTime, self.pencil)).f)
 
     def touches(self, critical: Polynomial, time: Interval, side: Position) -> bool:
         """Whether a root of the critical polynomial is a contact, where both its sides have the same clear position.

@@ -255,13 +255,48 @@ def _none_by_descartes(f: Polynomial) -> bool:
     t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1): (1+s)^n f(1/(1+s)) has as coefficients, from the highest power of s,
     f(0) to f(1), and where no two of them differ in sign, and neither end is 0, there is no root.
     """
-    shifted = list(f[::-1])
-    for last in range(len(shifted) - 1, 0, -1):  # Horner's scheme, from powers of 1 + s to powers of s
-        for place in range(1, last + 1):
-            shifted[place] += shifted[place - 1]
+    shifted = _shifted_by_one(f[::-1])
     if not shifted[0] or not shifted[-1]:
         return False
     return min(shifted) >= 0 or max(shifted) <= 0
+
+
+def _shifted_by_one(f: Sequence[int]) -> list[int]:
+    """The coefficients of f(1 + s) as powers of s, by Horner's scheme."""
+    shifted = list(f)
+    for last in range(len(shifted) - 1, 0, -1):
+        for place in range(1, last + 1):
+            shifted[place] += shifted[place - 1]
+    return shifted
+
+
+def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
+    """Closed intervals, 2^−bits wide at most and in any order, that hold all roots of f in [0, 1]; f is not 0.
+
+    By Descartes' rule, halving what may hold roots (Collins and Akritas): f need not be squarefree, and a multiple
+    root is never told from several that are near, nor from none.
+    """
+    yield from ((end, end) for end in (Fraction(0), Fraction(1)) if not value(f, end))
+    pending = [(0, 0, list(f))]  # the interval (place, place + 1)/2^depth, and f on it as a polynomial on (0, 1)
+    while pending:
+        place, depth, g = pending.pop()
+        signs = [number > 0 for number in _shifted_by_one(g[::-1]) if number]
+        changes = sum(left != right for left, right in itertools.pairwise(signs))
+        if not changes:
+            continue
+        low, high = Fraction(place, 1 << depth), Fraction(place + 1, 1 << depth)
+        if depth >= bits:
+            yield low, high
+        elif changes == 1 and value(f, low) and value(f, high):
+            while (high - low) * 2**bits > 1 and low != high:
+                low, high = _halved(f, low, high)
+            yield low, high
+        else:
+            left = [number << power for power, number in enumerate(g)]
+            right = _shifted_by_one(left)
+            if not right[-1]:
+                yield (low + high) / 2, (low + high) / 2
+            pending += [(2 * place, depth + 1, left), (2 * place + 1, depth + 1, right)]
 
 
 def narrowed(f: Polynomial, low: Fraction, high: Fraction) -> Interval:

@@ -62,8 +62,11 @@ class Sections:
     scale: Fraction
 
     @classmethod
-    def of(cls, lengths: Lengths) -> Sections:
-        """The sections of a pair."""
+    def of(cls, lengths: Lengths, *, over_content: bool = True) -> Sections:
+        """The sections of a pair; `over_content`: the four coefficients of g over their greatest common divisor.
+
+        Without that, their values at a height are polynomials in the coordinates of the spheroid's centre.
+        """
         q, t = lengths.b**2, lengths.d**2
         u, v, C = lengths.upward, lengths.axis, (lengths.x, lengths.y, lengths.z)
         U, V, lean, height, along = _dot(u, u), _dot(v, v), _dot(v, u), _dot(C, u), _dot(C, v)
@@ -80,18 +83,23 @@ class Sections:
         else:
             W, eta, xi = 1, (m2 * lengths.gamma**2 * m1 * (U * _dot(C, C) - height * height),), ()
         A0, A1 = _scaled(s * W * q * m1, k), _scaled(m2 * W, r2)
-        return cls(
-            _shifted(A0, A1, eta, xi, m1, m2), above, k, _off(A1, eta, xi, m1, m2), U, min(m1, m2), Fraction(q * m1, p)
-        )
+        cubic = _shifted(A0, A1, eta, xi, m1, m2)
+        if over_content:
+            cubic = _over_content(*cubic)
+        return cls(cubic, above, k, _off(A1, eta, xi, m1, m2), U, min(m1, m2), Fraction(q * m1, p))
 
     def sign(self, f: Polynomial, height: int | Fraction) -> int:
         """The sign of a polynomial at a height."""
+        return sign_with_root(*self.value(f, height), self.unit)
+
+    def value(self, f: Polynomial, height: int | Fraction) -> tuple[int | Fraction, int | Fraction]:
+        """The value u + v √U of a polynomial at a height: u, v."""
         even: int | Fraction = 0
         odd: int | Fraction = 0
         for place, coefficient in enumerate(reversed(f)):
             term = coefficient * height**place * self.unit ** (place // 2)
             even, odd = (even, odd + term) if place % 2 else (even + term, odd)
-        return sign_with_root(even, odd, self.unit)
+        return even, odd
 
     def multiplier(self, height: Fraction) -> Fraction:
         """About the λ at which S + λH is greatest on the plane at this height; U is 1."""
@@ -222,7 +230,7 @@ def _shifted(
     at_least = _sum(A0, _scaled(-m, A1))
     c2 = _sum(_scaled(-1, at_least), _scaled(-gap, A1), first, second)
     c1 = _sum(_scaled(-gap, at_least), _scaled(gap - m, first), _scaled(-m, second))
-    return _over_content(_scaled(-1, A1), c2, c1, _scaled(-m * gap, first))
+    return _scaled(-1, A1), c2, c1, _scaled(-m * gap, first)
 
 
 def _off(A1: Polynomial, eta: Polynomial, xi: Polynomial, m1: int, m2: int) -> Polynomial:

@@ -31,13 +31,16 @@ from hypcheck.geometry.pair import (
     NO_DIRECTION,
     SIZES,
     UPRIGHT,
+    WITHOUT_ENDS,
     Lengths,
     Position,
     Vector,
     over_one_denominator,
     trouble_with,
+    trouble_with_heights,
 )
 from hypcheck.messages import counted, escaped
+from hypcheck.truth.ended_sweeps import EndedSweep, first_contact, grazes
 from hypcheck.truth.journey import Journey, piece
 from hypcheck.truth.polynomial_roots import Interval, Polynomial, narrowed, roots_from_0_to_1, value
 from hypcheck.truth.rationals import rounded_toward, shortened
@@ -175,16 +178,31 @@ def passage(
     end: Sequence[Rational],
     axis: Sequence[Rational] | None = None,
     upward: Sequence[Rational] | None = None,
+    *,
+    z_min: float = -math.inf,
+    z_max: float = math.inf,
+    solid: float = False,
 ) -> Passage:
     """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
     `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the way, and `upward` any
-    along the hyperboloid's; they are vertical where they are None. Exact for every valid value, in every regime. Raises
-    InputError where a size is not finite and > 0, a coordinate not finite, an axis without direction, or their number
+    along the hyperboloid's; they are vertical where they are None. The hyperboloid ends at the heights `z_min` and
+    `z_max` along its axis; with `solid`, flat ends belong to it. Exact for every valid value, in every regime; where
+    the hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is
+    not finite and > 0, a coordinate not finite, an axis without direction, z_min not less than z_max, or their number
     not 4, 3, 3, 3 and 3.
     """
-    journey = journey_of(sizes, start, end, axis, upward)
+    journey = journey_of(sizes, start, end, axis, upward, (z_min, z_max, solid))
+    if journey.start.has_ends:
+        return beside_ends(journey)
     return by_steps(journey) or by_roots(journey)
+
+
+def beside_ends(journey: Journey) -> Passage:
+    """What happens on a way beside a hyperboloid that ends."""
+    here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
+    first = first_contact(EndedSweep(journey))
+    return Passage(here, there, first, first is not None and grazes(journey))
 
 
 def by_steps(journey: Journey) -> Passage | None:
@@ -242,17 +260,27 @@ def journey_of(
     end: Sequence[Rational],
     axis: Sequence[Rational] | None = None,
     upward: Sequence[Rational] | None = None,
+    heights: Sequence[float] = WITHOUT_ENDS,
 ) -> Journey:
     """The way of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
+    trouble = trouble_with_heights(heights)
+    if trouble is not None:
+        raise InputError(trouble)
+    ends = [Fraction(height) for height in heights[:2] if math.isfinite(height)]
     alpha, gamma, b, d, x0, y0, z0 = checked(sizes, start)
     x1, y1, z1 = checked(sizes, end)[len(SIZES) :]
     direction, tower = (checked_axis(UPRIGHT if given is None else given) for given in (axis, upward))
     if (any(direction[:2]) and b != d) or any(tower[:2]):
-        a, c, w, h, x, u, y, v, z, s = integers(alpha, gamma, b, d, x0, x1 - x0, y0, y1 - y0, z0, z1 - z0)
-        return Journey(Lengths(a, w, x, y, c, h, z, _three(direction), _three(tower)), (u, v, s))
-    a, w, x, u, y, v = integers(alpha, b, x0, x1 - x0, y0, y1 - y0)
-    c, h, z, s = integers(gamma, d, z0, z1 - z0)
-    return Journey(Lengths(a, w, x, y, c, h, z), (u, v, s))
+        a, c, w, h, x, u, y, v, z, s, *ended = integers(
+            alpha, gamma, b, d, x0, x1 - x0, y0, y1 - y0, z0, z1 - z0, *ends
+        )
+        axes = _three(direction), _three(tower)
+    else:
+        a, w, x, u, y, v = integers(alpha, b, x0, x1 - x0, y0, y1 - y0)
+        c, h, z, s, *ended = integers(gamma, d, z0, z1 - z0, *ends)
+        axes = (0, 0, 1), (0, 0, 1)
+    low, high = ended[0] if math.isfinite(heights[0]) else None, ended[-1] if math.isfinite(heights[1]) else None
+    return Journey(Lengths(a, w, x, y, c, h, z, *axes, low, high, bool(heights[2])), (u, v, s))
 
 
 def _three(axis: Sequence[Fraction]) -> Vector:

@@ -23,26 +23,23 @@ from hypcheck.scene.model import (
     SceneModel,
     Span,
 )
+from tests.support import scenes
 from tests.support.tilted_fractions import exact_position
 
-CONTACT, EXTERIOR, INTERIOR, SILENT = 0, 1, -1, 2
+CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 
 
 def truth_beside(body, mover, axis, centre):
-    """What a hyperboloid says, in fractions: with its own axis, and its height along that."""
-    offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
+    """The position beside a hyperboloid: without ends in fractions, with its own axis; else as the truth has it."""
     if body.height is not None:
-        along = sum(a * Fraction(b) for a, b in zip(offset, body.axis, strict=True))
-        square = sum(Fraction(each) ** 2 for each in body.axis)
-        low, high = Fraction(body.height.low), Fraction(body.height.high)
-        if not (low * abs(low) * square <= along * abs(along) <= high * abs(high) * square):
-            return SILENT
+        return scenes.truth_beside(body, (mover.b, mover.d), axis, centre)
+    offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
     return exact_position((body.alpha, body.gamma, mover.b, mover.d, *offset, *axis), body.axis)
 
 
 def truth(scene, centre, axis):
     said = {truth_beside(body, scene.mover, axis, centre) for body in scene.hyperboloids}
-    return next((each for each in (CONTACT, INTERIOR, EXTERIOR) if each in said), SILENT)
+    return next(position for position in (CONTACT, INTERIOR, EXTERIOR) if position in said)
 
 
 def direction(draw, most=3):
@@ -83,7 +80,7 @@ def test_scene_classify_of_a_leaning_forest_answers_as_exact_fractions_about_eac
     assert len(set(expected)) > 1
     if question != "position":
         yes = {"exterior": EXTERIOR, "interior": INTERIOR, "contact": CONTACT}[question]
-        expected = [said if said == SILENT else int(said == yes) for said in expected]
+        expected = [int(said == yes) for said in expected]
     asked = Scene(replace(scene, question=question))
     for scale in (1.0, -(2.0**500)):  # the length and the sense of an axis say nothing
         turned = scale * np.array(axes)
@@ -149,10 +146,11 @@ ROOT_3 = 1.7320508075688774
         ((0.0, 0.0, -5.0), (-1.0, 2.0), (9.0, 0.0, -2.0), True),
     ],
 )
-def test_the_modelled_height_ends_exactly_and_is_measured_in_the_direction_of_the_axis(axis, span, centre, inside):
-    body = Hyperboloid("b", 1.0, 1.0, (0.0, 0.0, 0.0), Span(*span), axis)
+def test_an_open_hyperboloid_ends_exactly_at_heights_in_the_direction_of_its_axis(axis, span, centre, inside):
+    """A small mover, far from the wall of an open hyperboloid, is inside of it up to the ends, and outside beyond."""
+    body = Hyperboloid("b", 100.0, 100.0, (0.0, 0.0, 0.0), Span(*span), axis)
     scene = Scene(SceneModel("s", "position", (body,), Mover(0.25, 0.25)))
-    assert (scene.position(*centre) != SILENT) == inside
+    assert scene.position(*centre) == (INTERIOR if inside else EXTERIOR)
     assert scene.classify(*centre).tolist() == [scene.position(*centre)]
 
 
@@ -263,15 +261,14 @@ def truth_with_parts(scene, centre, heading, axis):
     for body in scene.hyperboloids:
         said = truth_beside(body, scene.mover, axis, centre)
         if said == CONTACT:
-            endless = replace(body, height=None)
             places = turned_places(scene.mover.parts, np.array(centre), heading, axis)
             parts = {
-                truth_beside(endless, part, axis, place.tolist())
+                truth_beside(body, part, axis, place.tolist())
                 for part, place in zip(scene.mover.parts, places, strict=True)
             }
             said = parts.pop() if len(parts) == 1 else CONTACT
         found.add(said)
-    return next((each for each in (CONTACT, INTERIOR, EXTERIOR) if each in found), SILENT)
+    return next(position for position in (CONTACT, INTERIOR, EXTERIOR) if position in found)
 
 
 ROTORS = tuple(MoverPart(0.2, 0.1, 0.6, angle) for angle in (45.0, 135.0, 225.0, 315.0))

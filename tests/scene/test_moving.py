@@ -15,7 +15,7 @@ from tests.scene.test_schema import accepted, places, replaced, tomllib
 from tests.support.records import violations
 
 SCHEMA = json.loads(
-    resources.files("hypcheck.scene").joinpath("schemas", "scene-1.1.0.json").read_text(encoding="utf-8")
+    resources.files("hypcheck.scene").joinpath("schemas", "scene-1.2.0.json").read_text(encoding="utf-8")
 )
 MOVING = (
     LEAST

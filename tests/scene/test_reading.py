@@ -23,6 +23,7 @@ alpha = 0.5
 gamma = 4
 center = [1, -2.5, 0]
 height = [-1, 6.25]
+solid = true
 
 [[hyperboloid]]
 alpha = 1e-3
@@ -65,7 +66,7 @@ def test_a_scene_with_every_key_is_read():
         name="yard",
         question="exterior",
         hyperboloids=(
-            Hyperboloid("oak", 0.5, 4.0, (1.0, -2.5, 0.0), Span(-1.0, 6.25)),
+            Hyperboloid("oak", 0.5, 4.0, (1.0, -2.5, 0.0), Span(-1.0, 6.25), solid=True),
             Hyperboloid("hyperboloid 2", 1e-3, 2.0),
         ),
         mover=Mover(0.25, 0.15, (MoverPart(0.1, 0.05, 0.135, -45.0),)),

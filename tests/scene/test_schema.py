@@ -20,7 +20,7 @@ else:
     import tomli as tomllib
 
 SCHEMA = json.loads(
-    resources.files("hypcheck.scene").joinpath("schemas", "scene-1.1.0.json").read_text(encoding="utf-8")
+    resources.files("hypcheck.scene").joinpath("schemas", "scene-1.2.0.json").read_text(encoding="utf-8")
 )
 TEXTS = [WHOLE, LEAST, LEANING, LEANING.replace("[0.5, 0, 2]", '"free"'), *map(shipped_text, shipped_scenes())]
 WRONG = (True, -1.0, 0, "", "text", [], [1.0], [1.0, 2.0], [1.0, 2.0, 3.0], [True, 1], {}, {"x": 1}, [{}], [3])

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 import random
+from fractions import Fraction
 
-from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, Span
+from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.scene.model import QUESTIONS, UPRIGHT, Hyperboloid, Mover, Region, SceneModel, Span
+from hypcheck.truth import exact
 
 
 def scene(sizes=(2.0, 17.8, 0.25, 0.15), question="position", **spans):
@@ -50,3 +53,17 @@ def random_scene(seed):
     z = draw.choice([None, None, Span(-height, height), Span(height, height), Span(0.0, 0.0)])
     x = draw.choice([None, None, None, Span(alpha / 2, 3 * alpha)])
     return scene((alpha, gamma, b, d), draw.choice(QUESTIONS), x=x, y=x, z=z)
+
+
+def truth_beside(body, semi_axes, axis, centre):
+    """The exact position of one spheroid, its centre in the scene's coordinates, beside a hyperboloid that may end."""
+    offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
+    heights = (-math.inf, math.inf) if body.height is None else body.height.ends
+    row = (body.alpha, body.gamma, *semi_axes, *offset, *axis, *heights, body.solid)
+    return exact.position(Lengths.of(row, body.axis))
+
+
+def truth_in(scene, centre, axis=UPRIGHT):
+    """The exact answer about all hyperboloids of a scene, each asked, for a mover without parts."""
+    said = {truth_beside(body, (scene.mover.b, scene.mover.d), axis, centre) for body in scene.hyperboloids}
+    return next(each for each in (Position.CONTACT, Position.INTERIOR, Position.EXTERIOR) if each in said)

@@ -117,10 +117,9 @@ def passage(groups: Groups) -> None:
     """`hypcheck.passage`, which is about a sweep."""
     if "end" not in groups:
         raise RefusedError("it is about a sweep; without an end ask position")
-    if "heights" in groups:
-        raise RefusedError("it has no argument for them")
     axis = vector("axis") if "axis" in groups else None
-    hypcheck.passage(SIZES, (2.5, 0.0, 0.25), vector("end"), axis)
+    heights = GROUPS["heights"] if "heights" in groups else {}
+    hypcheck.passage(SIZES, (2.5, 0.0, 0.25), vector("end"), axis, **heights)
 
 
 SCENE = """

@@ -93,7 +93,8 @@ def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], pre
     """The same for the kernel of a whole scene, whose plan is of positions."""
     name, question = comment_text(scene.name).replace('"', "'"), _question_in_comment(scene.question)
     pairs = _question_in_comment(plan.question)
-    answers = f"It answers {CANNOT_SAY} outside of the scene's region, to numbers that are not finite, and beyond every"
+    answers = f"It answers {CANNOT_SAY} outside of the scene's region and to numbers that are not finite."
+    at_ends = f"Of a mover that reaches over an end of a hyperboloid it answers what bounds tell, else {CANNOT_SAY}."
     asked = "`classify` and `predicate` are asked as those of other kernels: x, y and z as seen from the hyperboloid's"
     paragraphs = (
         f'The whole scene "{name}", by `whole`: {question}.',
@@ -101,7 +102,7 @@ def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], pre
         f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by",
         "    " + comment_text(shlex.join(command)),
         "`whole` takes the mover's centre in the scene's coordinates and its heading in degrees, which places parts.",
-        f"{answers} modelled height.",
+        f"{answers} {at_ends}",
         f"There are {len(plan.settings)} pairs of sizes. {asked} centre; any other sizes are answered {CANNOT_SAY}.",
         _bound(plan),
         "`whole` asks each hyperboloid so, its offset from the mover rounded once: by a unit more.",

@@ -7,7 +7,8 @@ hyperboloid, and there may be as many as a scene has.
 Each pair of sizes is asked for its position, as `verify` asks of any kernel. The whole is put together as
 hypcheck.Scene does it (kernel/scene.py): contact with any hyperboloid is contact, else inside any is interior, else
 exterior; parts are asked where the mover has contact. The offset from a hyperboloid's centre is rounded once, a change
-of that coordinate by a unit more.
+of that coordinate by a unit more. Of a spheroid that reaches over an end only bounds are asked, those of
+kernel/scene_ends.py; where they do not tell, the answer is 2.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from hypcheck.kernel.emission.plan_text import whole_header
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.specialise.last_stages import DualSearch
 from hypcheck.kernel.specialise.plan import ScenePlan, plan_of
-from hypcheck.scene.model import SceneModel
+from hypcheck.scene.model import Hyperboloid, SceneModel, Span
 
 MOST_SETTINGS = 20_000
 """As many as a scene file has hyperboloids."""
@@ -142,12 +143,22 @@ class _Shapes:
 
 def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
     """The plan of all pairs of sizes, asked for positions. Raises InputError where the scene has no such kernel."""
-    plan = plan_of(replace(scene, question="position"), precision, MOST_SETTINGS)
+    bodies = tuple(_taller(body, scene.mover.d) for body in scene.hyperboloids)
+    plan = plan_of(replace(scene, question="position", hyperboloids=bodies), precision, MOST_SETTINGS)
     if plan.axis is not None:
         raise InputError(
             "no kernel is made for a whole scene whose mover leans; without --whole there is one for its pairs"
         )
     return plan
+
+
+def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
+    """The hyperboloid where a mover that reaches so far up and down can touch what stands of it."""
+    if body.height is None:
+        return body
+    far = reach * (1 + 2.0**-40)
+    low, high = np.nextafter((body.height.low - far, body.height.high + far), (-np.inf, np.inf)).tolist()
+    return replace(body, height=Span(low, high))
 
 
 def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
@@ -245,7 +256,11 @@ def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, searched: bool,
     bodies = bodies_of([scene.hyperboloids[number] for number, _ in used])
     far = reaches(bodies, scene.mover, scene.region.z)
     with np.errstate(over="ignore"):
-        limits = np.stack([*bodies.origins.T, *bodies.heights.T, far * far * (1 + 2.0**-40)], axis=1)
+        ends = np.where(np.isinf(bodies.heights), 0, np.abs(bodies.heights)).max(axis=1)
+        loose = 2.0**-45 * (ends + np.abs(bodies.origins[:, 2]) + scene.mover.d)
+        limits = np.stack(
+            [*bodies.origins.T, *bodies.heights.T, loose, bodies.solid, far * far * (1 + 2.0**-40)], axis=1
+        )
     limits = np.clip(limits, -float_info.max, float_info.max)
     found = [
         table("sizes_of", [list(stages.setting.sizes) for stages in plan.settings], wide),

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from math import isfinite
 from sys import float_info
 from typing import Literal
 
@@ -155,7 +156,7 @@ def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box |
         low, high = max(low, z.low), min(high, z.high)
     if low > high:
         return None, None
-    return Box(x, y, Span(low, high)), height
+    return Box(x, y, Span(low, high) if isfinite(low) and isfinite(high) else None), height
 
 
 def _moved(span: Span | None, origin: float, arm: float) -> Span | None:

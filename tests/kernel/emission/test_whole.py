@@ -33,7 +33,13 @@ def forest(trees, question="position", parts=PARTS, region=None):
     rng = np.random.default_rng(trees)
     sizes, centres = rng.uniform((0.2, 2), (1.5, 6), (trees, 2)).tolist(), rng.uniform(-6, 6, (trees, 2)).tolist()
     bodies = tuple(
-        Hyperboloid(f"tree {k}", *size, (*centre, 0.25 * (k % 4)), Span(-1.0, 3.0 + 0.5 * (k % 3)) if k % 2 else None)
+        Hyperboloid(
+            f"tree {k}",
+            *size,
+            (*centre, 0.25 * (k % 4)),
+            Span(-1.0, 3.0 + 0.5 * (k % 3)) if k % 2 else None,
+            solid=k % 4 == 3,
+        )
         for k, (size, centre) in enumerate(zip(sizes, centres, strict=True))
     )
     return SceneModel("trees", question, bodies, Mover(0.25, 0.15, parts), region or Region(z=Span(-2.0, 6.0)))
@@ -68,6 +74,11 @@ def centres(count):
     return np.stack([*rng.uniform(-7, 7, (2, count)), rng.uniform(-2.5, 6.5, count), rng.uniform(0, 360, count)])
 
 
+def answers_as(found, answers, abstained=0.02):
+    """Whether a kernel answers as the scene, but for a share of centres at most, near ends, of which it answers 2."""
+    return bool(((found == answers) | (found == 2)).all()) and ((found == 2) & (answers != 2)).mean() <= abstained
+
+
 def expected(scene, columns):
     """What the scene says; 2 where the centre is outside of its region."""
     found = Scene(scene).classify(*columns)
@@ -93,7 +104,7 @@ LANGUAGES = [pytest.param(name, marks=[] if name in QUICK else pytest.mark.thoro
 def test_an_emitted_whole_scene_kernel_answers_as_the_scene(language, small, tmp_path):
     skip_without(language)
     scene, plan, columns, answers = small
-    assert (told(built(tmp_path, scene, language, plan), language, columns) == answers).all()
+    assert answers_as(told(built(tmp_path, scene, language, plan), language, columns), answers)
 
 
 @pytest.mark.thorough
@@ -112,10 +123,35 @@ def test_a_whole_scene_kernel_answers_the_question_of_its_scene(question, small,
     scene, columns = replace(small[0], question=question), small[2]
     answers = expected(scene, columns)
     assert set(answers.tolist()) == {0, 1, 2}
-    assert (told(built(tmp_path, scene, "python", small[1]), "python", columns) == answers).all()
+    assert answers_as(told(built(tmp_path, scene, "python", small[1]), "python", columns), answers)
 
 
-def test_a_whole_scene_kernel_answers_cannot_say_for_nan_and_beyond_all_modelled_heights(small, tmp_path):
+STUMPS = tuple(
+    Hyperboloid(f"stump {k}", 0.75, 2.0, (6.0 * k, 0.0, 0.1 * k), Span(-1.0, 2.0), solid=k == 1) for k in range(2)
+)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_whole_scene_kernel_never_calls_clear_what_touches_a_rim_or_an_end(language, tmp_path):
+    """Centres about the ends of an open and of a solid stump, inside of them, outside, above and on the rims."""
+    skip_without(language)
+    rng, count = np.random.default_rng(5), 3000
+    scene = SceneModel("stumps", "position", STUMPS, Mover(0.3, 0.2))
+    number, turn = rng.integers(0, 2, count), rng.uniform(0, 2 * np.pi, count)
+    off = 0.75 * 2**0.5 + rng.choice([-1, 1], count) * rng.uniform(0, 0.5, count)
+    level = rng.choice([-1.0, 2.0], count) + rng.uniform(-0.3, 0.3, count) + 0.1 * number
+    columns = np.stack([6.0 * number + off * np.cos(turn), off * np.sin(turn), level, np.zeros(count)])
+    answers = Scene(scene).classify(*columns)
+    assert set(answers.tolist()) == {-1, 0, 1}
+    path = built(tmp_path, scene, language, whole_plan(scene))
+    found = told(path, language, columns)
+    assert answers_as(found, answers, abstained=0.5)
+    assert {-1, 0, 1, 2} == set(found.tolist())
+    high = np.array([[0.0, 1e9], [0.0, 0.0], [2.3, 9.0], [0.0, 0.0]])
+    assert told(path, language, high).tolist() == [1, 1]
+
+
+def test_a_whole_scene_kernel_answers_cannot_say_for_nan_and_outside_of_the_region(small, tmp_path):
     path = built(tmp_path, small[0], "python", small[1])
     nan, most = float("nan"), 1.7976931348623157e308
     for centre in ((nan, 0, 0, 0), (0, float("inf"), 0, 0), (0, 0, 7, 0), (0, 0, nan, 0), (0, 0, 0, nan)):
@@ -134,4 +170,4 @@ def test_a_whole_scene_kernel_of_200_different_trees_answers_as_the_scene(tmp_pa
     skip_without("c")
     scene, columns = forest(200, parts=()), centres(20_000)
     path = built(tmp_path, scene, "c", whole_plan(scene))
-    assert (told(path, "c", columns) == expected(scene, columns)).all()
+    assert answers_as(told(path, "c", columns), expected(scene, columns))

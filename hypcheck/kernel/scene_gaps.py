@@ -1,0 +1,244 @@
+"""Distances from spheroids to what stands of hyperboloids that end, in the frames of these: branch and bound.
+
+With f(X) the distance from the spheroid to a point X outside of it, and n the unit vector along which that is, the
+spheroid lies in a half space: f(Y) ≥ n·(Y − C) − h(n) for every Y, with h(n) = √(b² + (d² − b²)(n·v)²) and v its axis.
+So the least n·Y in a cell of the wall is a lower bound for the cell, whatever n is, and its place a point to try.
+It is known in closed form:
+
+- beside a tilted spheroid cells are pieces of the rulings Y = (α (cos φ − w/γ sin φ), α (sin φ + w/γ cos φ), w),
+  linear in w and a cosine in φ, so that the least is at an end of w, and in φ at an end or where the cosine is −1;
+- beside an upright one Y = (ρ(w), w) in the meridian half plane of C, ρ = α √(1 + w²/γ²), has all that is needed:
+  n_r ρ + n_z w is least where its slope is 0, or at an end.
+
+Cells above what some point reaches are dropped, the others halved. The distance to an end disc is that to its rim, a
+border of the wall, or where the spheroid's point nearest to the disc's plane is above the disc, that to the plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
+
+_LOOSE = 2.0**-48
+"""More than the roundings of a bound, in units of all lengths in it."""
+
+_NARROW = 4 * _LOOSE
+"""How far apart the bounds are at most where cells could be halved enough, in the same units."""
+
+_ROUNDS, _MOST_CELLS, _FIRST = 96, 4096, 16
+"""A pair with more cells than that keeps its bounds as they are."""
+
+_TURNS, _SETTLED = 24, 2.0**-24
+"""Of Newton's method, whose error counts twice: bounds hold for any normal, and are best for the right one."""
+
+
+@dataclass(frozen=True)
+class Gaps:
+    """Bounds of distances (n,), and points (n, 3) that are not farther than the upper ones, but for roundings."""
+
+    lower: Floats
+    upper: Floats
+    point: Floats
+
+
+@dataclass(frozen=True)
+class _Pairs:
+    """α, γ, b, d (n,), centres and unit axes (n, 3); `upright` (n,): the axes of both are parallel, or it is a ball."""
+
+    alpha: Floats
+    gamma: Floats
+    b: Floats
+    d: Floats
+    centre: Floats
+    axis: Floats
+    upright: Mask
+
+    def some(self, index: Indices) -> _Pairs:
+        """The pairs of these numbers."""
+        return _Pairs(*(column[index] for column in vars(self).values()))
+
+
+def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask, farthest: Floats) -> Gaps:
+    """The distances of spheroids from walls between two heights, spans (n, 2), and from end discs where they are solid.
+
+    `sizes` are α, γ, b, d (n, 4); `axes` (n, 3), None where all are upright; `farthest` (n,) are upper bounds.
+    """
+    unit = np.tile((0.0, 0.0, 1.0), (len(sizes), 1)) if axes is None else axes / np.abs(axes).max(axis=1, keepdims=True)
+    unit = unit / np.sqrt((unit * unit).sum(axis=1, keepdims=True))
+    upright = (unit[:, :2] == 0).all(axis=1) | (sizes[:, 2] == sizes[:, 3])
+    with np.errstate(all="ignore"):
+        unit_of = -np.frexp(np.maximum(np.abs(centres).max(axis=1), sizes[:, 2:].max(axis=1)))[1]  # squares overflow
+        sizes, centres, spans = (np.ldexp(column, unit_of[:, None]) for column in (sizes, centres, spans))
+        alpha, gamma, b, d = np.ascontiguousarray(sizes.T)
+        pairs = _Pairs(alpha, gamma, b, d, centres, unit, upright)
+        found = _to_walls(pairs, spans, np.ldexp(farthest, unit_of))
+        for end in (0, 1):
+            _to_discs(found, pairs, spans[:, end], solid)
+        back = -unit_of
+        return Gaps(np.ldexp(found.lower, back), np.ldexp(found.upper, back), np.ldexp(found.point, back[:, None]))
+
+
+def _to_walls(pairs: _Pairs, spans: Rows, farthest: Floats) -> Gaps:
+    count = len(pairs.alpha)
+    found = Gaps(np.zeros(count), np.full(count, np.inf), np.full((count, 3), np.nan))
+    owner, cells = _first_cells(pairs, spans, farthest)
+    most = np.zeros(count)
+    np.maximum.at(most, owner, np.abs(cells[:, :2]).max(axis=1))
+    size = _size(pairs, most)
+    for _ in range(_ROUNDS):
+        of = pairs.some(owner)
+        normal = _try(found, of, owner, _middles(of, cells))
+        bound, place = _least(of, cells, normal)
+        _try(found, of, owner, place)
+        floor = np.full(count, np.inf)
+        np.minimum.at(floor, owner, bound)
+        enough = found.upper - _NARROW * size  # what was dropped before is not nearer
+        asked = np.unique(owner)
+        found.lower[asked] = np.maximum(found.lower, np.minimum(floor, enough))[asked]
+        few = np.bincount(owner, minlength=count) <= _MOST_CELLS
+        keep = np.flatnonzero((bound < enough[owner]) & few[owner])
+        if not len(keep):
+            break
+        owner, cells = _halved(of.some(keep), owner[keep], cells[keep])
+    return found
+
+
+def _first_cells(pairs: _Pairs, spans: Rows, farthest: Floats) -> tuple[Indices, Floats]:
+    """Whose each cell is, and w and φ from and to, (m, 4), of cells that cover all that can be nearest."""
+    level, far = pairs.centre[:, 2], (farthest + np.maximum(pairs.b, pairs.d)) * (1 + _LOOSE)
+    nearest = np.clip(level, *spans.T)
+    low, high = np.maximum(spans[:, 0], level - far), np.minimum(spans[:, 1], level + far)
+    low, high = np.minimum(low, nearest), np.maximum(high, nearest)
+    edges = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _FIRST + 1)
+    edges[:, -1] = high
+    turns = np.linspace(0, 2 * np.pi, _FIRST + 1)
+    owners, cells = [], []
+    for upright in (True, False):
+        of = np.flatnonzero(pairs.upright == upright)
+        across = [(0.0, 0.0)] if upright else list(pairwise(turns.tolist()))
+        for place in range(_FIRST):
+            for begin, end in across:
+                ends = (edges[of, place], edges[of, place + 1], np.full(len(of), begin), np.full(len(of), end))
+                owners.append(of)
+                cells.append(np.stack(ends, axis=1))
+    return np.concatenate(owners), np.concatenate(cells)
+
+
+def _halved(of: _Pairs, owner: Indices, cells: Floats) -> tuple[Indices, Floats]:
+    """Two cells for each, cut across its longer side."""
+    tall = (cells[:, 1] - cells[:, 0]) * np.hypot(1, of.alpha / of.gamma)
+    wide = (cells[:, 3] - cells[:, 2]) * of.alpha * np.hypot(1, np.abs(cells[:, :2]).max(axis=1) / of.gamma)
+    side = np.where(tall >= wide, 0, 2)
+    row = np.arange(len(cells))
+    middle = (cells[row, side] + cells[row, side + 1]) / 2
+    first, second = cells.copy(), cells.copy()
+    first[row, side + 1] = second[row, side] = middle
+    return np.concatenate([owner, owner]), np.concatenate([first, second])
+
+
+def _on_wall(of: _Pairs, w: Floats, turn: Floats) -> Floats:
+    """The points (m, 3) at these heights: in the meridian half plane of the centre, or on the ruling at an angle."""
+    x, y = of.centre[:, 0], of.centre[:, 1]
+    length, share = np.hypot(x, y), w / of.gamma
+    cosine, sine = np.where(length > 0, x / length, 1.0), np.where(length > 0, y / length, 0.0)
+    radius = np.hypot(1, share)
+    across = np.where(of.upright, radius * cosine, np.cos(turn) - share * np.sin(turn))
+    along = np.where(of.upright, radius * sine, np.sin(turn) + share * np.cos(turn))
+    return np.stack([of.alpha * across, of.alpha * along, w], axis=1)
+
+
+def _middles(of: _Pairs, cells: Floats) -> Floats:
+    return _on_wall(of, (cells[:, 0] + cells[:, 1]) / 2, (cells[:, 2] + cells[:, 3]) / 2)
+
+
+def _try(found: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
+    """Take points into account; the unit vectors along which they are from their spheroids."""
+    way = place - of.centre
+    along = (of.axis * way).sum(axis=1)
+    across = way - along[:, None] * of.axis
+    off = np.sqrt((across * across).sum(axis=1))
+    b, d = of.b, of.d
+    beyond = np.maximum(np.maximum(b * off - b * b, d * np.abs(along) - d * d), 0)
+    for _ in range(_TURNS):  # (b off/(b² + t))² + (d along/(d² + t))² = 1, from below
+        p, q = b * b + beyond, d * d + beyond
+        first, second = (b * off / p) ** 2, (d * along / q) ** 2
+        step = (first + second - 1) / (2 * (first / p + second / q))
+        beyond = beyond + np.maximum(np.nan_to_num(step), 0)
+        if not (step > _SETTLED * beyond).any():
+            break
+    p, q = b * b + beyond, d * d + beyond
+    share = np.maximum(np.hypot(b * off / p, d * along / q), 1)
+    rest = across * (1 - b * b / p / share)[:, None] + of.axis * (along * (1 - d * d / q / share))[:, None]
+    inside = np.hypot(off / b, along / d) <= 1
+    upper = np.where(inside, 0, np.sqrt((rest * rest).sum(axis=1)))
+    best = np.full(len(found.upper), np.inf)
+    np.minimum.at(best, owner, upper)
+    better = best < found.upper
+    winners = np.flatnonzero((upper == best[owner]) & better[owner])
+    found.point[owner[winners]] = place[winners]
+    found.upper[better] = best[better]
+    normal = across / p[:, None] + of.axis * (along / q)[:, None]
+    return np.asarray(normal / np.sqrt((normal * normal).sum(axis=1, keepdims=True)))
+
+
+def _least(of: _Pairs, cells: Floats, normal: Floats) -> tuple[Floats, Floats]:
+    """A lower bound of the distance in each cell (m,), and the point (m, 3) that has it along the normal."""
+    heights, turns = _candidates(of, cells, normal)
+    best, place = np.full(len(cells), np.inf), np.zeros((len(cells), 3))
+    for w in heights:
+        for turn in turns(w):
+            point = _on_wall(of, w, turn)
+            value = (normal * (point - of.centre)).sum(axis=1)
+            nearer = value < best
+            best[nearer], place[nearer] = value[nearer], point[nearer]
+    steep = (normal * of.axis).sum(axis=1)
+    flat = np.sqrt(np.maximum(1 - steep * steep, 0))
+    bound = best - np.hypot(of.b * flat, of.d * steep) - _LOOSE * _size(of, np.abs(cells[:, :2]).max(axis=1))
+    return np.where(np.isfinite(bound), bound, -np.inf), place
+
+
+def _size(of: _Pairs, height: Floats) -> Floats:
+    """The lengths in a bound: of the pair, and of points of the wall up to a height."""
+    wall = height + of.alpha * np.hypot(1, height / of.gamma)
+    return np.asarray(np.abs(of.centre).sum(axis=1) + of.b + of.d + wall)
+
+
+def _candidates(of: _Pairs, cells: Floats, normal: Floats) -> tuple[list[Floats], Callable[[Floats], list[Floats]]]:
+    """Heights, and angles at each, at one of which the normal's component is least in the cells."""
+    x, y, (n_x, n_y, n_z) = of.centre[:, 0], of.centre[:, 1], normal.T
+    length = np.hypot(x, y)
+    outward = np.where(length > 0, (n_x * x + n_y * y) / length, n_x)
+    slope = -n_z * of.gamma / (outward * of.alpha)
+    flat = of.gamma * slope / np.sqrt(np.maximum(1 - slope * slope, 0))
+    flat = np.where(of.upright & np.isfinite(flat), flat, cells[:, 0])
+
+    def turns(w: Floats) -> list[Floats]:
+        share = w / of.gamma
+        lowest = np.arctan2(n_y - share * n_x, n_x + share * n_y) + np.pi
+        lowest += 2 * np.pi * np.ceil((cells[:, 2] - lowest) / (2 * np.pi))
+        return [cells[:, 2], cells[:, 3], np.clip(lowest, cells[:, 2], cells[:, 3])]
+
+    return [cells[:, 0], cells[:, 1], np.clip(flat, cells[:, 0], cells[:, 1])], turns
+
+
+def _to_discs(found: Gaps, pairs: _Pairs, end: Floats, solid: Mask) -> None:
+    """Take end discs of those that are solid into account, but for their rims."""
+    v, rise = pairs.axis, end - pairs.centre[:, 2]
+    level = v[:, 0] * v[:, 0] + v[:, 1] * v[:, 1]
+    half = np.sqrt(pairs.b**2 * level + pairs.d**2 * v[:, 2] ** 2)
+    way = ((pairs.d**2 - pairs.b**2) * v[:, 2] / half)[:, None] * v[:, :2]
+    across = pairs.centre[:, :2] + np.clip(rise / half, -1, 1)[:, None] * way
+    radius, off = pairs.alpha * np.hypot(1, end / pairs.gamma), np.hypot(*across.T)
+    distance = np.maximum(np.abs(rise) - half, 0)
+    loose = _LOOSE * (radius + off + np.abs(end) + np.abs(pairs.centre).sum(axis=1) + pairs.b + pairs.d)
+    ends = solid & np.isfinite(end)
+    above = ends & (off <= radius + loose)
+    found.lower[above] = np.minimum(found.lower, np.maximum(distance - loose, 0))[above]
+    better = ends & (off <= radius - loose) & (distance < found.upper)
+    found.upper[better] = distance[better]
+    found.point[better] = np.concatenate([across, end[:, None]], axis=1)[better]

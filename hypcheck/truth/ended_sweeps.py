@@ -1,0 +1,264 @@
+"""Sweeps beside a hyperboloid that ends: whether a spheroid that moves straight meets its wall or its discs, and when.
+
+Contact begins and ends where the spheroid E touches the wall or a disc without crossing it. The point of touch is
+
+- on the wall between its ends: E is tangent to the whole hyperboloid, and the discriminant of F is 0 (journey.py);
+- on a rim: the circle just touches the ellipse of its plane, and Δ of the cubic g at that height is 0 (sections.py);
+- within a disc: its plane is tangent to E, and k at that height is 0.
+
+All of these are polynomials in the time t: the coefficients of g, and k, are quadratic in the centre and so in t. An
+end of a tilted hyperboloid is at a height w √U, so that they are u + v √U with polynomials u, v; then the norm
+u² − U v² is taken. Between two neighbouring roots of them all nothing changes, and one exact decision finds it.
+
+Roots are enclosed ever more narrowly. What is closer together than that counts as one cluster. A cluster between two
+clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for
+an instant, or comes nearer than 2^−_BITS[-1] of its way; both count as contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from math import isqrt
+
+from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.truth import exact
+from hypcheck.truth.journey import Journey
+from hypcheck.truth.polynomial_roots import (
+    Interval,
+    Polynomial,
+    enclosures,
+    polynomial_product,
+    polynomial_sum,
+    primitive,
+)
+from hypcheck.truth.sections import Sections
+
+_BITS = (60, 120, 240)
+"""How many bits of their times enclosures of roots have, one after the other, where the first do not tell."""
+
+_HALVINGS = 20
+"""So often the way is halved where the discriminant is 0 all along."""
+
+START, END = Fraction(0), Fraction(1)
+
+
+@dataclass(frozen=True)
+class EndedSweep:
+    """A spheroid that goes straight beside a hyperboloid that ends, or smaller ones within it, which move with it.
+
+    With `parts` there is contact where the spheroid is in contact and its parts are not all clear on one side.
+    """
+
+    whole: Journey
+    parts: tuple[Journey, ...] = ()
+
+    def meets(self, time: Fraction) -> bool:
+        """Whether there is contact at a rational time."""
+        if self.whole.position(time) is not Position.CONTACT:
+            return False
+        return not self.parts or not _clear_on_one_side(part.position(time) for part in self.parts)
+
+    def clear(self, first: Fraction, last: Fraction) -> bool:
+        """Whether bounds show that there is no contact between two times: of spheroids that are so much larger."""
+        middle, half = (first + last) / 2, (last - first) / 2
+        if _larger(self.whole, middle, half) is not Position.CONTACT:
+            return True
+        return bool(self.parts) and _clear_on_one_side(_larger(part, middle, half) for part in self.parts)
+
+    @cached_property
+    def critical(self) -> list[Polynomial] | None:
+        """Polynomials in t, one of which is 0 wherever contact begins or ends; None where one would be 0 all along."""
+        found: list[Polynomial] = []
+        for journey in (self.whole, *self.parts):
+            tangent = journey.discriminant()
+            if not tangent:
+                return None
+            found += [tangent, *_at_ends(journey, sides=bool(self.parts))]
+        return found
+
+
+def _clear_on_one_side(positions: Iterator[Position]) -> bool:
+    sides = set(positions)
+    return len(sides) == 1 and Position.CONTACT not in sides
+
+
+def _larger(journey: Journey, middle: Fraction, half: Fraction) -> Position:
+    """The position of a spheroid that contains the moving one at all times about one.
+
+    Moved by a vector, a spheroid is contained in one that is larger by the vector's length in radii.
+    """
+    lengths, way = journey.at(middle), journey.way
+    u, v, w = (abs(part) * half * middle.denominator for part in way)
+    if journey.is_upright and lengths.upward == (0, 0, 1):
+        radii = (u + v) / lengths.b + w / lengths.d
+    else:
+        radii = (u + v + w) / min(lengths.b, lengths.d)
+    if not radii:
+        return exact.position(lengths)
+    bits = radii.denominator.bit_length() - radii.numerator.bit_length() - 1  # 2^−bits ≥ radii
+    unit, more = (1 << bits, 1) if bits > 0 else (1, 1 << -bits)
+    return exact.position(_scaled(lengths, unit, unit + more))
+
+
+def _scaled(lengths: Lengths, unit: int, radius: int) -> Lengths:
+    """The same lengths in another unit, with semi-axes `radius` over `unit` times as long."""
+    low, high = (None if end is None else end * unit for end in (lengths.low, lengths.high))
+    names = ("alpha", "x", "y", "gamma", "z")
+    return replace(
+        lengths,
+        b=lengths.b * radius,
+        d=lengths.d * radius,
+        low=low,
+        high=high,
+        **{name: getattr(lengths, name) * unit for name in names},
+    )
+
+
+def first_contact(sweep: EndedSweep) -> Interval | None:
+    """When there is contact first, enclosed; None where there is none from beginning to end."""
+    if sweep.meets(START):
+        return START, START
+    if not sweep.whole.moves or _clear_in_pieces(sweep):
+        return None
+    if sweep.critical is None:
+        return _by_halving(sweep, START, END, _HALVINGS)
+    found: Interval | None = None
+    for bits in _BITS:
+        found, certain = _first_of(sweep, _clusters(sweep.critical, bits))
+        if certain:
+            break
+    return found
+
+
+def meets(sweep: EndedSweep) -> bool:
+    """Whether there is contact at all; as first_contact, but sooner where some time shows it."""
+    return any(sweep.meets(Fraction(time, 4)) for time in (0, 4, 2, 1, 3)) or first_contact(sweep) is not None
+
+
+def grazes(journey: Journey) -> bool:
+    """Whether all contact on a way, which has some, is a touch."""
+    critical = EndedSweep(journey).critical
+    if critical is None:
+        return False
+    times = [time for time in _gaps(_clusters(critical, _BITS[0])) if time is not None]
+    return all(journey.position(time) is not Position.CONTACT or journey.tangent(time) for time in times)
+
+
+def _clear_in_pieces(sweep: EndedSweep, pieces: int = 4) -> bool:
+    return all(sweep.clear(Fraction(place, pieces), Fraction(place + 1, pieces)) for place in range(pieces))
+
+
+def _by_halving(sweep: EndedSweep, first: Fraction, last: Fraction, left: int) -> Interval | None:
+    """The first piece that cannot be shown to be clear."""
+    if sweep.clear(first, last):
+        return None
+    if not left:
+        return first, last
+    middle = (first + last) / 2
+    return _by_halving(sweep, first, middle, left - 1) or _by_halving(sweep, middle, last, left - 1)
+
+
+def _clusters(critical: Sequence[Polynomial], bits: int) -> list[Interval]:
+    """Disjoint intervals in order that hold all roots in [0, 1]: enclosures that overlap, or meet, are one."""
+    found: list[Interval] = []
+    for low, high in sorted(time for f in critical for time in enclosures(f, bits)):
+        if found and low <= found[-1][1]:
+            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        else:
+            found.append((low, high))
+    return found
+
+
+def _gaps(clusters: Sequence[Interval]) -> list[Fraction | None]:
+    """A time behind each cluster and before the next, after one before the first; None where there is no room."""
+    ends = [START, *(high for _, high in clusters)]
+    begins = [*(low for low, _ in clusters), END]
+    return [None if low >= high else (low + high) / 2 for low, high in zip(ends, begins, strict=True)]
+
+
+def _first_of(sweep: EndedSweep, clusters: Sequence[Interval]) -> tuple[Interval | None, bool]:
+    """The first cluster with contact in it or behind it, the start being clear, and whether that is certain."""
+    for (low, high), behind in zip(clusters, _gaps(clusters)[1:], strict=True):
+        if low == high:
+            if sweep.meets(low):
+                return (low, high), True
+        elif (behind is None and sweep.meets(END)) or not sweep.clear(low, high):
+            return (low, high), behind is not None and sweep.meets(behind)
+        if behind is not None and sweep.meets(behind):
+            return (low, high), True
+    return None, True
+
+
+def _at_ends(journey: Journey, *, sides: bool) -> Iterator[Polynomial]:
+    """Polynomials that are 0 where E touches a rim, or the plane of an end; with `sides`, where its centre is in it."""
+    sections = [Sections.of(journey.at(Fraction(time)), over_content=False) for time in range(3)]
+    unit = sections[0].unit
+    for height in (journey.start.low, journey.start.high):
+        if height is None:
+            continue
+        c3, c2, c1, c0 = ([of.value(of.cubic[k], height) for of in sections] for k in range(4))
+        g = [_WithRoot.through(values, unit) for values in (c3, c2, c1, c0)]
+        yield from _where_touched(*g)
+        yield from _WithRoot.through([of.value(of.inside, height) for of in sections], unit).norm
+        if sides:
+            yield from _WithRoot.through([of.value(of.above, height) for of in sections], unit).norm
+
+
+def _where_touched(c3: _WithRoot, c2: _WithRoot, c1: _WithRoot, c0: _WithRoot) -> Iterator[Polynomial]:
+    """Polynomials that are 0 where the circle just touches the ellipse."""
+    if c0.norm:
+        yield from exact.cubic_discriminant(c3, c2, c1, c0).norm
+        return
+    for f in (c2 * c2 - c3 * c1 * 4, c1, c2):
+        yield from f.norm
+
+
+@dataclass(frozen=True, slots=True)
+class _WithRoot:
+    """A polynomial u + v √U in t: what exact.cubic_discriminant takes for a number."""
+
+    u: Sequence[int]
+    v: Sequence[int]
+    unit: int
+
+    @classmethod
+    def through(cls, values: Sequence[tuple[int | Fraction, int | Fraction]], unit: int) -> _WithRoot:
+        """The quadratic with these values at 0, 1, 2, doubled."""
+        u, v = (
+            (there - 2 * here + start, 4 * here - there - 3 * start, 2 * start)
+            for start, here, there in zip(*((int(even), int(odd)) for even, odd in values), strict=True)
+        )
+        return cls(u, v, unit)
+
+    def __add__(self, other: _WithRoot) -> _WithRoot:
+        return _WithRoot(polynomial_sum(self.u, other.u), polynomial_sum(self.v, other.v), self.unit)
+
+    def __mul__(self, other: _WithRoot | int) -> _WithRoot:
+        if isinstance(other, int):
+            return _WithRoot([number * other for number in self.u], [number * other for number in self.v], self.unit)
+        product = polynomial_product
+        rest = [number * self.unit for number in product(self.v, other.v)]
+        return _WithRoot(
+            polynomial_sum(product(self.u, other.u), rest),
+            polynomial_sum(product(self.u, other.v), product(self.v, other.u)),
+            self.unit,
+        )
+
+    def __sub__(self, other: _WithRoot) -> _WithRoot:
+        return self + other * -1
+
+    __rmul__ = __mul__
+
+    @property
+    def norm(self) -> list[Polynomial]:
+        """A polynomial that is 0 wherever this is, primitive, as the only one of a list; none where this is 0."""
+        root = isqrt(self.unit)
+        if root * root == self.unit:
+            found = primitive(polynomial_sum(self.u, [number * root for number in self.v]))
+        else:
+            square = [number * -self.unit for number in polynomial_product(self.v, self.v)]
+            found = primitive(polynomial_sum(polynomial_product(self.u, self.u), square))
+        return [found] if len(found) > 1 else []

@@ -1,0 +1,235 @@
+"""Scenes whose hyperboloids end: position, nearest and passage agree with each other and with exact decisions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from math import inf
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Position
+from hypcheck.kernel.scene import Scene
+from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+from hypcheck.truth.swept import passage
+from tests.support.scenes import truth_beside, truth_in
+
+STUMP = Hyperboloid("stump", 0.2, 1.0, (0.0, 0.0, 0.0), Span(-1.0, 2.0))
+DRONE = Mover(0.3, 0.2)
+
+
+def scene(*bodies, mover=DRONE, **changes):
+    return Scene(SceneModel("s", "position", bodies, mover, **changes))
+
+
+def test_a_drone_on_the_rim_of_a_tree_is_in_contact_by_position_nearest_and_passage():
+    """A second tree stands far off; the rim is 0.2 √5 from the axis."""
+    rim, far = 0.2 * 5**0.5, Hyperboloid("far", 0.2, 1.0, (50.0, 0.0, 0.0), Span(-1.0, 2.0))
+    trees = scene(STUMP, far)
+    assert trees.position(rim, 0.0, 2.01) == Position.CONTACT
+    assert trees.classify([rim, rim, 0.0], 0.0, [2.01, 2.25, 5.0]).tolist() == [0, 1, 1]
+    assert trees.passage((rim, 0.0, 4.0), (rim, 0.0, 2.01)).tolist() == [1]
+    assert trees.passage((rim, 0.0, 4.0), (rim, 0.0, 2.25)).tolist() == [0]
+    found = trees.nearest([rim, rim], 0.0, [2.01, 2.25])
+    assert (found.distance_upper == 0).tolist() == [True, False]
+    assert found.index.tolist() == [0, 0]
+    assert found.distance_lower[1] <= 0.05 <= found.distance_upper[1]
+    assert found.distance_upper[1] - found.distance_lower[1] < 1e-12
+    assert found.point[1] == pytest.approx((rim, 0.0, 2.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("solid", [False, True])
+def test_a_small_drone_over_an_opening_is_clear_and_over_a_flat_end_touches(solid):
+    wide = Hyperboloid("tower", 2.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0), solid=solid)
+    tower = scene(wide)
+    assert tower.classify(0.5, 0.0, [0.0, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 9.0]).tolist() == (
+        [-1, -1, 0, 0, 0, 0, 0, 1, 1] if solid else [-1, -1, -1, -1, -1, 1, 1, 1, 1]
+    )
+    assert tower.passage((0.5, 0.0, 0.0), (0.5, 0.0, 9.0)).tolist() == [int(solid)]
+    assert tower.passage((0.5, 0.0, 9.0), (0.5, 0.0, 1.25)).tolist() == [0]
+    found = tower.nearest(0.5, 0.0, [0.5, 1.5])
+    if solid:
+        assert (found.distance_lower <= 0.3 + 1e-15).all()
+        assert (found.distance_upper >= [0.3 - 1e-15, 0.3 - 1e-15]).all()
+        assert found.point == pytest.approx(np.array([(0.5, 0.0, 1.0)] * 2), abs=1e-9)
+    else:
+        assert (found.distance_lower > 1.0).all()
+
+
+def random_body(draw, number, *, tilted):
+    """A hyperboloid about a metre wide, anywhere near the origin, that ends somewhere, open or solid."""
+    low = draw.choice([-inf, -draw.uniform(0.1, 1.5), draw.uniform(-0.5, 0.5)])
+    high = low + draw.choice([draw.uniform(1e-3, 0.1), draw.uniform(0.2, 2)]) if low > -inf else draw.uniform(-1, 1)
+    axis = tuple(draw.normal(size=3).tolist()) if tilted else UPRIGHT
+    center = tuple(np.round(draw.uniform(-1, 1, 3), draw.choice([1, 12])).tolist())
+    sizes = draw.uniform(0.2, 1.5, 2).tolist()
+    return Hyperboloid(f"h {number}", *sizes, center, Span(float(low), float(high)), axis, bool(draw.random() < 0.5))
+
+
+def frame(body):
+    """A matrix whose rows are unit vectors across the axis, two, and along it."""
+    along = np.array(body.axis) / np.linalg.norm(body.axis)
+    across = np.cross(along, (1, 0, 0) if abs(along[0]) < 0.6 else (0, 1, 0))
+    across /= np.linalg.norm(across)
+    return np.stack([across, np.cross(along, across), along])
+
+
+def near(draw, body, mover, axis):
+    """A centre from which the mover nearly touches a rim, a disc or the wall, within 1e-9 or as floats fall."""
+    end = draw.choice([height for height in body.height.ends if np.isfinite(height)])
+    bottom = max(body.height.low, body.height.high - 2)
+    where, turn = draw.choice(["rim", "rim", "disc", "wall"]), draw.uniform(0, 2 * np.pi)
+    w = draw.uniform(bottom, body.height.high) if where == "wall" else end
+    r = body.alpha * np.hypot(1, w / body.gamma)
+    slope = body.alpha**2 * w / (body.gamma**2 * r)
+    normal = {
+        "rim": draw.normal(size=3),
+        "disc": np.array([0, 0, draw.choice([-1.0, 1.0])]),
+        "wall": draw.choice([-1, 1]) * np.array([np.cos(turn), np.sin(turn), -slope]),
+    }[where]
+    radius = r * (draw.uniform(0, 1) if where == "disc" else 1)
+    point = frame(body).T @ (radius * np.cos(turn), radius * np.sin(turn), w) + body.center
+    out = frame(body).T @ normal / np.linalg.norm(normal)
+    v = np.array(axis) / np.linalg.norm(axis)
+    half = mover.b**2 * out + (mover.d**2 - mover.b**2) * (out @ v) * v
+    off = draw.choice([-1, 1]) * draw.choice([1e-9, 1e-12, 1e-16, 0.0])
+    return (point + half / np.sqrt(out @ half) + off * out).tolist()
+
+
+def random_rows(seed, count, *, tilted_bodies, tilted_mover):
+    """A scene of three hyperboloids, and centres and axes of which half nearly touch one."""
+    draw = np.random.default_rng(seed)
+    bodies = tuple(random_body(draw, k, tilted=tilted_bodies and draw.random() < 0.7) for k in range(3))
+    mover = Mover(*draw.uniform(0.05, 0.8, 2).tolist(), axis=FREE if tilted_mover else UPRIGHT)
+    centres, axes = [], []
+    for place in range(count):
+        axis = draw.normal(size=3).tolist() if tilted_mover else list(UPRIGHT)
+        body = bodies[draw.integers(3)]
+        anywhere = (draw.normal(size=3) + body.center).tolist()
+        centres.append(near(draw, body, mover, axis) if place % 2 else anywhere)
+        axes.append(axis)
+    return scene(*bodies, mover=mover), np.array(centres), np.array(axes)
+
+
+@pytest.mark.parametrize("tilted_bodies", [False, True])
+@pytest.mark.parametrize("tilted_mover", [False, True])
+@pytest.mark.parametrize("seed", range(2))
+def test_position_nearest_and_passage_never_contradict_each_other_or_the_exact_position(
+    seed, tilted_mover, tilted_bodies
+):
+    asked, centres, axes = random_rows(seed, 24, tilted_bodies=tilted_bodies, tilted_mover=tilted_mover)
+    named = {"axis": axes} if tilted_mover else {}
+    true = [truth_in(asked.model, centre, axis) for centre, axis in zip(centres.tolist(), axes.tolist(), strict=True)]
+    found = asked.classify(*centres.T, **named)
+    assert found.tolist() == true
+    for centre, axis, position in zip(centres.tolist(), axes.tolist(), true, strict=True):
+        assert asked.position(*centre, **({"axis": axis} if tilted_mover else {})) == position
+    touching = found == Position.CONTACT
+    assert 2 < touching.sum() < 22
+    assert (asked.passage(centres, centres, **named) == touching).all()
+    nearest = asked.nearest(*centres.T, **named)
+    assert ((nearest.distance_upper == 0) == touching).all()
+    assert (nearest.distance_lower[touching] == 0).all()
+    assert (nearest.distance_upper - nearest.distance_lower < 1e-9 * (1 + nearest.distance_upper)).all()
+    back = np.roll(centres, 1, axis=0)
+    moved = asked.passage(centres, back, **named)
+    assert (moved[touching] == 1).all()
+    if not tilted_mover:
+        assert (moved[np.roll(touching, 1)] == 1).all()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_nearest_distance_is_the_least_over_points_of_what_stands(seed):
+    """Balls, so that the distance to a point is known: that of the centre, less the radius."""
+    draw = np.random.default_rng(seed)
+    body = random_body(draw, 0, tilted=seed % 2 == 1)
+    body = replace(body, height=Span(max(body.height.low, -2.0), body.height.high))
+    asked, centres = scene(body, mover=Mover(0.1, 0.1)), draw.normal(size=(20, 3)) * 1.5
+    w, turn = np.meshgrid(np.linspace(*body.height.ends, 400), np.linspace(0, 2 * np.pi, 400))
+    r = body.alpha * np.hypot(1, w / body.gamma)
+    walls = np.stack([r * np.cos(turn), r * np.sin(turn), w], axis=-1).reshape(-1, 3)
+    if body.solid:
+        share = np.linspace(0, 1, 400)
+        for end in body.height.ends:
+            r = body.alpha * np.hypot(1, end / body.gamma) * share[None, :]
+            flat = np.stack([r * np.cos(turn), r * np.sin(turn), np.full(turn.shape, end)], axis=-1)
+            walls = np.concatenate([walls, flat.reshape(-1, 3)])
+    points = walls @ frame(body) + body.center
+    spacing = np.abs(walls[:, :2]).max() * 2 * np.pi / 400 + 2 * (1 + body.alpha / body.gamma) / 200
+    found = asked.nearest(*centres.T)
+    for centre, lower, upper in zip(centres, found.distance_lower, found.distance_upper, strict=True):
+        sampled = np.sqrt(((points - centre) ** 2).sum(axis=1).min()) - 0.1
+        assert lower <= max(sampled, 0) + 1e-12
+        assert upper >= sampled - spacing
+    clear = found.distance_upper > 0
+    assert clear.sum() > 5
+    to_point = np.linalg.norm(found.point - centres, axis=1) - 0.1
+    assert to_point[clear] == pytest.approx(found.distance_upper[clear], abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(0, 8, 2))
+def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before_the_first(seed):
+    """Exact positions at 33 times of each sweep; the first contact is enclosed within 2^-58 of the whole."""
+    draw, hits = np.random.default_rng(seed), set()
+    for number in range(9):
+        body = random_body(draw, 0, tilted=number % 2 == 1)
+        axis = draw.normal(size=3).tolist() if seed % 4 > 1 else list(UPRIGHT)
+        mover = Mover(*draw.uniform(0.05, 0.8, 2).tolist(), axis=tuple(axis))
+        asked = scene(body, mover=mover)
+        start = near(draw, body, mover, axis) if draw.random() < 0.3 else (draw.normal(size=3) * 1.5).tolist()
+        end = near(draw, body, mover, axis) if draw.random() < 0.3 else (draw.normal(size=3) * 1.5).tolist()
+        hit = bool(asked.passage(start, end)[0])
+        offsets = [[Fraction(a) - Fraction(b) for a, b in zip(p, body.center, strict=True)] for p in (start, end)]
+        sizes, (low, high) = (body.alpha, body.gamma, mover.b, mover.d), body.height.ends
+        found = passage(sizes, *offsets, axis, body.axis, z_min=low, z_max=high, solid=body.solid)
+        assert found.hit == hit
+        times = [Fraction(k, 32) for k in range(33)]
+        way = [(Fraction(here), Fraction(there)) for here, there in zip(start, end, strict=True)]
+        places = ([here + time * (there - here) for here, there in way] for time in times)
+        said = [truth_beside(body, (mover.b, mover.d), axis, place) for place in places]
+        touching = [time for time, position in zip(times, said, strict=True) if position is Position.CONTACT]
+        if found.first is None:
+            assert not touching
+        else:
+            low, high = found.first
+            assert high - low <= Fraction(1, 2**58)
+            assert found.first_lower <= low <= high <= found.first_upper
+            assert not touching or low <= touching[0]
+        hits.add(hit)
+    assert hits == {False, True}
+
+
+def test_passage_that_grazes_a_rim_at_an_irrational_time_hits_and_a_hair_above_does_not():
+    """A ball of radius 1/4 comes down and goes past (15/8, 0, 1), a point of the rim, along a line at distance 1/4."""
+    body = Hyperboloid("tower", 1.125, 0.75, (0.0, 0.0, 0.0), Span(0.0, 1.0))
+    rim = 1.875  # 9/8 · 5/3, as 1 + 16/9 = 25/9
+    ball = scene(body, mover=Mover(0.25, 0.25))
+    for lift, hit in ((0.0, 1), (2.0**-40, 0), (-(2.0**-40), 1)):
+        level = 1.25 + lift
+        assert ball.passage((rim, -1.0, level), (rim, np.pi, level)).tolist() == [hit]
+        assert ball.passage((rim, -1.0, level), (rim, 1.0, level)).tolist() == [hit]
+
+
+def test_parts_of_a_mover_pass_through_an_opening_that_the_mover_does_not_fit():
+    body = Hyperboloid("tower", 1.0, 4.0, (0.0, 0.0, 0.0), Span(-2.0, 1.0))
+    rotors = tuple(MoverPart(0.1, 0.05, 0.8, angle) for angle in (0.0, 180.0))
+    asked = scene(body, mover=Mover(1.1, 0.3, rotors))
+    up = (0.0, 0.0, -1.0), (0.0, 0.0, 3.0)
+    assert asked.classify(0.0, 0.0, [-1.0, 0.9, 1.1, 3.0]).tolist() == [-1, -1, 1, 1]
+    assert asked.passage(*up).tolist() == [0]
+    wide = (replace(rotors[0], arm=0.95), rotors[1])
+    assert scene(body, mover=Mover(1.1, 0.3, wide)).passage(*up).tolist() == [1]
+
+
+def test_ends_of_a_hyperboloid_whose_axis_points_down_are_counted_downwards():
+    for axis, span in ((UPRIGHT, Span(-1.0, 2.0)), ((0.0, 0.0, -5.0), Span(-2.0, 1.0))):
+        tree = scene(replace(STUMP, axis=axis, height=span, solid=True))
+        assert tree.classify(0.0, 0.0, [-1.25, -1.15, 0.0, 2.15, 2.25]).tolist() == [1, 0, 0, 0, 1]
+
+
+def test_answers_outside_of_the_region_know_the_ends_too():
+    tree = scene(STUMP, region=Region(z=Span(0.0, 1.0)))
+    assert [tree.position(0.3, 0.0, z) for z in (-9.0, 0.0, 2.1, 9.0)] == [1, 0, 0, 1]
+    assert tree.classify(0.3, 0.0, [-9.0, 0.0, 2.1, 9.0]).tolist() == [1, 0, 0, 1]
+    assert tree.passage([(0.3, 0.0, 9.0)] * 2, [(0.3, 0.0, 5.0), (0.3, 0.0, 2.1)]).tolist() == [0, 1]
