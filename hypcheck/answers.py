@@ -18,6 +18,7 @@ from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
 from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid
 from hypcheck.kernel.classify import kernel
 from hypcheck.processes import in_order, usable_processors
+from hypcheck.sweep_answer import passage_of_row
 from hypcheck.tables.chunk import SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
@@ -26,7 +27,6 @@ from hypcheck.tables.streams import Route, reading, same_file, writing
 from hypcheck.truth import exact, float_filter, nearest_rows
 from hypcheck.truth.nearest import NearestStage
 from hypcheck.truth.nearest_rows import upright_mask
-from hypcheck.truth.swept import passage
 
 
 def answers(rows: Rows) -> TableAnswers:
@@ -154,8 +154,7 @@ def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
     hits = np.full(count, REFUSED, dtype=np.int8)
     lower, upper = np.full(count, np.nan), np.full(count, np.nan)
     for index in np.flatnonzero(~chunk.refused).tolist():
-        row = chunk.rows[index].tolist()
-        found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
+        found = passage_of_row(chunk.rows[index].tolist())
         hits[index], lower[index], upper[index] = found.hit, found.first_lower, found.first_upper
     return SweepAnswers(hits, lower, upper)
 

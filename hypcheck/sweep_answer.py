@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hypcheck.answer import DisagreementError
+from hypcheck.geometry.pair import TILTED_WAY_COLUMNS, WITHOUT_ENDS
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
 from hypcheck.truth.passage_certificate import PassageCertificate, check_passage
@@ -23,10 +24,11 @@ from hypcheck.truth.swept import Passage, passage
 class SweepAnswer:
     """The answer about a sweep.
 
-    row: sizes, the two centres, and the axis where the spheroid has one.
+    row: sizes, the two centres, and the axis where the spheroid has one; behind an axis, heights where it ends.
     passage: what happens, decided exactly.
     first: two neighbouring float64 that the time of the first contact lies between, or 0 twice; None without contact.
-    certificate: proves `first`, and was checked; None where the surfaces touch at an irrational time alone.
+    certificate: proves `first`, and was checked; None where the surfaces touch at an irrational time alone, and where
+    the hyperboloid ends.
     """
 
     row: tuple[float, ...]
@@ -36,10 +38,13 @@ class SweepAnswer:
 
 
 def sweep_answer(row: Sequence[float]) -> SweepAnswer:
-    """Decide and prove a row of sizes, two centres and, if it has one, an axis.
+    """Decide and prove a row of sizes, two centres and, if it has these, an axis and heights.
 
     Raises InputError for a row that is not valid, DisagreementError if the proof does not hold.
     """
+    if len(row) > len(TILTED_WAY_COLUMNS):
+        found = passage_of_row(row)
+        return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper) if found.hit else None, None)
     try:
         found, first, certificate = prove(row)
     except ValueError:  # an irrational time has no certificate
@@ -50,6 +55,13 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
             f"the proof found for the sweep {tuple(row)} does not hold; please report this, it is a fault of hypcheck"
         )
     return SweepAnswer(tuple(row), found, first, certificate)
+
+
+def passage_of_row(row: Sequence[float]) -> Passage:
+    """What happens on a sweep: sizes, two centres, and an axis and heights or not. Raises InputError."""
+    axis, heights = row[10 : len(TILTED_WAY_COLUMNS)], row[len(TILTED_WAY_COLUMNS) :]
+    z_min, z_max, solid = heights or WITHOUT_ENDS
+    return passage(row[:4], row[4:7], row[7:10], axis or None, z_min=z_min, z_max=z_max, solid=solid)
 
 
 def sweep_as_json(answer: SweepAnswer) -> str:
@@ -89,9 +101,12 @@ def sweep_as_text(answer: SweepAnswer) -> str:
         lower, upper = answer.first
         lines.append(f"first      contact between the times {lower!r} and {upper!r}; 0 is the start, 1 the end")
     lines.append(f"ends       {found.start.label} at the start, {found.end.label} at the end")
-    proof = list(_proof_lines(answer.certificate))
+    ended = len(answer.row) > len(TILTED_WAY_COLUMNS)
+    proof = [_BESIDE_ENDS] if ended else list(_proof_lines(answer.certificate))
     return "\n".join([*lines, f"proof      {proof[0]}", *(f"{'':11}{line}" for line in proof[1:])])
 
+
+_BESIDE_ENDS = "none is written where the hyperboloid ends: the times are decided in integers (docs/motion.md)."
 
 _MOST_PIECES = 4
 """The text shows so many pieces of a proof."""

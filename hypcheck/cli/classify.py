@@ -97,8 +97,6 @@ def classify(
         return
     _refuse(for_a_table, "is for tables; name one with --input")
     pair = _with_heights(_pair_of(sizes, center, axis), z_min, z_max, solid)
-    if end is not None:
-        _refuse(heights, "says where a hyperboloid ends, and sweeps beside one that ends are not answered here")
     click.echo(_answered(pair, as_json=as_json) if end is None else _swept(pair, end, as_json=as_json))
 
 

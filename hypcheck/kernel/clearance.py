@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import (
+    PAIRS,
     Floats,
     Indices,
     Integers,
@@ -128,13 +129,18 @@ def clearance(
     The clearance is known within 2⁻³⁰ of 1 + clearance, or of 1 where that is greater, unless the spheroid so much
     enlarged leaves float64. The distance is known within 2⁻²⁹ of itself and b or d, unless a spheroid that holds all
     points so near reaches the hyperboloid elsewhere: long ones in a groove, and some that lean. Then it lies between
-    clearance · min(b, d) and clearance · max(b, d), or nearer.
+    clearance · min(b, d) and clearance · max(b, d), or nearer. So it does where the hyperboloid ends; there no error of
+    the touching point is proved, and a row takes some milliseconds.
     """
     number = required("position", threads, on_invalid)
-    queries = as_rows(rows, tilted=True)
+    queries = as_rows(rows, tilted=True, heights=True)
     refused = invalid(queries)
     if on_invalid == "raise" and refused.any():
         require_valid(queries)
+    if PAIRS.end(queries):
+        from hypcheck.kernel.ended import ended_clearances  # noqa: PLC0415 - rows with heights alone need it
+
+        return ended_clearances(queries, number)
     upright = queries.shape[1] == len(COLUMNS)
     found = _compiled(queries, number) if upright and choice().kernel == "compiled" else Clearance.empty(len(queries))
     places = np.flatnonzero(~refused & (np.isnan(found.lower) | np.isinf(found.touch_error)))

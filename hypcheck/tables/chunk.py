@@ -54,12 +54,6 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
             raise InputError(
                 f"{where}: {noun} {name!r} has the name of a {noun} that the output adds; rename or remove it"
             )
-    heights = [name for name in names if name.casefold() in HEIGHTS]
-    if heights and END[0] in columns:
-        raise InputError(
-            f"{where}: {noun} {shown(heights[0])} says where a hyperboloid ends, and sweeps beside one that ends are "
-            f"not answered here; rename or remove the {noun}s {', '.join(HEIGHTS)}"
-        )
     missing = [name for name in columns if name not in names]
     if missing:
         nouns = noun if len(missing) == 1 else f"{noun}s"

@@ -19,17 +19,22 @@ _FARTHEST = 2200
 
 def clearance(pair: Pair, decision: Decision) -> float:
     """The clearance in spheroid radii, within 2⁻⁵⁴ of 1 + clearance; 0 for a touch, −1 for a centre on the wall."""
+    low, high = enclosure(pair, decision)
+    try:
+        return float((low + high) / 2)
+    except OverflowError:
+        return math.inf
+
+
+def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
+    """Two numbers that the clearance lies between, 2⁻⁵⁶ of 1 + clearance apart at most."""
     if decision.tangent:
-        return 0.0
+        return Fraction(0), Fraction(0)
     low, high = _bracket(pair)
     while (high - low) * 2**_BITS > high:
         middle = (low + high) / 2
         low, high = (low, middle) if _meets(pair, middle) else (middle, high)
-    found = (low + high) / 2 - 1
-    try:
-        return float(found)
-    except OverflowError:
-        return math.inf
+    return low - 1, high - 1
 
 
 def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:

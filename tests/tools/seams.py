@@ -103,12 +103,13 @@ AXIS = {"axis": lambda: {"axis": vector("axis")}}
 
 
 def rows_of_arrays(function: Callable[[np.ndarray], object]) -> Callable[[Groups], None]:
-    """A function of an array of rows, whose columns have no names: seven, or ten with an axis."""
+    """A function of an array of rows without names: seven numbers, ten with an axis, thirteen with heights behind."""
 
     def ask(groups: Groups) -> None:
-        if set(groups) - {"axis"}:
+        if "end" in groups:
             raise RefusedError("an array has no names of columns: ten numbers are a pair with an axis")
-        function(np.array([list(columns(groups).values())]))
+        filled = ("axis", "heights") if "heights" in groups else groups
+        function(np.array([list(columns(filled).values())]))
 
     return ask
 
@@ -170,7 +171,9 @@ def spec(*words: str) -> Callable[[Groups], None]:
         takes = [group for group in groups if group != "end"]
         description = {"takes": takes, "question": "passage" if "end" in groups else "position"}
         Path("taking.py").write_text(IMPLEMENTATION.format(description=description))
-        kind = ("tilted-" if "axis" in groups else "") + ("way-uniform" if "end" in groups else "uniform")
+        ended = "heights" in groups and "end" not in groups
+        kind = "way-uniform" if "end" in groups else "ended-uniform" if ended else "uniform"
+        kind = ("tilted-" if "axis" in groups else "") + kind
         places = {"SPEC": "python:taking.py:answers", "CASE": f"{kind}-0000", "FAMILY": kind}
         places["WORKLOAD"] = "frozen" if "end" in groups else "stiff" if "axis" in groups else "ring"
         extra = []
@@ -200,7 +203,11 @@ ASKED: Mapping[str, Callable[[Groups], None]] = {
     "`hypcheck.classify` of columns by name": lambda groups: hypcheck.classify(columns(groups)),
     "`hypcheck.clearance(rows)`": rows_of_arrays(hypcheck.clearance),
     "`hypcheck.classify_scene`": keywords(lambda **axis: hypcheck.classify_scene(SIZES, 2.5, 0.0, 0.25, **axis), AXIS),
-    "`hypcheck.position`": keywords(lambda **axis: hypcheck.position(*SIZES, 2.5, 0.0, 0.25, **axis), AXIS),
+    "`hypcheck.clearance` of columns by name": lambda groups: hypcheck.clearance(columns(groups)),
+    "`hypcheck.position`": keywords(
+        lambda **others: hypcheck.position(*SIZES, 2.5, 0.0, 0.25, **others),
+        {**AXIS, "heights": lambda: GROUPS["heights"]},
+    ),
     "`hypcheck.passage`": passage,
     "`Scene.classify`, `Scene.position`": scene("classify"),
     "`Scene.classify`, a mover with parts": scene("classify", part=True),
