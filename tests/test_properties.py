@@ -18,6 +18,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import hypcheck
+from hypcheck.geometry.pair import Pair
+from hypcheck.truth import heights, least
 from tests.support import fractions_truth, tilted_fractions
 from tests.support.corpus import Questions
 from tests.support.deciders import CANNOT_SAY, DECIDERS, Decider, answers_of
@@ -65,8 +67,13 @@ def on_parts(questions: Questions, names: Sequence[str], change: Callable[[str, 
 def turned(questions: Questions, matrix: Sequence[Sequence[int]]) -> Questions:
     """Centres, ends and axes multiplied by a matrix of 0, 1 and −1."""
     parts = {name: getattr(questions, name) for name in ("center", "end", "axis")}
+    heights = questions.heights
+    if heights is not None and matrix[2][2] < 0:
+        heights = np.stack([-heights[:, 1], -heights[:, 0], heights[:, 2]], axis=1)
     return replace(
-        questions, **{name: part if part is None else part @ np.transpose(matrix) for name, part in parts.items()}
+        questions,
+        heights=heights,
+        **{name: part if part is None else part @ np.transpose(matrix) for name, part in parts.items()},
     )
 
 
@@ -88,28 +95,32 @@ def multiplied(questions: Questions, radial: Fraction, axial: Fraction) -> Quest
         sizes = questions.sizes * (float(radial) * across + float(axial) * along)
         factor = np.array([float(radial), float(radial), float(axial)])
         center, end = questions.center * factor, None if questions.end is None else questions.end * factor
-    after = replace(questions, sizes=sizes, center=center, end=end)
+        heights = None if questions.heights is None else questions.heights * [float(axial), float(axial), 1]
+    after = replace(questions, sizes=sizes, center=center, end=end, heights=heights)
     exact = np.array(
         [
             all(
-                np.isfinite(new) and Fraction(new) == Fraction(old) * (radial if column in RADIAL else axial)
+                old == new
+                or (np.isfinite(new) and Fraction(new) == Fraction(old) * (radial if column in RADIAL else axial))
                 for column, (old, new) in enumerate(zip(before, now, strict=True))
+                if old or new
             )
             for before, now in zip(lengths_of(questions), lengths_of(after), strict=True)
         ],
         dtype=bool,
     )[:, None]
     return on_parts(
-        questions, ("sizes", "center", "end"), lambda name, part: np.where(exact, getattr(after, name), part)
+        questions, ("sizes", "center", "end", "heights"), lambda name, part: np.where(exact, getattr(after, name), part)
     )
 
 
 RADIAL = {0, 2, 4, 5, 7, 8}
-"""The columns of lengths across the axis: alpha, b, x, y, and x, y of the end."""
+"""The columns of lengths across the axis: alpha, b, x, y, and x, y of the end; in their place stands `solid` twice."""
 
 
 def lengths_of(questions: Questions) -> list[list[float]]:
-    return replace(questions, axis=None, layout=np.ascontiguousarray).rows.tolist()
+    rows = replace(questions, axis=None, heights=None, layout=np.ascontiguousarray).rows
+    return (rows if questions.heights is None else np.hstack([rows, questions.heights[:, [2, 2, 0, 1]]])).tolist()
 
 
 factors = st.integers(-40, 40).map(lambda power: Fraction(2) ** power) | st.sampled_from([Fraction(3), Fraction(5, 4)])
@@ -157,6 +168,26 @@ def enlarged(questions: Questions, draw: Draw) -> Questions:
     return replace(questions, sizes=np.where(np.isfinite(sizes), sizes, questions.sizes))
 
 
+def longer(questions: Questions, draw: Draw) -> Questions:
+    """Open walls that contain the others."""
+    more = draw(st.sampled_from([0.0, 2.0**-40, 1.0, np.inf]))
+    heights = questions.heights * [1, 1, 0]
+    heights[:, 0] -= more
+    heights[:, 1] += more
+    return replace(questions, heights=heights)
+
+
+def opened(questions: Questions, draw: Draw) -> tuple[Questions, Questions]:
+    open_walls = replace(questions, heights=questions.heights * [1, 1, 0])
+    return open_walls, longer(open_walls, draw)
+
+
+def endless(questions: Questions, draw: Draw) -> tuple[Questions, Questions]:
+    """Ends at infinity, open or solid, and no ends."""
+    ends = np.tile([-np.inf, np.inf, draw(st.sampled_from([0.0, 1.0]))], (len(questions), 1))
+    return replace(questions, heights=ends), replace(questions, heights=None)
+
+
 def never_clear_again(before: int, after: int) -> bool:
     return before != 0 or after == 0
 
@@ -194,8 +225,10 @@ PROPERTIES = (
     Property("in another unit of length", changed(scaled)),
     Property("with other units across and along", changed(stretched), lacks="axis"),
     Property("with an axis of another length", changed(with_axis_of_another_length), needs="axis"),
-    Property("with an upright axis", upright, needs="axis"),
-    Property("of spheres with an axis", of_spheres, needs="axis"),
+    Property("with an upright axis", upright, needs="axis", lacks="heights"),
+    Property("of spheres with an axis", of_spheres, needs="axis", lacks="heights"),
+    Property("with a longer wall", opened, never_clear_again, needs="heights"),
+    Property("with ends at infinity", endless, needs="heights"),
     Property("in the other direction", changed(backwards), needs="end"),
     Property("with a larger spheroid", changed(enlarged), never_clear_again, lacks="end"),
     Property("with a larger spheroid on its way", changed(enlarged), not_missed_again, needs="end"),
@@ -267,6 +300,10 @@ def test_every_decider_answers_drawn_questions_as_decisions_in_fractions(decider
 def truth_of(row, groups):
     """The answer to a row, by decisions in fractions; about a way, at nine times, and then by hypcheck.passage."""
     position = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
+    if "heights" in groups:
+        pair = Pair.from_row(row)
+        found = least.position(pair)
+        return int(heights.position(pair) if found is None else found)
     if "end" not in groups:
         return position(row)
     sizes, start, end, axis = row[:4], row[4:7], row[7:10], row[10:]

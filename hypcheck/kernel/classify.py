@@ -77,6 +77,9 @@ class Kernel(Protocol):
         (n,): no contact comes before them; NaN where there is no hit, or where bounds do not tell when.
         """
 
+    def answer_ended(self, rows: Rows, threads: int | None = None) -> Positions:
+        """Exact positions for C-contiguous rows (n, 13); 2 where bounds do not tell, 127 of an invalid row."""
+
 
 def kernel() -> Kernel:
     """The module that choice() names. Raises InputError where the environment asks for one that is not there."""

@@ -124,6 +124,13 @@ def answer_ways(rows: Rows) -> tuple[Positions, Floats]:
     return hits, times
 
 
+def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
+    """As classify.Kernel has it."""
+    positions = np.empty(len(rows), dtype=np.int8)
+    _by_row(lambda *part: compiled().classify_ended(*part) or 0, rows, (positions,), threads)
+    return positions
+
+
 NEAR_NUMBERS = 11
 """What the kernel says of each row beside its position: hypcheck_near in core/parts/contract.h."""
 

@@ -28,6 +28,7 @@ from hypcheck.geometry.rows import (
     Positions,
     Rows,
     invalid,
+    parts_of,
     tilted_rows,
 )
 from hypcheck.kernel import integers, scene_lines, tilted_integers
@@ -140,6 +141,26 @@ def answer_scene(
 ) -> tuple[Positions, int]:
     """As classify.Kernel has it; always one thread."""
     return _answers(positions_of_scene(sizes, *columns, axis), question)
+
+
+def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
+    """As classify.Kernel has it: by the position without ends and the spheroid's greatest reach up and down.
+
+    z ∓ r and its distance from an end are within 3u (|z| + r + |end|) of what they stand for.
+    """
+    refused = invalid(rows)
+    whole, _ = answer_rows(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), "position", threads)
+    lengths, _, heights = parts_of(rows)
+    z, r, ends = lengths[:, 6:7], lengths[:, 2:4].max(axis=1, keepdims=True), heights[:, :2]
+    with np.errstate(over="ignore", invalid="ignore"):  # what is no number compares false
+        depth = (z - ends) * (1, -1)
+        reach = r + 4 * 2.0**-53 * (np.abs(z) + r + np.where(np.isinf(ends), 0, np.abs(ends)))
+        between, beyond = (depth > reach).all(axis=1), (depth < -reach).any(axis=1)
+    beyond |= (whole == Position.EXTERIOR) & (heights[:, 2] != 0)
+    positions = np.where(between, whole, CANNOT_SAY)
+    positions[beyond] = Position.EXTERIOR
+    positions[refused] = REFUSED
+    return positions.astype(np.int8)
 
 
 def answer_ways(rows: Rows) -> tuple[Positions, Floats]:

@@ -114,7 +114,8 @@ class EndedVector:
     def certificate(self) -> Certificate:
         """What proves the position, its points in the caller's coordinates."""
         points = tuple(point_at(self.row, offset) for offset in self.witness.offsets)
-        return Certificate(self.position, self.witness.multiplier, points, pieces=self.witness.pieces)
+        witness = self.witness
+        return Certificate(self.position, witness.multiplier, points, witness.double_root, witness.pieces)
 
 
 UprightVector = Vector[float]

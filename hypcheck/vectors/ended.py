@@ -24,8 +24,9 @@ _ALONG = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (0, 1, 1), (-
 def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers | None = None) -> Rows:
     """Rows with these ends, an axis where they have none, every other one solid and half of them mirrored."""
     n = len(rows)
-    axis = rows[:, 7:10] if rows.shape[1] > 7 else np.broadcast_to(UPRIGHT, (n, 3))
-    made = np.hstack([rows[:, :7], axis, np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)])
+    axis = rows[:, 7:10] if rows.shape[1] > 7 else np.tile(np.asarray(UPRIGHT), (n, 1))
+    heights = np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)
+    made = np.concatenate([rows[:, :7], axis, heights], axis=1)
     down = draw.signs(n) < 0
     made[down, 6] *= -1
     if axis[:, :2].any():
@@ -72,7 +73,7 @@ def _touching(size: Sizes, axis: Vectors, point: Vectors, normal: Vectors, share
     length = np.sqrt(sum(part * part for part in axis))
     unit = [part / length for part in axis]
     along = sum(p * q for p, q in zip(normal, unit, strict=True))
-    shift = [size.b**2 * (p - along * q) + size.d**2 * along * q for p, q in zip(normal, unit, strict=True)]
+    shift = [size.b * size.b * (p - along * q) + size.d * size.d * along * q for p, q in zip(normal, unit, strict=True)]
     half = np.sqrt(sum(p * q for p, q in zip(normal, shift, strict=True)))
     center = [p + share * q / half for p, q in zip(point, shift, strict=True)]
     return tilted.stack(size, center, axis)
@@ -207,7 +208,8 @@ def groove(draw: Draw, n: int) -> Rows:
     """
     a, c, zeta = draw.log_uniform(n, 0, 4), draw.log_uniform(n, -3, 0), draw.log_uniform(n, -4, 1)
     flank = a * np.sqrt(1 + (zeta / c) * (zeta / c))
-    ball = c * c * np.sqrt((flank / (a * a)) ** 2 + (zeta / (c * c)) ** 2)
+    out, up = flank / (a * a), zeta / (c * c)
+    ball = c * c * np.sqrt(out * out + up * up)
     size = sizes(draw, a / ball, c / ball)
     cosine, sine = draw.circle(n)
     across = size.b * (flank + c * c * flank / (a * a)) / ball * _hair(draw, n)

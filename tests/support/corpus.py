@@ -1,7 +1,8 @@
 """The frozen cases of `cases/`, read as a stranger reads them: JSON, without any code of hypcheck.
 
 A case asks a question by its row. Its columns are in groups: the sizes and the centre; the end of a straight motion;
-the axis. What is asked of a decider is a `Questions`: rows of one set of groups, as columns.
+the axis; the heights where the hyperboloid ends. What is asked of a decider is a `Questions`: rows of one set of
+groups, as columns.
 """
 
 from __future__ import annotations
@@ -18,8 +19,10 @@ import numpy as np
 
 CASES = Path(__file__).parents[2] / "cases"
 GROUPS = {"positions": "", "tilted-positions": "axis", "ways": "end", "tilted-ways": "end axis"}
+GROUPS["ended-positions"] = "axis heights"
 """The content of a file, and the groups of columns that its rows have behind the sizes and the centre."""
 REFUSED = {"refusals": "", "tilted-refusals": "axis", "way-refusals": "end", "tilted-way-refusals": "end axis"}
+REFUSED["ended-refusals"] = "axis heights"
 """The same of files whose rows must be refused."""
 
 
@@ -34,6 +37,7 @@ class Questions:
     center: np.ndarray
     end: np.ndarray | None = None
     axis: np.ndarray | None = None
+    heights: np.ndarray | None = None
     cases: tuple[dict[str, Any], ...] = ()
     layout: Callable[[np.ndarray], Any] = field(default=np.ascontiguousarray)
 
@@ -48,19 +52,20 @@ class Questions:
     @property
     def groups(self) -> str:
         """The groups of columns that are asked besides sizes and centre."""
-        return " ".join(name for name in ("end", "axis") if getattr(self, name) is not None)
+        return " ".join(name for name in ("end", "axis", "heights") if getattr(self, name) is not None)
 
     @property
     def rows(self) -> Any:
         """The rows as files hold them, in the layout that is asked for."""
-        parts = [part for part in (self.sizes, self.center, self.end, self.axis) if part is not None]
+        every = (self.sizes, self.center, self.end, self.axis, self.heights)
+        parts = [part for part in every if part is not None]
         return self.layout(np.concatenate(parts, axis=1))
 
     def __len__(self) -> int:
         return len(self.sizes)
 
     def __getitem__(self, chosen: Any) -> Questions:
-        parts = {name: getattr(self, name) for name in ("sizes", "center", "end", "axis")}
+        parts = {name: getattr(self, name) for name in ("sizes", "center", "end", "axis", "heights")}
         cases = tuple(np.array(self.cases, dtype=object)[chosen]) if self.cases else ()
         return replace(
             self, **{name: part if part is None else part[chosen] for name, part in parts.items()}, cases=cases

@@ -27,6 +27,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
 from hypcheck.kernel import integers, numpy_kernel, scalar, tilted_integers
 from hypcheck.runs.oracles import ORACLES
+from hypcheck.truth import heights, least
 from hypcheck.truth.swept import by_roots, journey_of
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
@@ -38,7 +39,9 @@ POSITIONS = ("", "axis")
 """The groups of rows about positions."""
 WAYS = ("end", "end axis")
 """The groups of rows about straight ways."""
-ALL = POSITIONS + WAYS
+ENDED = ("axis heights",)
+"""That of rows about hyperboloids that end."""
+ALL = POSITIONS + WAYS + ENDED
 UPRIGHT = ("",)
 
 
@@ -99,12 +102,34 @@ def of_rows(questions: Questions) -> list[int]:
     return hypcheck.classify(questions.rows).tolist()
 
 
-def of_position(sizes, center, axis=None) -> int:
-    return hypcheck.position(*sizes, *center, axis=axis)
+def ends_of(heights) -> dict[str, float]:
+    """Heights by name, none where there are none."""
+    return {} if heights is None else dict(zip(("z_min", "z_max", "solid"), heights, strict=True))
 
 
-def of_python(sizes, center, axis=None) -> int:
-    return scalar.exact_position(*sizes, *center, axis=axis)
+def of_position(sizes, center, axis=None, heights=None) -> int:
+    return hypcheck.position(*sizes, *center, axis=axis, **ends_of(heights))
+
+
+def of_python(sizes, center, axis=None, heights=None) -> int:
+    return scalar.exact_position(*sizes, *center, axis=axis, **ends_of(heights))
+
+
+def of_columns(questions: Questions) -> list[int]:
+    """A table of columns by name."""
+    names = ("alpha", "gamma", "b", "d", "x", "y", "z", "axis_x", "axis_y", "axis_z", "z_min", "z_max", "solid")
+    rows = questions.rows
+    return hypcheck.classify(dict(zip(names, rows.T, strict=False))).tolist()
+
+
+def of_least_value(questions: Questions) -> list[int]:
+    """The least value on the wall and the discs, which knows no polynomial of the pair."""
+    found = [least.position(Pair.from_row(row)) for row in questions.rows.tolist()]
+    return [CANNOT_SAY if position is None else int(position) for position in found]
+
+
+def of_rule(questions: Questions) -> list[int]:
+    return [int(heights.position(Pair.from_row(row))) for row in questions.rows.tolist()]
 
 
 def of_integers(sizes, center, axis=None) -> int:
@@ -288,7 +313,7 @@ def of_header(questions: Questions) -> Answers:
     rows = np.ascontiguousarray(questions.rows)
     answers, times = np.full(len(rows), 99, np.int8), np.full(len(rows), np.nan)
     name = "hypcheck_passage" if "end" in questions.groups else "hypcheck_classify"
-    name += "_tilted" if "axis" in questions.groups else ""
+    name += "_ended" if "heights" in questions.groups else "_tilted" if "axis" in questions.groups else ""
     outputs = (answers, times) if "end" in questions.groups else (answers,)
     given = (array.ctypes.data_as(ctypes.c_void_p) for array in (rows, *outputs))
     getattr(header(), name)(ctypes.c_size_t(len(rows)), *given)
@@ -311,9 +336,10 @@ PROCESSES = {"javascript": 3}
 """The examples of a property for a language in which each question starts a process."""
 
 DECIDERS = (
-    Decider("hypcheck.classify", of_rows, takes_any_array=True),
-    Decider("hypcheck.position", partial(by_row, of_position)),
-    Decider("hypcheck.position, in Python", partial(by_row, of_python)),
+    Decider("hypcheck.classify", of_rows, takes=POSITIONS + ENDED, takes_any_array=True),
+    Decider("hypcheck.classify of columns by name", of_columns, takes=ENDED),
+    Decider("hypcheck.position", partial(by_row, of_position), takes=POSITIONS + ENDED),
+    Decider("hypcheck.position, in Python", partial(by_row, of_python), takes=POSITIONS + ENDED),
     Decider("whole numbers in Python", partial(by_row, of_integers), refuses=False),
     Decider("hypcheck.classify_scene", partial(by_row, of_scene_call)),
     Decider("hypcheck.Prepared", partial(by_row, of_prepared)),
@@ -321,7 +347,12 @@ DECIDERS = (
     Decider("hypcheck.Scene.position", partial(by_row, of_scene_step), every=2),
     Decider("hypcheck.clearance", of_clearance, takes_any_array=True),
     Decider("hypcheck classify, the command", of_command, every=2, examples=3),
-    Decider("the numpy kernel", partial(of_kernel, "HYPCHECK_KERNEL", "numpy"), takes_any_array=True),
+    Decider(
+        "the numpy kernel",
+        partial(of_kernel, "HYPCHECK_KERNEL", "numpy"),
+        takes=POSITIONS + ENDED,
+        takes_any_array=True,
+    ),
     *(
         Decider(
             f"the kernel with {level}", partial(of_kernel, "HYPCHECK_LEVEL", level), lacks=partial(lacks_level, level)
@@ -329,6 +360,9 @@ DECIDERS = (
         for level in LEVELS
     ),
     Decider("the C header", of_header, lacks=lacks_compiler),
+    Decider("the C header, ends", of_header, takes=ENDED, abstains=0.3, lacks=lacks_compiler),
+    Decider("the least value", of_least_value, takes=ENDED, abstains=0.3, refuses=False),
+    Decider("the rule in the height", of_rule, takes=ENDED, refuses=False),
     *(
         Decider(
             f"emitted {language}",
@@ -352,11 +386,11 @@ DECIDERS = (
         for language in LANGUAGES
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),
-    Decider("the float filter", of_float_filter),
+    Decider("the float filter", of_float_filter, takes=POSITIONS + ENDED),
     Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=3, refuses=False),
     Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=3, refuses=False),
     Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=3, refuses=False),
-    Decider("oracle: heights", partial(of_oracle, "heights"), takes=UPRIGHT, refuses=False),
+    Decider("oracle: heights", partial(of_oracle, "heights"), every=4, examples=3, refuses=False),
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),

@@ -22,10 +22,19 @@ _direction = (
 
 
 def _rows(size: st.SearchStrategy[float], offset: st.SearchStrategy[float], groups: str):
-    """Rows of these sizes and places: α, γ, b, d, the centre, the end of a way, an axis."""
+    """Rows of these sizes and places: α, γ, b, d, the centre, the end of a way, an axis, heights."""
     places = st.tuples(*[offset] * (6 if "end" in groups else 3))
     axis = _direction if "axis" in groups else st.just(())
-    return st.tuples(st.tuples(*[size] * 4), places, axis).map(lambda parts: (*parts[0], *parts[1], *parts[2]))
+    parts = st.tuples(st.tuples(*[size] * 4), places, axis).map(lambda parts: (*parts[0], *parts[1], *parts[2]))
+    return (
+        st.tuples(parts, _heights(offset)).map(lambda parts: (*parts[0], *parts[1])) if "heights" in groups else parts
+    )
+
+
+def _heights(offset: st.SearchStrategy[float]):
+    """z_min, z_max, of which one may be infinite, and solid."""
+    ends = st.tuples(offset | st.just(-math.inf), offset | st.just(math.inf)).filter(lambda ends: ends[0] < ends[1])
+    return st.tuples(ends, st.sampled_from([0.0, 1.0])).map(lambda parts: (*parts[0], parts[1]))
 
 
 def rows_of(groups: str) -> st.SearchStrategy[tuple[float, ...]]:

@@ -16,6 +16,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, WAYS, invalid
 from hypcheck.vectors.families import (
     ALL,
+    ENDED_FAMILIES,
     FAMILIES,
     TILTED_FAMILIES,
     WAY_FAMILIES,
@@ -111,6 +112,24 @@ DIGESTS: dict[str, str] = {
     "tilted-way-end": "e19beb0048e04ebe899d56ace987e73b890a001cb5a84a5c848affe3b5203856",
     "tilted-way-ring": "81f30887b4069aa3d2c7a83b5ca24f2fdbf73e39ce145bb90fcfd21fed004ea8",
     "tilted-way-small-integers": "5d9d80b6c64b6a5e66c5183e7e0aedbef20e004d31036af1ea937b1b9676542f",
+    "ended-uniform": "d3faaf39531558aad144eb80561110bcfed48edae0f7815362f3dcce0ecb4587",
+    "ended-rim": "4c20a9612af80ba50683c0a29ce2a74bf5c42d036df39d9f44610309518dc2dd",
+    "ended-rim-tangent": "8d1640447e7260b2079861ee31d861926442742c98d8e4e812d163297389ef8c",
+    "ended-rim-neighbourhood": "6bc3f1931f3e71eb6dc8970cfba6e0825c71bfa9675a8a62db1415556460f368",
+    "ended-opening": "de7e955bd2d48f7d0aa4de2e5878f33b5c28cc5bc4dba02bd1b4231a6ab12501",
+    "ended-thin": "92b8f09820a94070f892f6f847fcc5fac0719ee2e4ec7016211f0f75ba8a1127",
+    "ended-swallowed": "e2a8fb2c7296d44d85cb2f1cac565468faf1550f9907148420a69559101f8032",
+    "ended-disc": "06c51e76d2751727a169456074da515a3f67f45c7d1be36a5bd9862768f76f7e",
+    "ended-groove": "e5eda8e8f3645f03a93fbce90f31b266242d4b56c1c1f1e94d37a30e3680a2cf",
+    "ended-waist": "5faf4269ef1ef0c4dba90f8b54fed6c6cb6d56f998160a486cd14a64349387b7",
+    "ended-far": "fa80ee696a3a574ea95ae59731bc697c09f34d71cea2f23c2a0856175c8f2bf8",
+    "ended-stiff": "5e692d90f80c753e69cd2cd3489d8b8b3424d5ef503a4a3b9cf308204b933a2b",
+    "ended-small-integers": "186eed411b7863734e474cb969bba86172b5c0ed432c6b85458e1808f87ff05b",
+    "tilted-ended-uniform": "f30f484dc6cb4776120160970ac101b37eee686fb813286b9c7bbb3e7a9b1940",
+    "tilted-ended-rim": "76ca80e924a2adba64cc80d7bb0de5e929b4213fb88d907b12aafb6ab5439af3",
+    "tilted-ended-thin": "b8fd4206c202a5eb1602ae24a5d38b11c7beacc8cd948f76c4523358be65cdef",
+    "tilted-ended-disc": "9f8eaa07c12be313c589ef75fbceaf341d441fd2796bc904fdb4b33427676344",
+    "tilted-ended-small-integers": "52bb76ba541210409f13c6d66f7bd6cdafee127995349c54c1cbebb733f78b0e",
 }
 """sha256 of the first rows for seed 0, little-endian; a change means a new generator version, or a defect."""
 
@@ -132,7 +151,8 @@ def test_every_family_is_in_the_table_of_its_kind() -> None:
         assert {family.layout for family in families.values()} == {layout}
         assert {family.tilted for family in families.values()} == tilted
         assert all(("way" in name) == (layout is WAYS) for name in families)
-    assert [*ALL] == [*FAMILIES, *TILTED_FAMILIES, *WAY_FAMILIES]
+    assert {family.ended for family in ENDED_FAMILIES.values()} == {True}
+    assert [*ALL] == [*FAMILIES, *TILTED_FAMILIES, *WAY_FAMILIES, *ENDED_FAMILIES]
 
 
 @every_family
@@ -144,7 +164,8 @@ def test_every_family_has_a_complete_description(family: Family) -> None:
             assert value.strip().rstrip(".") == value != "", name
     assert ALL[family.name] is family_of(family.name) is family
     assert family.tilted == ("tilted" in family.name)
-    assert family.columns == (family.layout.tilted if family.tilted else family.layout.upright)
+    tilted = family.layout.tilted if family.tilted else family.layout.upright
+    assert family.columns == (family.layout.ended if family.ended else tilted)
     assert family.extreme == is_extreme(family.name) == is_extreme(case_id(family, 1, 0))
 
 

@@ -166,6 +166,26 @@ static PyObject *py_passage(PyObject *self, PyObject *arguments) {
     return result;
 }
 
+static PyObject *py_classify_ended(PyObject *self, PyObject *arguments) {
+    PyObject *rows_object, *positions_object, *result = NULL;
+    Py_buffer rows, positions;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "OO", &rows_object, &positions_object) || !filled(rows_object, &rows, "d", 0)) return NULL;
+    if (filled(positions_object, &positions, "b", PyBUF_WRITABLE)) {
+        if (rows.len == 13 * (Py_ssize_t)sizeof(double) * positions.len) {
+            Py_BEGIN_ALLOW_THREADS
+            hypcheck_classify_ended((size_t)positions.len, (const double *)rows.buf, (int8_t *)positions.buf);
+            Py_END_ALLOW_THREADS
+            result = Py_NewRef(Py_None);
+        } else {
+            PyErr_SetString(PyExc_ValueError, "thirteen numbers for each position");
+        }
+        PyBuffer_Release(&positions);
+    }
+    PyBuffer_Release(&rows);
+    return result;
+}
+
 static PyObject *py_clearance(PyObject *self, PyObject *arguments) {
     PyObject *rows_object, *positions_object, *found_object, *result = NULL;
     Py_buffer rows, positions, found;
@@ -307,6 +327,7 @@ static PyMethodDef functions[] = {
     {"take", (PyCFunction)(void (*)(void))py_take, METH_FASTCALL, "take(sizes, x, y, z, out or None): take the arrays, do nothing"},
     {"nothing", (PyCFunction)(void (*)(void))py_nothing, METH_FASTCALL | METH_KEYWORDS, "nothing(...): be called, do nothing"},
     {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
+    {"classify_ended", py_classify_ended, METH_VARARGS, "classify_ended(rows, positions): rows of 13; 2 undecided, 127 invalid"},
     {"clearance", py_clearance, METH_VARARGS, "clearance(rows, positions, found) -> the number of invalid rows; eleven numbers a row"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,
      "position(alpha, gamma, b, d, x, y, z, *, axis=None, z_min=-inf, z_max=inf, solid=False) -> int"},

@@ -28,9 +28,10 @@ MODULES = (
     "extremes",
     "tilted",
     "passages",
+    "ended",
     "correct",
 )
-"""Small modules, each with one kind of mistake; the last with none. In tilted and passages there are right ones too."""
+"""Small modules, each with one kind of mistake; the last with none. In tilted, passages and ended some are right."""
 
 
 @dataclass(frozen=True, slots=True)

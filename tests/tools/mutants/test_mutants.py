@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from hypcheck.geometry.rows import with_axis
+from hypcheck.geometry.rows import with_axis, with_heights
 from hypcheck.kernel import numpy_kernel
 from hypcheck.runs.judge import exact_positions
 from hypcheck.vectors.families import TILTED_FAMILIES, select
@@ -45,6 +45,9 @@ SAMPLE = {
     "passages.late_times": "way-still",
     "passages.ring_is_contact": "way-ring",
     "passages.exact_from_above": "way-short",
+    "ended.height_of_the_centre_alone": "ended-rim",
+    "ended.discs_ignored": "ended-disc",
+    "ended.kernel": "ended-disc,tilted-ended-rim",
     "correct.whole_numbers": "ring,tangent,waist,osculation",
     "correct.dual_form_in_float32": "ring,tangent,tiny-spheroids",
     "correct.procedure_1_mended": "ring,regime-borders",
@@ -109,7 +112,7 @@ def test_every_mutant_gives_one_answer_for_each_row():
     row = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0]])
     way = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0, 4.0, 0.5, 3.0]])
     for name, mutant in BY_NAME.items():
-        asked = {"tilted": with_axis(row), "passages": way}.get(mutant.module, row).copy()
+        asked = {"tilted": with_axis(row), "passages": way, "ended": with_heights(row)}.get(mutant.module, row).copy()
         answers = getattr(imported(mutant.module), mutant.function)(asked)
         for each in answers if mutant.module == "passages" else (answers,):
             assert np.asarray(each).shape == (1,), name

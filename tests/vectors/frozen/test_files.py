@@ -22,7 +22,7 @@ from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.coincidences import RUNGS
 from hypcheck.vectors.double_roots import ULPS
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.families import ENDED_FAMILIES, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.flags import DEFEATED
 from hypcheck.vectors.format import SCHEMA
 from tests.support.records import violations
@@ -53,7 +53,8 @@ def schema(name, version=SCHEMA):
 def test_cases_folder_has_one_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
     pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
-    assert found == set(vectors.ALL_NAMES) == {*pairs, *WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
+    ways, ended = {*WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}, {*ENDED_FAMILIES, "ended-invalid"}
+    assert found == set(vectors.ALL_NAMES) == pairs | ways | ended
 
 
 def test_there_are_at_least_7000_pairs_and_all_files_have_at_most_10_megabytes():

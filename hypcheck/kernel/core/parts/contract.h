@@ -101,6 +101,14 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times);
 void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
 
+/* The position where the hyperboloid ends: rows of 13 doubles, alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, and
+   z_min, z_max, solid. It ends at the heights z_min < z_max, of which one or both may be infinite. solid is 0 where the
+   wall alone is there: contact is contact with the wall, else 1 or -1 says whether the centre lies within the wall and
+   between the ends. solid is 1 where flat ends belong to it. A position is 1, 0 or -1, exact; 2 where bounds do not
+   tell, which is said beside rims that are touched within about 2^-46, and of lengths beyond 2^±100; 127 where the row is
+   invalid. hypcheck.classify of Python decides all. */
+void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions);
+
 /* The clearance, the distance and the nearest points of each of n rows of 7 doubles. Positions are as above.
 
        lower <= clearance <= upper      the clearance: 1 + clearance times as large, the spheroid first touches. It is

@@ -1,0 +1,203 @@
+/* ---- hyperboloids that end ---- */
+
+#define HC_MOST_PIECES 48
+#define HC_ENDED_STEPS 14 /* of Newton's method for a multiplier; any result is safe */
+#define HC_ENDED_ERROR 1.4210854715202004e-14 /* 2^-46 = 128u */
+#define HC_ENDED_LEAST 8.6361685550944446e-78 /* 2^-256 */
+#define HC_ENDED_GREATEST 1.157920892373162e+77 /* 2^256 */
+
+/* A pair in the directions of the horizontal ellipses that planes cut from the spheroid (truth/sections.py of hypcheck
+   has the rule). At a height w, with t = w - z, the ellipse is mu1 (X - eta)² + mu2 (Y - xi)² <= 1 - t²/T, xi = xi0 - k t,
+   and the circle has r² = alpha² (1 + w²/gamma²). For one lambda > -min(mu1, mu2) the circle misses the ellipse where
+
+       phi(w) = t²/T - 1 - lambda r² + f1 eta² + f2 xi² > 0,    f = lambda mu/(mu + lambda),
+
+   a quadratic in w. `across` is |x| + |y|, which eta and xi0 are below. */
+typedef struct {
+    double alpha, ratio, z, T, mu1, mu2, eta, xi0, k, across;
+} hc_sections;
+
+/* Returns 0 where the numbers are too large or small for the bounds: mu, T, r² and their products stay normal. */
+static int hc_make_sections(hc_sections *made, const double row[10]) {
+    const double b = row[2], d = row[3], *const v = row + 7;
+    const double flat = v[0] * v[0] + v[1] * v[1], length = flat + v[2] * v[2];
+    double s2, c2, away;
+    int k;
+    for (k = 0; k < 7; k++) {
+        const double size = hc_size(row[k]);
+        if (size > 1.2676506002282294e+30 /* 2^100 */ || (size != 0 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
+    }
+    if (!(length > HC_ENDED_LEAST && length < HC_ENDED_GREATEST) || (flat != 0 && flat < HC_ENDED_LEAST)) return 0;
+    s2 = flat / length;
+    c2 = v[2] * v[2] / length;
+    made->alpha = row[0];
+    made->ratio = 1 / row[1];
+    made->z = row[6];
+    made->T = b * b * s2 + d * d * c2;
+    made->mu1 = 1 / (b * b);
+    made->mu2 = made->T / (b * b * (d * d));
+    made->across = hc_size(row[4]) + hc_size(row[5]);
+    if (flat == 0) {
+        made->xi0 = row[4];
+        made->eta = row[5];
+        made->k = 0;
+        return 1;
+    }
+    away = 1 / hc_fine_root(flat);
+    made->xi0 = (row[4] * v[0] + row[5] * v[1]) * away;
+    made->eta = (row[4] * v[1] - row[5] * v[0]) * away;
+    made->k = v[2] * flat * away / length * ((b - d) * (b + d)) / made->T;
+    return 1;
+}
+
+static double hc_radius(const hc_sections *pair, double w) {
+    const double slope = w * pair->ratio;
+    return pair->alpha * hc_fine_root(1 + slope * slope);
+}
+
+/* About the lambda at which phi(w) is greatest: the root of mu1² eta²/(mu1+l)² + mu2² xi²/(mu2+l)² = r². In n = l + the
+   smaller mu the left side falls from infinity; Newton's method for its inverse root, between bounds. */
+static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) {
+    const double p = pair->mu1 * hc_size(pair->eta), q = pair->mu2 * hc_size(xi);
+    const double least = pair->mu1 < pair->mu2 ? pair->mu1 : pair->mu2, most = p + q;
+    double low = least * 9.5367431640625e-07 /* 2^-20 */, high = most / r > low ? most / r : low, n = high;
+    int i;
+    for (i = 0; i < HC_ENDED_STEPS; i++) {
+        const double one = 1 / (n + (pair->mu1 - least)), two = 1 / (n + (pair->mu2 - least));
+        const double sum = p * one * (p * one) + q * two * (q * two), root = hc_rough_root(sum);
+        const double fall = (p * one * (p * one) * one + q * two * (q * two) * two);
+        double moved;
+        if (!(sum > 0)) return low - least;
+        if (root > r) low = n;
+        else high = n;
+        moved = n + (root / r - 1) * sum / fall;
+        if (!(moved > low && moved < high)) moved = high > 4 * low ? hc_rough_root(low * high) : 0.5 * (low + high);
+        if (hc_size(moved - n) < 1e-9 * n) break;
+        n = moved;
+    }
+    return n - least;
+}
+
+/* Whether phi > 0 for this lambda at all heights w ± half. The parts of phi are right within 32u of the size of their
+   terms, f within 32u mu/(mu + lambda) of itself, since mu + lambda may cancel. */
+static int hc_piece_misses(const hc_sections *pair, double lambda_, double w, double half) {
+    const double n1 = pair->mu1 + lambda_, n2 = pair->mu2 + lambda_;
+    const double f1 = lambda_ * pair->mu1 / n1, f2 = lambda_ * pair->mu2 / n2, t = w - pair->z, xi = pair->xi0 - pair->k * t;
+    const double g = pair->ratio * pair->alpha, l2 = lambda_ * (g * g), top = hc_size(t) + half, wide = hc_size(w) + half;
+    const double reach = pair->across + hc_size(pair->k) * top;
+    const double value = t * t / pair->T - 1 - lambda_ * (pair->alpha * pair->alpha) - l2 * (w * w) + f1 * (pair->eta * pair->eta) + f2 * (xi * xi);
+    const double slope = 2 * (t / pair->T - l2 * w - f2 * (xi * pair->k)), bend = 1 / pair->T - l2 + f2 * (pair->k * pair->k);
+    const double size = 1 + top * top / pair->T + hc_size(lambda_) * (pair->alpha * pair->alpha) + hc_size(l2) * (wide * wide) +
+                        hc_size(f1) * (pair->across * pair->across) * (1 + pair->mu1 / n1) + hc_size(f2) * (reach * reach) * (1 + pair->mu2 / n2);
+    double lowest = value - hc_size(slope) * half;
+    if (!(n1 > pair->mu1 * 9.5e-07 && n2 > pair->mu2 * 9.5e-07)) return 0;
+    if (bend < 0) lowest += bend * (half * half);
+    else if (hc_size(slope) < 2 * bend * half) lowest = value - slope * slope / (4 * bend);
+    else lowest += bend * (half * half);
+    return lowest > HC_ENDED_ERROR * size;
+}
+
+/* Whether the point of the circle at height w in the direction (a, c) of eta and xi surely lies inside the spheroid. */
+static int hc_point_within(const hc_sections *pair, double r, double w, double xi, double a, double c) {
+    const double length = hc_fine_root(a * a + c * c), t = w - pair->z;
+    const double across = r + pair->across, along = across + hc_size(pair->k * t);
+    double off, aside;
+    if (!(length > 0)) return 0;
+    off = r * (a / length) - pair->eta;
+    aside = r * (c / length) - xi;
+    return pair->mu1 * (off * off) + pair->mu2 * (aside * aside) + t * t / pair->T - 1 <
+           -HC_ENDED_ERROR * (pair->mu1 * (across * across) + pair->mu2 * (along * along) + t * t / pair->T + 1);
+}
+
+/* 0 where the wall between two heights surely meets the spheroid, 1 where it surely misses it, 2 where neither is known. */
+static int hc_wall_misses(const hc_sections *pair, double low, double high) {
+    double lows[HC_MOST_PIECES], highs[HC_MOST_PIECES];
+    int left = 1, asked = 0;
+    lows[0] = low, highs[0] = high;
+    while (left) {
+        double w, half, xi, r, lambda_, a, c;
+        left--;
+        low = lows[left], high = highs[left];
+        w = low + 0.5 * (high - low);
+        if (w < low) w = low;
+        if (w > high) w = high;
+        half = (high - w > w - low ? high - w : w - low) * (1 + HC_u_8);
+        r = hc_radius(pair, w);
+        xi = pair->xi0 - pair->k * (w - pair->z);
+        lambda_ = hc_ended_multiplier(pair, r, xi);
+        if (hc_piece_misses(pair, lambda_, w, half)) continue;
+        a = pair->eta * pair->mu1 / (pair->mu1 + lambda_);
+        c = xi * pair->mu2 / (pair->mu2 + lambda_);
+        if (hc_point_within(pair, r, w, xi, a, c) || hc_point_within(pair, r, w, xi, 1, 0) || hc_point_within(pair, r, w, xi, -1, 0) ||
+            hc_point_within(pair, r, w, xi, 0, 1) || hc_point_within(pair, r, w, xi, 0, -1))
+            return 0;
+        if (++asked > HC_MOST_PIECES || left + 2 > HC_MOST_PIECES || !(w > low && w < high)) return 2;
+        lows[left] = low, highs[left++] = w;
+        lows[left] = w, highs[left++] = high;
+    }
+    return 1;
+}
+
+/* The same of the disc at a height, whose rim is known to miss the spheroid. */
+static int hc_disc_misses(const hc_sections *pair, double w) {
+    const double t = w - pair->z, share = t * t / pair->T, r = hc_radius(pair, w), xi = pair->xi0 - pair->k * t;
+    const double off = pair->eta * pair->eta + xi * xi - r * r, along = pair->across + hc_size(pair->k * t);
+    const double size = along * along + pair->across * pair->across + r * r;
+    if (share - 1 > HC_ENDED_ERROR * (share + 1) || off > HC_ENDED_ERROR * size) return 1;
+    return 1 - share > HC_ENDED_ERROR * (share + 1) && off < -HC_ENDED_ERROR * size ? 0 : 2;
+}
+
+/* Whether the centre lies in the body, 2 where bounds do not tell: rounding leaves each side right within 8u. */
+static int hc_center_inside(const double row[13]) {
+    const double x = row[4] / row[0], y = row[5] / row[0], up = row[6] / row[1];
+    const double out = x * x + y * y, in = up * up + 1;
+    if (!(row[6] >= row[10] && row[6] <= row[11]) || out > in * (1 + HC_ENDED_ERROR)) return 0;
+    return out * (1 + HC_ENDED_ERROR) < in ? 1 : 2;
+}
+
+/* The position of a valid row of 13 whose position without ends is `whole`; 2 where the bounds do not tell. */
+static int hc_ended_position(const double row[13], int whole) {
+    const double z = row[6], reach = row[2] > row[3] ? row[2] : row[3], low = row[10], high = row[11];
+    const double slack = HC_u_8 * (hc_size(z) + reach), below = z - low, above = high - z;
+    const double more = reach + slack, under = hc_size(low) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(low) : 0;
+    const double over = hc_size(high) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(high) : 0;
+    const int solid = row[12] != 0;
+    hc_sections pair;
+    int misses, inside, k;
+    if (below > more + under && above > more + over) return whole;
+    if (-below > more + under || -above > more + over || (solid && whole == 1)) return 1;
+    if (whole != 0 && !solid) return whole == -1 && z >= low && z <= high ? -1 : 1;
+    if (!HC_FLOATS_DECIDE || !hc_make_sections(&pair, row)) return 2;
+    misses = 1;
+    if (whole == 0) {
+        const double level = z < low ? low : z > high ? high : z, t = level - z, xi = pair.xi0 - pair.k * t;
+        const double bottom = low > z - more ? low : z - more, top = high < z + more ? high : z + more;
+        if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0; /* most contacts */
+        misses = bottom <= top ? hc_wall_misses(&pair, bottom, top) : 2;
+    }
+    for (k = 10; solid && k < 12 && misses == 1; k++)
+        if (hc_size(row[k]) <= HC_ENDED_GREATEST) misses = hc_disc_misses(&pair, row[k]);
+    if (misses != 1) return misses;
+    if (whole != 0) return z >= low && z <= high ? whole : 1; /* without ends inside, and the discs missed */
+    inside = hc_center_inside(row);
+    return inside == 2 ? 2 : inside ? -1 : 1;
+}
+
+void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) {
+    size_t i;
+    for (i = 0; i < n; i++) {
+        const double *const row = rows13 + 13 * i;
+        double ten[10];
+        int8_t whole = 127;
+        memcpy(ten, row, sizeof ten);
+        if (row[10] < row[11] && (row[12] == 0 || row[12] == 1)) hypcheck_classify_tilted(1, ten, &whole);
+        positions[i] = whole;
+        if (whole == 127) continue;
+        {
+            double scaled[13];
+            memcpy(scaled, row, sizeof scaled);
+            hc_scale_axis(scaled + 7);
+            positions[i] = (int8_t)hc_ended_position(scaled, whole);
+        }
+    }
+}

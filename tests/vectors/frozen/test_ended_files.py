@@ -1,0 +1,98 @@
+"""The frozen files about hyperboloids that end: enough of them, fresh, proved, read strictly, and shown."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, Position
+from hypcheck.vectors import freezing, frozen
+from hypcheck.vectors.cases import StoredCertificate, cases_text, read_cases
+from hypcheck.vectors.checking import faults_of
+from hypcheck.vectors.families import ENDED_FAMILIES
+from hypcheck.vectors.format import ENDED_SCHEMA
+from tests.support.records import violations
+from tests.vectors.frozen.test_files import bits, schema, text_of
+
+every_file = pytest.mark.parametrize("name", frozen.ENDED_NAMES)
+
+
+@every_file
+def test_a_file_of_ends_fits_its_schema_is_fresh_and_has_every_label_proved(name):
+    file = frozen.load(name)
+    assert list(violations(json.loads(text_of(name)), schema("ended-vectors", ENDED_SCHEMA))) == []
+    assert {*bits(ENDED_FAMILIES[name].rows(1, len(file.cases)))} == {*bits(file.rows)}
+    assert cases_text(replace(file, lines=())) == text_of(name)
+    assert faults_of(replace(file, cases=file.cases[::6], lines=())) == []
+
+
+def test_ended_cases_are_of_every_position_open_and_solid_and_some_touch():
+    cases = [case for name in frozen.ENDED_NAMES for case in frozen.load(name).cases]
+    assert {(case.position, case.row[-1]) for case in cases} == {(position, s) for position in Position for s in (0, 1)}
+    assert sum(case.tangent for case in cases) > 40
+    by_rule = [case for case in cases if case.witness == StoredCertificate()]
+    assert all(case.position is Position.CONTACT for case in by_rule)
+    assert len(by_rule) < len(cases) / 8
+
+
+def test_frozen_invalid_rows_with_heights_fit_their_schema_and_equal_those_that_freezing_makes():
+    text = text_of("ended-invalid")
+    assert list(violations(json.loads(text), schema("ended-refusals", ENDED_SCHEMA))) == []
+    made = freezing.frozen_invalid_rows("ended-invalid")
+    assert made.cases == frozen.load("ended-invalid").cases
+    at_fault = {columns for case in made.cases for columns in [case.columns]}
+    assert {("z_min", "z_max"), ("z_min",), ("z_max",), ("solid",), TILTED_COLUMNS[-3:]} <= at_fault
+    assert set(HEIGHTS) <= {name for columns in at_fault for name in columns}
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda case: case.update(position=-case["position"] or 1), "does not prove|the exact decision is"),
+        (lambda case: case.update(tangent=True), "the exact decision is"),
+        (lambda case: case.update(certificate={"pieces": [["-inf", "inf", "0", "0"]]}), "does not prove"),
+    ],
+)
+def test_a_wrong_label_of_a_case_that_ends_is_found(tmp_path, change, sentence, capsys):
+    document = json.loads(text_of("ended-rim"))
+    case = next(case for case in document["cases"] if "pieces" in case["certificate"])
+    change(case)
+    document["cases"], document["count"] = [case], 1
+    path = tmp_path / "ended.json"
+    path.write_text(json.dumps(document))
+    assert main(["cases", "check", str(path)]) == 1
+    assert re.search(sentence, capsys.readouterr().out)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda case: case["row"].__setitem__(10, "-Infinity"), 'z_min is "-Infinity"; it must be a number'),
+        (lambda case: case["hex"].__setitem__(11, "0x1p+0"), "the hex of z_max"),
+        (lambda case: case["row"].__setitem__(12, 2.0) or case["hex"].__setitem__(12, "0x1p+1"), "solid is 2.0"),
+        (lambda case: case.update(certificate={"rule": "width"}), "certificate"),
+        (lambda case: case.update(certificate={"pieces": [["0", "1", "1"]]}), "a list of 4"),
+    ],
+)
+def test_a_malformed_case_that_ends_is_refused(tmp_path, change, sentence):
+    document = json.loads(text_of("ended-rim"))
+    document["cases"], document["count"] = document["cases"][:1], 1
+    change(document["cases"][0])
+    path = tmp_path / "ended.json"
+    path.write_text(json.dumps(document))
+    with pytest.raises(InputError, match=sentence):
+        read_cases(str(path))
+
+
+def test_shown_cases_that_end_say_their_heights_and_what_proves_them(capsys):
+    assert main(["cases", "show", "ended-rim-0000"]) == 0
+    shown = capsys.readouterr().out
+    assert "z_max" in shown
+    assert "proof" in shown
+    assert main(["cases", "show", "ended-rim/1/3/7", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["certificate"]
