@@ -352,6 +352,9 @@ class Scene:
         for index in np.flatnonzero(invalid)[:1].tolist():
             body = self.model.hyperboloids[index]
             raise InputError(f"the hyperboloid {body.name!r}: {trouble_with_axis(body.axis)}")
+        for index in np.flatnonzero(~(bodies.spans[:, 0] < bodies.spans[:, 1]))[:1].tolist():
+            body = self.model.hyperboloids[index]
+            raise InputError(f"the hyperboloid {body.name!r}: height is {body.height}; its low must be less than high")
         return bodies
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import subprocess
 import sys
+from math import inf
 
 import pytest
 
@@ -59,6 +60,17 @@ def refusal(text, source="s.toml"):
     assert "\n" not in message
     assert len(message) < 300
     return message
+
+
+def test_an_end_may_be_infinite_but_not_where_something_flies():
+    def text(height):
+        return WHOLE.replace("[-1, 6.25]", height)
+
+    assert parse_scene(text("[-1, inf]")).hyperboloids[0].height == Span(-1.0, inf)
+    assert parse_scene(text("[-inf, 6.25]")).hyperboloids[0].height == Span(-inf, 6.25)
+    assert "it must be two numbers, finite or infinite" in refusal(text("[-1, nan]"))
+    tower = shipped_text("tower").replace("height = [-17.8, 17.8]", "height = [-17.8, inf]")
+    assert "[flight] is of a scene in which a height is infinite" in refusal(tower)
 
 
 def test_a_scene_with_every_key_is_read():
