@@ -45,8 +45,8 @@ LARGEST_SUM = 1e15
 
 @lru_cache(maxsize=1 << 16)
 def characters(value: float) -> int:
-    """The length of the shortest decimal text that reads back as `value` (2, 0.5, 1e-7, 3e6); 0 for a zero."""
-    if value == 0:
+    """The length of the shortest decimal text that reads back as `value` (2, 0.5, 1e-7, 3e6); 0 for a zero or inf."""
+    if value == 0 or math.isinf(value):
         return 0
     number = Decimal(repr(value)).normalize()
     digits, leading = len(number.as_tuple().digits), number.adjusted()
@@ -103,8 +103,7 @@ def small_ways() -> tuple[Row, ...]:
 
 
 def _valid(row: Row, layout: Layout) -> bool:
-    width = len(layout.upright)
-    return all(map(math.isfinite, row)) and min(row[:4]) > 0 and (len(row) == width or any(row[width:]))
+    return trouble_with_row(row, layout.upright) is None
 
 
 GROUPS: dict[Layout, tuple[list[int], ...]] = {
@@ -161,6 +160,19 @@ def one_changed(row: Row, layout: Layout) -> Iterator[Row]:
             yield _with(row, {column: value})
 
 
+def one_changed_between_ends(row: Row, layout: Layout) -> Iterator[Row]:
+    """One number of a row with heights made 0, 1 or shorter, or equal to another; an end taken away."""
+    numbers = [value for value in row[: len(layout.tilted)] + row[len(layout.tilted) : -1] if math.isfinite(value)]
+    for column, number in enumerate(row):
+        simple = {0.0, 1.0, 2.0, 3.0, *numbers}
+        if math.isfinite(number):
+            simple |= {float(math.floor(number)), float(math.ceil(number)), *rounded(number)}
+        for value in simple | {-math.inf, math.inf}:
+            yield _with(row, {column: value})
+    across = math.hypot(row[4], row[5])
+    yield _with(row, {4: across, 5: 0.0})
+
+
 def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
     """One number of a pair made simple, and another moved to the border of contact and rounded to ever more digits."""
     simple = ((column, value) for column in range(7) for value in _simple_values(row, column, layout))
@@ -208,7 +220,7 @@ _VARIANTS: dict[Layout, tuple[tuple[Variants, ...], tuple[Variants, ...]]] = {
     PAIRS: ((same_query, one_changed, lambda *_: small_pairs(), brought_back), (same_query, one_changed)),
     WAYS: ((same_query, one_changed, lambda *_: small_ways()), (same_query, one_changed)),
 }
-"""The variants of upright spheroids and of tilted ones, cheap ones first.
+"""The variants of upright spheroids and of tilted ones, cheap ones first; those between ends have one of their own.
 
 Later ones are tried only if the earlier ones give no simpler row.
 """
@@ -243,7 +255,9 @@ def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
     run = Minimised(target)
     row = _row_of(target, case)
     run.steps.append(_start(run, row))
-    variants = _VARIANTS[target.layout][len(row) > len(target.layout.upright)]
+    variants: tuple[Variants, ...] = _VARIANTS[target.layout][len(row) > len(target.layout.upright)]
+    if len(row) > len(target.layout.tilted):
+        variants = (one_changed_between_ends,)
     while any(_improve(run, each) for each in variants):
         pass
     return run
@@ -260,7 +274,7 @@ def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
 
 def _start(run: Minimised, row: Row) -> HuntFinding:
     rows, layout = np.array([row]), run.target.layout
-    if layout.lean(rows) and not run.target.implementation.description.tilt:
+    if layout.lean(rows) and not layout.end(rows) and not run.target.implementation.description.tilt:
         raise InputError('the row has an axis, and the implementation does not declare "tilt": true')
     if not len(run.target.claimed(rows)):
         raise InputError("the implementation does not claim to answer this row; --regimes any asks it anyway")
