@@ -24,8 +24,8 @@ from typing import IO, cast
 from hypcheck.errors import limit_reached, system_reason
 from hypcheck.geometry.rows import Rows, with_heights
 from hypcheck.implementations.description import Description
-from hypcheck.implementations.frames import OutputTail, stderr_excerpt
 from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
+from hypcheck.implementations.output import OutputTail, stderr_excerpt
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.isolation.advice import isolation_advice
 from hypcheck.isolation.launch import IsolationError, Launched

@@ -19,13 +19,13 @@ from functools import cached_property, lru_cache
 from glob import glob
 from importlib.machinery import PathFinder
 
+from hypcheck.isolation.environment import environment_of
 from hypcheck.isolation.launch import (
     PACKAGE,
     SCRATCH_BYTES,
     SHARED_MEMORY,
     THREADS,
     Isolation,
-    environment_of,
     hidden_paths,
     needed_paths,
     private_folders,

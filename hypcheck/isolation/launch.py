@@ -6,7 +6,6 @@ Isolated, it sees only some folders and files, and some environment variables.
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -17,6 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from hypcheck.errors import InputError, limit_reached
+from hypcheck.isolation.environment import environment_of
 from hypcheck.isolation.means import LAUNCHER, MODES, Means, means_of
 
 THREADS = 1024
@@ -210,28 +210,7 @@ _SECRETS = (
 )
 """Files and folders below the home folder that hold keys and tokens, as their programs document them."""
 
-_ALLOWED = re.compile(
-    r"PATH|HOME|USER|LOGNAME|SHELL|PWD|LANG|LANGUAGE|LC_\w+|TZ|TERM|LD_LIBRARY_PATH|LD_PRELOAD|CLASSPATH|VIRTUAL_ENV"
-    r"|(?:HYPCHECK|PYTHON|CONDA|JAVA|JDK|GO|RUST|CARGO|NODE|NPM_CONFIG|JULIA|OCAML|DOTNET|NUMBA|NUMEXPR|OMP|GOMP|KMP"
-    r"|MKL|BLIS|OPENBLAS|VECLIB|RAYON|TBB|OPAM|GHC|ERL|LUA|PERL|RUBY|R|ASAN|LSAN|UBSAN|TSAN|MSAN|MALLOC|GLIBC|JAX|XLA"
-    r"|CUDA)_?\w*",
-    re.ASCII,
-)
-"""Names of environment variables that runtimes read."""
-
-_SECRET = re.compile(r"TOKEN|SECRET|PASSW|CREDENTIAL|AUTH|PRIVATE|_KEY|APIKEY", re.IGNORECASE)
-
 _PATHS = ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "CLASSPATH", "VIRTUAL_ENV", "CONDA_PREFIX", "JAVA_HOME")
-
-
-def environment_of(environment: Mapping[str, str], scratch: str, passed: Sequence[str] = ()) -> dict[str, str]:
-    """The variables that the program sees: those of runtimes and those of `passed`; temporary files go to `scratch`."""
-    kept = {
-        name: value
-        for name, value in environment.items()
-        if name in passed or (_ALLOWED.fullmatch(name) and not _SECRET.search(name))
-    }
-    return {**kept, "TMPDIR": scratch, "XDG_CACHE_HOME": scratch, "DOTNET_EnableDiagnostics": "0"}
 
 
 def needed_paths(words: Sequence[str], environment: Mapping[str, str]) -> tuple[str, ...]:

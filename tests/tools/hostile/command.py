@@ -8,7 +8,10 @@ must not change; the package and the vectors are those of hypcheck.
 
 import ctypes
 import json
+import mmap
 import os
+import platform
+import resource
 import signal
 import sys
 import time
@@ -187,6 +190,158 @@ def look_at_processes():
         except OSError:
             continue
     return f"read the environment of {len(seen)} others"
+
+
+def count_secrets():
+    return f"{sum('s3same' in value for value in os.environ.values())} secrets"
+
+
+def tell_secrets():
+    """What it reads, it says on standard error, which reports quote."""
+    return "told: " + ", ".join(sorted({value for value in os.environ.values() if "s3same" in value}))
+
+
+def limit_judge():
+    """To what they are already, so that nothing is broken where this is allowed."""
+    for limit in (resource.RLIMIT_CPU, resource.RLIMIT_NOFILE):
+        resource.prlimit(JUDGE, limit, resource.prlimit(JUDGE, limit))
+    return "set the limits of the judge"
+
+
+def blind_supervisor():
+    """Without descriptors it cannot look for what it has to end."""
+    try:
+        resource.prlimit(os.getppid(), resource.RLIMIT_NOFILE, (0, 0))
+    finally:
+        daemon_without_environment()
+    return "left a daemon that nobody can find"
+
+
+def slow_judge():
+    os.setpriority(os.PRIO_PROCESS, JUDGE, os.getpriority(os.PRIO_PROCESS, JUDGE))
+    return "set its priority"
+
+
+def slow_everybody():
+    os.setpriority(os.PRIO_USER, os.getuid(), os.getpriority(os.PRIO_USER, os.getuid()))
+    return "set the priority of all"
+
+
+def move_judge():
+    os.sched_setaffinity(JUDGE, os.sched_getaffinity(JUDGE))
+    return "set its processors"
+
+
+def schedule_judge():
+    os.sched_setscheduler(JUDGE, os.sched_getscheduler(JUDGE), os.sched_getparam(JUDGE))
+    return "set its scheduler"
+
+
+def slow_files_of_judge():
+    number = {"x86_64": 251, "aarch64": 30, "riscv64": 30}[platform.machine()]
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.syscall(number, 1, JUDGE, 0) == 0:
+        return "set its priority of files"
+    return os.strerror(ctypes.get_errno())
+
+
+def chmod_report():
+    os.chmod(os.path.join(VICTIM, "summary.json"), 0o600)
+    return "changed its mode"
+
+
+def chmod_report_by_descriptor():
+    file = os.open(os.path.join(VICTIM, "summary.json"), os.O_RDONLY)
+    os.fchmod(file, 0o600)
+    return "changed its mode"
+
+
+def touch_report():
+    os.utime(os.path.join(VICTIM, "summary.json"), (1, 1))
+    return "changed its time"
+
+
+def mark_report():
+    os.setxattr(os.path.join(VICTIM, "summary.json"), "user.forged", b"1")
+    return "changed its attributes"
+
+
+def open_devices():
+    """The terminals of this user, disks, the kernel's messages."""
+    found, opened = [], []
+    for folder, _, files in os.walk("/dev"):
+        found += [os.path.join(folder, name) for name in files]
+    of_files = ("/dev/fd/", "/dev/std")
+    for path in sorted({each for each in found if not each.startswith(of_files)} | {"/dev/pts/0", "/dev/tty"}):
+        try:
+            os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY))
+        except OSError:
+            continue
+        opened.append(os.path.basename(path))
+    return f"opened {len(opened)}: {' '.join(opened)}"[:200]
+
+
+def list_terminals():
+    return f"found {os.listdir('/dev/pts')}"
+
+
+def call_what_nobody_knows():
+    """open_tree_attr of Linux 6.15, file_getattr and file_setattr of 6.17, and a number that no system has yet."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    errors = []
+    for number in (467, 468, 469, 500):
+        libc.syscall(number, -1, 0, 0, 0, 0)
+        errors.append(ctypes.get_errno())
+    return f"errors {errors}"
+
+
+def survive_by_forking():
+    """Each process of the chain has ended before anybody can look at it twice."""
+    if os.fork():
+        return "left a daemon"
+    for stream in range(3):
+        os.close(stream)
+    until = time.monotonic() + SECONDS
+    while time.monotonic() < until:
+        if os.fork():
+            os._exit(0)
+        os.setsid()
+    os.execve("/bin/sleep", ["sleep", f"600.{JUDGE}"], {})
+
+
+def memory_by_page_tables():
+    """Each page that is read is the system's own page of zeros; the tables that lead there are its own."""
+    step = 2 << 20
+    size = 100_000 * step
+    area = mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | 0x4000, prot=mmap.PROT_READ)
+    area.madvise(mmap.MADV_NOHUGEPAGE)
+    for place in range(0, size, step):
+        area[place]
+    time.sleep(SECONDS)
+    return f"took {size // step * 4096 >> 20} MiB"
+
+
+def read_repository():
+    """The judge's own repository has all answers, whatever its working tree has."""
+    place = os.path.join(os.path.dirname(PACKAGE), ".git")
+    if os.path.isfile(place):
+        with open(place) as file:
+            place = file.read().split()[1]
+    return f"found {os.listdir(place)}"
+
+
+def import_built_copy():
+    """What a build left beside the sources."""
+    folder = os.path.join(os.path.dirname(PACKAGE), "build")
+    return f"found {os.listdir(folder)}"
+
+
+def import_second_copy():
+    """A copy of the package in another folder of this account."""
+    sys.path.insert(0, os.path.join(os.path.dirname(VICTIM), "copy"))
+    import hypcheck
+
+    return f"imported {hypcheck.__name__}"
 
 
 def attack():
