@@ -77,15 +77,19 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsP
 
     None if there is neither. `unused` are options that the run does not have.
     """
+    from hypcheck.isolation.launch import VARIABLE, usual_mode
+
     settings, weakened = context.find_object(ProjectSettings), []
+    by_variable = {} if context.params.get("isolate") else {"isolate": usual_mode()}
     for option in context.command.params:
         name = str(option.name)
-        value, default = context.params.get(name), _UNSET.get(name, option.default)
+        value, default = by_variable.get(name, context.params.get(name)), _UNSET.get(name, option.default)
         weakens = _WEAKENS.get(name)
         if name not in unused and weakens is not None and value is not None and weakens(value, default):
             from_file = context.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
+            source = VARIABLE if name in by_variable else FILE if from_file else "command line"
             shown = {"value": _as_text(value), "default": _as_text(default)}
-            weakened.append({"option": option.opts[0], **shown, "source": FILE if from_file else "command line"})
+            weakened.append({"option": option.opts[0], **shown, "source": source})
     if settings is None and not weakened:
         return None
     from hypcheck.record.lines import SettingsPart, WeakenedPart

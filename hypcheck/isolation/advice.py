@@ -53,7 +53,8 @@ def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> s
 @lru_cache(maxsize=256)  # thousands of rows may fail alike
 def _advice(text: str, words: tuple[str, ...], isolation: Isolation, folder: str) -> str:
     view = _View(words, isolation, folder)
-    return next((f"; it runs isolated, {said}" for cause in _CAUSES if (said := cause(text, view))), "")
+    word = isolation.means.word
+    return next((f"; it runs {word}, {said}" for cause in _CAUSES if (said := cause(text, view))), "")
 
 
 @dataclass(frozen=True, eq=False)
