@@ -136,13 +136,14 @@ class MemoryWatch:
             raise FaultError(Outcome.CRASH, reason, fatal=True)
 
     def used(self) -> int:
-        """Bytes that its processes use; 0 if the system does not tell.
+        """Bytes that its processes use, with the tables of their pages; 0 if the system does not tell.
 
         If their sum exceeds the limit, shared pages count once. The system needs to visit every page for that.
         """
         ours = list(self._ours(list(_all_processes())))
+        tables = sum(_bytes_in(f"/proc/{each.number}/status", b"VmPTE:") or 0 for each in ours)
         resident = sum(each.resident for each in ours)
-        return resident if resident <= self._limit else sum(map(_proportional, ours))
+        return tables + (resident if tables + resident <= self._limit else sum(map(_proportional, ours)))
 
     def _ours(self, found: list[_ProcessMemory]) -> Iterator[_ProcessMemory]:
         known = self._known
@@ -204,11 +205,14 @@ def _by_ps() -> Iterator[_ProcessMemory]:
 
 def _proportional(each: _ProcessMemory) -> int:
     """Bytes that a process uses, with its share of shared pages; all resident bytes if the system does not tell."""
+    told = _bytes_in(f"/proc/{each.number}/smaps_rollup", b"Pss:")
+    return each.resident if told is None else told
+
+
+def _bytes_in(path: str, name: bytes) -> int | None:
+    """Bytes that a line of a file of /proc tells in KiB; None if the system does not tell."""
     try:
-        with open(f"/proc/{each.number}/smaps_rollup", "rb") as file:
-            for line in file:
-                if line.startswith(b"Pss:"):
-                    return int(line.split()[1]) << 10
-    except OSError:  # it ended meanwhile, belongs to another user, or the system is too old
-        pass
-    return each.resident
+        with open(path, "rb") as file:
+            return next((int(line.split()[1]) << 10 for line in file if line.startswith(name)), None)
+    except OSError:  # the process ended meanwhile, belongs to another user, or the system is too old
+        return None

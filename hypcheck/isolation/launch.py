@@ -187,7 +187,9 @@ def _options(
         options += [f"--private={folder}" for folder in others] + [f"--show={path}" for path in shown]
         options += [f"--hide={path}" for path in hidden] + [f"--reveal={path}" for path in revealed]
         return options + [f"--write={folder}" for folder in (scratch, SHARED_MEMORY)]
-    read, listed = readable_paths(hidden, (*private, SHARED_MEMORY), needed)
+    read, listed = readable_paths(
+        hidden, (*private, "/dev"), needed
+    )  # the launcher opens the devices that hold nothing
     read += revealed
     listed += [folder for folder in hidden if any(within(path, folder) for path in revealed)]
     options += [f"--judge={os.getpid()}", f"--write={scratch}"]

@@ -272,7 +272,10 @@ def open_devices():
     for folder, _, files in os.walk("/dev"):
         found += [os.path.join(folder, name) for name in files]
     of_files = ("/dev/fd/", "/dev/std")
-    for path in sorted({each for each in found if not each.startswith(of_files)} | {"/dev/pts/0", "/dev/tty"}):
+    usual = {"null", "zero", "full", "random", "urandom", "tty", "tty0", "ttyS0", "console", "ptmx", "pts/0", "kmsg"}
+    usual |= {"kvm", "vda", "sda", "loop0", "mem", "fuse"}
+    found = {each for each in found if not each.startswith(of_files)}
+    for path in sorted(found | {f"/dev/{name}" for name in usual}):
         try:
             os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY))
         except OSError:
@@ -293,6 +296,15 @@ def call_what_nobody_knows():
         libc.syscall(number, -1, 0, 0, 0, 0)
         errors.append(ctypes.get_errno())
     return f"errors {errors}"
+
+
+def make_calls_of_32_bits():
+    """setpriority, fchmod and a call that no system has yet, by the gate of programs of 32 bits."""
+    code = mmap.mmap(-1, 4096, prot=mmap.PROT_READ | mmap.PROT_WRITE | mmap.PROT_EXEC)
+    code.write(bytes.fromhex("53 89f8 89f3 89d1 31d2 cd80 5b c3"))
+    call = ctypes.CFUNCTYPE(ctypes.c_int, *(ctypes.c_int,) * 3)(ctypes.addressof(ctypes.c_char.from_buffer(code)))
+    file = os.open(os.path.join(os.environ["TMPDIR"], "own"), os.O_CREAT | os.O_WRONLY)
+    return f"errors {[-call(97, 0, JUDGE), -call(94, file, 0o600), -call(500, 0, 0)]}"
 
 
 def survive_by_forking():

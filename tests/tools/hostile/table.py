@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -50,6 +51,7 @@ UNSEEN = r"FileNotFoundError|No such file"
 
 GONE = f"{REFUSED}|{UNSEEN}"
 GREW = "memory: its processes grew to 0"
+NOBODY = "ProcessLookupError"
 DENIED = "Operation not permitted"
 
 ATTACKS = (
@@ -58,11 +60,11 @@ ATTACKS = (
     Attack("forge_summary_after_the_end", "forges summary.json after the end", ("left a",) * 3 + (None,)),
     Attack("daemon_without_environment", "leaves a daemon with a cleared environment", ("left a",) * 3 + (None,)),
     Attack("survive_by_forking", "leaves a daemon that forks and forks", ("left a",) * 3 + (None,)),
-    Attack("blind_supervisor", "takes the descriptors of what would end it", (REFUSED,) * 3 + (None,)),
+    Attack("blind_supervisor", "takes the descriptors of what would end it", ("left a", REFUSED, REFUSED, None)),
     Attack("read_vectors", "reads the frozen vectors", (UNSEEN, REFUSED, None, None)),
     Attack("import_hypcheck", "imports hypcheck for its answers", (*("Error: .*hypcheck",) * 2, None, None)),
-    Attack("read_repository", "reads the judge's repository", (f"{UNSEEN}|found ..$", REFUSED, None, None)),
-    Attack("import_built_copy", "imports what a build left", (f"{UNSEEN}|found ..$", GONE, None, None)),
+    Attack("read_repository", "reads the judge's repository", (None,) * 4),
+    Attack("import_built_copy", "imports what a build left", (None,) * 4),
     Attack("import_second_copy", "imports a copy elsewhere", (*("Error: .*hypcheck",) * 2, None, None)),
     Attack("open_socket", "opens a socket", (REFUSED,) * 3 + (None,)),
     Attack("read_token", "reads tokens", (UNSEEN, REFUSED, None, None)),
@@ -70,22 +72,27 @@ ATTACKS = (
     Attack("tell_secrets", "tells secrets that it finds", ("^told: $|^told:$",) * 3 + (r"^told: \*\*\*",)),
     Attack("write_memory_of_judge", "writes to the judge's memory, as a file", (UNSEEN, REFUSED, None, None)),
     Attack("write_memory_by_call", "writes to the judge's memory", ("SIGSYS; isolation",) * 3 + (None,), Outcome.CRASH),
-    Attack("stop_judge", "stops the judge", ("ProcessLookupError", REFUSED, REFUSED, None)),
-    Attack("kill_judge", "kills the judge", ("ProcessLookupError", REFUSED, REFUSED, None)),
+    Attack("stop_judge", "stops the judge", (NOBODY, REFUSED, REFUSED, None)),
+    Attack("kill_judge", "kills the judge", (NOBODY, REFUSED, REFUSED, None)),
     Attack("kill_supervisor", "kills what would end it", (f"it ignored the signal|{REFUSED}", REFUSED, REFUSED, None)),
-    Attack("limit_judge", "limits the judge", (REFUSED,) * 3 + (None,)),
-    Attack("slow_judge", "lowers the judge's priority", (REFUSED,) * 3 + (None,)),
+    Attack("limit_judge", "limits the judge", (NOBODY, REFUSED, REFUSED, None)),
+    Attack("slow_judge", "lowers the judge's priority", (NOBODY, REFUSED, REFUSED, None)),
     Attack("slow_everybody", "lowers the priority of all", (REFUSED,) * 3 + (None,)),
-    Attack("move_judge", "moves the judge to another processor", (REFUSED,) * 3 + (None,)),
-    Attack("schedule_judge", "gives the judge another scheduler", (REFUSED,) * 3 + (None,)),
-    Attack("slow_files_of_judge", "lowers the judge's priority of files", (DENIED,) * 3 + (None,)),
-    Attack("chmod_report", "changes the mode of a report", ("Read-only", REFUSED, REFUSED, None)),
-    Attack("chmod_report_by_descriptor", "changes the mode of an open report", ("Read-only", REFUSED, None, None)),
-    Attack("touch_report", "changes the time of a report", ("Read-only", REFUSED, REFUSED, None)),
-    Attack("mark_report", "changes the attributes of a report", ("Read-only", REFUSED, REFUSED, None)),
+    Attack("move_judge", "moves the judge to another processor", (NOBODY, REFUSED, REFUSED, None)),
+    Attack("schedule_judge", "gives the judge another scheduler", (NOBODY, REFUSED, REFUSED, None)),
+    Attack("slow_files_of_judge", "lowers the judge's priority of files", ("No such process", DENIED, DENIED, None)),
+    Attack("chmod_report", "changes the mode of a report", (UNSEEN, REFUSED, REFUSED, None)),
+    Attack("chmod_report_by_descriptor", "changes the mode of an open report", (UNSEEN, REFUSED, REFUSED, None)),
+    Attack("touch_report", "changes the time of a report", (UNSEEN, REFUSED, REFUSED, None)),
+    Attack("mark_report", "changes the attributes of a report", (UNSEEN, REFUSED, REFUSED, None)),
     Attack("open_devices", "opens devices", ("^opened 5: full null random urandom zero$",) * 2 + (None, None)),
     Attack("list_terminals", "lists the terminals", (UNSEEN, REFUSED, None, None)),
     Attack("call_what_nobody_knows", "makes system calls of later systems", ("errors .38, 38, 38, 38",) * 3 + (None,)),
+    *(
+        [Attack("make_calls_of_32_bits", "makes calls of 32 bits", (r"\[3, 0, 38\]", *(r"\[1, 1, 38\]",) * 2, None))]
+        if platform.machine() == "x86_64"
+        else []
+    ),
     Attack(
         "fork_bomb",
         "starts processes without end",
