@@ -66,6 +66,7 @@ _UNSET: Mapping[str, Any] = MappingProxyType(
         "question": "as declared",
         "domain": "as declared",
         "known_failures": "none",
+        "see": "nothing",
         "max_slowdown": 1.1,  # hypcheck.bench.plan.MAX_SLOWDOWN; its module is not loaded here
     }
 )
@@ -130,6 +131,7 @@ _WEAKENS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
         **dict.fromkeys(("count", "judged", "roots", "meshes"), operator.lt),
         **dict.fromkeys(("fail_on", "oracles", "precision", "question", "domain", "known_failures"), operator.ne),
         "isolate": lambda value, _: bool(value == "off"),
+        "see": lambda value, _: bool(value),
         "families": lambda value, _: _leaves_out_families(value),
     }
 )
@@ -137,6 +139,8 @@ _WEAKENS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
 
 
 def _as_text(value: object) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(str, value))
     return f"{value:.17g}" if isinstance(value, float) else str(value)
 
 
@@ -292,6 +296,7 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "memory": _bytes,
         "isolate": _one_of(lambda: ("auto", "on", "off")),
         "pass_env": _names,
+        "see": _texts,
     }
 )
 """Checks the value of each key, and gives it the form of its option."""

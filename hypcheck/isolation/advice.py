@@ -20,17 +20,8 @@ from glob import glob
 from importlib.machinery import PathFinder
 
 from hypcheck.isolation.environment import environment_of
-from hypcheck.isolation.launch import (
-    PACKAGE,
-    SCRATCH_BYTES,
-    SHARED_MEMORY,
-    THREADS,
-    Isolation,
-    hidden_paths,
-    needed_paths,
-    private_folders,
-    within,
-)
+from hypcheck.isolation.launch import SCRATCH_BYTES, THREADS, Isolation
+from hypcheck.isolation.view import PACKAGE, SHARED_MEMORY, hidden_paths, needed_paths, private_folders, within
 
 _TRUST = "--isolate off runs code that you trust without"
 _OWN = (
@@ -67,11 +58,11 @@ class _View:
 
     @cached_property
     def _needed(self) -> tuple[str, ...]:
-        return needed_paths(self.words, os.environ)
+        return needed_paths(self.words, os.environ, self.isolation.seen)
 
     @cached_property
     def _closed(self) -> tuple[str, ...]:
-        return hidden_paths(self.isolation.hidden)
+        return hidden_paths(self.isolation.hidden, self._needed, self.isolation.seen)
 
     @cached_property
     def _private(self) -> tuple[str, ...]:
@@ -154,7 +145,8 @@ def _file(text: str, view: _View) -> str:
         return f"and does not see the folder {folder!r}, which may be why; {_TRUST}" if folder else ""
     if within(os.path.realpath(found), str(PACKAGE)):
         return _OWN
-    return f"and does not see {found!r}; put it into the working directory or beside the program; {_TRUST}"
+    shown = "put it into the working directory or beside the program, or show it by --see"
+    return f"and does not see {found!r}; {shown}; {_TRUST}"
 
 
 def _write(text: str, view: _View) -> str:

@@ -1,7 +1,7 @@
 """A command that attacks what it can reach when it is asked first, says on standard error how far it came, and answers.
 
-`python -I -S command.py ATTACK JUDGE VICTIM PACKAGE VECTORS`: the judge is a process; the victim a folder of files that
-must not change; the package and the vectors are those of hypcheck.
+`python -I -S command.py ATTACK JUDGE VICTIM PACKAGE VECTORS COPY`: the judge is a process; the victim a folder of files
+that must not change; the package and the vectors are those of hypcheck; the copy is a folder with another of these.
 """
 
 # ruff: noqa: BLE001, PERF203, PERF401, RET503, S606, T201 - it is as bad as it can be
@@ -16,7 +16,7 @@ import signal
 import sys
 import time
 
-ATTACK, VICTIM, PACKAGE, VECTORS = sys.argv[1], *sys.argv[3:6]
+ATTACK, VICTIM, PACKAGE, VECTORS, COPY = sys.argv[1], *sys.argv[3:7]
 JUDGE = int(sys.argv[2])
 SECONDS = 5.0
 """No attack goes on for longer."""
@@ -339,21 +339,24 @@ def read_repository():
     if os.path.isfile(place):
         with open(place) as file:
             place = file.read().split()[1]
-    return f"found {os.listdir(place)}"
+    with open(os.path.join(place, "HEAD")) as file:
+        return f"read {file.read()}"
 
 
 def import_built_copy():
     """What a build left beside the sources."""
     folder = os.path.join(os.path.dirname(PACKAGE), "build")
-    return f"found {os.listdir(folder)}"
+    built = [os.path.join(place, name) for place, _, files in os.walk(folder) for name in files]
+    with open(built[0] if built else folder + "/nothing", "rb") as file:
+        return f"read {len(file.read())} bytes"
 
 
 def import_second_copy():
-    """A copy of the package in another folder of this account."""
-    sys.path.insert(0, os.path.join(os.path.dirname(VICTIM), "copy"))
-    import hypcheck
+    """A copy of the package in a folder that it sees."""
+    sys.path.insert(0, COPY)
+    from hypcheck.kernel import classify
 
-    return f"imported {hypcheck.__name__}"
+    return f"imported {classify}"
 
 
 def attack():

@@ -47,14 +47,27 @@ class Fate:
 def command_fate(attack: str, means: Means, folder: Path) -> Fate:
     """Ask the hostile command, whose victim is a folder of reports below `folder`."""
     victim, home = folder / "reports", folder / "home"
-    for each in (victim, home, folder / "copy" / "hypcheck"):
+    copy = folder / "copy" / "hypcheck"
+    for each in (victim, home, copy / "kernel"):
         each.mkdir(exist_ok=True, parents=True)
-    (folder / "copy" / "hypcheck" / "__init__.py").write_text("")
+    for name in ("__init__.py", "kernel/__init__.py", "kernel/classify.py"):
+        (copy / name).write_text("")
     (victim / "summary.json").write_text("true")
     (home / ".netrc").write_text("machine example.org password secret")
     here = Path(__file__).with_name("command.py")
     vectors = next(VECTORS.parent.rglob("*.json")) if VECTORS.parent.is_dir() else VECTORS
-    words = [sys.executable, "-I", "-S", str(here), attack, str(os.getpid()), str(victim), str(PACKAGE), str(vectors)]
+    words = [
+        sys.executable,
+        "-I",
+        "-S",
+        str(here),
+        attack,
+        str(os.getpid()),
+        str(victim),
+        str(PACKAGE),
+        str(vectors),
+        str(copy.parent),
+    ]
     limits = Limits(
         **LIMITS, isolation=Isolation("auto", hidden=(str(victim),), here=means, scratch_bytes=4 << 20, threads=310)
     )
