@@ -127,7 +127,10 @@ PASS_ENV = click.option(
     "--pass-env", metavar="NAMES", help="Environment variables that the isolated implementation sees."
 )
 SEE = click.option(
-    "--see", metavar="PATH", multiple=True, help="A further file or folder that it sees isolated; may be given often."
+    "--see",
+    metavar="PATH",
+    multiple=True,
+    help="A further file or folder that the isolated implementation sees; may be given often.",
 )
 
 QUESTION = click.option(

@@ -40,6 +40,7 @@ _TOOLS = (
     *(".julia", ".juliaup", ".pyenv", ".nvm", ".volta", ".sdkman", ".opam", ".asdf", ".dotnet", ".nuget/packages"),
     *(".m2/repository", ".gem", ".rbenv", ".rvm", ".luarocks", ".cabal", ".ghcup", ".deno", ".bun", "R", "perl5"),
     *("node_modules", ".node_modules", ".local/lib", ".local/share/mise", ".local/share/uv", ".local/share/pnpm"),
+    ".cache/uv/archive-v0",
 )
 """Folders below the home folder where languages keep themselves and their packages."""
 
@@ -65,7 +66,8 @@ def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Ite
         if path and os.path.exists(path):
             found += _of_file(os.path.abspath(path), environment)
     left_out = {*TEMPORARY, "/", _home(), *([str(PACKAGE.parent)] if _is_checkout() else ())}
-    found += [os.path.abspath(path) for path in sys.path if path and os.path.realpath(path) not in left_out]
+    packages = [os.path.abspath(path) for path in sys.path if path and os.path.realpath(path) not in left_out]
+    found += [*packages, *(link for path in packages for link in _links(path))]
     for name in _PATHS:
         folders = [os.path.abspath(path) for path in environment.get(name, "").split(os.pathsep) if path]
         found += [shown for path in folders for shown in _installation(path)]
@@ -75,6 +77,15 @@ def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Ite
         if os.path.exists(path) and not any(within(path, outer) for outer in needed):
             needed.append(path)
     return tuple(needed)
+
+
+def _links(folder: str) -> Iterator[str]:
+    """What the links in a folder lead to: packages may be installed once, and linked into each environment."""
+    try:
+        with os.scandir(folder) as entries:
+            yield from (os.path.realpath(entry.path) for entry in entries if entry.is_symlink())
+    except OSError:  # it is an archive, or not there
+        return
 
 
 def _of_file(path: str, environment: Mapping[str, str]) -> Iterator[str]:

@@ -97,6 +97,17 @@ def test_program_sees_what_its_words_name_and_its_interpreter_with_what_is_insta
     assert {*read_by_program(paths, ways)} <= {"FileNotFoundError", "PermissionError"}
 
 
+@both
+def test_program_sees_a_package_that_is_linked_into_the_packages_of_its_python(ways, project, monkeypatch):
+    for path in ("store/linked/code.py", "packages/other.py"):
+        (project / path).parent.mkdir(parents=True)
+        (project / path).write_text(f"text of {path}")
+    (project / "packages/linked").symlink_to(project / "store/linked")
+    monkeypatch.syspath_prepend(str(project / "packages"))
+    paths = (project / "packages/linked/code.py", project / "packages/other.py")
+    assert read_by_program(paths, ways) == ["text of store/linked/code.py", "text of packages/other.py"]
+
+
 def test_root_has_no_folder_that_is_seen_whole_but_those_of_the_system(project):
     needed = needed_paths((sys.executable,), os.environ)
     private = private_folders(needed)
