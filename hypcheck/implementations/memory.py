@@ -1,4 +1,4 @@
-"""The processes that a program started, daemons included, and their memory, watched from outside.
+"""The processes that a program started, daemons included, their memory and waiting, watched from outside.
 
 A daemon in a session of its own is in no group that can be killed. It keeps the environment of its program, though, and
 a mark in that shows whose it is. Only Linux shows environments; on other systems a daemon outlives the run.
@@ -16,6 +16,7 @@ import subprocess
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from glob import glob
 from typing import NamedTuple
 
 from hypcheck.implementations.session import FaultError, Outcome
@@ -123,6 +124,7 @@ class MemoryWatch:
         self._limit = limit
         self._next = time.monotonic() + _SOONEST
         self._known: dict[tuple[int, int], bool] = {}
+        self._waits: dict[str, int] = {}
 
     def look(self, now: float) -> None:
         """Check if the time for it has come; `now` is time.monotonic()."""
@@ -134,6 +136,18 @@ class MemoryWatch:
         if used > self._limit:
             reason = f"memory: its processes grew to {used / 2**30:.2f} GiB, beyond {self._limit / 2**30:.2f} GiB"
             raise FaultError(Outcome.CRASH, reason, fatal=True)
+
+    def waited(self) -> float:
+        """Seconds since the last call in which a thread of its waited for a processor, of the one that did longest.
+
+        0 if the system does not tell.
+        """
+        before, self._waits = self._waits, {}
+        for (number, _), ours in self._known.items():
+            for path in glob(f"/proc/{number}/task/*/schedstat") if ours else ():
+                with suppress(OSError, IndexError), open(path, "rb") as file:  # it may end meanwhile
+                    self._waits[path] = int(file.read().split()[1])
+        return max((told - before[path] for path, told in self._waits.items() if path in before), default=0) / 1e9
 
     def used(self) -> int:
         """Bytes that its processes use, with the tables of their pages; 0 if the system does not tell.
