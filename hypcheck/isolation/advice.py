@@ -149,6 +149,15 @@ def _file(text: str, view: _View) -> str:
     return f"and does not see {found!r}; {shown}; {_TRUST}"
 
 
+def _library(text: str, _: _View) -> str:
+    """A library that the system's loader did not find; it names no folder."""
+    found = re.search(r"(\S+): cannot open shared object file", text)
+    shown = "show the folder by --see"
+    return (
+        f"and does not see every folder that may have {found[1]}, which may be why; {shown}; {_TRUST}" if found else ""
+    )
+
+
 def _write(text: str, view: _View) -> str:
     """A folder that this account may write to; without a view of its own, the program is told that it is denied."""
     if _READ_ONLY.search(text):
@@ -215,6 +224,6 @@ def _call(text: str, _: _View) -> str:
 
 
 _CAUSES: tuple[Callable[[str, _View], str], ...] = (
-    *(_hypcheck, _variable, _file, _rights, _write, _network, _space, _processes, _card, _call),
+    *(_hypcheck, _variable, _file, _library, _rights, _write, _network, _space, _processes, _card, _call),
 )
 """What isolation takes away; each gives the end of the sentence, or nothing. The first that holds is said."""

@@ -54,13 +54,17 @@ _PATHS = (
 """Variables that name files and folders of interpreters, libraries and packages."""
 
 
+_IN_CHECKOUT = (".git", "build", "dist", "cases")
+"""What has answers in the sources of this package, beside itself."""
+
+
 def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Iterable[str] = ()) -> tuple[str, ...]:
     """What the program of these words needs to see, wherever it is: outer folders first, none twice.
 
-    These are the working directory, the folders of the files that its words name, those of its interpreter and of this
-    Python with their packages, those of PATH and the like, and `also`.
+    These are the working directory with the repository that it is in, the folders of the files that its words name,
+    those of its interpreter and of this Python with their packages, those of PATH and the like, and `also`.
     """
-    found = [os.getcwd(), "/run/current-system", sys.prefix, sys.base_prefix, *also]
+    found = [os.getcwd(), _project(os.getcwd()), "/run/current-system", sys.prefix, sys.base_prefix, *also]
     program = shutil.which(words[0], path=environment.get("PATH")) if words else None
     for path in (*words, *([program] if program else ())):
         if path and os.path.exists(path):
@@ -77,6 +81,13 @@ def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Ite
         if os.path.exists(path) and not any(within(path, outer) for outer in needed):
             needed.append(path)
     return tuple(needed)
+
+
+def _project(folder: str) -> str:
+    """The top of the repository that a folder is in; the folder where it is in none, or in one of a whole home."""
+    tops = (outer for outer in _upwards(folder) if os.path.exists(os.path.join(outer, ".git")))
+    top = next(tops, folder)
+    return folder if top in {*TEMPORARY, "/", _home()} else top
 
 
 def _links(folder: str) -> Iterator[str]:
@@ -146,15 +157,14 @@ def private_folders(needed: Iterable[str]) -> tuple[str, ...]:
 def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence[str] = ()) -> tuple[str, ...]:
     """What is seen empty, although it is in a folder that is seen.
 
-    This package with its vectors, and `also`; and, but for what is in `seen`, repositories, what was built in the
-    checkout of this package, other copies of it, the checkout of the action of GitHub, and files with keys and tokens.
-    A folder in which the working directory or this Python is cannot be.
+    This package with its vectors, and `also`; and, but for what is in `seen`, repositories, copies of this package and
+    what was built of them, the checkout of the action of GitHub, and files with keys and tokens. A folder in which the
+    working directory or this Python is cannot be.
     """
     places = (os.getcwd(), sys.prefix, sys.base_prefix)
     found = [os.path.join(_home(), path) for path in _SECRETS]
     roots = (os.getcwd(), *needed)
     found += [os.path.join(folder, ".git") for folder in {outer for root in roots for outer in _upwards(root)}]
-    found += [str(PACKAGE.parent / name) for name in (".git", "build", "dist") if _is_checkout()]
     found += [os.environ.get("GITHUB_ACTION_PATH", ""), *_copies(roots)]
     found = [path for path in found if path and not any(within(path, folder) for folder in seen)]
     found += [str(PACKAGE), str(PACKAGE.parent / "cases"), *also]
@@ -164,15 +174,22 @@ def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence
 
 @lru_cache(maxsize=8)
 def _copies(roots: Sequence[str]) -> tuple[str, ...]:
-    """Copies of this package where Python would look for one, and in the folders `roots` and those in them."""
+    """This package, and copies of it where Python would look for one and in the folders `roots` and those in them.
+
+    What has answers in their checkouts follows.
+    """
     packages = "lib/python3*/[ds]*-packages/hypcheck"
     patterns = [f"{outer}/{packages}" for outer in ("/usr", "/usr/local", "/opt/*", "/opt/hostedtoolcache/*/*/*")]
     for root in roots:
         patterns += [f"{root}/{inner}{packages}" for inner in ("", "*/", ".*/", "versions/*/", "envs/*/")]
         patterns += [f"{root}/hypcheck", f"{root}/*/hypcheck"]
     patterns += [f"{path}/hypcheck" for path in sys.path if path]
-    found = {path for pattern in patterns for path in glob(pattern)}
-    return tuple(sorted(path for path in found if os.path.isfile(os.path.join(path, "kernel", "classify.py"))))
+    found = {str(PACKAGE), *(path for pattern in patterns for path in glob(pattern))}
+    copies = [path for path in sorted(found) if os.path.isfile(os.path.join(path, "kernel", "classify.py"))]
+    checkouts = [
+        outer for outer in map(os.path.dirname, copies) if os.path.isfile(os.path.join(outer, "pyproject.toml"))
+    ]
+    return (*copies, *(os.path.join(outer, name) for outer in checkouts for name in _IN_CHECKOUT))
 
 
 def _is_checkout() -> bool:

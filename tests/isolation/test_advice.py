@@ -12,6 +12,9 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import StartError
+from hypcheck.isolation.advice import isolation_advice
+from hypcheck.isolation.launch import Isolation
+from hypcheck.isolation.means import Means
 from tests.isolation.test_isolation import both, isolated
 
 ROW = "2,5,1,0.5,2.5,0,0"
@@ -61,6 +64,17 @@ CAUSED = {
     "import os; os.environ['ENGINE_DATA']": "and does not see the environment variable ENGINE_DATA; --pass-env E",
 }
 """What a function does that isolation stops, and what is said of it."""
+
+
+def test_a_library_that_the_loader_does_not_find_is_blamed_on_isolation_as_a_possible_cause():
+    text = "liba.so: libb.so.2: cannot open shared object file: No such file or directory"
+    said = isolation_advice(text, (sys.executable,), Isolation("auto", here=Means(True, 7, True)))
+    assert said.startswith(
+        "; it runs isolated, and does not see every folder that may have libb.so.2, which may be why; "
+    )
+    assert "show the folder by --see" in said
+    assert not isolation_advice(text, (sys.executable,), Isolation("off"))
+
 
 NOT_CAUSED = (
     "import no_such_module",

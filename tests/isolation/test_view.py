@@ -70,6 +70,41 @@ def test_program_sees_its_project_but_no_repository_no_copy_of_hypcheck_and_noth
 
 
 @both
+def test_program_sees_neither_vectors_nor_builds_of_a_checkout_of_hypcheck_in_its_project(ways, project):
+    checkout = project / "project/vendored"
+    (checkout / "pyproject.toml").write_text("[project]")
+    paths = [checkout / name / "file" for name in ("cases", "build", "dist", ".git", "docs")]
+    for path in paths:
+        path.parent.mkdir()
+        path.write_text("text")
+    *others, documents = read_by_program(paths, ways)
+    assert {*others} <= {"FileNotFoundError", "PermissionError"}
+    assert documents == "text"
+
+
+@both
+def test_program_started_in_a_folder_of_a_repository_sees_all_of_that_but_its_history(ways, project, monkeypatch):
+    inner = project / "project/tests"
+    inner.mkdir()
+    monkeypatch.chdir(inner)
+    paths = (project / "project/build/adapter", project / "project/.git/HEAD", project / "beside/data")
+    mine, *others = read_by_program(paths, ways)
+    assert mine == "text of project/build/adapter"
+    assert {*others} <= {"FileNotFoundError", "PermissionError"}
+
+
+@both
+def test_program_in_a_home_that_is_a_repository_does_not_see_the_whole_home(ways, project, monkeypatch):
+    (project / ".git").mkdir()
+    (project / "project/.git/HEAD").unlink()
+    (project / "project/.git").rmdir()
+    monkeypatch.setenv("HOME", str(project))
+    mine, beside = read_by_program((project / "project/build/adapter", project / "beside/data"), ways)
+    assert mine == "text of project/build/adapter"
+    assert beside in {"FileNotFoundError", "PermissionError"}
+
+
+@both
 def test_program_sees_what_see_names_although_it_is_hidden_or_beside_its_project(ways, project):
     paths = (project / "project/.git/HEAD", project / "beside/data")
     seen = (str(project / "project/.git"), str(project / "beside"))
