@@ -92,8 +92,9 @@ def _marked(mark: str) -> Iterator[int]:
 _SOONEST = 0.05
 _SHARE = 20
 _FASTEST = 8 << 30
-"""Between two checks pass at least 50 ms, and 20 times the time of a check, so that they take at most 5 % of one core.
-There is no check before memory can reach the limit at so many bytes a second, faster than a system can clear it."""
+"""Between two checks pass at least 50 ms, and 20 times the processor time of a check, so that they take at most 5 % of
+one core. There is no check before memory can reach the limit at so many bytes a second, faster than a system can clear
+it."""
 
 
 class _ProcessMemory(NamedTuple):
@@ -130,9 +131,10 @@ class MemoryWatch:
         """Check if the time for it has come; `now` is time.monotonic()."""
         if now < self._next:
             return
+        before = time.thread_time()
         used = self.used()
-        after = time.monotonic()
-        self._next = after + max(_SOONEST, _SHARE * (after - now), (self._limit - used) / _FASTEST)
+        took = time.thread_time() - before
+        self._next = time.monotonic() + max(_SOONEST, _SHARE * took, (self._limit - used) / _FASTEST)
         if used > self._limit:
             reason = f"memory: its processes grew to {used / 2**30:.2f} GiB, beyond {self._limit / 2**30:.2f} GiB"
             raise FaultError(Outcome.CRASH, reason, fatal=True)
