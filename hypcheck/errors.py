@@ -36,7 +36,7 @@ _MEANINGS = {
     Exit.WRONG: "a wrong, lost or changing answer, or known failures drifted",
     Exit.USAGE: "wrong usage or bad input",
     Exit.SLOWER: "slower than the baseline allows",
-    Exit.INCONCLUSIVE: "too noisy to tell, or undecided",
+    Exit.INCONCLUSIVE: "too noisy to tell, undecided, or too few rows judged",
     Exit.NOT_STARTED: "an implementation could not be started or broke the protocol",
     Exit.ORACLES_DISAGREE: "oracles disagree",
     Exit.INTERNAL: "an internal error of hypcheck",

@@ -14,6 +14,7 @@ import pytest
 from ruamel.yaml import YAML
 
 from hypcheck.cli.verify import verify
+from hypcheck.isolation.means import available
 
 ROOT = Path(__file__).parents[1]
 ACTION = ROOT / "action.yml"
@@ -83,6 +84,21 @@ def step_run(name, folder, **given):
     script = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]]
     subprocess.run(script, env=environment, check=True, cwd=folder)
     return told.read_text(encoding="utf-8").replace(f"{folder}/", "").splitlines()
+
+
+@pytest.mark.parametrize("given", ["", "off"])
+def test_the_action_isolates_by_namespaces_where_the_runner_can_unless_a_variable_says_otherwise(given, tmp_path):
+    python = tmp_path / "hypcheck/bin/python"
+    python.parent.mkdir(parents=True)
+    python.write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n', encoding="utf-8")
+    python.chmod(0o755)
+    code, _, told = ended("Isolate", tmp_path, GIVEN=given)
+    assert code == 0
+    assert told == ({"isolate": "on"} if available().whole and not given else {})
+    program = 'echo "$HYPCHECK_ISOLATE" > "$RUNNER_TEMP/seen"'
+    code, _, _ = ended("Verify", tmp_path, program, **{name.upper(): value for name, value in told.items()})
+    assert code == 0
+    assert (tmp_path / "seen").read_text().strip() == told.get("isolate", "")
 
 
 def test_the_action_fits_the_published_schema_of_actions():

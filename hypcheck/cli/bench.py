@@ -13,12 +13,14 @@ from hypcheck.cli.options import (
     LARGEST_SEED,
     MOST_PROCESSES,
     PASS_ENV,
+    SEE,
     IntegerOption,
     NumberOption,
     OutputPath,
     isolated,
     isolation_of,
     names_in,
+    seen_text,
 )
 from hypcheck.cli.recording import recording, run_stages
 from hypcheck.cli.settings import in_effect
@@ -69,6 +71,7 @@ WORKLOADS = completing.Names(completing.workloads, many=True)
 )
 @ISOLATE
 @PASS_ENV
+@SEE
 @click.pass_context
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
@@ -113,7 +116,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
         scenes=options["scene"],
         **{name: options[name] for name in ("seed", "baseline", "kernel", "forest", "tilted", "question")},
     )
-    bounds = isolated(plan.limits, options["isolate"], options["pass_env"], options["out"])
+    bounds = isolated(plan.limits, options["isolate"], options["pass_env"], options["see"], options["out"])
     plan, isolation = replace(plan, limits=bounds), isolation_of(specs, bounds)
     _refuse_replacing(options["baseline"], options["out"])
     outcome = RunOutcome()
@@ -122,6 +125,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     unchanged = FileSnapshot(files) if files is not None else None
 
     title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
+    title += seen_text(bounds)
     settings = in_effect(context, unused=("question",))  # it chooses methods, and replaces no declaration
     provenance = Provenance(files, unchanged.program if unchanged else None, settings, isolation)
     with (

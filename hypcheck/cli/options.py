@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -126,6 +126,12 @@ ISOLATE = click.option(
 PASS_ENV = click.option(
     "--pass-env", metavar="NAMES", help="Environment variables that the isolated implementation sees."
 )
+SEE = click.option(
+    "--see",
+    metavar="PATH",
+    multiple=True,
+    help="A further file or folder that the isolated implementation sees; may be given often.",
+)
 
 QUESTION = click.option(
     "--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"
@@ -172,10 +178,11 @@ with_limits = with_options(
     ),
     ISOLATE,
     PASS_ENV,
+    SEE,
 )
 """A decorator of commands: the options that limit an implementation's processes, for `limits_of`."""
 
-LIMITS = ("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env")
+LIMITS = ("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env", "see")
 """The parameters of limits_of that are options."""
 
 
@@ -187,22 +194,32 @@ def limits_of(
     memory: str,
     isolate: str | None,
     pass_env: str | None,
+    see: Sequence[str] = (),
     out: Path | None = None,
 ) -> Limits:
     """The limits that these options set; an isolated implementation does not see `out`. Raises InputError."""
     from hypcheck.implementations.session import Limits
 
-    return isolated(Limits(startup_timeout, timeout, restarts, bytes_of(memory)), isolate, pass_env, out)
+    return isolated(Limits(startup_timeout, timeout, restarts, bytes_of(memory)), isolate, pass_env, see, out)
 
 
-def isolated(limits: Limits, isolate: str | None, pass_env: str | None, out: Path | None) -> Limits:
+def isolated(limits: Limits, isolate: str | None, pass_env: str | None, see: Sequence[str], out: Path | None) -> Limits:
     """The limits, with the isolation that these options set. Raises InputError."""
     from dataclasses import replace
 
     from hypcheck.isolation.launch import Isolation, usual_mode
 
+    for path in see:
+        if not os.path.exists(path):
+            raise InputError(f"--see is {path!r}, which is not there; it must be a file or folder")
     hidden = () if out is None else (os.path.abspath(out),)
-    return replace(limits, isolation=Isolation(isolate or usual_mode(), hidden, names_in(pass_env)))
+    seen = tuple(map(os.path.abspath, see))
+    return replace(limits, isolation=Isolation(isolate or usual_mode(), hidden, names_in(pass_env), seen))
+
+
+def seen_text(limits: Limits) -> str:
+    """What isolation shows an implementation beyond what it needs, as the end of a sentence; empty without --see."""
+    return f"; --see shows it {', '.join(map(escaped, limits.isolation.seen))}" if limits.isolation.seen else ""
 
 
 def isolation_of(specs: Iterable[str], limits: Limits) -> IsolationPart | None:
@@ -225,7 +242,7 @@ def print_isolation(spec: str, limits: Limits) -> None:
     isolation = isolation_of((spec,), limits)
     if isolation is not None:
         text = isolation_text(isolation.means, isolation.missing)
-        click.echo(f"hypcheck: {escaped(spec)} is {escaped(text)}", err=True)
+        click.echo(f"hypcheck: {escaped(spec)} is {escaped(text)}{seen_text(limits)}", err=True)
 
 
 def names_in(text: str | None) -> tuple[str, ...]:

@@ -3,9 +3,11 @@
     @pytest.mark.hypcheck("library:./libcollide.so", tolerance=16)
     def test_the_collision_test_is_right(): ...
 
-Options of the marker are those of `hypcheck verify`, with underscores. The run is a process of its own in pytest's root
-folder, where hypcheck.toml is read as on the command line, so that both gates are the same. pytest loads this module in
-every run of an environment that has hypcheck: it imports nothing heavy until a marked test is run.
+Options of the marker are those of `hypcheck verify`, with underscores. It gates tests of every kind: functions, methods
+of unittest.TestCase, coroutines. A marker that would gate nothing is refused when tests are collected. The run is a
+process of its own in pytest's root folder, where hypcheck.toml is read as on the command line, so that both gates are
+the same. pytest loads this module in every run of an environment that has hypcheck: it imports nothing heavy until a
+marked test is run.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -32,11 +35,40 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", MARKER)
 
 
+GATES_NOTHING: Mapping[str, str] = MappingProxyType(
+    {
+        "help": "prints help",
+        "update": "rewrites the list of known failures",
+        "resume": "reports what another run asked",
+    }
+)
+"""Options of `hypcheck verify` with which a test would pass although nothing was asked."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Refuse markers that would gate nothing. Raises pytest.UsageError, which ends the run of pytest."""
+    for item in items:
+        for mark in item.iter_markers("hypcheck"):
+            if trouble := _refused(mark.args, mark.kwargs):
+                raise pytest.UsageError(f"{item.nodeid}: the marker hypcheck {trouble}")
+
+
+def _refused(specs: Iterable[object], options: Mapping[str, Any]) -> str | None:
+    """Why a marker gates nothing, as the end of a sentence; None if it gates."""
+    for spec in specs:
+        if not isinstance(spec, str | os.PathLike):
+            return f"has {spec!r} as SPEC; it must be a text such as 'python:mine.py:position'"
+        if str(spec).startswith("-"):
+            return f"has {str(spec)!r} as SPEC; an option is written as a keyword: tolerance=16"
+    found = next((name for name in GATES_NOTHING if options.get(name)), None)
+    return f"has {found}={options[found]!r}, which {GATES_NOTHING[found]} and gates nothing" if found else None
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> None:
+def pytest_runtest_call(item: pytest.Item) -> None:
     """Gate what the markers of a test name, before its own body runs."""
-    for mark in pyfuncitem.iter_markers("hypcheck"):
-        trouble = gate(mark.args, mark.kwargs, pyfuncitem.config.rootpath)
+    for mark in item.iter_markers("hypcheck"):
+        trouble = gate(mark.args, mark.kwargs, item.config.rootpath)
         if trouble:
             pytest.fail(trouble, pytrace=False)
 
@@ -45,9 +77,9 @@ def gate(specs: Iterable[object], options: Mapping[str, Any], root: Path) -> str
     """Why `hypcheck verify` fails in the folder `root`, with the worst case and its replay; None if it does not."""
     with TemporaryDirectory(prefix="hypcheck-") as temporary:
         out = root / options.get("out", temporary)
-        words = [*map(str, specs), *_words({**options, "out": out})]
-        fresh = () if "CI" in os.environ or "fresh" in options else ("--fresh", "off")
-        command = [sys.executable, "-m", "hypcheck", "verify", *words, *fresh]
+        fresh = () if "CI" in os.environ or "fresh" in options else ("--fresh=off",)
+        words = [*_words({**options, "out": out}), *fresh, "--", *map(str, specs)]
+        command = [sys.executable, "-m", "hypcheck", "verify", *words]
         # With CI set, verify refuses to run without an implementation instead of checking hypcheck itself.
         # Fresh rows, which it asks then too, are for a CI that is one: at a desk a test repeats what it did before.
         environment = {**os.environ, "CI": "true"}
@@ -63,9 +95,8 @@ def _words(options: Mapping[str, Any]) -> Iterator[str]:
     for name, value in options.items():
         if value is None or value is False:
             continue
-        yield f"--{name.replace('_', '-')}"
-        if value is not True:
-            yield ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+        text = ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+        yield f"--{name.replace('_', '-')}{'' if value is True else f'={text}'}"
 
 
 def _told(out: Path) -> str | None:

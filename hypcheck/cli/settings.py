@@ -66,6 +66,7 @@ _UNSET: Mapping[str, Any] = MappingProxyType(
         "question": "as declared",
         "domain": "as declared",
         "known_failures": "none",
+        "see": "nothing",
         "max_slowdown": 1.1,  # hypcheck.bench.plan.MAX_SLOWDOWN; its module is not loaded here
     }
 )
@@ -77,15 +78,19 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsP
 
     None if there is neither. `unused` are options that the run does not have.
     """
+    from hypcheck.isolation.launch import VARIABLE, usual_mode
+
     settings, weakened = context.find_object(ProjectSettings), []
+    by_variable = {} if context.params.get("isolate") else {"isolate": usual_mode()}
     for option in context.command.params:
         name = str(option.name)
-        value, default = context.params.get(name), _UNSET.get(name, option.default)
+        value, default = by_variable.get(name, context.params.get(name)), _UNSET.get(name, option.default)
         weakens = _WEAKENS.get(name)
         if name not in unused and weakens is not None and value is not None and weakens(value, default):
             from_file = context.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
+            source = VARIABLE if name in by_variable else FILE if from_file else "command line"
             shown = {"value": _as_text(value), "default": _as_text(default)}
-            weakened.append({"option": option.opts[0], **shown, "source": FILE if from_file else "command line"})
+            weakened.append({"option": option.opts[0], **shown, "source": source})
     if settings is None and not weakened:
         return None
     from hypcheck.record.lines import SettingsPart, WeakenedPart
@@ -126,6 +131,7 @@ _WEAKENS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
         **dict.fromkeys(("count", "judged", "roots", "meshes"), operator.lt),
         **dict.fromkeys(("fail_on", "oracles", "precision", "question", "domain", "known_failures"), operator.ne),
         "isolate": lambda value, _: bool(value == "off"),
+        "see": lambda value, _: bool(value),
         "families": lambda value, _: _leaves_out_families(value),
     }
 )
@@ -133,6 +139,8 @@ _WEAKENS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
 
 
 def _as_text(value: object) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(str, value))
     return f"{value:.17g}" if isinstance(value, float) else str(value)
 
 
@@ -288,6 +296,7 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "memory": _bytes,
         "isolate": _one_of(lambda: ("auto", "on", "off")),
         "pass_env": _names,
+        "see": _texts,
     }
 )
 """Checks the value of each key, and gives it the form of its option."""

@@ -25,6 +25,7 @@ from hypcheck.cli.options import (
     isolation_of,
     limits_of,
     names_in,
+    seen_text,
     with_limits,
 )
 from hypcheck.cli.progress import watched
@@ -89,6 +90,7 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     recorded = _recorded(plan, options)
     isolation = isolation_of(specs, plan.limits)
     title += "" if plan.fresh is None else f"; {counted(plan.count, 'fresh row')} of each family, of seed {plan.fresh}"
+    title += seen_text(plan.limits)
     unknown = not_hashed(plan.specs)
     title += f"; not hashed: {', '.join(unknown)}" if unknown else ""
     cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
@@ -128,7 +130,7 @@ def _recorded(plan: ConformancePlan, options: Mapping[str, Any]) -> dict[str, An
     every = asdict(plan)
     del every["pace"]
     isolation = every["limits"].pop("isolation")
-    every["limits"] |= {"isolate": isolation["mode"], "pass_env": isolation["variables"]}
+    every["limits"] |= {"isolate": isolation["mode"], "pass_env": isolation["variables"], "see": isolation["seen"]}
     return {**every, "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
 
 

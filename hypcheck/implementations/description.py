@@ -21,7 +21,7 @@ from hypcheck.geometry.rows import (
     Layout,
 )
 from hypcheck.implementations.domain import ORDINARY, PRECISIONS, Domain
-from hypcheck.messages import escaped
+from hypcheck.implementations.output import foreign_text
 from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
 
 
@@ -169,9 +169,9 @@ def _json(text: str | bytes, where: str) -> object:
         return _STRICT.decode(text if isinstance(text, str) else text.decode("utf-8"))
     except (ValueError, RecursionError) as error:
         unreadable = isinstance(error, UnicodeError | RecursionError)
-        why = "it cannot be read" if unreadable else escaped(f"{error}", 120)
+        why = "it cannot be read" if unreadable else foreign_text(f"{error}", 120)
         shown = text if isinstance(text, str) else text.decode("utf-8", "replace")
-        raise InputError(f"{where} is '{escaped(shown, 80)}'; it must be JSON ({why})") from None
+        raise InputError(f"{where} is '{foreign_text(shown, 80)}'; it must be JSON ({why})") from None
 
 
 def _wrong(value: object, where: str, wanted: str) -> InputError:
@@ -180,7 +180,7 @@ def _wrong(value: object, where: str, wanted: str) -> InputError:
 
 
 def _shown(value: object) -> str:
-    return escaped(repr(value), 80)
+    return foreign_text(repr(value), 80)
 
 
 def _checked(holds: Callable[[Any], bool], wanted: str) -> Callable[[object, str], Any]:
@@ -208,7 +208,7 @@ _names = _checked(
 def _text(value: object, where: str) -> str:
     if not isinstance(value, str):
         raise _wrong(value, where, "a text")
-    return escaped(value, 200)
+    return foreign_text(value, 200)
 
 
 def _name(value: object, where: str) -> str:

@@ -1,4 +1,4 @@
-"""Data between hypcheck and foreign programs: rows and answers as bytes, and output that is safe to print.
+"""Data between hypcheck and its worker, rows and answers as bytes.
 
 The frames between hypcheck and its worker have a fixed head, then bytes. Both sides run on one machine from one source.
 """
@@ -6,53 +6,15 @@ The frames between hypcheck and its worker have a fixed head, then bytes. Both s
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Layout, Rows
-from hypcheck.messages import escaped
 
-KEPT = 16_384
-"""The number of last bytes of standard error that are kept: the output before a program's end says the most."""
-
-LINES, WIDTH = 3, 400
-"""Lines of standard error in a sentence, and characters of a text."""
-
-
-def quoted(data: bytes | bytearray) -> str:
-    """Bytes as a sentence quotes them."""
-    return f"'{escaped(bytes(data[:320]).decode('utf-8', 'replace'), 80)}'"
-
-
-class OutputTail:
-    """The end of a stream of bytes since a mark, however long the stream."""
-
-    def __init__(self) -> None:
-        self._bytes = bytearray()
-
-    def add(self, data: bytes) -> None:
-        """Append data, and drop the oldest bytes."""
-        self._bytes += data
-        if len(self._bytes) > 2 * KEPT:
-            del self._bytes[:-KEPT]
-
-    def mark(self) -> None:
-        """Forget what was added."""
-        self._bytes.clear()
-
-    def lines(self) -> tuple[str, ...]:
-        """The lines since the mark that are kept, safe to print."""
-        shown = (escaped(line, WIDTH) for line in self._bytes[-KEPT:].decode("utf-8", "replace").splitlines())
-        return tuple(line for line in shown if line)
-
-
-def stderr_excerpt(lines: Sequence[str]) -> str:
-    """The last lines of standard error as the end of a sentence; empty if there are none."""
-    return f"; stderr: {escaped(' | '.join(lines[-LINES:]), WIDTH)}" if lines else ""
-
+WIDTH = 400
+"""Characters of a text."""
 
 LARGEST = 65_536
 """The most rows of a question."""

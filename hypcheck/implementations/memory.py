@@ -1,4 +1,4 @@
-"""The processes that a program started, daemons included, and their memory, watched from outside.
+"""The processes that a program started, daemons included, their memory and waiting, watched from outside.
 
 A daemon in a session of its own is in no group that can be killed. It keeps the environment of its program, though, and
 a mark in that shows whose it is. Only Linux shows environments; on other systems a daemon outlives the run.
@@ -16,6 +16,7 @@ import subprocess
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from glob import glob
 from typing import NamedTuple
 
 from hypcheck.implementations.session import FaultError, Outcome
@@ -91,8 +92,9 @@ def _marked(mark: str) -> Iterator[int]:
 _SOONEST = 0.05
 _SHARE = 20
 _FASTEST = 8 << 30
-"""Between two checks pass at least 50 ms, and 20 times the time of a check, so that they take at most 5 % of one core.
-There is no check before memory can reach the limit at so many bytes a second, faster than a system can clear it."""
+"""Between two checks pass at least 50 ms, and 20 times the processor time of a check, so that they take at most 5 % of
+one core. There is no check before memory can reach the limit at so many bytes a second, faster than a system can clear
+it."""
 
 
 class _ProcessMemory(NamedTuple):
@@ -123,26 +125,41 @@ class MemoryWatch:
         self._limit = limit
         self._next = time.monotonic() + _SOONEST
         self._known: dict[tuple[int, int], bool] = {}
+        self._waits: dict[str, int] = {}
 
     def look(self, now: float) -> None:
         """Check if the time for it has come; `now` is time.monotonic()."""
         if now < self._next:
             return
+        before = time.thread_time()
         used = self.used()
-        after = time.monotonic()
-        self._next = after + max(_SOONEST, _SHARE * (after - now), (self._limit - used) / _FASTEST)
+        took = time.thread_time() - before
+        self._next = time.monotonic() + max(_SOONEST, _SHARE * took, (self._limit - used) / _FASTEST)
         if used > self._limit:
             reason = f"memory: its processes grew to {used / 2**30:.2f} GiB, beyond {self._limit / 2**30:.2f} GiB"
             raise FaultError(Outcome.CRASH, reason, fatal=True)
 
+    def waited(self) -> float:
+        """Seconds since the last call in which a thread of its waited for a processor, of the one that did longest.
+
+        0 if the system does not tell.
+        """
+        before, self._waits = self._waits, {}
+        for (number, _), ours in self._known.items():
+            for path in glob(f"/proc/{number}/task/*/schedstat") if ours else ():
+                with suppress(OSError, IndexError), open(path, "rb") as file:  # it may end meanwhile
+                    self._waits[path] = int(file.read().split()[1])
+        return max((told - before[path] for path, told in self._waits.items() if path in before), default=0) / 1e9
+
     def used(self) -> int:
-        """Bytes that its processes use; 0 if the system does not tell.
+        """Bytes that its processes use, with the tables of their pages; 0 if the system does not tell.
 
         If their sum exceeds the limit, shared pages count once. The system needs to visit every page for that.
         """
         ours = list(self._ours(list(_all_processes())))
+        tables = sum(_bytes_in(f"/proc/{each.number}/status", b"VmPTE:") or 0 for each in ours)
         resident = sum(each.resident for each in ours)
-        return resident if resident <= self._limit else sum(map(_proportional, ours))
+        return tables + (resident if tables + resident <= self._limit else sum(map(_proportional, ours)))
 
     def _ours(self, found: list[_ProcessMemory]) -> Iterator[_ProcessMemory]:
         known = self._known
@@ -204,11 +221,14 @@ def _by_ps() -> Iterator[_ProcessMemory]:
 
 def _proportional(each: _ProcessMemory) -> int:
     """Bytes that a process uses, with its share of shared pages; all resident bytes if the system does not tell."""
+    told = _bytes_in(f"/proc/{each.number}/smaps_rollup", b"Pss:")
+    return each.resident if told is None else told
+
+
+def _bytes_in(path: str, name: bytes) -> int | None:
+    """Bytes that a line of a file of /proc tells in KiB; None if the system does not tell."""
     try:
-        with open(f"/proc/{each.number}/smaps_rollup", "rb") as file:
-            for line in file:
-                if line.startswith(b"Pss:"):
-                    return int(line.split()[1]) << 10
-    except OSError:  # it ended meanwhile, belongs to another user, or the system is too old
-        pass
-    return each.resident
+        with open(path, "rb") as file:
+            return next((int(line.split()[1]) << 10 for line in file if line.startswith(name)), None)
+    except OSError:  # the process ended meanwhile, belongs to another user, or the system is too old
+        return None

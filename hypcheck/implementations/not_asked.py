@@ -38,6 +38,15 @@ FAMILIES: Mapping[str, str] = MappingProxyType(
 """Why no row of a family is asked, likewise."""
 
 
+FEWEST, SHARE = 100, 100
+"""Where the domain or the precision leaves out most rows, at least FEWEST must be judged, and one in SHARE of all."""
+
+
+def too_few(judged: int, skipped: int) -> bool:
+    """Whether so few rows were judged, beside those skipped, that the run says nothing of the implementation."""
+    return skipped > judged and judged < max(FEWEST, (judged + skipped) // SHARE)
+
+
 def reasons(
     rows: Rows, domain: Domain, precision: str, *, extreme: bool, subnormal: bool, layout: Layout = PAIRS
 ) -> dict[str, int]:

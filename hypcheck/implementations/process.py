@@ -17,7 +17,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
 from typing import IO, cast
 
@@ -27,8 +27,8 @@ from hypcheck.errors import limit_reached, system_reason
 from hypcheck.geometry.pair import HEIGHTS
 from hypcheck.geometry.rows import Rows, with_heights
 from hypcheck.implementations.description import Description
-from hypcheck.implementations.frames import OutputTail, stderr_excerpt
 from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
+from hypcheck.implementations.output import OutputTail, stderr_excerpt
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.isolation.advice import isolation_advice
 from hypcheck.isolation.launch import IsolationError, Launched
@@ -37,20 +37,32 @@ STEP = 0.25
 """At most so many seconds count between two readings of the clock: during the rest this process did not run."""
 
 
-class Clock:
-    """Counts the seconds in which this process could read replies; it is read several times a second.
+_OTHERS = 0.9
+"""At most this share of the time counts as waiting for a processor: a program cannot make it up without end."""
 
-    It stops while this process is stopped (Ctrl-Z, a debugger, a machine that sleeps or is overloaded). A reply that
-    arrives meanwhile cannot be read, so that time is no delay of the implementation.
+
+class Clock:
+    """Counts the seconds in which the program could work and this process could read; it is read many times a second.
+
+    It stops while this process is stopped (Ctrl-Z, a debugger, a machine that sleeps or is overloaded): a reply that
+    arrives meanwhile cannot be read. It slows down while the program waits for a processor that others have. `waited`
+    gives the seconds of that since it was called last. Neither is a delay of the implementation.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, waited: Callable[[], float] = lambda: 0.0) -> None:
         self._counted, self._looked = 0.0, time.monotonic()
+        self._waited, self._asked, self._off = waited, self._looked, 0.0
 
     def now(self) -> float:
         """Seconds since the start."""
         looked = time.monotonic()
-        self._counted += min(looked - self._looked, STEP)
+        if looked - self._asked >= STEP:
+            self._off += min(self._waited(), looked - self._asked)
+            self._asked = looked
+        passed = min(looked - self._looked, STEP)
+        off = min(self._off, _OTHERS * passed)
+        self._counted += passed - off
+        self._off -= off
         self._looked = looked
         return self._counted
 
@@ -110,7 +122,7 @@ class Process:
         self.sent = 0
         """Bytes of the question that were written."""
         self._soon = 0.0
-        self.now = Clock().now
+        self.now = Clock(self._memory.waited).now
         self._ended = False
         self._closed = False
         self._listen()

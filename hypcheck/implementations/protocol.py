@@ -31,10 +31,10 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
-from hypcheck.implementations.frames import LARGEST, WIDTH, GivenAnswers, integers, quoted, row_bytes
+from hypcheck.implementations.frames import LARGEST, GivenAnswers, integers, row_bytes
+from hypcheck.implementations.output import foreign_text, quoted
 from hypcheck.implementations.process import ProcessSession
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
-from hypcheck.messages import escaped
 
 _HEAD = re.compile(rb"(\d{1,19}) (\d{1,19})\r?\n")
 _TIMES = re.compile(rb"(\d{1,19}) (\d{1,18}) ([+-]?\d{1,18})\r?\n")
@@ -71,7 +71,7 @@ class Reply:
                 raise broken(f"a line of its reply does not end within {_FIRST_LINE} bytes: {quoted(incoming)}")
             return 0
         if incoming.startswith((b"error ", b"error\n", b"error\r")):
-            self.error = escaped(incoming[6:end].decode("utf-8", "replace"), WIDTH) or "(without a text)"
+            self.error = foreign_text(incoming[6:end].decode("utf-8", "replace")) or "(without a text)"
             return end
         return self._after(incoming, end)
 

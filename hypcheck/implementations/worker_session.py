@@ -15,11 +15,12 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
-from hypcheck.implementations.frames import WIDTH, Call, GivenAnswers, quoted, stderr_excerpt
+from hypcheck.implementations.frames import Call, GivenAnswers
+from hypcheck.implementations.output import foreign_text, quoted, stderr_excerpt
 from hypcheck.implementations.process import ProcessSession
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.implementations.spec import Spec
-from hypcheck.messages import counted, escaped
+from hypcheck.messages import counted
 
 _PROGRAM = """\
 import sys
@@ -179,7 +180,7 @@ def _lacking(path: str, described: Description, call: Call) -> str:
 
 def _text(body: bytes | bytearray) -> str:
     """The text of a reply; foreign code may have written it."""
-    return escaped(body.decode("utf-8", "replace"), WIDTH) or "(without a text)"
+    return foreign_text(body.decode("utf-8", "replace")) or "(without a text)"
 
 
 def _broken(shown: str) -> FaultError:

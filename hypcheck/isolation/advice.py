@@ -19,18 +19,9 @@ from functools import cached_property, lru_cache
 from glob import glob
 from importlib.machinery import PathFinder
 
-from hypcheck.isolation.launch import (
-    PACKAGE,
-    SCRATCH_BYTES,
-    SHARED_MEMORY,
-    THREADS,
-    Isolation,
-    environment_of,
-    hidden_paths,
-    needed_paths,
-    private_folders,
-    within,
-)
+from hypcheck.isolation.environment import environment_of
+from hypcheck.isolation.launch import SCRATCH_BYTES, THREADS, Isolation
+from hypcheck.isolation.view import PACKAGE, SHARED_MEMORY, hidden_paths, needed_paths, private_folders, within
 
 _TRUST = "--isolate off runs code that you trust without"
 _OWN = (
@@ -53,7 +44,8 @@ def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> s
 @lru_cache(maxsize=256)  # thousands of rows may fail alike
 def _advice(text: str, words: tuple[str, ...], isolation: Isolation, folder: str) -> str:
     view = _View(words, isolation, folder)
-    return next((f"; it runs isolated, {said}" for cause in _CAUSES if (said := cause(text, view))), "")
+    word = isolation.means.word
+    return next((f"; it runs {word}, {said}" for cause in _CAUSES if (said := cause(text, view))), "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,11 +58,11 @@ class _View:
 
     @cached_property
     def _needed(self) -> tuple[str, ...]:
-        return needed_paths(self.words, os.environ)
+        return needed_paths(self.words, os.environ, self.isolation.seen)
 
     @cached_property
     def _closed(self) -> tuple[str, ...]:
-        return hidden_paths(self.isolation.hidden)
+        return hidden_paths(self.isolation.hidden, self._needed, self.isolation.seen)
 
     @cached_property
     def _private(self) -> tuple[str, ...]:
@@ -153,7 +145,17 @@ def _file(text: str, view: _View) -> str:
         return f"and does not see the folder {folder!r}, which may be why; {_TRUST}" if folder else ""
     if within(os.path.realpath(found), str(PACKAGE)):
         return _OWN
-    return f"and does not see {found!r}; put it into the working directory or beside the program; {_TRUST}"
+    shown = "put it into the working directory or beside the program, or show it by --see"
+    return f"and does not see {found!r}; {shown}; {_TRUST}"
+
+
+def _library(text: str, _: _View) -> str:
+    """A library that the system's loader did not find; it names no folder."""
+    found = re.search(r"(\S+): cannot open shared object file", text)
+    shown = "show the folder by --see"
+    return (
+        f"and does not see every folder that may have {found[1]}, which may be why; {shown}; {_TRUST}" if found else ""
+    )
 
 
 def _write(text: str, view: _View) -> str:
@@ -222,6 +224,6 @@ def _call(text: str, _: _View) -> str:
 
 
 _CAUSES: tuple[Callable[[str, _View], str], ...] = (
-    *(_hypcheck, _variable, _file, _rights, _write, _network, _space, _processes, _card, _call),
+    *(_hypcheck, _variable, _file, _library, _rights, _write, _network, _space, _processes, _card, _call),
 )
 """What isolation takes away; each gives the end of the sentence, or nothing. The first that holds is said."""

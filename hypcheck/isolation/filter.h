@@ -1,9 +1,10 @@
 /* The filter of system calls: what no answer to a question about geometry needs (seccomp(2), linux/seccomp.h).
 
-   Three groups. What only an attack on the system calls ends the process with SIGSYS, so that the run says so. What
-   ordinary programs try and can do without fails, as if this system did not have it (ENOSYS) or did not allow it (EPERM):
-   sockets, tracing (the leak sanitizer tries it as it ends), memory that is in no process (memfd, System V). Signals to
-   the two processes given fail. All else is allowed, so that runtimes run as they always do. */
+   What only an attack on the system calls ends the process with SIGSYS, so that the run says so. What ordinary programs
+   try and can do without fails, as if this system did not have it (ENOSYS) or did not allow it (EPERM): sockets, tracing
+   (the leak sanitizer tries it as it ends), memory that is in no process (memfd, System V), and whatever later systems
+   have. Without namespaces fails too what reaches other processes, or changes a file that is not open for writing. All
+   else is allowed, so that runtimes run as they always do. */
 
 #ifndef HYPCHECK_FILTER_H
 #define HYPCHECK_FILTER_H
@@ -69,6 +70,26 @@ static const unsigned short SIGNALS[] = {
     SYS_kill, SYS_tkill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, 434 /* pidfd_open */,
 };
 
+/* Calls with a process or a thread as first argument; 0 is the one that calls. */
+static const unsigned short OF_PROCESS[] = {
+    SYS_prlimit64, SYS_sched_setaffinity, SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr,
+};
+
+/* Calls that change mode, owner, times or attributes. Of which file, neither a filter nor Landlock can tell. */
+static const unsigned short OF_FILE[] = {
+    SYS_fchmod, SYS_fchmodat, SYS_fchown, SYS_fchownat, SYS_utimensat, SYS_setxattr, SYS_lsetxattr, SYS_fsetxattr,
+    SYS_removexattr, SYS_lremovexattr, SYS_fremovexattr, 452 /* fchmodat2 */, 463 /* setxattrat */, 466 /* removexattrat */,
+#ifdef SYS_chmod
+    SYS_chmod, SYS_chown, SYS_lchown, SYS_utime, SYS_utimes, SYS_futimesat,
+#endif
+};
+
+/* From this number on, the same on every architecture, no call was known when this was written (Linux 6.14). */
+enum { LATER = 467 };
+
+/* IOPRIO_WHO_PROCESS of linux/ioprio.h, and PRIO_PROCESS of sys/resource.h. */
+enum { FILES_OF_PROCESS = 1, TIME_OF_PROCESS = 0 };
+
 #if defined(__x86_64__)
 /* The same for programs of 32 bits (arch/x86/entry/syscalls/syscall_32.tbl). */
 static const unsigned short KILLED_32[] = {
@@ -78,10 +99,14 @@ static const unsigned short KILLED_32[] = {
 static const unsigned short REFUSED_32[] = {359, 26, 347, 336, 349, 310, 103, 277, 393, 399, 117 /* ipc */, 102 /* socketcall */};
 static const unsigned short UNKNOWN_32[] = {356, 374, 395, 424, 425, 426, 427, 435, 447};
 static const unsigned short SIGNALS_32[] = {37, 238, 270, 178, 335, 434};
-enum { CLONE_32 = 120 };
+static const unsigned short OF_PROCESS_32[] = {340, 241, 156, 154, 351};
+static const unsigned short OF_FILE_32[] = {
+    15, 94, 306, 16, 95, 182, 198, 207, 212, 298, 30, 271, 299, 320, 412, 226, 227, 228, 235, 236, 237, 452, 463, 466,
+};
+enum { CLONE_32 = 120, SETPRIORITY_32 = 97, IOPRIO_SET_32 = 289 };
 #endif
 
-enum { LONGEST = 400 };
+enum { LONGEST = 600 };
 static struct sock_filter code[LONGEST];
 static unsigned short length;
 
@@ -106,10 +131,10 @@ static void end_with(unsigned result) {
 #define EACH(table, result) \
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) when_equal(table[i], result)
 
-/* The low half of the first argument. */
-static size_t first_argument(void) {
+/* The low half of an argument; the first is 0. */
+static size_t argument(unsigned number) {
     const unsigned one = 1;
-    return offsetof(struct seccomp_data, args) + (*(const char *)&one ? 0 : 4);
+    return offsetof(struct seccomp_data, args) + 8 * number + (*(const char *)&one ? 0 : 4);
 }
 
 /* Begin a block for this value; end_when sets the jump over it. */
@@ -126,7 +151,7 @@ static void end_when(unsigned short start) {
 
 static void no_new_namespace(unsigned clone_number) {
     const unsigned short start = begin_when(clone_number);
-    load(first_argument());
+    load(argument(0));
     emit((struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K,
                                       CLONE_NEWUSER | CLONE_NEWNS | CLONE_NEWPID | CLONE_NEWNET | CLONE_NEWIPC, 0, 1));
     end_with(SECCOMP_RET_ERRNO | EPERM);
@@ -134,19 +159,48 @@ static void no_new_namespace(unsigned clone_number) {
     end_when(start);
 }
 
+/* Begin a block of that many instructions for each of these calls. */
+static void when_any(const unsigned short *calls, unsigned char count, unsigned instructions) {
+    for (unsigned char i = 0; i < count; i++)
+        emit((struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, calls[i], count - i, 0));
+    emit((struct sock_filter)BPF_STMT(BPF_JMP | BPF_JA, instructions));
+}
+
 static void no_signal(const unsigned short *calls, unsigned char count, long judge, long supervisor) {
     const long spared[] = {judge, supervisor, -judge, -supervisor, -1 /* every process of this user */};
     const unsigned char spared_count = sizeof spared / sizeof *spared;
-    if (!judge) return;
-    for (unsigned char i = 0; i < count; i++)
-        emit((struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, calls[i], count - i, 0));
-    emit((struct sock_filter)BPF_STMT(BPF_JMP | BPF_JA, 2U * spared_count + 2));
-    load(first_argument());
+    when_any(calls, count, 2U * spared_count + 2);
+    load(argument(0));
     for (unsigned char i = 0; i < spared_count; i++) when_equal((unsigned)spared[i], SECCOMP_RET_ERRNO | EPERM);
     end_with(SECCOMP_RET_ALLOW);
 }
 
-/* Install it for this process and its children; no signal from them reaches `judge` or `supervisor`, unless these are 0.
+static void only_of_itself(const unsigned short *calls, unsigned char count) {
+    when_any(calls, count, 4);
+    load(argument(0));
+    when_equal(0, SECCOMP_RET_ALLOW);
+    end_with(SECCOMP_RET_ERRNO | EPERM);
+}
+
+/* A call whose first argument says what its second is: `of_process`, and 0 for the one that calls. */
+static void only_own_priority(unsigned short call, unsigned of_process) {
+    when_any(&call, 1, 6);
+    load(argument(0));
+    emit((struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, of_process, 0, 3));
+    load(argument(1));
+    when_equal(0, SECCOMP_RET_ALLOW);
+    end_with(SECCOMP_RET_ERRNO | EPERM);
+}
+
+static void refuse_later(void) {
+    emit((struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, LATER, 0, 1)); /* those of x32 too */
+    end_with(SECCOMP_RET_ERRNO | ENOSYS);
+}
+
+#define COUNTED(table) table, sizeof table / sizeof *table
+
+/* Install it for this process and its children; `judge` and `supervisor` are 0 with namespaces, which keep all others
+   away. No signal from here reaches these two, no other process gets other limits or priorities, and no file another mode.
    Needs PR_SET_NO_NEW_PRIVS before. -1 and errno where the system or the architecture has no filters. */
 static int install_filter(long judge, long supervisor) {
 #ifndef NATIVE
@@ -163,23 +217,33 @@ static int install_filter(long judge, long supervisor) {
     EACH(KILLED_32, SECCOMP_RET_KILL_PROCESS);
     EACH(REFUSED_32, SECCOMP_RET_ERRNO | EPERM);
     EACH(UNKNOWN_32, SECCOMP_RET_ERRNO | ENOSYS);
+    refuse_later();
     no_new_namespace(CLONE_32);
-    no_signal(SIGNALS_32, sizeof SIGNALS_32 / sizeof *SIGNALS_32, judge, supervisor);
+    if (judge) {
+        EACH(OF_FILE_32, SECCOMP_RET_ERRNO | EPERM);
+        no_signal(COUNTED(SIGNALS_32), judge, supervisor);
+        only_of_itself(COUNTED(OF_PROCESS_32));
+        only_own_priority(SETPRIORITY_32, TIME_OF_PROCESS);
+        only_own_priority(IOPRIO_SET_32, FILES_OF_PROCESS);
+    }
     end_with(SECCOMP_RET_ALLOW);
     end_when(narrow);
 #endif
     emit((struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, NATIVE, 1, 0));
     end_with(SECCOMP_RET_ERRNO | ENOSYS);
     load(offsetof(struct seccomp_data, nr));
-#if defined(__x86_64__)
-    emit((struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, 0x40000000, 0, 1)); /* the x32 calls */
-    end_with(SECCOMP_RET_ERRNO | ENOSYS);
-#endif
     EACH(KILLED, SECCOMP_RET_KILL_PROCESS);
     EACH(REFUSED, SECCOMP_RET_ERRNO | EPERM);
     EACH(UNKNOWN, SECCOMP_RET_ERRNO | ENOSYS);
+    refuse_later();
     no_new_namespace(SYS_clone);
-    no_signal(SIGNALS, sizeof SIGNALS / sizeof *SIGNALS, judge, supervisor);
+    if (judge) {
+        EACH(OF_FILE, SECCOMP_RET_ERRNO | EPERM);
+        no_signal(COUNTED(SIGNALS), judge, supervisor);
+        only_of_itself(COUNTED(OF_PROCESS));
+        only_own_priority(SYS_setpriority, TIME_OF_PROCESS);
+        only_own_priority(SYS_ioprio_set, FILES_OF_PROCESS);
+    }
     end_with(SECCOMP_RET_ALLOW);
     if (length > LONGEST) {
         errno = E2BIG;

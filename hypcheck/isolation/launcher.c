@@ -11,7 +11,7 @@
    --hide=PATH        with --namespaces: a folder or file that is seen empty
    --reveal=FILE      with --namespaces: a file of a hidden folder that is seen all the same
    --read=PATH, --list=FOLDER, --write=PATH     of Landlock: read with all below, only list, or also change
-   --judge=PID        without --namespaces: no signal reaches this process
+   --judge=PID        without --namespaces: no signal reaches this process, and what filter.h says besides
    --threads=N, --descriptors=N, --bytes=N     limits: of its processes and threads, of one process, of one file
    --life=FD          everything ends when the other end of this pipe is closed
    --report=FD        the reason why the program was not started: a decimal errno, a blank, and a text
@@ -238,12 +238,12 @@ static void be_first(char **words, int told) {
     }
 }
 
-/* The parent of a process; 0 where it has ended. */
-static long parent_of(long process) {
+/* The parent of a process, of which `all` is the folder /proc; 0 where it has ended. */
+static long parent_of(DIR *all, long process) {
     char path[64], text[512];
     long parent = 0;
-    snprintf(path, sizeof path, "/proc/%ld/stat", process);
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    snprintf(path, sizeof path, "%ld/stat", process);
+    const int file = openat(dirfd(all), path, O_RDONLY | O_CLOEXEC);
     if (file < 0) return 0;
     const ssize_t got = read(file, text, sizeof text - 1);
     close(file);
@@ -253,16 +253,15 @@ static long parent_of(long process) {
     return after != NULL && sscanf(after + 1, " %*c %ld", &parent) == 1 ? parent : 0;
 }
 
-/* Kill the children of this process, again and again: those of a child that ended are its own then. */
-static void end_children(void) {
+/* Kill the children of this process, again and again: those of a child that ended are its own then. `all` is /proc. */
+static void end_children(DIR *all) {
     for (int round = 0; round < 2000; round++) {
-        DIR *all = opendir("/proc");
         const struct dirent *each;
+        if (all != NULL) rewinddir(all);
         while (all != NULL && (each = readdir(all)) != NULL) {
             const long process = strtol(each->d_name, NULL, 10);
-            if (process > 1 && parent_of(process) == getpid()) kill((pid_t)process, SIGKILL);
+            if (process > 1 && parent_of(all, process) == getpid()) kill((pid_t)process, SIGKILL);
         }
-        if (all != NULL) closedir(all);
         while (waitpid(-1, NULL, WNOHANG) > 0) continue;
         if (waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD) return;
         poll(NULL, 0, 1);
@@ -276,6 +275,7 @@ static int supervise(pid_t child, int told) {
     struct pollfd life = {.fd = plan.life, .events = 0};
     sigset_t before;
     int status = 0, inside;
+    DIR *all = opendir("/proc"); /* now: it may not have a descriptor later */
     sigprocmask(SIG_SETMASK, NULL, &before);
     sigdelset(&before, SIGCHLD);
     for (;;) {
@@ -288,7 +288,7 @@ static int supervise(pid_t child, int told) {
             break;
         }
     }
-    end_children();
+    end_children(all);
     if (told >= 0 && read(told, &inside, sizeof inside) == (ssize_t)sizeof inside) status = inside;
     return status;
 }

@@ -55,11 +55,27 @@ class Means:
         """Whether nothing that `--isolate on` promises is missing; namespaces do all that Landlock does."""
         return self.namespaces and self.seccomp
 
+    @property
+    def word(self) -> str:
+        """How a program here runs: "isolated", "partly isolated" or "not isolated"."""
+        return isolation_word(self.names)
+
+
+def isolation_word(means: Sequence[str]) -> str:
+    """How a program runs with these means: "isolated", "partly isolated" or "not isolated"."""
+    return "isolated" if {"namespaces", "seccomp"} <= {*means} else "partly isolated" if means else "not isolated"
+
 
 def isolation_text(means: Sequence[str], missing: Sequence[str]) -> str:
-    """The end of "it is": isolated by these means, and why others are missing."""
-    by = f"isolated by {', '.join(means[:-1])}{' and ' if means[1:] else ''}{means[-1]}" if means else "not isolated"
-    return by + (f" ({'; '.join(missing)})" if missing else "")
+    """The end of "it is": isolated or partly isolated, by these means, and why others are missing.
+
+    What is missing comes first where it leaves a program partly isolated.
+    """
+    word, reasons = isolation_word(means), "; ".join(missing)
+    by = f"by {', '.join(means[:-1])}{' and ' if means[1:] else ''}{means[-1]}" if means else ""
+    if word == "partly isolated":
+        return f"{word}: {'; '.join(filter(None, (reasons, by)))}"
+    return f"{word} {by}".strip() + (f" ({reasons})" if reasons else "")
 
 
 OFF = Means(missing=("--isolate is off",))

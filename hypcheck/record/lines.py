@@ -255,6 +255,16 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
         require_possible("place_bins", self.place_bins)
 
     @property
+    def judged(self) -> int:
+        """The cases that were asked, without those of which the implementation said that it cannot say."""
+        return self.asked - self.counts.get("abstained", 0)
+
+    @property
+    def skipped(self) -> int:
+        """The cases that were not asked, as the domain and the precision do not hold them."""
+        return self.counts.get("skipped", 0)
+
+    @property
     def tested(self) -> bool:
         """Whether the line is about an implementation under test, and so names failing statuses."""
         return self.failing is not UNSET

@@ -83,6 +83,16 @@ class ImplementationTotal:
         return sum(group.asked for group in self.groups)
 
     @property
+    def skipped(self) -> int:
+        """The cases that it was not asked."""
+        return sum(group.skipped for group in self.groups)
+
+    @property
+    def judged(self) -> int:
+        """The cases that it was asked, without those of which it said that it cannot say."""
+        return sum(group.judged for group in self.groups)
+
+    @property
     def statuses(self) -> dict[str, int]:
         """How its cases ended, skipped ones included, in the order of judge.Status."""
         return in_order(sum((Counter(group.counts) for group in self.groups), Counter()))

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import chain
 
 from hypcheck.geometry.pair import Position
+from hypcheck.implementations.not_asked import too_few
 from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
@@ -189,7 +190,7 @@ MEANINGS = {
     1: "wrong answers, or findings other than the known ones",
     2: "nothing was judged",
     3: "slower than the baseline allows",
-    4: "too noisy to tell, or undecided",
+    4: "too noisy to tell, undecided, or too few rows judged",
     5: "an implementation could not be started or broke the protocol",
     6: "the oracles or a proof contradict each other",
     70: "an internal error of hypcheck",
@@ -324,6 +325,10 @@ def verdict(record: Record) -> Verdict:
     reason = "; ".join(filter(None, parts)) or MEANINGS.get(code, "no line of the record says why")
     if code != EXIT_INCONCLUSIVE:
         return Verdict(False, f"FAILED with exit code {code}: {reason}.")
+    few = [each for each in implementations(record) if each.gated and too_few(each.judged, each.skipped)]
+    if few:
+        told = "; ".join(_gated_clause(each, record) for each in few)
+        return Verdict(False, f"INCONCLUSIVE, exit code {code}: too few rows: {told}. A wider domain would tell.")
     undecided = sum(line.counts.get("undecided", 0) for line in record.of(GroupLine))
     if undecided:
         between = "the tolerance lies between the two ends that are proved of the backward error"
@@ -381,17 +386,20 @@ def _passed(record: Record) -> Verdict:
 
 
 def _gated_clause(each: ImplementationTotal, record: Record) -> str:
-    """How the cases of a gated implementation ended, how many nobody knew before, and what was not asked."""
+    """How many cases of a gated implementation were judged and how they ended, which were skipped, and not asked."""
     ended = ", ".join(f"{number:,} {status}" for status, number in each.statuses.items() if status != "skipped")
-    parts = [f"{each.name}: {ended}", f"worst backward error {figure(worst_error_u(each.worst))} u"]
+    worst = f"worst backward error {figure(worst_error_u(each.worst))} u"
+    parts = [f"{each.name}: {each.judged:,} judged: {ended}", worst]
     if each.fresh is not None:
         parts.append(counted(each.fresh, "fresh row") if each.fresh else "no fresh rows")
-    left_out = list(_not_asked(each, record))
-    return "; ".join([*parts, *([f"not asked: {', '.join(left_out)}"] if left_out else [])])
+    for what, texts in (("skipped", _skipped(each)), ("not asked", _not_asked(each, record))):
+        said = ", ".join(texts)
+        parts += [f"{what}: {said}"] if said else []
+    return "; ".join(parts)
 
 
-def _not_asked(each: ImplementationTotal, record: Record) -> Iterator[str]:
-    """What a row or a family that was wanted was not asked for, and which families the run left out."""
+def _skipped(each: ImplementationTotal) -> Iterator[str]:
+    """Rows that were skipped, by reason, and families of which all were."""
     rows = rows_not_asked(each.not_asked)
     if rows:
         yield rows
@@ -400,6 +408,10 @@ def _not_asked(each: ImplementationTotal, record: Record) -> Iterator[str]:
         yield (
             f"all of {listed(empty)}" if len(empty) <= _NAMED else f"all of {counted(len(empty), 'family', 'families')}"
         )
+
+
+def _not_asked(each: ImplementationTotal, record: Record) -> Iterator[str]:
+    """Families that the run left out."""
     lines = [tested.line for tested in under_test(record) if tested.groups == each.groups]
     for line in lines if record.header.options.get("families") else ():
         families = "" if isinstance(line, NotStartedLine) else families_not_asked(line)

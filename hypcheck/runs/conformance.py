@@ -12,6 +12,7 @@ from msgspec import UNSET
 from hypcheck.errors import Exit, NothingJudgedError, RunOutcome, UnavailableError
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.implementation import Implementation
+from hypcheck.implementations.not_asked import too_few
 from hypcheck.implementations.session import StartError
 from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
@@ -146,14 +147,15 @@ def _task_execution(
 def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
     """Add to the outcome the codes that the lines of a run give a reason for.
 
-    An implementation of which nothing was judged is Exit.USAGE, whatever else was judged. Raises NothingJudgedError if
-    no case at all was asked, which proves nothing.
+    An implementation of which nothing was judged is Exit.USAGE, whatever else was judged; one of which too few rows
+    were is Exit.INCONCLUSIVE. Raises NothingJudgedError if no case at all was asked, which proves nothing.
     """
-    asked, judged = 0, 0
+    asked, judged, skipped = 0, 0, 0
     for line in recorded:
         if isinstance(line, GroupLine):
             asked += line.asked
-            judged += judged_cases(line)
+            judged += line.judged
+            skipped += line.skipped
             undecided = Status.UNDECIDED.value
             outcome.codes |= {Exit.INCONCLUSIVE if each == undecided else Exit.WRONG for each in line.failing or ()}
         elif isinstance(line, DriftLine):
@@ -163,17 +165,14 @@ def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
         elif isinstance(line, ImplementationLine):
             outcome.codes |= {Exit.NOT_STARTED} if line.broke_protocol_throughout else set()
             outcome.codes |= {Exit.WRONG} if line.troubles else set()
-            outcome.codes |= set() if judged or line.finished is False else {Exit.USAGE}
-            judged = 0
+            if line.finished is not False:
+                outcome.codes |= set() if judged else {Exit.USAGE}
+                outcome.codes |= {Exit.INCONCLUSIVE} if too_few(judged, skipped) else set()
+            judged, skipped = 0, 0
     if not asked and Exit.NOT_STARTED not in outcome.codes:
         raise NothingJudgedError(
             "no case was judged: every case is outside the domain, or the declared precision cannot hold its numbers"
         )
-
-
-def judged_cases(group: GroupLine) -> int:
-    """The cases of a family that were asked, without those of which the implementation said that it cannot say."""
-    return group.asked - group.counts.get(Status.ABSTAINED.value, 0)
 
 
 _NOT_ASKED = {Status.SKIPPED.value}
@@ -253,7 +252,7 @@ class ImplementationLines:
 
     def _troubles(self, total: CasesResult, groups: Sequence[GroupLine], *, finished: bool) -> Iterator[str]:
         """Reasons why the implementation fails as a whole, not in one family."""
-        if finished and not sum(map(judged_cases, groups)):
+        if finished and not any(group.judged for group in groups):
             asked = sum(line.asked for line in groups)
             why = f"it abstained from all {asked:,} cases" if asked else "it was asked none of them"
             yield f"no case of {self.used.name} was judged: {why}"

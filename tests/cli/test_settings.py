@@ -45,6 +45,7 @@ restarts = 3
 memory = "512M"
 isolate = "auto"
 pass_env = ["ENGINE_DATA"]
+see = ["/usr"]
 """
 
 
@@ -89,6 +90,7 @@ def test_every_key_of_the_settings_file_reaches_the_options_of_the_run(project):
             "memory": 512 << 20,
             "isolate": "auto",
             "pass_env": ["ENGINE_DATA"],
+            "see": ["/usr"],
         },
         "workers": None,
         "cluster": None,

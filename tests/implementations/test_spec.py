@@ -14,8 +14,9 @@ from hypcheck import classify
 from hypcheck.errors import InputError
 from hypcheck.implementations import description
 from hypcheck.implementations.builtin import builtin
-from hypcheck.implementations.frames import KEPT, WIDTH, OutputTail, quoted, stderr_excerpt
+from hypcheck.implementations.frames import WIDTH
 from hypcheck.implementations.implementation import open_implementation
+from hypcheck.implementations.output import KEPT, OutputTail, quoted, stderr_excerpt
 from hypcheck.implementations.session import Outcome
 from hypcheck.implementations.spec import parse_spec
 from hypcheck.messages import escaped

@@ -202,7 +202,7 @@ def test_an_isolated_implementation_that_does_not_start_gets_a_hint_about_isolat
     code = "open('/forged', 'w')"
     if not HERE.names:
         pytest.skip(f"a program here is {SAID}")
-    with pytest.raises(StartError, match=r"; it runs isolated, and writes to its scratch folder alone, .*without$"):
+    with pytest.raises(StartError, match=r"isolated, and writes to its scratch folder alone, .*without$"):
         open_implementation("command:" + json.dumps([sys.executable, "-I", "-S", "-c", code]), isolated(HERE))
 
 
@@ -312,6 +312,41 @@ def test_a_program_is_not_isolated_if_isolation_is_off():
         isolation_text(limits.isolation.means.names, limits.isolation.means.missing)
         == "not isolated (--isolate is off)"
     )
+
+
+@pytest.mark.parametrize(
+    ("found", "sentence"),
+    [
+        (Means(True, 7, True), "isolated by namespaces, Landlock 7 and seccomp"),
+        (Means(True, 0, True, ("no Landlock: old",)), "isolated by namespaces and seccomp (no Landlock: old)"),
+        (
+            Means(False, 7, True, ("no user",)),
+            "partly isolated: no user; by Landlock 7 and seccomp",
+        ),
+        (Means(False, 0, True, ("no a", "no b")), "partly isolated: no a; no b; by seccomp"),
+        (Means(True, 7, False, ("no seccomp: old",)), "partly isolated: no seccomp: old; by namespaces and Landlock 7"),
+        (Means(), "not isolated"),
+    ],
+    ids=["all", "no Landlock", "no namespaces", "seccomp alone", "no seccomp", "nothing"],
+)
+def test_a_program_is_isolated_or_partly_isolated_and_what_is_missing_comes_first(found, sentence):
+    assert isolation_text(found.names, found.missing) == sentence
+    assert sentence.startswith(found.word)
+
+
+@pytest.mark.usefixtures("text_reports")
+def test_isolation_that_a_variable_turns_off_is_listed_as_weaker_than_the_default(monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HYPCHECK_ISOLATE", "off")
+    words = ("verify", f"command:{sys.executable} -I -S -c pass", "--out", "out")
+    assert main([*words]) == 5
+    weaker = "weaker than the default: --isolate off, not auto (HYPCHECK_ISOLATE)"
+    assert f"hypcheck: {weaker}" in capsys.readouterr().err
+    header = json.loads((tmp_path / "out" / "record.jsonl").read_text().splitlines()[0])
+    shown = {"option": "--isolate", "value": "off", "default": "auto", "source": "HYPCHECK_ISOLATE"}
+    assert header["settings"]["weakened"] == [shown]
+    assert main([*words, "--isolate", "auto"]) == 5
+    assert "weaker" not in capsys.readouterr().err
 
 
 def test_isolation_on_is_refused_with_the_reason_if_the_system_lacks_namespaces():

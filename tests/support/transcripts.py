@@ -50,6 +50,7 @@ MASKS = [
     (r"\b(in|took|of|after|over) \d+(\.\d+)? s\b", r"\1 N s"),
     (r"(checksum is|must be) [0-9a-f]{8}\b", r"\1 CRC"),
     (r'("seconds": )\d[\d.e-]*', r"\1N"),
+    (r"partly isolated: [^\n]*?; by [^;\n]*", "isolated by MEANS"),
     (r"(not )?isolated (by [^;\n]*|\((?!--isolate is off)[^;\n]*\))", "isolated by MEANS"),
 ]
 """Patterns, in their order, with what is shown in place of what they match: versions, paths, times."""

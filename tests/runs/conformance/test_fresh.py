@@ -52,7 +52,7 @@ def test_implementation_that_memorised_the_usual_rows_fails_only_on_fresh_rows(b
     assert main(words) == 0
     assert main([*words, "--fresh", str(SEED)]) == 1
     said = capsys.readouterr()
-    assert "HELD: by_heart.py:classify: 180 right; worst backward error 0 u; no fresh rows" in said.out
+    assert "HELD: by_heart.py:classify: 180 judged: 180 right; worst backward error 0 u; no fresh rows" in said.out
     assert f"; 20 fresh rows of each family, of seed {SEED}" in said.err
     header, *lines = map(json.loads, Path("out/record.jsonl").read_text().splitlines())
     assert header["options"]["fresh"] == SEED

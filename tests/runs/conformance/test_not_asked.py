@@ -58,7 +58,7 @@ def test_subnormal_rows_that_a_pattern_names_are_counted_in_every_report(flushes
     assert gate(flushes, "--families", "extreme", "--count", "0") == 0
     rows = sum(expected.values())
     said = capsys.readouterr().out
-    sentence = f"; no fresh rows; not asked: {rows:,} rows not zero or normal in its precision, "
+    sentence = f"; no fresh rows; skipped: {rows:,} rows not zero or normal in its precision; not asked: "
     assert said.startswith("HELD: flushes: ")
     assert sentence in said.splitlines()[0]
     record = read(Path("out"))
@@ -85,10 +85,42 @@ def test_verdict_names_a_family_of_which_no_row_was_asked(capsys):
     options = ("--families", "tower-body,extreme-float6*", "--precision", "float16", "--count", "0")
     assert gate("builtin:fast", *options) == 0
     head = capsys.readouterr().out.splitlines()[0]
-    assert "180 rows not zero or normal in its precision, all of extreme-float64, " in head
+    assert "; skipped: 180 rows not zero or normal in its precision, all of extreme-float64; not asked: " in head
     cases = {case.get("name"): case for case in Xml.fromstring(Path("out/junit.xml").read_text()).iter("testcase")}  # noqa: S314
     message = cases["extreme-float64"].find("skipped").get("message")
     assert message == "all 180 cases were not asked: 180 rows not zero or normal in its precision"
+
+
+NARROW = '{"ratio": [0.67, 1.5], "magnitude": [0.5, 2]}'
+WIDE = '{"ratio": [0.1, 10], "magnitude": [0.1, 10]}'
+
+
+@pytest.mark.parametrize(
+    ("domain", "families", "code"),
+    [(NARROW, "small-integers,ring,near-axis", 4), (WIDE, "forest-type-*", 0), ("{}", "extreme-hair", 0)],
+    ids=["narrow", "wide", "small family"],
+)
+def test_run_is_inconclusive_where_the_domain_leaves_few_of_many_rows(domain, families, code, capsys):
+    """A domain of 7 of 400 rows proves nothing; a small family of which all rows are asked proves what it asks."""
+    assert gate("builtin:fast", "--families", families, "--count", "0", "--domain", domain) == code
+    head = capsys.readouterr().out.splitlines()[0]
+    groups = read(Path("out")).of(GroupLine)
+    judged, skipped = sum(line.judged for line in groups), sum(line.skipped for line in groups)
+    assert ("HELD: " if code == 0 else "INCONCLUSIVE, exit code 4: too few rows: ") in head
+    assert f"fast: {judged:,} judged: {judged:,} right; " in head
+    assert ("; skipped: " in head) == bool(skipped)
+    assert "; not asked: " in head
+    summary = json.loads(Path("out/summary.json").read_text())
+    assert (summary["exit_code"], summary["verdict"]) == (code, head)
+    assert (judged < 100) == (domain != WIDE)
+
+
+@pytest.mark.parametrize(
+    ("judged", "skipped", "few"),
+    [(9, 24_000, True), (99, 100, True), (99, 98, False), (100, 9_900, False), (100, 10_001, True), (5, 0, False)],
+)
+def test_fewer_than_a_hundred_rows_or_one_in_a_hundred_are_too_few_where_most_are_skipped(judged, skipped, few):
+    assert not_asked.too_few(judged, skipped) is few
 
 
 def test_run_that_fails_says_on_the_terminal_what_was_not_asked(capsys):

@@ -9,20 +9,20 @@ from pathlib import Path
 
 import click
 
-from hypcheck.isolation.means import Means, available
 from tests.tools.hostile.running import command_fate
-from tests.tools.hostile.table import ATTACKS
+from tests.tools.hostile.table import ATTACKS, KINDS, is_here
 
 
 def main() -> int:
     """Print a line for each attack; returns the exit code."""
-    here, through = available(), 0
-    alone = Means(False, here.landlock, here.seccomp, ("left out",))
-    kinds = [("namespaces", here)] * here.whole + [("Landlock and seccomp", alone)] * bool(here.landlock)
-    for kind, means in kinds:
+    through = 0
+    for kind, means in KINDS.items():
+        if not is_here(kind):
+            click.echo(f"\n{kind}: not on this system")
+            continue
         click.echo(f"\n{kind}\n")
         for attack in ATTACKS:
-            wanted = attack.told if means.namespaces else attack.alone
+            wanted = attack.by_kind()[kind]
             if wanted is None:
                 click.echo(f"  not stopped {attack.what}")
                 continue

@@ -1,19 +1,22 @@
 """A command that attacks what it can reach when it is asked first, says on standard error how far it came, and answers.
 
-`python -I -S command.py ATTACK JUDGE VICTIM PACKAGE VECTORS`: the judge is a process; the victim a folder of files that
-must not change; the package and the vectors are those of hypcheck.
+`python -I -S command.py ATTACK JUDGE VICTIM PACKAGE VECTORS COPY`: the judge is a process; the victim a folder of files
+that must not change; the package and the vectors are those of hypcheck; the copy is a folder with another of these.
 """
 
 # ruff: noqa: BLE001, PERF203, PERF401, RET503, S606, T201 - it is as bad as it can be
 
 import ctypes
 import json
+import mmap
 import os
+import platform
+import resource
 import signal
 import sys
 import time
 
-ATTACK, VICTIM, PACKAGE, VECTORS = sys.argv[1], *sys.argv[3:6]
+ATTACK, VICTIM, PACKAGE, VECTORS, COPY = sys.argv[1], *sys.argv[3:7]
 JUDGE = int(sys.argv[2])
 SECONDS = 5.0
 """No attack goes on for longer."""
@@ -187,6 +190,173 @@ def look_at_processes():
         except OSError:
             continue
     return f"read the environment of {len(seen)} others"
+
+
+def count_secrets():
+    return f"{sum('s3same' in value for value in os.environ.values())} secrets"
+
+
+def tell_secrets():
+    """What it reads, it says on standard error, which reports quote."""
+    return "told: " + ", ".join(sorted({value for value in os.environ.values() if "s3same" in value}))
+
+
+def limit_judge():
+    """To what they are already, so that nothing is broken where this is allowed."""
+    for limit in (resource.RLIMIT_CPU, resource.RLIMIT_NOFILE):
+        resource.prlimit(JUDGE, limit, resource.prlimit(JUDGE, limit))
+    return "set the limits of the judge"
+
+
+def blind_supervisor():
+    """Without descriptors it cannot look for what it has to end."""
+    try:
+        resource.prlimit(os.getppid(), resource.RLIMIT_NOFILE, (0, 0))
+    finally:
+        daemon_without_environment()
+    return "left a daemon that nobody can find"
+
+
+def slow_judge():
+    os.setpriority(os.PRIO_PROCESS, JUDGE, os.getpriority(os.PRIO_PROCESS, JUDGE))
+    return "set its priority"
+
+
+def slow_everybody():
+    os.setpriority(os.PRIO_USER, os.getuid(), os.getpriority(os.PRIO_USER, os.getuid()))
+    return "set the priority of all"
+
+
+def move_judge():
+    os.sched_setaffinity(JUDGE, os.sched_getaffinity(JUDGE))
+    return "set its processors"
+
+
+def schedule_judge():
+    os.sched_setscheduler(JUDGE, os.sched_getscheduler(JUDGE), os.sched_getparam(JUDGE))
+    return "set its scheduler"
+
+
+def slow_files_of_judge():
+    number = {"x86_64": 251, "aarch64": 30, "riscv64": 30}[platform.machine()]
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.syscall(number, 1, JUDGE, 0) == 0:
+        return "set its priority of files"
+    return os.strerror(ctypes.get_errno())
+
+
+def chmod_report():
+    os.chmod(os.path.join(VICTIM, "summary.json"), 0o600)
+    return "changed its mode"
+
+
+def chmod_report_by_descriptor():
+    file = os.open(os.path.join(VICTIM, "summary.json"), os.O_RDONLY)
+    os.fchmod(file, 0o600)
+    return "changed its mode"
+
+
+def touch_report():
+    os.utime(os.path.join(VICTIM, "summary.json"), (1, 1))
+    return "changed its time"
+
+
+def mark_report():
+    os.setxattr(os.path.join(VICTIM, "summary.json"), "user.forged", b"1")
+    return "changed its attributes"
+
+
+def open_devices():
+    """The terminals of this user, disks, the kernel's messages."""
+    found, opened = [], []
+    for folder, _, files in os.walk("/dev"):
+        found += [os.path.join(folder, name) for name in files]
+    of_files = ("/dev/fd/", "/dev/std")
+    usual = {"null", "zero", "full", "random", "urandom", "tty", "tty0", "ttyS0", "console", "ptmx", "pts/0", "kmsg"}
+    usual |= {"kvm", "vda", "sda", "loop0", "mem", "fuse"}
+    found = {each for each in found if not each.startswith(of_files)}
+    for path in sorted(found | {f"/dev/{name}" for name in usual}):
+        try:
+            os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY))
+        except OSError:
+            continue
+        opened.append(os.path.basename(path))
+    return f"opened {len(opened)}: {' '.join(opened)}"[:200]
+
+
+def list_terminals():
+    return f"found {os.listdir('/dev/pts')}"
+
+
+def call_what_nobody_knows():
+    """open_tree_attr of Linux 6.15, file_getattr and file_setattr of 6.17, and a number that no system has yet."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    errors = []
+    for number in (467, 468, 469, 500):
+        libc.syscall(number, -1, 0, 0, 0, 0)
+        errors.append(ctypes.get_errno())
+    return f"errors {errors}"
+
+
+def make_calls_of_32_bits():
+    """setpriority, fchmod and a call that no system has yet, by the gate of programs of 32 bits."""
+    code = mmap.mmap(-1, 4096, prot=mmap.PROT_READ | mmap.PROT_WRITE | mmap.PROT_EXEC)
+    code.write(bytes.fromhex("53 89f8 89f3 89d1 31d2 cd80 5b c3"))
+    call = ctypes.CFUNCTYPE(ctypes.c_int, *(ctypes.c_int,) * 3)(ctypes.addressof(ctypes.c_char.from_buffer(code)))
+    file = os.open(os.path.join(os.environ["TMPDIR"], "own"), os.O_CREAT | os.O_WRONLY)
+    return f"errors {[-call(97, 0, JUDGE), -call(94, file, 0o600), -call(500, 0, 0)]}"
+
+
+def survive_by_forking():
+    """Each process of the chain has ended before anybody can look at it twice."""
+    if os.fork():
+        return "left a daemon"
+    for stream in range(3):
+        os.close(stream)
+    until = time.monotonic() + SECONDS
+    while time.monotonic() < until:
+        if os.fork():
+            os._exit(0)
+        os.setsid()
+    os.execve("/bin/sleep", ["sleep", f"600.{JUDGE}"], {})
+
+
+def memory_by_page_tables():
+    """Each page that is read is the system's own page of zeros; the tables that lead there are its own."""
+    step = 2 << 20
+    size = 100_000 * step
+    area = mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | 0x4000, prot=mmap.PROT_READ)
+    area.madvise(mmap.MADV_NOHUGEPAGE)
+    for place in range(0, size, step):
+        area[place]
+    time.sleep(SECONDS)
+    return f"took {size // step * 4096 >> 20} MiB"
+
+
+def read_repository():
+    """The judge's own repository has all answers, whatever its working tree has."""
+    place = os.path.join(os.path.dirname(PACKAGE), ".git")
+    if os.path.isfile(place):
+        with open(place) as file:
+            place = file.read().split()[1]
+    with open(os.path.join(place, "HEAD")) as file:
+        return f"read {file.read()}"
+
+
+def import_built_copy():
+    """What a build left beside the sources."""
+    folder = os.path.join(os.path.dirname(PACKAGE), "build")
+    built = [os.path.join(place, name) for place, _, files in os.walk(folder) for name in files]
+    with open(built[0] if built else folder + "/nothing", "rb") as file:
+        return f"read {len(file.read())} bytes"
+
+
+def import_second_copy():
+    """A copy of the package in a folder that it sees."""
+    sys.path.insert(0, COPY)
+    from hypcheck.kernel import classify
+
+    return f"imported {classify}"
 
 
 def attack():

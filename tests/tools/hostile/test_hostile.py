@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.isolation.means import Means, available, isolation_text
+from hypcheck.isolation.means import isolation_text
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
 from hypcheck.runs.known_failures import excusable_causes
@@ -18,27 +18,22 @@ from hypcheck.vectors import frozen
 from hypcheck.vectors.families import select
 from tests.tools.hostile import by_heart
 from tests.tools.hostile.running import command_fate
-from tests.tools.hostile.table import ATTACKS
+from tests.tools.hostile.table import ATTACKS, HERE, KINDS, is_here
 
-HERE = available()
-ALONE = Means(False, HERE.landlock, HERE.seccomp, ("no namespaces: a test",))
 QUICK = ("write_memory_of_judge", "kill_judge", "forge_summary_after_the_end", "fork_bomb", "fill_disk", "link_scratch")
-"""Attacks that are made with namespaces wherever tests run; `make thorough` makes all, both ways."""
+"""Attacks that are made with namespaces wherever tests run; `make thorough` makes all, by all kinds of isolation."""
 
 
 def cases():
     for attack in ATTACKS:
-        late = () if attack.name in QUICK else pytest.mark.thorough
-        lacks = pytest.mark.skipif(
-            not HERE.whole, reason=f"a program here is {isolation_text(HERE.names, HERE.missing)}"
-        )
-        yield pytest.param(attack, HERE, attack.told, id=attack.name, marks=[lacks, *([late] if late else [])])
-        if attack.alone is not None:
-            lacks = pytest.mark.skipif(
-                HERE.landlock < 6, reason=f"a program here is {isolation_text(HERE.names, HERE.missing)}"
-            )
-            marks = [lacks, pytest.mark.thorough]
-            yield pytest.param(attack, ALONE, attack.alone, id=f"{attack.name} by Landlock", marks=marks)
+        for kind, wanted in attack.by_kind().items():
+            if wanted is None:
+                continue
+            reason = f"a program here is {isolation_text(HERE.names, HERE.missing)}"
+            marks = [pytest.mark.skipif(not is_here(kind), reason=reason)]
+            if attack.name not in QUICK or kind != "namespaces":
+                marks.append(pytest.mark.thorough)
+            yield pytest.param(attack, KINDS[kind], wanted, id=f"{attack.name}, {kind}", marks=marks)
 
 
 @pytest.mark.parametrize(("attack", "means", "told"), list(cases()))
