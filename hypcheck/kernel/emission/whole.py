@@ -153,12 +153,12 @@ def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
 
 
 def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
-    """The hyperboloid where a mover that reaches so far up and down can touch what stands of it."""
+    """The hyperboloid, open, where a mover that reaches so far up and down can touch what stands of it."""
     if body.height is None:
         return body
     far = reach * (1 + 2.0**-40)
     low, high = np.nextafter((body.height.low - far, body.height.high + far), (-np.inf, np.inf)).tolist()
-    return replace(body, height=Span(low, high))
+    return replace(body, height=Span(low, high), solid=False)
 
 
 def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:

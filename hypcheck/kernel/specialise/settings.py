@@ -80,7 +80,7 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
 
 
 def _require_printable(scene: SceneModel) -> None:
-    """Raise InputError about a mover that leans and has parts, or the first hyperboloid that leans."""
+    """Raise InputError about a mover that leans and has parts, or the first hyperboloid that leans or has flat ends."""
     if scene.mover.parts and leans(scene.mover.axis):
         raise InputError(
             "no kernel is made: the mover leans and has parts, and kernels are made for parts of upright movers alone "
@@ -91,6 +91,11 @@ def _require_printable(scene: SceneModel) -> None:
             raise InputError(
                 f"no kernel is made: the hyperboloid {body.name!r} has the axis {list(body.axis)}, and kernels are "
                 "made for upright hyperboloids alone, with a mover that may lean (hypcheck.Scene answers exactly)"
+            )
+        if body.solid and body.height is not None:
+            raise InputError(
+                f"no kernel is made for pairs: the hyperboloid {body.name!r} is solid, and such a kernel knows no flat "
+                "ends (that of a whole scene does: hypcheck emit --whole)"
             )
 
 
@@ -149,6 +154,8 @@ def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box |
     height = hyperboloid.height
     if height is None:
         return Box(x, y, z), None
+    if hyperboloid.axis[2] < 0:  # it counts downwards
+        height = Span(-height.high, -height.low)
     if z is not None and height.low <= z.low and z.high <= height.high:
         return Box(x, y, z), None
     low, high = height.low, height.high

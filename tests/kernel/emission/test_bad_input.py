@@ -26,6 +26,7 @@ BAD = {
         "height = [-1, 3]\n[region]\nz = [4, 5]\n[mover]",
         "no hyperboloid's height meets the region",
     ),
+    "a flat end": ("[mover]", "height = [-1, 3]\nsolid = true\n[mover]", "the hyperboloid 'hyperboloid 1' is solid"),
     "too many sizes": (SCENE, MANY + "[mover]\nb = 0.3\nd = 0.9\n", "the scene has 65 different pairs of sizes"),
 }
 

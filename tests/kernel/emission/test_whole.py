@@ -151,6 +151,16 @@ def test_a_whole_scene_kernel_never_calls_clear_what_touches_a_rim_or_an_end(lan
     assert told(path, language, high).tolist() == [1, 1]
 
 
+def test_a_whole_scene_kernel_knows_a_trunk_that_is_counted_downwards_and_has_one_end(tmp_path):
+    down = Hyperboloid("down", 0.75, 2.0, (0.0, 0.0, 0.0), Span(-2.0, float("inf")), (0.0, 0.0, -3.0), solid=True)
+    scene = SceneModel("s", "position", (down,), Mover(0.3, 0.2), Region(z=Span(-9.0, 9.0)))
+    levels = np.array([-8.0, 0.0, 1.5, 1.9, 2.15, 2.25, 8.0])
+    columns = np.stack([np.zeros(7), np.zeros(7), levels, np.zeros(7)])
+    found = told(built(tmp_path, scene, "python", whole_plan(scene)), "python", columns)
+    assert Scene(scene).classify(*columns).tolist() == [-1, -1, -1, 0, 0, 1, 1]
+    assert found.tolist() == [-1, -1, -1, 2, 2, 1, 1]
+
+
 def test_a_whole_scene_kernel_answers_cannot_say_for_nan_and_outside_of_the_region(small, tmp_path):
     path = built(tmp_path, small[0], "python", small[1])
     nan, most = float("nan"), 1.7976931348623157e308
