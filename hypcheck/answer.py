@@ -17,7 +17,7 @@ from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, Pair, Position
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
-from hypcheck.truth import ended_clearance, ended_prove, exact, least
+from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, Piece, Point, check_certificate, pivots, surfaces
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
@@ -78,6 +78,8 @@ def measured_clearance(pair: Pair, decision: Decision) -> float:
 
 def ended_clearance_of(pair: Pair, decision: Decision) -> float:
     """The clearance beside a hyperboloid that ends. Raises DisagreementError if the least value contradicts."""
+    from hypcheck.truth import ended_clearance, least  # noqa: PLC0415 - they load numpy, which other answers do without
+
     other = least.position(pair)
     if other not in (None, decision.position):
         raise _disagreement(pair.row, decision.position, decision.tangent, f"by the least value {other.label}")
@@ -98,11 +100,17 @@ def answer(pair: Pair) -> Answer:
 
 def proved(pair: Pair, decision: Decision) -> Certificate:
     """The checked proof of an exact decision. Raises DisagreementError if it does not hold."""
-    certificate = ended_prove.prove(pair, decision) if pair.has_ends else prove(pair, decision)
+    certificate = _prove_beside_ends(pair, decision) if pair.has_ends else prove(pair, decision)
     unproved = not check_certificate(pair, certificate) and not is_rule(certificate)
     if certificate.position is not decision.position or unproved:
         raise _unproved(pair)
     return certificate
+
+
+def _prove_beside_ends(pair: Pair, decision: Decision) -> Certificate:
+    from hypcheck.truth import ended_prove  # noqa: PLC0415 - it loads numpy, which other answers do without
+
+    return ended_prove.prove(pair, decision)
 
 
 def is_rule(certificate: Certificate) -> bool:

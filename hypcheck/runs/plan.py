@@ -252,12 +252,13 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
     where it takes none, or those of the other layout.
     """
     families = chosen_families(plan, used)
-    if not families and any(family.ended for family in chosen_families(plan, replace(used, tilt=True, heights=True))):
+    tilted = chosen_families(plan, replace(used, tilt=True))
+    if not families and not tilted and chosen_families(plan, replace(used, tilt=True, heights=True)):
         raise InputError(
             f"{', '.join(plan.families)}: these are families of hyperboloids that end, and {used.name} does not take "
             'them; its description must say "takes": ["heights"], and "axis" besides where spheroids are tilted'
         )
-    if not families and not chosen_families(plan, replace(used, tilt=True)):
+    if not families and not tilted:
         raise InputError(
             f"{', '.join(plan.families)}: none of these families has cases for the question {used.question!r}"
         )

@@ -356,7 +356,7 @@ def _saved_case(case: WorstCase | UnansweredCase, layout: Layout) -> Json:
 
 
 def _restored_case(case: SavedAnswer | SavedFault) -> Json:
-    told = {name: value for name, value in structs.asdict(case).items() if name not in ("end", "axis")}
+    told = {name: value for name, value in structs.asdict(case).items() if name not in ("end", "axis", "heights")}
     return {**told, "row": tuple(map(float.fromhex, numbers_of(case)))}
 
 

@@ -126,11 +126,11 @@ def test_invalid_sweep_of_a_table_is_named_or_flagged(tmp_path, capsys):
     ("change", "sentence"),
     [
         ({"y1": 1.0}, "keys x1, z1 are missing; the end of a sweep needs x1, y1, z1, in any order"),
-        ({"z_max": 1.0}, "key 'z_max' says where a hyperboloid ends, and none that ends is classified here"),
-        ({"Solid": 1}, "key 'Solid' says where a hyperboloid ends"),
+        ({"Solid": 1}, "key solid is missing; 'Solid' must be written solid"),
+        ({"z_max": 1.0, "z_min": 1.0}, "z_min is 1.0 and z_max is 1.0; z_min must be less than z_max"),
     ],
 )
-def test_part_of_an_end_and_heights_are_refused(tmp_path, capsys, change, sentence):
+def test_part_of_an_end_and_wrong_heights_are_refused(tmp_path, capsys, change, sentence):
     source = tmp_path / "in.jsonl"
     source.write_text(json.dumps(dict.fromkeys(SEVEN, 1.0) | change) + "\n")
     assert main(["classify", "--input", str(source), "--output", str(tmp_path / "out.jsonl")]) == 2

@@ -58,7 +58,7 @@ def test_numbers_stand_for_whole_columns_and_one_row_of_numbers_is_one_row():
     ("change", "sentence"),
     [
         ({"radius": 1}, "there is no column 'radius'; the columns are alpha, gamma, b, d, x, y, z, axis_x"),
-        ({"z_max": 3}, "there is no column 'z_max'"),
+        ({"z_top": 3}, "there is no column 'z_top'"),
         ({7: 3}, "there is no column 7"),
         ({"axis_x": 1, "axis_y": 0}, "the column axis_z is missing; a row needs alpha, gamma, b, d, x, y, z, axis_x"),
         ({"x": [1, 2], "y": [1, 2, 3]}, "shapes that do not fit together"),

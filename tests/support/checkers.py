@@ -10,7 +10,7 @@ from fractions import Fraction
 from types import SimpleNamespace
 from typing import Any
 
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import WITHOUT_ENDS, Position
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, place
 from tests.support.corpus import Questions, row_of
@@ -44,7 +44,7 @@ def proves_position(case: dict[str, Any]) -> bool:
     points = points_from(center, (b, b, d if len(row) == 7 else b), given.get("points", []))
     at, m = fraction(given.get("multiplier")), fraction(given.get("double_root"))
     certificate = Certificate(Position(case["position"]), at, tuple(points), m)
-    return check_certificate(SimpleNamespace(row=row, axis=row[7:] or (0, 0, 1)), certificate)
+    return check_certificate(SimpleNamespace(row=row, axis=row[7:] or (0, 0, 1), heights=WITHOUT_ENDS), certificate)
 
 
 def check_ways(questions: Questions) -> list[int]:

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate, pivots
 from hypcheck.truth.pencil import quartic
@@ -46,7 +46,7 @@ def test_double_root_proves_every_tangency_from_rational_rotations():
     for row, side in TANGENT:
         F = quartic(Lengths.of(row))
         root = exact.double_root(F) * F.side
-        pair = SimpleNamespace(row=row, axis=row[7:])
+        pair = SimpleNamespace(row=row, axis=row[7:], heights=WITHOUT_ENDS)
         assert root * side > 0
         assert check_certificate(pair, Certificate(CONTACT, double_root=root))
         assert not check_certificate(pair, Certificate(CONTACT, double_root=root * (1 + Fraction(1, 2**99))))

@@ -185,7 +185,7 @@ def test_pattern_that_names_families_which_are_not_asked_is_told_in_the_verdict(
     assert {"tilted-uniform", "tilted-ring"} <= set(line.not_asked["tilt"])
     assert "uniform" in line.not_asked["filter"]
     summary = json.loads(Path("out/summary.json").read_text())
-    assert set(summary["implementations"][0]["families_not_asked"]) == {"filter", "tilt", "question"}
+    assert set(summary["implementations"][0]["families_not_asked"]) == {"filter", "tilt", "question", "heights"}
 
 
 def test_run_of_all_families_records_those_that_are_asked_only_on_request(capsys):

@@ -59,6 +59,8 @@ def frozen(every: int = 1) -> Iterator[Questions]:
     for path in sorted((ROOT / "cases").glob("*.json")):
         cases = _cases(path)[::every]
         rows = np.array([numbers(case) for case in cases])
+        if "ended-" in path.stem:  # tests/test_corpus.py asks the header about these
+            continue
         if path.stem.startswith(("way-", "tilted-way-")):
             hits = np.array([case.get("hit", INVALID) for case in cases])
             yield Questions(WAYS if rows.shape[1] == 10 else LEANING_WAYS, rows, hits, NEAREST | 4)

@@ -1,0 +1,104 @@
+"""`hypcheck classify` and the public functions about hyperboloids that end: options, tables, columns by name."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.cli.main import main
+
+PAIR = ["--alpha", "3", "--gamma", "4", "--b", "1", "--d", "1", "--center", "2", "0", "4"]
+COLUMNS = {"alpha": 3, "gamma": 4, "b": 1, "d": 1, "x": 2, "y": 0, "z": 4}
+
+
+def said(capsys, *words):
+    code = main(["classify", *words])
+    captured = capsys.readouterr()
+    return code, captured.out, captured.err
+
+
+def test_one_row_with_ends_is_classified_with_its_proof(capsys):
+    code, out, _ = said(capsys, *PAIR[:-3], "3.75", "0", "4.5", "--z-max", "3")
+    assert code == 0
+    assert out.startswith("exterior\nclearance  ")
+    assert "piece" in out
+    code, out, _ = said(capsys, *PAIR, "--z-max", "3", "--solid", "--json")
+    found = json.loads(out)
+    assert (found["position"], found["tangent"], found["clearance"]) == (0, True, 0.0)
+    assert found["proof"]["by"] == "points"
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--z-min", "3", "--z-max", "3"], "z_min is 3.0 and z_max is 3.0; z_min must be less than z_max"),
+        (["--z-max", "high"], "--z-max is 'high'; it must be a decimal number"),
+        (["--solid"], "--solid says that flat ends belong to the hyperboloid; give --z-min, --z-max or both"),
+    ],
+)
+def test_heights_that_are_none_are_refused_in_a_sentence(capsys, words, sentence):
+    code, out, err = said(capsys, *PAIR, *words)
+    assert (code, out) == (2, "")
+    assert sentence in err
+
+
+def test_a_sweep_beside_ends_says_when_it_first_touches(capsys):
+    code, out, _ = said(capsys, *PAIR[:-3], "3.75", "0", "9", "--end", "3.75", "0", "3.5", "--z-max", "3", "--json")
+    found = json.loads(out)
+    assert (code, found["hit"]) == (0, 1)
+    assert found["first"][0] <= 5 / 5.5 <= found["first"][1]
+
+
+@pytest.mark.parametrize("ending", ["csv", "jsonl", "npy"])
+def test_tables_with_heights_are_classified_as_their_rows_alone(tmp_path, ending):
+    rows = [COLUMNS | {"z_min": -1, "z_max": high, "solid": solid} for high in (3, 3.25, 9) for solid in (0, 1)]
+    source, target = tmp_path / f"in.{ending}", tmp_path / f"out.{ending}"
+    if ending == "csv":
+        lines = [",".join(rows[0]), *(",".join(map(str, row.values())) for row in rows)]
+        source.write_text("\n".join(lines) + "\n")
+    elif ending == "jsonl":
+        source.write_text("".join(json.dumps(row | {"solid": bool(row["solid"])}) + "\n" for row in rows))
+    else:
+        np.save(source, np.array([[3, 4, 1, 1, 2, 0, 4, 0, 0, 1, *list(row.values())[7:]] for row in rows], float))
+    assert main(["classify", "--input", str(source), "--output", str(target)]) == 0
+    ends = [{name: row[name] for name in ("z_min", "z_max", "solid")} for row in rows]
+    alone = [hypcheck.position(*list(row.values())[:7], **some) for row, some in zip(rows, ends, strict=True)]
+    if ending == "npy":
+        assert np.load(target).tolist() == alone
+        return
+    text = target.read_text().splitlines()
+    found = [json.loads(line)["position"] for line in text] if ending == "jsonl" else []
+    found = found or [int(line.split(",")[len(rows[0])]) for line in text[1:]]
+    assert found == alone
+
+
+def test_one_end_of_a_table_is_enough_and_infinity_is_a_word(tmp_path):
+    source, target = tmp_path / "in.csv", tmp_path / "out.csv"
+    head, row = ",".join(COLUMNS), ",".join(map(str, COLUMNS.values()))
+    source.write_text(f"{head},z_max,solid\n{row},3,true\n{row},inf,0\n{row},-Infinity,1\n")
+    assert main(["classify", "--input", str(source), "--output", str(target), "--on-invalid", "flag"]) == 0
+    assert [line.split(",")[9] for line in target.read_text().splitlines()[1:]] == ["0", "-1", "127"]
+
+
+def test_columns_by_name_are_broadcast_and_what_is_missing_of_heights_is_filled_in():
+    found = hypcheck.classify(COLUMNS | {"z_max": [3.0, 3.25, np.inf], "solid": [False, True, True]})
+    assert found.tolist() == [1, 0, -1]
+    assert hypcheck.classify(COLUMNS | {"z_min": 3.5}, question="interior").tolist() == [1]
+    with pytest.raises(hypcheck.InputError, match=r"row 1: z_min is 4\.0 and z_max is 3\.0; z_min must"):
+        hypcheck.classify(COLUMNS | {"z_min": [0.0, 4.0], "z_max": 3.0})
+    with pytest.raises(hypcheck.InputError, match=r"row 0: solid is 2\.0; it must be 0 or 1"):
+        hypcheck.classify(COLUMNS | {"solid": 2})
+    assert hypcheck.classify(np.array([[*COLUMNS.values(), 0, 0, 1, 4, 3, 0]]), on_invalid="flag").tolist() == [127]
+
+
+def test_clearance_beside_ends_lies_between_its_bounds():
+    found = hypcheck.clearance(COLUMNS | {"z": [4.5, 3.5, 6.0], "d": [1, 1, 0.5], "z_max": 3, "solid": 1})
+    assert found.position.tolist() == [1, 0, 1]
+    distances = found.distance_lower, found.distance_upper
+    for bounds, true in (((found.lower, found.upper), [0.5, -0.5, 5.0]), (distances, [0.5, 0, 2.5])):
+        assert (bounds[0] <= true).all()
+        assert (bounds[1] >= true).all()
+    assert found.nearest.tolist() == [[2, 0, 3]] * 3

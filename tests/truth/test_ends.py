@@ -1,0 +1,163 @@
+"""Hyperboloids that end: by hand, against independent oracles, and what proves and measures the answers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import hypcheck
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth import backward_error, ended_prove, exact, heights, least
+from hypcheck.truth.certificate import Certificate, check_certificate
+from hypcheck.truth.ended_clearance import clearance
+from hypcheck.truth.sections import has_root
+from tests.support.strategies import rows_of
+
+INF = math.inf
+RIM = (3.0, 4.0)
+"""α and γ whose circle at height 3 has the radius 15/4."""
+
+EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
+
+BY_HAND = [
+    # A drone on the rim of a tree that ends at 2, and the same as a solid trunk.
+    ((0.2, 1, 0.3, 0.2, 0.2 * math.sqrt(5), 0, 2.01), (-1, 2), CONTACT, CONTACT, None),
+    # A sphere whose pole rests on the rim, over the mouth, a hair above it, and beside the wall's end.
+    ((*RIM, 1, 1, 3.75, 0, 4), (-1, 3), CONTACT, CONTACT, EXTERIOR),
+    ((*RIM, 1, 1, 2, 0, 4), (-1, 3), EXTERIOR, CONTACT, EXTERIOR),
+    ((*RIM, 1, 1, 2, 0, math.nextafter(4, 5)), (-1, 3), EXTERIOR, EXTERIOR, None),
+    ((*RIM, 1, 1, 2, 0, 4), (3.5, 5), INTERIOR, CONTACT, None),
+    # A sphere of radius 5/4 whose centre is 5/4 from the rim: 3/4 out, 1 up.
+    ((*RIM, 1.25, 1.25, 4.5, 0, 4), (-1, 3), CONTACT, CONTACT, EXTERIOR),
+    ((*RIM, 1.25, 1.25, math.nextafter(4.5, 5), 0, 4), (-1, 3), EXTERIOR, EXTERIOR, None),
+    # The examples of the definitions: a body that is pierced, and one that holds the sphere.
+    ((5, 5, 0.5, 0.5, 0, 0, 1), (-INF, 1), INTERIOR, CONTACT, None),
+    ((5, 5, 0.5, 0.5, 0, 0, 1), (-INF, 3), INTERIOR, INTERIOR, None),
+    ((5, 5, 0.5, 0.5, 0, 0, 1.2), (-3, 1), EXTERIOR, CONTACT, None),
+    ((5, 5, 0.5, 0.5, 0, 0, 1.5), (-3, 1), EXTERIOR, CONTACT, EXTERIOR),
+    ((5, 5, 0.5, 0.5, 0, 0, 0.5), (-3, 1), INTERIOR, CONTACT, INTERIOR),
+    # No λ without a plane proves this one.
+    ((1, 1, 1, 1, 2.5, 0, -0.9), (0, INF), EXTERIOR, EXTERIOR, None),
+    # A ring that the spheroid swallows.
+    ((1, 1, 5, 5, 0, 0, 0), (-0.125, 0.125), CONTACT, CONTACT, None),
+    # A prolate spheroid that lies with its pole on the rim; the wall leans outward above it.
+    ((*RIM, 1, 2, 5.75, 0, 3, 1, 0, 0), (-1, 3), CONTACT, CONTACT, EXTERIOR),
+    ((*RIM, 1, 2, 5.75, 0, 3, 1, 0, 0), (3, 4), CONTACT, CONTACT, None),
+]
+"""A row, its ends, the positions beside the open and the solid body, and the position that a touch comes from."""
+
+
+def pair_of(row, ends, solid):
+    axis = row[7:] or (0, 0, 1)
+    return Pair.from_row((*map(float, row[:7]), *map(float, axis), *map(float, ends), float(solid)))
+
+
+@pytest.mark.parametrize(("row", "ends", "open_position", "solid_position", "limit"), BY_HAND)
+def test_positions_beside_ends_are_those_found_by_hand(row, ends, open_position, solid_position, limit):
+    for solid, expected in enumerate((open_position, solid_position)):
+        pair = pair_of(row, ends, solid)
+        decision = exact.decide(pair.lengths)
+        assert decision.position is expected
+        assert heights.position(pair) is expected
+        assert least.position(pair) in (None, expected)
+        named = dict(zip(("z_min", "z_max", "solid"), (*ends, solid), strict=True))
+        assert hypcheck.position(*row[:7], axis=row[7:] or None, **named) == expected
+        if limit is not None and expected is CONTACT:
+            assert decision.limit_of is limit
+
+
+@settings(max_examples=60)
+@given(rows_of("axis heights"))
+def test_least_value_and_rule_in_the_height_agree_with_the_exact_decision(row):
+    pair = Pair.from_row(row)
+    position = exact.position(pair.lengths)
+    assert heights.position(pair) is position
+    assert least.position(pair) in (None, position)
+
+
+@settings(max_examples=30)
+@given(rows_of("axis heights"))
+def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
+    pair = Pair.from_row(row)
+    if not pair.has_ends:
+        return
+    decision = exact.decide(pair.lengths)
+    certificate = ended_prove.prove(pair, decision)
+    witnessed = bool(certificate.points or certificate.pieces) or certificate.multiplier is not None
+    assert witnessed or decision.position is CONTACT
+    assert check_certificate(pair, certificate) == witnessed
+    for other in set(Position) - {decision.position}:
+        assert not check_certificate(pair, replace(certificate, position=other))
+
+
+def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing():
+    pair = pair_of((1, 1, 1, 1, 2.5, 0, -0.9), (0, 3), 0)
+    certificate = ended_prove.prove(pair, exact.decide(pair.lengths))
+    assert check_certificate(pair, certificate)
+    first, *rest = certificate.pieces
+    for pieces in (
+        (),
+        (replace(first, low=first.low + 1 if first.low is not None else Fraction(1)), *rest),
+        (replace(first, plane=-first.plane), *rest),
+        (replace(first, multiplier=Fraction(-1)), *rest),
+    ):
+        assert not check_certificate(pair, Certificate(EXTERIOR, pieces=pieces))
+
+
+@settings(max_examples=20)
+@given(rows_of("axis heights"))
+def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
+    pair = Pair.from_row(row)
+    if not pair.has_ends:
+        return
+    decision = exact.decide(pair.lengths)
+    found = clearance(pair, decision)
+    assert (found < 0) <= (decision.position is CONTACT) <= (found <= 0)
+    for factor, meets in ((1 - 1e-9, False), (1 + 1e-9, True)):
+        scale = (1 + found) * factor
+        if 1e-6 < scale < 1e6:
+            scaled = replace(pair, b=pair.b * scale, d=pair.d * scale)
+            assert (exact.position(scaled.lengths) is CONTACT) == meets
+
+
+def test_the_clearance_of_a_centre_on_wall_or_disc_is_minus_one():
+    for row, ends, solid in (((*RIM, 1, 1, 3.75, 0, 3), (-1, 3), 0), ((*RIM, 1, 0.5, 2, 0, 3, 1, 0, 1), (-1, 3), 1)):
+        pair = pair_of(row, ends, solid)
+        assert clearance(pair, exact.decide(pair.lengths)) == -1
+
+
+def test_backward_error_beside_a_rim_is_bracketed_by_what_was_moved():
+    """A touch moved outward by a relative 2⁻³⁰ of x is about so far from contact, and contact from exterior."""
+    for change, answer in ((2.0**-30, CONTACT), (-(2.0**-30), EXTERIOR)):
+        pair = pair_of((*RIM, 1.25, 1.25, 4.5 * (1 + change), 0, 4), (-1, 3), 0)
+        ends = backward_error.bracket(pair, exact.decide(pair.lengths), answer)
+        assert 2.0**-40 < ends.lower <= ends.upper < 2.0**-28
+    pair = pair_of((*RIM, 1, 1, 0, 0, 3), (-1, 3), 0)
+    truth = exact.decide(pair.lengths)
+    assert truth.position is INTERIOR
+    assert backward_error.bracket(pair, truth, EXTERIOR).upper == 0, "a centre at an end has two sides"
+
+
+@given(
+    st.lists(st.tuples(st.integers(-30, 30), st.integers(1, 4)), max_size=4),
+    st.lists(st.tuples(st.integers(-9, 9), st.integers(1, 5)), max_size=2),
+    st.integers(-12, 10),
+    st.integers(1, 12),
+)
+def test_roots_between_two_numbers_are_found_or_excluded(roots, pairs, low, width):
+    """Of products of linear factors, whose roots are known, and of quadratic ones without a root."""
+    f, high = [1], low + width
+    for numerator, denominator in roots:
+        f = np.convolve(f, [denominator, -numerator]).tolist()
+    for middle, rest in pairs:
+        f = np.convolve(f, [1, -2 * middle, middle * middle + rest]).tolist()
+    if any(numerator in (low * denominator, high * denominator) for numerator, denominator in roots):
+        return
+    between = any(low * denominator < numerator < high * denominator for numerator, denominator in roots)
+    assert has_root(tuple(map(int, f)), low, high) in (between, None)
