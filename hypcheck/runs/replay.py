@@ -228,7 +228,8 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         answered = None if judgement.answer == CANNOT_SAY else judgement.answer
         choice = choose_formula(implementation, answered, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
-        about = "a way" if case.layout is WAYS else "a tilted spheroid or a hyperboloid that ends"
+        ended = isinstance(truth, ProvedTruth) and truth.pair.has_ends
+        about = "a way" if case.layout is WAYS else "a hyperboloid that ends" if ended else "a tilted spheroid"
         raise InputError(f"--formula is {formula!r}, but {case.name} is about {about}, which no formula takes")
     return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice, causes)
 
