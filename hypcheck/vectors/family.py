@@ -74,7 +74,8 @@ class Family:
     near the end of a float format, so the family is taken only when it is asked for. `by_place`: the generator works
     place by place, so that it can make several blocks at one go. `movement`: so many consecutive rows follow one object
     from moment to moment; 1 where none do. `layout` says what rows are about, a position or a way. `tilted`: they have
-    three numbers more, the axis of the spheroid behind the others.
+    three numbers more, the axis of the spheroid behind the others. `times`: so many rows are asked for each that a run
+    asks of other families.
     """
 
     name: str
@@ -86,6 +87,7 @@ class Family:
     movement: int = 1
     tilted: bool = False
     layout: Layout = PAIRS
+    times: int = 1
 
     def described(self, made_by: str) -> Metadata:
         """What a file of the family says of it, if that command made it."""

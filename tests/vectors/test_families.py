@@ -67,6 +67,8 @@ DIGESTS: dict[str, str] = {
     "stiff-axial": "68b5bd7e057df5e3e17166028c9e91bb318ec5fddbfece30267105f8fdc07ea3",
     "stiff-both": "58884ba05c02ce6601068dca80e3c0cc3250eed413494ab9b747ef5f168080b4",
     "whole-domain": "f2b762f6c8a0e7233f6083ad79e9735bf1ca273b1b92f97aeaffca1f05a8e639",
+    "coincidences": "0fefec9a27fa51b3d3cb58c420e419e6dd1244762cfdee0c5c0818313e382e20",
+    "strata": "9c8651de21e15668bfca1e84cf733fb9bdc4c517a619b10a3026299795115009",
     "extreme-float16": "95bbe1bc87a7bfbcc0ca8de3a9005f8b9d6707bdc3d9248d1991e4e9533afe1b",
     "extreme-float32": "7376d1b6bc81cec40c8658d417dba8af6b29fadce364a4737d3ce8fbc53a75a6",
     "extreme-float64": "f0c7b03edb78a1fcd256c6296e34ae8b2fcc28c2f92455059af56c26a4c9b7da",
@@ -88,6 +90,8 @@ DIGESTS: dict[str, str] = {
     "tilted-stiff": "10a004188a66deffa4d47835e11cdd2ac09520e1b8fece4a31cc1b1574c816aa",
     "tilted-axis-length": "0deda10c1a450a9168862370f19b291ef4cdb5e760ea6407d60180317baaeb83",
     "tilted-small-integers": "35aafc30e04460aaf6b871e7e6d54b45d9ab41689cb54d6b1bbdd5ee8ad025ad",
+    "tilted-coincidences": "2a5bb1206fd89fcf9e722e560f084f25a2be475dc3a66834ce6047493d4d0c58",
+    "tilted-strata": "0be8aa7bee15a1d4c8c1e720eed65ece9602fde7c518c4054201a644c7cf7a32",
     "extreme-tilted": "bc959d4a1487842d8693014352e67868f6befbda3bf414bafd7b6032ac0132aa",
     "way-anywhere": "c884c53f71228633130e82191fad30f9ee7dac62c2bd9bc9a7dd0c309a6cfbb5",
     "way-tunnelling": "e80202d1d6bc263ff4f66efc969880cdb88f00fef197835a0a29b51bd3a1dbb4",
@@ -107,10 +111,12 @@ DIGESTS: dict[str, str] = {
     "way-short": "ada4ad5e6e6c8bd7e3592f5f47390d45bc37cb09b61a2e2d2684727d171b687f",
     "way-stiff": "2183dd63f2925e4151282963a3d73740452379aaafef3fd4e61e78262ef5eece",
     "way-small-integers": "f660a4f57cd0a7c97f141df381da67eb1e2948e31efc72b04066f24d666c87e9",
+    "way-coincidences": "1f75471e79f45fd492b193fb45db4a2ac0bd7779bb6e38eb43a9181734ef91f6",
     "tilted-way-uniform": "cac4b518e8218760fd229da37ac7d5fa1cdb6c6f706500f9cc16e1f434c01154",
     "tilted-way-end": "e19beb0048e04ebe899d56ace987e73b890a001cb5a84a5c848affe3b5203856",
     "tilted-way-ring": "81f30887b4069aa3d2c7a83b5ca24f2fdbf73e39ce145bb90fcfd21fed004ea8",
     "tilted-way-small-integers": "5d9d80b6c64b6a5e66c5183e7e0aedbef20e004d31036af1ea937b1b9676542f",
+    "tilted-way-coincidences": "db65e20df469034ffd1347b465329577d46719dfdb2457a4b2061ff55a84d98f",
 }
 """sha256 of the first rows for seed 0, little-endian; a change means a new generator version, or a defect."""
 
