@@ -28,7 +28,7 @@ from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
 from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT, Tally, WorstCase
-from hypcheck.vectors.families import ALL
+from hypcheck.vectors.families import ALL, family_of
 from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
 
@@ -86,7 +86,7 @@ def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan:
 def _of_fresh(family: str, sums: GroupLine | Tally, plan: ConformancePlan, *, unfinished: bool = False) -> str:
     """The fresh rows that were asked must be those of the plan, but for skipped ones; no more in an unfinished run."""
     generated = plan.fresh is not None and (family in ALL or MARK in family)
-    most = plan.count if generated else 0
+    most = plan.count * family_of(family).times if generated else 0
     least = 0 if unfinished else most - sums.counts.get(Status.SKIPPED.value, 0)
     return (
         "" if least <= (sums.fresh or 0) <= most else f"{family} has {sums.fresh} fresh rows, but {most} were planned"

@@ -171,7 +171,7 @@ def planned_size(plan: ConformancePlan) -> int:
 def _cases_of(plan: ConformancePlan, families: Iterable[Family]) -> dict[str, int]:
     """The number of frozen vectors and of generated rows of each family, fresh ones included."""
     seeds = 1 if plan.fresh is None else 2
-    return {each.name: frozen_count(each.name) + plan.count * seeds for each in families}
+    return {each.name: frozen_count(each.name) + plan.count * each.times * seeds for each in families}
 
 
 def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
@@ -287,6 +287,6 @@ def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Descripti
 
 def _chunks_of(plan: ConformancePlan, families: Iterable[Family]) -> Iterator[CaseChunk]:
     for family in families:
-        yield from family_chunks(family, plan.seed, plan.count, plan.pace.chunk_rows)
+        yield from family_chunks(family, plan.seed, plan.count * family.times, plan.pace.chunk_rows)
         if plan.fresh is not None:
-            yield from fresh_chunks(family, plan.fresh, plan.count, plan.pace.chunk_rows)
+            yield from fresh_chunks(family, plan.fresh, plan.count * family.times, plan.pace.chunk_rows)

@@ -10,7 +10,7 @@ from fnmatch import fnmatchcase
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout
 from hypcheck.messages import suggestion
-from hypcheck.vectors import coincidences, ended, extremes, random_pairs, scenes, tilted, ways
+from hypcheck.vectors import coincidences, crossed, ended, extremes, random_pairs, scenes, strata, tilted, ways
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
 
@@ -54,6 +54,8 @@ FAMILIES = _table(
     Family("stiff-axial", extremes.stiff(radial=False, axial=True), 160),
     Family("stiff-both", extremes.stiff(radial=True, axial=True), 160),
     Family("whole-domain", extremes.whole_domain, 240),
+    Family("coincidences", crossed.crossed("coincidences"), 300),
+    Family("strata", strata.upright, 240, times=10),
     Family("extreme-float16", extremes.at_the_ends_of("float16"), 180, extreme=True),
     Family("extreme-float32", extremes.at_the_ends_of("float32"), 180, extreme=True),
     Family("extreme-float64", extremes.at_the_ends_of("float64"), 180, extreme=True),
@@ -79,6 +81,8 @@ TILTED_FAMILIES = _table(
     Family("tilted-stiff", tilted.stiff, 180, tilted=True),
     Family("tilted-axis-length", tilted.any_length, 160, tilted=True),
     Family("tilted-small-integers", tilted.small_integers, 200, tilted=True),
+    Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, tilted=True, times=2),
+    Family("tilted-strata", strata.tilted, 200, tilted=True, times=10),
     Family("extreme-tilted", tilted.whole_domain, 120, tilted=True, extreme=True),
 )
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
@@ -102,10 +106,14 @@ WAY_FAMILIES = _table(
     Family("way-short", ways.very_short, 108, layout=WAYS),
     Family("way-stiff", ways.stiff, 108, layout=WAYS),
     Family("way-small-integers", ways.small_integers, 108, layout=WAYS),
+    Family("way-coincidences", crossed.crossed("way-coincidences"), 353, layout=WAYS),
     Family("tilted-way-uniform", ways.tilted_uniform, 40, layout=WAYS, tilted=True),
     Family("tilted-way-end", ways.tilted_end, 40, layout=WAYS, tilted=True),
     Family("tilted-way-ring", ways.tilted_ring, 40, layout=WAYS, tilted=True),
     Family("tilted-way-small-integers", ways.tilted_integers, 40, layout=WAYS, tilted=True),
+    Family(
+        "tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, layout=WAYS, tilted=True, times=3
+    ),
 )
 """Those of ways between two positions: rows as geometry.rows.WAYS has them, upright or tilted."""
 

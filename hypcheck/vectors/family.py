@@ -75,7 +75,8 @@ class Family:
     place by place, so that it can make several blocks at one go. `movement`: so many consecutive rows follow one object
     from moment to moment; 1 where none do. `layout` says what rows are about, a position or a way. `tilted`: they have
     three numbers more, the axis of the spheroid behind the others. `ended`: the hyperboloid ends, and rows have heights
-    behind an axis, which is vertical unless `tilted`.
+    behind an axis, which is vertical unless `tilted`. `times`: so many rows are asked for each that a run asks of other
+    families.
     """
 
     name: str
@@ -88,6 +89,7 @@ class Family:
     tilted: bool = False
     ended: bool = False
     layout: Layout = PAIRS
+    times: int = 1
 
     def described(self, made_by: str) -> Metadata:
         """What a file of the family says of it, if that command made it."""

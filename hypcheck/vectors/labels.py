@@ -131,27 +131,32 @@ def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
     if len(row) > 7:
         shorter = _rounded(far)
     else:
-        shorter = _cut_off(next(offset for offset in _slid(far) if shows_crossing(row, (center, offset))))
+        shorter = _cut_off(next(offset for offset in _slid(row, far) if shows_crossing(row, (center, offset))))
     return StoredCertificate(offsets=(center, next(each for each in shorter if shows_crossing(row, (center, each)))))
 
 
-def _slid(offset: Offset) -> Iterator[Offset]:
+def _slid(row: Row, offset: Offset) -> Iterator[Offset]:
     """The offset, then others beside it in the plane through both axes, ever nearer to it and all in the spheroid.
 
     A proof of contact may end at a point of the spheroid's own surface that lies on the hyperboloid. Where the two
     cross there, the hyperboloid's other side lies that way: (−w s, −w t, s² + t²) is at right angles to (s, t, w) and
     no longer than 1, so that a step η along it and a shrinking by 1 − η² lead into the spheroid, farther across than
-    in.
+    in. At a tip of the spheroid, s = t = 0, it is 0, and the way to the hyperboloid's axis stands for it.
     """
     yield offset
     s, t, w = offset
+    aside = (-w * s, -w * t, s * s + t * t)
+    if s == t == 0:
+        x, y = Fraction(row[4]), Fraction(row[5])
+        reach = abs(x) + abs(y)
+        aside = (x / reach, y / reach, Fraction(0)) if reach else (Fraction(1), Fraction(0), Fraction(0))
     for halvings in count(1):
         for step in (Fraction(1, 1 << halvings), Fraction(-1, 1 << halvings)):
             shrunk = 1 - step * step
             yield (
-                (s - step * w * s) * shrunk,
-                (t - step * w * t) * shrunk,
-                (w + step * (s * s + t * t)) * shrunk,
+                (s + step * aside[0]) * shrunk,
+                (t + step * aside[1]) * shrunk,
+                (w + step * aside[2]) * shrunk,
             )
 
 

@@ -55,6 +55,12 @@ def beside(draw: Draw, size: Sizes, height: Floats, axis: Vectors, offset: Float
     """
     n = len(height)
     cosine, sine = (draw.signs(n), np.zeros(n)) if on_x_axis else draw.circle(n)
+    return beside_at(size, (cosine, sine), height, axis, offset)
+
+
+def beside_at(size: Sizes, direction: tuple[Floats, Floats], height: Floats, axis: Vectors, offset: Floats) -> Rows:
+    """The same beside the surface's point in this direction (cosine, sine) from the axis."""
+    cosine, sine = direction
     radius = np.sqrt(1 + height * height)
     point = (size.alpha * radius * cosine, size.alpha * radius * sine, size.gamma * height)
     normal = (radius * cosine / size.alpha, radius * sine / size.alpha, -height / size.gamma)

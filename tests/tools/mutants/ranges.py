@@ -238,3 +238,22 @@ def not_all_sizes_1(rows):
 def not_all_sizes_equal(rows):
     """Right unless α, γ, b and d are equal."""
     return _only(rows, (rows[:, :X] != rows[:, :1]).any(axis=1))
+
+
+@wrong()
+def float32_in_a_hundredth_of_the_height(rows):
+    """Inputs rounded to float32 where |z|/γ is between 0.5 and 0.51."""
+    height = np.abs(rows[:, Z]) / rows[:, GAMMA]
+    narrow = ((height > 0.5) & (height < 0.51))[:, None]
+    return position(np.where(narrow, rows.astype(np.float32).astype(np.float64), rows))
+
+
+@wrong()
+def grown_in_a_corner(rows):
+    """Sizes grown by 1e-9 where c/a is between 200 and 1000, |x| > 3|y| > 0 and |z| > γ."""
+    alpha, gamma, b, d, x, y, z = rows.T
+    slope = (gamma / d) / (alpha / b)
+    corner = (slope > 200) & (slope < 1000) & (np.abs(x) > 3 * np.abs(y)) & (y != 0) & (np.abs(z) > gamma)
+    changed = rows.copy()
+    changed[:, B : D + 1] *= np.where(corner, 1 + 1e-9, 1)[:, None]
+    return position(changed)

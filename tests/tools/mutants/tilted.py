@@ -362,6 +362,34 @@ def horizontal_is_contact(rows):
     return np.where(rows[:, 9] == 0, 0, _answered(rows)).astype(np.int8)
 
 
+@wrong()
+def contact_level_with_the_waist_and_along_or_across(rows):
+    """Contact where the axis is horizontal, z = 0, and the axis is parallel or perpendicular to the centre."""
+    level = (rows[:, 9] == 0) & (rows[:, 6] == 0)
+    return np.where(level & _along_or_across(rows), 0, _answered(rows)).astype(np.int8)
+
+
+@wrong()
+def contact_on_the_axis_lying_flat(rows):
+    """Contact where x = y = 0 and the axis is horizontal."""
+    flat = (rows[:, 4:6] == 0).all(axis=1) & (rows[:, 9] == 0)
+    return np.where(flat, 0, _answered(rows)).astype(np.int8)
+
+
+@wrong()
+def contact_inside_level_and_along_or_across(rows):
+    """Contact where the spheroid is inside, z = 0, the axis horizontal, and parallel or perpendicular to the centre."""
+    answers = _answered(rows)
+    level = (rows[:, 9] == 0) & (rows[:, 6] == 0) & (rows[:, 4:6] != 0).any(axis=1) & (answers < 0)
+    return np.where(level & _along_or_across(rows), 0, answers).astype(np.int8)
+
+
+def _along_or_across(rows):
+    """Whether the axis is parallel or at right angles to the centre, both taken level."""
+    x, y, u, v = rows[:, [4, 5, 7, 8]].T
+    return (x * v == y * u) | (x * u + y * v == 0)
+
+
 @wrong(claim=LEANING)
 def first_axis_for_all(rows):
     """The matrix of the first row's axis, for all rows of a question."""

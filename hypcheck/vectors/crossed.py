@@ -1,0 +1,254 @@
+"""Coincidences of a row, crossed: each together with each two others, on each side and in contact.
+
+A program that treats a special case by itself can be wrong where two special cases meet: x = y = 0 beside a horizontal
+axis, say. crossed.toml has designs, made by `python -m tests.tools.covering`: combinations of one value of each factor
+such that any three values that go together do so in a row. The generators take the combinations in turn.
+
+Rows are of small whole numbers, times a power of two, so that what coincides does so exactly. Of several candidates
+for a combination the first is taken that is on the side that the combination says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from importlib import resources
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck import toml
+from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.kernel.classify import classify
+from hypcheck.vectors.draw import Draw, Integers, Maker, ldexp
+
+SIZES = ("any", "b = d", "α = γ", "α = b", "γ = d")
+PLACES = ("any", "x = 0", "y = 0", "x = y", "x = −y", "on the hyperboloid's axis")
+HEIGHTS = ("any", "z = 0", "z = x", "z = γ", "on the asymptotic cone")
+AXES = (
+    "any",
+    "vertical",
+    "horizontal",
+    "along x",
+    "along y",
+    "to the hyperboloid's centre",
+    "to the hyperboloid's axis, level",
+    "in the meridian plane",
+    "at right angles to the centre, level",
+    "at right angles to the centre, in the meridian plane",
+    "at right angles to the centre",
+)
+WAY_AXES = (*AXES, "along the way", "at right angles to the way")
+MOTIONS = (
+    "any",
+    "still",
+    "vertical",
+    "along x",
+    "along y",
+    "radial",
+    "tangent",
+    "through the hyperboloid's centre",
+    "on a line through the hyperboloid's centre",
+    "through the hyperboloid's axis",
+)
+SIDES = ("exterior", "contact", "interior")
+ENDS = ("clear at the end", "contact at the end")
+
+FACTORS: Mapping[str, tuple[tuple[str, ...], ...]] = {
+    "coincidences": (SIZES, PLACES, HEIGHTS, SIDES),
+    "tilted-coincidences": (SIZES, PLACES, HEIGHTS, SIDES, AXES),
+    "way-coincidences": (SIZES, PLACES, HEIGHTS, SIDES, MOTIONS, ENDS),
+    "tilted-way-coincidences": (SIZES, PLACES, HEIGHTS, SIDES, MOTIONS, ENDS, WAY_AXES),
+}
+"""The factors of each family, and the values of each factor."""
+
+CANDIDATES = 64
+"""For each row; about one row in a hundred finds none on its side."""
+
+
+NEVER = (
+    {SIDES: "exterior", PLACES: "on the hyperboloid's axis"},
+    {SIDES: "exterior", HEIGHTS: "on the asymptotic cone"},
+    {SIDES: "exterior", SIZES: "α = γ", PLACES: "y = 0", HEIGHTS: "z = x"},
+    {SIDES: "interior", SIZES: "α = b", HEIGHTS: "z = 0"},
+    {SIDES: "interior", SIZES: "α = b", HEIGHTS: "on the asymptotic cone"},
+    {SIDES: "interior", SIZES: "α = b", HEIGHTS: "z = x", PLACES: "x = 0"},
+    {SIDES: "interior", SIZES: "α = b", HEIGHTS: "z = x", PLACES: "on the hyperboloid's axis"},
+    {MOTIONS: "still", SIDES: "contact", ENDS: "clear at the end"},
+    {MOTIONS: "still", SIDES: "exterior", ENDS: "contact at the end"},
+    {MOTIONS: "still", SIDES: "interior", ENDS: "contact at the end"},
+)
+"""Values that no row has together: on the axis and on the cone a centre is inside; as wide as the waist, a spheroid does
+not fit there, nor farther up between the cone and the surface; what stays ends as it begins."""
+
+
+def goes_together(values: Mapping[tuple[str, ...], str]) -> bool:
+    """Whether some row has all these values, by factor."""
+    return not any(all(values.get(factor) == value for factor, value in never.items()) for never in NEVER)
+
+
+@cache
+def design(name: str) -> NDArray[np.int64]:
+    """The combinations of a family: for each, the place of each factor's value, (combinations, factors)."""
+    text = resources.files("hypcheck.vectors").joinpath("crossed.toml").read_text(encoding="utf-8")
+    lines = toml.parsed(text, "crossed.toml")[name]["combinations"].split()
+    return np.asarray([[int(letter, 16) for letter in line] for line in lines], dtype=np.int64)
+
+
+def asked(name: str, count: int, strength: int) -> tuple[int, int]:
+    """How many combinations of `strength` values the first `count` rows have, and how many go together at all."""
+    factors, rows = FACTORS[name], design(name)[:count].tolist()
+    met = {
+        tuple((place, row[place]) for place in places)
+        for row in rows
+        for places in combinations(range(len(factors)), strength)
+    }
+    return len(met), len(possible(name, strength))
+
+
+@cache
+def possible(name: str, strength: int) -> frozenset[tuple[tuple[int, int], ...]]:
+    """All combinations of `strength` values of a family's factors that go together, as (factor, value) places."""
+    factors = FACTORS[name]
+    chosen: list[tuple[tuple[int, int], ...]] = [()]
+    for number, factor in enumerate(factors):
+        chosen += [(*some, (number, value)) for some in chosen if len(some) < strength for value in range(len(factor))]
+    return frozenset(
+        some
+        for some in chosen
+        if len(some) == strength and goes_together({factors[number]: factors[number][value] for number, value in some})
+    )
+
+
+def crossed(name: str) -> Maker:
+    """The generator of the family of that name."""
+    factors = FACTORS[name]
+
+    def make(draw: Draw, n: int) -> Rows:
+        combination = design(name)[np.arange(n) % len(design(name))].repeat(CANDIDATES, axis=0)
+        values = {factor: np.asarray(factor)[combination[:, place]] for place, factor in enumerate(factors)}
+        rows, fits = _candidates(draw, n * CANDIDATES, values)
+        first = fits.reshape(n, CANDIDATES).argmax(axis=1)
+        return np.ascontiguousarray(rows.reshape(n, CANDIDATES, -1)[np.arange(n), first])
+
+    return make
+
+
+def _candidates(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any]]) -> tuple[Rows, Mask]:
+    """A row for each combination of values, and which are on the side that it says."""
+    size = _sizes(draw, n, values)
+    centre = _centre(draw, size, values)
+    free = [draw.integers(n, 1, 5) * draw.signs(n) for _ in range(3)]
+    way = _way(values[MOTIONS], centre, free) if MOTIONS in values else None
+    axes = next((factor for factor in (AXES, WAY_AXES) if factor in values), None)
+    axis = None if axes is None else _axis(values[axes], centre, free, way)
+    unit = draw.integers(n, -3, 3)
+    lengths = [*size, *centre, *([] if way is None else [p + w for p, w in zip(centre, way, strict=True)])]
+    rows = ldexp(np.stack(lengths, axis=1), unit[:, None])
+    tail = [] if axis is None else [ldexp(np.stack(axis, axis=1), draw.integers(n, -9, 3)[:, None])]
+    fits = _side(np.concatenate([rows[:, :7], *tail], axis=1)) == _code(values[SIDES])
+    if way is not None:
+        at_the_end = _side(np.concatenate([rows[:, :4], rows[:, 7:], *tail], axis=1))
+        fits &= (at_the_end == 0) == (values[ENDS] == ENDS[1])
+    return np.concatenate([rows, *tail], axis=1) + 0.0, fits
+
+
+def _side(rows: Rows) -> NDArray[np.int8]:
+    return np.asarray(classify(rows))
+
+
+def _code(sides: NDArray[Any]) -> Integers:
+    return np.select([sides == "exterior", sides == "interior"], [1, -1], 0)
+
+
+def _sizes(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any]]) -> list[Floats]:
+    """α, γ, b, d: whole numbers, or quarters of them."""
+    kind = values[SIZES]
+    alpha, gamma = (draw.integers(n, 1, 12).astype(np.float64) for _ in range(2))
+    b, d = (ldexp(draw.integers(n, 1, 12), -2 * draw.integers(n, 0, 1)) for _ in range(2))
+    alpha = np.where(values[HEIGHTS] == HEIGHTS[-1], 5.0 * draw.integers(n, 1, 3), alpha)
+    gamma = np.where(kind == "α = γ", alpha, gamma)
+    b = np.where(kind == "α = b", alpha, b)
+    d = np.select([kind == "b = d", kind == "γ = d"], [b, gamma], d)
+    return [alpha, gamma, b, d]
+
+
+def _centre(draw: Draw, size: list[Floats], values: Mapping[tuple[str, ...], NDArray[Any]]) -> list[Floats]:
+    """x, y, z."""
+    n, (alpha, gamma, _, _) = len(size[0]), size
+    place, height = values[PLACES], values[HEIGHTS]
+    x, y, z = (draw.integers(n, 1, high) * draw.signs(n) for high in (14, 14, 30))
+    level, up, swap = ldexp(draw.signs(n), draw.integers(n, -1, 1)), draw.signs(n), draw.signs(n) < 0
+    cone = height == "on the asymptotic cone"
+    # On the cone, x and y are legs whose hypotenuse is α times the level, so that z is exact too; but for x = ±y.
+    legs = np.where(swap, 3, 4) * alpha * level / 5, np.where(swap, 4, 3) * alpha * level / 5
+    x, y = np.where(cone, legs[0], x), np.where(cone, legs[1], y)
+    alone, centred = np.where(cone, alpha * level, 0.0), place == "on the hyperboloid's axis"
+    level_x = (place == "x = y") | (place == "x = −y")
+    rise = np.select([centred, level_x], [0.0, gamma * np.sqrt(2 * x * x) / alpha], gamma * np.abs(level))
+    x, y = (
+        np.select([(place == "x = 0") | centred, (place == "y = 0") & cone], [0.0, alone], x),
+        np.select(
+            [(place == "x = 0") & cone, (place == "y = 0") | centred, place == "x = y", place == "x = −y"],
+            [alone, 0.0, x, -x],
+            y,
+        ),
+    )
+    z = np.select([height == "z = 0", height == "z = x", height == "z = γ", cone], [0.0, x, gamma * up, rise * up], z)
+    return [x, y, z]
+
+
+def _way(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> list[Floats]:
+    """From the start to the end."""
+    x, y, z = centre
+    i, j, k = free
+    zero = np.zeros(len(x))
+    ways: dict[str, tuple[Floats, Floats, Floats]] = {
+        "still": (zero, zero, zero),
+        "vertical": (zero, zero, 2 * i),
+        "along x": (2 * i, zero, zero),
+        "along y": (zero, 2 * i, zero),
+        "radial": (i * x / 2, i * y / 2, zero),
+        "tangent": (-i * y, i * x, zero),
+        MOTIONS[7]: (-2 * x, -2 * y, -2 * z),
+        MOTIONS[8]: (i * x / 4, i * y / 4, i * z / 4),
+        MOTIONS[9]: (-2 * x, -2 * y, 2 * i),
+    }
+    return _selected(motion, ways, (3 * i, 3 * j, 3 * k))
+
+
+def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], way: list[Floats] | None) -> list[Floats]:
+    """A vector along the spheroid's axis; where what it is to be parallel to has no direction, it is along x."""
+    x, y, z = centre
+    i, j, k = free
+    zero, one = np.zeros(len(x)), np.ones(len(x))
+    across = (-y * j, x * j, zero)
+    slanting = (y * z * i, x * z * j, -x * y * (i + j))
+    flat = (slanting[0] == 0) & (slanting[1] == 0) & (slanting[2] == 0)
+    axes: dict[str, tuple[Floats, Floats, Floats]] = {
+        "vertical": (zero, zero, i),
+        "horizontal": (i, j, zero),
+        "along x": (i, zero, zero),
+        "along y": (zero, i, zero),
+        AXES[5]: (x * i, y * i, z * i),
+        AXES[6]: (x * i, y * i, zero),
+        AXES[7]: (x * i, y * i, j),
+        AXES[8]: across,
+        AXES[9]: (x * z * i, y * z * i, -(x * x + y * y) * i),
+        AXES[10]: tuple(np.where(flat, a, s) for a, s in zip(across, slanting, strict=True)),
+    }
+    if way is not None:
+        u, v, w = way
+        axes["along the way"] = (u, v, w)
+        axes["at right angles to the way"] = (v - w, w - u, u - v)
+    found = _selected(kind, axes, (i, j, k))
+    nowhere = (found[0] == 0) & (found[1] == 0) & (found[2] == 0)
+    return [np.where(nowhere, one, found[0]), *found[1:]]
+
+
+def _selected(kind: NDArray[Any], known: Mapping[str, Any], otherwise: tuple[Floats, Floats, Floats]) -> list[Floats]:
+    """The vectors of each kind; others where the kind is none of these."""
+    which = [kind == name for name in known]
+    return [np.select(which, [vector[part] for vector in known.values()], otherwise[part]) for part in range(3)]

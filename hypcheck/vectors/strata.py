@@ -1,0 +1,157 @@
+"""Near contact, evenly: rows that leave no slice of a size, a height or a direction without a question.
+
+A fault in a narrow range, such as |z|/γ between 0.50 and 0.51, shows only in a row within the range and near contact.
+Random draws leave gaps and heaps. Here each block of rows is a lattice of 1024 points with a random shift, so that each
+coordinate has a row in every 1024th part of its range, and any two together are spread as evenly. The seed is the start
+of the lattice.
+
+The height is that of the centre, not of the point of contact: a bisection finds the point for the height.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.vectors.draw import Draw, circle_at, exponent, ldexp
+from hypcheck.vectors.random_pairs import Sizes
+from hypcheck.vectors.tilted import Vectors, beside_at
+
+BITS = 10
+"""A lattice has 2^BITS points."""
+
+GENERATOR = (1, 125, 265, 357, 593, 397, 473, 757, 417, 55)
+"""Of the lattice; the best powers found for the distance of its points in any two of the first nine coordinates."""
+
+HIGHEST = 2.0
+"""|z|/γ of the centre is below it."""
+
+RATIO_OCTAVES = 10
+"""c/a and d/b are from 2^−RATIO_OCTAVES to 2^RATIO_OCTAVES."""
+
+_EIGHTH = 0.41421356237309503
+"""The tangent of π/8: circle_at spans a quarter of the circle between this and its opposite."""
+
+_HALVINGS = 54
+
+
+def lattice(draw: Draw, n: int) -> NDArray[np.float64]:
+    """Shifted points in [0, 1)^10, (10, n): the first 2^k of them are spread evenly too."""
+    places = np.arange(n, dtype=np.int64)
+    turned = np.zeros(n, dtype=np.int64)
+    for bit in range(BITS):
+        turned |= ((places >> bit) & 1) << (BITS - 1 - bit)
+    steps = turned * np.asarray(GENERATOR, dtype=np.int64)[:, None] % (1 << BITS)
+    points = ldexp(steps, np.full(steps.shape, -BITS)) + draw.unit(len(GENERATOR))[:, None]
+    return np.asarray(points - np.floor(points))
+
+
+def _octaves(share: Floats, low: int, high: int) -> Floats:
+    """From 2^low to 2^high, evenly in octaves, and evenly within each."""
+    octave = share * (high - low)
+    whole = np.floor(octave)
+    return ldexp(1 + (octave - whole), low + whole)
+
+
+def _around(share: Floats) -> tuple[Floats, Floats]:
+    """Directions all around, as good as evenly."""
+    quarter = np.floor(share * 4)
+    cosine, sine = circle_at(_EIGHTH * (2 * (share * 4 - quarter) - 1))
+    return (
+        np.select([quarter == 0, quarter == 1, quarter == 2], [cosine, -sine, -cosine], sine),
+        np.select([quarter == 0, quarter == 1, quarter == 2], [sine, cosine, -sine], -cosine),
+    )
+
+
+def _made(points: NDArray[np.float64], axis: Vectors) -> Rows:
+    height, slope, shape, waist, azimuth, side, distance, unit = points[:8]
+    a, b = _octaves(waist, -3, 7), _octaves(unit, -1, 1)
+    d = b * _octaves(shape, -RATIO_OCTAVES, RATIO_OCTAVES)
+    size = _centred(a * b, a * _octaves(slope, -RATIO_OCTAVES, RATIO_OCTAVES) * d, b, d)
+    level = HIGHEST * (2 * height - 1)
+    outward = np.where(side < 0.5, 1.0, -1.0)
+    nearness = np.where(np.floor(side * 4) % 2 == 0, 1.0, -1.0) * _octaves(distance, -40, -30)
+    foot = _foot(size, level, axis, outward)
+    rows = beside_at(size, (np.ones(len(a)), np.zeros(len(a))), foot, axis, outward * (1 + nearness))
+    return _turned(rows, _around(azimuth))
+
+
+def _centred(*lengths: Floats) -> Sizes:
+    """The sizes in units such that the greatest is about as far above 1 as the least is below: none is extreme."""
+    octaves = np.stack([exponent(length) for length in lengths])
+    shift = -((octaves.max(axis=0) + octaves.min(axis=0)) // 2)
+    return Sizes(*(ldexp(length, shift) for length in lengths))
+
+
+def _foot(size: Sizes, level: Floats, axis: Vectors, outward: Floats) -> Floats:
+    """The height in γ of a point on the surface such that a centre that touches it is at `level`, in γ too."""
+    ahead = (np.ones(len(level)), np.zeros(len(level)))
+    reach = np.maximum(size.b, size.d) / size.gamma
+    low, high = level - reach, level + reach
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        above = beside_at(size, ahead, middle, axis, outward)[:, 6] > level * size.gamma
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    return (low + high) / 2
+
+
+def _turned(rows: Rows, to: tuple[Floats, Floats]) -> Rows:
+    """The rows, turned about the hyperboloid's axis until the centres are in these directions."""
+    x, y = rows[:, 4].copy(), rows[:, 5].copy()
+    radius = np.sqrt(x * x + y * y)
+    there = radius > 0
+    safe = np.where(there, radius, 1.0)
+    cosine = (to[0] * np.where(there, x, 1.0) + to[1] * y) / safe
+    sine = (to[1] * np.where(there, x, 1.0) - to[0] * y) / safe
+    rows[:, 4], rows[:, 5] = to[0] * radius, to[1] * radius
+    rows[:, 7], rows[:, 8] = cosine * rows[:, 7] - sine * rows[:, 8], sine * rows[:, 7] + cosine * rows[:, 8]
+    return rows + 0.0
+
+
+def upright(draw: Draw, n: int) -> Rows:
+    """From 2⁻⁴⁰ to 2⁻³⁰ radii off contact, to either side of it, outside and inside; |z| below 2γ."""
+    zero = np.zeros(n)
+    return np.ascontiguousarray(_made(lattice(draw, n), (zero, zero, np.ones(n)))[:, :7])
+
+
+def tilted(draw: Draw, n: int) -> Rows:
+    """The same with axes everywhere."""
+    points = lattice(draw, n)
+    up = points[8]
+    across = np.sqrt(1 - up * up)
+    cosine, sine = _around(points[9])
+    return _made(points, (across * cosine, across * sine, up))
+
+
+def coordinates(rows: Rows) -> Mapping[str, Any]:
+    """By name, where each row is in the range of each coordinate that is spread evenly, from 0 to 1; (n,) each."""
+    alpha, gamma, b, d, x, y, z = rows.T[:7]
+    a, c = alpha / b, gamma / d
+    span = 2 * RATIO_OCTAVES
+    named = {
+        "|z|/γ": np.abs(z) / gamma / HIGHEST,
+        "c/a": np.log2(c / a) / span + 0.5,
+        "d/b": np.log2(d / b) / span + 0.5,
+        "α/b": (np.log2(a) + 3) / 10,
+        "azimuth": np.arctan2(y, x) / (2 * np.pi) + 0.5,
+    }
+    if rows.shape[1] > 7:
+        v = rows[:, 7:] / np.sqrt((rows[:, 7:] ** 2).sum(axis=1))[:, None]
+        named["lean of the axis"] = np.abs(v[:, 2])
+    return named
+
+
+def escaping(rows: Rows, times: int = 3) -> float:
+    """The width of the widest slice of one coordinate, as a share of its range, with fewer than `times` rows."""
+    widest = 0.0
+    for places in coordinates(rows).values():
+        inside = np.sort(places[(places >= 0) & (places <= 1)])
+        ends = np.concatenate([np.zeros(1), inside, np.ones(1)])
+        if len(ends) <= times:
+            return 1.0
+        widest = max(widest, float((ends[times:] - ends[:-times]).max()))
+    return widest

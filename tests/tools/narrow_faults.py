@@ -1,0 +1,137 @@
+"""How many narrow faults `hypcheck verify` rejects: `python -m tests.tools.narrow_faults [--seed N] [--count 4000]`.
+
+A fault is an implementation that is right but in a slice: 0.3 to 1 % of the range of one coordinate, or 3 to 10 % of
+each of two. There it is wrong by 1e-9 to 1e-5: one number or both sizes of the spheroid are changed by that share, or
+all lengths go through float32. Faults are drawn from a seed that is new unless it is given, so that no family can be
+made for them. A fault is rejected if a row that a run asks has an answer that is wrong beyond the tolerance.
+
+`--without` leaves out families, as `--without strata,tilted-strata` does: the share that others reject.
+"""
+
+from __future__ import annotations
+
+import random
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import click
+import numpy as np
+
+from hypcheck import classify
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.rows import Floats, Rows, within
+from hypcheck.runs.cases import family_chunks, frozen_vectors
+from hypcheck.truth import backward_error, exact
+from hypcheck.vectors.families import select
+
+TOLERANCE = Fraction(8, 1 << 53)
+NAMES = ("alpha", "gamma", "b", "d", "x", "y", "z")
+COORDINATES: dict[str, Callable[[Rows], Floats]] = {
+    "|z|/γ": lambda rows: np.abs(rows[:, 6]) / rows[:, 1] / 2,
+    "c/a": lambda rows: np.log10(rows[:, 1] / rows[:, 3] / rows[:, 0] * rows[:, 2]) / 6 + 0.5,
+    "d/b": lambda rows: np.log10(rows[:, 3] / rows[:, 2]) / 6 + 0.5,
+    "α/b": lambda rows: np.log10(rows[:, 0] / rows[:, 2]) / 3 + 1 / 3,
+    "azimuth": lambda rows: np.arctan2(rows[:, 5], rows[:, 4]) / (2 * np.pi) + 0.5,
+    "lean": lambda rows: np.cos(np.arctan2(np.hypot(rows[:, 7], rows[:, 8]), np.abs(rows[:, 9]))),
+    "heading": lambda rows: np.arctan2(rows[:, 8], rows[:, 7]) / np.pi % 1,
+}
+"""From 0 to 1 in the range where faults lie: |z|/γ to 2, c/a and d/b from 1/1000 to 1000, α/b from 1/10 to 100."""
+UPRIGHT = tuple(COORDINATES)[:5]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A slice, as the range of one coordinate or of two, and what is done to rows in it."""
+
+    tilted: bool
+    slices: tuple[tuple[str, float, float], ...]
+    columns: tuple[int, ...]
+    error: float
+
+    def __str__(self) -> str:
+        where = " and ".join(f"{name} {low:.4f} to {high:.4f}" for name, low, high in self.slices)
+        names = " and ".join(NAMES[column] for column in self.columns)
+        what = f"{names} changed by {self.error:+.1e}" if self.columns else "float32"
+        return f"{'tilted' if self.tilted else 'upright'}, {where}: {what}"
+
+    def inputs(self, rows: Rows) -> Rows:
+        """The rows that are answered in place of these."""
+        inside = np.ones(len(rows), dtype=np.bool_)
+        for name, low, high in self.slices:
+            places = COORDINATES[name](rows)
+            inside &= (places >= low) & (places < high)
+        changed = rows.copy()
+        if not self.columns:
+            changed[:, :7] = rows[:, :7].astype(np.float32)
+        for column in self.columns:
+            changed[:, column] *= 1 + self.error
+        return np.where(inside[:, None], changed, rows)
+
+
+def drawn(stream: random.Random) -> Fault:
+    """One fault."""
+    tilted = stream.random() < 1 / 3
+    names = tuple(COORDINATES) if tilted else UPRIGHT
+    if stream.random() < 0.5:
+        slices = (_slice(stream, stream.choice(names), 0.003, 0.01),)
+    else:
+        slices = tuple(_slice(stream, name, 0.03, 0.1) for name in stream.sample(names, 2))
+    columns = stream.choice([(), (2, 3), *((column,) for column in range(7))])
+    error = stream.choice((-1, 1)) * 10 ** stream.uniform(-9, -5)
+    return Fault(tilted, slices, columns, error)
+
+
+def _slice(stream: random.Random, name: str, narrowest: float, widest: float) -> tuple[str, float, float]:
+    width = stream.uniform(narrowest, widest)
+    low = stream.uniform(0, 1 - width)
+    return name, low, low + width
+
+
+def asked(count: int, without: frozenset[str], *, tilted: bool) -> Rows:
+    """The rows of a run by default, but for the number of generated ones; upright or tilted ones."""
+    parts = []
+    for family in select(tilted=True):
+        if family.tilted is tilted and family.name not in without:
+            for chunk in family_chunks(family, 1, count * family.times):
+                if chunk.seed is None:
+                    parts.append(frozen_vectors(family.name).rows)
+                else:
+                    parts.append(family.columns_between(chunk.seed, chunk.start, chunk.stop).T)
+    rows = np.concatenate(parts)
+    return rows[within(rows[:, :7])]
+
+
+def rejected(fault: Fault, rows: Rows, right: np.ndarray) -> bool:
+    """Whether an answer to one of these rows is wrong beyond the tolerance."""
+    answers = classify(np.ascontiguousarray(fault.inputs(rows)))
+    for place in np.flatnonzero(answers != right).tolist():
+        pair = Pair.from_row(tuple(rows[place].tolist()))
+        if not backward_error.tolerated(pair, exact.decide(pair.lengths), [Position(int(answers[place]))], TOLERANCE):
+            return True
+    return False
+
+
+@click.command()
+@click.option("--seed", type=int, help="Of the faults; a new one by default.")
+@click.option("--faults", default=60, show_default=True)
+@click.option("--count", default=400, show_default=True, help="As that of verify.")
+@click.option("--without", default="", help="Families that are left out.")
+def main(seed: int | None, faults: int, count: int, without: str) -> None:
+    """Draw faults, and print which escape and the share that is rejected."""
+    seed = secrets.randbelow(1 << 32) if seed is None else seed
+    stream = random.Random(seed)
+    rows = {tilted: asked(count, frozenset(without.split(",")), tilted=tilted) for tilted in (False, True)}
+    right = {tilted: np.asarray(classify(rows[tilted])) for tilted in rows}
+    caught = 0
+    for fault in (drawn(stream) for _ in range(faults)):
+        found = rejected(fault, rows[fault.tilted], right[fault.tilted])
+        caught += found
+        if not found:
+            click.echo(f"escaped: {fault}")
+    click.echo(f"{caught} of {faults} faults of seed {seed} rejected, {caught / faults:.0%}")
+
+
+if __name__ == "__main__":
+    main()
