@@ -80,8 +80,8 @@ NEVER = (
     {MOTIONS: "still", SIDES: "exterior", ENDS: "contact at the end"},
     {MOTIONS: "still", SIDES: "interior", ENDS: "contact at the end"},
 )
-"""Values that no row has together: on the axis and on the cone a centre is inside; as wide as the waist, a spheroid does
-not fit there, nor farther up between the cone and the surface; what stays ends as it begins."""
+"""Values that no row has together: on the axis and on the cone a centre is inside; as wide as the waist, a spheroid
+does not fit there, nor farther up between the cone and the surface; what stays ends as it begins."""
 
 
 def goes_together(values: Mapping[tuple[str, ...], str]) -> bool:
@@ -237,7 +237,11 @@ def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], way: lis
         AXES[7]: (x * i, y * i, j),
         AXES[8]: across,
         AXES[9]: (x * z * i, y * z * i, -(x * x + y * y) * i),
-        AXES[10]: tuple(np.where(flat, a, s) for a, s in zip(across, slanting, strict=True)),
+        AXES[10]: (
+            np.where(flat, across[0], slanting[0]),
+            np.where(flat, across[1], slanting[1]),
+            np.where(flat, across[2], slanting[2]),
+        ),
     }
     if way is not None:
         u, v, w = way

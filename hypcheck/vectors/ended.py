@@ -256,7 +256,7 @@ def _integers(draw: Draw, n: int, *, upright: bool) -> Rows:
 
 
 FAMILIES: dict[str, tuple[Maker, int]] = {
-    "ended-uniform": (uniform, 60),
+    "ended-uniform": (uniform, 48),
     "ended-rim": (rim, 60),
     "ended-rim-tangent": (rim_tangent, 60),
     "ended-rim-neighbourhood": (rim_neighbourhood, 60),
@@ -268,7 +268,7 @@ FAMILIES: dict[str, tuple[Maker, int]] = {
     "ended-waist": (waist, 40),
     "ended-far": (far, 40),
     "ended-stiff": (stiff, 40),
-    "ended-small-integers": (integers, 60),
+    "ended-small-integers": (integers, 48),
 }
 TILTED: dict[str, tuple[Maker, int]] = {
     "tilted-ended-uniform": (tilted_uniform, 48),

@@ -10,9 +10,6 @@ The height is that of the centre, not of the point of contact: a bisection finds
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -125,33 +122,3 @@ def tilted(draw: Draw, n: int) -> Rows:
     across = np.sqrt(1 - up * up)
     cosine, sine = _around(points[9])
     return _made(points, (across * cosine, across * sine, up))
-
-
-def coordinates(rows: Rows) -> Mapping[str, Any]:
-    """By name, where each row is in the range of each coordinate that is spread evenly, from 0 to 1; (n,) each."""
-    alpha, gamma, b, d, x, y, z = rows.T[:7]
-    a, c = alpha / b, gamma / d
-    span = 2 * RATIO_OCTAVES
-    named = {
-        "|z|/γ": np.abs(z) / gamma / HIGHEST,
-        "c/a": np.log2(c / a) / span + 0.5,
-        "d/b": np.log2(d / b) / span + 0.5,
-        "α/b": (np.log2(a) + 3) / 10,
-        "azimuth": np.arctan2(y, x) / (2 * np.pi) + 0.5,
-    }
-    if rows.shape[1] > 7:
-        v = rows[:, 7:] / np.sqrt((rows[:, 7:] ** 2).sum(axis=1))[:, None]
-        named["lean of the axis"] = np.abs(v[:, 2])
-    return named
-
-
-def escaping(rows: Rows, times: int = 3) -> float:
-    """The width of the widest slice of one coordinate, as a share of its range, with fewer than `times` rows."""
-    widest = 0.0
-    for places in coordinates(rows).values():
-        inside = np.sort(places[(places >= 0) & (places <= 1)])
-        ends = np.concatenate([np.zeros(1), inside, np.ones(1)])
-        if len(ends) <= times:
-            return 1.0
-        widest = max(widest, float((ends[times:] - ends[:-times]).max()))
-    return widest

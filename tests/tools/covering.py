@@ -14,8 +14,8 @@ from hypcheck.vectors import crossed
 FILE = Path(crossed.__file__).with_suffix(".toml")
 STRENGTH = 3
 HEAD = """\
-# Made by `python -m tests.tools.covering`: combinations of the values of the factors in crossed.py, a hexadecimal digit for
-# each factor, such that any three values that go together do so in one of them.
+# Made by `python -m tests.tools.covering`: combinations of the values of the factors in crossed.py, a hexadecimal digit
+# for each factor, such that any three values that go together do so in one of them.
 """
 
 

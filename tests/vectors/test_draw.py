@@ -57,6 +57,8 @@ ALLOWED = {
         "inf",
         "float64",
         "int64",
+        "int8",
+        "sort",
         "int32",
         "uint64",
         "bool_",
