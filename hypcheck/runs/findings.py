@@ -58,7 +58,7 @@ class SelfCheckPlan:
     count: int = 400
     judged: int = 400
     seed: int = 1
-    roots: int = 20_000
+    roots: int = 22_000
     meshes: int = 2000
     exact_formulas: int = 60
     workers: int = 2

@@ -61,7 +61,7 @@ def answered_beside_others(tmp_path, seconds):
 
 
 def test_implementation_within_its_time_limit_of_a_processor_passes_on_a_busy_machine(tmp_path):
-    answered, seconds = answered_beside_others(tmp_path, 0.8)
+    answered, seconds = answered_beside_others(tmp_path, 0.5)
     assert seconds > 1.0  # or the machine was not busy
     assert answered.answered.all(), answered.reasons
 

@@ -39,7 +39,7 @@ def test_tilted_oracles_are_asked_the_frozen_vectors_of_every_family_except_the_
 def test_roots_oracle_is_asked_all_upright_rows_by_default_and_a_tenth_as_many_tilted_ones():
     families = len(select(PLAN.families)) + len(oracles.tilted_families(PLAN))
     assert oracles.shares(PLAN, families)["roots"] >= PLAN.count
-    assert oracles.shares(PLAN, families, tilted=True)["roots"] == 41
+    assert oracles.shares(PLAN, families, tilted=True)["roots"] == 42
 
 
 @pytest.mark.slow

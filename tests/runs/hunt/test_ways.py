@@ -55,7 +55,7 @@ def test_hunt_finds_nothing_in_the_exact_passage(capsys):
 @pytest.mark.slow
 def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_tilt(capsys, tmp_path):
     out = tmp_path / "kept.json"
-    words = ("hunt", "python:tests.runs.moving:upright", "--queries", "420", "--show", "1", "--out", str(out))
+    words = ("hunt", "python:tests.runs.moving:upright", "--queries", "600", "--show", "1", "--out", str(out))
     assert main([*words, "--isolate", "off"]) == 1  # the implementation answers by hypcheck
     assert "axis_x, axis_y, axis_z)" in capsys.readouterr().out
     assert all(len(case.row) == 13 for case in read_cases(str(out)).cases)

@@ -32,12 +32,12 @@ def classify(rows):
 
 
 def write(folder: Path, count: int) -> None:
-    """Write the program; it knows so many generated rows of each family."""
+    """Write the program; it knows as many generated rows of each family as a run of that count asks."""
     known: dict[str, int] = {}
     for name in frozen.NAMES:
         family, rows = FAMILIES.get(name), [frozen.load(name).rows]
         if family is not None:
-            rows.append(family.rows(SEED, first_unfrozen(family, SEED) + count))
+            rows.append(family.rows(SEED, first_unfrozen(family, SEED) + count * family.times))
         every = np.vstack(rows)
         known |= {row.tobytes().hex(): int(answer) for row, answer in zip(every, classify(every), strict=True)}
     (folder / "known.json").write_text(json.dumps(known))
