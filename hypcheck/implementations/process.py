@@ -37,6 +37,9 @@ STEP = 0.25
 """At most so many seconds count between two readings of the clock: during the rest this process did not run."""
 
 
+_WAITS = 0.05
+"""Seconds between two questions how long the program waited; what it waited since then counts as its own time."""
+
 _OTHERS = 0.9
 """At most this share of the time counts as waiting for a processor: a program cannot make it up without end."""
 
@@ -56,7 +59,7 @@ class Clock:
     def now(self) -> float:
         """Seconds since the start."""
         looked = time.monotonic()
-        if looked - self._asked >= STEP:
+        if looked - self._asked >= _WAITS:
             self._off += min(self._waited(), looked - self._asked)
             self._asked = looked
         passed = min(looked - self._looked, STEP)

@@ -39,8 +39,9 @@ def one_processor():
 
 @contextmanager
 def four_busy_programs():
-    """They work without end."""
-    busy = [subprocess.Popen([sys.executable, "-I", "-S", "-c", "while True: pass"]) for _ in range(4)]
+    """They work without end, each in a session of its own: some systems share a processor out by sessions."""
+    endless = [sys.executable, "-I", "-S", "-c", "while True: pass"]
+    busy = [subprocess.Popen(endless, start_new_session=True) for _ in range(4)]
     try:
         yield
     finally:
@@ -61,7 +62,7 @@ def answered_beside_others(tmp_path, seconds):
 
 
 def test_implementation_within_its_time_limit_of_a_processor_passes_on_a_busy_machine(tmp_path):
-    answered, seconds = answered_beside_others(tmp_path, 0.5)
+    answered, seconds = answered_beside_others(tmp_path, 0.8)
     assert seconds > 1.0  # or the machine was not busy
     assert answered.answered.all(), answered.reasons
 

@@ -15,8 +15,8 @@ from hypcheck.geometry.rows import CANNOT_SAY, WAYS
 from hypcheck.implementations.ways import certified
 from hypcheck.truth import nearest_rows
 from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.frozen import NAMES, TILTED_NAMES, WAY_NAMES, load
-from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
+from hypcheck.vectors.frozen import ENDED_NAMES, NAMES, TILTED_NAMES, WAY_NAMES, load
+from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_CONTENTS, INVALID_NAMES
 from tests.tools.attack.places import Scene
 from tests.tools.attack.strike import Batch, batches
 from tests.tools.processors.builds import LEVELS, MODES, Build, BuildError
@@ -32,6 +32,7 @@ KINDS = (
     "clearances",
     "stack",
     "leaning stack",
+    "ended rows",
 )
 """What program.c calls them, in its order."""
 
@@ -56,16 +57,19 @@ class Job:
     said: tuple[int, int] = (1, 0)
 
 
-FROZEN = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *INVALID_CONTENTS)
+FROZEN = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *ENDED_NAMES, *INVALID_CONTENTS)
 
 
 def frozen(names: Sequence[str] = FROZEN) -> Iterator[Job]:
-    """Frozen vectors of these names: upright rows also with an axis and one by one, ways, rows that must be refused."""
+    """Frozen vectors of these names: upright rows also with an axis and one by one, ways, towers that end, refusals."""
     for name in names:
         cases = load(name)
         rows, right = cases.rows, cases.positions
         if name in (*WAY_NAMES, *INVALID_NAMES[WAYS]):
             yield _ways("frozen ways", rows, right)
+            continue
+        if name in (*ENDED_NAMES, ENDED_INVALID):
+            yield Job("frozen towers that end", "ended rows", rows, len(rows), _told_or_open(right), MODES[:4])
             continue
         yield from _positions("frozen", rows, right, modes=MODES)
         if rows.shape[1] == 7:
@@ -109,6 +113,11 @@ def clearances(seed: int, count: int, names: Sequence[str] = tuple(FAMILIES)) ->
 
 def _unequal(truth: np.ndarray) -> Wrong:
     return lambda answers, _: answers != truth
+
+
+def _told_or_open(truth: np.ndarray) -> Wrong:
+    """An answer may be left open where there is one."""
+    return lambda answers, _: (answers != truth) & ~((answers == CANNOT_SAY) & (truth != REFUSED))
 
 
 def _positions(stratum: str, rows: np.ndarray, truth: np.ndarray, modes: Sequence[str] = MODES[:1]) -> Iterator[Job]:
