@@ -110,7 +110,7 @@ def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing():
         assert not check_certificate(pair, Certificate(EXTERIOR, pieces=pieces))
 
 
-@settings(max_examples=20)
+@settings(max_examples=8)
 @given(rows_of("axis heights"))
 def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
     pair = Pair.from_row(row)
