@@ -188,7 +188,7 @@ def classify(
     _require_fitting(out, len(queries))
     result, refused = positions_of_rows(queries, question if not margin else "position", number)
     if refused and on_invalid == "raise":
-        _require_valid(queries, asked)
+        require_valid_pairs(queries, asked)
     if margin:
         from hypcheck.kernel.margins import with_margin  # noqa: PLC0415 - a margin alone needs it
 
@@ -196,7 +196,7 @@ def classify(
     return int(result[0]) if asked.single else _into(out, result)
 
 
-def _require_valid(queries: Rows, asked: Pairs) -> None:
+def require_valid_pairs(queries: Rows, asked: Pairs) -> None:
     """Raise InputError about an invalid row; one pair alone has no index."""
     trouble = trouble_with_row(queries[0].tolist()) if asked.single else None
     if trouble is not None:

@@ -17,7 +17,7 @@ from hypcheck.geometry.pair import REFUSED, trouble_with
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.kernel.choice import POSITION_OF, Question
 from hypcheck.kernel.classify import positions_of_rows
-from hypcheck.kernel.clearance import clearance
+from hypcheck.kernel.clearance import clearances
 
 _OUTWARD = 1 + 2.0**-48
 _RANGE = (2.0**-300, 2.0**300)
@@ -49,7 +49,7 @@ def with_margin(rows: Rows, positions: Positions, margin: float, question: Quest
     clear = np.flatnonzero((positions != 0) & (positions != REFUSED))
     left = clear[~_by_growing(rows[clear], positions[clear], margin, threads)]
     if len(left):
-        near = clearance(np.ascontiguousarray(rows[left]), threads=threads)
+        near = clearances(np.ascontiguousarray(rows[left]), threads)
         result[left[~(near.distance_lower >= margin)]] = 0
     if question == "position":
         return result
