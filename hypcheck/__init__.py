@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from hypcheck.errors import InputError
     from hypcheck.kernel.classify import Prepared, classify, classify_scene
     from hypcheck.kernel.clearance import Clearance, clearance
+    from hypcheck.kernel.passage import passage
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.scene import Scene
-    from hypcheck.truth.swept import passage
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
 __all__ = [
@@ -50,7 +50,7 @@ _HOMES = {
     "classify": ("hypcheck.kernel.at_once", "classify"),
     "classify_scene": ("hypcheck.kernel.at_once", "classify_scene"),
     "clearance": ("hypcheck.kernel.clearance", "clearance"),
-    "passage": ("hypcheck.truth.swept", "passage"),
+    "passage": ("hypcheck.kernel.passage", "passage"),
     "position": ("hypcheck.kernel.scalar", "position"),
 }
 

@@ -23,6 +23,7 @@ from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, tro
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_columns, as_numbers
 from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.choice import POSITION_OF
+from hypcheck.kernel.passages import First, Passages
 from hypcheck.kernel.scene_ends import limits_of, position_with_ends, positions_with_ends
 from hypcheck.kernel.scene_frames import places_of_parts
 from hypcheck.kernel.scene_index import (
@@ -42,7 +43,7 @@ from hypcheck.kernel.scene_pairs import (
     positions_beside,
     positions_leaning,
 )
-from hypcheck.kernel.scene_sweeps import Sweep, hits_beside, is_clear
+from hypcheck.kernel.scene_sweeps import Spheroid, Sweep, first_contact, hits_beside, is_clear
 from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
 from hypcheck.scene.reading import parse_scene, read_scene
 
@@ -144,14 +145,16 @@ class Scene:
     @in_default_environment
     def passage(
         self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
-    ) -> Positions:
-        """Whether the mover meets contact on each straight way, its ends included, exactly; int8 (n,).
+    ) -> Passages:
+        """Whether the mover meets contact on each straight way, its ends included, when first, and with what.
 
         `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, and `axis`, as in
-        classify, are the same all along. 1 is contact somewhere, 0 clear all along, whatever the scene's question is. A
-        part goes straight from where it stands at the start to where it stands at the end; it is asked where the mover
-        has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts as
-        contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        classify, are the same all along. `.hit` says exactly whether there is contact on the way, whatever the
+        scene's question is; `.first_lower` ≤ first time ≤ `.first_upper`, 0 at the start and 1 at the end, `.index` is
+        the hyperboloid, and `.first` has the times as fractions; they are found when they are asked for, a millisecond
+        a hit. A part goes straight from where it stands at the start to where it stands at the end; it is asked where
+        the mover has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts
+        as contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
@@ -159,20 +162,33 @@ class Scene:
         movers = _directions(columns) if columns else None
         query, body = near_ways(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
         hits = hits_beside(bodies, body, mover, starts[query], ends[query], None if movers is None else movers[query])
-        for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
-            way = query[pair]
+
+        def sweeps(way: int) -> tuple[Spheroid, list[Spheroid]]:
             own_axis = UPRIGHT if movers is None else movers[way].tolist()
-            whole = Sweep(starts[way].tolist(), ends[way].tolist(), own_axis)
-            heading_of = float(headings[way])
-            places = (places_of_parts(mover.parts, at, heading_of, own_axis) for at in (whole.start, whole.end))
-            parts = [
-                (part.b, part.d, Sweep(here, there, own_axis))
-                for part, here, there in zip(mover.parts, *places, strict=True)
-            ]
-            hits[pair] = not is_clear(bodies, int(body[pair]), (mover.b, mover.d, whole), parts)
-        result = np.zeros(len(starts), np.int8)
-        result[query[hits]] = 1
-        return result
+            return self._sweeps(starts[way].tolist(), ends[way].tolist(), float(headings[way]), own_axis)
+
+        for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
+            hits[pair] = not is_clear(bodies, int(body[pair]), *sweeps(query[pair]))
+        result = np.zeros(len(starts), np.bool_)
+        result[query[hits]] = True
+
+        def measure(way: int) -> First:
+            touched = body[hits & (query == way)].tolist()
+            return min((first_contact(bodies, index, *sweeps(way)), index) for index in touched)
+
+        single = np.ndim(start) == 1 and np.ndim(end) == 1 and len(starts) == 1 and np.ndim(heading) == 0
+        return Passages(bool(result[0]) if single else result, measure)
+
+    def _sweeps(
+        self, start: list[float], end: list[float], heading: float, axis: Sequence[float]
+    ) -> tuple[Spheroid, list[Spheroid]]:
+        """The sweep of the mover, and those of its parts."""
+        mover = self.model.mover
+        places = (places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
+        parts = [
+            (part.b, part.d, Sweep(here, there, axis)) for part, here, there in zip(mover.parts, *places, strict=True)
+        ]
+        return (mover.b, mover.d, Sweep(start, end, axis)), parts
 
     @in_default_environment
     def nearest(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, *, axis: ArrayLike | None = None) -> Nearest:
