@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import REFUSED, trouble_with
@@ -34,8 +35,9 @@ def checked_margin(margin: object) -> float:
     return float(value)  # type: ignore[arg-type]
 
 
-def enlarged(b: Floats, d: Floats, margin: float) -> tuple[Floats, Floats]:
+def enlarged(b: ArrayLike, d: ArrayLike, margin: float) -> tuple[Floats, Floats]:
     """Semi-axes of spheroids that contain all points within `margin` of those given, (n,) each; inf where unknown."""
+    b, d = np.asarray(b, np.float64), np.asarray(d, np.float64)
     fits = (np.minimum(b, d) >= _RANGE[0]) & (np.maximum(b, d) <= _RANGE[1]) & (_RANGE[0] <= margin <= _RANGE[1])
     with np.errstate(all="ignore"):
         wide, tall = (b + margin) * _OUTWARD, np.sqrt((b + margin) * (d * d / b + margin)) * _OUTWARD
