@@ -3,6 +3,7 @@
 #define HC_MOST_PIECES 48
 #define HC_ENDED_STEPS 14 /* of Newton's method for a multiplier; any result is safe */
 #define HC_ENDED_ERROR 1.4210854715202004e-14 /* 2^-46 = 128u */
+#define HC_ENDED_NEAREST 9e-13 /* below 2^-40: how near lambda may come to -mu, in mu */
 #define HC_ENDED_LEAST 8.6361685550944446e-78 /* 2^-256 */
 #define HC_ENDED_GREATEST 1.157920892373162e+77 /* 2^256 */
 
@@ -12,10 +13,17 @@
 
        phi(w) = t²/T - 1 - lambda r² + f1 eta² + f2 xi² > 0,    f = lambda mu/(mu + lambda),
 
-   a quadratic in w. `across` is |x| + |y|, which eta and xi0 are below. */
+   a quadratic in w. (c, s) is the horizontal direction of the axis. `across` is |x| + |y|, which eta and xi0 are below. */
 typedef struct {
-    double alpha, ratio, z, T, mu1, mu2, eta, xi0, k, across;
+    double alpha, ratio, z, T, mu1, mu2, eta, xi0, k, c, s, across;
 } hc_sections;
+
+static void hc_place_sections(hc_sections *made, const double center[3]) {
+    made->xi0 = center[0] * made->c + center[1] * made->s;
+    made->eta = center[0] * made->s - center[1] * made->c;
+    made->z = center[2];
+    made->across = hc_size(center[0]) + hc_size(center[1]);
+}
 
 /* Returns 0 where the numbers are too large or small for the bounds: mu, T, r² and their products stay normal. */
 static int hc_make_sections(hc_sections *made, const double row[10]) {
@@ -25,28 +33,21 @@ static int hc_make_sections(hc_sections *made, const double row[10]) {
     int k;
     for (k = 0; k < 7; k++) {
         const double size = hc_size(row[k]);
-        if (size > 1.2676506002282294e+30 /* 2^100 */ || (size != 0 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
+        if (size > 1.2676506002282294e+30 /* 2^100 */ || (k < 4 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
     }
     if (!(length > HC_ENDED_LEAST && length < HC_ENDED_GREATEST) || (flat != 0 && flat < HC_ENDED_LEAST)) return 0;
     s2 = flat / length;
     c2 = v[2] * v[2] / length;
+    away = flat == 0 ? 0 : 1 / hc_fine_root(flat);
     made->alpha = row[0];
     made->ratio = 1 / row[1];
-    made->z = row[6];
     made->T = b * b * s2 + d * d * c2;
     made->mu1 = 1 / (b * b);
     made->mu2 = made->T / (b * b * (d * d));
-    made->across = hc_size(row[4]) + hc_size(row[5]);
-    if (flat == 0) {
-        made->xi0 = row[4];
-        made->eta = row[5];
-        made->k = 0;
-        return 1;
-    }
-    away = 1 / hc_fine_root(flat);
-    made->xi0 = (row[4] * v[0] + row[5] * v[1]) * away;
-    made->eta = (row[4] * v[1] - row[5] * v[0]) * away;
+    made->c = flat == 0 ? 1 : v[0] * away;
+    made->s = v[1] * away;
     made->k = v[2] * flat * away / length * ((b - d) * (b + d)) / made->T;
+    hc_place_sections(made, row + 4);
     return 1;
 }
 
@@ -60,7 +61,7 @@ static double hc_radius(const hc_sections *pair, double w) {
 static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) {
     const double p = pair->mu1 * hc_size(pair->eta), q = pair->mu2 * hc_size(xi);
     const double least = pair->mu1 < pair->mu2 ? pair->mu1 : pair->mu2, most = p + q;
-    double low = least * 9.5367431640625e-07 /* 2^-20 */, high = most / r > low ? most / r : low, n = high;
+    double low = least * 9.0949470177292824e-13 /* 2^-40 */, high = most / r > low ? most / r : low, n = high;
     int i;
     for (i = 0; i < HC_ENDED_STEPS; i++) {
         const double one = 1 / (n + (pair->mu1 - least)), two = 1 / (n + (pair->mu2 - least));
@@ -71,8 +72,8 @@ static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) 
         if (root > r) low = n;
         else high = n;
         moved = n + (root / r - 1) * sum / fall;
+        if (hc_size(moved - n) < 1e-9 * n) return moved - least; /* at the root itself it may be out of bounds by an ulp */
         if (!(moved > low && moved < high)) moved = high > 4 * low ? hc_rough_root(low * high) : 0.5 * (low + high);
-        if (hc_size(moved - n) < 1e-9 * n) break;
         n = moved;
     }
     return n - least;
@@ -90,7 +91,7 @@ static int hc_piece_misses(const hc_sections *pair, double lambda_, double w, do
     const double size = 1 + top * top / pair->T + hc_size(lambda_) * (pair->alpha * pair->alpha) + hc_size(l2) * (wide * wide) +
                         hc_size(f1) * (pair->across * pair->across) * (1 + pair->mu1 / n1) + hc_size(f2) * (reach * reach) * (1 + pair->mu2 / n2);
     double lowest = value - hc_size(slope) * half;
-    if (!(n1 > pair->mu1 * 9.5e-07 && n2 > pair->mu2 * 9.5e-07)) return 0;
+    if (!(n1 > pair->mu1 * HC_ENDED_NEAREST && n2 > pair->mu2 * HC_ENDED_NEAREST)) return 0;
     if (bend < 0) lowest += bend * (half * half);
     else if (hc_size(slope) < 2 * bend * half) lowest = value - slope * slope / (4 * bend);
     else lowest += bend * (half * half);
