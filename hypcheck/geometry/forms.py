@@ -75,10 +75,10 @@ def pairs_of(
     _add(columns, _by_position(arguments))
     others = dict(named)
     if "center" in others:
-        _add(columns, points_of("center", others.pop("center")))
+        _add(columns, named_points("center", others.pop("center")))
     _add(columns, others)
     if axis is not None:
-        _add(columns, points_of("axis", axis, AXIS))
+        _add(columns, named_points("axis", axis, AXIS))
     if len(heights) == len(HEIGHTS) and not _are_default(heights):
         _add(columns, dict(zip(HEIGHTS, heights, strict=True)))
     if not columns:
@@ -117,7 +117,7 @@ def _by_position(arguments: Sequence[Argument]) -> dict[str, Argument]:
         sizes, center = dict(zip(SIZES, arguments, strict=False)), arguments[len(SIZES) :]
     else:
         raise InputError(f"{counted(count, 'argument')}: {_FORMS}")
-    points = points_of("the centre", center[0]) if len(center) == 1 else dict(zip(CENTER, center, strict=True))
+    points = named_points("the centre", center[0]) if len(center) == 1 else dict(zip(CENTER, center, strict=True))
     return {**sizes, **points}
 
 
@@ -148,7 +148,7 @@ def _sizes_of(sizes: Argument) -> dict[str, Argument]:
     return dict(zip(SIZES, sizes, strict=True))
 
 
-def points_of(subject: str, points: ArrayLike, names: Sequence[str] = CENTER) -> dict[str, Argument]:
+def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER) -> dict[str, Argument]:
     """One point (3,), or points (n, 3), as values of three columns."""
     wanted = f"it must be three numbers, {', '.join(names)}, or an array (n, 3) of them"
     numbers = as_numbers(f"{subject} is", points, wanted)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Answers, Argument, Pairs, pairs_of, points_of
+from hypcheck.geometry.forms import Answers, Argument, Pairs, named_points, pairs_of
 from hypcheck.geometry.pair import (
     AXIS,
     CENTER,
@@ -188,7 +188,7 @@ def classify(
     _require_fitting(out, len(queries))
     result, refused = positions_of_rows(queries, question if not margin else "position", number)
     if refused and on_invalid == "raise":
-        _require_valid(queries, asked)
+        require_valid_pairs(queries, asked)
     if margin:
         from hypcheck.kernel.margins import with_margin  # noqa: PLC0415 - a margin alone needs it
 
@@ -196,7 +196,7 @@ def classify(
     return int(result[0]) if asked.single else _into(out, result)
 
 
-def _require_valid(queries: Rows, asked: Pairs) -> None:
+def require_valid_pairs(queries: Rows, asked: Pairs) -> None:
     """Raise InputError about an invalid row; one pair alone has no index."""
     trouble = trouble_with_row(queries[0].tolist()) if asked.single else None
     if trouble is not None:
@@ -287,7 +287,7 @@ def classify_scene(
 def _center(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) -> tuple[Any, Any, Any]:
     """Three columns, or those of points."""
     if y is None and z is None:
-        x, y, z = points_of("the centre", x).values()
+        x, y, z = named_points("the centre", x).values()
     if y is None or z is None:
         raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or points (n, 3) alone")
     return x, y, z

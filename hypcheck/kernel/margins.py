@@ -11,13 +11,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import REFUSED, trouble_with
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.kernel.choice import POSITION_OF, Question
 from hypcheck.kernel.classify import positions_of_rows
-from hypcheck.kernel.clearance import clearance
+from hypcheck.kernel.clearance import clearances
 
 _OUTWARD = 1 + 2.0**-48
 _RANGE = (2.0**-300, 2.0**300)
@@ -34,8 +35,9 @@ def checked_margin(margin: object) -> float:
     return float(value)  # type: ignore[arg-type]
 
 
-def enlarged(b: Floats, d: Floats, margin: float) -> tuple[Floats, Floats]:
+def enlarged(b: ArrayLike, d: ArrayLike, margin: float) -> tuple[Floats, Floats]:
     """Semi-axes of spheroids that contain all points within `margin` of those given, (n,) each; inf where unknown."""
+    b, d = np.asarray(b, np.float64), np.asarray(d, np.float64)
     fits = (np.minimum(b, d) >= _RANGE[0]) & (np.maximum(b, d) <= _RANGE[1]) & (_RANGE[0] <= margin <= _RANGE[1])
     with np.errstate(all="ignore"):
         wide, tall = (b + margin) * _OUTWARD, np.sqrt((b + margin) * (d * d / b + margin)) * _OUTWARD
@@ -49,7 +51,7 @@ def with_margin(rows: Rows, positions: Positions, margin: float, question: Quest
     clear = np.flatnonzero((positions != 0) & (positions != REFUSED))
     left = clear[~_by_growing(rows[clear], positions[clear], margin, threads)]
     if len(left):
-        near = clearance(np.ascontiguousarray(rows[left]), threads=threads)
+        near = clearances(np.ascontiguousarray(rows[left]), threads)
         result[left[~(near.distance_lower >= margin)]] = 0
     if question == "position":
         return result
