@@ -1659,7 +1659,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_a459cd143365c7ba
+#ifndef HC_EDITION_8d618565d50ecccc
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -2516,7 +2516,8 @@ static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc
     return refused;
 }
 
-size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
+/* Rows begin with the ten numbers, and are `width` doubles apart. */
+static size_t hc_ask_rows(int question, size_t n, size_t width, const double *rows, int8_t *answers) {
     const hc_level_functions *level = hc_level();
     hc_tilted_waiting leaning;
     hc_waiting upright;
@@ -2525,7 +2526,7 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
     memset(&leaning, 0, sizeof leaning);
     memset(&upright, 0, sizeof upright);
     for (i = 0; i < n; i++) {
-        const double *const row = rows10 + 10 * i;
+        const double *const row = rows + width * i;
         if (hc_is_upright(row) && hc_has_direction(row + 7)) {
             for (k = 0; k < 7; k++) upright.columns[k * HC_BLOCK + upright.count] = row[k];
             upright.places[upright.count++] = i;
@@ -2541,6 +2542,10 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
     }
     refused += hc_settle(level, question, &upright, answers);
     return refused + hc_tilted_settle(level, question, &leaning, answers);
+}
+
+size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
+    return hc_ask_rows(question, n, 10, rows10, answers);
 }
 
 static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_tilted_waiting *waiting, size_t place,
@@ -3048,10 +3053,13 @@ static void hc_place_sections(hc_sections *made, const double center[3]) {
 
 /* Returns 0 where the numbers are too large or small for the bounds: mu, T, r² and their products stay normal. */
 static int hc_make_sections(hc_sections *made, const double row[10]) {
-    const double b = row[2], d = row[3], *const v = row + 7;
-    const double flat = v[0] * v[0] + v[1] * v[1], length = flat + v[2] * v[2];
-    double s2, c2, away;
+    const double b = row[2], d = row[3];
+    double v[3], s2, c2, away, flat, length;
     int k;
+    memcpy(v, row + 7, sizeof v);
+    hc_scale_axis(v);
+    flat = v[0] * v[0] + v[1] * v[1];
+    length = flat + v[2] * v[2];
     for (k = 0; k < 7; k++) {
         const double size = hc_size(row[k]);
         if (size > 1.2676506002282294e+30 /* 2^100 */ || (k < 4 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
@@ -3177,24 +3185,38 @@ static int hc_center_inside(const double row[13]) {
     return out * (1 + HC_ENDED_ERROR) < in ? 1 : 2;
 }
 
+/* Whether the spheroid, which is upright, surely meets the circle at a height: with R = x² + y² and the squares r² and s² of
+   the radii of both circles there, (√R - r)² < s². */
+static int hc_upright_met(const double row[13], double w) {
+    const double t = (w - row[6]) / row[3], up = w / row[1], share = t * t;
+    const double R = row[4] * row[4] + row[5] * row[5], r = row[0] * row[0] * (1 + up * up), s = row[2] * row[2] * (1 - share);
+    const double size = HC_ENDED_ERROR * (R + r + row[2] * row[2] * (1 + share)), off = R + r - s;
+    const double most = off + size; /* at or below 0 both circles have points within each other */
+    if (!(s > size && most < HC_cap)) return 0;
+    return most < 0 || (size > HC_ENDED_LEAST && most * most < 4 * R * r * (1 - HC_ENDED_ERROR));
+}
+
 /* The position of a valid row of 13 whose position without ends is `whole`; 2 where the bounds do not tell. */
 static int hc_ended_position(const double row[13], int whole) {
-    const double z = row[6], reach = row[2] > row[3] ? row[2] : row[3], low = row[10], high = row[11];
+    const int upright = hc_is_upright(row), solid = row[12] != 0;
+    const double z = row[6], reach = row[2] > row[3] && !upright ? row[2] : row[3], low = row[10], high = row[11];
     const double slack = HC_u_8 * (hc_size(z) + reach), below = z - low, above = high - z;
     const double more = reach + slack, under = hc_size(low) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(low) : 0;
     const double over = hc_size(high) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(high) : 0;
-    const int solid = row[12] != 0;
+    const double level = z < low ? low : z > high ? high : z;
     hc_sections pair;
     int misses, inside, k;
     if (below > more + under && above > more + over) return whole;
     if (-below > more + under || -above > more + over || (solid && whole == 1)) return 1;
     if (whole != 0 && !solid) return whole == -1 && z >= low && z <= high ? -1 : 1;
-    if (!HC_FLOATS_DECIDE || !hc_make_sections(&pair, row)) return 2;
+    if (!HC_FLOATS_DECIDE) return 2;
+    if (whole == 0 && upright && hc_upright_met(row, level)) return 0; /* most contacts */
+    if (!hc_make_sections(&pair, row)) return 2;
     misses = 1;
     if (whole == 0) {
-        const double level = z < low ? low : z > high ? high : z, t = level - z, xi = pair.xi0 - pair.k * t;
+        const double t = level - z, xi = pair.xi0 - pair.k * t;
         const double bottom = low > z - more ? low : z - more, top = high < z + more ? high : z + more;
-        if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0; /* most contacts */
+        if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0;
         misses = bottom <= top ? hc_wall_misses(&pair, bottom, top) : 2;
     }
     for (k = 10; solid && k < 12 && misses == 1; k++)
@@ -3205,21 +3227,21 @@ static int hc_ended_position(const double row[13], int whole) {
     return inside == 2 ? 2 : inside ? -1 : 1;
 }
 
+#define HC_ENDED_TOGETHER 256 /* rows that are still in the cache when their ends are looked at */
+
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) {
-    size_t i;
-    for (i = 0; i < n; i++) {
-        const double *const row = rows13 + 13 * i;
-        double ten[10];
-        int8_t whole = 127;
-        memcpy(ten, row, sizeof ten);
-        if (row[10] < row[11] && (row[12] == 0 || row[12] == 1)) hypcheck_classify_tilted(1, ten, &whole);
-        positions[i] = whole;
-        if (whole == 127) continue;
-        {
-            double scaled[13];
-            memcpy(scaled, row, sizeof scaled);
-            hc_scale_axis(scaled + 7);
-            positions[i] = (int8_t)hc_ended_position(scaled, whole);
+    size_t i, k;
+    for (i = 0; i < n; i += HC_ENDED_TOGETHER) {
+        const size_t count = n - i < HC_ENDED_TOGETHER ? n - i : HC_ENDED_TOGETHER;
+        const double *row = rows13 + 13 * i;
+        int8_t *const some = positions + i;
+        hc_ask_rows(HYPCHECK_POSITION, count, 13, row, some);
+        for (k = 0; k < count; k++, row += 13) {
+            const double more = 1.5 * (row[2] + row[3]), low = row[10], high = row[11];
+            const int valid = row[12] == 0 || row[12] == 1;
+            if (valid && row[6] - low > more && high - row[6] > more) continue; /* between the ends: as without them */
+            if (!(valid && low < high)) some[k] = 127;
+            else if (some[k] != 127) some[k] = (int8_t)hc_ended_position(row, some[k]);
         }
     }
 }
@@ -3792,7 +3814,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_a459cd143365c7ba
+#define HC_EDITION_8d618565d50ecccc
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
