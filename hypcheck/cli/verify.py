@@ -200,7 +200,7 @@ _COUNT = IntegerOption(1)
 @click.option(
     "--roots",
     type=_COUNT,
-    default=20_000,
+    default=22_000,
     show_default=True,
     help="Total number of rows for the roots oracle; a tilted one counts for ten.",
 )
