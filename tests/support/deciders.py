@@ -394,6 +394,7 @@ DECIDERS = (
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),
+        takes=POSITIONS + ENDED,
         every=6,
         examples=3,
         abstains=0.4,

@@ -14,7 +14,7 @@ from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.backward_error import bracket, estimate, quick_bracket, tolerated
 from hypcheck.truth.box_form import Form
-from tests.tools.tilted_agreement import rows
+from tests.tools.oracle_agreement import rows
 from tests.truth.tilted_cases import SYMMETRIC
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
