@@ -86,8 +86,8 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
         disc = _to_disc(pair, v, end)
         if disc is None:
             return Least(0.0, found.upper, found.point)
-        found = disc if disc.upper < found.upper else found
-        found = Least(min(found.lower, disc.lower), found.upper, found.point)
+        nearer = disc if disc.upper < found.upper else found
+        found = Least(min(found.lower, disc.lower), nearer.upper, nearer.point)
     return found
 
 

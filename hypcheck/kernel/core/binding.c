@@ -144,15 +144,15 @@ static PyObject *py_passage(PyObject *self, PyObject *arguments) {
         const Py_ssize_t column = (Py_ssize_t)sizeof(double) * hits.len;
         const int timed = times_object != Py_None;
         if (!timed || filled(times_object, &times, "d", PyBUF_WRITABLE)) {
-            if ((rows.len == 10 * column || rows.len == 13 * column) && (!timed || times.len == column)) {
-                void (*const decide)(size_t, const double *, int8_t *, double *) =
-                    rows.len == 10 * column ? hypcheck_passage : hypcheck_passage_tilted;
+            const Py_ssize_t width = rows.len == 10 * column ? 10 : rows.len == 13 * column ? 13 : 16;
+            if (rows.len == width * column && (!timed || times.len == column)) {
                 Py_BEGIN_ALLOW_THREADS
-                decide((size_t)hits.len, (const double *)rows.buf, (int8_t *)hits.buf, timed ? (double *)times.buf : NULL);
+                hypcheck_passage_columns((size_t)hits.len, (size_t)width, (const double *)rows.buf, (int8_t *)hits.buf,
+                                         timed ? (double *)times.buf : NULL);
                 Py_END_ALLOW_THREADS
                 result = Py_NewRef(Py_None);
             } else {
-                PyErr_SetString(PyExc_ValueError, "ten or thirteen numbers for each hit, and as many times as hits");
+                PyErr_SetString(PyExc_ValueError, "ten, thirteen or sixteen numbers for each hit, and as many times as hits");
             }
             if (timed) PyBuffer_Release(&times);
         }

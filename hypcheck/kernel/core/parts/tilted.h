@@ -55,7 +55,8 @@ static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc
     return refused;
 }
 
-size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
+/* Rows begin with the ten numbers, and are `width` doubles apart. */
+static size_t hc_ask_rows(int question, size_t n, size_t width, const double *rows, int8_t *answers) {
     const hc_level_functions *level = hc_level();
     hc_tilted_waiting leaning;
     hc_waiting upright;
@@ -64,7 +65,7 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
     memset(&leaning, 0, sizeof leaning);
     memset(&upright, 0, sizeof upright);
     for (i = 0; i < n; i++) {
-        const double *const row = rows10 + 10 * i;
+        const double *const row = rows + width * i;
         if (hc_is_upright(row) && hc_has_direction(row + 7)) {
             for (k = 0; k < 7; k++) upright.columns[k * HC_BLOCK + upright.count] = row[k];
             upright.places[upright.count++] = i;
@@ -80,6 +81,10 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
     }
     refused += hc_settle(level, question, &upright, answers);
     return refused + hc_tilted_settle(level, question, &leaning, answers);
+}
+
+size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
+    return hc_ask_rows(question, n, 10, rows10, answers);
 }
 
 static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_tilted_waiting *waiting, size_t place,
