@@ -2,12 +2,14 @@
 
 The exact decision and the nearest point are asked about every pair. An answer is given only if they agree and its proof
 holds. The numbers that check a proof by hand are explained in docs/mathematics.md, "A certificate for every answer".
-Only the distance, and what ends, load numpy.
+Loads no numpy, but for distances that are tilted or beside ends.
 """
 
 from __future__ import annotations
 
 import json
+import sys
+from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
@@ -16,6 +18,7 @@ from typing import Any
 
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, Pair, Position
+from hypcheck.kernel.choice import choice, compiled
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
 from hypcheck.truth import exact
@@ -187,12 +190,26 @@ def _as_json(number: float) -> float | str:
 
 def distance_of(pair: Pair) -> tuple[float, float]:
     """Proved bounds of the Euclidean distance, in the unit of the lengths, of ten digits: 0 and 0 in contact."""
+    low, high = _distance_in_c(pair) or _distance_by_arrays(pair)
+    low, high = low if low >= 0 else 0.0, high if high >= 0 else float("inf")  # NaN is not known
+    return _ten_digits(low, ROUND_FLOOR), _ten_digits(high, ROUND_CEILING)
+
+
+def _distance_in_c(pair: Pair) -> tuple[float, float] | None:
+    """The same of an upright pair without ends, and without numpy; None where C is not there, or knows it worse."""
+    if choice().kernel == "numpy" or pair.has_ends or not pair.is_upright:
+        return None
+    position, found = array("b", [0]), array("d", [0.0] * 11)
+    compiled().clearance(array("d", pair.upright.row), position, found)
+    _, _, touch_error, low, high, *_ = found
+    return None if touch_error == sys.float_info.max else (low, high)
+
+
+def _distance_by_arrays(pair: Pair) -> tuple[float, float]:
     from hypcheck.kernel.clearance import clearance  # noqa: PLC0415 - it loads numpy
 
     near = clearance(pair.row)
-    low, high = float(near.distance_lower), float(near.distance_upper)
-    low, high = low if low >= 0 else 0.0, high if high >= 0 else float("inf")  # NaN is not known
-    return _ten_digits(low, ROUND_FLOOR), _ten_digits(high, ROUND_CEILING)
+    return float(near.distance_lower), float(near.distance_upper)
 
 
 def _ten_digits(number: float, rounding: str) -> float:

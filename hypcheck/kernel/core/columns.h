@@ -102,9 +102,9 @@ __attribute__((target("avx2"))) static void gathered_points_avx2(const char *at,
         memcpy(z + i, at + 24 * i + 16, sizeof *z);
     }
 }
-#endif
 
-static int has_avx2(void) { return HC_X86 && hc_level() - hc_levels >= 2; }
+static int has_avx2(void) { return hc_level() - hc_levels >= 2; }
+#endif
 
 /* Numbers `start` to `start` + `count` of a column. Returns whether one was not converted exactly. */
 static int gathered(const column *from, size_t start, size_t count, double *into) {
