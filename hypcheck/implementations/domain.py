@@ -49,8 +49,8 @@ NORMAL_RANGE: dict[str, Range] = {
 """The least and the greatest normal number of each format; wider formats hold every float64 as a normal number."""
 
 
-_CORNERS = np.array([(*sizes, *[center] * 9) for *sizes, center in product((0, 1), repeat=5)])
-"""Least or greatest, of four sizes and of all other numbers: of centres and of the axis."""
+_CORNERS = np.array([(*sizes, *[center] * 12) for *sizes, center in product((0, 1), repeat=5)])
+"""Least or greatest, of four sizes and of all other numbers: of centres, of the axis and of heights."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -164,10 +164,16 @@ def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
 
 
 def answer_ways(rows: Rows) -> tuple[Positions, Floats]:
-    """As classify.Kernel has it, by the positions at both ends alone: it cannot say where these are clear and alike."""
-    axis = [*range(len(WAYS.upright), rows.shape[1])]
-    start, end = (positions(rows[:, [0, 1, 2, 3, *centre, *axis]]) for centre in ((4, 5, 6), (7, 8, 9)))
-    hits = np.where((start == 0) | (start != end), 1, CANNOT_SAY).astype(np.int8)
+    """As classify.Kernel has it, by the positions at both ends alone: it cannot say where these are clear and alike.
+
+    Through an opening a sweep may change its side without contact.
+    """
+    others = [*range(len(WAYS.upright), rows.shape[1])]
+    both = (np.ascontiguousarray(rows[:, [0, 1, 2, 3, *centre, *others]]) for centre in ((4, 5, 6), (7, 8, 9)))
+    start, end = (answer_ended(each) if WAYS.end(rows) else positions(each) for each in both)
+    hit = (start == 0) | (end == 0)
+    sure = (start != CANNOT_SAY) & (end != CANNOT_SAY) & ((rows[:, -1] != 0) if WAYS.end(rows) else True)
+    hits = np.where(hit | (sure & (start != end)), 1, CANNOT_SAY).astype(np.int8)
     hits[invalid(rows, WAYS)] = REFUSED
     return hits, np.where((start == 0) & (hits == 1), 0.0, np.nan)
 

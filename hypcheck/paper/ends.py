@@ -90,7 +90,7 @@ def valid_between(craft: Craft, at: Columns, heading: Direction) -> Mask:
 def _positions(craft: Craft, sizes: Sizes, at: Columns) -> Positions:
     low, high = (-np.inf, np.inf) if craft.height is None else (craft.height.low, craft.height.high)
     fixed = np.tile((*UPRIGHT, low, high, float(craft.solid)), (len(at[0]), 1))
-    return classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, fixed]))
+    return np.asarray(classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, fixed])), dtype=np.int8)
 
 
 def beside_trees(scene: SceneModel, at: Floats, asked: Mask, exterior: Mask) -> dict[str, Any]:

@@ -331,7 +331,8 @@ def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
 
 
 def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
-    return classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
+    positions: Positions = classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
+    return positions
 
 
 @dataclass(frozen=True, slots=True)

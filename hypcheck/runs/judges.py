@@ -181,8 +181,9 @@ def way_in_radii(row: Row) -> float:
     """The length of the way in spheroid radii, those along the spheroid's axis and across it each in their own."""
     b, d = row[2:4]
     step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
-    largest = max(map(abs, row[len(WAYS.upright) :]), default=0.0)
-    axis = [each / largest for each in row[len(WAYS.upright) :]] or UPRIGHT
+    given = row[len(WAYS.upright) : len(WAYS.tilted)]
+    largest = max(map(abs, given), default=0.0)
+    axis = [each / largest for each in given] or UPRIGHT
     length = math.hypot(*axis)
     along = sum(each / length * part for each, part in zip(axis, step, strict=True))
     across = [part - along * each / length for each, part in zip(axis, step, strict=True)]

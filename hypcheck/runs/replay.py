@@ -106,20 +106,20 @@ def _from_record(path: Path, number: int) -> ReplayCase:
 
 
 def _given_row(text: str) -> Row:
-    """Seven, ten or thirteen numbers, decimal or hexadecimal; or ten or thirteen of a way.
+    """Seven, ten or thirteen numbers, decimal or hexadecimal; or ten, thirteen or sixteen of a way.
 
     of_question checks them together. Of thirteen that have an infinite one the last are heights.
     """
     parts = text.split(",")
-    if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS), len(TILTED_WAY_COLUMNS)):
+    if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS), len(TILTED_WAY_COLUMNS), len(WAYS.ended)):
         wanted = (
             f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}; "
             f"or 13, with {', '.join(HEIGHTS)} behind these; "
-            f"a way has {', '.join(END)} after z, so it has 10, or 13 with an axis"
+            f"a way has {', '.join(END)} after z, so it has 10, 13 with an axis, or 16 with heights too"
         )
         raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have {wanted}")
     ended = any(part.strip().lower().lstrip("+-").startswith("inf") for part in parts)
-    layout = WAYS if len(parts) == len(TILTED_WAY_COLUMNS) and not ended else PAIRS
+    layout = WAYS if len(parts) >= len(TILTED_WAY_COLUMNS) and (len(parts) == len(WAYS.ended) or not ended) else PAIRS
     return tuple(_number(name, part) for name, part in zip(layout.columns(len(parts)), parts, strict=True))
 
 

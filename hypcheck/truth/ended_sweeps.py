@@ -209,7 +209,7 @@ def _at_ends(journey: Journey, *, sides: bool) -> Iterator[Polynomial]:
 
 def _where_touched(c3: _WithRoot, c2: _WithRoot, c1: _WithRoot, c0: _WithRoot) -> Iterator[Polynomial]:
     """Polynomials that are 0 where the circle just touches the ellipse."""
-    if c0.norm:
+    if not c0.vanishes:
         yield from exact.cubic_discriminant(c3, c2, c1, c0).norm
         return
     for f in (c2 * c2 - c3 * c1 * 4, c1, c2):
@@ -253,12 +253,19 @@ class _WithRoot:
     __rmul__ = __mul__
 
     @property
+    def vanishes(self) -> bool:
+        """Whether it is 0 for every t."""
+        return not any(self._norm)
+
+    @property
     def norm(self) -> list[Polynomial]:
-        """A polynomial that is 0 wherever this is, primitive, as the only one of a list; none where this is 0."""
+        """A polynomial that is 0 wherever this is, alone in a list; none where this is a constant, 0 or not."""
+        return [self._norm] if len(self._norm) > 1 else []
+
+    @property
+    def _norm(self) -> Polynomial:
         root = isqrt(self.unit)
         if root * root == self.unit:
-            found = primitive(polynomial_sum(self.u, [number * root for number in self.v]))
-        else:
-            square = [number * -self.unit for number in polynomial_product(self.v, self.v)]
-            found = primitive(polynomial_sum(polynomial_product(self.u, self.u), square))
-        return [found] if len(found) > 1 else []
+            return primitive(polynomial_sum(self.u, [number * root for number in self.v]))
+        square = [number * -self.unit for number in polynomial_product(self.v, self.v)]
+        return primitive(polynomial_sum(polynomial_product(self.u, self.u), square))

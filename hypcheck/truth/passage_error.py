@@ -1,7 +1,7 @@
 """How wrong an answer about a way is: by the spheroid's size, and by the time of first contact.
 
-A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, with axis_x, axis_y, axis_z behind it where the spheroid leans. The
-answer is True for contact somewhere on the way.
+A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, with axis_x, axis_y, axis_z behind it where the spheroid leans, and
+z_min, z_max, solid behind these where the hyperboloid ends. The answer is True for contact somewhere on the way.
 
 **Contact is monotone in the size.** At each time the spheroid with b and d multiplied by k, a solid with a fixed
 centre, is part of the one with a larger k; contact says that the solid and the hyperboloid have a point in common. So
@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.geometry.pair import SIZES, WAY_COLUMNS
+from hypcheck.geometry.pair import SIZES, TILTED_WAY_COLUMNS, WAY_COLUMNS, WITHOUT_ENDS
 from hypcheck.truth.rationals import rounded_toward
 from hypcheck.truth.swept import Passage, Rational, passage
 
@@ -43,10 +43,16 @@ class SizeError:
 def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
     """What happens on the row's way, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
     alpha, gamma, b, d = row[: len(SIZES)]
-    start, end, axis = row[4:7], row[7:10], row[len(WAY_COLUMNS) :]
+    start, end, axis = row[4:7], row[7:10], _axis_of(row)
+    low, high, solid = row[len(TILTED_WAY_COLUMNS) :] or WITHOUT_ENDS
     if scale != 1:
         b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
-    return passage((alpha, gamma, b, d), start, end, axis or None)
+    sizes = (alpha, gamma, b, d)
+    return passage(sizes, start, end, axis or None, z_min=float(low), z_max=float(high), solid=bool(solid))
+
+
+def _axis_of(row: Sequence[Rational]) -> Sequence[Rational]:
+    return row[len(WAY_COLUMNS) : len(TILTED_WAY_COLUMNS)]
 
 
 def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
@@ -105,22 +111,24 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
 
         K = 1 + ρ + ζ + (1+δ)/(1−δ) (ρ + ζ + 2);
 
-    docs/motion.md derives it, and the one of a spheroid that leans. Infinite changes are not meant: δ counts as 1/2 at
-    most in K.
+    docs/motion.md derives it, the one of a spheroid that leans, and what ends add. Infinite changes are not meant: δ
+    counts as 1/2 at most in K.
     """
     change = Fraction(units) * Fraction(roundoff)
-    _, _, b, d, *ends = (Fraction(each) for each in row[: len(WAY_COLUMNS)])
+    alpha, gamma, b, d, *ends = (Fraction(each) for each in row[: len(WAY_COLUMNS)])
     bounded = min(change, Fraction(1, 2))
     stretch = (1 + bounded) / (1 - bounded)
     across = max(abs(x) + abs(y) for x, y in (ends[:2], ends[3:5]))
     along = max(abs(ends[2]), abs(ends[5]))
-    axis = row[len(WAY_COLUMNS) :]
+    axis, ended = _axis_of(row), any(math.isfinite(height) for height in row[len(TILTED_WAY_COLUMNS) :][:2])
     if not axis or b == d or not any(axis[:2]):
         way = across / b + along / d
-        return change * (1 + way + stretch * (way + 2))
+        more = 2 * stretch * (along / d + 1) * (1 + alpha * d / (gamma * b)) if ended else 0
+        return change * (1 + way + stretch * (way + 2) + more)
     least, ratio = min(b, d), max(b / d, d / b)
     way = (across + along) / least
-    return change * (1 + way + (1 + bounded) * (ratio + bounded) + stretch * (way + 2 * ratio))
+    more = 2 * stretch * (along / least + ratio) * (1 + alpha / gamma) if ended else 0
+    return change * (1 + way + (1 + bounded) * (ratio + bounded) + stretch * (way + 2 * ratio) + more)
 
 
 def time_window(row: Sequence[Rational], change: Rational) -> tuple[Fraction | None, Fraction | None]:

@@ -154,9 +154,10 @@ class StoredPassage:
 
 @dataclass(frozen=True, slots=True)
 class WayVector:
-    """A case: a valid row of ten or thirteen numbers, its answer, and what proves it.
+    """A case: a valid row of ten, thirteen or sixteen numbers, its answer, and what proves it.
 
     `first` are bounds of the first contact: two neighbouring float64 numbers, or 0 twice; None where the way is clear.
+    Beside a hyperboloid that ends they need not be neighbours, and nothing but the exact decision proves the answer.
     """
 
     id: str
@@ -194,6 +195,7 @@ _POSITION_FIELDS = (
     *("flips", "certificate", "flags"),
 )
 _WAY_FIELDS = ("id", "row", "hex", "hit", "first", "first_hex", "certificate", "flags")
+_ENDED_WAY_FIELDS = ("id", "row", "hex", "hit", "first", "first_hex")
 _ENDED_FIELDS = ("id", "row", "hex", "position", "tangent", "certificate")
 _CERTIFICATES = ("multiplier", "points", "double_root")
 _PASSAGE_FIELDS = ("pieces", "time", "points", "double_root")
@@ -203,7 +205,7 @@ _KINDS = {kind.value: kind for kind in Kind}
 def case_fields(content: Content) -> tuple[str, ...]:
     """The fields of a case in a file with that content, in order."""
     if content.ended:
-        return _ENDED_FIELDS
+        return _ENDED_WAY_FIELDS if content.layout is WAYS else _ENDED_FIELDS
     if content.layout is WAYS:
         return _WAY_FIELDS
     return tuple(name for name in _POSITION_FIELDS if name != "kind" or not content.tilted)
@@ -226,7 +228,7 @@ def cases_of(document: JsonDocument, path: str, content: Content | None = None) 
         raise InputError(f"{said}: content is {found.name!r}; here it must be {wanted}")
     if found.refused:
         return invalid_rows_of(document, path)
-    read = _ended if found.ended else _way if found.layout is WAYS else _vector
+    read = _way if found.layout is WAYS else _ended if found.ended else _vector
     return file_of(document, path, case_fields(found), read)
 
 
@@ -346,6 +348,8 @@ def _way(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping
             f"{at}: hit is {shown_json(fields['hit'])}; with first {shown_json(fields['first'])} it must be "
             f"{json_text(first is not None)}"
         )
+    if content.ended:
+        return WayVector(fields["id"], row, first, StoredPassage())
     witness = _passage(at, fields["certificate"])
     return WayVector(fields["id"], row, first, witness, flags_of_case(at, fields["flags"], flags))
 
@@ -403,8 +407,10 @@ def _members(case: AnyVector) -> dict[str, str]:
     if isinstance(case, EndedVector):
         certificate = json_text(_certificate_members(case.witness))
         return {"position": str(case.answer), "tangent": json_text(case.tangent), "certificate": certificate}
-    members = _way_members(case) if isinstance(case, WayVector) else _position_members(case)
-    return members | {"flags": json_text(case.flags)}
+    if isinstance(case, WayVector):
+        answer = _way_answer_members(case)
+        return answer if len(case.row) == len(WAYS.ended) else answer | _way_proof_members(case)
+    return _position_members(case) | {"flags": json_text(case.flags)}
 
 
 def _position_members(case: UprightVector | TiltedVector) -> dict[str, str]:
@@ -441,17 +447,21 @@ def _piece_members(piece: Piece) -> list[str]:
     return [low, high, exact_text(piece.multiplier), exact_text(piece.plane)]
 
 
-def _way_members(case: WayVector) -> dict[str, str]:
-    witness, first = case.witness, case.first
+def _way_answer_members(case: WayVector) -> dict[str, str]:
+    first = case.first
+    return {
+        "hit": json_text(case.hit),
+        "first": "null" if first is None else numbers_text(first),
+        "first_hex": json_text(None if first is None else list(map(hex_of, first))),
+    }
+
+
+def _way_proof_members(case: WayVector) -> dict[str, str]:
+    witness = case.witness
     proof = {
         "pieces": [list(map(exact_text, piece)) for piece in witness.pieces],
         "time": None if witness.time is None else exact_text(witness.time),
         "points": [list(map(exact_text, point)) for point in witness.offsets],
         "double_root": None if witness.double_root is None else exact_text(witness.double_root),
     }
-    return {
-        "hit": json_text(case.hit),
-        "first": "null" if first is None else numbers_text(first),
-        "first_hex": json_text(None if first is None else list(map(hex_of, first))),
-        "certificate": json_text(proof),
-    }
+    return {"certificate": json_text(proof), "flags": json_text(case.flags)}

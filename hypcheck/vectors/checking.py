@@ -31,6 +31,7 @@ from hypcheck.truth.changes import goal_of
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
 from hypcheck.truth.passage_certificate import check_passage, contact_at
+from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.roots import classify_by_roots
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
@@ -42,7 +43,7 @@ from hypcheck.vectors.cases import (
     WayVector,
     cases_of,
 )
-from hypcheck.vectors.family import Metadata
+from hypcheck.vectors.family import Metadata, Row
 from hypcheck.vectors.flags import FlagFacts, flags_of, tilted_flags, way_flags
 from hypcheck.vectors.format import CaseFile
 from hypcheck.vectors.invalid_rows import InvalidRow, columns_at_fault
@@ -63,10 +64,10 @@ def faults_of(file: CaseFile[Any]) -> list[LabelFault]:
     found: Iterable[Iterator[str]]
     if file.content.refused:
         found = (_wrong_columns(case, file.content.columns) for case in file.cases)
+    elif file.content.layout is WAYS:
+        found = map(_ended_way_sentences if file.content.ended else _way_sentences, file.cases)
     elif file.content.ended:
         found = map(_ended_sentences, file.cases)
-    elif file.content.layout is WAYS:
-        found = map(_way_sentences, file.cases)
     elif file.content.tilted:
         found = map(_tilted_sentences, file.cases, _proved_lower_ends(file.cases))
     else:
@@ -156,6 +157,38 @@ def _way_sentences(case: WayVector) -> Iterator[str]:
             said = f"{decimal_of(case.first[0])} … {decimal_of(case.first[1])}"
             yield f"the certificate does not prove that the first contact is at {said}"
     yield from _wrong_flags(case, way_flags(case.row, case.first, case.certificate))
+
+
+_TIMES = 16
+"""Pieces of a way beside a hyperboloid that ends, at whose ends the least value looks for contact."""
+
+_SLACK = 2.0**-30
+"""It is asked of a spheroid smaller or larger by this part, so that a rounded centre does not matter."""
+
+
+def _ended_way_sentences(case: WayVector) -> Iterator[str]:
+    """Of a way beside a hyperboloid that ends: the exact decision anew, which the least value must not contradict."""
+    truth = scaled_passage(case.row)
+    first = (truth.first_lower, truth.first_upper) if truth.hit else None
+    if first != case.first:
+        yield f"first is {_bounds_text(case.first)}; the exact decision says {_bounds_text(first)}"
+    until = case.first[0] if case.first else 1.0
+    times = [place / _TIMES for place in range(_TIMES + 1) if place / _TIMES < until or case.first is None]
+    for time in times:
+        if _least_at(case.row, time, 1 - _SLACK) is Position.CONTACT:
+            yield f"the way is said to be clear at t {time!r}; the least value says contact"
+    if case.first and _least_at(case.row, case.first[1], 1 + _SLACK) not in (None, Position.CONTACT):
+        yield f"there is no contact at t {case.first[1]!r}, the least value says"
+
+
+def _bounds_text(first: tuple[float, float] | None) -> str:
+    return "null" if first is None else " … ".join(map(decimal_of, first))
+
+
+def _least_at(row: Row, time: float, scale: float) -> Position | None:
+    alpha, gamma, b, d, *others = row
+    centre = [start + time * (end - start) for start, end in zip(others[:3], others[3:6], strict=True)]
+    return least.position(Pair.from_row((alpha, gamma, b * scale, d * scale, *centre, *others[6:])))
 
 
 def _unproved(case: UprightVector | TiltedVector, proved: bool) -> Iterator[str]:

@@ -10,7 +10,18 @@ from fnmatch import fnmatchcase
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout
 from hypcheck.messages import suggestion
-from hypcheck.vectors import coincidences, crossed, ended, extremes, random_pairs, scenes, strata, tilted, ways
+from hypcheck.vectors import (
+    coincidences,
+    crossed,
+    ended,
+    ended_ways,
+    extremes,
+    random_pairs,
+    scenes,
+    strata,
+    tilted,
+    ways,
+)
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
 
@@ -123,7 +134,16 @@ ENDED_FAMILIES = _table(
 )
 """Those of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
 
-ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES, **ENDED_FAMILIES}
+ENDED_WAY_FAMILIES = _table(
+    *(Family(name, make, frozen, ended=True, layout=WAYS) for name, (make, frozen) in ended_ways.FAMILIES.items()),
+    *(
+        Family(name, make, frozen, tilted=True, ended=True, layout=WAYS)
+        for name, (make, frozen) in ended_ways.TILTED.items()
+    ),
+)
+"""Those of ways beside hyperboloids that end: rows of sixteen numbers, of upright spheroids and of tilted ones."""
+
+ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES, **ENDED_FAMILIES, **ENDED_WAY_FAMILIES}
 """All of them, in the order in which they are listed."""
 
 EXTREME = "extreme"
@@ -168,7 +188,7 @@ def select(
             raise InputError(
                 f"{pattern!r} names tilted spheroids, which only an implementation with tilt is asked about"
             )
-        if not named and _named(pattern, ENDED_FAMILIES):
+        if not named and _named(pattern, ENDED_FAMILIES | ENDED_WAY_FAMILIES):
             raise InputError(
                 f"{pattern!r} names hyperboloids that end, about which only implementations that take heights are asked"
             )

@@ -34,7 +34,10 @@ WAY_SCHEMA = "1.2.0"
 """The version of the schemas of files about ways."""
 
 ENDED_SCHEMA = "1.3.0"
-"""The version of the schemas of files about hyperboloids that end; a reader refuses any other than these four."""
+"""The version of the schemas of files about hyperboloids that end."""
+
+ENDED_WAY_SCHEMA = "1.4.0"
+"""The version of the schema of files about ways beside these; a reader refuses any other than these five."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +81,7 @@ CONTENTS = {
         Content("tilted-way-refusals", WAY_SCHEMA, WAYS, tilted=True, refused=True),
         Content("ended-positions", ENDED_SCHEMA, tilted=True, ended=True),
         Content("ended-refusals", ENDED_SCHEMA, tilted=True, refused=True, ended=True),
+        Content("ended-ways", ENDED_WAY_SCHEMA, WAYS, tilted=True, ended=True),
     )
 }
 """All contents by name."""
@@ -160,8 +164,8 @@ def content_of(document: JsonDocument, path: str) -> Content:
     if not known:
         raise InputError(
             f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}, "
-            f"{TILTED_SCHEMA!r} about tilted spheroids, {WAY_SCHEMA!r} about ways and {ENDED_SCHEMA!r} about "
-            "hyperboloids that end"
+            f"{TILTED_SCHEMA!r} about tilted spheroids, {WAY_SCHEMA!r} about ways, {ENDED_SCHEMA!r} about "
+            f"hyperboloids that end and {ENDED_WAY_SCHEMA!r} about ways beside these"
         )
     place, content = document.members["content"]
     if content not in tuple(known):

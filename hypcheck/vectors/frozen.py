@@ -16,7 +16,14 @@ from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import suggestion
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import read_cases
-from hypcheck.vectors.families import ALL, ENDED_FAMILIES, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.families import (
+    ALL,
+    ENDED_FAMILIES,
+    ENDED_WAY_FAMILIES,
+    FAMILIES,
+    TILTED_FAMILIES,
+    WAY_FAMILIES,
+)
 from hypcheck.vectors.family import Metadata, described
 from hypcheck.vectors.format import CaseFile
 from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_NAMES
@@ -33,11 +40,15 @@ WAY_NAMES = tuple(WAY_FAMILIES)
 ENDED_NAMES = tuple(ENDED_FAMILIES)
 """Those of hyperboloids that end, upright and tilted."""
 
+ENDED_WAY_NAMES = tuple(ENDED_WAY_FAMILIES)
+"""Those of ways beside hyperboloids that end."""
+
 ALL_NAMES = (
     *(*NAMES, "invalid"),
     *(*TILTED_NAMES, "tilted-invalid"),
     *(*WAY_NAMES, *INVALID_NAMES[WAYS]),
     *(*ENDED_NAMES, ENDED_INVALID),
+    *ENDED_WAY_NAMES,
 )
 """All files, in the order in which they are listed."""
 

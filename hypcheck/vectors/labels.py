@@ -19,6 +19,7 @@ from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
 from hypcheck.truth.passage_certificate import place
+from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.passage_prove import prove as prove_passage
 from hypcheck.truth.prove import prove
 from hypcheck.vectors.cases import (
@@ -46,7 +47,8 @@ def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
     Raises ValueError as passage_prove.prove does.
     """
     if content.ended:
-        return [_labelled_ended(*case) for case in cases]
+        labelled_one = _labelled_ended_way if content.layout is WAYS else _labelled_ended
+        return [labelled_one(*case) for case in cases]
     if content.layout is WAYS:
         return [_labelled_way(*each) for each in cases]
     return [_labelled_tilted(*each) for each in cases] if content.tilted else _labelled_upright(list(cases))
@@ -107,6 +109,11 @@ def _labelled_way(name: str, row: Row) -> WayVector:
         offsets = tuple(((u - x) / b, (v - y) / b, (w - z) / b) for u, v, w in proof.points)
     witness = StoredPassage(proof.pieces, proof.time, offsets, proof.double_root)
     return WayVector(name, row, first, witness, way_flags(row, first, proof))
+
+
+def _labelled_ended_way(name: str, row: Row) -> WayVector:
+    truth = scaled_passage(row)
+    return WayVector(name, row, (truth.first_lower, truth.first_upper) if truth.hit else None, StoredPassage())
 
 
 def flips(pair: Pair, truth: Decision) -> Mapping[Position, float]:

@@ -63,6 +63,8 @@ int main(void) {
     hypcheck_passage(7 * n / 10, rows, answers, times);
     hypcheck_passage_tilted(7 * n / 13, rows, answers, times);
     hypcheck_passage_tilted(7 * n / 13, rows, answers, NULL);
+    hypcheck_passage_columns(7 * n / 16, 16, rows, answers, times);
+    hypcheck_classify_columns(7 * n / 13, 13, rows, answers);
     free(all), free(rows), free(answers), free(times);
     return 0;
 }

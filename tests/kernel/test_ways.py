@@ -142,5 +142,5 @@ def test_hits_of_ways_do_not_depend_on_whether_times_are_asked_for():
 def test_compiled_passage_refuses_buffers_that_do_not_fit():
     rows, hits = np.array([DOWN, DOWN]), np.empty(2, np.int8)
     for given in ((rows, hits[:1]), (rows, hits, np.empty(1)), (rows, hits, hits), (hits, hits)):
-        with pytest.raises(ValueError, match=r"ten or thirteen numbers for each hit|a buffer of format d is needed"):
+        with pytest.raises(ValueError, match=r"ten, thirteen or sixteen numbers|a buffer of format d"):
             compiled.passage(*given)

@@ -90,6 +90,26 @@ def test_answer_about_a_way_that_is_right_for_slightly_changed_inputs_is_tolerat
     assert is_tolerated(row, hits_at_size(moved), tolerance(row, 1, change))
 
 
+@settings(max_examples=25)
+@given(
+    _sizes,
+    _centers,
+    _centers,
+    st.tuples(st.integers(-64, 63), st.integers(1, 64), st.sampled_from([0.0, 1.0])),
+    st.sampled_from([Fraction(1, 2**n) for n in (3, 6, 12)]),
+    st.lists(st.sampled_from([-1, 0, 1]), min_size=12, max_size=12),
+)
+def test_answer_about_a_way_beside_ends_that_is_right_for_changed_inputs_is_tolerated(
+    sizes, start, end, heights, change, signs
+):
+    low, extent, solid = heights
+    row = tuple(map(Fraction, (*sizes, *start, *end, 0, 0, 1, low / 64, (low + extent) / 64)))
+    moved = [each * (1 + sign * change) for each, sign in zip((*row[:10], *row[13:]), signs, strict=True)]
+    assume(moved[10] < moved[11])
+    answer = hits_at_size((*moved[:10], 0, 0, 1, *moved[10:], solid))
+    assert is_tolerated((*row, solid), answer, tolerance((*row, solid), 1, change))
+
+
 def test_contact_far_from_a_small_spheroid_is_tolerated_where_the_tolerance_multiplies_its_size():
     far = (2.0, 3.0, 0.5, 0.5, -4.0, 4.0, 0.0, 4.0, 4.0, 0.0)  # the surface is 2 away: 4 semi-axes
     assert not hits_at_size(far)
@@ -128,6 +148,9 @@ def test_time_window_has_no_upper_end_if_the_smaller_spheroid_is_clear():
         ((), Fraction(1, 4), Fraction(49, 12)),  # ρ = 5/2, ζ = 2: (1 + 9/2 + 5/3 · 13/2)/4
         ((0.0, 0.0, -3.0), Fraction(1, 4), Fraction(49, 12)),
         ((), Fraction(2), 50),  # δ counts as 1/2 in K
+        ((0.0, 0.0, 1.0, -math.inf, math.inf, 1.0), Fraction(1, 4), Fraction(49, 12)),
+        ((0.0, 0.0, 1.0, -math.inf, 1.0, 0.0), Fraction(1, 4), Fraction(73, 4)),  # and 10/3 · 3 · (1 + 14/3)/4
+        ((1.0, 0.0, 0.0, -9.0, 1.0, 0.0), Fraction(1, 4), Fraction(445, 64) + Fraction(50, 3)),  # 10/3 · 6 · 10/3 · 1/4
         ((1.0, 0.0, 0.0), Fraction(1, 4), Fraction(445, 64)),  # 13/2 and 2: (1 + 13/2 + 5/4 · 9/4 + 5/3 · 21/2)/4
     ],
 )

@@ -238,6 +238,16 @@ def test_way_grazes_if_its_contact_lasts_only_an_instant(sizes, start, end, graz
     assert passage(sizes, start, end).grazes is grazes
 
 
+def test_a_spheroid_that_lies_across_and_comes_down_on_a_rim_touches_it():
+    # Its pole is 3.7 from the axis at the height of the rim, whose radius is 3.75; (5.7 − 3.75)² / 4 + (z − 3)² = 1.
+    way = (3, 4, 1, 2), (5.7, 0, 9), (5.7, 0, 3), (1, 0, 0)
+    touch = 3 + math.sqrt(1 - 1.95**2 / 4)
+    for solid in (False, True):
+        found = passage(*way, z_min=-1, z_max=3, solid=solid)
+        assert found.first_lower == pytest.approx((9 - touch) / 6, rel=1e-14)
+        assert not passage(*way, z_min=-1, z_max=2, solid=solid).hit
+
+
 def test_a_clear_way_has_no_time_of_contact():
     found = passage((2, 3, 1, 1), (5, 0, 0), (6, 0, 0))
     assert found.first is None

@@ -17,6 +17,7 @@ from hypcheck.geometry.rows import PAIRS, WAYS, invalid
 from hypcheck.vectors.families import (
     ALL,
     ENDED_FAMILIES,
+    ENDED_WAY_FAMILIES,
     FAMILIES,
     TILTED_FAMILIES,
     WAY_FAMILIES,
@@ -136,6 +137,15 @@ DIGESTS: dict[str, str] = {
     "tilted-ended-thin": "b8fd4206c202a5eb1602ae24a5d38b11c7beacc8cd948f76c4523358be65cdef",
     "tilted-ended-disc": "9f8eaa07c12be313c589ef75fbceaf341d441fd2796bc904fdb4b33427676344",
     "tilted-ended-small-integers": "52bb76ba541210409f13c6d66f7bd6cdafee127995349c54c1cbebb733f78b0e",
+    "ended-way-uniform": "840310ec7e4068644497b01e6ca03d9234326dbafa443dca581d9eb912b9c1ae",
+    "ended-way-over": "facc1968871b2ef669787fd2e832d829108a9a827b6355c21bfeb341242517f3",
+    "ended-way-landing": "6baf9482f77f3161b638018b2a3b527df0b27fb0ac1526327c1c5b891e3202ca",
+    "ended-way-disc": "39473dd54f5b3b632bdbabc5b0c86b5d62c5a67081f6e866d054d697495883dc",
+    "ended-way-opening": "7a4279bf7ed569f308bf0f255cfeea7964076ff4a4efecfc230e3d63bb9ba08a",
+    "ended-way-thin": "9c6dde9ff656e63004effcb2935c69ba93c65a50c3fbe4977e324befccdfb0f7",
+    "ended-way-touch": "6ae22d271e5abaeb106e324efd9b3e5f147022552a39877476dac506d45bb95f",
+    "tilted-ended-way-uniform": "f7f7dce4cad3e10e493ff9e3c60a4883da55be5d77330c7d858afa0a8f4d1cfd",
+    "tilted-ended-way-over": "1f16d3c426b51f463685b1a537110d6794c39a5d934053589ba56e73fe3de7d4",
 }
 """sha256 of the first rows for seed 0, little-endian; a change means a new generator version, or a defect."""
 
@@ -153,12 +163,14 @@ def test_every_family_is_in_the_table_of_its_kind() -> None:
         (FAMILIES, PAIRS, {False}),
         (TILTED_FAMILIES, PAIRS, {True}),
         (WAY_FAMILIES, WAYS, {False, True}),
+        (ENDED_WAY_FAMILIES, WAYS, {False, True}),
     ):
         assert {family.layout for family in families.values()} == {layout}
         assert {family.tilted for family in families.values()} == tilted
         assert all(("way" in name) == (layout is WAYS) for name in families)
-    assert {family.ended for family in ENDED_FAMILIES.values()} == {True}
-    assert [*ALL] == [*FAMILIES, *TILTED_FAMILIES, *WAY_FAMILIES, *ENDED_FAMILIES]
+    ended = ENDED_FAMILIES | ENDED_WAY_FAMILIES
+    assert [name for name, family in ALL.items() if family.ended] == [*ended]
+    assert [*ALL] == [*FAMILIES, *TILTED_FAMILIES, *WAY_FAMILIES, *ended]
 
 
 @every_family
@@ -269,6 +281,9 @@ def test_select_takes_tilted_families_only_if_tilt_is_requested():
 def test_select_takes_families_of_ways_only_if_ways_are_requested():
     assert not any(family.layout is WAYS for family in select(["*"], tilted=True))
     assert set(select(["*"], tilted=True, layout=WAYS)) == set(WAY_FAMILIES.values())
+    assert set(select(["*-way-*"], tilted=True, ended=True, layout=WAYS)) >= set(ENDED_WAY_FAMILIES.values())
+    with pytest.raises(InputError, match="'ended-way-thin' names hyperboloids that end"):
+        select(["ended-way-thin"])
     with pytest.raises(InputError, match="'way-ring' names ways"):
         select(["way-ring"])
 

@@ -88,6 +88,7 @@ PARTS = (
     "tilted",
     "ways",
     "ended",
+    "ended_ways",
     "near",
 )
 

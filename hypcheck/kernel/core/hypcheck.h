@@ -109,6 +109,14 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
    invalid. hypcheck.classify of Python decides all. */
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions);
 
+/* Rows of any of these widths. Positions: 7, 10 with an axis, 13 with z_min, z_max, solid behind it, as the functions above
+   answer them. Ways: 10, 13 with an axis, 16 with z_min, z_max, solid behind it; contact is then that of
+   hypcheck_classify_ended, so that a way may lead through an opening without any. 2 is also said of ways that miss, or meet,
+   a rim, the wall or a flat end by less than about 2^-42 of the sizes, and at the time of a hit beside a hyperboloid that
+   ends there is contact of the spheroid larger by 2^-37 (1 + S). Rows of another width are answered 127. */
+void hypcheck_classify_columns(size_t n, size_t width, const double *rows, int8_t *positions);
+void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t *hits, double *times);
+
 /* The clearance, the distance and the nearest points of each of n rows of 7 doubles. Positions are as above.
 
        lower <= clearance <= upper      the clearance: 1 + clearance times as large, the spheroid first touches. It is
@@ -1651,7 +1659,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_f04f64790142c310
+#ifndef HC_EDITION_8d618565d50ecccc
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -2358,38 +2366,68 @@ static void hc_begin(hc_waiting *waiting, const double sizes[4], size_t n, hc_si
     waiting->kept = kept;
 }
 
-/* Answers for valid sizes; `scene` has their half planes, or is NULL where the first stage is left out. They are written, or
-   kept as bits where `kept` is not NULL: one hc_signs for each block of rows, and 0 for invalid ones. */
+/* Centres of one scene that come part by part. */
+typedef struct {
+    const hc_level_functions *level;
+    const hc_scene *scene; /* its half planes, or NULL where the first stage is left out */
+    int question, asked, fetch, lefts; /* `asked` is `question`, or HYPCHECK_POSITION for a number that is none */
+    hc_lines_function lines;
+    hc_signs *kept; /* where answers are kept as bits: one hc_signs for each block of rows, and 0 for invalid ones; or NULL */
+    int8_t *answers;
+    hc_waiting waiting;
+} hc_upright_parts;
+
+static void hc_begin_upright(hc_upright_parts *run, int question, const double sizes[4], const hc_scene *scene, size_t n,
+                             int8_t *answers, hc_signs *kept) {
+    run->asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
+    run->level = hc_level();
+    run->scene = scene;
+    run->question = question;
+    run->fetch = n >= HC_FAR_FROM;
+    run->lefts = 0;
+    run->lines = run->level->one_line[run->asked];
+    run->kept = kept;
+    run->answers = answers;
+    hc_begin(&run->waiting, sizes, n, kept);
+}
+
+/* Rows `start` to `start` + `count`, HC_STRIP at most; all parts but the last are whole blocks. Returns the number of
+   invalid ones that it came upon. */
+static size_t hc_upright_part(hc_upright_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
+    const int blocks = run->scene != NULL ? (int)(count / HC_BLOCK) : 0;
+    const size_t beyond = (size_t)(HC_BLOCK * blocks);
+    hc_signs own[HC_STRIP / HC_BLOCK], *const signs = run->kept != NULL ? run->kept + start / HC_BLOCK : own;
+    uint64_t left[HC_STRIP / HC_BLOCK];
+    size_t refused = 0, i;
+    int block;
+    if (blocks) run->lines(run->scene, blocks, x, y, z, run->fetch, signs, left);
+    if (run->kept == NULL) run->level->spread_all(run->answers + start, signs, (size_t)blocks);
+    else if (beyond < count) memset(signs + blocks, 0, hc_blocks(count - beyond) * sizeof *signs);
+    for (block = 0; block < blocks; block++)
+        for (; left[block]; left[block] &= left[block] - 1, run->lefts++) {
+            i = (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+            refused += hc_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], run->answers);
+        }
+    if (run->lefts > HC_TOO_MANY_LEFT) run->lines = run->level->two_lines[run->asked];
+    if ((start + count) % HC_STRIP == 0) run->lefts = 0;
+    for (i = beyond; i < count; i++)
+        refused += hc_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], run->answers);
+    return refused;
+}
+
+static size_t hc_end_upright(hc_upright_parts *run) {
+    return hc_settle(run->level, run->question, &run->waiting, run->answers);
+}
+
+/* Answers for valid sizes, written or kept as bits. */
 static size_t hc_ask_upright(int question, const double sizes[4], const hc_scene *scene, size_t n, const double *x,
                              const double *y, const double *z, int8_t *answers, hc_signs *kept) {
-    const hc_level_functions *level = hc_level();
-    const int asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
-    hc_lines_function lines = level->one_line[asked];
-    hc_waiting waiting;
-    hc_signs own[HC_STRIP / HC_BLOCK];
-    uint64_t left[HC_STRIP / HC_BLOCK];
-    size_t refused = 0, start, i;
-    int block;
-    hc_begin(&waiting, sizes, n, kept);
-    for (start = 0; start < n; start += HC_STRIP) {
-        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = scene != NULL ? (int)((end - start) / HC_BLOCK) : 0;
-        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
-        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
-        int lefts = 0;
-        if (blocks) lines(scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
-        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
-        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
-        for (block = 0; block < blocks; block++)
-            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
-                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
-                refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-            }
-        if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[asked];
-        for (i = beyond; i < end; i++)
-            refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-    }
-    return refused + hc_settle(level, question, &waiting, answers);
+    hc_upright_parts run;
+    size_t refused = 0, start;
+    hc_begin_upright(&run, question, sizes, scene, n, answers, kept);
+    for (start = 0; start < n; start += HC_STRIP)
+        refused += hc_upright_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
+    return refused + hc_end_upright(&run);
 }
 
 static size_t hc_refuse_all(size_t n, int8_t *answers) {
@@ -2478,7 +2516,8 @@ static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc
     return refused;
 }
 
-size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
+/* Rows begin with the ten numbers, and are `width` doubles apart. */
+static size_t hc_ask_rows(int question, size_t n, size_t width, const double *rows, int8_t *answers) {
     const hc_level_functions *level = hc_level();
     hc_tilted_waiting leaning;
     hc_waiting upright;
@@ -2487,7 +2526,7 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
     memset(&leaning, 0, sizeof leaning);
     memset(&upright, 0, sizeof upright);
     for (i = 0; i < n; i++) {
-        const double *const row = rows10 + 10 * i;
+        const double *const row = rows + width * i;
         if (hc_is_upright(row) && hc_has_direction(row + 7)) {
             for (k = 0; k < 7; k++) upright.columns[k * HC_BLOCK + upright.count] = row[k];
             upright.places[upright.count++] = i;
@@ -2505,6 +2544,10 @@ size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t 
     return refused + hc_tilted_settle(level, question, &leaning, answers);
 }
 
+size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
+    return hc_ask_rows(question, n, 10, rows10, answers);
+}
+
 static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_tilted_waiting *waiting, size_t place,
                              double x, double y, double z, int8_t *answers) {
     const int at = waiting->count++;
@@ -2515,46 +2558,77 @@ static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_t
     return waiting->count == HC_BLOCK ? hc_tilted_settle(level, question, waiting, answers) : 0;
 }
 
-/* As hc_ask_upright, and the question is the position where answers are kept: sizes and an axis with a direction, scaled, that is not
-   upright, are valid, and `probe` has them as a row. `known` has
-   the half spaces, or is NULL where the first stage is left out; the second ones are made when they are needed. */
-static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
-                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
-    const hc_level_functions *level = hc_level();
-    hc_planes_function planes = level->one_plane;
+/* As hc_upright_parts: sizes and an axis with a direction, scaled, that is not upright, are valid. The question is the
+   position where answers are kept. The second half spaces are made when they are needed. */
+typedef struct {
+    const hc_level_functions *level;
+    int question, fetch, lefts, has_planes;
+    hc_planes_function planes;
+    hc_signs *kept;
+    int8_t *answers;
     hc_tilted_waiting waiting;
     hc_tilted_scene scene;
-    hc_signs own[HC_STRIP / HC_BLOCK];
+} hc_leaning_parts;
+
+/* `probe` has sizes and axis as a row. `known` has the half spaces, or is NULL where the first stage is left out. */
+static void hc_begin_leaning(hc_leaning_parts *run, int question, const double probe[10], const hc_tilted_scene *known, size_t n,
+                             int8_t *answers, hc_signs *kept) {
+    int k;
+    run->level = hc_level();
+    run->question = question;
+    run->fetch = n >= HC_FAR_FROM;
+    run->lefts = 0;
+    run->has_planes = known != NULL;
+    run->planes = run->level->one_plane;
+    run->kept = kept;
+    run->answers = answers;
+    if (known != NULL) run->scene = *known;
+    memset(&run->waiting, 0, sizeof run->waiting);
+    run->waiting.kept = kept;
+    for (k = 0; k < 10 * HC_BLOCK; k++) run->waiting.columns[k] = probe[k / HC_BLOCK];
+}
+
+/* As hc_upright_part. */
+static size_t hc_leaning_part(hc_leaning_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
+    const int blocks = run->has_planes ? (int)(count / HC_BLOCK) : 0;
+    const size_t beyond = (size_t)(HC_BLOCK * blocks);
+    hc_signs own[HC_STRIP / HC_BLOCK], *const signs = run->kept != NULL ? run->kept + start / HC_BLOCK : own;
     uint64_t left[HC_STRIP / HC_BLOCK];
-    size_t refused = 0, start, i;
-    int block, k;
-    if (known != NULL) scene = *known;
-    memset(&waiting, 0, sizeof waiting);
-    waiting.kept = kept;
-    for (k = 0; k < 10 * HC_BLOCK; k++) waiting.columns[k] = probe[k / HC_BLOCK];
-    for (start = 0; start < n; start += HC_STRIP) {
-        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = known != NULL ? (int)((end - start) / HC_BLOCK) : 0;
-        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
-        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
-        int lefts = 0;
-        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
-        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
-        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
-        if (kept == NULL && question != HYPCHECK_POSITION)
-            for (i = start; i < beyond; i++) answers[i] = hc_answer(question, answers[i]);
-        for (block = 0; block < blocks; block++)
-            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
-                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
-                refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-            }
-        if (lefts > HC_TOO_MANY_BY_PLANES && planes != level->two_planes) {
-            if (!scene.has_two) hc_make_planes(&scene, 1, 2);
-            planes = level->two_planes;
+    int8_t *const answers = run->answers;
+    size_t refused = 0, i;
+    int block;
+    if (blocks) run->planes(&run->scene, blocks, x, y, z, run->fetch, signs, left);
+    if (run->kept == NULL) run->level->spread_all(answers + start, signs, (size_t)blocks);
+    else if (beyond < count) memset(signs + blocks, 0, hc_blocks(count - beyond) * sizeof *signs);
+    if (run->kept == NULL && run->question != HYPCHECK_POSITION)
+        for (i = start; i < start + beyond; i++) answers[i] = hc_answer(run->question, answers[i]);
+    for (block = 0; block < blocks; block++)
+        for (; left[block]; left[block] &= left[block] - 1, run->lefts++) {
+            i = (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+            refused += hc_tilted_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], answers);
         }
-        for (i = beyond; i < end; i++) refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
+    if (run->lefts > HC_TOO_MANY_BY_PLANES && run->planes != run->level->two_planes) {
+        if (!run->scene.has_two) hc_make_planes(&run->scene, 1, 2);
+        run->planes = run->level->two_planes;
     }
-    return refused + hc_tilted_settle(level, question, &waiting, answers);
+    if ((start + count) % HC_STRIP == 0) run->lefts = 0;
+    for (i = beyond; i < count; i++)
+        refused += hc_tilted_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], answers);
+    return refused;
+}
+
+static size_t hc_end_leaning(hc_leaning_parts *run) {
+    return hc_tilted_settle(run->level, run->question, &run->waiting, run->answers);
+}
+
+static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
+                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
+    hc_leaning_parts run;
+    size_t refused = 0, start;
+    hc_begin_leaning(&run, question, probe, known, n, answers, kept);
+    for (start = 0; start < n; start += HC_STRIP)
+        refused += hc_leaning_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
+    return refused + hc_end_leaning(&run);
 }
 
 size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
@@ -2950,40 +3024,12 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
     return 1;
 }
 
-/* The rows of a question about ways, 10 or 13 numbers each. */
-static void hc_passages(size_t n, size_t width, const double *rows, int8_t *hits, double *times) {
-    const double nan = hc_nothing_known();
-    size_t i;
-    for (i = 0; i < n; i++) {
-        const double *const row = rows + width * i;
-        double start[10] = {0}, end[7], *const axis = start + 7;
-        int valid = 1, leans = 0;
-        memcpy(start, row, 7 * sizeof *row);
-        memcpy(end, row, 4 * sizeof *row);
-        memcpy(end + 4, row + 7, 3 * sizeof *row);
-        if (times) times[i] = nan;
-        if (width > 10) {
-            memcpy(axis, row + 10, 3 * sizeof *row);
-            valid = hc_has_direction(axis);
-            leans = valid && !hc_is_upright(start);
-            if (leans) hc_scale_axis(axis);
-        }
-        valid = valid && hc_valid(start) && hc_valid(end);
-        hits[i] = (int8_t)(valid ? hc_passage_of(row, leans ? axis : NULL, times ? times + i : NULL) : 127);
-    }
-}
-
-void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times) { hc_passages(n, 10, rows10, hits, times); }
-
-void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times) {
-    hc_passages(n, 13, rows13, hits, times);
-}
-
 /* ---- hyperboloids that end ---- */
 
 #define HC_MOST_PIECES 48
 #define HC_ENDED_STEPS 14 /* of Newton's method for a multiplier; any result is safe */
 #define HC_ENDED_ERROR 1.4210854715202004e-14 /* 2^-46 = 128u */
+#define HC_ENDED_NEAREST 9e-13 /* below 2^-40: how near lambda may come to -mu, in mu */
 #define HC_ENDED_LEAST 8.6361685550944446e-78 /* 2^-256 */
 #define HC_ENDED_GREATEST 1.157920892373162e+77 /* 2^256 */
 
@@ -2993,41 +3039,44 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 
        phi(w) = t²/T - 1 - lambda r² + f1 eta² + f2 xi² > 0,    f = lambda mu/(mu + lambda),
 
-   a quadratic in w. `across` is |x| + |y|, which eta and xi0 are below. */
+   a quadratic in w. (c, s) is the horizontal direction of the axis. `across` is |x| + |y|, which eta and xi0 are below. */
 typedef struct {
-    double alpha, ratio, z, T, mu1, mu2, eta, xi0, k, across;
+    double alpha, ratio, z, T, mu1, mu2, eta, xi0, k, c, s, across;
 } hc_sections;
+
+static void hc_place_sections(hc_sections *made, const double center[3]) {
+    made->xi0 = center[0] * made->c + center[1] * made->s;
+    made->eta = center[0] * made->s - center[1] * made->c;
+    made->z = center[2];
+    made->across = hc_size(center[0]) + hc_size(center[1]);
+}
 
 /* Returns 0 where the numbers are too large or small for the bounds: mu, T, r² and their products stay normal. */
 static int hc_make_sections(hc_sections *made, const double row[10]) {
-    const double b = row[2], d = row[3], *const v = row + 7;
-    const double flat = v[0] * v[0] + v[1] * v[1], length = flat + v[2] * v[2];
-    double s2, c2, away;
+    const double b = row[2], d = row[3];
+    double v[3], s2, c2, away, flat, length;
     int k;
+    memcpy(v, row + 7, sizeof v);
+    hc_scale_axis(v);
+    flat = v[0] * v[0] + v[1] * v[1];
+    length = flat + v[2] * v[2];
     for (k = 0; k < 7; k++) {
         const double size = hc_size(row[k]);
-        if (size > 1.2676506002282294e+30 /* 2^100 */ || (size != 0 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
+        if (size > 1.2676506002282294e+30 /* 2^100 */ || (k < 4 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
     }
     if (!(length > HC_ENDED_LEAST && length < HC_ENDED_GREATEST) || (flat != 0 && flat < HC_ENDED_LEAST)) return 0;
     s2 = flat / length;
     c2 = v[2] * v[2] / length;
+    away = flat == 0 ? 0 : 1 / hc_fine_root(flat);
     made->alpha = row[0];
     made->ratio = 1 / row[1];
-    made->z = row[6];
     made->T = b * b * s2 + d * d * c2;
     made->mu1 = 1 / (b * b);
     made->mu2 = made->T / (b * b * (d * d));
-    made->across = hc_size(row[4]) + hc_size(row[5]);
-    if (flat == 0) {
-        made->xi0 = row[4];
-        made->eta = row[5];
-        made->k = 0;
-        return 1;
-    }
-    away = 1 / hc_fine_root(flat);
-    made->xi0 = (row[4] * v[0] + row[5] * v[1]) * away;
-    made->eta = (row[4] * v[1] - row[5] * v[0]) * away;
+    made->c = flat == 0 ? 1 : v[0] * away;
+    made->s = v[1] * away;
     made->k = v[2] * flat * away / length * ((b - d) * (b + d)) / made->T;
+    hc_place_sections(made, row + 4);
     return 1;
 }
 
@@ -3041,7 +3090,7 @@ static double hc_radius(const hc_sections *pair, double w) {
 static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) {
     const double p = pair->mu1 * hc_size(pair->eta), q = pair->mu2 * hc_size(xi);
     const double least = pair->mu1 < pair->mu2 ? pair->mu1 : pair->mu2, most = p + q;
-    double low = least * 9.5367431640625e-07 /* 2^-20 */, high = most / r > low ? most / r : low, n = high;
+    double low = least * 9.0949470177292824e-13 /* 2^-40 */, high = most / r > low ? most / r : low, n = high;
     int i;
     for (i = 0; i < HC_ENDED_STEPS; i++) {
         const double one = 1 / (n + (pair->mu1 - least)), two = 1 / (n + (pair->mu2 - least));
@@ -3052,8 +3101,8 @@ static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) 
         if (root > r) low = n;
         else high = n;
         moved = n + (root / r - 1) * sum / fall;
+        if (hc_size(moved - n) < 1e-9 * n) return moved - least; /* at the root itself it may be out of bounds by an ulp */
         if (!(moved > low && moved < high)) moved = high > 4 * low ? hc_rough_root(low * high) : 0.5 * (low + high);
-        if (hc_size(moved - n) < 1e-9 * n) break;
         n = moved;
     }
     return n - least;
@@ -3071,7 +3120,7 @@ static int hc_piece_misses(const hc_sections *pair, double lambda_, double w, do
     const double size = 1 + top * top / pair->T + hc_size(lambda_) * (pair->alpha * pair->alpha) + hc_size(l2) * (wide * wide) +
                         hc_size(f1) * (pair->across * pair->across) * (1 + pair->mu1 / n1) + hc_size(f2) * (reach * reach) * (1 + pair->mu2 / n2);
     double lowest = value - hc_size(slope) * half;
-    if (!(n1 > pair->mu1 * 9.5e-07 && n2 > pair->mu2 * 9.5e-07)) return 0;
+    if (!(n1 > pair->mu1 * HC_ENDED_NEAREST && n2 > pair->mu2 * HC_ENDED_NEAREST)) return 0;
     if (bend < 0) lowest += bend * (half * half);
     else if (hc_size(slope) < 2 * bend * half) lowest = value - slope * slope / (4 * bend);
     else lowest += bend * (half * half);
@@ -3136,24 +3185,38 @@ static int hc_center_inside(const double row[13]) {
     return out * (1 + HC_ENDED_ERROR) < in ? 1 : 2;
 }
 
+/* Whether the spheroid, which is upright, surely meets the circle at a height: with R = x² + y² and the squares r² and s² of
+   the radii of both circles there, (√R - r)² < s². */
+static int hc_upright_met(const double row[13], double w) {
+    const double t = (w - row[6]) / row[3], up = w / row[1], share = t * t;
+    const double R = row[4] * row[4] + row[5] * row[5], r = row[0] * row[0] * (1 + up * up), s = row[2] * row[2] * (1 - share);
+    const double size = HC_ENDED_ERROR * (R + r + row[2] * row[2] * (1 + share)), off = R + r - s;
+    const double most = off + size; /* at or below 0 both circles have points within each other */
+    if (!(s > size && most < HC_cap)) return 0;
+    return most < 0 || (size > HC_ENDED_LEAST && most * most < 4 * R * r * (1 - HC_ENDED_ERROR));
+}
+
 /* The position of a valid row of 13 whose position without ends is `whole`; 2 where the bounds do not tell. */
 static int hc_ended_position(const double row[13], int whole) {
-    const double z = row[6], reach = row[2] > row[3] ? row[2] : row[3], low = row[10], high = row[11];
+    const int upright = hc_is_upright(row), solid = row[12] != 0;
+    const double z = row[6], reach = row[2] > row[3] && !upright ? row[2] : row[3], low = row[10], high = row[11];
     const double slack = HC_u_8 * (hc_size(z) + reach), below = z - low, above = high - z;
     const double more = reach + slack, under = hc_size(low) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(low) : 0;
     const double over = hc_size(high) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(high) : 0;
-    const int solid = row[12] != 0;
+    const double level = z < low ? low : z > high ? high : z;
     hc_sections pair;
     int misses, inside, k;
     if (below > more + under && above > more + over) return whole;
     if (-below > more + under || -above > more + over || (solid && whole == 1)) return 1;
     if (whole != 0 && !solid) return whole == -1 && z >= low && z <= high ? -1 : 1;
-    if (!HC_FLOATS_DECIDE || !hc_make_sections(&pair, row)) return 2;
+    if (!HC_FLOATS_DECIDE) return 2;
+    if (whole == 0 && upright && hc_upright_met(row, level)) return 0; /* most contacts */
+    if (!hc_make_sections(&pair, row)) return 2;
     misses = 1;
     if (whole == 0) {
-        const double level = z < low ? low : z > high ? high : z, t = level - z, xi = pair.xi0 - pair.k * t;
+        const double t = level - z, xi = pair.xi0 - pair.k * t;
         const double bottom = low > z - more ? low : z - more, top = high < z + more ? high : z + more;
-        if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0; /* most contacts */
+        if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0;
         misses = bottom <= top ? hc_wall_misses(&pair, bottom, top) : 2;
     }
     for (k = 10; solid && k < 12 && misses == 1; k++)
@@ -3164,23 +3227,384 @@ static int hc_ended_position(const double row[13], int whole) {
     return inside == 2 ? 2 : inside ? -1 : 1;
 }
 
+#define HC_ENDED_TOGETHER 256 /* rows that are still in the cache when their ends are looked at */
+
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) {
-    size_t i;
-    for (i = 0; i < n; i++) {
-        const double *const row = rows13 + 13 * i;
-        double ten[10];
-        int8_t whole = 127;
-        memcpy(ten, row, sizeof ten);
-        if (row[10] < row[11] && (row[12] == 0 || row[12] == 1)) hypcheck_classify_tilted(1, ten, &whole);
-        positions[i] = whole;
-        if (whole == 127) continue;
-        {
-            double scaled[13];
-            memcpy(scaled, row, sizeof scaled);
-            hc_scale_axis(scaled + 7);
-            positions[i] = (int8_t)hc_ended_position(scaled, whole);
+    size_t i, k;
+    for (i = 0; i < n; i += HC_ENDED_TOGETHER) {
+        const size_t count = n - i < HC_ENDED_TOGETHER ? n - i : HC_ENDED_TOGETHER;
+        const double *row = rows13 + 13 * i;
+        int8_t *const some = positions + i;
+        hc_ask_rows(HYPCHECK_POSITION, count, 13, row, some);
+        for (k = 0; k < count; k++, row += 13) {
+            const double more = 1.5 * (row[2] + row[3]), low = row[10], high = row[11];
+            const int valid = row[12] == 0 || row[12] == 1;
+            if (valid && row[6] - low > more && high - row[6] > more) continue; /* between the ends: as without them */
+            if (!(valid && low < high)) some[k] = 127;
+            else if (some[k] != 127) some[k] = (int8_t)hc_ended_position(row, some[k]);
         }
     }
+}
+
+/* ---- straight ways beside hyperboloids that end ---- */
+
+#define HC_MOST_RECTANGLES 128 /* that are looked at before a stretch is given up */
+#define HC_RECTANGLES_KEPT 64
+#define HC_AIMS 3
+#define HC_SMALL 9.5367431640625e-07 /* 2^-20, and 2^-8: rectangles on which a form changes less are given up */
+#define HC_HOPELESS 0.00390625
+#define HC_SEEN_ENDED 4096 /* as HC_SEEN */
+#define HC_TIMES 60 /* halvings of the time before a contact, of which so many may tell nothing */
+#define HC_MOST_UNKNOWN 8
+
+/* A way, and the sections of the spheroid larger by its slack, which holds the exact one at all times, and of the one
+   smaller by it, which the exact one holds. `rise`, `off` and `aside` are what z, eta and xi0 change in a unit of time. */
+typedef struct {
+    hc_way way;
+    hc_sections larger, smaller;
+    double rise, off, aside, swift, reach, low, high;
+    int solid, wall;
+} hc_ended_way;
+
+/* Heights and times. */
+typedef struct {
+    double low, high, first, last;
+} hc_rectangle;
+
+/* phi about a height and a time, for one lambda: value + rise x + fall y + xx x² + 2 xy x y + yy y². */
+typedef struct {
+    double value, by_height, by_time, xx, xy, yy;
+} hc_form;
+
+static int hc_make_ended_way(hc_ended_way *made, const double row[16], const double *axis) {
+    double shape[10] = {0};
+    if (!hc_make_way(&made->way, row, axis)) return 0;
+    hc_way_at(&made->way, 0, 1 + made->way.slack, shape);
+    if (axis) memcpy(shape + 7, axis, 3 * sizeof *axis);
+    else shape[9] = 1;
+    shape[4] = shape[5] = shape[6] = 0;
+    if (!hc_make_sections(&made->larger, shape)) return 0;
+    hc_way_at(&made->way, 0, 1 - made->way.slack, shape);
+    shape[4] = shape[5] = shape[6] = 0;
+    if (!hc_make_sections(&made->smaller, shape)) return 0;
+    hc_place_sections(&made->larger, made->way.change);
+    made->rise = made->way.change[2];
+    made->off = made->larger.eta;
+    made->aside = made->larger.xi0;
+    made->swift = made->larger.across;
+    made->reach = hc_fine_root(made->larger.T) * (1 + HC_ENDED_ERROR);
+    made->low = row[13];
+    made->high = row[14];
+    made->solid = row[15] != 0;
+    made->wall = 1;
+    return 1;
+}
+
+static void hc_center_at(const hc_ended_way *made, double time, double center[3]) {
+    int k;
+    for (k = 0; k < 3; k++) center[k] = made->way.from[k] + time * made->way.change[k];
+}
+
+/* The form of the sections that are placed at a time, about a height w. */
+static hc_form hc_form_about(const hc_ended_way *made, const hc_sections *pair, double lambda_, double w) {
+    const double f1 = lambda_ * pair->mu1 / (pair->mu1 + lambda_), f2 = lambda_ * pair->mu2 / (pair->mu2 + lambda_);
+    const double t = w - pair->z, xi = pair->xi0 - pair->k * t, drift = made->aside + pair->k * made->rise;
+    const double g = pair->ratio * pair->alpha, l2 = lambda_ * (g * g);
+    hc_form form;
+    form.value = t * t / pair->T - 1 - lambda_ * (pair->alpha * pair->alpha) - l2 * (w * w) + f1 * (pair->eta * pair->eta) + f2 * (xi * xi);
+    form.by_height = 2 * (t / pair->T - l2 * w - f2 * (xi * pair->k));
+    form.by_time = 2 * (f1 * (pair->eta * made->off) + f2 * (xi * drift) - t * made->rise / pair->T);
+    form.xx = 1 / pair->T - l2 + f2 * (pair->k * pair->k);
+    form.xy = -made->rise / pair->T - f2 * (pair->k * drift);
+    form.yy = made->rise * made->rise / pair->T + f1 * (made->off * made->off) + f2 * (drift * drift);
+    return form;
+}
+
+/* A bound of the errors of the form's terms together within these distances from its height and its time: each is right
+   within 32u of its terms, f within 32u mu/(mu + lambda) of itself. Huge where numbers are too large. */
+static double hc_form_error(const hc_ended_way *made, const hc_sections *pair, double lambda_, double w, double x, double y) {
+    const double n1 = pair->mu1 + lambda_, n2 = pair->mu2 + lambda_, g = pair->ratio * pair->alpha;
+    const double top = hc_size(w - pair->z) + x + hc_size(made->rise) * y, wide = hc_size(w) + x;
+    const double side = pair->across + made->swift * y, along = side + hc_size(pair->k) * top;
+    const double size = 1 + top * top / pair->T + hc_size(lambda_) * (pair->alpha * pair->alpha + g * g * (wide * wide)) +
+                        hc_size(lambda_ * pair->mu1 / n1) * (side * side) * (1 + pair->mu1 / n1) +
+                        hc_size(lambda_ * pair->mu2 / n2) * (along * along) * (1 + pair->mu2 / n2);
+    if (!(n1 > pair->mu1 * HC_ENDED_NEAREST && n2 > pair->mu2 * HC_ENDED_NEAREST && size < HC_cap * HC_cap)) return DBL_MAX;
+    return 4 * HC_ENDED_ERROR * size;
+}
+
+/* The least slope v + bend v² for 0 <= v <= reach. */
+static double hc_least_of(double slope, double bend, double reach) {
+    const double end = (slope + bend * reach) * reach;
+    if (bend > 0 && slope < 0 && -slope < 2 * bend * reach) return -slope * slope / (4 * bend);
+    return end < 0 ? end : 0;
+}
+
+static double hc_least_between(double slope, double bend, double pull, double below, double above) {
+    const double up = hc_least_of(slope - pull, bend, above), down = hc_least_of(-slope - pull, bend, below);
+    return up < down ? up : down;
+}
+
+/* A number that the form is not below on a rectangle, but for its error. A form that bends upwards everywhere lies above
+   its tangent plane; else the mixed term counts as a pull away from the height, or from the time. */
+static double hc_form_least(const hc_form *form, const hc_rectangle *in, double w, double time) {
+    const double below = w - in->low, above = in->high - w, before = time - in->first, after = in->last - time;
+    const double x = below > above ? below : above, y = before > after ? before : after, mixed = 2 * hc_size(form->xy);
+    const double first = hc_least_between(form->by_height, form->xx, mixed * y, below, above) +
+                         hc_least_between(form->by_time, form->yy, 0, before, after);
+    const double second = hc_least_between(form->by_height, form->xx, 0, below, above) +
+                          hc_least_between(form->by_time, form->yy, mixed * x, before, after);
+    double least = first > second ? first : second;
+    if (form->xx > 0 && form->yy > 0 && form->xx * form->yy * (1 - HC_SMALL) > form->xy * form->xy) {
+        const double plane = hc_least_between(form->by_height, 0, 0, below, above) + hc_least_between(form->by_time, 0, 0, before, after);
+        if (plane > least) least = plane;
+    }
+    return form->value + least;
+}
+
+static double hc_kept_within(double at, double low, double high) { return !(at > low) ? low : at < high ? at : high; }
+
+/* Moves a height and a time in a rectangle to about where max phi over lambda is least: the form with the bends that a
+   lambda that follows adds to it. Any result is safe. */
+static double hc_aim(const hc_ended_way *made, hc_sections *pair, const hc_rectangle *in, double *height, double *time) {
+    double w = *height, at = *time, center[3];
+    int i;
+    for (i = 0;; i++) {
+        const double drift = made->aside + pair->k * made->rise;
+        double xi, lambda_, s1, s2, all, by_height, by_time, denominator, x, y;
+        hc_form form;
+        hc_center_at(made, at, center);
+        hc_place_sections(pair, center);
+        xi = pair->xi0 - pair->k * (w - pair->z);
+        lambda_ = hc_ended_multiplier(pair, hc_radius(pair, w), xi);
+        if (i == HC_AIMS) {
+            *height = w, *time = at;
+            return lambda_;
+        }
+        form = hc_form_about(made, pair, lambda_, w);
+        s1 = pair->mu1 / (pair->mu1 + lambda_), s2 = pair->mu2 / (pair->mu2 + lambda_);
+        all = 2 * (s1 * s1 * (pair->eta * pair->eta) / (pair->mu1 + lambda_) + s2 * s2 * (xi * xi) / (pair->mu2 + lambda_));
+        by_height = -2 * (pair->ratio * pair->alpha * (pair->ratio * pair->alpha) * w + s2 * s2 * (xi * pair->k));
+        by_time = 2 * (s1 * s1 * (pair->eta * made->off) + s2 * s2 * (xi * drift));
+        if (all > 0) {
+            form.xx += by_height * by_height / (2 * all);
+            form.xy += by_height * by_time / (2 * all);
+            form.yy += by_time * by_time / (2 * all);
+        }
+        denominator = form.xx * form.yy - form.xy * form.xy;
+        if (denominator > 0 && form.xx > 0) {
+            x = w - (form.by_height * form.yy - form.by_time * form.xy) / (2 * denominator);
+            y = at - (form.by_time * form.xx - form.by_height * form.xy) / (2 * denominator);
+            if (!(x >= in->low && x <= in->high)) {
+                x = hc_kept_within(x, in->low, in->high);
+                y = at - (form.by_time + 2 * form.xy * (x - w)) / (2 * form.yy);
+            }
+            if (!(y >= in->first && y <= in->last)) {
+                y = hc_kept_within(y, in->first, in->last);
+                x = w - (form.by_height + 2 * form.xy * (y - at)) / (2 * form.xx);
+            }
+        } else {
+            x = form.by_height < 0 ? in->high : in->low;
+            y = form.by_time < 0 ? in->last : in->first;
+        }
+        w = hc_kept_within(x, in->low, in->high), at = hc_kept_within(y, in->first, in->last);
+    }
+}
+
+/* Whether a point of the circle at a height surely lies inside the smaller spheroid at a time. */
+static int hc_surely_met(hc_ended_way *made, double lambda_, double w, double time) {
+    static const double across[4] = {1, -1, 0, 0}, along[4] = {0, 0, 1, -1};
+    hc_sections *const pair = &made->smaller;
+    double center[3], r, xi;
+    int k;
+    hc_center_at(made, time, center);
+    hc_place_sections(pair, center);
+    r = hc_radius(pair, w);
+    xi = pair->xi0 - pair->k * (w - pair->z);
+    if (hc_point_within(pair, r, w, xi, pair->eta * pair->mu1 / (pair->mu1 + lambda_), xi * pair->mu2 / (pair->mu2 + lambda_))) return 1;
+    for (k = 0; k < 4; k++)
+        if (hc_point_within(pair, r, w, xi, across[k], along[k])) return 1;
+    return 0;
+}
+
+/* Cuts off the heights of a rectangle that the larger spheroid never reaches. Returns 0 where none is left. */
+static int hc_cut_to_reach(const hc_ended_way *made, hc_rectangle *of) {
+    double center[3], bottom, top;
+    hc_center_at(made, of->first, center);
+    bottom = top = center[2];
+    hc_center_at(made, of->last, center);
+    if (center[2] < bottom) bottom = center[2];
+    if (center[2] > top) top = center[2];
+    bottom -= made->reach + HC_u_8 * (hc_size(bottom) + made->reach);
+    top += made->reach + HC_u_8 * (hc_size(top) + made->reach);
+    if (of->low < bottom) of->low = bottom;
+    if (of->high > top) of->high = top;
+    return of->low <= of->high;
+}
+
+/* Whether the wall is surely missed from a time to another: 1; 0 where there is contact at *contact; else 2. */
+static int hc_wall_missed_between(hc_ended_way *made, double first, double last, double *contact) {
+    hc_rectangle kept[HC_RECTANGLES_KEPT];
+    int left = 1, seen = 0, unknown = 0;
+    kept[0].low = made->low, kept[0].high = made->high, kept[0].first = first, kept[0].last = last;
+    while (left) {
+        hc_rectangle in = kept[--left];
+        double w, time, lambda_, error, by_height, by_time, half;
+        hc_form form;
+        if (!hc_cut_to_reach(made, &in)) continue;
+        w = hc_kept_within(in.low + 0.5 * (in.high - in.low), in.low, in.high);
+        time = hc_kept_within(in.first + 0.5 * (in.last - in.first), in.first, in.last);
+        lambda_ = hc_aim(made, &made->larger, &in, &w, &time);
+        form = hc_form_about(made, &made->larger, lambda_, w);
+        error = hc_form_error(made, &made->larger, lambda_, w, in.high - in.low, in.last - in.first);
+        if (hc_form_least(&form, &in, w, time) > error) continue;
+        if (hc_surely_met(made, lambda_, w, time)) {
+            *contact = time;
+            return 0;
+        }
+        by_height = (hc_size(form.by_height) + hc_size(form.xx) * (in.high - in.low)) * (in.high - in.low);
+        by_time = (hc_size(form.by_time) + hc_size(form.yy) * (in.last - in.first)) * (in.last - in.first);
+        half = by_height > by_time ? in.low + 0.5 * (in.high - in.low) : in.first + 0.5 * (in.last - in.first);
+        if (!(form.value > error) && !(by_height + by_time > (form.value < -error ? HC_SMALL : HC_HOPELESS))) {
+            unknown = 1;
+            continue;
+        }
+        if (++seen > HC_MOST_RECTANGLES || left + 2 > HC_RECTANGLES_KEPT) return 2;
+        kept[left] = kept[left + 1] = in;
+        if (by_height > by_time) kept[left].low = kept[left + 1].high = half;
+        else kept[left].first = kept[left + 1].last = half;
+        if (by_height > by_time ? !(half > in.low && half < in.high) : !(half > in.first && half < in.last)) return 2;
+        left += 2;
+    }
+    return unknown ? 2 : 1;
+}
+
+/* The same of the disc at a height, whose rim the spheroid misses all the time. While it meets the plane, which is from one
+   time to another, it stays within the rim or outside: one time tells, and of that time one point in the plane. */
+static int hc_disc_missed_between(hc_ended_way *made, double w, double first, double last, double *contact) {
+    const double time = hc_kept_within(made->rise == 0 ? first : (w - made->way.from[2]) / made->rise, first, last);
+    double center[3], under[2], share;
+    int misses;
+    hc_center_at(made, first, center);
+    under[0] = (w - center[2]) * (1 - HC_ENDED_ERROR);
+    hc_center_at(made, last, center);
+    under[1] = (w - center[2]) * (1 - HC_ENDED_ERROR);
+    if ((under[0] > made->reach && under[1] > made->reach) || (under[0] < -made->reach && under[1] < -made->reach)) return 1;
+    hc_center_at(made, time, center);
+    hc_place_sections(&made->smaller, center);
+    share = (w - center[2]) * (w - center[2]) / made->smaller.T;
+    misses = hc_disc_misses(&made->smaller, w);
+    if (misses == 0) *contact = time;
+    return 1 - share > HC_ENDED_ERROR * (share + 1) ? misses : 2;
+}
+
+/* Whether wall and discs are surely missed from a time to another: 1; 0 where there is contact at *contact; else 2. */
+static int hc_missed_between(hc_ended_way *made, double first, double last, double *contact) {
+    const double ends[2] = {made->low, made->high};
+    int missed = made->wall ? hc_wall_missed_between(made, first, last, contact) : 1, k;
+    for (k = 0; made->solid && k < 2 && missed == 1; k++)
+        if (hc_size(ends[k]) <= HC_ENDED_GREATEST) missed = hc_disc_missed_between(made, ends[k], first, last, contact);
+    return missed;
+}
+
+static int hc_ended_position_at(const hc_ended_way *made, const double *axis, double time, double scale) {
+    double row[13] = {0};
+    hc_way_at(&made->way, time, scale, row);
+    if (axis) memcpy(row + 7, axis, 3 * sizeof *axis);
+    else row[9] = 1;
+    row[10] = made->low, row[11] = made->high, row[12] = made->solid;
+    return hc_ended_position(row, hc_position_with(row, axis));
+}
+
+/* A time before which there is no contact, and at which a spheroid that is a little larger has contact, in the sense of
+   hypcheck_passage; NaN where none is found. */
+static double hc_first_time(hc_ended_way *made, const double *axis, double contact) {
+    double clear = 0;
+    int i, unknown = 0;
+    for (i = 0; i < HC_TIMES && unknown < HC_MOST_UNKNOWN; i++) {
+        const double middle = clear + 0.5 * (contact - clear);
+        double met = middle;
+        int missed;
+        if (!(middle > clear && middle < contact)) break;
+        missed = hc_missed_between(made, clear, middle, &met);
+        if (missed == 1) clear = middle;
+        else contact = met; /* or no more is known before it */
+        unknown += missed == 2;
+    }
+    return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN_ENDED * made->way.slack) == 0 ? clear : hc_nothing_known();
+}
+
+/* As hc_passage_of, for a valid row with heights behind the axis. */
+static int hc_ended_passage(const double row[16], const double *axis, double *time) {
+    const double reach = row[2] > row[3] ? row[2] : row[3], low = row[13], high = row[14];
+    const double bottom = row[6] < row[9] ? row[6] : row[9], top = row[6] < row[9] ? row[9] : row[6];
+    const double ends = (hc_size(low) <= HC_ENDED_GREATEST ? hc_size(low) : 0) + (hc_size(high) <= HC_ENDED_GREATEST ? hc_size(high) : 0);
+    const double more = reach + HC_u_8 * (hc_size(bottom) + hc_size(top) + reach + ends);
+    const int solid = row[15] != 0;
+    double places[2][13], contact = 1;
+    int positions[2], whole[2], endless, known, k;
+    hc_ended_way made;
+    if (bottom - low > more && high - top > more) return hc_passage_of(row, axis, time);
+    if (low - top > more || bottom - high > more) return 0;
+    for (k = 0; k < 2; k++) {
+        memcpy(places[k], row, 4 * sizeof *row);
+        memcpy(places[k] + 4, row + 4 + 3 * k, 3 * sizeof *row);
+        memcpy(places[k] + 7, row + 10, 6 * sizeof *row);
+        whole[k] = hc_position_with(places[k], axis);
+        positions[k] = hc_ended_position(places[k], whole[k]);
+    }
+    if (positions[0] == 0) {
+        if (time) *time = 0;
+        return 1;
+    }
+    known = positions[1] == 0 || (solid && positions[0] != 2 && positions[1] != 2 && positions[0] != positions[1]);
+    if (known && !time) return 1;
+    endless = hc_passage_of(row, axis, NULL);
+    if (endless == 0 && (!solid || whole[0] == 1)) return 0;
+    if (!hc_make_ended_way(&made, row, axis)) return known ? 1 : 2;
+    made.wall = endless != 0;
+    k = hc_missed_between(&made, 0, 1, &contact);
+    if (k && !known) return k == 1 ? 0 : 2;
+    if (time) *time = hc_first_time(&made, axis, contact);
+    return 1;
+}
+
+/* The rows of a question about ways: 10, 13 or 16 numbers each. */
+void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t *hits, double *times) {
+    const double nan = hc_nothing_known();
+    size_t i;
+    for (i = 0; i < n; i++) {
+        const double *const given = rows + width * i;
+        double row[16] = {0}, end[7], *const axis = row + 10, *const heights = row + 13;
+        int valid = width == 10 || width == 13 || width == 16, leans;
+        if (times) times[i] = nan;
+        hits[i] = 127;
+        if (!valid) continue;
+        row[12] = 1;
+        memcpy(row, given, width * sizeof *row);
+        memcpy(end, row, 4 * sizeof *row);
+        memcpy(end + 4, row + 7, 3 * sizeof *row);
+        if (width == 16) valid = heights[0] < heights[1] && (heights[2] == 0 || heights[2] == 1);
+        if (!(valid && hc_has_direction(axis) && hc_valid(row) && hc_valid(end))) continue;
+        leans = !((hc_word(axis[0]) | hc_word(axis[1])) << 1 == 0 || hc_word(row[2]) == hc_word(row[3]));
+        hc_scale_axis(axis);
+        hits[i] = (int8_t)(width == 16 && !(heights[0] < -DBL_MAX && heights[1] > DBL_MAX)
+                               ? hc_ended_passage(row, leans ? axis : NULL, times ? times + i : NULL)
+                               : hc_passage_of(row, leans ? axis : NULL, times ? times + i : NULL));
+    }
+}
+
+void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times) { hypcheck_passage_columns(n, 10, rows10, hits, times); }
+
+void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times) {
+    hypcheck_passage_columns(n, 13, rows13, hits, times);
+}
+
+void hypcheck_classify_columns(size_t n, size_t width, const double *rows, int8_t *positions) {
+    if (width == 7) hypcheck_classify(n, rows, positions);
+    else if (width == 10) hypcheck_classify_tilted(n, rows, positions);
+    else if (width == 13) hypcheck_classify_ended(n, rows, positions);
+    else hc_refuse_all(n, positions);
 }
 
 /* ---- clearances, distances and nearest points ---- */
@@ -3390,7 +3814,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_f04f64790142c310
+#define HC_EDITION_8d618565d50ecccc
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -31,6 +31,8 @@ LEANING = (
     "hypcheck_classify_tilted_scene",
     "hypcheck_prepare",
     "hypcheck_ask_prepared",
+    "hypcheck_classify_columns",
+    "hypcheck_passage_columns",
 )
 
 
@@ -121,7 +123,13 @@ _SMALL = (
     "-fno-asynchronous-unwind-tables",
     "-fno-pie",
 )
-_EVERY = (*UPRIGHT, *LEANING, "hypcheck_clearance", "hypcheck_passage", "hypcheck_passage_tilted", "hypcheck_use_level")
+_EVERY = (
+    *UPRIGHT,
+    *LEANING,
+    "hypcheck_clearance",
+    "hypcheck_passage",
+    "hypcheck_use_level",
+)
 
 
 def _linking(build: Build, kept: tuple[str, ...], source: Path, target: Path) -> tuple[str | Path, ...]:

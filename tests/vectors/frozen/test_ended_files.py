@@ -14,8 +14,8 @@ from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, Position
 from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import StoredCertificate, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
-from hypcheck.vectors.families import ENDED_FAMILIES
-from hypcheck.vectors.format import ENDED_SCHEMA
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
+from hypcheck.vectors.format import ENDED_SCHEMA, ENDED_WAY_SCHEMA
 from tests.support.records import violations
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
@@ -96,3 +96,41 @@ def test_shown_cases_that_end_say_their_heights_and_what_proves_them(capsys):
     assert "proof" in shown
     assert main(["cases", "show", "ended-rim/1/3/7", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["certificate"]
+
+
+@pytest.mark.parametrize("name", frozen.ENDED_WAY_NAMES)
+def test_a_file_of_ways_beside_ends_fits_its_schema_is_fresh_and_has_every_label_checked(name):
+    file = frozen.load(name)
+    assert list(violations(json.loads(text_of(name)), schema("ended-ways", ENDED_WAY_SCHEMA))) == []
+    assert {*bits(ENDED_WAY_FAMILIES[name].rows(1, len(file.cases)))} == {*bits(file.rows)}
+    assert cases_text(replace(file, lines=())) == text_of(name)
+    assert faults_of(replace(file, cases=file.cases[::4], lines=())) == []
+    hits = [case.hit for case in file.cases]
+    assert sum(hits) > 0.3 * len(hits)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda case: case.update(hit=False, first=None, first_hex=None), "the exact decision|the least value"),
+        (lambda case: case.update(first=[0.0, 0.0], first_hex=["0x0p+0"] * 2), "there is no contact at t 0.0"),
+    ],
+)
+def test_a_wrong_label_of_a_way_beside_an_end_is_found_by_both_decisions(tmp_path, change, sentence, capsys):
+    document = json.loads(text_of("ended-way-opening"))
+    case = next(case for case in document["cases"] if case["hit"] and case["first"][0] > 0.1)
+    change(case)
+    document["cases"], document["count"] = [case], 1
+    path = tmp_path / "ways.json"
+    path.write_text(json.dumps(document))
+    assert main(["cases", "check", str(path)]) == 1
+    assert re.search(sentence, capsys.readouterr().out)
+
+
+def test_a_way_beside_an_end_is_shown_with_its_first_contact(capsys):
+    case = next(case for case in frozen.load("ended-way-over").cases if case.hit)
+    assert main(["cases", "show", case.id]) == 0
+    text = capsys.readouterr().out
+    assert "contact on the way" in text
+    assert repr(case.first[0]) in text
+    assert "z_max" in text

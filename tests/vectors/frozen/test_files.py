@@ -22,7 +22,13 @@ from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.coincidences import RUNGS
 from hypcheck.vectors.double_roots import ULPS
-from hypcheck.vectors.families import ENDED_FAMILIES, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.families import (
+    ENDED_FAMILIES,
+    ENDED_WAY_FAMILIES,
+    FAMILIES,
+    TILTED_FAMILIES,
+    WAY_FAMILIES,
+)
 from hypcheck.vectors.flags import DEFEATED
 from hypcheck.vectors.format import SCHEMA
 from tests.support.records import violations
@@ -53,14 +59,16 @@ def schema(name, version=SCHEMA):
 def test_cases_folder_has_one_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
     pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
-    ways, ended = {*WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}, {*ENDED_FAMILIES, "ended-invalid"}
+    ways = {*WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
+    ended = {*ENDED_FAMILIES, "ended-invalid", *ENDED_WAY_FAMILIES}
     assert found == set(vectors.ALL_NAMES) == pairs | ways | ended
 
 
-def test_there_are_at_least_7000_pairs_and_all_files_have_at_most_10_megabytes():
+def test_there_are_at_least_7000_pairs_and_all_files_have_at_most_10_3_megabytes():
+    # They were 9,990,000 bytes before there were ways beside ends; each wheel has them.
     rows = {row for name in (*vectors.NAMES, *vectors.TILTED_NAMES) for row in bits(vectors.load(name).rows)}
     assert len(rows) >= 7000
-    assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 10_000_000
+    assert sum(path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()) <= 10_300_000
 
 
 def test_frozen_families_have_60_to_500_cases_and_all_positions_are_common():

@@ -98,5 +98,5 @@ def test_descriptions_in_the_shipped_files_are_right():
         ways = frozen.load(name)
         assert ways.head.name == name
         assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, WAY_FLAGS)] == []
-    for name in INVALID_CONTENTS:
+    for name in (*frozen.ENDED_NAMES, *frozen.ENDED_WAY_NAMES, *INVALID_CONTENTS):
         assert list(wrong_description(frozen.load(name).head)) == []

@@ -131,7 +131,7 @@ def test_wrong_labels_of_a_way_are_found():
     ("old", "new", "message"),
     [
         ('"hit":true', '"hit":false', "hit is false; with first"),
-        ('"schema": "1.2.0"', '"schema": "1.4.0"', "schema is \"1.4.0\"; this program reads '1.0.0'"),
+        ('"schema": "1.2.0"', '"schema": "1.5.0"', "schema is \"1.5.0\"; this program reads '1.0.0'"),
         ('"content": "ways"', '"content": "tilted-ways"', "row is .* it must be a list of 13"),
         ('"time":"', '"time":"x', 'time is "x'),
         ('"double_root":"', '"double_root":null,"other":"', "other"),

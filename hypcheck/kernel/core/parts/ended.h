@@ -3,6 +3,7 @@
 #define HC_MOST_PIECES 48
 #define HC_ENDED_STEPS 14 /* of Newton's method for a multiplier; any result is safe */
 #define HC_ENDED_ERROR 1.4210854715202004e-14 /* 2^-46 = 128u */
+#define HC_ENDED_NEAREST 9e-13 /* below 2^-40: how near lambda may come to -mu, in mu */
 #define HC_ENDED_LEAST 8.6361685550944446e-78 /* 2^-256 */
 #define HC_ENDED_GREATEST 1.157920892373162e+77 /* 2^256 */
 
@@ -12,41 +13,44 @@
 
        phi(w) = t²/T - 1 - lambda r² + f1 eta² + f2 xi² > 0,    f = lambda mu/(mu + lambda),
 
-   a quadratic in w. `across` is |x| + |y|, which eta and xi0 are below. */
+   a quadratic in w. (c, s) is the horizontal direction of the axis. `across` is |x| + |y|, which eta and xi0 are below. */
 typedef struct {
-    double alpha, ratio, z, T, mu1, mu2, eta, xi0, k, across;
+    double alpha, ratio, z, T, mu1, mu2, eta, xi0, k, c, s, across;
 } hc_sections;
+
+static void hc_place_sections(hc_sections *made, const double center[3]) {
+    made->xi0 = center[0] * made->c + center[1] * made->s;
+    made->eta = center[0] * made->s - center[1] * made->c;
+    made->z = center[2];
+    made->across = hc_size(center[0]) + hc_size(center[1]);
+}
 
 /* Returns 0 where the numbers are too large or small for the bounds: mu, T, r² and their products stay normal. */
 static int hc_make_sections(hc_sections *made, const double row[10]) {
-    const double b = row[2], d = row[3], *const v = row + 7;
-    const double flat = v[0] * v[0] + v[1] * v[1], length = flat + v[2] * v[2];
-    double s2, c2, away;
+    const double b = row[2], d = row[3];
+    double v[3], s2, c2, away, flat, length;
     int k;
+    memcpy(v, row + 7, sizeof v);
+    hc_scale_axis(v);
+    flat = v[0] * v[0] + v[1] * v[1];
+    length = flat + v[2] * v[2];
     for (k = 0; k < 7; k++) {
         const double size = hc_size(row[k]);
-        if (size > 1.2676506002282294e+30 /* 2^100 */ || (size != 0 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
+        if (size > 1.2676506002282294e+30 /* 2^100 */ || (k < 4 && size < 7.8886090522101181e-31 /* 2^-100 */)) return 0;
     }
     if (!(length > HC_ENDED_LEAST && length < HC_ENDED_GREATEST) || (flat != 0 && flat < HC_ENDED_LEAST)) return 0;
     s2 = flat / length;
     c2 = v[2] * v[2] / length;
+    away = flat == 0 ? 0 : 1 / hc_fine_root(flat);
     made->alpha = row[0];
     made->ratio = 1 / row[1];
-    made->z = row[6];
     made->T = b * b * s2 + d * d * c2;
     made->mu1 = 1 / (b * b);
     made->mu2 = made->T / (b * b * (d * d));
-    made->across = hc_size(row[4]) + hc_size(row[5]);
-    if (flat == 0) {
-        made->xi0 = row[4];
-        made->eta = row[5];
-        made->k = 0;
-        return 1;
-    }
-    away = 1 / hc_fine_root(flat);
-    made->xi0 = (row[4] * v[0] + row[5] * v[1]) * away;
-    made->eta = (row[4] * v[1] - row[5] * v[0]) * away;
+    made->c = flat == 0 ? 1 : v[0] * away;
+    made->s = v[1] * away;
     made->k = v[2] * flat * away / length * ((b - d) * (b + d)) / made->T;
+    hc_place_sections(made, row + 4);
     return 1;
 }
 
@@ -60,7 +64,7 @@ static double hc_radius(const hc_sections *pair, double w) {
 static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) {
     const double p = pair->mu1 * hc_size(pair->eta), q = pair->mu2 * hc_size(xi);
     const double least = pair->mu1 < pair->mu2 ? pair->mu1 : pair->mu2, most = p + q;
-    double low = least * 9.5367431640625e-07 /* 2^-20 */, high = most / r > low ? most / r : low, n = high;
+    double low = least * 9.0949470177292824e-13 /* 2^-40 */, high = most / r > low ? most / r : low, n = high;
     int i;
     for (i = 0; i < HC_ENDED_STEPS; i++) {
         const double one = 1 / (n + (pair->mu1 - least)), two = 1 / (n + (pair->mu2 - least));
@@ -71,8 +75,8 @@ static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) 
         if (root > r) low = n;
         else high = n;
         moved = n + (root / r - 1) * sum / fall;
+        if (hc_size(moved - n) < 1e-9 * n) return moved - least; /* at the root itself it may be out of bounds by an ulp */
         if (!(moved > low && moved < high)) moved = high > 4 * low ? hc_rough_root(low * high) : 0.5 * (low + high);
-        if (hc_size(moved - n) < 1e-9 * n) break;
         n = moved;
     }
     return n - least;
@@ -90,7 +94,7 @@ static int hc_piece_misses(const hc_sections *pair, double lambda_, double w, do
     const double size = 1 + top * top / pair->T + hc_size(lambda_) * (pair->alpha * pair->alpha) + hc_size(l2) * (wide * wide) +
                         hc_size(f1) * (pair->across * pair->across) * (1 + pair->mu1 / n1) + hc_size(f2) * (reach * reach) * (1 + pair->mu2 / n2);
     double lowest = value - hc_size(slope) * half;
-    if (!(n1 > pair->mu1 * 9.5e-07 && n2 > pair->mu2 * 9.5e-07)) return 0;
+    if (!(n1 > pair->mu1 * HC_ENDED_NEAREST && n2 > pair->mu2 * HC_ENDED_NEAREST)) return 0;
     if (bend < 0) lowest += bend * (half * half);
     else if (hc_size(slope) < 2 * bend * half) lowest = value - slope * slope / (4 * bend);
     else lowest += bend * (half * half);
@@ -155,24 +159,38 @@ static int hc_center_inside(const double row[13]) {
     return out * (1 + HC_ENDED_ERROR) < in ? 1 : 2;
 }
 
+/* Whether the spheroid, which is upright, surely meets the circle at a height: with R = x² + y² and the squares r² and s² of
+   the radii of both circles there, (√R - r)² < s². */
+static int hc_upright_met(const double row[13], double w) {
+    const double t = (w - row[6]) / row[3], up = w / row[1], share = t * t;
+    const double R = row[4] * row[4] + row[5] * row[5], r = row[0] * row[0] * (1 + up * up), s = row[2] * row[2] * (1 - share);
+    const double size = HC_ENDED_ERROR * (R + r + row[2] * row[2] * (1 + share)), off = R + r - s;
+    const double most = off + size; /* at or below 0 both circles have points within each other */
+    if (!(s > size && most < HC_cap)) return 0;
+    return most < 0 || (size > HC_ENDED_LEAST && most * most < 4 * R * r * (1 - HC_ENDED_ERROR));
+}
+
 /* The position of a valid row of 13 whose position without ends is `whole`; 2 where the bounds do not tell. */
 static int hc_ended_position(const double row[13], int whole) {
-    const double z = row[6], reach = row[2] > row[3] ? row[2] : row[3], low = row[10], high = row[11];
+    const int upright = hc_is_upright(row), solid = row[12] != 0;
+    const double z = row[6], reach = row[2] > row[3] && !upright ? row[2] : row[3], low = row[10], high = row[11];
     const double slack = HC_u_8 * (hc_size(z) + reach), below = z - low, above = high - z;
     const double more = reach + slack, under = hc_size(low) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(low) : 0;
     const double over = hc_size(high) <= HC_ENDED_GREATEST ? HC_u_8 * hc_size(high) : 0;
-    const int solid = row[12] != 0;
+    const double level = z < low ? low : z > high ? high : z;
     hc_sections pair;
     int misses, inside, k;
     if (below > more + under && above > more + over) return whole;
     if (-below > more + under || -above > more + over || (solid && whole == 1)) return 1;
     if (whole != 0 && !solid) return whole == -1 && z >= low && z <= high ? -1 : 1;
-    if (!HC_FLOATS_DECIDE || !hc_make_sections(&pair, row)) return 2;
+    if (!HC_FLOATS_DECIDE) return 2;
+    if (whole == 0 && upright && hc_upright_met(row, level)) return 0; /* most contacts */
+    if (!hc_make_sections(&pair, row)) return 2;
     misses = 1;
     if (whole == 0) {
-        const double level = z < low ? low : z > high ? high : z, t = level - z, xi = pair.xi0 - pair.k * t;
+        const double t = level - z, xi = pair.xi0 - pair.k * t;
         const double bottom = low > z - more ? low : z - more, top = high < z + more ? high : z + more;
-        if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0; /* most contacts */
+        if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0;
         misses = bottom <= top ? hc_wall_misses(&pair, bottom, top) : 2;
     }
     for (k = 10; solid && k < 12 && misses == 1; k++)
@@ -183,21 +201,21 @@ static int hc_ended_position(const double row[13], int whole) {
     return inside == 2 ? 2 : inside ? -1 : 1;
 }
 
+#define HC_ENDED_TOGETHER 256 /* rows that are still in the cache when their ends are looked at */
+
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) {
-    size_t i;
-    for (i = 0; i < n; i++) {
-        const double *const row = rows13 + 13 * i;
-        double ten[10];
-        int8_t whole = 127;
-        memcpy(ten, row, sizeof ten);
-        if (row[10] < row[11] && (row[12] == 0 || row[12] == 1)) hypcheck_classify_tilted(1, ten, &whole);
-        positions[i] = whole;
-        if (whole == 127) continue;
-        {
-            double scaled[13];
-            memcpy(scaled, row, sizeof scaled);
-            hc_scale_axis(scaled + 7);
-            positions[i] = (int8_t)hc_ended_position(scaled, whole);
+    size_t i, k;
+    for (i = 0; i < n; i += HC_ENDED_TOGETHER) {
+        const size_t count = n - i < HC_ENDED_TOGETHER ? n - i : HC_ENDED_TOGETHER;
+        const double *row = rows13 + 13 * i;
+        int8_t *const some = positions + i;
+        hc_ask_rows(HYPCHECK_POSITION, count, 13, row, some);
+        for (k = 0; k < count; k++, row += 13) {
+            const double more = 1.5 * (row[2] + row[3]), low = row[10], high = row[11];
+            const int valid = row[12] == 0 || row[12] == 1;
+            if (valid && row[6] - low > more && high - row[6] > more) continue; /* between the ends: as without them */
+            if (!(valid && low < high)) some[k] = 127;
+            else if (some[k] != 127) some[k] = (int8_t)hc_ended_position(row, some[k]);
         }
     }
 }

@@ -258,32 +258,3 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
     if (time && hc_way_touches(&way, now, 1 + HC_SEEN * way.slack)) *time = now;
     return 1;
 }
-
-/* The rows of a question about ways, 10 or 13 numbers each. */
-static void hc_passages(size_t n, size_t width, const double *rows, int8_t *hits, double *times) {
-    const double nan = hc_nothing_known();
-    size_t i;
-    for (i = 0; i < n; i++) {
-        const double *const row = rows + width * i;
-        double start[10] = {0}, end[7], *const axis = start + 7;
-        int valid = 1, leans = 0;
-        memcpy(start, row, 7 * sizeof *row);
-        memcpy(end, row, 4 * sizeof *row);
-        memcpy(end + 4, row + 7, 3 * sizeof *row);
-        if (times) times[i] = nan;
-        if (width > 10) {
-            memcpy(axis, row + 10, 3 * sizeof *row);
-            valid = hc_has_direction(axis);
-            leans = valid && !hc_is_upright(start);
-            if (leans) hc_scale_axis(axis);
-        }
-        valid = valid && hc_valid(start) && hc_valid(end);
-        hits[i] = (int8_t)(valid ? hc_passage_of(row, leans ? axis : NULL, times ? times + i : NULL) : 127);
-    }
-}
-
-void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times) { hc_passages(n, 10, rows10, hits, times); }
-
-void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times) {
-    hc_passages(n, 13, rows13, hits, times);
-}

@@ -1,0 +1,179 @@
+"""Contact on ways beside hyperboloids that end: by hand, against exact decisions, in every rounding mode."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck import passage
+from hypcheck.geometry.pair import REFUSED
+from hypcheck.geometry.rows import CANNOT_SAY, WAYS, with_axis
+from hypcheck.kernel import compiled_kernel, numpy_kernel
+from hypcheck.vectors.frozen import WAY_NAMES, load
+from tests.support.ended_ways import near_a_rim, past_a_tower
+from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
+
+compiled = pytest.importorskip("hypcheck.kernel._compiled")
+
+INF = math.inf
+RIM = (3.0, 4.0)
+"""α and γ whose circle at height 3 has the radius 15/4."""
+
+BY_HAND = [
+    # A sphere comes down on a rim, stops above it, and passes over it by a millionth.
+    ((*RIM, 1, 1, 3.75, 0, 9, 3.75, 0, 3.5), (-1, 3), 1, 1),
+    ((*RIM, 1, 1, 3.75, 0, 9, 3.75, 0, 4.001), (-1, 3), 0, 0),
+    ((*RIM, 1, 1, 8, 0, 4.000001, 3, 0, 4.000001), (-1, 3), 0, 0),
+    ((*RIM, 1, 1, 8, 0, 3.999999, 3, 0, 3.999999), (-1, 3), 1, 1),
+    # Out through the opening, and through both; a flat end is in the way.
+    ((*RIM, 1, 1, 0, 0, 0, 0, 0, 9), (-2, 3), 0, 1),
+    ((*RIM, 1, 1, 0, 0, -9, 0, 0, 9), (-1, 3), 0, 1),
+    # Beyond an end all along, and beside the wall between the ends.
+    ((*RIM, 1, 1, 9, 0, 4.5, -9, 0, 4.5), (-1, 3), 0, 0),
+    ((*RIM, 1, 1, 9, 0, 1, -9, 0, 1), (-1, 3), 1, 1),
+    ((*RIM, 1, 1, 9, 9, 1, 9, -9, 1), (-1, 3), 0, 0),
+    # Down to a flat end and to the open mouth.
+    ((*RIM, 1, 1, 1, 0, 9, 1, 0, 4.001), (-1, 3), 0, 0),
+    ((*RIM, 1, 1, 1, 0, 9, 1, 0, 3.999), (-1, 3), 0, 1),
+    # Within the body, across the plane of an end that is far above, and up to it.
+    ((*RIM, 1, 1, -1, 0, 0, 1, 0, 0), (-8, 8), 0, 0),
+    ((*RIM, 1, 1, 0, 0, 0, 0, 0, 6.9), (-8, 8), 0, 0),
+    ((*RIM, 1, 1, 0, 0, 0, 0, 0, 7.1), (-8, 8), 0, 1),
+    # A thin slab is crossed beside it, and where its ring lies within the spheroid.
+    ((*RIM, 1, 1, 9, 0, 9, 9, 0, -9), (1, 1.0625), 0, 0),
+    ((*RIM, 9, 9, 0, 0, 20, 0, 0, -20), (1, 1.0625), 1, 1),
+    ((*RIM, 1, 1, 0, 0, 9, 0, 0, -9), (1, 1.0625), 0, 1),
+    # An end that is missing, and a spheroid that lies across.
+    ((*RIM, 1, 1, 0, 0, -90, 0, 0, 0), (-INF, 3), 0, 0),
+    ((*RIM, 1, 2, 5.7, 0, 9, 5.7, 0, 3, 1, 0, 0), (-1, 3), 1, 1),
+    ((*RIM, 1, 2, 5.8, 0, 9, 5.8, 0, 3, 1, 0, 0), (-1, 3), 0, 0),
+]
+"""A way, its ends, and whether there is contact with the open and with the solid body."""
+
+
+def row_of(way, ends, solid):
+    return (*map(float, way[:10]), *map(float, way[10:] or (0, 0, 1)), *map(float, ends), float(solid))
+
+
+def exact_passage(row, scale=1):
+    alpha, gamma, b, d = row[:4]
+    sizes = (alpha, gamma, Fraction(b) * scale, Fraction(d) * scale)
+    return passage(sizes, row[4:7], row[7:10], row[10:13], z_min=row[13], z_max=row[14], solid=bool(row[15]))
+
+
+@pytest.mark.parametrize(("way", "ends", "opened", "flat"), BY_HAND)
+def test_ways_by_hand_are_answered_by_the_kernel_and_exactly(way, ends, opened, flat):
+    rows = [row_of(way, ends, solid) for solid in (0, 1)]
+    hits, times = compiled_kernel.answer_ways(np.array(rows))
+    assert hits.tolist() == [opened, flat]
+    assert [exact_passage(row).hit for row in rows] == [opened, flat]
+    assert (np.isnan(times) == (hits == 0)).all()
+
+
+@pytest.mark.parametrize(
+    ("rows", "most_open"),
+    [
+        (past_a_tower(1, 300), 0),
+        (near_a_rim(2, 300), 0),
+        (near_a_rim(3, 150, hair=-48), 15),
+        (past_a_tower(4, 60, leaning=True), 0),
+        (near_a_rim(5, 60, leaning=True), 0),
+    ],
+    ids=["tower", "rim", "hairs", "tilted tower", "tilted rim"],
+)
+def test_the_kernel_answers_no_way_beside_an_end_wrongly_and_gives_no_late_time(rows, most_open):
+    hits, times = compiled_kernel.answer_ways(rows)
+    truth = [exact_passage(row) for row in rows.tolist()]
+    right = np.array([each.hit for each in truth])
+    decided = hits != CANNOT_SAY
+    assert (hits[decided] == right[decided]).all()
+    assert (~decided).sum() <= most_open
+    assert 0.1 < right.mean() < 0.98
+    for time, each in zip(times.tolist(), truth, strict=True):
+        assert math.isnan(time) or 0 <= time <= each.first_upper
+    assert np.isnan(times[hits == 1]).mean() < 0.1
+    by_numpy, _ = numpy_kernel.answer_ways(rows)
+    assert ((by_numpy == CANNOT_SAY) | (by_numpy == right)).all()
+
+
+@pytest.mark.parametrize(("count", "leaning"), [(100, False), (30, True)])
+def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit_beside_an_end(count, leaning):
+    rows = near_a_rim(6, count, leaning=leaning)
+    hits, times = compiled_kernel.answer_ways(rows)
+    assert np.isfinite(times).sum() > 0.85 * (hits == 1).sum() > 0
+    for row, time in zip(rows.tolist(), times.tolist(), strict=True):
+        if math.isnan(time):
+            continue
+        start, end = (list(map(Fraction, row[k : k + 3])) for k in (4, 7))
+        there = [here + Fraction(time) * (to - here) for here, to in zip(start, end, strict=True)]
+        b, d = (min(row[2:4]),) * 2 if leaning else row[2:4]
+        reach = sum(map(abs, (*start[:2], *end[:2]))) / Fraction(b) + (abs(start[2]) + abs(end[2])) / Fraction(d)
+        assert exact_passage([*row[:4], *there, *there, *row[10:]], 1 + Fraction(1, 2**37) * (1 + reach)).hit
+
+
+@pytest.mark.parametrize("mode", [TO_NEAREST, *DIRECTED])
+def test_ways_beside_an_end_are_answered_alike_in_every_rounding_mode(mode):
+    rows = np.concatenate([near_a_rim(7, 4000, hair=-50), near_a_rim(8, 2000, leaning=True, hair=-50)])
+    answers = {}
+    for each in {TO_NEAREST, mode}:
+        hits, times = np.empty(len(rows), np.int8), np.empty(len(rows))
+        with rounded(each):
+            compiled.passage(rows, hits, times)
+        answers[each] = hits
+    both = (answers[TO_NEAREST] != CANNOT_SAY) & (answers[mode] != CANNOT_SAY)
+    assert both.mean() > 0.9
+    assert (answers[TO_NEAREST][both] == answers[mode][both]).all()
+
+
+@pytest.mark.parametrize("name", WAY_NAMES)
+def test_ends_that_are_infinite_or_far_away_change_no_answer_about_ways(name):
+    rows = load(name).rows[:40]
+    wide = with_axis(rows, WAYS)
+    reach = 4 * np.abs(rows[:, :10]).max(axis=1)
+    for low, high, solid in ((-INF, INF, 0), (-INF, INF, 1), (-reach, reach, 0), (-reach, INF, 1)):
+        ends = [np.broadcast_to(each, len(rows)) for each in (low, high, solid)]
+        ended = np.ascontiguousarray(np.column_stack([wide, *ends]))
+        for said, expected in zip(compiled_kernel.answer_ways(ended), compiled_kernel.answer_ways(rows), strict=True):
+            np.testing.assert_array_equal(said, expected)
+
+
+@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize(
+    ("column", "value", "valid"),
+    [
+        (13, math.nan, False),
+        (14, math.nan, False),
+        (14, -1.0, False),
+        (13, 3.0, False),
+        (13, INF, False),
+        (13, -INF, True),
+        (14, INF, True),
+        (15, 2.0, False),
+        (15, math.nan, False),
+        (15, 1.0, True),
+        (10, math.nan, False),
+        (9, INF, False),
+    ],
+)
+def test_a_way_whose_heights_are_none_is_refused_and_changes_no_other_answer(answer_ways, column, value, valid):
+    way, ends, *_ = BY_HAND[0]
+    rows = np.array([row_of(way, ends, 0)] * 3)
+    rows[1, column] = value
+    hits, times = answer_ways(rows)
+    assert (hits[1] != REFUSED) == valid
+    assert hits[[0, 2]].tolist() == answer_ways(rows[:1])[0].tolist() * 2
+    assert valid or math.isnan(times[1])
+
+
+@pytest.mark.parametrize("tiny", [5e-324, 2.0**-200, 2.0**200, 1e308])
+def test_ways_of_extreme_lengths_beside_an_end_are_left_open_or_answered_exactly(tiny):
+    rows = np.array([row_of(way, ends, solid) for way, ends, *_ in BY_HAND for solid in (0, 1)])
+    with np.errstate(over="ignore"):
+        rows[:, [4, 5, 6, 7, 8, 9, 13, 14]] *= tiny
+    kept = rows[np.isfinite(rows[:, :10]).all(axis=1) & (rows[:, 13] < rows[:, 14])]
+    hits, _ = compiled_kernel.answer_ways(kept)
+    for row, hit in zip(kept.tolist(), hits.tolist(), strict=True):
+        assert hit == CANNOT_SAY or hit == exact_passage(row).hit
