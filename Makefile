@@ -144,7 +144,7 @@ $(BIN)/python:
 	@$(PYTHON) -m venv $(VENV) || { \
 		echo "$(PYTHON) cannot make a virtual environment; on Debian and Ubuntu install python3-venv" >&2; rm -rf $(VENV); exit 2; }
 
-KERNEL := setup.py hypcheck/kernel/core/binding.c hypcheck/kernel/core/at_once.h hypcheck/kernel/core/hypcheck.h hypcheck/implementations/calls.c $(wildcard hypcheck/isolation/*.[ch])
+KERNEL := setup.py hypcheck/kernel/core/binding.c hypcheck/kernel/core/columns.h hypcheck/kernel/core/at_once.h hypcheck/kernel/core/hypcheck.h hypcheck/implementations/calls.c $(wildcard hypcheck/isolation/*.[ch])
 $(VENV)/ready: pyproject.toml $(KERNEL) | $(BIN)/python
 	$(INSTALL) '.[report]'
 	@$(COMPILED)

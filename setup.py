@@ -43,7 +43,7 @@ CORE = "hypcheck/kernel/core"
 KERNEL = Extension(
     "hypcheck.kernel._compiled",
     sources=[f"{CORE}/binding.c"],
-    depends=[f"{CORE}/hypcheck.h", f"{CORE}/at_once.h"],
+    depends=[f"{CORE}/{name}.h" for name in ("hypcheck", "columns", "at_once")],
     include_dirs=[CORE],
     # FMA may replace a product and a sum: the bounds hold with and without. Never -ffast-math: hypcheck.h refuses it.
     extra_compile_args=[] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=fast"],

@@ -1,12 +1,13 @@
 """The position of a spheroid relative to a circular hyperboloid of one sheet: exact, and with a proof.
 
-    hypcheck.classify(rows) -> int8 (n,)
+    hypcheck.position(alpha, gamma, b, d, x, y, z, axis=..., margin=...) -> int
+    hypcheck.classify((alpha, gamma, b, d), points, axis=..., margin=...) -> int8 (n,); or rows, or a table of columns
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
     hypcheck.Prepared(sizes, axis=...): what classify_scene keeps between calls, given to it in the place of the sizes
-    hypcheck.position(alpha, gamma, b, d, x, y, z, axis=...) -> int
-    hypcheck.clearance(rows) -> hypcheck.Clearance: .lower, .upper, .distance_lower, .distance_upper, .nearest, .touch
-    hypcheck.passage((alpha, gamma, b, d), start, end, axis=None) -> .hit, .first_lower, .first_upper
-    hypcheck.Scene.from_toml(path).classify(x, y, z) -> int8 (n,); .passage(start, end) -> int8 (n,)
+    hypcheck.clearance((alpha, gamma, b, d), points, axis=...) -> hypcheck.Clearance: distance, nearest point, normal
+    hypcheck.passage((alpha, gamma, b, d), start, end, axis=...) -> .hit, .first_lower, .first_upper
+    hypcheck.Scene.from_toml(path), .from_arrays(alpha, gamma, center, mover=hypcheck.Mover(b, d)): many hyperboloids;
+        .classify(points), .passage(start, end), .nearest(points), .with_hyperboloid(…), .moved(…), .without(…)
     hypcheck.InputError: what they raise about invalid rows, scenes and files, with a sentence
 
 They are loaded when first used; all but position and passage load numpy.
@@ -23,16 +24,29 @@ if TYPE_CHECKING:
     from hypcheck.errors import InputError
     from hypcheck.kernel.classify import Prepared, classify, classify_scene
     from hypcheck.kernel.clearance import Clearance, clearance
+    from hypcheck.kernel.passage import passage
+    from hypcheck.kernel.passages import Passages
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.scene import Scene
-    from hypcheck.truth.swept import passage
+    from hypcheck.kernel.scene_nearest import Nearest
+    from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+    from hypcheck.truth.swept import Passage
     from hypcheck.version import VERSION as __version__  # noqa: N811 - the name that everyone expects
 
 __all__ = [
     "Clearance",
+    "Hyperboloid",
     "InputError",
+    "Mover",
+    "MoverPart",
+    "Nearest",
+    "Passage",
+    "Passages",
     "Prepared",
+    "Region",
     "Scene",
+    "SceneModel",
+    "Span",
     "__version__",
     "classify",
     "classify_scene",
@@ -44,13 +58,22 @@ __all__ = [
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
     "Clearance": ("hypcheck.kernel.clearance", "Clearance"),
+    "Hyperboloid": ("hypcheck.scene.model", "Hyperboloid"),
     "InputError": ("hypcheck.errors", "InputError"),
+    "Mover": ("hypcheck.scene.model", "Mover"),
+    "MoverPart": ("hypcheck.scene.model", "MoverPart"),
+    "Nearest": ("hypcheck.kernel.scene_nearest", "Nearest"),
+    "Passage": ("hypcheck.truth.swept", "Passage"),
+    "Passages": ("hypcheck.kernel.passages", "Passages"),
     "Prepared": ("hypcheck.kernel.classify", "Prepared"),
+    "Region": ("hypcheck.scene.model", "Region"),
     "Scene": ("hypcheck.kernel.scene", "Scene"),
+    "SceneModel": ("hypcheck.scene.model", "SceneModel"),
+    "Span": ("hypcheck.scene.model", "Span"),
     "classify": ("hypcheck.kernel.at_once", "classify"),
     "classify_scene": ("hypcheck.kernel.at_once", "classify_scene"),
     "clearance": ("hypcheck.kernel.clearance", "clearance"),
-    "passage": ("hypcheck.truth.swept", "passage"),
+    "passage": ("hypcheck.kernel.passage", "passage"),
     "position": ("hypcheck.kernel.scalar", "position"),
 }
 
@@ -67,4 +90,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted(__all__)

@@ -2,7 +2,7 @@
 
 The exact decision and the nearest point are asked about every pair. An answer is given only if they agree and its proof
 holds. The numbers that check a proof by hand are explained in docs/mathematics.md, "A certificate for every answer".
-Loads no numpy.
+Only the distance, and what ends, load numpy.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -164,18 +165,39 @@ def reach_of_point(pair: Pair, point: Point) -> Fraction:
 
 
 def answer_as_json(answer: Answer) -> str:
-    """The answer as one JSON object on one line, rationals as strings such as "3/2", an infinite clearance as "inf"."""
-    decision = answer.decision
+    """The answer as one JSON object on one line, rationals as strings such as "3/2", what is infinite as "inf"."""
+    decision, (low, high) = answer.decision, distance_of(answer.pair)
     return json.dumps(
         {
             "position": int(decision.position),
             "label": decision.position.label,
             "tangent": decision.tangent,
-            "clearance": answer.clearance if answer.clearance != float("inf") else "inf",
+            "distance_lower": _as_json(low),
+            "distance_upper": _as_json(high),
+            "clearance": _as_json(answer.clearance),
             "kind": None if decision.kind is None else decision.kind.value,
             "proof": proof_as_json(answer.pair, answer.certificate),
         }
     )
+
+
+def _as_json(number: float) -> float | str:
+    return number if number != float("inf") else "inf"
+
+
+def distance_of(pair: Pair) -> tuple[float, float]:
+    """Proved bounds of the Euclidean distance, in the unit of the lengths, of ten digits: 0 and 0 in contact."""
+    from hypcheck.kernel.clearance import clearance  # noqa: PLC0415 - it loads numpy
+
+    near = clearance(pair.row)
+    low, high = float(near.distance_lower), float(near.distance_upper)
+    low, high = low if low >= 0 else 0.0, high if high >= 0 else float("inf")  # NaN is not known
+    return _ten_digits(low, ROUND_FLOOR), _ten_digits(high, ROUND_CEILING)
+
+
+def _ten_digits(number: float, rounding: str) -> float:
+    """The number rounded towards a side, so that the last digits of a guess do not show; no farther than a float."""
+    return float(Context(prec=10, rounding=rounding).create_decimal(Decimal(number)))
 
 
 def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
@@ -279,12 +301,23 @@ def answer_as_text(answer: Answer) -> str:
     proof = proof_lines(answer.pair, answer.certificate)
     lines = [
         decision.position.label + ", tangent" * decision.tangent,
+        f"distance   {_distance_as_text(*distance_of(answer.pair))}",
         f"clearance  {radii} ({_meaning(clearance)})",
         *([] if decision.kind is None else [f"kind       {kind_as_text(decision.kind)}"]),
         f"proof      {proof[0]}",
         *(f"{'':11}{line}" for line in proof[1:]),
     ]
     return "\n".join(lines)
+
+
+def _distance_as_text(low: float, high: float) -> str:
+    if high == 0:
+        return "0"
+    if high == float("inf"):
+        return f"{low:.9g} or more, in the unit of the lengths"
+    known = high - low <= 1e-8 * high
+    value = f"{low + (high - low) / 2:.8g}" if known else f"{low:.8g} to {high:.8g}"
+    return f"{value}, in the unit of the lengths (proved: from {low!r} to {high!r})"
 
 
 def _meaning(clearance: float) -> str:

@@ -30,6 +30,7 @@ GIVEN = {
     "./adapter": ADAPTER,
     "drone.toml": f"printf '%s\\n' 'name = \"drone\"' {DRONE} {SPANS} > {{name}}",
     "forest.toml": "hypcheck simulate forest --show-scene > {name}",
+    "two-trees.toml": f"cp '{ROOT}/docs/simulate/two-trees.toml' {{name}}",
     "example.c": "cp \"$(hypcheck info | sed -n 's/^C header *//p')\" .",
     "reports/latest": RUN,
     "new": RUN,

@@ -92,9 +92,9 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
         TimingEntry("in C", count, clocked_in_c(library.of_scene(columns, out), out, thread_time_ns)),
         TimingEntry("fresh", count, thread_clocked(scene)),
         TimingEntry("in place", count, thread_clocked(partial(scene, out))),
-        TimingEntry("array", 1, _statement("new()", new=new)),
-        TimingEntry("empty", 1, _statement("take()", take=take)),
-        TimingEntry("first touch", count, _statement("new().fill(1)", new=new)),
+        TimingEntry("array", 1, statement("new()", new=new)),
+        TimingEntry("empty", 1, statement("take()", take=take)),
+        TimingEntry("first touch", count, statement("new().fill(1)", new=new)),
     ]
     if not large:
         rows = tower_rows(columns)
@@ -123,14 +123,14 @@ def ten_centres(rounds: int) -> Iterator[KernelLine]:
     names = dict(zip(("sizes", "x", "y", "z"), (TOWER_SIZES, *uniform_columns(TEN)), strict=True))
     take, ask = extension().take, hypcheck.classify_scene
     entries = [
-        TimingEntry("loop", 1, _statement("pass")),
-        TimingEntry("nothing", 1, _statement("ask(sizes, x, y, z)", ask=extension().nothing, **names)),
-        TimingEntry("take", 1, _statement("ask(sizes, x, y, z, out)", ask=take, out=None, **names)),
-        TimingEntry("take out", 1, _statement("ask(sizes, x, y, z, out)", ask=take, out=out, **names)),
-        TimingEntry("fresh", 1, _statement("ask(sizes, x, y, z)", ask=ask, **names)),
-        TimingEntry("in place", 1, _statement("ask(sizes, x, y, z, out)", ask=ask, out=out, **names)),
+        TimingEntry("loop", 1, statement("pass")),
+        TimingEntry("nothing", 1, statement("ask(sizes, x, y, z)", ask=extension().nothing, **names)),
+        TimingEntry("take", 1, statement("ask(sizes, x, y, z, out)", ask=take, out=None, **names)),
+        TimingEntry("take out", 1, statement("ask(sizes, x, y, z, out)", ask=take, out=out, **names)),
+        TimingEntry("fresh", 1, statement("ask(sizes, x, y, z)", ask=ask, **names)),
+        TimingEntry("in place", 1, statement("ask(sizes, x, y, z, out)", ask=ask, out=out, **names)),
     ]
-    net = _without_loop(measured_samples(entries, 3 * rounds))
+    net = without_loop(measured_samples(entries, 3 * rounds))
     for target, name, least in ((TEN_CENTRES, "fresh", "take"), (TEN_IN_PLACE, "in place", "take out")):
         says = (
             f"{np.median(net[name]):.3g} ns; an empty call that takes the arrays {np.median(net[least]):.3g} ns, one "
@@ -139,14 +139,14 @@ def ten_centres(rounds: int) -> Iterator[KernelLine]:
         yield target.line((net[name] / net[least]).tolist(), says)
 
 
-def _statement(text: str, **names: object) -> Clocked:
+def statement(text: str, **names: object) -> Clocked:
     """A statement in Python with these names, as often as asked; it has no sum."""
     bound = "; ".join(f"{name} = values[{name!r}]" for name in names)
     timer = Timer(text, bound or "pass", thread_time_ns, {"values": names})
     return lambda repeat: (int(timer.timeit(repeat)), 0)
 
 
-def _without_loop(found: Mapping[str, Samples]) -> dict[str, Floats]:
+def without_loop(found: Mapping[str, Samples]) -> dict[str, Floats]:
     """The samples, without the time of the empty loop in the same round."""
     loop = np.array(found["loop"].samples_ns)
     return {name: np.array(each.samples_ns) - loop for name, each in found.items()}
@@ -174,9 +174,9 @@ def one_call(rounds: int) -> Iterator[KernelLine]:
     asked: dict[str, object] = {"plain": exact_position, "textbook": textbook}
     if choice().kernel == "compiled":
         asked |= {"position": hypcheck.position, "nothing": extension().nothing}
-    entries = [TimingEntry("loop", CALLS, _statement(f"{each} pass", rows=rows))]
-    entries += [TimingEntry(name, CALLS, _statement(ask, rows=rows, ask=each)) for name, each in asked.items()]
-    net = _without_loop(measured_samples(entries, 3 * rounds))
+    entries = [TimingEntry("loop", CALLS, statement(f"{each} pass", rows=rows))]
+    entries += [TimingEntry(name, CALLS, statement(ask, rows=rows, ask=each)) for name, each in asked.items()]
+    net = without_loop(measured_samples(entries, 3 * rounds))
     for target, name, least in ((ONE_CALL, "position", "nothing"), (PLAIN_CALL, "plain", "textbook")):
         if name in net:
             says = f"{np.median(net[name]):.3g} ns, {least} {np.median(net[least]):.3g} ns: {LOOP}"

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets
+from hypcheck.bench import call_targets, cliff_targets, compiled_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
 from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
 from hypcheck.bench.timing import (
@@ -256,5 +256,10 @@ def _groups(folder: Path, *, quick: bool) -> list[Group]:
         partial(call_targets.batches, folder, rounds),
         partial(call_targets.batch, folder, call_targets.MANY, rounds),
         partial(call_targets.ten_centres, rounds),
+        partial(cliff_targets.forms_of_one_pair, rounds),
+        partial(cliff_targets.forms_of_ten_centres, rounds),
+        partial(cliff_targets.forms_of_ten_rows, rounds),
+        partial(cliff_targets.forms_of_many, rounds),
+        partial(cliff_targets.forms_of_an_axis_each, rounds),
         *anywhere,
     ]

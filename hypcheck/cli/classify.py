@@ -18,8 +18,8 @@ from hypcheck.tables.streams import FORMATS, route
 _HELP = """Give the position of a spheroid relative to a hyperboloid: exterior, contact (with tangency) or interior.
 
 Exact for every valid pair: decimals are rounded to the nearest float64 and taken as exact from there on. Lengths are in
-one unit of your choice. Clearance is in spheroid radii: 1 + clearance is the factor by which the spheroid, scaled about
-its centre, would just touch the hyperboloid.
+one unit of your choice, and so is the distance of the two. Clearance is in spheroid radii: 1 + clearance is the factor
+by which the spheroid, scaled about its centre, would just touch the hyperboloid.
 
 \b
 One pair:  hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0

@@ -83,6 +83,9 @@ def _write(lines: Iterable[str], output: str) -> None:
 SEED = click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
 OUT = click.option("--out", type=OutputPath(), help="A folder for the JSON and the pictures.")
 CONTINUOUS = click.option("--continuous", is_flag=True, help="Also decide exactly what happens between the positions.")
+ENDS = click.option(
+    "--ends", is_flag=True, help="Also decide exactly beside what ends, not by the centre's height alone."
+)
 FORMAT = click.option(
     "--format",
     "form",
@@ -93,7 +96,7 @@ FORMAT = click.option(
 )
 SHOW = click.option("--show-scene", is_flag=True, help="Print the file of a shipped scene, for you to change, and end.")
 
-common = with_options(SEED, CONTINUOUS, OUT, FORMAT, SHOW)
+common = with_options(SEED, CONTINUOUS, ENDS, OUT, FORMAT, SHOW)
 """A decorator of commands: the options that both simulations have."""
 
 
@@ -130,7 +133,7 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     from hypcheck.paper.forest import ForestPlan, simulate_forest
     from hypcheck.paper.simulation_text import forest_lines
 
-    plan = ForestPlan(_scene(name), seed, steps, flags["continuous"])
+    plan = ForestPlan(_scene(name), seed, steps, flags["continuous"], flags["ends"])
     with _ready_folder("forest", out), watched(plan.count, "steps") as pace:
         result = simulate_forest(plan, pace.advance)
     _deliver(result, form, forest_lines(result), out)
@@ -198,7 +201,7 @@ def tower(
     if runs is not None and not flown:
         raise InputError("--runs is for the table; it needs --table 5 or --pitch")
     each = (1000 if runs is None else runs) if flown else 0
-    plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"], pitch)
+    plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"], pitch, flags["ends"])
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
     count = min(workers or usable_processors(), len(moves))
     with _ready_folder("tower", out), processes(count) as executor, watched(sum(moves), "flights") as pace:

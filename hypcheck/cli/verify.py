@@ -15,6 +15,7 @@ from click.core import ParameterSource
 
 from hypcheck.cli import completing
 from hypcheck.cli.options import (
+    LARGEST_COUNT,
     LARGEST_SEED,
     LIMITS,
     MOST_PROCESSES,
@@ -171,6 +172,9 @@ def _oracles(text: str) -> tuple[str, ...]:
 
 _COUNT = IntegerOption(1)
 
+_THOROUGH = 10
+"""Times as many generated rows."""
+
 
 @click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...", type=completing.SPEC)
@@ -185,6 +189,7 @@ _COUNT = IntegerOption(1)
 @click.option(
     "--count", type=IntegerOption(0), default=400, show_default=True, help="Number of generated rows of each family."
 )
+@click.option("--thorough", is_flag=True, help="Ten times as many generated rows, for narrower faults.")
 @click.option(
     "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Seed of the generated rows."
 )
@@ -270,6 +275,8 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     if resume and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
         options["out"] = resume if resume.is_dir() else resume.parent
     settings = in_effect(context, unused)
+    if options.pop("thorough"):
+        options["count"] = min(_THOROUGH * options["count"], LARGEST_COUNT)
     if chosen:
         title = f"verifying {', '.join(chosen)}{'' if specs else f', named by {FILE}'}"
         context.exit(_conformance(chosen, options, title, settings))

@@ -101,7 +101,7 @@ def as_rows(values: Table | ArrayLike, *, tilted: bool = False, heights: bool = 
     """
     wide = (layout.tilted,) * tilted + (layout.ended,) * heights
     allowed = (layout.upright, *wide)
-    table_names = _names_of(values)
+    table_names = names_of(values)
     if table_names is not None:
         return _rows_of_table(cast("Table", values), table_names, layout, allowed[-1])
     names = {len(columns): ", ".join(columns) for columns in allowed}
@@ -117,7 +117,7 @@ Table = Mapping[str, ArrayLike]
 """Columns by name: anything with names and [name], as a dict, a data frame and a structured array have them."""
 
 
-def _names_of(values: object) -> list[str] | None:
+def names_of(values: object) -> list[str] | None:
     """The names of a table's columns; None of what is no table."""
     if isinstance(values, np.ndarray):
         return None if values.dtype.names is None else list(values.dtype.names)

@@ -1,9 +1,8 @@
 """hypcheck.classify and hypcheck.classify_scene: C answers ordinary calls alone, Python all others.
 
-An ordinary call has contiguous float64 arrays (a float may stand for a short column), all rows valid, no option but
-`out`, `threads=1` and `axis` as three floats, and no more rows than one thread answers. C leaves any other to the
-functions of classify.py, which convert what can be converted and say what is wrong with the rest. Where nothing is
-compiled they take all calls.
+An ordinary call has numbers, lists and numpy's arrays of any strides and most types of numbers, all rows valid, no
+heights and no margin, and no more rows than one thread answers. C leaves any other to the functions of classify.py,
+which convert what can be converted and say what is wrong with the rest. Where nothing is compiled they take all calls.
 """
 
 from __future__ import annotations
@@ -11,11 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from hypcheck.geometry.rows import Positions
+from hypcheck.geometry.forms import Answers
 from hypcheck.kernel import classify as step_by_step
 from hypcheck.kernel.choice import choice
 
-Call = Callable[..., Positions]
+__all__ = ["classify", "classify_scene"]
+
+Call = Callable[..., Answers]
 
 
 def _calls() -> tuple[Call, Call]:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import InitVar, dataclass, field
 from functools import cache
 from operator import index
-from typing import Literal, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.forms import Answers, Argument, Pairs, named_points, pairs_of
 from hypcheck.geometry.pair import (
     AXIS,
     CENTER,
@@ -29,7 +31,6 @@ from hypcheck.geometry.rows import (
     Floats,
     Positions,
     Rows,
-    Table,
     as_columns,
     as_numbers,
     as_rows,
@@ -37,6 +38,7 @@ from hypcheck.geometry.rows import (
     tilted_rows,
 )
 from hypcheck.kernel.choice import Question, choice
+from hypcheck.messages import escaped
 from hypcheck.scene.model import QUESTIONS
 
 ROWS_AT_A_TIME = 1 << 22
@@ -133,39 +135,98 @@ class Prepared:
 
 @in_default_environment
 def classify(
-    rows: Table | ArrayLike,
-    *,
+    *pairs: Argument,
+    axis: ArrayLike | None = None,
+    z_min: ArrayLike = -math.inf,
+    z_max: ArrayLike = math.inf,
+    solid: ArrayLike = False,
+    margin: float = 0.0,
     out: Positions | None = None,
     on_invalid: Literal["raise", "flag"] = "raise",
     question: Question = "position",
     threads: int | None = None,
-) -> Positions:
-    """The exact position of every row: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
+    **columns: ArrayLike,
+) -> Answers:
+    """The exact position of every pair: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
 
-    `rows` is (n, 7): alpha, gamma, b, d, x, y, z, lengths in one unit, as float64 (C-contiguous is not copied) or what
-    converts to it. Rows (n, 10) have axis_x, axis_y, axis_z besides, any finite vector ≠ 0 along the spheroid's axis of
-    revolution, whose length and sign mean nothing; those of seven are upright, as is 0, 0, 1. Rows (n, 13) have z_min,
-    z_max, solid behind the axis: the heights between which the hyperboloid ends, and 1 if flat ends belong to it. In
-    place of an array `rows` may be a table of these columns by name, such as {"alpha": 2, …, "z": zs, "z_max": 17.8}, a
-    data frame, a structured array: numbers and columns are broadcast. `out`, int8 (n,), is filled and returned in place
-    of a new array; it may overlap `rows`. `question` "exterior", "interior" or "contact" asks for 1 (yes) or 0 (no)
-    instead. `threads` is how many threads share the work; by default one, and more for millions of rows
-    (HYPCHECK_THREADS limits them).
+    One pair of numbers is answered by an int, an array by an array. Pairs are written in any of these ways, with
+    lengths in one unit; numbers and columns (n,) are broadcast, `points` are one point (3,) or many (n, 3):
+
+        classify(rows)                             (n, 7): alpha, gamma, b, d, x, y, z; (n, 10), (n, 13) with more
+        classify({"alpha": 2, …, "z": zs})         columns by name: a dict, a data frame, a structured array
+        classify((alpha, gamma, b, d), points)     or (…), x, y, z
+        classify(alpha, gamma, b, d, points)       or …, x, y, z, or alpha=2, …, center=points
+
+    `axis`, axis_x, axis_y, axis_z, is any finite vector ≠ 0 along the spheroid's axis of revolution, whose length and
+    sign mean nothing: (3,) for all, or (n, 3); without it the spheroid is upright, as with 0, 0, 1. The hyperboloid
+    ends at the heights `z_min` and `z_max`; with `solid`, flat ends belong to it. `margin`, a length: what is not
+    proved to be at least so far away is contact. float64 is not copied, and no number is rounded.
+
+    `out`, int8 (n,), is filled and returned in place of a new array; it may overlap the input. `question` "exterior",
+    "interior" or "contact" asks for 1 (yes) or 0 (no) instead. `threads` is how many threads share the work; by default
+    one, and more for millions of rows (HYPCHECK_THREADS limits them).
 
     A row is valid when its sizes are finite and > 0, its centre finite, its axis finite and not 0, z_min < z_max (they
     may be infinite) and solid 0 or 1. The first that is not raises InputError (its index counted from 0) and `out` is
     left alone; with on_invalid="flag" such rows are marked 127.
+
+    >>> classify((2, 17.8, 0.25, 0.15), [[0, 0, 5], [3, 0, 5]])
+    array([-1,  1], dtype=int8)
     """
     number = required(question, threads, on_invalid)
-    queries = as_rows(rows, tilted=True, heights=True)
+    if len(pairs) in (2, 4) and isinstance(pairs[0], Prepared):
+        prepared, *center = pairs
+        options: Any = {"on_invalid": on_invalid, "question": question, "threads": threads, "margin": margin}
+        return classify_scene(prepared, *center, **{"out": out, "axis": axis} | options)
+    asked = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
+    if asked.single and out is not None:
+        raise InputError("out is given, and one pair is answered by a number; it goes with rows alone")
+    if asked.scene and not margin:
+        result = _of_scene(asked.columns, out, on_invalid, question, number)
+        return int(result[0]) if asked.single else result
+    queries = asked.rows()
     _require_fitting(out, len(queries))
-    result, refused = _answer(queries, question, number)
+    result, refused = positions_of_rows(queries, question if not margin else "position", number)
     if refused and on_invalid == "raise":
-        require_valid(queries)
-    return _into(out, result)
+        require_valid_pairs(queries, asked)
+    if margin:
+        from hypcheck.kernel.margins import with_margin  # noqa: PLC0415 - a margin alone needs it
+
+        result = with_margin(queries, result, margin, question, number)
+    return int(result[0]) if asked.single else _into(out, result)
 
 
-def _answer(queries: Rows, question: Question, threads: int | None) -> tuple[Positions, int]:
+def require_valid_pairs(queries: Rows, asked: Pairs) -> None:
+    """Raise InputError about an invalid row; one pair alone has no index."""
+    trouble = trouble_with_row(queries[0].tolist()) if asked.single else None
+    if trouble is not None:
+        raise InputError(trouble)
+    require_valid(queries)
+
+
+def _of_scene(
+    columns: Mapping[str, Any], out: Positions | None, on_invalid: str, question: Question, threads: int | None
+) -> Positions:
+    """The answers about pairs of one spheroid's sizes, which need no rows."""
+    known = (*SIZES, *CENTER, *AXIS)
+    for name in columns:
+        if name not in known:
+            raise InputError(f"there is no column {escaped(repr(name), 60)}; the columns are {', '.join(PAIRS.ended)}")
+    sizes, center = (tuple(columns[name] for name in names) for names in (SIZES, CENTER))
+    axis = [columns[name] for name in AXIS if name in columns]
+    if len(axis) not in (0, len(AXIS)):
+        as_rows(columns, tilted=True, heights=True)  # which says what is missing
+    if axis and any(map(np.ndim, axis)):
+        return _answered(_sizes(sizes), center, (*axis,), out, (on_invalid, question, threads))
+    x, y, z = center
+    marked: Literal["raise", "flag"] = "flag" if on_invalid == "flag" else "raise"
+    return classify_scene(
+        _sizes(sizes), x, y, z, out, axis=axis or None, on_invalid=marked, question=question, threads=threads
+    )
+
+
+def positions_of_rows(queries: Rows, question: Question, threads: int | None) -> tuple[Positions, int]:
+    """Answers for C-contiguous rows of any width, 127 for invalid ones, and how many these are."""
     if not PAIRS.end(queries):
         return kernel().answer_rows(queries, question, threads)
     from hypcheck.kernel.ended import answer_ended_rows  # noqa: PLC0415 - rows with heights alone need it
@@ -177,22 +238,24 @@ def _answer(queries: Rows, question: Question, threads: int | None) -> tuple[Pos
 def classify_scene(
     sizes: Sizes | Prepared,
     x: ArrayLike,
-    y: ArrayLike,
-    z: ArrayLike,
+    y: ArrayLike | None = None,
+    z: ArrayLike | None = None,
     out: Positions | None = None,
     *,
     axis: ArrayLike | None = None,
+    margin: float = 0.0,
     on_invalid: Literal["raise", "flag"] = "raise",
     question: Question = "position",
     threads: int | None = None,
 ) -> Positions:
-    """The exact position of one spheroid at many centres; int8 (n,), numbers and options as in classify.
+    """The exact position of one spheroid at many centres; int8 (n,) always, numbers and options as in classify.
 
-    `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers that stand for every centre.
-    `axis` is the spheroid's axis as in classify: (3,) for all centres, or (n, 3); without it the spheroid is upright.
-    The first centre or axis that is not valid raises InputError (its index counted from 0) and `out` is left alone;
-    with on_invalid="flag" such centres are marked 127, all of them where the one axis is not valid. Sizes that are not
-    valid are always refused. In the place of `sizes` may be Prepared(sizes, axis), with no other axis.
+    `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers that stand for every centre;
+    or `x` alone are points, (n, 3) or (3,). `axis` is the spheroid's axis as in classify: (3,) for all centres, or
+    (n, 3); without it the spheroid is upright. The first centre or axis that is not valid raises InputError (its index
+    counted from 0) and `out` is left alone; with on_invalid="flag" such centres are marked 127, all of them where the
+    one axis is not valid. Sizes that are not valid are always refused. In the place of `sizes` may be
+    Prepared(sizes, axis), with no other axis.
     """
     number = required(question, threads, on_invalid)
     if isinstance(sizes, Prepared):
@@ -200,12 +263,16 @@ def classify_scene(
             raise InputError("axis is given, and the scene was prepared with its own; it must be given once")
         axis, sizes = sizes.axis, sizes.sizes
     four = _sizes(sizes)
+    center = _center(x, y, z)
+    if margin:
+        columns = {**dict(zip(SIZES, four, strict=True)), **dict(zip(CENTER, map(np.atleast_1d, center), strict=True))}
+        answers = classify(columns, axis=axis, margin=margin, on_invalid=on_invalid, question=question, threads=threads)
+        _require_fitting(out, len(np.atleast_1d(answers)))
+        return _into(out, np.asarray(answers, np.int8))
     axes = None if axis is None else _axes(axis)
     if axes is not None and axes.ndim == 2:
-        columns = as_columns((*CENTER, *AXIS), (x, y, z, *axes.T))
-        _require_fitting(out, len(columns[0]))
-        return _into(out, _with_axes(four, columns, question, number, on_invalid))
-    u, v, w = as_columns(CENTER, (x, y, z))
+        return _answered(four, center, (*axes.T,), out, (on_invalid, question, number))
+    u, v, w = as_columns(CENTER, center)
     _require_fitting(out, len(u))
     one = None if axes is None else _one_axis(axes, on_invalid)
     in_place = out is not None and question == "position" and _lie_apart(out, (u, v, w))
@@ -215,6 +282,29 @@ def classify_scene(
     if refused and on_invalid == "raise":
         raise _not_finite((u, v, w))
     return _into(out, result)
+
+
+def _center(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) -> tuple[Any, Any, Any]:
+    """Three columns, or those of points."""
+    if y is None and z is None:
+        x, y, z = named_points("the centre", x).values()
+    if y is None or z is None:
+        raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or points (n, 3) alone")
+    return x, y, z
+
+
+_Options = tuple[str, Question, "int | None"]
+"""`on_invalid`, `question`, and the number of threads."""
+
+
+def _answered(
+    sizes: Sizes, center: Sequence[ArrayLike], axis: Sequence[ArrayLike], out: Positions | None, options: _Options
+) -> Positions:
+    """The answers about one spheroid with an axis for each centre."""
+    columns = as_columns((*CENTER, *AXIS), (*center, *axis))
+    _require_fitting(out, len(columns[0]))
+    on_invalid, question, threads = options
+    return _into(out, _with_axes(sizes, columns, question, threads, on_invalid))
 
 
 def _with_axes(

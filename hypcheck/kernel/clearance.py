@@ -20,14 +20,17 @@ roundings of a semi-axis. Both hold for lengths in 2^±300, which are asked for.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
-from typing import Literal
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.forms import Argument, pairs_of
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import (
     PAIRS,
@@ -37,14 +40,12 @@ from hypcheck.geometry.rows import (
     Mask,
     Positions,
     Rows,
-    Table,
-    as_rows,
     invalid,
-    require_valid,
 )
 from hypcheck.kernel import clearance_points as points
+from hypcheck.kernel import normals
 from hypcheck.kernel.choice import choice
-from hypcheck.kernel.classify import kernel, required
+from hypcheck.kernel.classify import kernel, require_valid_pairs, required
 from hypcheck.kernel.numpy_kernel import leaning
 
 CHUNK = 1 << 14
@@ -78,11 +79,19 @@ Question = Callable[[Indices, Floats], Mask]
 """Whether rows of these numbers have what is asked, for these factors or lengths."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Clearance:
-    """What clearance() says of n rows; every array is of shape (n,), or (n, 3) for points.
+    """What clearance() says of n rows; every array is of shape (n,), or (n, 3) for points. One pair alone has numbers.
 
-    `position`: the exact position, as classify has it.
+    `position`: the exact position, as classify has it; `contact` says where that is contact.
+
+    `distance_lower` ≤ distance ≤ `distance_upper`: the Euclidean distance between the two bodies, in the unit of the
+    row; 0 in contact. For a sphere it is the clearance times the radius, else it is not.
+
+    `nearest`: a point of the hyperboloid whose distance from the spheroid is `distance_upper` at most, but for the
+    rounding of its coordinates; where no gap could be measured it is `touch`. `normal`: the unit vector from there to
+    the spheroid, which is the gradient of the distance with respect to the centre; NaN in contact; nothing is proved of
+    its error. `tie`: another point is as near, by a symmetry of both bodies; then `nearest` is one of them.
 
     `lower` ≤ clearance ≤ `upper`: the clearance in spheroid radii. The spheroid, 1 + clearance times as large about its
     centre, first touches the hyperboloid; it is negative in contact, 0 in a tangency, −1 for a centre on the surface.
@@ -90,64 +99,135 @@ class Clearance:
 
     `touch`: the place where that spheroid first touches, of several the one towards +x or +z. The exact place is not
     farther than `touch_error` away; that is inf where nothing is proved.
-
-    `distance_lower` ≤ distance ≤ `distance_upper`: the Euclidean distance between the two bodies, in the unit of the
-    row; 0 in contact. For a sphere it is the clearance times the radius, else it is not.
-
-    `nearest`: a point of the hyperboloid whose distance from the spheroid is `distance_upper` at most, but for the
-    rounding of its coordinates; where no gap could be measured it is `touch`.
     """
 
     position: Positions
+    distance_lower: Floats
+    distance_upper: Floats
+    nearest: Floats
     lower: Floats
     upper: Floats
     touch: Floats
     touch_error: Floats
-    distance_lower: Floats
-    distance_upper: Floats
-    nearest: Floats
+    rows: Rows = field(repr=False)
+    """The pairs, as rows."""
 
     @classmethod
-    def empty(cls, count: int) -> Clearance:
-        """Room for this many rows, of which nothing is known."""
-        numbers = (np.full(count, np.nan) for _ in range(5))
-        lower, upper, touch_error, distance_lower, distance_upper = numbers
-        touch, nearest = (np.full((count, 3), np.nan) for _ in range(2))
+    def empty(cls, rows: Rows) -> Clearance:
+        """Room for these rows, of which nothing is known."""
+        count = len(rows)
+        distance_lower, distance_upper, lower, upper, touch_error = (np.full(count, np.nan) for _ in range(5))
+        nearest, touch = (np.full((count, 3), np.nan) for _ in range(2))
         position = np.full(count, 127, np.int8)
-        return cls(position, lower, upper, touch, touch_error, distance_lower, distance_upper, nearest)
+        return cls(position, distance_lower, distance_upper, nearest, lower, upper, touch, touch_error, rows)
+
+    @property
+    def contact(self) -> Mask:
+        """Whether the two are in contact."""
+        return np.equal(self.position, 0)
+
+    @cached_property
+    @in_default_environment
+    def normal(self) -> Floats:
+        """The unit vectors from `nearest` to the spheroids."""
+        found = normals.normals(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        return found if np.ndim(self.position) else found[0]
+
+    @cached_property
+    @in_default_environment
+    def tie(self) -> Mask:
+        """Whether another point is as near, by a symmetry of both bodies."""
+        found = normals.ties(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        return found if np.ndim(self.position) else found[0]
+
+    @property
+    def one(self) -> Clearance:
+        """The first row alone, with numbers in the place of arrays (n,)."""
+        first = {name: getattr(self, name)[0] for name in _MEASURED}
+        numbers: dict[str, Any] = {name: value if np.ndim(value) else value.item() for name, value in first.items()}
+        return replace(self, **numbers | {"rows": self.rows[:1]})
+
+
+_MEASURED = tuple(part.name for part in fields(Clearance) if part.name != "rows")
 
 
 @in_default_environment
 def clearance(
-    rows: Table | ArrayLike, *, on_invalid: Literal["raise", "flag"] = "raise", threads: int | None = None
+    *pairs: Argument,
+    axis: ArrayLike | None = None,
+    z_min: ArrayLike = -math.inf,
+    z_max: ArrayLike = math.inf,
+    solid: ArrayLike = False,
+    on_invalid: Literal["raise", "flag"] = "raise",
+    threads: int | None = None,
+    **columns: ArrayLike,
 ) -> Clearance:
-    """The clearance, the distance and the nearest points of every row, each between two numbers that are proved.
+    """The distance, the nearest points and the clearance of every pair, each between two numbers that are proved.
 
-    `rows` and the options are those of classify. The first invalid row raises InputError; with on_invalid="flag" such
-    rows have the position 127 and NaN everywhere.
+    Pairs are written as in classify: rows, a table, or sizes and centres. One pair of numbers is answered by numbers.
+    The first invalid row raises InputError; with on_invalid="flag" such rows have the position 127 and NaN everywhere.
 
     The clearance is known within 2⁻³⁰ of 1 + clearance, or of 1 where that is greater, unless the spheroid so much
     enlarged leaves float64. The distance is known within 2⁻²⁹ of itself and b or d, unless a spheroid that holds all
     points so near reaches the hyperboloid elsewhere: long ones in a groove, and some that lean. Then it lies between
     clearance · min(b, d) and clearance · max(b, d), or nearer. So it does where the hyperboloid ends; there no error of
     the touching point is proved, and a row takes some milliseconds.
+
+    >>> near = clearance(2, 17.8, 0.25, 0.15, [3, 4, 0])
+    >>> near.distance_lower <= 2.75 <= near.distance_upper
+    True
+    >>> near.normal.round(12)
+    array([0.6, 0.8, 0. ])
     """
     number = required("position", threads, on_invalid)
-    queries = as_rows(rows, tilted=True, heights=True)
+    asked = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
+    queries = asked.rows()
+    if on_invalid == "raise" and invalid(queries).any():
+        require_valid_pairs(queries, asked)
+    found = clearances(queries, number)
+    return found.one if asked.single else found
+
+
+def clearances(queries: Rows, threads: int | None = None) -> Clearance:
+    """The same of rows of any width; invalid ones have the position 127 and NaN everywhere."""
     refused = invalid(queries)
-    if on_invalid == "raise" and refused.any():
-        require_valid(queries)
     if PAIRS.end(queries):
         from hypcheck.kernel.ended import ended_clearances  # noqa: PLC0415 - rows with heights alone need it
 
-        return ended_clearances(queries, number)
+        return ended_clearances(queries, threads)
     upright = queries.shape[1] == len(COLUMNS)
-    found = _compiled(queries, number) if upright and choice().kernel == "compiled" else Clearance.empty(len(queries))
+    compiled = upright and choice().kernel == "compiled"
+    found = _compiled(queries, threads) if compiled else Clearance.empty(queries)
     places = np.flatnonzero(~refused & (np.isnan(found.lower) | np.isinf(found.touch_error)))
     with np.errstate(all="ignore"):
         for start in range(0, len(places), CHUNK):
-            _fill(found, places[start : start + CHUNK], queries, number)
+            _fill(found, places[start : start + CHUNK], queries, threads)
+        _fill_ties(found, queries, threads)
     return found
+
+
+_SHIFT = 2.0**-36
+
+
+def _fill_ties(found: Clearance, queries: Rows, threads: int | None) -> None:
+    """Nearest points where a spheroid that leans is on the axis, so that no direction is known: those of one beside it.
+
+    A distance changes by no more than the centre moves, so the bounds hold with twice the shift, which covers its
+    rounding. Of the shifts along x and y the better counts.
+    """
+    lost = np.flatnonzero(np.isnan(found.nearest).any(axis=1) & np.isin(found.position, (-1, 1)))
+    for column in (4, 5) if len(lost) else ():
+        rows, shift = queries[lost].copy(), _SHIFT * queries[lost, 0]
+        rows[:, column] += shift
+        beside = Clearance.empty(rows)
+        _fill(beside, np.arange(len(rows)), rows, threads)
+        high = np.nextafter(beside.distance_upper + 2 * shift, np.inf)
+        low = np.nextafter(np.fmax(beside.distance_lower - 2 * shift, 0), 0)
+        known = (beside.position == found.position[lost]) & np.isfinite(beside.nearest).all(axis=1)
+        better = known & (np.isnan(found.nearest[lost]).any(axis=1) | (high < found.distance_upper[lost]))
+        found.distance_lower[lost[known]] = np.fmax(found.distance_lower[lost], low)[known]
+        found.distance_upper[lost[better]] = np.fmin(found.distance_upper[lost], high)[better]
+        found.nearest[lost[better]], found.touch[lost[better]] = beside.nearest[better], beside.touch[better]
 
 
 def _compiled(rows: Rows, threads: int | None) -> Clearance:
@@ -157,7 +237,7 @@ def _compiled(rows: Rows, threads: int | None) -> Clearance:
     position, found = compiled_kernel.near_rows(rows, threads)
     lower, upper, error, least, most = found[:, :5].T
     error[error == np.finfo(np.float64).max] = np.inf
-    return Clearance(position, lower, upper, found[:, 5:8], error, least, most, found[:, 8:])
+    return Clearance(position, least, most, found[:, 8:], lower, upper, found[:, 5:8], error, rows)
 
 
 def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
@@ -168,8 +248,8 @@ def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None)
         if chosen.any():
             rows = np.ascontiguousarray(some[chosen] if chosen is lean else some[chosen, : len(COLUMNS)])
             answers = _answers(rows, threads)
-            for field in fields(Clearance):
-                getattr(found, field.name)[places[chosen]] = getattr(answers, field.name)
+            for name in _MEASURED:
+                getattr(found, name)[places[chosen]] = getattr(answers, name)
 
 
 def _answers(rows: Rows, threads: int | None) -> Clearance:
@@ -197,7 +277,7 @@ def _answers(rows: Rows, threads: int | None) -> Clearance:
     most = _lowered(most, shift, np.inf)
     touch, nearest = (np.ldexp(each, -shift[:, None]) for each in (touches.point, nearest))
     error = _lowered(touches.error, shift, np.inf)
-    return Clearance(position, lower, upper, touch, error, least, most, nearest)
+    return Clearance(position, least, most, nearest, lower, upper, touch, error, rows)
 
 
 def scaled(rows: Rows) -> tuple[Rows, Integers]:

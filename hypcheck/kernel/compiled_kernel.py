@@ -24,15 +24,16 @@ BLOCK = 64
 KEPT = 16
 """Bytes that keep the answers of a block."""
 
-CHUNK = 1 << 16
-"""Rows of a column copied at a time where it is not contiguous."""
+_SCALARS = (np.float32, np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64)
+"""numpy's scalars that stand for numbers without a step in Python; np.float64 is a float."""
 
 
 @cache
 def extension() -> ModuleType:
     """The extension, which knows numpy's arrays from now on."""
     module = compiled()
-    module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8), 2 * ROWS_A_THREAD - 1)
+    samples = tuple(kind(77) for kind in _SCALARS)
+    module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8), 2 * ROWS_A_THREAD - 1, samples)
     return module
 
 
@@ -76,19 +77,11 @@ def fill_scene(
     axis: Axis | None = None,
 ) -> int:
     """The same into a contiguous array that is there already; returns how many rows are invalid."""
-    ask, number = compiled().ask_scene, NUMBER_OF[question]
+    ask, number = extension().ask_scene, NUMBER_OF[question]
     leaning = () if axis is None else (axis,)
-    as_they_are = all(column.flags.c_contiguous and column.flags.aligned for column in columns)
 
     def part(start: int, stop: int) -> int:
-        if as_they_are:
-            return int(ask(number, sizes, *(column[start:stop] for column in columns), answers[start:stop], *leaning))
-        refused = 0
-        for low in range(start, stop, CHUNK):
-            high = min(low + CHUNK, stop)
-            copies = (column[low:high].copy() for column in columns)
-            refused += int(ask(number, sizes, *copies, answers[low:high], *leaning))
-        return refused
+        return int(ask(number, sizes, *(column[start:stop] for column in columns), answers[start:stop], *leaning))
 
     return in_parts(part, len(answers), threads)
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import reprlib
-from collections.abc import Sequence
-from typing import Protocol
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Protocol, overload
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
@@ -24,10 +25,14 @@ from hypcheck.kernel.choice import choice, compiled
 from hypcheck.kernel.printed.scalars import FARTHEST, GREATEST, LEAST, SLACK, single
 from hypcheck.messages import escaped
 
+if TYPE_CHECKING:  # it loads numpy, and one pair does without
+    from hypcheck.geometry.forms import Answers, Argument
+
 
 class PositionFunction(Protocol):
-    """What hypcheck.position is: exact_position, or the compiled function that answers the same."""
+    """What hypcheck.position is: the function below, or the compiled one that answers the same."""
 
+    @overload
     def __call__(
         self,
         alpha: float,
@@ -43,8 +48,20 @@ class PositionFunction(Protocol):
         z_min: float = -math.inf,
         z_max: float = math.inf,
         solid: bool = False,
-    ) -> int:
-        """As exact_position."""
+        margin: float = 0.0,
+    ) -> int: ...
+
+    @overload
+    def __call__(
+        self,
+        *pairs: Argument,
+        axis: Argument = None,
+        z_min: Argument = -math.inf,
+        z_max: Argument = math.inf,
+        solid: Argument = False,
+        margin: float = 0.0,
+        **columns: Argument,
+    ) -> Answers: ...
 
 
 @in_default_environment
@@ -63,13 +80,7 @@ def exact_position(
     z_max: float = math.inf,
     solid: bool = False,
 ) -> int:
-    """The exact position of one pair: +1 exterior, 0 contact (tangency included), −1 interior.
-
-    alpha, gamma, b, d are the semi-axes and x, y, z the centre, in one unit, by position. `axis` is any finite vector
-    ≠ 0 along the spheroid's axis of revolution, of any length; without it the spheroid is upright. The hyperboloid ends
-    at the heights `z_min` and `z_max`; with `solid`, flat ends belong to it. Raises InputError naming a number that is
-    no float64 or not finite, a semi-axis that is not greater than 0, what is no axis, or heights that are none.
-    """
+    """As PositionFunction, of one pair, in plain Python."""
     if z_min != -math.inf or z_max != math.inf or solid:
         return _ended_position((alpha, gamma, b, d, x, y, z), axis, (z_min, z_max, solid), exact_position)
     if axis is not None:
@@ -93,7 +104,7 @@ def exact_position(
 
 
 def _ended_position(
-    numbers: Sequence[float], axis: Sequence[float] | None, heights: Sequence[float], whole: PositionFunction
+    numbers: Sequence[float], axis: Sequence[float] | None, heights: Sequence[float], whole: Callable[..., int]
 ) -> int:
     """The position where the hyperboloid ends; `whole` gives that without ends. Raises InputError."""
     trouble = trouble_with_heights(heights)
@@ -120,26 +131,65 @@ def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
     return [float(each) for each in row]
 
 
+def _plain(number: Argument) -> Argument:
+    """A scalar of numpy as a number of Python, and anything else as it is. From now on C knows numpy's scalars."""
+    numpy = sys.modules.get("numpy")  # until something imports it, nothing can be one
+    if numpy is None or not isinstance(number, numpy.number):
+        return number
+    if choice().kernel == "compiled":
+        from hypcheck.kernel.compiled_kernel import extension  # noqa: PLC0415 - it loads numpy, which is there
+
+        extension()
+    return number.item()
+
+
+def _are_numbers(values: Iterable[object]) -> bool:
+    return all(isinstance(value, (int, float, str)) or value is None for value in values)
+
+
 @in_default_environment
 def _looked_at(
-    *numbers: float,
-    axis: Sequence[float] | None = None,
-    z_min: float = -math.inf,
-    z_max: float = math.inf,
-    solid: bool = False,
-) -> int:
-    """What the compiled function asks where its arguments are no floats, no valid pair, or say that it ends."""
-    if z_min != -math.inf or z_max != math.inf or solid:
-        return _ended_position(numbers, axis, (z_min, z_max, solid), compiled().position)
+    *pairs: Argument,
+    axis: Argument = None,
+    z_min: Argument = -math.inf,
+    z_max: Argument = math.inf,
+    solid: Argument = False,
+    margin: float = 0.0,
+    **columns: Argument,
+) -> Answers:
+    """The exact position of one pair: +1 exterior, 0 contact (tangency included), −1 interior.
+
+    position(alpha, gamma, b, d, x, y, z) are the semi-axes and the centre, in one unit; it loads no numpy. `axis`
+    is any finite vector ≠ 0 along the spheroid's axis of revolution, of any length; without it the spheroid is
+    upright. The hyperboloid ends at the heights `z_min` and `z_max`; with `solid`, flat ends belong to it.
+    `margin`, a length: what is not proved to be at least so far away is contact. All other forms that classify
+    takes are answered as there: many pairs by an array. Raises InputError naming a number that is no float64 or not
+    finite, a semi-axis that is not greater than 0, what is no axis, or heights that are none.
+
+    >>> position(1, 2, 1, 1, 2.5, 0, 0)
+    1
+    """
+    numbers, heights = tuple(map(_plain, pairs)), tuple(map(_plain, (z_min, z_max, solid)))
+    one = len(numbers) == len(COLUMNS) and _are_numbers((*numbers, *heights)) and not columns and not margin
+    if not one or len(getattr(axis, "shape", ())) > 1:
+        from hypcheck.kernel import at_once  # noqa: PLC0415 - it loads numpy, and one pair does without
+
+        return at_once.classify(*pairs, axis=axis, z_min=z_min, z_max=z_max, solid=solid, margin=margin, **columns)
+    exactly = compiled().position if choice().kernel == "compiled" else exact_position
+    if heights[0] != -math.inf or heights[1] != math.inf or heights[2]:
+        return _ended_position(numbers, axis, heights, exactly)
     if axis is None:
-        return int(compiled().position(*Pair.from_row(numbers).row))
+        return int(exactly(*Pair.from_row(numbers).row))
     row = _valid_row(numbers, axis)
-    return int(compiled().position(*row[: len(COLUMNS)], axis=row[len(COLUMNS) :]))
+    return int(exactly(*row[: len(COLUMNS)], axis=row[len(COLUMNS) :]))
+
+
+_looked_at.__name__ = _looked_at.__qualname__ = "position"
 
 
 def _position() -> PositionFunction:
     if choice().kernel == "numpy":
-        return exact_position
+        return _looked_at
     module = compiled()
     module.set_slow_position(_looked_at)
     function: PositionFunction = module.position
@@ -147,4 +197,4 @@ def _position() -> PositionFunction:
 
 
 position = _position()
-"""exact_position, by the kernel that choice() names."""
+"""Of the kernel that choice() names."""

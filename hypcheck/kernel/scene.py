@@ -7,49 +7,40 @@ scene_pairs.py, scene_ends.py and scene_sweeps.py give the answer of each hyperb
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import chain
-from math import isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, trouble_with, trouble_with_axis
-from hypcheck.geometry.rows import Floats, Indices, Positions, as_columns, as_numbers
+from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
+from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
 from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.choice import POSITION_OF
-from hypcheck.kernel.scene_ends import limits_of, position_with_ends, positions_with_ends
+from hypcheck.kernel.margins import checked_margin
+from hypcheck.kernel.passages import First, Passages
+from hypcheck.kernel.scene_ends import position_with_ends, positions_with_ends
 from hypcheck.kernel.scene_frames import places_of_parts
 from hypcheck.kernel.scene_index import (
-    Bodies,
-    PlaneGrid,
-    bodies_of,
-    grid_of,
-    in_reach,
     near_ways,
-    reaches,
 )
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
-    Body,
     position_beside,
     position_leaning,
     positions_beside,
     positions_leaning,
 )
-from hypcheck.kernel.scene_sweeps import Sweep, hits_beside, is_clear
-from hypcheck.scene.model import FREE, UPRIGHT, Point, SceneModel, leans
-from hypcheck.scene.reading import parse_scene, read_scene
+from hypcheck.kernel.scene_prepared import PreparedScene
+from hypcheck.kernel.scene_queries import directions, finite_columns, finite_numbers, points_or_columns, ways_of
+from hypcheck.kernel.scene_sweeps import Spheroid, Sweep, first_contact, hits_beside, is_clear
+from hypcheck.scene.model import FREE, UPRIGHT, Point, leans
 
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 
 _ASKED = (*CENTER, "heading")
-_POINTS = f"it must be three numbers, {', '.join(CENTER)}, or an array (n, 3) of them"
 
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
 _OF_RANK = (EXTERIOR, EXTERIOR, INTERIOR, CONTACT)
@@ -57,72 +48,85 @@ _OF_RANK = (EXTERIOR, EXTERIOR, INTERIOR, CONTACT)
 
 
 @dataclass(frozen=True)
-class Scene:
-    """A scene (docs/scenes.md), ready to be asked: `Scene.from_toml(path).classify(x, y, z)`."""
+class Scene(PreparedScene):
+    """A scene (docs/scenes.md), ready to be asked: `Scene.from_toml(path).classify(x, y, z)`.
 
-    model: SceneModel
-
-    @in_default_environment
-    def __post_init__(self) -> None:
-        if not self.model.hyperboloids:
-            raise InputError("the scene has no hyperboloid; it must have one at least")
-        mover = self.model.mover
-        trouble = None if mover.axis == FREE else trouble_with_axis(mover.axis)
-        if trouble is not None:
-            raise InputError(f"the mover: {trouble}")
-
-    @classmethod
-    @in_default_environment
-    def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
-        """The scene in a file, or a shipped scene by its name. Raises InputError naming key and line."""
-        return cls(read_scene(os.fspath(path)))
-
-    @classmethod
-    @in_default_environment
-    def from_text(cls, text: str) -> Scene:
-        """The scene that a TOML text describes. Raises InputError naming key and line."""
-        return cls(parse_scene(text))
+    It is made from a file, a text, arrays (from_arrays), or a SceneModel. It never changes, and may be shared by any
+    number of threads; `with_hyperboloid`, `moved` and `without` return another one.
+    """
 
     @in_default_environment
     def classify(
         self,
         x: ArrayLike,
-        y: ArrayLike,
-        z: ArrayLike,
+        y: ArrayLike | None = None,
+        z: ArrayLike | None = None,
         heading: ArrayLike = 0.0,
         *,
         axis: ArrayLike | None = None,
+        margin: float = 0.0,
     ) -> Positions:
-        """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,).
+        """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,) always.
 
-        `x`, `y`, `z` are (n,) each or single numbers, `heading` the mover's direction in degrees, which places its
-        parts. `axis`, (3,) or (n, 3), is the mover's where the scene says that it is free, any vector ≠ 0 along its
-        axis of revolution. Positions are +1, 0, −1, and other questions are answered 1 yes, 0 no. Offsets between
-        centres are taken exactly, not rounded; a part stands where its rounded centre is. Raises InputError for numbers
-        that are not finite, and for an axis where the scene fixes it.
+        `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); `heading` is the mover's
+        direction in degrees, which places its parts. `axis`, (3,) or (n, 3), is the mover's where the scene says that
+        it is free, any vector ≠ 0 along its axis of revolution. Positions are +1, 0, −1, and other questions are
+        answered 1 yes, 0 no. Offsets between centres are taken exactly; a part stands where its rounded centre is.
+        `margin`, a length: what is not proved to be at least so far from all hyperboloids is contact. Raises InputError
+        for numbers that are not finite, and for an axis where the scene fixes it.
         """
+        positions = self._positions(points_or_columns(x, y, z), heading, axis)
+        if margin:
+            positions = self._kept_apart(positions, points_or_columns(x, y, z), heading, axis, margin)
+        return self._answers(positions)
+
+    def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
         axes = self._axes(axis) if axis is not None or self._leaning else ()
         asked = (*_ASKED, *AXIS[: len(axes)])
-        columns = _finite_columns(asked, (x, y, z, heading, *axes))
+        columns = finite_columns(asked, (*center, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
         query, body = self._pairs(centres)
-        movers = _directions(columns[4:]) if axes else None
+        movers = directions(columns[4:]) if axes else None
         said = self._said(query, body, centres, columns[3], movers)
-        return self._answers(_combined(said, query, len(centres)))
+        return _combined(said, query, len(centres))
+
+    def _kept_apart(
+        self,
+        positions: Positions,
+        center: Sequence[ArrayLike],
+        heading: ArrayLike,
+        axis: ArrayLike | None,
+        margin: float,
+    ) -> Positions:
+        """The positions with contact where neither a larger mover nor its distance proves the margin (margins.py)."""
+        larger = self._enlarged(checked_margin(margin))
+        sure = larger is not None and larger._positions(center, heading, axis) == positions
+        sure = np.broadcast_to(sure, positions.shape) & (positions != CONTACT)
+        if not self.model.mover.parts and not sure.all():
+            sure = sure | (self.nearest(*center, axis=axis).distance_lower >= margin)
+        return np.where(sure, positions, CONTACT).astype(np.int8)
 
     @in_default_environment
     def position(
-        self, x: float, y: float, z: float, heading: float = 0.0, *, axis: Sequence[float] | None = None
+        self,
+        x: float,
+        y: float | None = None,
+        z: float | None = None,
+        heading: float = 0.0,
+        *,
+        axis: Sequence[float] | None = None,
+        margin: float = 0.0,
     ) -> int:
-        """The exact answer to the scene's question for one centre: as classify, at the price of a step.
+        """The exact answer to the scene's question for one centre, as classify, at the price of a step.
 
-        Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        The centre is three numbers, or a point (3,). Raises InputError for numbers that are not finite, and for an axis
+        where the scene fixes it.
         """
-        if not (
-            type(x) is type(y) is type(z) is type(heading) is float
-            and (isfinite(x) and isfinite(y) and isfinite(z) and isfinite(heading))
-        ):
-            x, y, z, heading = map(_number, _ASKED, (x, y, z, heading))
+        if y is None or z is None or margin:
+            x, y, z = points_or_columns(x, y, z)
+        if margin:
+            return int(self.classify(x, y, z, heading, axis=axis, margin=margin)[0])
+        x, y, z, heading = finite_numbers(x, y, z, heading)
         if axis is not None or self._leaning:
             return self._position_leaning((x, y, z), heading, axis)
         mover, found = self.model.mover, EXTERIOR
@@ -144,49 +148,67 @@ class Scene:
     @in_default_environment
     def passage(
         self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
-    ) -> Positions:
-        """Whether the mover meets contact on each straight way, its ends included, exactly; int8 (n,).
+    ) -> Passages:
+        """Whether the mover meets contact on each straight way, its ends included, when first, and with what.
 
         `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, and `axis`, as in
-        classify, are the same all along. 1 is contact somewhere, 0 clear all along, whatever the scene's question is. A
-        part goes straight from where it stands at the start to where it stands at the end; it is asked where the mover
-        has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts as
-        contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        classify, are the same all along. `.hit` says exactly whether there is contact on the way, whatever the
+        scene's question is; `.first_lower` ≤ first time ≤ `.first_upper`, 0 at the start and 1 at the end, `.index` is
+        the hyperboloid, and `.first` has the times as fractions; they are found when they are asked for, a millisecond
+        a hit. A part goes straight from where it stands at the start to where it stands at the end; it is asked where
+        the mover has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts
+        as contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
-        starts, ends, headings, *columns = _ways(start, end, heading, axes)
-        movers = _directions(columns) if columns else None
+        starts, ends, headings, *columns = ways_of(start, end, heading, axes)
+        movers = directions(columns) if columns else None
         query, body = near_ways(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
         hits = hits_beside(bodies, body, mover, starts[query], ends[query], None if movers is None else movers[query])
-        for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
-            way = query[pair]
+
+        def sweeps(way: int) -> tuple[Spheroid, list[Spheroid]]:
             own_axis = UPRIGHT if movers is None else movers[way].tolist()
-            whole = Sweep(starts[way].tolist(), ends[way].tolist(), own_axis)
-            heading_of = float(headings[way])
-            places = (places_of_parts(mover.parts, at, heading_of, own_axis) for at in (whole.start, whole.end))
-            parts = [
-                (part.b, part.d, Sweep(here, there, own_axis))
-                for part, here, there in zip(mover.parts, *places, strict=True)
-            ]
-            hits[pair] = not is_clear(bodies, int(body[pair]), (mover.b, mover.d, whole), parts)
-        result = np.zeros(len(starts), np.int8)
-        result[query[hits]] = 1
-        return result
+            return self._sweeps(starts[way].tolist(), ends[way].tolist(), float(headings[way]), own_axis)
+
+        for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
+            hits[pair] = not is_clear(bodies, int(body[pair]), *sweeps(query[pair]))
+        result = np.zeros(len(starts), np.bool_)
+        result[query[hits]] = True
+
+        def measure(way: int) -> First:
+            touched = body[hits & (query == way)].tolist()
+            return min((first_contact(bodies, index, *sweeps(way)), index) for index in touched)
+
+        single = np.ndim(start) == 1 and np.ndim(end) == 1 and len(starts) == 1 and np.ndim(heading) == 0
+        return Passages(bool(result[0]) if single else result, measure)
+
+    def _sweeps(
+        self, start: list[float], end: list[float], heading: float, axis: Sequence[float]
+    ) -> tuple[Spheroid, list[Spheroid]]:
+        """The sweep of the mover, and those of its parts."""
+        mover = self.model.mover
+        places = (places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
+        parts = [
+            (part.b, part.d, Sweep(here, there, axis)) for part, here, there in zip(mover.parts, *places, strict=True)
+        ]
+        return (mover.b, mover.d, Sweep(start, end, axis)), parts
 
     @in_default_environment
-    def nearest(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, *, axis: ArrayLike | None = None) -> Nearest:
+    def nearest(
+        self, x: ArrayLike, y: ArrayLike | None = None, z: ArrayLike | None = None, *, axis: ArrayLike | None = None
+    ) -> Nearest:
         """Which hyperboloid is nearest to the mover, its distance between proved numbers, and the nearest point.
 
-        `x`, `y`, `z` are (n,) each or single numbers. The distance is Euclidean, from the mover itself, not its parts,
+        `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points (n, 3). The distance
+        is Euclidean, from the mover itself, not its parts,
         to what stands of the surface, and to flat ends where they belong to it, wherever the mover is, whatever the
         scene's question is; it is 0 in contact, and only there. `axis` is as in classify. Raises InputError for numbers
         that are not finite, and for an axis where the scene fixes it.
         """
         mover = self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
-        columns = _finite_columns((*CENTER, *AXIS[: len(axes)]), (x, y, z, *axes))
-        movers = _directions(columns[3:]) if axes else None
+        columns = finite_columns((*CENTER, *AXIS[: len(axes)]), (*points_or_columns(x, y, z), *axes))
+        movers = directions(columns[3:]) if axes else None
         return scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
 
     def _position_leaning(self, centre: Point, heading: float, axis: Sequence[float] | None) -> int:
@@ -255,22 +277,6 @@ class Scene:
             raise InputError(f"axis is of shape {given.shape}; {wanted}")
         return given[..., 0], given[..., 1], given[..., 2]
 
-    def _near(self, x: float, y: float, z: float) -> Sequence[int]:
-        height = self.model.region.z
-        if height is not None and not height.low <= z <= height.high:  # of which the grid promises nothing
-            near: list[int] = in_reach(self._bodies, self.model.mover, (x, y, z)).tolist()
-            return near
-        return self._grid.near(x, y)
-
-    def _pairs(self, centres: Floats) -> tuple[Indices, Indices]:
-        """Which hyperboloids have to be asked about which centres."""
-        height = self.model.region.z
-        if height is None or ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
-            return self._grid.near_each(centres[:, 0], centres[:, 1])
-        near = [self._near(x, y, z) for x, y, z in centres.tolist()]
-        counts = [len(each) for each in near]
-        return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
-
     def _said(
         self, query: Indices, body: Indices, centres: Floats, heading: Floats, movers: Floats | None
     ) -> Positions:
@@ -312,96 +318,6 @@ class Scene:
         if question == "position":
             return positions
         return np.asarray(positions == POSITION_OF[question], np.int8)
-
-    def _body(self, index: int) -> tuple[Body, float, float, float, float]:
-        """A hyperboloid's numbers, and its limits, without arrays; each is kept once it was asked."""
-        found = self._asked.get(index)
-        if found is None:
-            of = self._bodies
-            columns = (of.shapes[index], of.origins[index], self._limits[index])
-            alpha, gamma, x, y, z, *limits = (number for column in columns for number in column.tolist())
-            low, high, inner_low, inner_high = limits
-            found = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
-        return found
-
-    @cached_property
-    def _leaning(self) -> bool:
-        return self.model.leaning
-
-    @cached_property
-    def _asked(self) -> dict[int, tuple[Body, float, float, float, float]]:
-        return {}
-
-    @cached_property
-    def _grid(self) -> PlaneGrid:
-        origins = self._bodies.origins
-        return grid_of(origins[:, 0], origins[:, 1], self._reaches)
-
-    @cached_property
-    def _reaches(self) -> Floats:
-        return reaches(self._bodies, self.model.mover, self.model.region.z)
-
-    @cached_property
-    def _limits(self) -> Floats:
-        return limits_of(self._bodies, self.model.mover)
-
-    @cached_property
-    def _bodies(self) -> Bodies:
-        bodies = bodies_of(self.model.hyperboloids)
-        invalid = ~(np.isfinite(bodies.axes).all(axis=1) & (bodies.axes != 0).any(axis=1))
-        for index in np.flatnonzero(invalid)[:1].tolist():
-            body = self.model.hyperboloids[index]
-            raise InputError(f"the hyperboloid {body.name!r}: {trouble_with_axis(body.axis)}")
-        for index in np.flatnonzero(~(bodies.spans[:, 0] < bodies.spans[:, 1]))[:1].tolist():
-            body = self.model.hyperboloids[index]
-            raise InputError(f"the hyperboloid {body.name!r}: height is {body.height}; its low must be less than high")
-        return bodies
-
-
-def _ways(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """The ends of ways, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are none."""
-    points = []
-    for name, given in (("start", start), ("end", end)):
-        point = as_numbers(f"{name} is", given, _POINTS)
-        if point.ndim not in (1, 2) or point.shape[-1] != len(CENTER):
-            raise InputError(f"{name} is of shape {point.shape}; {_POINTS}")
-        points.append(point.reshape(-1, len(CENTER)).T)
-    names = (*(f"{each} of the start" for each in CENTER), *(f"{each} of the end" for each in CENTER), "heading")
-    columns = _finite_columns((*names, *AXIS[: len(axes)]), (*points[0], *points[1], heading, *axes))
-    return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), *columns[6:]
-
-
-def _finite_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """The columns as as_columns makes them. Raises InputError about the first number that is not finite."""
-    columns = as_columns(names, given)
-    for name, values in zip(names, columns, strict=True):
-        finite = np.isfinite(values)
-        if not finite.all():
-            index = int(np.argmin(finite))
-            raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
-    return columns
-
-
-def _directions(columns: Sequence[Floats]) -> Floats:
-    """The axes as (n, 3). Raises InputError about the first that is 0, 0, 0."""
-    axes = np.stack(columns, axis=1)
-    nowhere = np.flatnonzero(~(axes != 0).any(axis=1))
-    if len(nowhere):
-        raise InputError(f"row {int(nowhere[0])}: {NO_DIRECTION}")
-    return axes
-
-
-def _number(name: str, value: object) -> float:
-    """The value as a finite float64; raises InputError about anything else."""
-    if not isinstance(value, (int, float)):
-        array = as_numbers(f"{name} is", value, "it must be a number")
-        if array.size != 1:
-            raise InputError(f"{name} is of shape {array.shape}; it must be a number (classify takes arrays)")
-        value = float(array.item())
-    trouble = trouble_with(name, value)
-    if trouble is not None:
-        raise InputError(trouble)
-    return float(value)
 
 
 def _combined(said: Positions, query: Indices, count: int) -> Positions:

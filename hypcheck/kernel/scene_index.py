@@ -176,7 +176,7 @@ class PlaneGrid:
 
     def _members_of(self, column: Indices, row: Indices) -> tuple[Indices, Indices]:
         """What cells hold: pairs of a cell's number among these (n,) and a hyperboloid's, cell by cell."""
-        place = _hashed(column, row, len(self.starts) - 1)
+        place = hashed(column, row, len(self.starts) - 1)
         starts, members = np.frombuffer(self.starts, np.intc), np.frombuffer(self.members, np.intc)
         first = starts[place].astype(np.int64)
         counts = starts[place + 1] - first
@@ -193,21 +193,31 @@ def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
     """The grid of hyperboloids at (x, y) with these reaches, (m,) each; its cells are as wide as most reach."""
     finite = np.isfinite(reaches)
     side = float(2 * np.median(reaches[finite])) if finite.any() else 1.0
+    columns, rows, members, everywhere = _cells_of(x, y, reaches, side)
+    size = 1 << (ROOM * len(members)).bit_length()
+    places = hashed(columns, rows, size)
+    order = np.lexsort((members, places))
+    places, members = places[order], members[order]
+    again = np.append(False, (np.diff(places) == 0) & (np.diff(members) == 0))[: len(places)]
+    places, members = places[~again], members[~again]
+    starts = np.searchsorted(places, np.arange(size + 1))
+    return PlaneGrid(side, _packed(starts), _packed(members), everywhere)
+
+
+def cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indices, Indices, list[int]]:
+    """Columns and rows of the cells that hyperboloids at (x, y) stand in, and which of them stand in too many."""
+    columns, rows, _, everywhere = _cells_of(x, y, reaches, side)
+    return columns, rows, everywhere
+
+
+def _cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indices, Indices, Indices, list[int]]:
     with np.errstate(all="ignore"):
         low_x, high_x, low_y, high_y = (
             np.floor((centre + sign * reaches) / side) for centre in (x, y) for sign in (-1.0, 1.0)
         )
         few = (high_x - low_x + 1) * (high_y - low_y + 1) <= MOST_CELLS
         few &= (np.abs(np.stack([low_x, high_x, low_y, high_y])) < WIDEST).all(axis=0)
-    columns, rows, members = _entries(low_x, high_x, low_y, high_y, np.flatnonzero(few))
-    size = 1 << (ROOM * len(members)).bit_length()
-    places = _hashed(columns, rows, size)
-    order = np.lexsort((members, places))
-    places, members = places[order], members[order]
-    again = np.append(False, (np.diff(places) == 0) & (np.diff(members) == 0))[: len(places)]
-    places, members = places[~again], members[~again]
-    starts = np.searchsorted(places, np.arange(size + 1))
-    return PlaneGrid(side, _packed(starts), _packed(members), np.flatnonzero(~few).tolist())
+    return *_entries(low_x, high_x, low_y, high_y, np.flatnonzero(few)), np.flatnonzero(~few).tolist()
 
 
 def _entries(
@@ -224,7 +234,8 @@ def _entries(
     return column, row, np.repeat(chosen, counts)
 
 
-def _hashed(column: Indices, row: Indices, size: int) -> Indices:
+def hashed(column: Indices, row: Indices, size: int) -> Indices:
+    """The places of cells in a table of that size."""
     return np.asarray((column * ACROSS ^ row * ALONG) & (size - 1))
 
 

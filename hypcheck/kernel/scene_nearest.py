@@ -25,7 +25,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.kernel.clearance import clearance
+from hypcheck.kernel.clearance import clearances
 from hypcheck.kernel.scene_ends import positions_with_ends
 from hypcheck.kernel.scene_frames import frames_of, turned, turned_axes
 from hypcheck.kernel.scene_gaps import gaps
@@ -187,7 +187,7 @@ def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None
 def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
     """Bounds of the distances, by those to the whole hyperboloids, points for the upper ones, and where ends matter."""
     rows, rounded, (bottom, top) = pairs.rows, pairs.rounded, pairs.spans.T
-    said = clearance(rows)
+    said = clearances(rows)
     with np.errstate(all="ignore"):
         low, high = np.maximum(said.distance_lower - rounded, 0), said.distance_upper + rounded
         point = said.nearest.copy()

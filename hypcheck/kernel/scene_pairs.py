@@ -57,7 +57,7 @@ def positions_beside(sizes: Rows, centres: Rows, origins: Rows, movers: Rows | N
     beyond = np.asarray(~np.isfinite(offset).all(axis=1))
     offset[beyond] = 0.0
     place = offset if movers is None else np.concatenate([offset, movers], axis=1)
-    result = classify(np.concatenate([sizes, place], axis=1))
+    result: Positions = classify(np.concatenate([sizes, place], axis=1))
     some = np.flatnonzero(beyond | ~(error == 0).all(axis=1))
     if len(some):
         result[some], unsettled = _between(sizes[some], place[some], np.abs(error[some]).sum(axis=1))

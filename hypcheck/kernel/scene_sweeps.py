@@ -14,7 +14,7 @@ no other, is asked about the ends as well: those decide where it may hit, and of
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -100,8 +100,8 @@ def _in_frames(
 class Sweep:
     """Where a spheroid goes straight, in the scene's coordinates, and its axis."""
 
-    start: Sequence[float]
-    end: Sequence[float]
+    start: Sequence[float | Fraction]
+    end: Sequence[float | Fraction]
     axis: Sequence[float]
 
 
@@ -126,7 +126,9 @@ def _between_ends(bodies: Bodies, index: int, b: float, d: float, sweep: Sweep) 
     """Whether a spheroid surely stays between the ends of a hyperboloid."""
     (low, high), origin, axis = (column[index].tolist() for column in (bodies.spans, bodies.origins, bodies.axes))
     reach = (d if sweep.axis[0] == sweep.axis[1] == axis[0] == axis[1] == 0 else max(b, d)) * (1 + MARGIN)
-    places = (height_and_distance(point, origin, axis) for point in (sweep.start, sweep.end))
+    points = [[float(part) for part in point] for point in (sweep.start, sweep.end)]
+    reach += MARGIN * max(sum(map(abs, point)) for point in points)  # fractions are rounded
+    places = (height_and_distance(point, origin, axis) for point in points)
     return (low, high) == WITHOUT_ENDS[:2] or all(
         low + reach + error < along < high - reach - error for along, _, error in places
     )
@@ -145,3 +147,48 @@ def _between(
         for point in (sweep.start, sweep.end)
     )
     return (*bodies.shapes[index].tolist(), b, d), start, end, sweep.axis, bodies.axes[index].tolist()
+
+
+_HALVINGS = 60
+
+
+def first_contact(
+    bodies: Bodies, index: int, mover: tuple[float, float, Sweep], parts: Sequence[tuple[float, float, Sweep]] = ()
+) -> tuple[Fraction, Fraction]:
+    """The time of the first contact of a mover that is_clear says is not clear, in an interval, or as one number twice.
+
+    Where parts decide, exact decisions about the way up to a time halve the interval.
+    """
+    low, high = bodies.spans[index].tolist()
+    found = swept.passage(
+        *_between(bodies, index, *mover), z_min=low, z_max=high, solid=float(bodies.solid[index])
+    ).first
+    if found is None:
+        raise AssertionError("a way on which is_clear finds contact has none")
+    if not parts:
+        return found
+    until, contact = found[0], Fraction(1)
+    if not is_clear(bodies, index, *_cut(mover, parts, Fraction(0))):
+        return Fraction(0), Fraction(0)
+    for _ in range(_HALVINGS):
+        middle = (until + contact) / 2
+        if is_clear(bodies, index, *_cut(mover, parts, middle)):
+            until = middle
+        else:
+            contact = middle
+    return until, contact
+
+
+Spheroid = tuple[float, float, Sweep]
+
+
+def _at(sweep: Sweep, time: Fraction) -> list[Fraction]:
+    """Where the centre is at a time, exactly."""
+    ends = zip(*([Fraction(part) for part in point] for point in (sweep.start, sweep.end)), strict=True)
+    return [here + time * (there - here) for here, there in ends]
+
+
+def _cut(mover: Spheroid, parts: Sequence[Spheroid], time: Fraction) -> tuple[Spheroid, list[Spheroid]]:
+    """The same up to a time."""
+    whole, *others = ((b, d, replace(sweep, end=_at(sweep, time))) for b, d, sweep in (mover, *parts))
+    return whole, others

@@ -29,6 +29,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Mask
 from hypcheck.kernel.scene_pairs import positions_beside
+from hypcheck.paper.ends import beside_trees, require_ends
 from hypcheck.paper.motion import MOST_CONTACTS, first_contact, stays_on_side
 from hypcheck.paper.quadcopter import any_angle, require_ordinary, turned
 from hypcheck.scene.model import Region, SceneModel, Walk
@@ -315,12 +316,16 @@ WINDOW = 0.1
 
 @dataclass(frozen=True, slots=True)
 class ForestPlan:
-    """What is to be simulated: `steps` of the scene's walk, or as many as it says; `continuous`: the ways as well."""
+    """What is to be simulated: `steps` of the scene's walk, or as many as it says; `continuous`: the ways as well.
+
+    `ends`: places are decided beside trees as they end, too.
+    """
 
     scene: SceneModel
     seed: int
     steps: int | None
     continuous: bool
+    ends: bool = False
 
     @property
     def rules(self) -> Walk:
@@ -341,6 +346,8 @@ class ForestPlan:
 def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda _: None) -> dict[str, Any]:
     """The result, as schemas/simulate-forest-1.1.0.json has it; advanced by tried steps. Raises InputError."""
     require_ordinary(plan.scene)
+    if plan.ends:
+        require_ends(plan.scene)
     trees = Trees(plan.scene)
     steps = walk(trees, plan.rules, plan.scene.region, plan.count, plan.seed, advance)
     asked = ~steps.edge
@@ -374,6 +381,9 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
         "path": [list(plan.rules.start), *steps.end[steps.made].tolist()],
         "stops": stops,
         "wall": _wall(trees, stops),
+        **(
+            {"ends": beside_trees(plan.scene, steps.end[asked], verdicts.asked, verdicts.exterior)} if plan.ends else {}
+        ),
     }
 
 

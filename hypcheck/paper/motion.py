@@ -168,10 +168,10 @@ class Contact:
 
 
 @dataclass(slots=True)
-class _Verdicts:
+class VerdictCounts:
     """Numbers of events, each in a field of its own."""
 
-    def add(self, other: _Verdicts) -> None:
+    def add(self, other: VerdictCounts) -> None:
         """Count what another of the same kind has counted as well."""
         for each in fields(self):
             setattr(self, each.name, getattr(self, each.name) + getattr(other, each.name))
@@ -180,7 +180,7 @@ class _Verdicts:
         setattr(self, name, getattr(self, name) + int(np.count_nonzero(those)))
 
 
-Verdicts = TypeVar("Verdicts", bound=_Verdicts)
+Verdicts = TypeVar("Verdicts", bound=VerdictCounts)
 
 
 def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
@@ -191,7 +191,7 @@ def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
 
 
 @dataclass(slots=True)
-class MoveVerdicts(_Verdicts):
+class MoveVerdicts(VerdictCounts):
     """Exact verdicts on the movements of flights.
 
     Of the accepted `vertical` and `horizontal` moves `…_touching` meet contact somewhere on the way, `…_begun` of these
@@ -218,15 +218,15 @@ class MoveVerdicts(_Verdicts):
     turns_touching: int = 0
     contacts: tuple[Contact, ...] = ()
 
-    def add(self, other: _Verdicts) -> None:
+    def add(self, other: VerdictCounts) -> None:
         """Count what another has counted as well."""
-        _Verdicts.add(self, other)  # super() does not know a class that is made anew for its slots
+        VerdictCounts.add(self, other)  # super() does not know a class that is made anew for its slots
         self.contacts = self.contacts[:MOST_CONTACTS]
 
     def watch(self, craft: Craft, moves: Moves) -> None:
         """Count the results of a draw of many flights."""
         accepted = np.flatnonzero(moves.accepted)
-        start, end, heading = _of(moves.start, accepted), _of(moves.end, accepted), _headed(moves.before, accepted)
+        start, end, heading = of(moves.start, accepted), of(moves.end, accepted), headed(moves.before, accepted)
         vertical = moves.vertical[accepted]
         clear, begun, ended = _judged(craft, start, end, heading)
         for name, those in (("vertical", vertical), ("horizontal", ~vertical)):
@@ -236,16 +236,16 @@ class MoveVerdicts(_Verdicts):
         self._count("wrongly_accepted", ~ended)
         touching = np.flatnonzero(begun & ~clear)[: MOST_CONTACTS - len(self.contacts)]
         if len(touching):
-            self.contacts += _contacts(craft, _of(start, touching), _of(end, touching), _headed(heading, touching))
+            self.contacts += _contacts(craft, of(start, touching), of(end, touching), headed(heading, touching))
         refused = np.flatnonzero(moves.refused & ~moves.turning)
-        self._count("wrongly_refused", valid(craft, _of(moves.end, refused), _headed(moves.before, refused)))
+        self._count("wrongly_refused", valid(craft, of(moves.end, refused), headed(moves.before, refused)))
         self._compare(craft, moves)
         self._watch_turns(craft, moves)
 
     def _compare(self, craft: Craft, moves: Moves) -> None:
         """What Procedure 2.a, and both procedures put right, say of the moves that Procedure 2.b was asked about."""
         some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning)
-        at, heading, answer = _of(moves.end, some), _headed(moves.before, some), moves.accepted[some]
+        at, heading, answer = of(moves.end, some), headed(moves.before, some), moves.accepted[some]
         printed, repaired = Procedures(craft), Procedures(craft, repaired=True)
         second = printed.ask_rotors(at, heading)
         self.asked += len(some)
@@ -256,24 +256,25 @@ class MoveVerdicts(_Verdicts):
     def _watch_turns(self, craft: Craft, moves: Moves) -> None:
         some = np.flatnonzero(moves.turn)
         self.turns += len(some)
-        at = _of(moves.start, some)
+        at = of(moves.start, some)
         near = some[classify_scene(craft.sizes, *at) != Position.INTERIOR]
-        at, heading = _of(moves.start, near), _headed(moves.before, near)
+        at, heading = of(moves.start, near), headed(moves.before, near)
         x, y, z, turn = (np.tile(column, ROTORS) for column in (*at, moves.turn[near]))
         clear = stays_on_side_turning(craft.rotor, craft.arm, (x, y, z), craft.arms(heading), turn)
-        self._count("turns_touching", ~_all_four(clear))
+        self._count("turns_touching", ~all_four(clear))
 
 
 def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
     """Which positions are exactly valid: the body interior, or every rotor, centred where (15) says in floats."""
     result = np.asarray(classify_scene(craft.sizes, *at) == Position.INTERIOR)
     near = np.flatnonzero(~result)
-    rotors = craft.rotors(_of(at, near), _headed(heading, near))
-    result[near] = _all_four(classify_scene(craft.rotor, *rotors) == Position.INTERIOR)
+    rotors = craft.rotors(of(at, near), headed(heading, near))
+    result[near] = all_four(classify_scene(craft.rotor, *rotors) == Position.INTERIOR)
     return result
 
 
-def _all_four(rotors: Mask) -> Mask:
+def all_four(rotors: Mask) -> Mask:
+    """Whether an answer about all first rotors, then all second ones and so on, holds for all four of each."""
     return np.asarray(rotors.reshape(ROTORS, -1).all(axis=0))
 
 
@@ -282,9 +283,9 @@ def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> t
     clear = stays_on_side(Position.INTERIOR, craft.sizes, start, end)
     begun, ended = clear.copy(), clear.copy()
     near = np.flatnonzero(~clear)
-    first, last, ahead = _of(start, near), _of(end, near), _headed(heading, near)
+    first, last, ahead = of(start, near), of(end, near), headed(heading, near)
     rotors = craft.rotors(first, ahead), craft.rotors(last, ahead)
-    clear[near] = _all_four(stays_on_side(Position.INTERIOR, craft.rotor, *rotors))
+    clear[near] = all_four(stays_on_side(Position.INTERIOR, craft.rotor, *rotors))
     begun[near], ended[near] = valid(craft, first, ahead), valid(craft, last, ahead)
     return clear, begun, ended
 
@@ -308,12 +309,14 @@ def _floats(point: tuple[np.float64, ...]) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _of(point: Columns, those: NDArray[np.int64]) -> Columns:
+def of(point: Columns, those: NDArray[np.int64]) -> Columns:
+    """Some of these points."""
     x, y, z = point
     return x[those], y[those], z[those]
 
 
-def _headed(direction: Direction, those: NDArray[np.int64]) -> Direction:
+def headed(direction: Direction, those: NDArray[np.int64]) -> Direction:
+    """Some of these directions."""
     return direction[0][those], direction[1][those]
 
 
@@ -323,12 +326,13 @@ def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
     longest = max(b, d)
     inside = np.asarray(classify_scene((alpha, gamma, longest, longest), *at) == Position.INTERIOR)
     near = np.flatnonzero(~inside)
-    inside[near] = _positions(sizes, _of(at, near), _of(axis, near)) == Position.INTERIOR
+    inside[near] = _positions(sizes, of(at, near), of(axis, near)) == Position.INTERIOR
     return inside
 
 
 def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
-    return classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
+    positions: Positions = classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
+    return positions
 
 
 @dataclass(frozen=True, slots=True)
@@ -362,7 +366,7 @@ class Lean:
 
     def of(self, those: NDArray[np.int64]) -> Lean:
         """Some of them."""
-        return Lean(_headed(self.toward, those), self.cosine, self.sine)
+        return Lean(headed(self.toward, those), self.cosine, self.sine)
 
 
 def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> tuple[Mask, Mask]:
@@ -370,17 +374,17 @@ def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> 
     body = leaning_interior(craft.sizes, at, lean.axis)
     valid = body.copy()
     near = np.flatnonzero(~body)
-    arms = craft.arms(_headed(heading, near))
+    arms = craft.arms(headed(heading, near))
     four = lean.of(np.tile(near, ROTORS))
     ways = four.tilted(craft.arm * arms[0], craft.arm * arms[1])
-    x, y, z = (np.tile(column, ROTORS) + way for column, way in zip(_of(at, near), ways, strict=True))
+    x, y, z = (np.tile(column, ROTORS) + way for column, way in zip(of(at, near), ways, strict=True))
     rotors = leaning_interior(craft.rotor, (x, y, z), four.axis)
-    valid[near] = _all_four(rotors)
+    valid[near] = all_four(rotors)
     return valid, body
 
 
 @dataclass(slots=True)
-class PitchVerdicts(_Verdicts):
+class PitchVerdicts(VerdictCounts):
     """Answers about horizontal moves, each at the move's end, against the exact ones about the craft that leans.
 
     Of the `moves` that Procedure 2.b was asked about, its answer is `wrong` about so many; it is `dangerous` where it
@@ -397,7 +401,7 @@ class PitchVerdicts(_Verdicts):
     def watch(self, craft: Craft, degrees: float, moves: Moves) -> None:
         """Count the results of a draw of many flights."""
         some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning & ~moves.vertical)
-        (x, y, z), heading = _of(moves.end, some), _headed(moves.before, some)
+        (x, y, z), heading = of(moves.end, some), headed(moves.before, some)
         way = x - moves.start[0][some], y - moves.start[1][some]
         back = way[0] * heading[0] + way[1] * heading[1] < 0
         toward = np.where(back, -heading[0], heading[0]), np.where(back, -heading[1], heading[1])

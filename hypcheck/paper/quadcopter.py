@@ -102,7 +102,7 @@ class Craft:
     """A quadcopter in a tower; positions are counted from the tower's centre.
 
     `sizes` are α, γ, b, d of the body, `rotor` α, γ, b_s, d_s of a rotor, `arm` is l, `height` the tower's, and
-    `ahead` the angle from the heading to g1, in degrees.
+    `ahead` the angle from the heading to g1, in degrees. `solid` says that the tower has flat ends.
     """
 
     sizes: Sizes
@@ -110,6 +110,7 @@ class Craft:
     arm: float
     ahead: float
     height: Span | None
+    solid: bool = False
 
     def rotors(self, at: Columns, heading: Direction) -> Columns:
         """The centres of all first rotors, then of all second ones, and so on, by equation (15); (4 n,) each."""
@@ -181,6 +182,7 @@ def craft_of(scene: SceneModel) -> Craft:
         arm=first.arm,
         ahead=first.angle - 45,
         height=tower.height,
+        solid=tower.solid,
     )
 
 

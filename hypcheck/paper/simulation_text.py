@@ -52,6 +52,41 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
         yield f"{counted(ways['made'], 'made step')}: {touching} a tree on the way"
         for contact in ways["contacts"][:SHOWN]:
             yield f"  {_way(contact)}: {contact['tree']} first at {contact['first_upper']:.3g} of the way"
+    if "ends" in result:
+        yield from _ends_of_trees(result["ends"])
+
+
+def _ends_of_trees(ends: dict[str, Any]) -> Iterator[str]:
+    """What the centre's height misses of trees that end."""
+    yield "Trees as they end, where the walk asks for the height of the centre alone:"
+    for name, what in (("steps", "step"), ("questions", "question")):
+        asked, needless, dangerous = (ends[name][key] for key in ("asked", "needless", "dangerous"))
+        yield (
+            f"  of {counted(asked, what)} the centre's height decides {needless + dangerous:,} otherwise: "
+            f"{dangerous:,} dangerous, {needless:,} needlessly refused"
+        )
+    for place in ends["places"][:SHOWN]:
+        x, y, z = place["at"]
+        what = "touches" if place["dangerous"] else "is clear of"
+        yield f"  at ({x:.3f}, {y:.3f}, {z:.3f}) the walker {what} {place['tree']}"
+
+
+def _ends_of_tower(ends: dict[str, Any]) -> Iterator[str]:
+    """What the centre's height misses of a tower that ends."""
+    yield "The tower as it ends, where the flights ask for the height of the centre alone:"
+    for name, what in (("flights", "of the figure"), ("table_5", "of the table")):
+        counts = ends[name]
+        if counts is None:
+            continue
+        asked, reaching, beyond, touching = (counts[key] for key in ("asked", "reaching", "beyond", "touching"))
+        moves = counted(asked, "move")
+        yield f"  flights {what}: of {moves} asked about the body reaches beyond an end in {reaching:,};"
+        yield (
+            f"    there the centre's height decides {counts['needless'] + counts['dangerous']:,} otherwise: "
+            f"{counts['dangerous']:,} dangerous, {counts['needless']:,} needlessly refused"
+        )
+        share = _share(touching, beyond)
+        yield f"    of {counted(beyond, 'draw')} to beyond the height {touching:,} would touch the wall{share}"
 
 
 def _regime_line(names: list[str]) -> Iterator[str]:
@@ -103,6 +138,9 @@ def tower_lines(result: dict[str, Any]) -> Iterator[str]:
     if result["pitch"] is not None:
         yield ""
         yield from pitch_lines(result["pitch"])
+    if "ends" in result:
+        yield ""
+        yield from _ends_of_tower(result["ends"])
     yield ""
     yield from textwrap.wrap(result["statement"], WIDTH)
 

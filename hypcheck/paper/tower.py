@@ -17,6 +17,7 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Columns
+from hypcheck.paper.ends import EndVerdicts, require_ends
 from hypcheck.paper.flights import LANES, VERSION, Moves, Tallies, fly
 from hypcheck.paper.motion import MoveVerdicts, PitchVerdicts, near_wall, total
 from hypcheck.paper.quadcopter import Craft, Procedures, craft_of, require_valid_start
@@ -29,17 +30,22 @@ FLIGHTS = 3
 POSITIONS = 25
 
 
-def paths(craft: Craft, flight: Flight, step: float, seed: int) -> tuple[list[dict[str, Any]], MoveVerdicts]:
+def paths(
+    craft: Craft, flight: Flight, step: float, seed: int
+) -> tuple[list[dict[str, Any]], MoveVerdicts, EndVerdicts]:
     """Three flights of 25 positions each, from the tower's centre, as JSON has them; and exact verdicts on their ways.
+
+    The last are about the tower's ends.
 
     Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and how many `executions`, of these
     `touching` (Δ ≤ 0), of the movements `refused`, and draws to `outside_height`.
     """
     tracks: list[list[tuple[float, ...]]] = [[] for _ in range(FLIGHTS)]
-    ways = MoveVerdicts()
+    ways, ends = MoveVerdicts(), EndVerdicts()
 
     def observe(moves: Moves) -> None:
         ways.watch(craft, moves)
+        ends.watch(craft, moves)
         for place, lane in enumerate(moves.lane.tolist()):
             track = tracks[lane]
             for point, there in ((moves.start, not track), (moves.end, bool(moves.accepted[place]))):
@@ -49,17 +55,21 @@ def paths(craft: Craft, flight: Flight, step: float, seed: int) -> tuple[list[di
     draw = Draw("tower-path", VERSION, seed, step)
     tallies = fly(craft, flight, step, POSITIONS - 1, draw, FLIGHTS, observe)
     procedures = Procedures(craft)
-    return [
-        {
-            "positions": [list(position) for position in track],
-            "discriminant": procedures.discriminant(_columns(track)).tolist(),
-            "executions": int(tallies.executions[lane]),
-            "touching": int(tallies.touching[lane]),
-            "refused": int(tallies.refused[lane]),
-            "outside_height": int(tallies.redrawn[lane]),
-        }
-        for lane, track in enumerate(tracks)
-    ], ways
+    return (
+        [
+            {
+                "positions": [list(position) for position in track],
+                "discriminant": procedures.discriminant(_columns(track)).tolist(),
+                "executions": int(tallies.executions[lane]),
+                "touching": int(tallies.touching[lane]),
+                "refused": int(tallies.refused[lane]),
+                "outside_height": int(tallies.redrawn[lane]),
+            }
+            for lane, track in enumerate(tracks)
+        ],
+        ways,
+        ends,
+    )
 
 
 def _columns(track: list[tuple[float, ...]]) -> Columns:
@@ -116,6 +126,7 @@ class FlightBlock:
     lanes: int
     watched: bool
     pitch: float | None = None
+    ends: bool = False
 
     @property
     def moves(self) -> int:
@@ -137,6 +148,7 @@ class FlightShare:
     outside_height: float
     ways: MoveVerdicts
     pitch: PitchVerdicts
+    ends: EndVerdicts
 
 
 def moves_of(flight: Flight, step: float) -> int:
@@ -155,36 +167,51 @@ def moves_of(flight: Flight, step: float) -> int:
 
 @dataclass(frozen=True, slots=True)
 class FlownBlock:
-    """What came of a block's runs; `ways` has counts where they were watched, `pitch` where the craft leans."""
+    """What came of a block's runs; `ways` has counts where they were watched, `pitch` where the craft leans.
+
+    `ends` has some where the block asks about them.
+    """
 
     tallies: Tallies
     ways: MoveVerdicts
     pitch: PitchVerdicts
+    ends: EndVerdicts
 
 
 def fly_block(block: FlightBlock) -> FlownBlock:
-    """The runs of a block, with exact verdicts on their ways where it is `watched`, and on leaning where it has one."""
-    ways, leaning, degrees = MoveVerdicts(), PitchVerdicts(), block.pitch
+    """The runs of a block, with exact verdicts on their ways where it is `watched`, on leaning, and on ends."""
+    ways, leaning, ends, degrees = MoveVerdicts(), PitchVerdicts(), EndVerdicts(), block.pitch
 
     def observe(moves: Moves) -> None:
         if block.watched:
             ways.watch(block.craft, moves)
         if degrees is not None:
             leaning.watch(block.craft, degrees, moves)
+        if block.ends:
+            ends.watch(block.craft, moves)
 
     draw = Draw("tower-flight", VERSION, block.seed, float(block.speed), float(block.time), block.number)
     step = block.speed * block.time
     tallies = fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe)
-    return FlownBlock(tallies, ways, leaning)
+    return FlownBlock(tallies, ways, leaning, ends)
 
 
 def blocks(
-    craft: Craft, flight: Flight, seed: int, runs: int, *, watched: bool, pitch: float | None = None
+    craft: Craft,
+    flight: Flight,
+    seed: int,
+    runs: int,
+    *,
+    watched: bool,
+    pitch: float | None = None,
+    ends: bool = False,
 ) -> dict[tuple[float, float], list[FlightBlock]]:
     """The blocks of each cell (t, v): those of the table, and of its second row read as 0.25."""
     return {
         (time, speed): [
-            FlightBlock(craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), watched, pitch)
+            FlightBlock(
+                craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), watched, pitch, ends
+            )
             for number in range(math.ceil(runs / LANES))
         ]
         for time in (*TIMES, SECOND_READING)
@@ -224,6 +251,7 @@ def _cell(results: Sequence[FlownBlock]) -> FlightShare:
         outside_height=float(np.mean(redrawn)),
         ways=total((block.ways for block in results), MoveVerdicts()),
         pitch=total((block.pitch for block in results), PitchVerdicts()),
+        ends=total((block.ends for block in results), EndVerdicts()),
     )
 
 
@@ -293,7 +321,8 @@ class TowerPlan:
     """What is to be simulated: the flights of the figure with steps of `speed`·`time`, and Table 5 where `runs` > 0.
 
     `continuous`: the ways between positions are decided as well, in the table too. `pitch`: by how many degrees the
-    quadcopter leans into its horizontal movements in the table's flights, or None where that is not asked.
+    quadcopter leans into its horizontal movements in the table's flights, or None where that is not asked. `ends`:
+    positions are decided beside the tower as it ends, too.
     """
 
     scene: SceneModel
@@ -303,6 +332,7 @@ class TowerPlan:
     runs: int
     continuous: bool
     pitch: float | None = None
+    ends: bool = False
 
     @property
     def craft(self) -> Craft:
@@ -322,7 +352,15 @@ class TowerPlan:
         """The work of Table 5, by cell; none where it is not asked for. Raises InputError."""
         if not self.runs:
             return {}
-        return blocks(self.craft, self.flight, self.seed, self.runs, watched=self.continuous, pitch=self.pitch)
+        return blocks(
+            self.craft,
+            self.flight,
+            self.seed,
+            self.runs,
+            watched=self.continuous,
+            pitch=self.pitch,
+            ends=self.ends,
+        )
 
 
 def _require_room(scene: SceneModel, flight: Flight) -> None:
@@ -348,7 +386,9 @@ def _require_room(scene: SceneModel, flight: Flight) -> None:
 def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance) -> dict[str, Any]:
     """The result, as schemas/simulate-tower-1.2.0.json has it. Raises InputError."""
     craft, flight, step = plan.craft, plan.flight, plan.speed * plan.time
-    tracks, ways = paths(craft, flight, step, plan.seed)
+    if plan.ends:
+        require_ends(plan.scene)
+    tracks, ways, ends = paths(craft, flight, step, plan.seed)
     cells, said = table_5(plan.blocks(), executor, advance), statement(craft)
     pitch = plan.pitch
     return {
@@ -369,7 +409,14 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
         "pitch": None
         if pitch is None
         else {"degrees": pitch, **pitch_as_json(cells), "near_wall": near_wall(craft, pitch, plan.seed)},
+        **({"ends": _ends(ends, cells)} if plan.ends else {}),
     }
+
+
+def _ends(flown: EndVerdicts, cells: Mapping[tuple[float, float], FlightShare]) -> dict[str, Any]:
+    """What the centre's height misses in the figure's flights, and in the table's where they are flown."""
+    table = total((cell.ends for cell in cells.values()), EndVerdicts())
+    return {"flights": asdict(flown), "table_5": asdict(table) if cells else None}
 
 
 _RULES = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "backward", "turn")

@@ -86,6 +86,7 @@ Count = Annotated[int, Meta(ge=0)]
 Counts = dict[str, Count]
 Amount = Annotated[float, Meta(ge=0)]
 """A time, a size, a ratio of times."""
+Share = Annotated[float, Meta(ge=0, le=1)]
 
 Interval = tuple[float, float]
 Sizes = tuple[float, float, float, float]

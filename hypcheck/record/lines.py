@@ -11,7 +11,7 @@ adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 
 way, times of first contact with the mistakes late and early, the axis of fixed sizes in a domain, and in a benchmark
 the end of a way and the kinds sampling and advancement; 1.7.0 adds to the header how implementations were isolated, and
 the causes of wrong answers; 1.8.0 adds why rows and families were not asked, and how many fresh rows were; 1.9.0
-adds heights of hyperboloids that end, and that an implementation takes them.
+adds heights of hyperboloids that end, that an implementation takes them, and how evenly a run asked.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ from hypcheck.record.fields import (
     Question,
     RecordLine,
     Row,
+    Share,
     Sizes,
     Span,
     Truth,
@@ -321,10 +322,25 @@ class Retest(LinePart, frozen=True, kw_only=True):
     beyond: Count
 
 
+class SlicesPart(LinePart, frozen=True, kw_only=True):
+    """How evenly rows near contact were asked, since 1.9.0, as shares of the range of each coordinate.
+
+    In each slice of one coordinate that is `one` wide, three rows or more were asked; in each slice of any two of them
+    that is `two` wide in both, a row or more.
+    """
+
+    coordinates: list[str]
+    rows: Count
+    one: Share
+    two: Share
+
+
 class ImplementationLine(RecordLine, frozen=True, kw_only=True):
     """An implementation under test as a whole; `finished`, since 1.3.0, is false if its run was interrupted.
 
-    `not_asked`, since 1.8.0, are the families of which no row was asked, by reason, with their numbers of rows.
+    `not_asked`, since 1.8.0, are the families of which no row was asked, by reason, with their numbers of rows. Since
+    1.9.0 there are `slices` by family, and `crossed`: how many triples of coincidences were asked, and how many go
+    together at all.
     """
 
     spec: str
@@ -337,6 +353,8 @@ class ImplementationLine(RecordLine, frozen=True, kw_only=True):
     broke_protocol_throughout: bool
     troubles: list[str]
     not_asked: dict[str, Counts] | UnsetType = UNSET
+    slices: dict[str, SlicesPart] | UnsetType = UNSET
+    crossed: dict[str, tuple[Count, Count]] | UnsetType = UNSET
     finished: bool | UnsetType = UNSET
 
 

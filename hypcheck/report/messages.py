@@ -128,12 +128,33 @@ def implementation_claims(line: ImplementationLine | NotStartedLine) -> Iterator
     left_out = families_not_asked(line)
     if left_out:
         yield f"not asked: {left_out}"
+    yield from spread(line)
     again, restarts = line.again, line.restarts
     other = again.within + again.beyond
     asked = f"asked again about {counted(again.asked, 'case')}, {other:,} answered otherwise"
     beyond = f" ({again.beyond:,} beyond the tolerance)"
     repeated = f"{asked}{beyond}" if again.asked else "nothing to ask again: no answer was judged"
     yield f"{repeated}; {counted(restarts, 'restart')}"
+
+
+def spread(line: ImplementationLine) -> Iterator[str]:
+    """Sentences without a full stop: how narrow a fault could have escaped the run, and which coincidences met."""
+    for family, slices in (line.slices or {}).items():
+        where = f"near contact of {'tilted' if family.startswith('tilted') else 'upright'} spheroids"
+        names = listed(slices.coordinates, "or")
+        yield (
+            f"{where}, every slice of {_percent(slices.one)} of {names} was asked "
+            f"3 times or more, every slice of {_percent(slices.two)} in two of them at least once"
+        )
+    if line.crossed:
+        met, all_ = (sum(pair[place] for pair in line.crossed.values()) for place in (0, 1))
+        yield f"coincidences, three together: {met:,} of {all_:,} that are possible were asked"
+
+
+def _percent(share: float) -> str:
+    """A share, rounded up to two digits: what is said of a slice holds for wider ones."""
+    digits = 1 - math.floor(math.log10(100 * share)) if share else 2
+    return f"{math.ceil(100 * share * 10**digits) / 10**digits:.{max(0, digits)}f} %"
 
 
 def rows_not_asked(counts: Mapping[str, int]) -> str:

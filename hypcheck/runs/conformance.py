@@ -17,7 +17,7 @@ from hypcheck.implementations.session import StartError
 from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
-from hypcheck.runs import tally
+from hypcheck.runs import spread, tally
 from hypcheck.runs.causes import subject_of
 from hypcheck.runs.consistency import require_all_tallied
 from hypcheck.runs.diagnosis import UNEXPLAINED, causes_of
@@ -212,6 +212,8 @@ class ImplementationLines:
                 broke_protocol_throughout=total.broke_protocol_throughout,
                 troubles=list(self._troubles(total, groups, finished=finished)),
                 not_asked=families_not_asked(self.plan, self.used),
+                slices=spread.slices_of(self.plan, self.used, self.rules) or UNSET if finished else UNSET,
+                crossed=spread.crossed_of(self.plan, self.used) or UNSET if finished else UNSET,
                 finished=UNSET if finished else False,
             )
         )

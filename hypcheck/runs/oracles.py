@@ -1,8 +1,9 @@
 """The five oracles behind one interface, and the cross-check that compares each with the exact decision.
 
 An oracle maps rows to opinions; an opinion may be that it cannot decide. The roots oracle is also compared with the
-repaired coefficient rule in exact rationals. Tilted spheroids are
-those of frozen vectors, whose positions are proved.
+repaired coefficient rule in exact rationals. Tilted spheroids and hyperboloids that end are those of frozen vectors,
+whose positions are proved. Where the hyperboloid ends, the roots oracle is not asked, and the nearest-point oracle is
+the least value on the wall and the discs, by bounds that may leave it open.
 """
 
 from __future__ import annotations
@@ -17,19 +18,19 @@ import numpy as np
 
 from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answering
-from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, HEIGHTS, TILTED_COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import Batch, SelfCheckPlan
-from hypcheck.truth import exact, heights, mesh, mesh_oracle, nearest_rows, roots, tilted_roots
-from hypcheck.truth.certificate import check_certificate
+from hypcheck.truth import ended_prove, exact, heights, least, mesh, mesh_oracle, nearest_rows, roots, tilted_roots
+from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import STAGES
 from hypcheck.truth.prove import prove
 from hypcheck.vectors import frozen
-from hypcheck.vectors.cases import TiltedVector
-from hypcheck.vectors.families import TILTED_FAMILIES
+from hypcheck.vectors.cases import EndedVector, TiltedVector
+from hypcheck.vectors.families import ENDED_FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.family import Family
 
 
@@ -45,7 +46,10 @@ class Opinion:
 
 @dataclass(frozen=True, slots=True)
 class Oracle:
-    """An oracle: `ask` maps rows (n, 7) or (n, 10) to n opinions; `available` gives why it cannot run here, or None."""
+    """An oracle: `ask` maps rows (n, 7), (n, 10) or (n, 13) to n opinions.
+
+    `available` gives the reason why it cannot run here, or None.
+    """
 
     ask: Callable[[Rows], Sequence[Opinion]]
     available: Callable[[], str | None] = lambda: None
@@ -63,7 +67,12 @@ def _exact(row: list[float]) -> Opinion:
     """The exact decision with a checked certificate; a decision without a valid proof counts as undecided."""
     pair = Pair.from_row(row)
     decision = exact.decide(pair.lengths)
-    found = prove(pair, decision)
+    if pair.has_ends:
+        found = ended_prove.prove(pair, decision)
+        if found == Certificate(Position.CONTACT):
+            return Opinion(decision.position, decision.tangent, stage="by the exact rule")
+    else:
+        found = prove(pair, decision)
     proved = found.position is decision.position and check_certificate(pair, found)
     return Opinion(decision.position, decision.tangent, _name_of_kind(decision), "proved") if proved else _REFUSED
 
@@ -73,7 +82,12 @@ def _name_of_kind(decision: Decision) -> str | None:
 
 
 def _nearest(rows: Rows) -> list[Opinion]:
-    """The sign of the clearance to the nearest point: floats with a bound, then exact enclosures until they decide."""
+    """The sign of the clearance to the nearest point: floats with a bound, then exact enclosures until they decide.
+
+    Where the hyperboloid ends, the least value by branch and bound.
+    """
+    if rows.shape[1] == len(TILTED_COLUMNS + HEIGHTS):
+        return [Opinion(least.position(Pair.from_row(row)), stage="least value") for row in rows.tolist()]
     found = nearest_rows.positions(np.ascontiguousarray(rows))
     values = zip(found.position.tolist(), found.tangent.tolist(), found.stage.tolist(), strict=True)
     return [Opinion(Position(each), tangent, None, STAGES[stage]) for each, tangent, stage in values]
@@ -124,37 +138,48 @@ ORACLES = {
 }
 
 
-def tilted_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
-    """All families of tilted spheroids but the extreme one; none where families were chosen."""
-    return () if plan.families else tuple(each for each in TILTED_FAMILIES.values() if not each.extreme)
+def frozen_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
+    """The families of which frozen vectors are asked: all of tilted spheroids and of hyperboloids that end.
+
+    The extreme ones are not among them; there are none where families were chosen.
+    """
+    every = (*TILTED_FAMILIES.values(), *ENDED_FAMILIES.values())
+    return () if plan.families else tuple(family for family in every if not family.extreme)
 
 
-def tilted_batch(family: Family, count: int) -> Batch:
-    """The first `count` frozen vectors of a family of tilted spheroids."""
+def frozen_batch(family: Family, count: int) -> Batch:
+    """The first `count` frozen vectors of such a family."""
     cases = frozen.load(family.name).cases[:count]
     decisions = tuple(Decision(case.position, _limit_of(case)) for case in cases)
     return Batch(family, tuple(case.id for case in cases), np.asarray([case.row for case in cases]), decisions)
 
 
-def _limit_of(case: TiltedVector) -> Position | None:
-    """The clear position that a tangency touches from, by the sign of its double root."""
+def _limit_of(case: TiltedVector | EndedVector) -> Position | None:
+    """The clear position that a tangency touches from: by the sign of its double root, or as the exact rule says."""
     root = case.witness.double_root
-    return None if root is None else Position.EXTERIOR if root > 0 else Position.INTERIOR
+    if root is None:
+        return exact.decide(Pair.from_row(case.row).lengths).limit_of if case.tangent else None
+    return Position.EXTERIOR if root > 0 else Position.INTERIOR
 
 
 TILTED_ROOTS = 10
 """As many upright rows as one tilted one takes as long as where roots are counted, which counts it so often."""
 
+ENDED_PROOFS = 20
+"""Cases of a family of hyperboloids that end for which proofs and nearest points are looked for, which takes long."""
 
-def shares(plan: SelfCheckPlan, families: int, *, tilted: bool = False) -> dict[str, int]:
-    """The number of each family's cases that each oracle of the plan is asked, if there are so many families."""
-    roots = -(-plan.roots // (families * (TILTED_ROOTS if tilted else 1)))
+
+def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> dict[str, int]:
+    """The number of a family's cases that each oracle of the plan is asked, if `families` are asked."""
+    with_roots = sum(not other.ended for other in families)
+    roots = 0 if family.ended else -(-plan.roots // (with_roots * (TILTED_ROOTS if family.tilted else 1)))
+    proofs = min(plan.count, ENDED_PROOFS) if family.ended else plan.count
     every = {
-        "exact": plan.count,
-        "nearest": plan.count,
+        "exact": proofs,
+        "nearest": proofs,
         "roots": roots,
-        "heights": min(roots, plan.count) if tilted else plan.count,
-        "mesh": -(-plan.meshes // families),
+        "heights": min(roots, plan.count) if family.tilted and not family.ended else plan.count,
+        "mesh": -(-plan.meshes // len(families)),
     }
     return {name: every[name] for name in plan.oracles}
 

@@ -30,7 +30,7 @@ from hypcheck.runs.findings import KnownFinding, SelfCheckPlan, batch_of
 from hypcheck.runs.judge import Status
 from hypcheck.runs.oracles import ORACLES
 from hypcheck.truth.flip_exponents import flip_exponents
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
+from hypcheck.vectors.families import ALL, FAMILIES, select
 
 if TYPE_CHECKING:
     from hypcheck.derivation.printed_equations import EquationCheck
@@ -161,9 +161,9 @@ class FamilyLines:
     oracles: list[OracleLine]
 
 
-def tilted_lines(family: str, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
-    """The lines about the frozen vectors of a family of tilted spheroids."""
-    return FamilyLines([], [], oracles.oracle_lines(oracles.tilted_batch(TILTED_FAMILIES[family], plan.count), shares))
+def frozen_lines(family: str, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
+    """The lines about the frozen vectors of a family of tilted spheroids, or of hyperboloids that end."""
+    return FamilyLines([], [], oracles.oracle_lines(oracles.frozen_batch(ALL[family], plan.count), shares))
 
 
 def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
@@ -185,18 +185,22 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
 
 
 def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
-    """The tasks of all families; tilted ones, whose rows take longest, come first.
+    """The tasks of all families; those of frozen vectors, whose rows take longest, come first.
 
     Raises InputError naming a family that does not exist.
     """
-    upright, tilted = select(plan.families), oracles.tilted_families(plan)
-    shares, of_tilted = (oracles.shares(plan, len(upright) + len(tilted), tilted=each) for each in (False, True))
+    upright, frozen = select(plan.families), oracles.frozen_families(plan)
+    shares = {family.name: oracles.shares(plan, family, (*upright, *frozen)) for family in (*upright, *frozen)}
     first = max(CASES, plan.judged, plan.exact_formulas)
     starts = (0, *range(first, plan.count, CASES))
     ranges = list(zip(starts, (*starts[1:], plan.count), strict=True))
     return [
-        *(partial(tilted_lines, family.name, plan, of_tilted) for family in tilted),
-        *(partial(upright_lines, family.name, *cases, plan, shares) for cases in ranges for family in upright),
+        *(partial(frozen_lines, family.name, plan, shares[family.name]) for family in frozen),
+        *(
+            partial(upright_lines, family.name, *cases, plan, shares[family.name])
+            for cases in ranges
+            for family in upright
+        ),
     ]
 
 

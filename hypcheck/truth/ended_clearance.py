@@ -14,6 +14,8 @@ from hypcheck.truth import exact, least
 from hypcheck.truth.exact import Decision
 
 _GUESSED, _BITS = 40, 56
+_WIDTH = 2.0**-14
+"""Where to guess better takes longer than to halve the interval."""
 _FARTHEST = 2200
 
 
@@ -39,7 +41,7 @@ def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
 
 def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
     """Two factors, the spheroid scaled by the first being clear and by the second in contact."""
-    guess = least.to_border(pair)
+    guess = least.to_border(pair, width=_WIDTH)
     if math.isfinite(guess.upper) and guess.lower > 0:
         loose = Fraction(1, 2**_GUESSED)
         low, high = Fraction(guess.lower) * (1 - loose), Fraction(guess.upper) * (1 + loose)

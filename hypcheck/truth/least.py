@@ -74,20 +74,20 @@ def _sign_of_center(pair: Pair) -> int | None:
     return 1 if outward > along else -1
 
 
-def to_border(pair: Pair, *, side_alone: bool = False) -> Least:
-    """The least n on the wall and, of a solid, on the discs, to 2⁻⁴⁰ of itself; or until its side of 1 is known."""
+def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) -> Least:
+    """The least n on the wall and, of a solid, on the discs, to `width` of n²; or until its side of 1 is known."""
     lengths = [abs(number) for number in (*pair.row[:7], pair.z_min, pair.z_max) if number and math.isfinite(number)]
     if not (min(lengths) > _RANGE[0] and max(lengths) < _RANGE[1]):
         return NOTHING
     v = np.array(pair.axis) / max(map(abs, pair.axis))
     v /= math.sqrt(float(v @ v))
-    found = _to_wall(pair, v, side_alone=side_alone)
+    found = _to_wall(pair, v, side_alone=side_alone, width=width)
     for end in (pair.z_min, pair.z_max) if pair.solid else ():
         disc = _to_disc(pair, v, end)
         if disc is None:
             return Least(0.0, found.upper, found.point)
-        found = disc if disc.upper < found.upper else found
-        found = Least(min(found.lower, disc.lower), found.upper, found.point)
+        nearer = disc if disc.upper < found.upper else found
+        found = Least(min(found.lower, disc.lower), nearer.upper, nearer.point)
     return found
 
 
@@ -111,7 +111,7 @@ def _to_disc(pair: Pair, v: Floats, end: float) -> Least | None:
     return Least(least - error, least + error, (float(across[0]), float(across[1]), end))
 
 
-def _to_wall(pair: Pair, v: Floats, *, side_alone: bool) -> Least:
+def _to_wall(pair: Pair, v: Floats, *, side_alone: bool, width: float) -> Least:
     """Branch and bound over the wall."""
     cells = _first_cells(pair)
     m = min(pair.b, pair.d)
@@ -132,7 +132,7 @@ def _to_wall(pair: Pair, v: Floats, *, side_alone: bool) -> Least:
         bound -= _SLACK * (np.abs(qw) * h + np.abs(qt) * k)
         keep = bound <= best
         lowest = max(0.0, float(bound[keep].min())) if keep.any() else best
-        if best - lowest <= _WIDTH * best or keep.sum() > _MOST_CELLS or (side_alone and not lowest <= 1 <= best):
+        if best - lowest <= width * best or keep.sum() > _MOST_CELLS or (side_alone and not lowest <= 1 <= best):
             break
         cells = _halved(cells[:, keep], kww[keep], ktt[keep])
     return Least(math.sqrt(lowest) * (1 - _SLACK), math.sqrt(best) * (1 + _SLACK), point)

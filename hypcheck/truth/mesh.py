@@ -15,6 +15,7 @@ from hypcheck.geometry.rows import Floats
 
 Vertices = Floats
 Triangles = NDArray[np.int64]
+Mesh = tuple[Vertices, Triangles]
 
 
 def fcl_module() -> Any:  # noqa: ANN401 - the wheel has no types
@@ -82,24 +83,20 @@ class MeshOutcome(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Refinement:
-    """What cutting the surface into cells led to, and the mesh that shows it, seen from C in spheroid radii.
+    """What cutting the surface into cells led to, and the meshes that show it, seen from C in spheroid radii.
 
     The mesh of a clear pair is the near one over all cells within reach, each at the size at which it was settled; that
-    of a contact the far one over cells that were open. Its distance has to be off 1 by more than `slack`. `side` is the
-    exact sign of the hyperboloid's equation at C. `levels` counts the rounds of cutting. The distance from C to the
-    surface, in radii, is between `lower` and `upper`; `reason` says why nothing is decided.
+    of a contact the far one over cells that were open. Where the surface ends, both count. The distance of each has to
+    be off 1 by more than `slack`; there are none where nothing is decided. `side` is the exact sign of the
+    hyperboloid's equation at C. `levels` counts the rounds of cutting. The distance from C to the surface, in radii, is
+    between `lower` and `upper`; `reason` says why nothing is decided.
     """
 
     outcome: MeshOutcome
     side: int
-    vertices: Vertices
-    triangles: Triangles
+    meshes: tuple[Mesh, ...]
     levels: int
     lower: float = 0.0
     upper: float = float("inf")
     slack: float = 0.0
     reason: str = ""
-
-
-NO_MESH = np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
-"""A mesh without triangles."""

@@ -27,7 +27,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats
-from hypcheck.truth.mesh import NO_MESH, MeshOutcome, Refinement, Triangles, Vertices
+from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement
 
 UNIT_BITS = 96
 UNIT = 1 << UNIT_BITS
@@ -251,16 +251,16 @@ def refine(pair: Pair) -> Refinement:
         upper = min(upper, *(bounds.upper for _, bounds in judged))
         if upper <= 1.0:
             shown = ribbon(_facets(cells, chords=not outside))
-            return Refinement(MeshOutcome.CONTACT, meridian.side, *shown, levels, lower, upper)
+            return Refinement(MeshOutcome.CONTACT, meridian.side, (shown,), levels, lower, upper)
         cells = [cell for cell, bounds in judged if bounds.lower <= 1.0]
         if cells and (upper - lower <= RESOLUTION or len(cells) > MOST_CELLS):
             why = _why_open(levels, lower, upper)
-            return Refinement(MeshOutcome.UNDECIDED, meridian.side, *NO_MESH, levels, lower, upper, reason=why)
+            return Refinement(MeshOutcome.UNDECIDED, meridian.side, (), levels, lower, upper, reason=why)
         beyond = [(cell, bounds) for cell, bounds in judged if bounds.lower > 1.0]
         settled.extend(_facets((cell for cell, _ in beyond), chords=outside))
         settled_lower = min(settled_lower, _least(bounds for _, bounds in beyond))
         cells = [half for cell in cells for half in halves(meridian, cell)]
-    return Refinement(MeshOutcome.CLEAR, meridian.side, *ribbon(settled), levels, settled_lower, upper)
+    return Refinement(MeshOutcome.CLEAR, meridian.side, (ribbon(settled),), levels, settled_lower, upper)
 
 
 def _facets(cells: Iterable[MeridianCell], *, chords: bool) -> tuple[Segment, ...]:
@@ -280,7 +280,7 @@ def _why_open(levels: int, lower: float, upper: float) -> str:
 _HALVES_OF_A_SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
 
 
-def ribbon(segments: Sequence[Segment]) -> tuple[Vertices, Triangles]:
+def ribbon(segments: Sequence[Segment]) -> Mesh:
     """Segments of the meridian plane (y = 0) drawn out across it: vertices (4n, 3) and triangles (2n, 3).
 
     Each becomes a square of two triangles with the segment in its middle, so the point of it nearest to C, which is

@@ -4,8 +4,8 @@ It says clear, contact or undecided, and never a wrong word: bounds found withou
 about the very mesh that shows it, must say the same. The one question to FCL (python-fcl) is how far C is from a mesh.
 FCL knows no sides; the side is the exact sign of the hyperboloid's equation at C.
 
-The bounds of an upright spheroid are proved (mesh_meridian.py), those of a tilted one allow for roundings ten times
-over (mesh_lines.py).
+The bounds of an upright spheroid are proved (mesh_meridian.py), those of a tilted one (mesh_lines.py), and of a
+hyperboloid that ends (mesh_ends.py), allow for roundings ten times over.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import mesh_lines, mesh_meridian
-from hypcheck.truth.mesh import Measure, MeshOutcome, distance_to_mesh, require_fcl
+from hypcheck.truth import mesh_ends, mesh_lines, mesh_meridian
+from hypcheck.truth.mesh import Measure, MeshOutcome, Refinement, distance_to_mesh, require_fcl
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,8 +23,9 @@ class MeshVerdict:
 
     `position` is None where undecided, and then `reason` is the sentence why. `lower` and `upper` are bounds on the
     distance from the spheroid's centre to the surface, in spheroid radii (clearance + 1), proved ones of an upright
-    spheroid, and 0 and inf of a tilted one; a clear pair's are seldom tight, and beyond 5/4 radii they are 5/4 and inf.
-    `levels` counts the rounds of cutting, `triangles` what FCL was asked about; both are 0 where nothing is near.
+    spheroid and a hyperboloid without ends, else 0 and inf; a clear pair's are seldom tight, and beyond 5/4 radii they
+    are 5/4 and inf. `levels` counts the rounds of cutting, `triangles` what FCL was asked about; both are 0 where
+    nothing is near.
     """
 
     outcome: MeshOutcome
@@ -42,15 +43,27 @@ def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
     Raises UnavailableError where FCL cannot be imported.
     """
     require_fcl()
-    search = mesh_meridian.refine(pair) if pair.is_upright else mesh_lines.refine(pair)
-    outcome, count, reason = search.outcome, len(search.triangles), search.reason
-    if outcome is not MeshOutcome.UNDECIDED:
-        distance = measure(search.vertices, search.triangles)
-        clear = outcome is MeshOutcome.CLEAR
+    search = _search(pair)
+    outcome, reason = search.outcome, search.reason
+    for mesh in search.meshes:
+        distance = measure(*mesh)
+        clear = search.outcome is MeshOutcome.CLEAR
         if not (distance > 1 + search.slack if clear else distance <= 1 - search.slack):
-            reason = f"FCL's distance {distance!r} to the mesh does not bear out {outcome.value}"
+            reason = f"FCL's distance {distance!r} to the mesh does not bear out {search.outcome.value}"
             outcome = MeshOutcome.UNDECIDED
     position = None
     if outcome is not MeshOutcome.UNDECIDED:
-        position = Position.CONTACT if outcome is MeshOutcome.CONTACT else Position(search.side)
+        position = Position.CONTACT if outcome is MeshOutcome.CONTACT else _side(pair, search.side)
+    count = sum(len(triangles) for _, triangles in search.meshes)
     return MeshVerdict(outcome, position, search.levels, count, search.lower, search.upper, reason or None)
+
+
+def _search(pair: Pair) -> Refinement:
+    if pair.has_ends:
+        return mesh_ends.refine(pair)
+    return mesh_meridian.refine(pair) if pair.is_upright else mesh_lines.refine(pair)
+
+
+def _side(pair: Pair, sign: int) -> Position:
+    """The side of a spheroid that touches nothing: that of its centre, of whose equation this is the sign."""
+    return Position.INTERIOR if sign <= 0 and pair.z_min <= pair.z <= pair.z_max else Position.EXTERIOR

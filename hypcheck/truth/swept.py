@@ -159,6 +159,11 @@ class Passage:
         return self.first is not None
 
     @property
+    def index(self) -> int:
+        """Which hyperboloid is touched first: 0, the only one; −1 where there is no contact."""
+        return 0 if self.hit else -1
+
+    @property
     @in_default_environment
     def first_lower(self) -> float:
         """The largest float64 that is not above the time of first contact's enclosure; NaN where there is none."""

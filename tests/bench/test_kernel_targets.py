@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets, targets
+from hypcheck.bench import call_targets, cliff_targets, compiled_targets, targets
 from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
 from hypcheck.bench.c_source import WORDS
 from hypcheck.bench.compiled_targets import touching_columns, tower_rows, uniform_columns
@@ -51,6 +51,7 @@ def small(monkeypatch):
         ),
         (compiled_targets, {"PART": 1024, "PARTS": 2, "LEAST_PARTS": 2, "EACH": 4, "TURNS": 1, "NEIGHBOURS": 1}),
         (targets, {"MANY": 20_000, "FEW": 3, "TRIANGLES": 60, "AGAIN": 0}),
+        (cliff_targets, {"MANY": 4096, "CACHED": 256}),
         (call_targets, {"MANY": 20_000, "CALLS": 20, "BATCHES": (1000,)}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
     ):
@@ -66,7 +67,7 @@ def test_every_kernel_target_has_a_line_that_fits_the_record_schema(small):
     assert sum(advanced) == targets.steps()
     found = [line for line in recorder.lines if isinstance(line, KernelLine)]
     names = [line.name for line in found]
-    assert len(set(names)) == len(names) == 29
+    assert len(set(names)) == len(names) == 59
     definition = json.loads(PUBLISHED.read_text(encoding="utf-8"))
     for line in found:
         assert not violations(as_json(line), definition, closed=True)

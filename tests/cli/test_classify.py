@@ -34,6 +34,8 @@ KNOWN = {
     ("1e300", "1e300", "1e-300", "5e-324", "1.1e300", 0, 0): ("exterior", 1, False, "inf"),
 }
 
+DISTANCES = {(1, 2, 1, 1, 2.5, 0, 0): 0.5, (4, 4, 1, 1, 0, 0, 0): 3.0, (4, 4, 0.5, 1, 0, -3, 0): 0.5}
+
 
 @pytest.mark.parametrize(("row", "known"), KNOWN.items())
 def test_classify_of_one_pair_gives_the_answer_computed_by_hand(row, known, capsys):
@@ -48,7 +50,13 @@ def test_classify_of_one_pair_gives_the_answer_computed_by_hand(row, known, caps
     assert lines[0] == (f"{label}, tangent" if tangent else label)
     if clearance is not None:
         shown = clearance if clearance == "inf" else f"{clearance:g}"
-        assert lines[1].startswith(f"clearance  {shown} spheroid radi")
+        assert lines[2].startswith(f"clearance  {shown} spheroid radi")
+    distance = DISTANCES.get(row, 0.0 if position == 0 else None)
+    if distance is not None:
+        assert found["distance_lower"] <= distance <= found["distance_upper"]
+        assert found["distance_upper"] - found["distance_lower"] < 1e-8
+        shown = f"{distance:g}, in the unit of the lengths (proved: from " if distance else "0"
+        assert lines[1].startswith(f"distance   {shown}")
 
 
 def check_printed_proof(pair: Pair, printed: dict) -> None:

@@ -70,7 +70,8 @@ def test_classify_scene_in_c_takes_a_number_in_place_of_a_column(columns, alone)
     expected = step_by_step.classify_scene(SIZES, x, 0.5, 3.0)
     assert alone.classify_scene(SIZES, x, 0.5, np.float64(3), None, threads=None).tolist() == expected.tolist()
     assert alone.classify_scene(SIZES, 2.25, 0.0, 0.0, None, threads=None).tolist() == [0]
-    assert alone.classify_scene(SIZES, columns[0], 0.5, 3.0, None, threads=None) == LEFT  # too many to write out
+    many = step_by_step.classify_scene(SIZES, columns[0], np.full(5000, 0.5), np.full(5000, 3.0)).tolist()
+    assert alone.classify_scene(SIZES, columns[0], 0.5, 3.0, None, threads=None).tolist() == many
 
 
 @pytest.mark.parametrize("count", [3, 1025, 5000])
@@ -101,26 +102,27 @@ def test_classify_in_c_leaves_out_unchanged_if_a_row_is_invalid():
 
 
 UNUSUAL = {
-    "a list": lambda x, out: ([*x], out),
-    "strides": lambda x, out: (np.repeat(x, 2)[::2], out),
-    "float32": lambda x, out: (x.astype(np.float32), out),
     "another byte order": lambda x, out: (x.astype(">f8"), out),
-    "unaligned": lambda x, out: (np.frombuffer(b"-" + x.tobytes(), dtype=np.int8)[1:].view(np.float64), out),
     "masked": lambda x, out: (np.ma.masked_array(x, mask=False), out),
     "a subclass": lambda x, out: (x.view(np.recarray), out),
-    "a whole number": lambda _x, out: (1, out),
+    "half precision": lambda x, out: (x.astype(np.float16), out),
+    "texts": lambda x, out: ([str(each) for each in x], out),
+    "truth values": lambda x, out: (x > 0, out),
+    "a truth value": lambda _x, out: (True, out),
+    "a whole number beyond 2^53": lambda _x, out: (2**53 + 1, out),
+    "whole numbers beyond 2^53": lambda x, out: (np.where(x == x[3], 2**53 + 1, 1), out),
+    "subnormal float32": lambda x, out: (np.where(x == x[3], np.float32(1e-40), np.float32(1)), out),
     "two dimensions": lambda x, out: (x[None], out),
     "too few": lambda x, out: (x[:-1], out),
     "out of strides": lambda x, out: (x, np.repeat(out, 2)[::2]),
     "out of another type": lambda x, out: (x, out.view(np.uint8)),
     "out too long": lambda x, out: (x, np.append(out, np.int8(0))),
     "out a list": lambda x, out: (x, [*out]),
-    "out that overlaps": lambda x, _out: (x, x.view(np.int8)[: len(x)]),
 }
 
 
 @pytest.mark.parametrize("change", UNUSUAL.values(), ids=UNUSUAL)
-def test_the_c_entry_leaves_arrays_of_other_layouts_to_python_and_changes_nothing(columns, change, alone):
+def test_the_c_entry_leaves_arrays_of_other_types_to_python_and_changes_nothing(columns, change, alone):
     x, y, z = (column[:20].copy() for column in columns)
     x, out = change(x, np.full(20, 97, np.int8))
     before, kept = np.array(x), np.array(out)
@@ -129,11 +131,111 @@ def test_the_c_entry_leaves_arrays_of_other_layouts_to_python_and_changes_nothin
     assert (np.array(x) == before).all()
 
 
+COLUMNS = {
+    "a list": lambda x: [*x],
+    "a tuple of numpy's scalars": lambda x: (*x.astype(np.float32),),
+    "a subclass of float": lambda x: [np.float64(each) for each in x],
+    "every other number": lambda x: np.repeat(x, 2)[::2],
+    "the other way round": lambda x: x[::-1].copy()[::-1],
+    "float32": lambda x: x.astype(np.float32),
+    "float32 with strides": lambda x: np.repeat(x.astype(np.float32), 3)[::3],
+    "unaligned": lambda x: np.frombuffer(b"-" + x.tobytes(), dtype=np.int8)[1:].view(np.float64),
+    "one number for all": lambda x: np.broadcast_to(x[:1], x.shape),
+    **{kind: lambda x, kind=kind: x.astype(kind) for kind in ("i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8")},
+}
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("change", COLUMNS.values(), ids=COLUMNS)
+def test_columns_of_other_layouts_and_types_are_answered_in_c_as_the_same_numbers_side_by_side(
+    columns, change, level, alone
+):
+    used = core.level()
+    if not core.use_level(level):
+        pytest.skip(f"this machine has no {level}")
+    try:
+        for count in (1, 7, 64, 300, 1024, 1025, 1152, 5000):
+            given = [change(abs(column[:count])) for column in columns]
+            if isinstance(given[0], (list, tuple)) and count > 1024:
+                continue  # the room for lists has an end
+            plain = [np.array(column, np.float64) for column in given]
+            for axis in (None, (0.3, 0.1, 0.9)):
+                expected = step_by_step.classify_scene(SIZES, *plain, axis=axis).tolist()
+                assert alone.classify_scene(SIZES, *given, axis=axis).tolist() == expected
+                out = np.full(count, 99, np.int8)
+                assert alone.classify_scene(SIZES, *given, out, axis=axis).tolist() == expected
+            yes = step_by_step.classify_scene(SIZES, *plain, question="exterior").tolist()
+            assert alone.classify_scene(SIZES, *given, question="exterior").tolist() == yes
+            assert (
+                alone.classify_scene(hypcheck.Prepared(SIZES), *given).tolist()
+                == step_by_step.classify_scene(SIZES, *plain).tolist()
+            )
+    finally:
+        core.use_level(used)
+
+
+@pytest.mark.parametrize("count", [1, 5, 64, 100, 5000])
+@pytest.mark.parametrize("level", LEVELS)
+def test_points_and_an_axis_each_are_answered_in_c_as_rows(columns, count, level, alone):
+    used = core.level()
+    if not core.use_level(level):
+        pytest.skip(f"this machine has no {level}")
+    try:
+        points = np.column_stack([column[:count] for column in columns])
+        random = np.random.default_rng(5)
+        axes = np.where(random.random((count, 1)) < 0.5, [0.0, 0.0, -2.0], random.normal(size=(count, 3)))
+        rows = tilted_rows(SIZES, (*points.T,), (*axes.T,))
+        upright, leaning = step_by_step.classify(rows[:, :7].copy()).tolist(), step_by_step.classify(rows).tolist()
+        for given in (points, np.asfortranarray(points), points.astype(object).tolist() if count <= 100 else points):
+            assert alone.classify_scene(SIZES, given).tolist() == upright
+            assert alone.classify(SIZES, given).tolist() == upright
+            assert alone.classify(*SIZES, given).tolist() == upright
+            assert alone.classify(*SIZES, given, axis=axes).tolist() == leaning
+            assert alone.classify_scene(SIZES, given, axis=axes.astype(np.float32).astype(float)).shape == (count,)
+        assert alone.classify(*SIZES, *points.T).tolist() == upright
+        for form in (np.asfortranarray(rows), np.repeat(rows, 2, axis=0)[::2], np.repeat(rows, 2, axis=1)[:, ::2]):
+            assert alone.classify(form).tolist() == leaning
+            assert alone.classify(form[:, :7]).tolist() == upright
+        flagged = rows.copy()
+        flagged[0, 7:] = 0
+        marked = alone.classify(*SIZES, flagged[:, 4:7], axis=flagged[:, 7:], on_invalid="flag").tolist()
+        assert marked == [127, *leaning[1:]]
+    finally:
+        core.use_level(used)
+
+
+def test_sizes_may_be_columns_in_c(columns, alone):
+    x, y, z = (column[:200] for column in columns)
+    alpha, d = np.linspace(1, 3, 200), np.linspace(0.1, 2, 200)
+    rows = np.column_stack([alpha, np.full(200, 17.8), np.full(200, 0.25), d, x, y, z])
+    expected = step_by_step.classify(rows).tolist()
+    assert alone.classify(alpha, 17.8, 0.25, d, x, y, z).tolist() == expected
+    axis = (0.3, 0.1, 0.9)
+    leaning = step_by_step.classify(np.hstack([rows, np.tile(axis, (200, 1))])).tolist()
+    assert alone.classify(alpha, 17.8, 0.25, d, x, y, z, axis=axis).tolist() == leaning
+
+
+def test_one_row_is_answered_by_one_number(alone):
+    row = [1, 2, 1, 1, 2.5, 0, 0]
+    sizes, center = row[:4], row[4:]
+    for call in ((row,), (np.array(row),), (*row,), (sizes, center), (*sizes, tuple(center)), (sizes, *center)):
+        answer = alone.classify(*call)
+        assert answer == 1
+        assert type(answer) is int
+    assert alone.classify([row]).tolist() == [1]
+    assert alone.classify(row, out=np.zeros(1, np.int8)) == LEFT
+
+
 @pytest.mark.parametrize(
-    "sizes", [SIZES[:3], (2, 17.8, 0.25, 0.15), (2.0, 17.8, 0.0, 0.15), None, b"", np.array(SIZES)]
+    "sizes", [SIZES[:3], (True, 17.8, 0.25, 0.15), (2.0, 17.8, 0.0, 0.15), None, b"", (2**60, 1, 1, 1)]
 )
 def test_the_c_entry_leaves_unusual_sizes_to_python(sizes, alone):
     assert alone.classify_scene(sizes, 1.0, 2.0, 3.0, None, threads=None) == LEFT
+
+
+@pytest.mark.parametrize("sizes", [(2, 17.8, 0.25, 0.15), np.array(SIZES), [np.float32(2), 17.8, 0.25, 0.15]])
+def test_the_c_entry_takes_sizes_of_any_numbers(sizes, alone):
+    assert alone.classify_scene(sizes, [1.0, 2.0], 0, 3, None, threads=None).tolist() == [-1, 0]
 
 
 def test_classify_scene_refuses_a_read_only_out():
@@ -162,7 +264,15 @@ def test_answers_that_c_collects_as_bits_are_those_that_it_writes(level, columns
 
 @pytest.mark.parametrize(
     "options",
-    [{"question": "exterior"}, {"on_invalid": "flag"}, {"threads": 2}, {"threads": True}, {"axis": [0, 0, 1]}],
+    [
+        {"question": "inside"},
+        {"on_invalid": "no"},
+        {"threads": 2},
+        {"threads": True},
+        {"threads": 10**30},
+        {"axis": [0, 1]},
+        {"margin": 1.0},
+    ],
 )
 def test_the_c_entry_leaves_calls_with_other_options_to_python(options, alone):
     assert alone.classify_scene(SIZES, 1.0, 2.0, 3.0, **options) == LEFT

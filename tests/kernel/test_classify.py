@@ -134,7 +134,7 @@ def test_classify_refuses_masked_values_and_takes_an_empty_mask():
         hypcheck.classify_scene((1, 2, 1, 1), 1, masked[1], 3)
 
 
-@pytest.mark.parametrize("shape", [(7,), (0,), (3, 6), (7, 3), (1, 2, 7)])
+@pytest.mark.parametrize("shape", [(0,), (3, 6), (7, 3), (1, 2, 7)])
 def test_classify_refuses_rows_of_another_shape(shape):
     with pytest.raises(InputError, match=rf"the rows have shape {re.escape(str(shape))}; it must be \(n, 7\)"):
         hypcheck.classify(np.ones(shape))

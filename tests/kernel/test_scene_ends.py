@@ -127,13 +127,13 @@ def test_position_nearest_and_passage_never_contradict_each_other_or_the_exact_p
         assert asked.position(*centre, **({"axis": axis} if tilted_mover else {})) == position
     touching = found == Position.CONTACT
     assert 2 < touching.sum() < 22
-    assert (asked.passage(centres, centres, **named) == touching).all()
+    assert (asked.passage(centres, centres, **named).hit == touching).all()
     nearest = asked.nearest(*centres.T, **named)
     assert ((nearest.distance_upper == 0) == touching).all()
     assert (nearest.distance_lower[touching] == 0).all()
     assert (nearest.distance_upper - nearest.distance_lower < 1e-9 * (1 + nearest.distance_upper)).all()
     back = np.roll(centres, 1, axis=0)
-    moved = asked.passage(centres, back, **named)
+    moved = np.asarray(asked.passage(centres, back, **named))
     assert (moved[touching] == 1).all()
     if not tilted_mover:
         assert (moved[np.roll(touching, 1)] == 1).all()
@@ -179,7 +179,7 @@ def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before
         asked = scene(body, mover=mover)
         start = near(draw, body, mover, axis) if draw.random() < 0.3 else (draw.normal(size=3) * 1.5).tolist()
         end = near(draw, body, mover, axis) if draw.random() < 0.3 else (draw.normal(size=3) * 1.5).tolist()
-        hit = bool(asked.passage(start, end)[0])
+        hit = asked.passage(start, end).hit
         offsets = [[Fraction(a) - Fraction(b) for a, b in zip(p, body.center, strict=True)] for p in (start, end)]
         sizes, (low, high) = (body.alpha, body.gamma, mover.b, mover.d), body.height.ends
         found = passage(sizes, *offsets, axis, body.axis, z_min=low, z_max=high, solid=body.solid)

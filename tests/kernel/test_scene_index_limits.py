@@ -68,7 +68,7 @@ def test_scene_answers_are_exact_for_the_smallest_subnormal_lengths():
         ((0, 0, [[1], [2, 3]]), r"z is \[\[1\], \[2, 3\]\]; it must be a number"),
         ((10**400, 0, 0), "x is (1000000|an integer too large for float64)"),
         (([0, 1], [0, 1, 2], 0), r"x \(2,\), y \(3,\), z \(1,\), heading \(1,\) have shapes that do not fit together"),
-        ((0, 0, None), "z is None; it must be a number"),
+        ((0, 0, None), "z is not given"),
         (("1.5", 0, 0), "x is '1.5'; it must be a number"),
         ((0, b"1.5", 0), "y is b'1.5'; it must be a number"),
         ((True, 0, 0), "x is True; it must be a number"),

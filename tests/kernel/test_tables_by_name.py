@@ -47,7 +47,8 @@ def test_tables_of_every_kind_are_answered_as_their_rows(ask, names):
 def test_numbers_stand_for_whole_columns_and_one_row_of_numbers_is_one_row():
     table = {"alpha": 2, "gamma": 17.8, "b": 0.25, "d": 0.15, "x": [0.0, 1.9, 9.0], "y": 0, "z": np.float32(0)}
     assert hypcheck.classify(table).tolist() == [-1, 0, 1]
-    assert hypcheck.classify(table | {"x": 9.0}).tolist() == [1]
+    assert hypcheck.classify(table | {"x": 9.0}) == 1
+    assert hypcheck.classify(table | {"x": [9.0]}).tolist() == [1]
     assert hypcheck.classify(table | {"x": np.empty(0)}).tolist() == []
     out = np.zeros(3, np.int8)
     assert hypcheck.classify(table, out=out) is out

@@ -179,8 +179,8 @@ def test_classify_scene_refuses_another_number_of_axes_than_centres():
         hypcheck.classify_scene(SIZES, [1, 2], 0, 0, axis=np.eye(3))
 
 
-def test_position_refuses_keywords_other_than_axis():
-    with pytest.raises(TypeError):
+def test_position_refuses_columns_that_are_unknown_or_given_twice():
+    with pytest.raises(InputError, match="there is no column 'tilt'; the columns are alpha, gamma"):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, tilt=(1.0, 0.0, 0.0))
-    with pytest.raises(TypeError):
+    with pytest.raises(InputError, match="z is given twice; it must be given once"):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, axis=(1.0, 0.0, 0.0), z=3.0)

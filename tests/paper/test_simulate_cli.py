@@ -47,6 +47,8 @@ def tower(tmp_path):
         ("--table", "5", "--runs", "3"),
         ("--table", "5", "--runs", "1", "--continuous"),
         ("--pitch", "20", "--runs", "1"),
+        ("--ends",),
+        ("--ends", "--table", "5", "--runs", "1"),
     ],
 )
 def test_the_json_of_simulate_tower_fits_its_schema(capsys, tower, more):
@@ -57,7 +59,9 @@ def test_the_json_of_simulate_tower_fits_its_schema(capsys, tower, more):
     assert (json.loads(out)["pitch"] is None) == ("--pitch" not in more)
 
 
-@pytest.mark.parametrize("more", [("--steps", 40), ("--continuous",), ("--steps", 0)])
+@pytest.mark.parametrize(
+    "more", [("--steps", 40), ("--continuous",), ("--steps", 0), ("--steps", 0, "--ends"), ("--ends",)]
+)
 def test_the_json_of_simulate_forest_fits_its_schema(capsys, more):
     code, out, err = run(capsys, *FOREST, "--format", "json", *more)
     assert (code, err) == (0, "")

@@ -13,6 +13,7 @@ from hypcheck.errors import InputError
 from hypcheck.record import SCHEMA, Record, Recorder, integrity, read
 from hypcheck.record.fields import FARTHEST, decoded
 from hypcheck.record.lines import DriftLine, FooterLine, GroupLine, HeaderLine, ImplementationLine
+from hypcheck.record.measurements import AccuracyLine, BoundingLine
 from hypcheck.record.progress import SavedTally
 from hypcheck.record.reader import recorded_cases
 from tests.support.records import GrowingText, resealed
@@ -85,6 +86,20 @@ def test_record_line_with_impossible_bins_is_refused_and_one_with_the_farthest_b
         decoded(line, kind)
         with pytest.raises(ValidationError, match=field):
             decoded({**line, field: value}, kind)
+
+
+@pytest.mark.parametrize(
+    ("kind", "field", "impossible"),
+    [(AccuracyLine, "octaves", [-3, 1, 2]), (BoundingLine, "overlap", [1.0, 1, 2, None])],
+)
+def test_a_line_of_a_benchmark_with_more_wrong_answers_than_were_asked_is_refused(kind, field, impossible):
+    counts = dict.fromkeys(("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained"), 0)
+    of = {"method": "m", "workload": "near", "reliable_above": 1.0, "worst": []} if field == "octaves" else {}
+    of |= {"shape": "sphere", "workload": "near"} if field == "overlap" else {}
+    line = {"type": "accuracy" if field == "octaves" else "bounding", **counts, **of, field: []}
+    decoded(line, kind)
+    with pytest.raises(ValidationError, match=field):
+        decoded({**line, field: [impossible]}, kind)
 
 
 def test_a_line_knows_the_type_that_the_record_gives_it():

@@ -12,8 +12,8 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.record import read
 from hypcheck.record.fields import Unsigned, decoded
-from hypcheck.record.lines import DriftLine, NotStartedLine
-from hypcheck.record.writer import FolderInUseError, GrowingFile, Recorder, folder_locked, processor_name
+from hypcheck.record.lines import DriftLine, GroupLine, NotStartedLine
+from hypcheck.record.writer import FolderInUseError, GrowingFile, Recorder, folder_locked, is_result, processor_name
 from tests.record.test_removed import PROGRESS
 from tests.support.records import GrowingText
 
@@ -45,6 +45,14 @@ def test_a_growing_file_replaces_what_a_killed_run_left_beside_it(tmp_path):
         file.renew(b"whole")
         file.write(b", and more")
         assert path.read_bytes() == b"whole, and more"
+    assert [each.name for each in tmp_path.iterdir()] == [path.name]
+
+
+def test_a_growing_file_that_cannot_be_replaced_leaves_nothing_beside_it(tmp_path):
+    path = tmp_path / "record.jsonl"
+    (path / "in the way").mkdir(parents=True)
+    with GrowingFile(path) as file, pytest.raises(IsADirectoryError):
+        file.renew(b"whole")
     assert [each.name for each in tmp_path.iterdir()] == [path.name]
 
 
@@ -101,3 +109,11 @@ def test_a_number_of_a_record_that_must_not_be_negative_is_refused_below_0():
     assert decoded("inf", Unsigned) == float("inf")
     with pytest.raises(Exception, match='Expected `float` >= 0 or "inf"'):
         decoded(-1.0, Unsigned)
+
+
+def test_a_group_of_which_one_case_was_asked_is_a_result_and_one_of_none_is_not():
+    names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
+    counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": [], "worst": []}
+    for asked in (0, 1):
+        line = decoded({"type": "group", **names, **counts, "asked": asked}, GroupLine)
+        assert is_result(line) == bool(asked)

@@ -361,7 +361,7 @@ DECIDERS = (
     ),
     Decider("the C header", of_header, lacks=lacks_compiler),
     Decider("the C header, ends", of_header, takes=ENDED, abstains=0.3, lacks=lacks_compiler),
-    Decider("the least value", of_least_value, takes=ENDED, abstains=0.3, refuses=False),
+    Decider("the least value", of_least_value, takes=ENDED, abstains=0.3, every=4, refuses=False),
     Decider("the rule in the height", of_rule, takes=ENDED, refuses=False),
     *(
         Decider(
@@ -394,6 +394,7 @@ DECIDERS = (
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),
+        takes=POSITIONS + ENDED,
         every=6,
         examples=3,
         abstains=0.4,

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import random
 import secrets
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -21,24 +20,14 @@ import numpy as np
 
 from hypcheck import classify
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.geometry.rows import Floats, Rows, within
+from hypcheck.geometry.rows import Rows, within
 from hypcheck.runs.cases import family_chunks, frozen_vectors
 from hypcheck.truth import backward_error, exact
 from hypcheck.vectors.families import select
+from hypcheck.vectors.strata import COORDINATES, UPRIGHT
 
 TOLERANCE = Fraction(8, 1 << 53)
 NAMES = ("alpha", "gamma", "b", "d", "x", "y", "z")
-COORDINATES: dict[str, Callable[[Rows], Floats]] = {
-    "|z|/γ": lambda rows: np.abs(rows[:, 6]) / rows[:, 1] / 2,
-    "c/a": lambda rows: np.log10(rows[:, 1] / rows[:, 3] / rows[:, 0] * rows[:, 2]) / 6 + 0.5,
-    "d/b": lambda rows: np.log10(rows[:, 3] / rows[:, 2]) / 6 + 0.5,
-    "α/b": lambda rows: np.log10(rows[:, 0] / rows[:, 2]) / 3 + 1 / 3,
-    "azimuth": lambda rows: np.arctan2(rows[:, 5], rows[:, 4]) / (2 * np.pi) + 0.5,
-    "lean": lambda rows: np.cos(np.arctan2(np.hypot(rows[:, 7], rows[:, 8]), np.abs(rows[:, 9]))),
-    "heading": lambda rows: np.arctan2(rows[:, 8], rows[:, 7]) / np.pi % 1,
-}
-"""From 0 to 1 in the range where faults lie: |z|/γ to 2, c/a and d/b from 1/1000 to 1000, α/b from 1/10 to 100."""
-UPRIGHT = tuple(COORDINATES)[:5]
 
 
 @dataclass(frozen=True, slots=True)

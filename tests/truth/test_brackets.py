@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import random
 from fractions import Fraction
 
 import pytest
+import sympy
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.backward_error import bracket, estimate, quick_bracket, tolerated
-from tests.tools.tilted_agreement import rows
+from hypcheck.truth.box_form import Form
+from tests.tools.oracle_agreement import rows
 from tests.truth.tilted_cases import SYMMETRIC
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
@@ -104,3 +107,39 @@ def test_answer_is_tolerated_if_one_of_several_accepted_answers_is_within_the_to
     assert tolerated(Pair.from_row(row), decided(row), [EXTERIOR], Fraction(0)) is False
     assert tolerated(Pair.from_row(row), decided(row), [EXTERIOR], Fraction(1)) is True
     assert estimate(Pair.from_row(row), decided(row), EXTERIOR) == pytest.approx(STEP / (2.25 - STEP), rel=0.05)
+
+
+def attains(row, change, answer):
+    """Whether a row whose numbers are changed by at most this share has the answer: the corners are looked at."""
+    for signs in itertools.product((-1, 1), repeat=7):
+        for turn in itertools.product((-1, 0, 1), repeat=3):
+            changed = [Fraction(a) * (1 + s * change) for a, s in zip(row, (*signs, *turn), strict=True)]
+            if any(changed[7:]) and exact.position(Lengths.of(changed)) is answer:
+                return True
+    return False
+
+
+def test_some_change_of_the_upper_end_makes_the_answer_right():
+    asked = 0
+    for _, row in rows(["uniform", "near", "stiff", "slight"], 16, seed=8):
+        truth = decided(row)
+        answer = CONTACT if truth.position is not CONTACT else EXTERIOR
+        upper = bracket(Pair.from_row(row), truth, answer).upper
+        if upper < 0.25:
+            asked += 1
+            assert attains(row, Fraction(upper), answer), row
+    assert asked >= 8
+
+
+def test_derivatives_by_the_axis_are_those_of_another_algebra():
+    """A step of the proof that a box holds: n and q held fixed, Σ = b² + (d² − b²) v vᵀ/v·v."""
+    b, d, *v = sympy.symbols("b d v1 v2 v3", positive=True)
+    n, q = sympy.Matrix([3, -1, 2]), sympy.Matrix([1, 4, -2])
+    axis = sympy.Matrix(v)
+    value = (b**2 * n.dot(q)) + (d**2 - b**2) * axis.dot(n) * axis.dot(q) / axis.dot(axis)
+    at = {b: 2, d: 5, v[0]: 1, v[1]: 2, v[2]: -2}
+    form = Form([Fraction(size) for size in (1, 1, 2, 5)], math.sqrt)
+    own = form.by_axis(*([Fraction(part) for part in some] for some in ((1, 2, -2), (1, 4, -2), (3, -1, 2))))
+    # Turning the axis to v + ε k changes no length of v at first order only across it: both are taken across v.
+    right = [value.diff(part).subs(at) for part in v]
+    assert [sympy.nsimplify(part) for part in own] == [sympy.nsimplify(part) for part in right]

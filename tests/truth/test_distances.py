@@ -61,3 +61,23 @@ def test_a_table_with_a_certain_row_of_another_position_than_the_kernel_says_is_
     monkeypatch.setattr(distances, "decide", lambda _rows: wrong)
     with pytest.raises(DisagreementError):
         answers(rows)
+
+
+def test_the_bound_below_all_eigenvalues_of_the_pencil_is_below_them_and_not_0_where_they_are_far_above():
+    """A step of the proof: it is what the bound of the nearest point's error is divided by."""
+    draw = np.random.default_rng(3)
+    for name in ("tilted-uniform", "tilted-stiff", "tilted-slight"):
+        rows = TILTED_FAMILIES[name].rows(3, 2000)
+        pairs = distances._Pairs.of(rows)
+        end = 1 / np.max(np.abs(np.stack(pairs.D)), axis=0) * np.maximum(pairs.thick, pairs.long)
+        at = end * draw.uniform(-1.5, 1.5, len(rows))
+        found = distances._least_eigenvalue(pairs, at)
+        upper = distances._matrix(pairs, at)
+        full = np.stack([upper[k] for k in (0, 1, 2, 1, 3, 4, 2, 4, 5)], axis=1).reshape(-1, 3, 3)
+        values = np.linalg.eigvalsh(full)
+        scale = np.abs(values).max(axis=1)
+        assert (values[:, 0] + 1e-13 * scale >= found)[found > 0].all()
+        assert (found[values[:, 0] > 1e-9 * scale] > 0).all()
+        assert (found >= values[:, 0] / 64)[values[:, 0] > 1e-9 * scale].all()
+        assert (values[:, 0] > 1e-9 * scale).sum() > 300
+        assert (values[:, 0] < 0).sum() > 300

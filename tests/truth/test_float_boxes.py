@@ -15,7 +15,7 @@ from hypcheck.truth.backward_error import lower_ends, quick_bracket
 from hypcheck.truth.changes import goal_of
 from hypcheck.vectors import frozen
 from tests.support.tilted_fractions import exact_position
-from tests.tools.tilted_agreement import rows
+from tests.tools.oracle_agreement import rows
 
 FAMILIES = ("tilted-uniform", "tilted-near-contact", "tilted-tangent", "tilted-stiff", "tilted-twins", "extreme-tilted")
 

@@ -10,7 +10,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import tilted_roots as roots
 from hypcheck.truth.tilted_roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
 from tests.support.tilted_fractions import interpolated, matrices, value
-from tests.tools.tilted_agreement import rows
+from tests.tools.oracle_agreement import rows
 from tests.truth.tilted_cases import SYMMETRIC
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR

@@ -1,153 +1,236 @@
-/* Ordinary calls of classify_scene and classify, with no step in Python.
+/* Ordinary calls of classify, classify_scene and position, with no step in Python.
 
-   They take exactly numpy's arrays, which lie in memory as C wants them, and answer; or they answer nothing (None), change
-   nothing, and leave the call to Python, which converts what can be converted and says what is wrong with the rest.
-   Part of binding.c, which includes it once. */
+   They take what columns.h takes, and answer; or they answer nothing (None), change nothing, and leave the call to Python,
+   which converts what can be converted and says what is wrong with the rest. Part of binding.c, which includes it once. */
 
 static PyObject *prepared_type = NULL; /* hypcheck.Prepared */
-static PyObject *array_type = NULL, *new_array = NULL, *answer_type = NULL; /* numpy.ndarray, empty, dtype("int8") */
+static PyObject *new_array = NULL, *answer_type = NULL; /* numpy.empty, dtype("int8") */
 static Py_ssize_t for_one_thread = 0; /* rows that one thread answers where the caller does not ask for one */
 
-enum { FEW = 1024, FREE_FROM = 256 }; /* rows held on the stack; rows for which the interpreter is set free meanwhile */
+enum { FREE_FROM = 256 }; /* rows for which the interpreter is set free meanwhile */
 
-static PyObject *py_use_arrays(PyObject *self, PyObject *arguments) {
-    PyObject *type, *make, *answers;
-    (void)self;
-    if (!PyArg_ParseTuple(arguments, "OOOn", &type, &make, &answers, &for_one_thread)) return NULL;
-    Py_XSETREF(array_type, Py_NewRef(type));
-    Py_XSETREF(new_array, Py_NewRef(make));
-    Py_XSETREF(answer_type, Py_NewRef(answers));
-    Py_RETURN_NONE;
-}
-
-/* The memory of an array of that format and of so many dimensions, each row behind the other; 0 for anything else. */
-static int lent(PyObject *object, Py_buffer *buffer, const char *format, size_t size, int dimensions, int flags) {
-    if ((PyObject *)Py_TYPE(object) != array_type) return 0;
-    if (PyObject_GetBuffer(object, buffer, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT | flags) != 0) {
-        PyErr_Clear();
-        return 0;
-    }
-    if (buffer->ndim == dimensions && strcmp(buffer->format, format) == 0 && (uintptr_t)buffer->buf % size == 0) return 1;
-    PyBuffer_Release(buffer);
-    return 0;
-}
-
-static int apart(const Py_buffer *one, const Py_buffer *other) {
-    const uintptr_t start = (uintptr_t)one->buf, begin = (uintptr_t)other->buf;
-    return start + (uintptr_t)one->len <= begin || begin + (uintptr_t)other->len <= start;
-}
-
-/* The arguments of a call: columns of a scene, a number standing for a whole one, or rows; and where answers go. */
+/* A call that may be answered here: its question, whether invalid rows are marked, and its scene if it was prepared. */
 typedef struct {
-    Py_buffer inputs[3], out;
-    int lends[3], has_out, width; /* 7 or 10 numbers in a row; 0 for a scene */
-    double axis[3], numbers[3], room[3][FEW];
-    const double *columns[3];
-    Py_ssize_t count;
-} taken;
+    PyObject *out, *threads, *axis;
+    int question, marked, prepared, is_scene;
+    double sizes[4];
+    hypcheck_scene scene;
+} order;
 
-static void give_back(taken *these) {
-    int k;
-    for (k = 0; k < 3; k++)
-        if (these->lends[k]) PyBuffer_Release(these->inputs + k);
-    if (these->has_out) PyBuffer_Release(&these->out);
-}
-
-static int take_out(taken *these, PyObject *out) {
-    int k;
-    if (out == Py_None) return 1;
-    if (!(these->has_out = lent(out, &these->out, "b", 1, 1, PyBUF_WRITABLE)) || these->out.len != these->count) return 0;
-    for (k = 0; k < 3; k++)
-        if (these->lends[k] && !apart(&these->out, these->inputs + k)) return 0;
+/* numpy's scalars have the number behind their head: that is tried, and they are left to Python where it is otherwise. */
+static int use_scalars(PyObject *samples) {
+    Py_ssize_t k;
+    scalar_count = 0;
+    for (k = 0; k < PyTuple_GET_SIZE(samples) && scalar_count < MOST_SCALARS; k++) {
+        PyObject *const sample = PyTuple_GET_ITEM(samples, k);
+        Py_buffer view;
+        double number = 0;
+        if (PyObject_GetBuffer(sample, &view, PyBUF_FORMAT) != 0) return 0;
+        if (view.format[0] != '\0' && view.format[1] == '\0') {
+            scalars[scalar_count].type = Py_TYPE(Py_NewRef(sample));
+            scalars[scalar_count++].format = view.format[0];
+            if (!number_of(sample, &number) || number != 77) scalar_count--;
+        }
+        PyBuffer_Release(&view);
+    }
     return 1;
 }
 
-static int take_scene(taken *these, PyObject *const *columns, PyObject *out) {
-    int k, i, arrays = 0;
-    these->lends[0] = these->lends[1] = these->lends[2] = these->has_out = these->width = 0;
-    these->count = 1;
-    for (k = 0; k < 3; k++) {
-        if (PyFloat_Check(columns[k])) {
-            these->numbers[k] = PyFloat_AS_DOUBLE(columns[k]);
-            continue;
-        }
-        if (!(these->lends[k] = lent(columns[k], these->inputs + k, "d", sizeof(double), 1, 0))) return 0;
-        if (arrays++ && these->inputs[k].shape[0] != these->count) return 0;
-        these->count = these->inputs[k].shape[0];
-        these->columns[k] = (const double *)these->inputs[k].buf;
-    }
-    for (k = 0; k < 3; k++) {
-        if (these->lends[k]) continue;
-        if (these->count > FEW) return 0;
-        for (i = 0; i < these->count; i++) these->room[k][i] = these->numbers[k];
-        these->columns[k] = these->room[k];
-    }
-    return take_out(these, out);
+static PyObject *py_use_arrays(PyObject *self, PyObject *arguments) {
+    PyObject *type, *make, *answers, *samples;
+    (void)self;
+    if (!PyArg_ParseTuple(arguments, "OOOnO!", &type, &make, &answers, &for_one_thread, &PyTuple_Type, &samples)) return NULL;
+    Py_XSETREF(array_type, Py_NewRef(type));
+    Py_XSETREF(new_array, Py_NewRef(make));
+    Py_XSETREF(answer_type, Py_NewRef(answers));
+    if (!use_scalars(samples)) return NULL;
+    Py_RETURN_NONE;
 }
 
-static int take_rows(taken *these, PyObject *rows, PyObject *out) {
-    these->lends[1] = these->lends[2] = these->has_out = 0;
-    if (!(these->lends[0] = lent(rows, these->inputs, "d", sizeof(double), 2, 0))) return 0;
-    these->count = these->inputs[0].shape[0];
-    these->width = (int)these->inputs[0].shape[1];
-    these->columns[0] = (const double *)these->inputs[0].buf;
-    return (these->width == 7 || these->width == 10) && take_out(these, out);
+/* Where answers go: a contiguous array of bytes of numpy, as long as the rows are many. */
+static int take_out(taken *these, PyObject *out) {
+    Py_buffer *const buffer = &these->out;
+    if ((PyObject *)Py_TYPE(out) != array_type) return 0;
+    if (PyObject_GetBuffer(out, buffer, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT | PyBUF_WRITABLE) != 0) {
+        PyErr_Clear();
+        return 0;
+    }
+    these->has_out = 1;
+    return buffer->ndim == 1 && strcmp(buffer->format, "b") == 0 && buffer->len == these->count;
 }
 
-/* Four floats, or a hypcheck.Prepared, which has the bytes of a hypcheck_scene; 0 for anything else, and for sizes that are
-   not valid. */
-static int scene_of(PyObject *object, hypcheck_scene *scene, double sizes[4], int *prepared) {
-    double row[7] = {0};
-    Py_ssize_t k;
-    *prepared = (PyObject *)Py_TYPE(object) == prepared_type;
-    if (*prepared) {
+/* A centre, (n, 3) or one point, or three columns. */
+static int take_center(taken *these, PyObject *const *center, Py_ssize_t count) {
+    int k;
+    if (count == 1) return take_table(these, center[0], these->columns + 4, 3) == 3;
+    for (k = 0; k < 3; k++)
+        if (!take_column(these, center[k], these->columns + 4 + k)) return 0;
+    return 1;
+}
+
+/* Four numbers, or a hypcheck.Prepared, which has the bytes of a hypcheck_scene; 0 for anything else. */
+static int take_sizes(taken *these, PyObject *object, order *call) {
+    call->prepared = (PyObject *)Py_TYPE(object) == prepared_type;
+    if (call->prepared) {
         PyObject *const kept = PyObject_GetAttrString(object, "kept");
-        const int fits = kept != NULL && PyBytes_CheckExact(kept) && PyBytes_GET_SIZE(kept) == (Py_ssize_t)sizeof *scene;
-        if (fits) memcpy(scene, PyBytes_AS_STRING(kept), sizeof *scene);
+        const int fits = kept != NULL && PyBytes_CheckExact(kept) && PyBytes_GET_SIZE(kept) == (Py_ssize_t)sizeof call->scene;
+        if (fits) memcpy(&call->scene, PyBytes_AS_STRING(kept), sizeof call->scene);
         if (kept == NULL) PyErr_Clear();
         Py_XDECREF(kept);
-        return fits;
+        return fits && call->axis == Py_None;
     }
-    if (!(PyTuple_CheckExact(object) || PyList_CheckExact(object)) || PySequence_Fast_GET_SIZE(object) != 4) return 0;
-    for (k = 0; k < 4; k++) {
-        PyObject *const number = PySequence_Fast_GET_ITEM(object, k);
-        if (!PyFloat_Check(number)) return 0;
-        row[k] = sizes[k] = PyFloat_AS_DOUBLE(number);
-    }
-    return hc_valid(row);
+    return take_table(these, object, these->columns, 4) == 4 && !these->arrays;
 }
 
-static size_t decided(const taken *these, const hypcheck_scene *scene, const double sizes[4], int8_t *answers) {
-    const double *const *const at = these->columns;
-    const size_t count = (size_t)these->count;
-    if (these->width == 7) return hypcheck_ask(HYPCHECK_POSITION, count, at[0], answers);
-    if (these->width == 10) return hypcheck_ask_tilted(HYPCHECK_POSITION, count, at[0], answers);
-    if (scene != NULL) return hypcheck_ask_prepared(HYPCHECK_POSITION, scene, count, at[0], at[1], at[2], answers);
-    return hypcheck_ask_tilted_scene(HYPCHECK_POSITION, sizes, these->axis, count, at[0], at[1], at[2], answers);
+/* Notes whether all rows are of the same sizes; 0 where these are not valid, which Python says. */
+static int note_scene(const taken *these, order *call) {
+    double row[7] = {0};
+    int k;
+    call->is_scene = !these->has_axis;
+    for (k = 0; k < 4 && !call->prepared; k++) {
+        if (these->columns[k].format) return call->is_scene = 0, 1;
+        row[k] = call->sizes[k] = these->columns[k].number;
+    }
+    return call->prepared || hc_valid(row);
 }
 
-/* Fills `out`, or nothing of it. Returns the number of invalid rows, or 1 where memory is missing: Python then tries.
-   Until all rows are known to be valid their answers are kept elsewhere; those of a scene as bits, for there to write and
-   read a byte a row would take a tenth of the time. */
-static size_t filled_whole(const taken *these, const hypcheck_scene *scene, const double sizes[4]) {
-    const double *const *const at = these->columns;
+static void sample_center(const taken *these, size_t wanted, double *const into[3]) {
+    const Py_ssize_t step = these->count / (Py_ssize_t)wanted;
+    int k;
+    for (k = 0; k < 3; k++) {
+        column thinned = these->columns[4 + k];
+        thinned.stride *= step;
+        gathered(&thinned, 0, wanted, into[k]);
+    }
+}
+
+/* Answers of a scene, written or kept as bits: each time the next centres are converted, so few that they stay in the
+   nearest cache, and that memory is read meanwhile. */
+static size_t scene_in_parts(taken *these, order *call, int8_t *answers, hc_signs *kept) {
     const size_t count = (size_t)these->count;
-    const int bits = these->width == 0 && count > FEW;
+    double room[3 * PART], *const at[3] = {room, room + PART, room + 2 * PART};
+    hc_prepared made;
+    hc_upright_parts upright;
+    hc_leaning_parts leaning;
+    size_t refused = 0, start;
+    if (!call->prepared) {
+        sample_center(these, 63, at);
+        hypcheck_prepare(&call->scene, call->sizes, these->axis, 63, at[0], at[1], at[2]);
+    }
+    memcpy(&made, &call->scene, sizeof made);
+    if (!made.valid) return kept != NULL ? count : hc_refuse_all(count, answers);
+    if (made.upright) hc_begin_upright(&upright, call->question, made.probe, made.lines ? &made.of.upright : NULL, count, answers, kept);
+    else hc_begin_leaning(&leaning, call->question, made.probe, made.planes ? &made.of.leaning : NULL, count, answers, kept);
+    upright.fetch = leaning.fetch = 0;
+    for (start = 0; start < count; start += PART) {
+        const size_t some = count - start < PART ? count - start : PART;
+        these->odd |= gathered_center(these->columns + 4, start, some, at);
+        refused += made.upright ? hc_upright_part(&upright, start, some, at[0], at[1], at[2])
+                                : hc_leaning_part(&leaning, start, some, at[0], at[1], at[2]);
+    }
+    return refused + (made.upright ? hc_end_upright(&upright) : hc_end_leaning(&leaning));
+}
+
+static size_t scene_answers(taken *these, order *call, int8_t *answers, hc_signs *kept) {
+    const size_t count = (size_t)these->count;
+    const column *const center = these->columns + 4;
+    const double *x = (const double *)(const void *)center[0].at, *y = (const double *)(const void *)center[1].at;
+    const double *z = (const double *)(const void *)center[2].at;
+    double few[3 * FEW], *const at[3] = {few, few + FEW, few + 2 * FEW};
+    hc_prepared made;
+    if (!(lies_plain(center) && lies_plain(center + 1) && lies_plain(center + 2))) {
+        if (count > FEW) return scene_in_parts(these, call, answers, kept);
+        these->odd |= gathered_center(center, 0, count, at);
+        x = at[0], y = at[1], z = at[2];
+    }
+    if (call->prepared && kept == NULL) return hypcheck_ask_prepared(call->question, &call->scene, count, x, y, z, answers);
+    if (kept == NULL) return hypcheck_ask_tilted_scene(call->question, call->sizes, these->axis, count, x, y, z, answers);
+    if (!call->prepared) hypcheck_prepare(&call->scene, call->sizes, these->axis, count, x, y, z);
+    memcpy(&made, &call->scene, sizeof made);
+    return made.valid ? hc_ask_kept(call->question, &made, count, x, y, z, NULL, kept) : count;
+}
+
+/* The answers about a row of ten columns: it waits with those that are upright, or with those that lean. */
+static size_t row_waits(const hc_level_functions *level, int question, double numbers[MOST_COLUMNS][HC_BLOCK], int i, size_t place,
+                        hc_waiting *upright, hc_tilted_waiting *leaning, int8_t *answers) {
+    double row[10];
+    int k;
+    for (k = 0; k < 10; k++) row[k] = numbers[k][i];
+    if (hc_is_upright(row) && hc_has_direction(row + 7)) {
+        for (k = 0; k < 7; k++) upright->columns[k * HC_BLOCK + upright->count] = row[k];
+        upright->places[upright->count++] = place;
+        return upright->count == HC_BLOCK ? hc_settle(level, question, upright, answers) : 0;
+    }
+    hc_scale_axis(row + 7);
+    for (k = 0; k < 10; k++) leaning->columns[k * HC_BLOCK + leaning->count] = row[k];
+    leaning->places[leaning->count++] = place;
+    return leaning->count == HC_BLOCK ? hc_tilted_settle(level, question, leaning, answers) : 0;
+}
+
+/* Answers of rows whose numbers lie in columns of their own: seven, or ten. */
+static size_t rows_by_columns(taken *these, int question, int8_t *answers) {
+    const hc_level_functions *const level = hc_level();
+    const int width = these->has_axis ? 10 : 7;
+    const size_t count = (size_t)these->count;
+    double numbers[MOST_COLUMNS][HC_BLOCK];
+    hc_waiting upright;
+    hc_tilted_waiting leaning;
+    size_t refused = 0, start, i;
+    int k;
+    memset(&upright, 0, sizeof upright);
+    memset(&leaning, 0, sizeof leaning);
+    for (start = 0; start < count; start += HC_BLOCK) {
+        const size_t some = count - start < HC_BLOCK ? count - start : HC_BLOCK;
+        for (k = 0; k < width; k++)
+            these->odd |= gathered(these->columns + k, start, some, width == 7 ? upright.columns + k * HC_BLOCK : numbers[k]);
+        for (i = 0; i < some && width == 7; i++) upright.places[upright.count++] = start + i;
+        for (i = 0; i < some && width == 10; i++)
+            refused += row_waits(level, question, numbers, (int)i, start + i, &upright, &leaning, answers);
+        if (width == 7) refused += hc_settle(level, question, &upright, answers);
+    }
+    refused += hc_settle(level, question, &upright, answers);
+    return refused + hc_tilted_settle(level, question, &leaning, answers);
+}
+
+/* Rows as C takes them: one behind the other. */
+static int lie_behind_each_other(const taken *these, int width) {
+    int k, plain = these->columns[0].format == 'd' && these->columns[0].stride == width * (Py_ssize_t)sizeof(double);
+    for (k = 1; k < width; k++)
+        plain = plain && these->columns[k].format == 'd' && these->columns[k].stride == these->columns[0].stride &&
+                these->columns[k].at == these->columns[k - 1].at + sizeof(double);
+    return plain && (uintptr_t)these->columns[0].at % sizeof(double) == 0;
+}
+
+static size_t row_answers(taken *these, int question, int8_t *answers) {
+    const int leans = these->axis[0] != 0 || these->axis[1] != 0 || !(these->axis[2] != 0 && these->axis[2] - these->axis[2] == 0);
+    const double *const rows = (const double *)(const void *)these->columns[0].at;
+    int k;
+    if (!these->has_axis && leans) { /* one for all rows */
+        for (k = 0; k < 3; k++) these->columns[7 + k].format = 0, these->columns[7 + k].number = these->axis[k];
+        these->has_axis = 1;
+    }
+    if (lie_behind_each_other(these, these->has_axis ? 10 : 7))
+        return (these->has_axis ? hypcheck_ask_tilted : hypcheck_ask)(question, (size_t)these->count, rows, answers);
+    return rows_by_columns(these, question, answers);
+}
+
+static size_t decided(taken *these, order *call, int8_t *answers) {
+    return call->is_scene ? scene_answers(these, call, answers, NULL) : row_answers(these, call->question, answers);
+}
+
+/* Fills `out`, or nothing of it. Returns the number of invalid rows. Until all rows are known to be valid their answers are
+   kept elsewhere; positions of a scene as bits, for there to write and read a byte a row would take a tenth of the time. */
+static size_t filled_whole(taken *these, order *call) {
+    const size_t count = (size_t)these->count;
+    const int bits = call->is_scene && count > FEW && call->question == HYPCHECK_POSITION && !call->marked;
     int8_t few[FEW], *const out = (int8_t *)these->out.buf;
     void *const kept = count <= FEW ? few : malloc(bits ? hc_blocks(count) * sizeof(hc_signs) : count);
-    hypcheck_scene own;
-    hc_prepared made;
     size_t refused;
-    if (kept == NULL) return 1;
-    if (bits) {
-        if (scene == NULL) hypcheck_prepare(&own, sizes, these->axis, count, at[0], at[1], at[2]);
-        memcpy(&made, scene != NULL ? scene : &own, sizeof made);
-        refused = made.valid ? hc_ask_kept(HYPCHECK_POSITION, &made, count, at[0], at[1], at[2], NULL, kept) : count;
-        if (refused == 0) spread(kept, count, out);
-    } else {
-        refused = decided(these, scene, sizes, kept);
-        if (refused == 0) memcpy(out, kept, count);
-    }
+    these->odd |= kept == NULL;
+    if (kept == NULL) return 0;
+    refused = bits ? scene_answers(these, call, NULL, kept) : decided(these, call, kept);
+    if (!these->odd && bits && refused == 0) spread(kept, count, out);
+    else if (!these->odd && !bits && (refused == 0 || call->marked)) memcpy(out, kept, count);
     if (kept != few) free(kept);
     return refused;
 }
@@ -160,28 +243,41 @@ static PyObject *new_answers(Py_ssize_t count) {
     return made;
 }
 
-/* The answers of a call whose arguments are taken: `out`, a new array, or None where a row is invalid. */
-static PyObject *answered(taken *these, PyObject *out, const hypcheck_scene *scene, const double sizes[4]) {
-    PyObject *answers = out == Py_None ? new_answers(these->count) : Py_NewRef(out);
+/* The answers of a call whose arguments are taken: `out`, a new array, or None where Python has to answer. */
+static PyObject *answered(taken *these, order *call) {
+    PyObject *answers = call->out == Py_None ? new_answers(these->count) : Py_NewRef(call->out);
     PyThreadState *state = NULL;
     size_t refused;
     if (answers == NULL) return NULL;
-    if (out == Py_None && !(these->has_out = lent(answers, &these->out, "b", 1, 1, PyBUF_WRITABLE))) {
+    if (!take_out(these, answers)) {
         Py_DECREF(answers);
         Py_RETURN_NONE;
     }
     if (these->count >= FREE_FROM) state = PyEval_SaveThread();
-    refused = out == Py_None ? decided(these, scene, sizes, (int8_t *)these->out.buf) : filled_whole(these, scene, sizes);
+    refused = call->out == Py_None ? decided(these, call, (int8_t *)these->out.buf) : filled_whole(these, call);
     if (state != NULL) PyEval_RestoreThread(state);
-    if (refused == 0) return answers;
+    if (!these->odd && (refused == 0 || call->marked)) return answers;
     Py_DECREF(answers);
     Py_RETURN_NONE;
 }
 
-static PyObject *answered_or_given_back(taken *these, int took, PyObject *threads, PyObject *out,
-                                        const hypcheck_scene *scene, const double sizes[4]) {
-    const Py_ssize_t most = threads == Py_None ? for_one_thread : PY_SSIZE_T_MAX;
-    PyObject *result = took && these->count > 0 && these->count <= most ? answered(these, out, scene, sizes) : Py_NewRef(Py_None);
+/* The answer about a single row, a number. */
+static PyObject *one_answered(taken *these, order *call) {
+    int8_t answer = 127;
+    size_t refused;
+    if (call->out != Py_None) Py_RETURN_NONE;
+    refused = decided(these, call, &answer);
+    if (these->odd || (refused && !call->marked)) Py_RETURN_NONE;
+    return PyLong_FromLong(answer);
+}
+
+/* Answers a call whose arguments were taken, if they were, and gives them back. */
+static PyObject *answered_or_given_back(taken *these, order *call, int took, int always_array) {
+    const Py_ssize_t most = call->threads == Py_None ? for_one_thread : PY_SSIZE_T_MAX;
+    PyObject *result;
+    if (!took || these->count == 0 || these->count > most) result = Py_NewRef(Py_None);
+    else if (these->arrays || always_array) result = answered(these, call);
+    else result = one_answered(these, call);
     give_back(these);
     return result;
 }
@@ -189,23 +285,32 @@ static PyObject *answered_or_given_back(taken *these, int took, PyObject *thread
 /* The functions in Python that take any call, of classify and of classify_scene. */
 static PyObject *slow_calls[2] = {NULL, NULL};
 
-/* Where `out`, `threads` and, if there may be one, `axis` of a call are said; 0 for a call with another option. */
-static int ordinary(PyObject *const *arguments, Py_ssize_t count, PyObject *keywords, Py_ssize_t inputs, PyObject **out,
-                    PyObject **threads, PyObject **axis) {
-    const Py_ssize_t named = keywords == NULL ? 0 : PyTuple_GET_SIZE(keywords);
+static int named(PyObject *name, const char *text) { return PyUnicode_CompareWithASCIIString(name, text) == 0; }
+
+/* What a call says by name; 0 where Python has to look at it. `out` may have been said by position. */
+static int options_of(PyObject *const *values, PyObject *keywords, order *call) {
+    static const char *const questions[4] = {"position", "exterior", "interior", "contact"};
+    const Py_ssize_t count = keywords == NULL ? 0 : PyTuple_GET_SIZE(keywords);
+    double threads;
     Py_ssize_t k;
-    *out = *threads = Py_None;
-    if (axis != NULL) *axis = Py_None;
-    if (count < inputs || count > inputs + 1) return 0;
-    if (count > inputs) *out = arguments[inputs];
-    for (k = 0; k < named; k++) {
-        PyObject *const name = PyTuple_GET_ITEM(keywords, k);
-        if (PyUnicode_CompareWithASCIIString(name, "out") == 0 && count == inputs) *out = arguments[count + k];
-        else if (PyUnicode_CompareWithASCIIString(name, "threads") == 0) *threads = arguments[count + k];
-        else if (axis != NULL && PyUnicode_CompareWithASCIIString(name, "axis") == 0) *axis = arguments[count + k];
-        else return 0;
+    for (k = 0; k < count; k++) {
+        PyObject *const name = PyTuple_GET_ITEM(keywords, k), *const value = values[k];
+        if (named(name, "out") && call->out == Py_None) call->out = value;
+        else if (named(name, "threads")) call->threads = value;
+        else if (named(name, "axis")) call->axis = value;
+        else if (named(name, "on_invalid") && PyUnicode_Check(value) && (named(value, "flag") || named(value, "raise"))) call->marked = named(value, "flag");
+        else if (named(name, "question") && PyUnicode_Check(value)) {
+            for (call->question = 0; call->question < 4 && !named(value, questions[call->question]); call->question++) {}
+            if (call->question == 4) return 0;
+        } else return 0;
     }
-    return *threads == Py_None || (PyLong_CheckExact(*threads) && PyLong_AsSsize_t(*threads) == 1);
+    return call->threads == Py_None || (PyLong_CheckExact(call->threads) && number_of(call->threads, &threads) && threads == 1);
+}
+
+static void nothing_said(order *call) {
+    call->out = call->threads = call->axis = Py_None;
+    call->question = HYPCHECK_POSITION;
+    call->marked = call->prepared = call->is_scene = 0;
 }
 
 static PyObject *or_slowly(PyObject *answers, int which, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
@@ -214,48 +319,65 @@ static PyObject *or_slowly(PyObject *answers, int which, PyObject *const *argume
     return PyObject_Vectorcall(slow_calls[which], arguments, (size_t)count, keywords);
 }
 
-static PyObject *scene_at_once(PyObject *const *arguments, PyObject *out, PyObject *threads, PyObject *axis) {
-    hypcheck_scene scene;
-    double sizes[4];
-    taken these;
-    int prepared, took;
-    if (!scene_of(arguments[0], &scene, sizes, &prepared) || (prepared && axis != Py_None)) Py_RETURN_NONE;
-    if (!axis_of(axis, these.axis)) Py_RETURN_NONE;
-    took = take_scene(&these, arguments + 1, out);
-    return answered_or_given_back(&these, took, threads, out, prepared ? &scene : NULL, sizes);
-}
-
-static PyObject *rows_at_once(PyObject *const *arguments, PyObject *out, PyObject *threads) {
-    taken these;
-    const int took = take_rows(&these, arguments[0], out);
-    return answered_or_given_back(&these, took, threads, out, NULL, NULL);
+/* The arguments by position: rows; sizes and points, or three columns; four sizes and either. */
+static int take_arguments(taken *these, order *call, PyObject *const *arguments, Py_ssize_t count) {
+    Py_ssize_t k;
+    int width, took;
+    if (count == 1) {
+        width = take_table(these, arguments[0], these->columns, MOST_COLUMNS);
+        these->has_axis = width == 10;
+        return (width == 7 || width == 10) && call->axis == Py_None;
+    }
+    if (count == 2 || count == 4) {
+        took = take_sizes(these, arguments[0], call) && take_center(these, arguments + 1, count - 1);
+    } else {
+        for (took = 1, k = 0; k < 4 && took; k++) took = take_column(these, arguments[k], these->columns + k);
+        took = took && take_center(these, arguments + 4, count - 4);
+    }
+    return took && take_axis(these, call->axis) && note_scene(these, call);
 }
 
 static PyObject *py_classify(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
-    PyObject *out, *threads, *answers = Py_None;
+    PyObject *answers = Py_NewRef(Py_None);
+    order call;
+    taken these;
     (void)self;
-    if (!ordinary(arguments, count, keywords, 1, &out, &threads, NULL) || count > 1) Py_INCREF(answers);
-    else answers = rows_at_once(arguments, out, threads);
+    nothing_said(&call);
+    if ((count == 1 || count == 2 || count == 4 || count == 5 || count == 7) && options_of(arguments + count, keywords, &call)) {
+        take_nothing(&these);
+        Py_DECREF(answers);
+        answers = answered_or_given_back(&these, &call, take_arguments(&these, &call, arguments, count), 0);
+    }
     return or_slowly(answers, 0, arguments, count, keywords);
 }
 
 static PyObject *py_classify_scene(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
-    PyObject *out, *threads, *axis, *answers = Py_None;
+    PyObject *answers = Py_NewRef(Py_None);
+    order call;
+    taken these;
     (void)self;
-    if (!ordinary(arguments, count, keywords, 4, &out, &threads, &axis)) Py_INCREF(answers);
-    else answers = scene_at_once(arguments, out, threads, axis);
+    nothing_said(&call);
+    if (count == 5) call.out = arguments[4];
+    if ((count == 2 || count == 4 || count == 5) && options_of(arguments + count, keywords, &call)) {
+        take_nothing(&these);
+        Py_DECREF(answers);
+        answers = answered_or_given_back(&these, &call, take_arguments(&these, &call, arguments, count == 5 ? 4 : count), 1);
+    }
     return or_slowly(answers, 1, arguments, count, keywords);
 }
 
 /* What a call cannot do without, for the benchmark: to take the arrays and give them back; and to be called at all. */
 static PyObject *py_take(PyObject *self, PyObject *const *arguments, Py_ssize_t count) {
     taken these;
+    int took;
     (void)self;
     if (count != 5) {
         PyErr_SetString(PyExc_TypeError, "five arguments are needed");
         return NULL;
     }
-    if (!take_scene(&these, arguments + 1, arguments[4])) PyErr_SetString(PyExc_ValueError, "these are no ordinary arrays");
+    take_nothing(&these);
+    took = take_center(&these, arguments + 1, 3) && (arguments[4] == Py_None || take_out(&these, arguments[4]));
+    if (!took) PyErr_SetString(PyExc_ValueError, "these are no ordinary arrays");
     give_back(&these);
     if (PyErr_Occurred()) return NULL;
     Py_RETURN_NONE;

@@ -57,44 +57,50 @@ static PyObject *py_ask(PyObject *self, PyObject *arguments) {
     return result;
 }
 
+#include "columns.h"
+
+/* The answers that were kept, as bytes. */
+static void spread(const hc_signs *kept, size_t count, int8_t *answers) {
+    const size_t whole = count / HC_BLOCK;
+    int8_t last[HC_BLOCK];
+    hc_level()->spread_all(answers, kept, whole);
+    if (count % HC_BLOCK == 0) return;
+    hc_level()->spread_all(last, kept + whole, 1);
+    memcpy(answers + HC_BLOCK * whole, last, count % HC_BLOCK);
+}
+
+#include "at_once.h"
+
 /* Calls for one scene: with `keep`, positions go as bits to a buffer of two 64-bit words for each 64 rows, until all rows
-   are known to be valid and `spread` writes them. */
+   are known to be valid and `spread` writes them. Columns are as in columns.h. */
 static PyObject *asked_scene(PyObject *arguments, int keep) {
     PyObject *columns[3], *answers_object, *result = NULL;
-    Py_buffer buffers[3], answers;
-    double sizes[4], axis[3] = {0, 0, 1};
-    int question, held = 0, fits = 1, k;
-    if (!PyArg_ParseTuple(arguments, "i(dddd)OOOO|(ddd)", &question, sizes, sizes + 1, sizes + 2, sizes + 3, columns,
-                          columns + 1, columns + 2, &answers_object, axis, axis + 1, axis + 2))
+    Py_buffer answers;
+    taken these;
+    order call;
+    nothing_said(&call);
+    take_nothing(&these);
+    call.is_scene = 1;
+    if (!PyArg_ParseTuple(arguments, "i(dddd)OOOO|(ddd)", &call.question, call.sizes, call.sizes + 1, call.sizes + 2, call.sizes + 3,
+                          columns, columns + 1, columns + 2, &answers_object, these.axis, these.axis + 1, these.axis + 2))
         return NULL;
-    if (!known_question(question)) return NULL;
-    while (held < 3 && filled(columns[held], buffers + held, "d", 0)) held++;
-    if (held == 3 && filled(answers_object, &answers, "b", PyBUF_WRITABLE)) {
-        const size_t count = (size_t)buffers[0].len / sizeof(double);
+    if (!known_question(call.question) || !filled(answers_object, &answers, "b", PyBUF_WRITABLE)) return NULL;
+    if (take_center(&these, columns, 3)) {
+        const size_t count = these.arrays ? (size_t)these.count : (size_t)answers.len;
         const size_t wanted = keep ? hc_blocks(count) * sizeof(hc_signs) : count;
         const int aligned = !keep || (uintptr_t)answers.buf % sizeof(uint64_t) == 0;
-        for (k = 0; k < 3; k++) fits = fits && buffers[k].len == buffers[0].len;
-        if (fits && aligned && (size_t)answers.len == wanted) {
-            const double *const x = buffers[0].buf, *const y = buffers[1].buf, *const z = buffers[2].buf;
+        if (aligned && (size_t)answers.len == wanted) {
             size_t refused;
+            these.count = (Py_ssize_t)count;
             Py_BEGIN_ALLOW_THREADS
-            if (keep) {
-                hypcheck_scene scene;
-                hc_prepared made;
-                hypcheck_prepare(&scene, sizes, axis, count, x, y, z);
-                memcpy(&made, &scene, sizeof made);
-                refused = made.valid ? hc_ask_kept(question, &made, count, x, y, z, NULL, (hc_signs *)answers.buf) : count;
-            } else {
-                refused = hypcheck_ask_tilted_scene(question, sizes, axis, count, x, y, z, (int8_t *)answers.buf);
-            }
+            refused = scene_answers(&these, &call, (int8_t *)answers.buf, keep ? (hc_signs *)answers.buf : NULL);
             Py_END_ALLOW_THREADS
-            result = PyLong_FromSize_t(refused);
-        } else {
-            PyErr_SetString(PyExc_ValueError, "as many x, y and z as answers");
+            if (!these.odd) result = PyLong_FromSize_t(refused);
         }
-        PyBuffer_Release(&answers);
     }
-    while (held) PyBuffer_Release(buffers + --held);
+    if (result == NULL && !PyErr_Occurred()) PyErr_SetString(PyExc_ValueError, "columns as columns.h takes them, as many x, y and z as answers");
+    give_back(&these);
+    PyBuffer_Release(&answers);
     return result;
 }
 
@@ -106,16 +112,6 @@ static PyObject *py_ask_scene(PyObject *self, PyObject *arguments) {
 static PyObject *py_keep_scene(PyObject *self, PyObject *arguments) {
     (void)self;
     return asked_scene(arguments, 1);
-}
-
-/* The answers that were kept, as bytes. */
-static void spread(const hc_signs *kept, size_t count, int8_t *answers) {
-    const size_t whole = count / HC_BLOCK;
-    int8_t last[HC_BLOCK];
-    hc_level()->spread_all(answers, kept, whole);
-    if (count % HC_BLOCK == 0) return;
-    hc_level()->spread_all(last, kept + whole, 1);
-    memcpy(answers + HC_BLOCK * whole, last, count % HC_BLOCK);
 }
 
 static PyObject *py_spread(PyObject *self, PyObject *arguments) {
@@ -216,65 +212,36 @@ static PyObject *py_clearance(PyObject *self, PyObject *arguments) {
    with a sentence that names the number. */
 static PyObject *slow_position = NULL;
 
-/* The three floats of a tuple, a list or None, which is upright. Returns 0 for anything else. */
+/* None, which is upright, or three numbers. */
 static int axis_of(PyObject *object, double axis[3]) {
-    Py_ssize_t k;
+    int k;
     axis[0] = axis[1] = 0, axis[2] = 1;
     if (object == Py_None) return 1;
-    if (!PyTuple_CheckExact(object) && !PyList_CheckExact(object)) return 0;
-    if (PySequence_Fast_GET_SIZE(object) != 3) return 0;
-    for (k = 0; k < 3; k++) {
-        PyObject *const number = PySequence_Fast_GET_ITEM(object, k);
-        if (!PyFloat_Check(number)) return 0;
-        axis[k] = PyFloat_AS_DOUBLE(number);
-    }
+    if (!is_list(object) || PySequence_Fast_GET_SIZE(object) != 3) return 0;
+    for (k = 0; k < 3; k++)
+        if (!number_of(PySequence_Fast_GET_ITEM(object, k), axis + k)) return 0;
     return 1;
 }
 
 static PyObject *py_position(PyObject *self, PyObject *const *arguments, Py_ssize_t count, PyObject *keywords) {
     double row[10];
-    int floats = 1, ended = 0, k;
+    int fits = count == 7, k;
     int8_t answer = 127;
     (void)self;
-    if (count != 7) {
+    if (count != 7 && slow_position == NULL) {
         PyErr_Format(PyExc_TypeError, "position() takes 7 numbers: alpha, gamma, b, d, x, y, z (%zd given)", count);
         return NULL;
     }
-    for (k = 0; keywords != NULL && k < PyTuple_GET_SIZE(keywords); k++) {
-        static const char *const known[4] = {"axis", "z_min", "z_max", "solid"};
-        int which = 0;
-        while (which < 4 && PyUnicode_CompareWithASCIIString(PyTuple_GET_ITEM(keywords, k), known[which]) != 0) which++;
-        if (which == 4) {
-            PyErr_Format(PyExc_TypeError, "position() takes the keywords axis, z_min, z_max, solid, not %R",
-                         PyTuple_GET_ITEM(keywords, k));
-            return NULL;
-        }
-        ended |= which > 0;
-    }
-    if (ended && slow_position != NULL) return PyObject_Vectorcall(slow_position, arguments, (size_t)count, keywords);
-    for (k = 0; k < 7; k++) floats &= PyFloat_CheckExact(arguments[k]);
-    if (!floats)
-        for (floats = 1, k = 0; k < 7; k++) floats &= PyFloat_Check(arguments[k]);
-    if (floats) {
-        for (k = 0; k < 7; k++) row[k] = PyFloat_AS_DOUBLE(arguments[k]);
-        if (keywords == NULL) answer = (int8_t)hc_position_of(row);
-        else if (axis_of(arguments[7], row + 7)) hypcheck_classify_tilted(1, row, &answer);
-    }
+    if (keywords != NULL) fits = fits && PyTuple_GET_SIZE(keywords) == 1 && named(PyTuple_GET_ITEM(keywords, 0), "axis");
+    for (k = 0; k < 7 && fits; k++) fits = number_of(arguments[k], row + k);
+    if (fits && keywords == NULL) answer = (int8_t)hc_position_of(row);
+    else if (fits && axis_of(arguments[7], row + 7)) hypcheck_classify_tilted(1, row, &answer);
     if (answer != 127) return PyLong_FromLong(answer);
     if (slow_position == NULL) return PyLong_FromLong(127);
     return PyObject_Vectorcall(slow_position, arguments, (size_t)count, keywords);
 }
 
-static PyObject *py_set_slow_position(PyObject *self, PyObject *function) {
-    PyObject *before = slow_position;
-    (void)self;
-    Py_INCREF(function);
-    slow_position = function;
-    Py_XDECREF(before);
-    Py_RETURN_NONE;
-}
-
-#include "at_once.h"
+static PyObject *py_set_slow_position(PyObject *self, PyObject *function);
 
 static PyObject *py_prepare(PyObject *self, PyObject *arguments) {
     PyObject *columns[3];
@@ -320,7 +287,7 @@ static PyMethodDef functions[] = {
     {"keep_scene", py_keep_scene, METH_VARARGS, "keep_scene(0, sizes, x, y, z, kept, axis=upright) -> as ask; see spread"},
     {"spread", py_spread, METH_VARARGS, "spread(kept, answers): write the answers that keep_scene kept"},
     {"prepare", py_prepare, METH_VARARGS, "prepare(sizes, axis, x, y, z) -> the bytes of a hypcheck_scene"},
-    {"use_arrays", py_use_arrays, METH_VARARGS, "use_arrays(ndarray, empty, dtype('int8'), rows): what scene_at_once takes, makes, and leaves to threads"},
+    {"use_arrays", py_use_arrays, METH_VARARGS, "use_arrays(ndarray, empty, dtype('int8'), rows, scalars): what calls take, make, and leave to threads; scalars are 77"},
     {"classify", (PyCFunction)(void (*)(void))py_classify, METH_FASTCALL | METH_KEYWORDS, NULL},
     {"classify_scene", (PyCFunction)(void (*)(void))py_classify_scene, METH_FASTCALL | METH_KEYWORDS, NULL},
     {"set_slow_calls", py_set_slow_calls, METH_VARARGS, "set_slow_calls(classify, classify_scene, Prepared): what these call for any other call"},
@@ -330,38 +297,55 @@ static PyMethodDef functions[] = {
     {"classify_ended", py_classify_ended, METH_VARARGS, "classify_ended(rows, positions): rows of 13; 2 undecided, 127 invalid"},
     {"clearance", py_clearance, METH_VARARGS, "clearance(rows, positions, found) -> the number of invalid rows; eleven numbers a row"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,
-     "position(alpha, gamma, b, d, x, y, z, *, axis=None, z_min=-inf, z_max=inf, solid=False) -> int"},
+     NULL},
     {"set_slow_position", py_set_slow_position, METH_O, "set_slow_position(function): what position calls where it has no answer"},
     {"level", py_level, METH_NOARGS, "level() -> the name of the instruction set in use"},
     {"use_level", py_use_level, METH_O, "use_level(name) -> whether this machine and build have it"},
     {NULL, NULL, 0, NULL},
 };
 
-static const char *const signatures[2] = {
-    "classify(rows, *, out=None, on_invalid='raise', question='position', threads=None)\n--\n\n",
-    "classify_scene(sizes, x, y, z, out=None, *, axis=None, on_invalid='raise', question='position', threads=None)\n--\n\n",
+/* The functions that Python has for all calls, which give theirs here their descriptions. */
+typedef PyObject *(*call)(PyObject *, PyObject *const *, Py_ssize_t, PyObject *);
+static const struct {
+    call function;
+    const char *signature;
+} described[3] = {
+    {py_classify, "classify(*pairs, axis=None, z_min=-1e999, z_max=1e999, solid=False, margin=0.0, out=None, on_invalid='raise', "
+                  "question='position', threads=None, **columns)\n--\n\n"},
+    {py_classify_scene, "classify_scene(sizes, x, y=None, z=None, out=None, *, axis=None, margin=0.0, on_invalid='raise', "
+                        "question='position', threads=None)\n--\n\n"},
+    {py_position, "position(*pairs, axis=None, z_min=-1e999, z_max=1e999, solid=False, margin=0.0, **columns)\n--\n\n"},
 };
 
-/* The functions that Python has for all calls. Their descriptions become those of the functions here, too. */
+static void describe(int which, PyObject *function) {
+    static char texts[3][8192];
+    PyObject *const description = PyObject_GetAttrString(function, "__doc__");
+    const char *const text = description == NULL || description == Py_None ? "" : PyUnicode_AsUTF8(description);
+    PyMethodDef *each = functions;
+    PyOS_snprintf(texts[which], sizeof texts[which], "%s%s", described[which].signature, text == NULL ? "" : text);
+    Py_XDECREF(description);
+    PyErr_Clear();
+    while (each->ml_meth != (PyCFunction)(void (*)(void))described[which].function) each++;
+    each->ml_doc = texts[which];
+}
+
 static PyObject *py_set_slow_calls(PyObject *self, PyObject *arguments) {
-    static char said[2][4096];
     PyObject *calls[2], *type;
     int k;
     (void)self;
     if (!PyArg_ParseTuple(arguments, "OOO", calls, calls + 1, &type)) return NULL;
     Py_XSETREF(prepared_type, Py_NewRef(type));
     for (k = 0; k < 2; k++) {
-        PyObject *const description = PyObject_GetAttrString(calls[k], "__doc__");
-        const char *const text = description == NULL || description == Py_None ? "" : PyUnicode_AsUTF8(description);
-        PyMethodDef *each = functions;
-        if (text == NULL) PyErr_Clear();
-        PyOS_snprintf(said[k], sizeof said[k], "%s%s", signatures[k], text == NULL ? "" : text);
-        Py_XDECREF(description);
-        while (each->ml_meth != (PyCFunction)(void (*)(void))(k == 0 ? py_classify : py_classify_scene)) each++;
-        each->ml_doc = said[k];
+        describe(k, calls[k]);
         Py_XSETREF(slow_calls[k], Py_NewRef(calls[k]));
     }
-    PyErr_Clear();
+    Py_RETURN_NONE;
+}
+
+static PyObject *py_set_slow_position(PyObject *self, PyObject *function) {
+    (void)self;
+    describe(2, function);
+    Py_XSETREF(slow_position, Py_NewRef(function));
     Py_RETURN_NONE;
 }
 

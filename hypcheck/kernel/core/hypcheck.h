@@ -1659,7 +1659,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_4f5081f65f9ce2a9
+#ifndef HC_EDITION_d9fea34d52f24cfd
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -2366,38 +2366,68 @@ static void hc_begin(hc_waiting *waiting, const double sizes[4], size_t n, hc_si
     waiting->kept = kept;
 }
 
-/* Answers for valid sizes; `scene` has their half planes, or is NULL where the first stage is left out. They are written, or
-   kept as bits where `kept` is not NULL: one hc_signs for each block of rows, and 0 for invalid ones. */
+/* Centres of one scene that come part by part. */
+typedef struct {
+    const hc_level_functions *level;
+    const hc_scene *scene; /* its half planes, or NULL where the first stage is left out */
+    int question, asked, fetch, lefts; /* `asked` is `question`, or HYPCHECK_POSITION for a number that is none */
+    hc_lines_function lines;
+    hc_signs *kept; /* where answers are kept as bits: one hc_signs for each block of rows, and 0 for invalid ones; or NULL */
+    int8_t *answers;
+    hc_waiting waiting;
+} hc_upright_parts;
+
+static void hc_begin_upright(hc_upright_parts *run, int question, const double sizes[4], const hc_scene *scene, size_t n,
+                             int8_t *answers, hc_signs *kept) {
+    run->asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
+    run->level = hc_level();
+    run->scene = scene;
+    run->question = question;
+    run->fetch = n >= HC_FAR_FROM;
+    run->lefts = 0;
+    run->lines = run->level->one_line[run->asked];
+    run->kept = kept;
+    run->answers = answers;
+    hc_begin(&run->waiting, sizes, n, kept);
+}
+
+/* Rows `start` to `start` + `count`, HC_STRIP at most; all parts but the last are whole blocks. Returns the number of
+   invalid ones that it came upon. */
+static size_t hc_upright_part(hc_upright_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
+    const int blocks = run->scene != NULL ? (int)(count / HC_BLOCK) : 0;
+    const size_t beyond = (size_t)(HC_BLOCK * blocks);
+    hc_signs own[HC_STRIP / HC_BLOCK], *const signs = run->kept != NULL ? run->kept + start / HC_BLOCK : own;
+    uint64_t left[HC_STRIP / HC_BLOCK];
+    size_t refused = 0, i;
+    int block;
+    if (blocks) run->lines(run->scene, blocks, x, y, z, run->fetch, signs, left);
+    if (run->kept == NULL) run->level->spread_all(run->answers + start, signs, (size_t)blocks);
+    else if (beyond < count) memset(signs + blocks, 0, hc_blocks(count - beyond) * sizeof *signs);
+    for (block = 0; block < blocks; block++)
+        for (; left[block]; left[block] &= left[block] - 1, run->lefts++) {
+            i = (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+            refused += hc_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], run->answers);
+        }
+    if (run->lefts > HC_TOO_MANY_LEFT) run->lines = run->level->two_lines[run->asked];
+    if ((start + count) % HC_STRIP == 0) run->lefts = 0;
+    for (i = beyond; i < count; i++)
+        refused += hc_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], run->answers);
+    return refused;
+}
+
+static size_t hc_end_upright(hc_upright_parts *run) {
+    return hc_settle(run->level, run->question, &run->waiting, run->answers);
+}
+
+/* Answers for valid sizes, written or kept as bits. */
 static size_t hc_ask_upright(int question, const double sizes[4], const hc_scene *scene, size_t n, const double *x,
                              const double *y, const double *z, int8_t *answers, hc_signs *kept) {
-    const hc_level_functions *level = hc_level();
-    const int asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
-    hc_lines_function lines = level->one_line[asked];
-    hc_waiting waiting;
-    hc_signs own[HC_STRIP / HC_BLOCK];
-    uint64_t left[HC_STRIP / HC_BLOCK];
-    size_t refused = 0, start, i;
-    int block;
-    hc_begin(&waiting, sizes, n, kept);
-    for (start = 0; start < n; start += HC_STRIP) {
-        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = scene != NULL ? (int)((end - start) / HC_BLOCK) : 0;
-        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
-        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
-        int lefts = 0;
-        if (blocks) lines(scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
-        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
-        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
-        for (block = 0; block < blocks; block++)
-            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
-                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
-                refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-            }
-        if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[asked];
-        for (i = beyond; i < end; i++)
-            refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-    }
-    return refused + hc_settle(level, question, &waiting, answers);
+    hc_upright_parts run;
+    size_t refused = 0, start;
+    hc_begin_upright(&run, question, sizes, scene, n, answers, kept);
+    for (start = 0; start < n; start += HC_STRIP)
+        refused += hc_upright_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
+    return refused + hc_end_upright(&run);
 }
 
 static size_t hc_refuse_all(size_t n, int8_t *answers) {
@@ -2528,46 +2558,77 @@ static size_t hc_tilted_wait(const hc_level_functions *level, int question, hc_t
     return waiting->count == HC_BLOCK ? hc_tilted_settle(level, question, waiting, answers) : 0;
 }
 
-/* As hc_ask_upright, and the question is the position where answers are kept: sizes and an axis with a direction, scaled, that is not
-   upright, are valid, and `probe` has them as a row. `known` has
-   the half spaces, or is NULL where the first stage is left out; the second ones are made when they are needed. */
-static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
-                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
-    const hc_level_functions *level = hc_level();
-    hc_planes_function planes = level->one_plane;
+/* As hc_upright_parts: sizes and an axis with a direction, scaled, that is not upright, are valid. The question is the
+   position where answers are kept. The second half spaces are made when they are needed. */
+typedef struct {
+    const hc_level_functions *level;
+    int question, fetch, lefts, has_planes;
+    hc_planes_function planes;
+    hc_signs *kept;
+    int8_t *answers;
     hc_tilted_waiting waiting;
     hc_tilted_scene scene;
-    hc_signs own[HC_STRIP / HC_BLOCK];
+} hc_leaning_parts;
+
+/* `probe` has sizes and axis as a row. `known` has the half spaces, or is NULL where the first stage is left out. */
+static void hc_begin_leaning(hc_leaning_parts *run, int question, const double probe[10], const hc_tilted_scene *known, size_t n,
+                             int8_t *answers, hc_signs *kept) {
+    int k;
+    run->level = hc_level();
+    run->question = question;
+    run->fetch = n >= HC_FAR_FROM;
+    run->lefts = 0;
+    run->has_planes = known != NULL;
+    run->planes = run->level->one_plane;
+    run->kept = kept;
+    run->answers = answers;
+    if (known != NULL) run->scene = *known;
+    memset(&run->waiting, 0, sizeof run->waiting);
+    run->waiting.kept = kept;
+    for (k = 0; k < 10 * HC_BLOCK; k++) run->waiting.columns[k] = probe[k / HC_BLOCK];
+}
+
+/* As hc_upright_part. */
+static size_t hc_leaning_part(hc_leaning_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
+    const int blocks = run->has_planes ? (int)(count / HC_BLOCK) : 0;
+    const size_t beyond = (size_t)(HC_BLOCK * blocks);
+    hc_signs own[HC_STRIP / HC_BLOCK], *const signs = run->kept != NULL ? run->kept + start / HC_BLOCK : own;
     uint64_t left[HC_STRIP / HC_BLOCK];
-    size_t refused = 0, start, i;
-    int block, k;
-    if (known != NULL) scene = *known;
-    memset(&waiting, 0, sizeof waiting);
-    waiting.kept = kept;
-    for (k = 0; k < 10 * HC_BLOCK; k++) waiting.columns[k] = probe[k / HC_BLOCK];
-    for (start = 0; start < n; start += HC_STRIP) {
-        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = known != NULL ? (int)((end - start) / HC_BLOCK) : 0;
-        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
-        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
-        int lefts = 0;
-        if (blocks) planes(&scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
-        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
-        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
-        if (kept == NULL && question != HYPCHECK_POSITION)
-            for (i = start; i < beyond; i++) answers[i] = hc_answer(question, answers[i]);
-        for (block = 0; block < blocks; block++)
-            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
-                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
-                refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-            }
-        if (lefts > HC_TOO_MANY_BY_PLANES && planes != level->two_planes) {
-            if (!scene.has_two) hc_make_planes(&scene, 1, 2);
-            planes = level->two_planes;
+    int8_t *const answers = run->answers;
+    size_t refused = 0, i;
+    int block;
+    if (blocks) run->planes(&run->scene, blocks, x, y, z, run->fetch, signs, left);
+    if (run->kept == NULL) run->level->spread_all(answers + start, signs, (size_t)blocks);
+    else if (beyond < count) memset(signs + blocks, 0, hc_blocks(count - beyond) * sizeof *signs);
+    if (run->kept == NULL && run->question != HYPCHECK_POSITION)
+        for (i = start; i < start + beyond; i++) answers[i] = hc_answer(run->question, answers[i]);
+    for (block = 0; block < blocks; block++)
+        for (; left[block]; left[block] &= left[block] - 1, run->lefts++) {
+            i = (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+            refused += hc_tilted_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], answers);
         }
-        for (i = beyond; i < end; i++) refused += hc_tilted_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
+    if (run->lefts > HC_TOO_MANY_BY_PLANES && run->planes != run->level->two_planes) {
+        if (!run->scene.has_two) hc_make_planes(&run->scene, 1, 2);
+        run->planes = run->level->two_planes;
     }
-    return refused + hc_tilted_settle(level, question, &waiting, answers);
+    if ((start + count) % HC_STRIP == 0) run->lefts = 0;
+    for (i = beyond; i < count; i++)
+        refused += hc_tilted_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], answers);
+    return refused;
+}
+
+static size_t hc_end_leaning(hc_leaning_parts *run) {
+    return hc_tilted_settle(run->level, run->question, &run->waiting, run->answers);
+}
+
+static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
+                             const double *y, const double *z, int8_t *answers, hc_signs *kept) {
+    hc_leaning_parts run;
+    size_t refused = 0, start;
+    hc_begin_leaning(&run, question, probe, known, n, answers, kept);
+    for (start = 0; start < n; start += HC_STRIP)
+        refused += hc_leaning_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
+    return refused + hc_end_leaning(&run);
 }
 
 size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
@@ -3878,7 +3939,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_4f5081f65f9ce2a9
+#define HC_EDITION_d9fea34d52f24cfd
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

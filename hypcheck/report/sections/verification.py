@@ -41,6 +41,7 @@ from hypcheck.report.messages import (
     from_hex,
     rows_not_asked,
     short_row,
+    spread,
     tolerance_of,
 )
 from hypcheck.report.model import (
@@ -245,6 +246,7 @@ def _gated_value(tested: UnderTest) -> Text:
     counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
     left_out = [text for text in (rows_not_asked(counts), families_not_asked(line)) if text]
     known += (told if line.not_asked is not UNSET else "") + (f" Not asked: {'; '.join(left_out)}." if left_out else "")
+    known += "".join(f" {fact[0].upper()}{fact[1:]}." for fact in spread(line))
     said = (
         f": {counted(again.asked, 'case')} asked again in another order, in other batches and in a fresh process;"
         f" {again.within:,} answered otherwise within the tolerance, {again.beyond:,} beyond it."

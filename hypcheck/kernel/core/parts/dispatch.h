@@ -164,38 +164,68 @@ static void hc_begin(hc_waiting *waiting, const double sizes[4], size_t n, hc_si
     waiting->kept = kept;
 }
 
-/* Answers for valid sizes; `scene` has their half planes, or is NULL where the first stage is left out. They are written, or
-   kept as bits where `kept` is not NULL: one hc_signs for each block of rows, and 0 for invalid ones. */
+/* Centres of one scene that come part by part. */
+typedef struct {
+    const hc_level_functions *level;
+    const hc_scene *scene; /* its half planes, or NULL where the first stage is left out */
+    int question, asked, fetch, lefts; /* `asked` is `question`, or HYPCHECK_POSITION for a number that is none */
+    hc_lines_function lines;
+    hc_signs *kept; /* where answers are kept as bits: one hc_signs for each block of rows, and 0 for invalid ones; or NULL */
+    int8_t *answers;
+    hc_waiting waiting;
+} hc_upright_parts;
+
+static void hc_begin_upright(hc_upright_parts *run, int question, const double sizes[4], const hc_scene *scene, size_t n,
+                             int8_t *answers, hc_signs *kept) {
+    run->asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
+    run->level = hc_level();
+    run->scene = scene;
+    run->question = question;
+    run->fetch = n >= HC_FAR_FROM;
+    run->lefts = 0;
+    run->lines = run->level->one_line[run->asked];
+    run->kept = kept;
+    run->answers = answers;
+    hc_begin(&run->waiting, sizes, n, kept);
+}
+
+/* Rows `start` to `start` + `count`, HC_STRIP at most; all parts but the last are whole blocks. Returns the number of
+   invalid ones that it came upon. */
+static size_t hc_upright_part(hc_upright_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
+    const int blocks = run->scene != NULL ? (int)(count / HC_BLOCK) : 0;
+    const size_t beyond = (size_t)(HC_BLOCK * blocks);
+    hc_signs own[HC_STRIP / HC_BLOCK], *const signs = run->kept != NULL ? run->kept + start / HC_BLOCK : own;
+    uint64_t left[HC_STRIP / HC_BLOCK];
+    size_t refused = 0, i;
+    int block;
+    if (blocks) run->lines(run->scene, blocks, x, y, z, run->fetch, signs, left);
+    if (run->kept == NULL) run->level->spread_all(run->answers + start, signs, (size_t)blocks);
+    else if (beyond < count) memset(signs + blocks, 0, hc_blocks(count - beyond) * sizeof *signs);
+    for (block = 0; block < blocks; block++)
+        for (; left[block]; left[block] &= left[block] - 1, run->lefts++) {
+            i = (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
+            refused += hc_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], run->answers);
+        }
+    if (run->lefts > HC_TOO_MANY_LEFT) run->lines = run->level->two_lines[run->asked];
+    if ((start + count) % HC_STRIP == 0) run->lefts = 0;
+    for (i = beyond; i < count; i++)
+        refused += hc_wait(run->level, run->question, &run->waiting, start + i, x[i], y[i], z[i], run->answers);
+    return refused;
+}
+
+static size_t hc_end_upright(hc_upright_parts *run) {
+    return hc_settle(run->level, run->question, &run->waiting, run->answers);
+}
+
+/* Answers for valid sizes, written or kept as bits. */
 static size_t hc_ask_upright(int question, const double sizes[4], const hc_scene *scene, size_t n, const double *x,
                              const double *y, const double *z, int8_t *answers, hc_signs *kept) {
-    const hc_level_functions *level = hc_level();
-    const int asked = question >= HYPCHECK_POSITION && question <= HYPCHECK_CONTACT ? question : HYPCHECK_POSITION;
-    hc_lines_function lines = level->one_line[asked];
-    hc_waiting waiting;
-    hc_signs own[HC_STRIP / HC_BLOCK];
-    uint64_t left[HC_STRIP / HC_BLOCK];
-    size_t refused = 0, start, i;
-    int block;
-    hc_begin(&waiting, sizes, n, kept);
-    for (start = 0; start < n; start += HC_STRIP) {
-        const size_t end = n - start < HC_STRIP ? n : start + HC_STRIP;
-        const int blocks = scene != NULL ? (int)((end - start) / HC_BLOCK) : 0;
-        const size_t beyond = start + (size_t)(HC_BLOCK * blocks);
-        hc_signs *const signs = kept != NULL ? kept + start / HC_BLOCK : own;
-        int lefts = 0;
-        if (blocks) lines(scene, blocks, x + start, y + start, z + start, n >= HC_FAR_FROM, signs, left);
-        if (kept == NULL) level->spread_all(answers + start, signs, (size_t)blocks);
-        else if (beyond < end) memset(signs + blocks, 0, hc_blocks(end - beyond) * sizeof *signs);
-        for (block = 0; block < blocks; block++)
-            for (; left[block]; left[block] &= left[block] - 1, lefts++) {
-                i = start + (size_t)(HC_BLOCK * block + hc_lowest_bit(left[block]));
-                refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-            }
-        if (lefts > HC_TOO_MANY_LEFT) lines = level->two_lines[asked];
-        for (i = beyond; i < end; i++)
-            refused += hc_wait(level, question, &waiting, i, x[i], y[i], z[i], answers);
-    }
-    return refused + hc_settle(level, question, &waiting, answers);
+    hc_upright_parts run;
+    size_t refused = 0, start;
+    hc_begin_upright(&run, question, sizes, scene, n, answers, kept);
+    for (start = 0; start < n; start += HC_STRIP)
+        refused += hc_upright_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
+    return refused + hc_end_upright(&run);
 }
 
 static size_t hc_refuse_all(size_t n, int8_t *answers) {

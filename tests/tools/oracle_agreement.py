@@ -1,26 +1,29 @@
-"""How far the oracles for tilted spheroids agree with the exact decision: a tool, run by hand.
+"""How far the other oracles agree with the exact decision: a tool, run by hand.
 
-    python -m tests.tools.tilted_agreement nearest --rows 1000000 [--seed 1] [--families uniform,grid]
+    python -m tests.tools.oracle_agreement nearest --rows 1000000 [--seed 1] [--families uniform,grid]
+    python -m tests.tools.oracle_agreement mesh --rows 10000 --families ended,rim,disc,slab
 
-Rows of the families below are drawn in turn from the seed. The last lines are a table: rows by family and exact
-position, how many the oracle could not decide, and time a row. Every disagreement is printed with its row as it is
-found, and makes the status 1.
+Rows of the families below are drawn in turn from the seed, by default of those without ends. The last lines are a
+table: rows by family and exact position, how many the oracle could not decide, and time a row. Every disagreement is
+printed with its row as it is found, and makes the status 1.
 """
 
 from __future__ import annotations
 
 import argparse
-import importlib
 import math
 import random
 import sys
 import time
 from collections import Counter
 
+import numpy as np
+
 from hypcheck.geometry.pair import Pair, Position
+from hypcheck.runs.oracles import ORACLES
 from tests.support import exactly
 
-ORACLES = ("nearest", "roots", "mesh")
+ASKED = ("nearest", "roots", "heights", "mesh")
 
 
 def uniform(draw):
@@ -107,7 +110,72 @@ def touching(draw, sizes, axis):
     return [*sizes, *(p + steps * w for p, w in zip(point, way, strict=True)), *axis]
 
 
-FAMILIES = {each.__name__: each for each in (uniform, near, stiff, slight, symmetric, grid, extreme)}
+def upright_or_not(draw):
+    """An axis, half of the time upright."""
+    return direction(draw) if draw.random() < 0.5 else [0.0, 0.0, 1.0]
+
+
+def ending(draw, row, end):
+    """The row with a wall that ends above at a height, below at another or nowhere, or upside down; open or solid."""
+    other = end - (math.inf if draw.random() < 0.3 else 10 ** draw.uniform(-2, 1))
+    heights = [other, end] if draw.random() < 0.5 else [-end, -other]
+    if heights[0] == -end:
+        row = [*row[:6], -row[6], *row[7:9], -row[9]]
+    return [*row, *heights, float(draw.randrange(2))]
+
+
+def half_height(row):
+    """The spheroid's, of a row of ten."""
+    b, d, axis = row[2], row[3], row[7:10]
+    lean = axis[2] ** 2 / sum(part * part for part in axis)
+    return math.sqrt(b * b + (d * d - b * b) * lean)
+
+
+def ended(draw):
+    """Anywhere or near contact, an end within a spheroid's reach."""
+    row = draw.choice((uniform, near))(draw)
+    row = [*row[:7], *upright_or_not(draw)]
+    return ending(draw, row, row[6] + draw.uniform(-1.5, 1.5) * half_height(row))
+
+
+def on_plane(draw, sizes, point, normal, axis):
+    """The row whose spheroid is from 10⁻¹⁶ to 10⁻¹ radii off the plane through a point across a normal."""
+    _, _, b, d = sizes
+    along = sum(n * a for n, a in zip(normal, axis, strict=True)) / sum(a * a for a in axis)
+    way = [b * b * n + (d * d - b * b) * along * a for n, a in zip(normal, axis, strict=True)]
+    half = math.sqrt(sum(w * n for w, n in zip(way, normal, strict=True)))
+    steps = (1 + draw.choice((-1, 1)) * 10 ** draw.uniform(-16, -1)) / half
+    return [*sizes, *(p + steps * w for p, w in zip(point, way, strict=True)), *axis]
+
+
+def rim(draw):
+    """Near a touch of the rim from above, beside it or through the mouth."""
+    sizes, end, angle = [10 ** draw.uniform(-1, 1) for _ in range(4)], draw.gauss(0, 2), draw.uniform(0, 2 * math.pi)
+    radius = sizes[0] * math.hypot(1, end / sizes[1])
+    point = (radius * math.cos(angle), radius * math.sin(angle), end)
+    across, up = draw.uniform(-1, 1), draw.uniform(0, 1)
+    normal = (across * math.cos(angle), across * math.sin(angle), up)
+    return ending(draw, on_plane(draw, sizes, point, normal, upright_or_not(draw)), end)
+
+
+def disc(draw):
+    """Near a touch of an end disc from above or below, within the rim or about it."""
+    sizes, end, angle = [10 ** draw.uniform(-1, 1) for _ in range(4)], draw.gauss(0, 2), draw.uniform(0, 2 * math.pi)
+    radius = sizes[0] * math.hypot(1, end / sizes[1]) * draw.uniform(0, 1.1)
+    point = (radius * math.cos(angle), radius * math.sin(angle), end)
+    return ending(draw, on_plane(draw, sizes, point, (0, 0, draw.choice((-1, 1))), upright_or_not(draw)), end)
+
+
+def slab(draw):
+    """A thin slab somewhere in the heights of a spheroid near contact with the whole wall."""
+    row = [*near(draw)[:7], *upright_or_not(draw)]
+    low = row[6] + draw.uniform(-1.1, 1.1) * half_height(row)
+    return [*row, low, low + 10 ** draw.uniform(-6, 0), float(draw.randrange(2))]
+
+
+WHOLE = {family.__name__: family for family in (uniform, near, stiff, slight, symmetric, grid, extreme)}
+ENDED = {family.__name__: family for family in (ended, rim, disc, slab)}
+FAMILIES = WHOLE | ENDED
 
 
 def rows(families, count, seed):
@@ -117,26 +185,27 @@ def rows(families, count, seed):
     while made < count:
         family = families[made % len(families)]
         row = FAMILIES[family](draw)
-        if all(map(math.isfinite, row)) and min(row[:4]) > 0 and any(row[7:]):
+        if all(map(math.isfinite, row[:10])) and min(row[:4]) > 0 and any(row[7:10]):
             made += 1
             yield family, row
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("oracle", choices=ORACLES)
+    parser.add_argument("oracle", choices=ASKED)
     parser.add_argument("--rows", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--families", default=",".join(FAMILIES))
+    parser.add_argument("--families", default=",".join(WHOLE))
     options = parser.parse_args(arguments)
-    oracle = importlib.import_module(f"hypcheck.truth.tilted.{options.oracle}")
+    ask = ORACLES[options.oracle].ask
     seen, undecided, disagreed, spent = Counter(), Counter(), 0, Counter()
     for family, row in rows(options.families.split(","), options.rows, options.seed):
         pair = Pair.from_row(row)
         start = time.process_time()
         expected = exactly.position(pair.lengths)
         middle = time.process_time()
-        found = oracle.position(pair)
+        (opinion,) = ask(np.array([row]))
+        found = opinion.position
         spent["exact"] += middle - start
         spent[options.oracle] += time.process_time() - middle
         seen[family, expected] += 1

@@ -1,4 +1,4 @@
-"""The self-check asks the oracles for tilted spheroids about frozen vectors, and a wrong oracle is noticed."""
+"""The self-check asks oracles frozen vectors of tilted spheroids and of ends, and a wrong oracle is noticed."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from hypcheck.vectors.families import FAMILIES, case_id, select
 
 PLAN = SelfCheckPlan()
 ASKED = ("exact", "nearest", "roots", "mesh")
+ENDED = ("exact", "nearest", "heights", "mesh")
 TANGENT = Opinion(Position.CONTACT, tangent=True)
 
 
 def first(count):
-    """The first frozen vectors of all families that are asked."""
-    return [oracles.tilted_batch(family, count) for family in oracles.tilted_families(PLAN)]
+    """The first frozen vectors of all families of tilted spheroids that are asked."""
+    return [oracles.frozen_batch(family, count) for family in oracles.frozen_families(PLAN) if not family.ended]
 
 
 @pytest.fixture(scope="module")
@@ -33,13 +34,47 @@ def test_tilted_oracles_are_asked_the_frozen_vectors_of_every_family_except_the_
     assert [batch.family.name for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
     assert all(batch.rows.shape == (6, 10) for batch in batches)
     assert batches[0].name(3) == "tilted-uniform-0003"
-    assert oracles.tilted_families(SelfCheckPlan(families=("ring",))) == ()
+    assert oracles.frozen_families(SelfCheckPlan(families=("ring",))) == ()
 
 
-def test_roots_oracle_is_asked_all_upright_rows_by_default_and_a_tenth_as_many_tilted_ones():
-    families = len(select(PLAN.families)) + len(oracles.tilted_families(PLAN))
-    assert oracles.shares(PLAN, families)["roots"] >= PLAN.count
-    assert oracles.shares(PLAN, families, tilted=True)["roots"] == 42
+@pytest.fixture(scope="module")
+def ended():
+    """The first frozen vectors of all families of hyperboloids that end."""
+    return [oracles.frozen_batch(family, 4) for family in oracles.frozen_families(PLAN) if family.ended]
+
+
+@pytest.mark.skipif(ORACLES["mesh"].available() is not None, reason="python-fcl is not installed")
+def test_four_oracles_are_asked_about_hyperboloids_that_end_and_agree_with_the_labels(ended):
+    assert {batch.family.name for batch in ended} == set(frozen.ENDED_NAMES)
+    for batch in ended:
+        found = oracles.oracle_lines(batch, dict.fromkeys(ENDED, 2) | {"roots": 0})
+        assert [(line.oracle, line.asked) for line in found] == [(name, 2) for name in ENDED]
+        assert all(line.disagreements == [] for line in found), found
+        assert all(line.undecided == 0 or line.oracle in ("nearest", "mesh") for line in found), found
+
+
+@pytest.mark.parametrize("name", ENDED)
+def test_wrong_oracle_for_hyperboloids_that_end_is_reported_with_their_heights(monkeypatch, ended, name):
+    wrong = replace(ORACLES[name], ask=lambda rows: [Opinion(Position.INTERIOR)] * len(rows))
+    monkeypatch.setitem(oracles.ORACLES, name, wrong)
+    opening = next(batch for batch in ended if batch.family.name == "ended-rim")
+    (found,) = oracles.oracle_lines(opening, {name: 4})
+    assert found.disagreeing == sum(decision.position is not Position.INTERIOR for decision in opening.decisions) > 0
+    assert len(found.disagreements[0].heights) == 3
+
+
+def test_roots_oracle_is_asked_all_upright_rows_by_default_a_tenth_as_many_tilted_ones_and_none_of_ends():
+    families = [*select(PLAN.families), *oracles.frozen_families(PLAN)]
+
+    def share(name):
+        return oracles.shares(PLAN, next(family for family in families if family.name == name), families)
+
+    assert share("ring")["roots"] >= PLAN.count
+    assert share("tilted-ring")["roots"] == 42
+    assert share("ended-rim")["roots"] == 0
+    assert share("ended-rim")["exact"] == oracles.ENDED_PROOFS
+    assert share("ended-rim")["heights"] == PLAN.count
+    assert sum(share(family.name)["mesh"] for family in families) >= PLAN.meshes
 
 
 @pytest.mark.slow

@@ -1,0 +1,174 @@
+"""Many straight ways, of one pair of sizes or of a whole scene: which have contact, when first, and with what.
+
+Hits are decided at once, times when they are asked for: the first costs a microsecond, the other a millisecond a way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hypcheck.errors import InputError
+from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.forms import Argument, named_points
+from hypcheck.geometry.pair import AXIS, END, HEIGHTS, REFUSED, SIZES, START, WITHOUT_ENDS
+from hypcheck.geometry.rows import (
+    CANNOT_SAY,
+    WAYS,
+    Floats,
+    Indices,
+    Mask,
+    Positions,
+    Rows,
+    as_rows,
+    names_of,
+    require_valid,
+)
+from hypcheck.kernel.classify import kernel
+from hypcheck.truth import swept
+from hypcheck.truth.rationals import rounded_toward
+
+First = tuple[tuple[Fraction, Fraction], int]
+"""The time of the first contact, in an open interval or as one number twice; and the hyperboloid's number."""
+
+
+@dataclass(frozen=True, eq=False)
+class Passages:
+    """What happens on n straight ways; every array is (n,). One way alone has numbers.
+
+    `hit`: whether there is contact somewhere on the way, its two ends included. It is exact, as everything here.
+    """
+
+    hit: Mask | bool
+    measure: Callable[[int], First] = field(repr=False)
+    """The first contact of a way that has one."""
+
+    @cached_property
+    def _firsts(self) -> list[First | None]:
+        return [self.measure(way) if hit else None for way, hit in enumerate(np.atleast_1d(self.hit).tolist())]
+
+    @property
+    def first(self) -> list[tuple[Fraction, Fraction] | None]:
+        """Two fractions that enclose the time of the first contact, 0 ≤ t ≤ 1; None where the way is clear."""
+        found = [None if first is None else first[0] for first in self._firsts]
+        return found if np.ndim(self.hit) else found[0]  # type: ignore[return-value]
+
+    @cached_property
+    @in_default_environment
+    def first_lower(self) -> Floats:
+        """No contact comes before this time, rounded down; NaN where there is none."""
+        times: Floats = self._rounded(0, -math.inf)
+        return times
+
+    @cached_property
+    @in_default_environment
+    def first_upper(self) -> Floats:
+        """The first contact is not after this time, rounded up; NaN where there is none."""
+        times: Floats = self._rounded(1, math.inf)
+        return times
+
+    @cached_property
+    def index(self) -> Indices:
+        """Which hyperboloid is touched first, its number from 0; −1 where the way is clear."""
+        numbers: Indices = self._shaped([-1 if first is None else first[1] for first in self._firsts], np.intp)
+        return numbers
+
+    def _rounded(self, side: int, towards: float) -> Any:  # noqa: ANN401 - an array, or its number
+        times = [math.nan if first is None else rounded_toward(first[0][side], towards) for first in self._firsts]
+        return self._shaped(times, np.float64)
+
+    def _shaped(self, values: list[Any], kind: type) -> Any:  # noqa: ANN401 - an array, or its number
+        return np.array(values, kind) if np.ndim(self.hit) else values[0]
+
+    def __array__(self, dtype: object = None, copy: bool | None = None) -> Positions:
+        """The hits as int8 (n,), which Scene.passage returned in 0.1."""
+        hits: Positions = np.atleast_1d(self.hit).astype(np.int8)
+        return hits
+
+    def tolist(self) -> list[int]:
+        """The hits as 1 and 0, as of that array."""
+        return [int(hit) for hit in np.atleast_1d(self.hit)]
+
+
+def passages(
+    ways: Sequence[Argument],
+    columns: Mapping[str, Argument],
+    axis: ArrayLike | None,
+    heights: Sequence[Argument],
+) -> Passages:
+    """What happens on ways, written as hypcheck.passage takes them. Raises InputError."""
+    given, single = _rows_of(ways, columns, axis, heights)
+    rows = np.ascontiguousarray(given)
+    require_valid(rows, layout=WAYS)
+    hits = _hits(rows)
+    return Passages(bool(hits[0]) if single else hits, lambda way: (_interval(rows[way].tolist()), 0))
+
+
+def _rows_of(
+    ways: Sequence[Argument], columns: Mapping[str, Argument], axis: ArrayLike | None, heights: Sequence[Argument]
+) -> tuple[Rows, bool]:
+    """Rows of ways, and whether they are one way of numbers."""
+    values: dict[str, Argument] = {}
+    if len(ways) == 1 and not columns and axis is None and names_of(ways[0]) is None:
+        rows = as_rows(ways[0], tilted=True, heights=True, layout=WAYS)
+        return rows, False
+    if len(ways) == 1:
+        names = names_of(ways[0])
+        if names is None:
+            raise InputError("rows of ways have their own axis and heights; these cannot be given beside them")
+        values = {_NEW.get(name, name): ways[0][name] for name in names}
+    elif len(ways) in (3, 6):
+        sizes = ways[0] if len(ways) == 3 else ways[:4]
+        if len(sizes) != len(SIZES):
+            raise InputError(f"the sizes are {len(sizes)}; they must be four: {', '.join(SIZES)}")
+        values = dict(zip(SIZES, sizes, strict=True))
+        values |= named_points("start", ways[-2], START) | named_points("end", ways[-1], END)
+    elif ways or not columns:
+        raise InputError(
+            f"passage takes (sizes, start, end), (alpha, gamma, b, d, start, end), rows or a table, not {len(ways)} "
+            "arguments"
+        )
+    values |= {_NEW.get(name, name): value for name, value in columns.items()}
+    if axis is not None:
+        values |= named_points("axis", axis, AXIS)
+    if any(np.ndim(height) or height != usual for height, usual in zip(heights, WITHOUT_ENDS, strict=True)):
+        values |= dict(zip(HEIGHTS, heights, strict=True))
+    return as_rows(values, tilted=True, heights=True, layout=WAYS), all(not np.ndim(each) for each in values.values())
+
+
+_NEW = dict(zip(("x", "y", "z"), START, strict=True))
+"""A table of rows calls the centre at the start x, y, z; inside it is x0, y0, z0."""
+
+
+def _hits(rows: Rows) -> Mask:
+    """By bounds, and what these leave exactly. What is clear of a whole hyperboloid is clear of an open wall of it."""
+    width = len(WAYS.tilted)
+    whole = np.ascontiguousarray(rows[:, :width])
+    said = kernel().answer_ways(whole)[0]
+    if WAYS.end(rows):
+        ended = np.isfinite(rows[:, width : width + 2]).any(axis=1)
+        sure = ~ended | ((said == 0) & (rows[:, width + 2] == 0))
+        said = np.where(sure, said, CANNOT_SAY)
+    hits = np.asarray(said == 1)
+    for way in np.flatnonzero((said == CANNOT_SAY) | (said == REFUSED)).tolist():
+        hits[way] = _way(rows[way].tolist()).hit
+    return hits
+
+
+def _way(row: Sequence[float]) -> swept.Passage:
+    low, high, solid = row[13:] or WITHOUT_ENDS
+    return swept.passage(row[:4], row[4:7], row[7:10], row[10:13] or None, z_min=low, z_max=high, solid=solid)
+
+
+def _interval(row: Sequence[float]) -> tuple[Fraction, Fraction]:
+    first = _way(row).first
+    if first is None:
+        raise AssertionError(f"the exact decision about a way contradicts its bounds: {row}")
+    return first

@@ -1,0 +1,215 @@
+"""What a scene is made from, what is prepared of it, and scenes with one hyperboloid more, less or elsewhere."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain
+from math import inf, isfinite
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hypcheck.errors import InputError
+from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.pair import trouble_with_axis
+from hypcheck.geometry.rows import Floats, Indices
+from hypcheck.kernel import scene_changes
+from hypcheck.kernel.margins import enlarged
+from hypcheck.kernel.scene_ends import limits_of
+from hypcheck.kernel.scene_index import Bodies, PlaneGrid, bodies_of, grid_of, in_reach, reaches
+from hypcheck.kernel.scene_pairs import Body
+from hypcheck.scene.arrays import checked_hyperboloid, hyperboloids_of, point_of, require_valid_mover
+from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, leans
+from hypcheck.scene.reading import parse_scene, read_scene
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+
+@dataclass(frozen=True)
+class PreparedScene:
+    """A scene with what is prepared when it is first needed: columns of its hyperboloids, and their grid."""
+
+    model: SceneModel
+
+    @in_default_environment
+    def __post_init__(self) -> None:
+        if not self.model.hyperboloids:
+            raise InputError("the scene has no hyperboloid; it must have one at least")
+        require_valid_mover(self.model.mover)
+
+    @classmethod
+    @in_default_environment
+    def from_toml(cls, path: str | os.PathLike[str]) -> Self:
+        """The scene in a file, or a shipped scene by its name. Raises InputError naming key and line."""
+        return cls(read_scene(os.fspath(path)))
+
+    @classmethod
+    @in_default_environment
+    def from_text(cls, text: str) -> Self:
+        """The scene that a TOML text describes. Raises InputError naming key and line."""
+        return cls(parse_scene(text))
+
+    @classmethod
+    @in_default_environment
+    def from_arrays(
+        cls,
+        alpha: ArrayLike,
+        gamma: ArrayLike,
+        center: ArrayLike,
+        axis: ArrayLike | None = None,
+        *,
+        mover: Mover,
+        z_min: ArrayLike = -inf,
+        z_max: ArrayLike = inf,
+        solid: ArrayLike = False,
+        names: Sequence[str] | None = None,
+        question: str = "position",
+        region: Region = Region(),  # noqa: B008 - it is frozen
+        name: str = "scene",
+    ) -> Self:
+        """The scene of hyperboloids in arrays: numbers and columns (n,) are broadcast.
+
+        `alpha` and `gamma` are the semi-axes, `center` (n, 3) where they stand in the scene, `axis` (n, 3) or (3,)
+        their axes, upright without. They end at the heights `z_min` and `z_max` along these from their centres; where
+        `solid`, flat ends belong to them. `names` are "hyperboloid 1", … without. All lengths are in one unit. Raises
+        InputError naming the hyperboloid and the number that is not valid.
+
+        >>> scene = Scene.from_arrays([2, 1], 17.8, [[0, 0, 0], [9, 0, 0]], mover=Mover(0.25, 0.15))
+        >>> scene.classify([[0, 0, 5], [5, 0, 0], [8, 0, 0]])
+        array([-1,  1,  0], dtype=int8)
+        """
+        heights = z_min, z_max, solid
+        bodies = hyperboloids_of(alpha, gamma, center, axis, heights, names)
+        return cls(SceneModel(name, question, bodies, mover, region))
+
+    def with_hyperboloid(self, hyperboloid: Hyperboloid) -> Self:
+        """The scene with one hyperboloid more, the last; a hundredth of the cost of a new scene of 10⁵ of them."""
+        model, body = self.model, checked_hyperboloid(hyperboloid)
+        if any(hyperboloid.name == other.name for other in model.hyperboloids):
+            raise InputError(f"there is a hyperboloid {hyperboloid.name!r} already; each must have another name")
+        return self._changed((*model.hyperboloids, body), len(model.hyperboloids), bodies_of([body]), added=True)
+
+    def moved(self, which: int | str, center: ArrayLike, axis: ArrayLike | None = None) -> Self:
+        """The scene with one hyperboloid, by its number or name, at another centre, and with another axis if given."""
+        place, model = self._place(which), self.model
+        new = replace(model.hyperboloids[place], center=point_of("center", center))
+        new = new if axis is None else replace(new, axis=point_of("axis", axis))
+        body = checked_hyperboloid(new)
+        others = (*model.hyperboloids[:place], body, *model.hyperboloids[place + 1 :])
+        return self._changed(others, place, bodies_of([body]), added=False)
+
+    def without(self, which: int | str) -> Self:
+        """The scene without one hyperboloid, by its number or its name; those behind it move up by one."""
+        place, model = self._place(which), self.model
+        model = replace(model, hyperboloids=(*model.hyperboloids[:place], *model.hyperboloids[place + 1 :]))
+        grid = scene_changes.grid_without(self._grid, place, renumbered=True)
+        return self._with(model, scene_changes.bodies_without(self._bodies, place), grid)
+
+    def _place(self, which: int | str) -> int:
+        bodies = self.model.hyperboloids
+        if isinstance(which, str):
+            found = [place for place, body in enumerate(bodies) if body.name == which]
+            if found:
+                return found[0]
+        elif 0 <= which < len(bodies):
+            return int(which)
+        raise InputError(
+            f"there is no hyperboloid {which!r}; it must be a name, or a number from 0 to {len(bodies) - 1}"
+        )
+
+    def _changed(self, others: tuple[Hyperboloid, ...], place: int, body: Bodies, *, added: bool) -> Self:
+        grid = self._grid if added else scene_changes.grid_without(self._grid, place, renumbered=False)
+        reach = float(reaches(body, self.model.mover, self.model.region.z)[0])
+        x, y, _ = body.origins[0].tolist()
+        patched = scene_changes.grid_with(grid, place, x, y, reach)
+        bodies = scene_changes.bodies_with(self._bodies, body, None if added else place)
+        return self._with(replace(self.model, hyperboloids=others), bodies, patched)
+
+    def _with(self, model: SceneModel, bodies: Bodies, grid: PlaneGrid | None) -> Self:
+        """The scene of a model, with what is prepared of it already."""
+        scene = type(self)(model)
+        scene.__dict__["_bodies"] = bodies
+        if grid is not None:
+            scene.__dict__["_grid"] = grid
+        return scene
+
+    def _enlarged(self, margin: float) -> Self | None:
+        """The scene with a mover that contains all within the margin of this one; None where it leaves float64."""
+        if margin not in self._of_margins:
+            mover = self.model.mover
+            b, d = enlarged(mover.b, mover.d, margin)
+            parts = [(part, *enlarged(part.b, part.d, margin)) for part in mover.parts]
+            grown = tuple(replace(part, b=float(wide), d=float(tall)) for part, wide, tall in parts)
+            model = replace(self.model, mover=replace(mover, b=float(b), d=float(d), parts=grown))
+            fits = all(map(isfinite, (*(part.b for part in grown), *(part.d for part in grown), float(b), float(d))))
+            self._of_margins[margin] = self._with(model, self._bodies, None) if fits else None
+        return self._of_margins[margin]
+
+    @cached_property
+    def _of_margins(self) -> dict[float, Self | None]:
+        return {}
+
+    def _near(self, x: float, y: float, z: float) -> Sequence[int]:
+        height = self.model.region.z
+        if height is not None and not height.low <= z <= height.high:  # of which the grid promises nothing
+            near: list[int] = in_reach(self._bodies, self.model.mover, (x, y, z)).tolist()
+            return near
+        return self._grid.near(x, y)
+
+    def _pairs(self, centres: Floats) -> tuple[Indices, Indices]:
+        """Which hyperboloids have to be asked about which centres."""
+        height = self.model.region.z
+        if height is None or ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
+            return self._grid.near_each(centres[:, 0], centres[:, 1])
+        near = [self._near(x, y, z) for x, y, z in centres.tolist()]
+        counts = [len(each) for each in near]
+        return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
+
+    def _body(self, index: int) -> tuple[Body, float, float, float, float]:
+        """A hyperboloid's numbers, and its limits, without arrays; each is kept once it was asked."""
+        found = self._asked.get(index)
+        if found is None:
+            of = self._bodies
+            columns = (of.shapes[index], of.origins[index], self._limits[index])
+            alpha, gamma, x, y, z, *limits = (number for column in columns for number in column.tolist())
+            low, high, inner_low, inner_high = limits
+            found = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
+        return found
+
+    @cached_property
+    def _leaning(self) -> bool:
+        return leans(self.model.mover.axis) or bool(self._bodies.leaning.any())
+
+    @cached_property
+    def _asked(self) -> dict[int, tuple[Body, float, float, float, float]]:
+        return {}
+
+    @cached_property
+    def _grid(self) -> PlaneGrid:
+        origins = self._bodies.origins
+        return grid_of(origins[:, 0], origins[:, 1], self._reaches)
+
+    @cached_property
+    def _reaches(self) -> Floats:
+        return reaches(self._bodies, self.model.mover, self.model.region.z)
+
+    @cached_property
+    def _limits(self) -> Floats:
+        return limits_of(self._bodies, self.model.mover)
+
+    @cached_property
+    def _bodies(self) -> Bodies:
+        bodies = bodies_of(self.model.hyperboloids)
+        invalid = ~(np.isfinite(bodies.axes).all(axis=1) & (bodies.axes != 0).any(axis=1))
+        for index in np.flatnonzero(invalid)[:1].tolist():
+            body = self.model.hyperboloids[index]
+            raise InputError(f"the hyperboloid {body.name!r}: {trouble_with_axis(body.axis)}")
+        for index in np.flatnonzero(~(bodies.spans[:, 0] < bodies.spans[:, 1]))[:1].tolist():
+            body = self.model.hyperboloids[index]
+            raise InputError(f"the hyperboloid {body.name!r}: height is {body.height}; its low must be less than high")
+        return bodies

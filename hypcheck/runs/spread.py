@@ -1,0 +1,95 @@
+"""How evenly a run asked: how narrow a fault near contact could have escaped it, and which coincidences met.
+
+A fault in a slice of one coordinate, such as |z|/γ between 0.50 and 0.51, shows in a row near contact within the slice
+alone. So a run tells how wide a slice can be without three such rows, and a slice of two coordinates without one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.geometry.rows import Rows
+from hypcheck.implementations.description import Description
+from hypcheck.record.lines import SlicesPart
+from hypcheck.runs.cases import frozen_count, frozen_vectors
+from hypcheck.runs.plan import ConformancePlan, chosen_families
+from hypcheck.runs.results import JudgingRules
+from hypcheck.vectors import crossed, strata
+from hypcheck.vectors.family import Family
+
+ROWS_OF_ONE = 3
+"""So many rows are asked in each slice of one coordinate that is as wide as a run says."""
+
+MOST = 40_000
+"""Rows of a family and a seed that are looked at: more would make no slice wider."""
+
+_FAMILIES = ("strata", "tilted-strata")
+_FINEST = 256
+"""Parts of a range: a slice of two coordinates is not said to be narrower than two of these."""
+
+
+def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> dict[str, SlicesPart]:
+    """How evenly each family of lattices was asked near contact; none of which no row was asked."""
+    found = {}
+    for family in chosen_families(plan, used):
+        if family.name in _FAMILIES:
+            rows = np.concatenate([*_rows_of(plan, family)])
+            rows = rows[rules.asked_of(family.name, rows)[0]]
+            if len(rows):
+                names = tuple(strata.COORDINATES) if family.tilted else strata.UPRIGHT
+                found[family.name] = evenness(rows, names)
+    return found
+
+
+def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
+    """How evenly the rows lie in the ranges of these coordinates."""
+    places = np.stack([strata.COORDINATES[name](rows) for name in names])
+    one = max(_widest(np.sort(some[(some >= 0) & (some <= 1)])) for some in places)
+    return SlicesPart(coordinates=list(names), rows=len(rows), one=one, two=_side(places))
+
+
+def _widest(sorted_places: NDArray[np.float64]) -> float:
+    """The widest slice of [0, 1] with fewer than ROWS_OF_ONE of the places in it."""
+    every = np.concatenate([[0.0], sorted_places, [1.0]])
+    if len(every) <= ROWS_OF_ONE:
+        return 1.0
+    return float((every[ROWS_OF_ONE:] - every[:-ROWS_OF_ONE]).max())
+
+
+def _side(places: NDArray[np.float64]) -> float:
+    """Twice the side of the smallest cells that hold a row each, of any two coordinates.
+
+    A slice of that width holds a cell, wherever it lies.
+    """
+    parts = _FINEST
+    while parts > 1 and not all(_is_full(a, b, parts) for a, b in combinations(places, 2)):
+        parts = parts - 1 - parts // 32
+    return min(1.0, 2 / parts)
+
+
+def _is_full(a: NDArray[np.float64], b: NDArray[np.float64], parts: int) -> bool:
+    inside = (a >= 0) & (a < 1) & (b >= 0) & (b < 1)
+    cells = np.floor(a[inside] * parts).astype(np.int64) * parts + np.floor(b[inside] * parts).astype(np.int64)
+    return len(np.unique(cells)) == parts * parts
+
+
+def _rows_of(plan: ConformancePlan, family: Family) -> Iterator[Rows]:
+    """Frozen and generated rows of the plan."""
+    if frozen_count(family.name):
+        yield frozen_vectors(family.name).rows
+    for seed in (plan.seed, plan.fresh):
+        if seed is not None:
+            yield family.rows(seed, min(plan.count * family.times, MOST))
+
+
+def crossed_of(plan: ConformancePlan, used: Description) -> dict[str, tuple[int, int]]:
+    """How many triples of coincidences were asked of each family that crosses them, and how many go together."""
+    return {
+        family.name: crossed.asked(family.name, max(frozen_count(family.name), plan.count * family.times), 3)
+        for family in chosen_families(plan, used)
+        if family.name in crossed.FACTORS
+    }

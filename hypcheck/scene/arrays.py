@@ -1,0 +1,82 @@
+"""Hyperboloids and movers from numbers and arrays, with the checks that a file's have; model.py has their meaning."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.forms import named_points
+from hypcheck.geometry.pair import AXIS, CENTER, HEIGHTS, SIZES, trouble_with, trouble_with_axis, trouble_with_heights
+from hypcheck.geometry.rows import as_columns
+from hypcheck.messages import counted
+from hypcheck.scene.model import FREE, Hyperboloid, Mover, Point, Span
+
+
+def hyperboloids_of(
+    alpha: ArrayLike,
+    gamma: ArrayLike,
+    center: ArrayLike,
+    axis: ArrayLike | None,
+    heights: Sequence[ArrayLike],
+    names: Sequence[str] | None,
+) -> tuple[Hyperboloid, ...]:
+    """One hyperboloid for each center, (n, 3); other values are numbers or columns (n,). Raises InputError."""
+    points, axes = named_points("center", center), named_points("axis", (0, 0, 1) if axis is None else axis, AXIS)
+    given = (alpha, gamma, *points.values(), *axes.values(), *heights)
+    columns = [column.tolist() for column in as_columns((*SIZES[:2], *CENTER, *AXIS, *HEIGHTS), given)]
+    count = len(columns[0])
+    called = [f"hyperboloid {number + 1}" for number in range(count)] if names is None else list(map(str, names))
+    if len(called) != count:
+        raise InputError(f"there are {counted(len(called), 'name')} for {counted(count, 'hyperboloid')}")
+    if len(set(called)) != count:
+        twice = next(name for place, name in enumerate(called) if name in called[:place])
+        raise InputError(f"there are two hyperboloids {twice!r}; each must have another name")
+    bodies = []
+    for name, (a, c, x, y, z, u, v, w, low, high, solid) in zip(called, zip(*columns, strict=True), strict=True):
+        trouble = trouble_with_heights((low, high, solid)) or _trouble_with((a, c), (x, y, z), (u, v, w))
+        if trouble is not None:
+            raise InputError(f"the hyperboloid {name!r}: {trouble}")
+        height = None if low == -math.inf and high == math.inf else Span(low, high)
+        bodies.append(Hyperboloid(name, a, c, (x, y, z), height, (u, v, w), bool(solid)))
+    return tuple(bodies)
+
+
+def checked_hyperboloid(body: Hyperboloid) -> Hyperboloid:
+    """The hyperboloid with float64 for its numbers. Raises InputError where one is not valid."""
+    low, high = (-math.inf, math.inf) if body.height is None else (body.height.low, body.height.high)
+    (checked,) = hyperboloids_of(
+        body.alpha, body.gamma, [body.center], [body.axis], (low, high, float(body.solid)), [body.name]
+    )
+    return replace(checked, height=body.height)
+
+
+def point_of(subject: str, point: ArrayLike) -> Point:
+    """Three numbers. Raises InputError."""
+    values = list(named_points(subject, point).values())
+    if any(np.ndim(value) for value in values):
+        raise InputError(f"{subject} is of shape {np.shape(point)}; it must be three numbers")
+    x, y, z = values
+    return x, y, z
+
+
+def require_valid_mover(mover: Mover) -> None:
+    """Raise InputError where a semi-axis, or the axis, of a mover or of its parts is not valid."""
+    for subject, body in [("the mover", mover), *((f"part {k + 1}", part) for k, part in enumerate(mover.parts))]:
+        troubles = (trouble_with(name, getattr(body, name)) for name in SIZES[2:])
+        trouble = next((trouble for trouble in troubles if trouble), None)
+        if trouble is not None:
+            raise InputError(f"{subject}: {trouble}")
+    trouble = None if mover.axis == FREE else trouble_with_axis(mover.axis)
+    if trouble is not None:
+        raise InputError(f"the mover: {trouble}")
+
+
+def _trouble_with(sizes: Sequence[float], center: Sequence[float], axis: Sequence[float]) -> str | None:
+    named = zip((*SIZES[:2], *CENTER), (*sizes, *center), strict=True)
+    troubles = (trouble_with(name, value) for name, value in named)
+    return next((trouble for trouble in troubles if trouble), None) or trouble_with_axis(axis)

@@ -1,0 +1,136 @@
+"""The mesh oracle's search where the hyperboloid ends: the wall between two heights, and the end discs of a solid.
+
+The wall is X(s, θ) = (α cosh s cos θ, α cosh s sin θ, γ sinh s). Over a cell s₀ ≤ s ≤ s₁ the meridian lies in the
+triangle of its chord and its two end tangents, which meet where r = α cosh m/cosh δ, z = γ sinh m/cosh δ, m being the
+middle of s and δ half its width. The arc θ₀ ≤ θ ≤ θ₁ of the unit circle lies in the triangle of its two ends and the
+corner where the tangents there meet. The cell's piece of the wall is products of both, (r, z) times u being (r u, z),
+and so lies in the hull of the nine products of their corners; all this outlives a linear map.
+
+The products of chords with the circumscribed polygon lie outside (F ≥ 0), those of tangents with the inscribed polygon
+inside (F ≤ 0). These are two meshes with the wall between them, and the flat rims between the two at the ends, and at
+the sides of a cell, make a closed body of each cell. All of the wall is clear of the ball if all of these bodies are.
+There is contact if the ball reaches both meshes of one cell: what it holds of the slab between the heights is convex,
+so it holds a way from the one to the other, on which F vanishes.
+
+An end disc is cut in the same way, z being the height of the end and r its own parameter. A pair that touches nothing
+has the side of its centre, which is in the body if it is between the heights too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.rows import Floats, Mask
+from hypcheck.truth import mesh_cells
+from hypcheck.truth.mesh import Refinement
+from hypcheck.truth.mesh_cells import LEAST, REACH, Faces, scaled, side_of_center, slack_of, undecided
+
+_START = 8
+"""Cells around the axis at the beginning."""
+
+WALL = 0
+"""What a cell is part of: the wall, or the disc at the lower end, −1, or at the upper, 1."""
+
+INNER = ((0, 2, 3), (2, 5, 3), (3, 5, 6), (5, 8, 6))
+OUTER = ((0, 1, 6), (1, 7, 6), (1, 2, 7), (2, 8, 7))
+RIMS = ((0, 1, 2), (6, 7, 8), (0, 3, 6), (2, 5, 8))
+"""Triangles of the nine corners: 3 i + j is start, corner or end (i) of the meridian, in such a direction (j)."""
+
+
+class _Scene:
+    """A pair with the spheroid as the unit ball: corners are seen from C in that space."""
+
+    levels = 80
+    on_surface: tuple[int, ...] = (0, 2, 6, 8)
+    clear: Faces = INNER + OUTER + RIMS
+    contact: tuple[Faces, ...] = (INNER, OUTER)
+
+    def __init__(self, pair: Pair, seven: list[float], ends: list[float]) -> None:
+        alpha, gamma, b, d, x, y, z = seven
+        axis = np.array(scaled(pair.axis))
+        axis /= math.sqrt(float(axis @ axis))
+        self.side, self.solid = side_of_center(pair), bool(pair.solid)
+        self.alpha, self.gamma, self.centre, self.ends = alpha, gamma, np.array([x, y, z]), ends
+        self.root = np.eye(3) / b + (1 / d - 1 / b) * np.outer(axis, axis)
+        reach = math.sqrt(b * b + (d * d - b * b) * float(axis[2]) ** 2) * REACH
+        self.low, self.high = max(z - reach, ends[0]), min(z + reach, ends[1])
+
+    def whole(self) -> Floats:
+        """Cells (n, 5) that cover what is within reach: what they are part of, s or r from and to, θ from and to."""
+        parts = list(self._parts())
+        turns = np.linspace(0, 2 * math.pi, _START + 1)
+        rows = [(*part, *turn) for part in parts for turn in pairwise(turns.tolist())]
+        return np.array(rows).reshape(-1, 5)
+
+    def _parts(self) -> Iterator[tuple[float, float, float]]:
+        if self.low <= self.high:
+            first, last = (math.asinh(height / self.gamma) for height in (self.low, self.high))
+            steps = np.linspace(first, last, 2 + math.ceil(last - first))
+            yield from ((WALL, low, high) for low, high in pairwise(steps.tolist()))
+        if self.solid:
+            for side, end in zip((-1, 1), self.ends, strict=True):
+                if self.low <= end <= self.high:
+                    yield side, 0.0, self.alpha * math.hypot(1, end / self.gamma)
+
+    def within_reach(self, cells: Floats) -> Floats:
+        """All cells: those out of reach were left out at the beginning."""
+        return cells
+
+    def usable(self, cells: Floats) -> Mask:
+        """All cells are, (n,)."""
+        return np.ones(len(cells), dtype=np.bool_)
+
+    def corners(self, cells: Floats) -> tuple[Floats, Floats]:
+        """Corners (n, 9, 3) of cells (n, 5), and what roundings may move each, (n,)."""
+        part, low, high, start, end = cells.T
+        middle, half = (low + high) / 2, (high - low) / 2
+        wall = part == WALL
+        s = np.where(wall, np.stack([low, middle, high]), 0)
+        shrink = np.stack([np.ones_like(half), np.cosh(np.where(wall, half, 0)), np.ones_like(half)])
+        r = np.where(wall, self.alpha * np.cosh(s) / shrink, np.stack([low, middle, high]))
+        flat = np.where(part < 0, *self.ends) if self.solid else np.zeros_like(low)
+        z = np.where(wall, self.gamma * np.sinh(s) / shrink, flat)
+        angle, wide = np.stack([start, (start + end) / 2, end]), np.cos((end - start) / 2)
+        u = np.stack([np.cos(angle), np.sin(angle)]) / np.stack([np.ones_like(wide), wide, np.ones_like(wide)])
+        across = np.einsum("in,kjn->nijk", r, u)
+        up = np.broadcast_to(z.T[:, :, None, None], (len(cells), 3, 3, 1))
+        points = np.concatenate([across, up], axis=3).reshape(-1, 9, 3)
+        size = np.abs(points).reshape(len(cells), 27).max(axis=1, initial=0.0) + np.abs(self.centre).max()
+        return (points - self.centre) @ self.root, slack_of(size * (1 + np.abs(s).max(axis=0) / 5), self.root)
+
+    def cut(self, cells: Floats, corners: Floats) -> Floats:
+        """Each cell in halves, across its longer direction."""
+        along = np.maximum(_lengths(corners[:, 0] - corners[:, 6]), _lengths(corners[:, 2] - corners[:, 8]))
+        round_axis = np.maximum(_lengths(corners[:, 0] - corners[:, 2]), _lengths(corners[:, 6] - corners[:, 8]))
+        first = np.where(along >= round_axis, 1, 3)
+        rows = np.arange(len(cells))
+        middle = (cells[rows, first] + cells[rows, first + 1]) / 2
+        one, other = cells.copy(), cells.copy()
+        one[rows, first + 1], other[rows, first] = middle, middle
+        return np.concatenate([one, other])
+
+
+def _lengths(ways: Floats) -> Floats:
+    return np.asarray(np.sqrt(np.einsum("nj,nj->n", ways, ways)))
+
+
+def refine(pair: Pair) -> Refinement:
+    """Halve cells, level by level, until all are beyond the ball, or a point is within it, or neither."""
+    if pair.is_upright:
+        # Theorem 1: lengths across the axis in units of b, those along it in units of d.
+        seven = [pair.alpha / pair.b, pair.gamma / pair.d, 1.0, 1.0, pair.x / pair.b, pair.y / pair.b, pair.z / pair.d]
+        ends = [pair.z_min / pair.d, pair.z_max / pair.d]
+    else:
+        exponent = math.frexp(max(map(abs, pair.row[:7])))[1]
+        seven = scaled(pair.row[:7])
+        ends = [float(np.ldexp(end, -exponent)) for end in (pair.z_min, pair.z_max)]
+    if not min(seven[:4]) >= LEAST * max(map(abs, seven)) or not all(map(math.isfinite, seven)):
+        return undecided(0, 0, f"a size is below {LEAST:.1e} of the largest length")
+    with np.errstate(all="ignore"):
+        scene = _Scene(pair, seven, ends)
+        return mesh_cells.refine(scene, scene.whole())

@@ -1,0 +1,138 @@
+"""The ways to write a call: all forms of the same pairs have the same answers, whichever kernel is in use."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import Pair
+from hypcheck.truth.exact import position as exactly
+
+SIZES = (2.0, 17.8, 0.25, 0.15)
+POINTS = np.array([[0.0, 0.0, 5.0], [1.9, 0.0, 5.0], [3.0, 0.0, 5.0], [2.3, 0.1, -1.0]])
+AXES = np.array([[0.0, 0.0, 1.0], [0.3, 0.1, 0.9], [1.0, 0.0, 0.0], [0.0, 0.0, -3.0]])
+
+
+def by_truth(rows):
+    return [int(exactly(Pair.from_row(row).lengths)) for row in rows]
+
+
+ROWS = [(*SIZES, *point) for point in POINTS.tolist()]
+TURNED = [(*row, *axis) for row, axis in zip(ROWS, AXES.tolist(), strict=True)]
+
+TABLE = {"alpha": 2, "gamma": 17.8, "b": 0.25, "d": 0.15, "x": POINTS[:, 0], "y": POINTS[:, 1], "z": POINTS[:, 2]}
+
+FORMS = {
+    "rows": lambda ask, **more: ask(ROWS, **more),
+    "a table": lambda ask, **more: ask(TABLE, **more),
+    "sizes and points": lambda ask, **more: ask(SIZES, POINTS, **more),
+    "sizes and columns": lambda ask, **more: ask(SIZES, *POINTS.T, **more),
+    "numbers and points": lambda ask, **more: ask(*SIZES, POINTS.tolist(), **more),
+    "numbers and columns": lambda ask, **more: ask(*SIZES, *POINTS.T, **more),
+    "names": lambda ask, **more: ask(alpha=2, gamma=17.8, b=0.25, d=0.15, center=POINTS, **more),
+}
+
+
+@pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
+@pytest.mark.parametrize("ask", [hypcheck.classify, hypcheck.position])
+def test_all_forms_of_the_same_pairs_have_the_same_exact_answers(form, ask):
+    assert form(ask).tolist() == by_truth(ROWS)
+    assert form(ask, axis=AXES).tolist() == by_truth(TURNED)
+    one = [(*row, 0.3, 0.1, 0.9) for row in ROWS]
+    assert form(ask, axis=(0.3, 0.1, 0.9)).tolist() == by_truth(one)
+    ended = [(*row, 0.0, 0.0, 1.0, -1.0, 4.9, 1.0) for row in ROWS]
+    assert form(ask, z_min=-1, z_max=4.9, solid=True).tolist() == by_truth(ended)
+
+
+def test_all_forms_have_the_same_answers_without_the_compiled_kernel():
+    code = (
+        "import hypcheck, tests.kernel.test_call_forms as t\n"
+        "for form in t.FORMS.values():\n"
+        "    for ask in (hypcheck.classify, hypcheck.position):\n"
+        "        assert form(ask).tolist() == t.by_truth(t.ROWS)\n"
+        "        assert form(ask, axis=t.AXES).tolist() == t.by_truth(t.TURNED)\n"
+        "assert hypcheck.position(2, 17.8, 1, 1, 9, 0, 0) == hypcheck.classify((2, 17.8, 1, 1), [9, 0, 0]) == 1\n"
+    )
+    environment = {**os.environ, "HYPCHECK_KERNEL": "numpy"}
+    subprocess.run([sys.executable, "-c", code], check=True, env=environment, timeout=60)
+
+
+def test_heights_may_be_columns():
+    tops = np.array([4.0, 6.0, 4.0, 6.0])
+    rows = [(*row, 0.0, 0.0, 1.0, -np.inf, top, 0.0) for row, top in zip(ROWS, tops.tolist(), strict=True)]
+    assert hypcheck.classify(SIZES, POINTS, z_max=tops).tolist() == by_truth(rows)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named", "sentence"),
+    [
+        ((), {}, "there are no pairs: it takes rows, a table of columns by name"),
+        ((1, 2, 3), {}, r"3 arguments: it takes rows, .* or \(alpha, gamma, b, d, x, y, z\)"),
+        ((SIZES[:3], POINTS), {}, "the sizes are 3; they must be four: alpha, gamma, b, d"),
+        (("sizes", POINTS), {}, "the sizes are 'sizes'; they must be four"),
+        ((SIZES, POINTS[:, :2]), {}, r"the centre is of shape \(4, 2\); it must be three numbers, x, y, z"),
+        ((SIZES, POINTS), {"axis": [1, 2]}, r"axis is of shape \(2,\); it must be three numbers, axis_x"),
+        ((SIZES, POINTS), {"axis": AXES[:3]}, "have shapes that do not fit together"),
+        ((SIZES, POINTS), {"center": POINTS}, "x is given twice; it must be given once"),
+        ((ROWS,), {"x": 3}, "x is given twice"),
+        ((SIZES, POINTS), {"out": [1]}, "out is of type list"),
+        (([1, 2, 1, 1, 2.5, 0, 0],), {"out": np.zeros(1, np.int8)}, "one pair is answered by a number"),
+        ((SIZES, [9, 0, np.nan]), {}, "z is nan; it must be finite"),
+        (([1, 2, 1, -1, 2.5, 0, 0],), {}, "^d is -1.0; a semi-axis must be greater than 0"),
+        ((SIZES, POINTS), {"z_min": 2, "z_max": 1}, "z_min must be less than z_max"),
+        ((SIZES, POINTS), {"margin": -1}, "margin is -1; it must be 0 or more"),
+        ((SIZES, POINTS), {"margin": "wide"}, "margin is 'wide'; it must be a number"),
+    ],
+)
+def test_calls_that_mean_nothing_are_refused_with_what_would_be_right(arguments, named, sentence):
+    with pytest.raises(InputError, match=sentence):
+        hypcheck.classify(*arguments, **named)
+
+
+def distance_of_a_sphere(alpha, gamma, centre, radius):
+    """From a sphere to the wall, by the least over a dense curve in the plane of both: good to 1e-7."""
+    x, y, z = centre
+    height = np.linspace(-4 * gamma, 4 * gamma, 4_000_001)
+    wall = alpha * np.sqrt(1 + (height / gamma) ** 2)
+    return np.sqrt(np.hypot(wall - np.hypot(x, y), height - z).min() ** 2) - radius
+
+
+@pytest.mark.parametrize("centre", [(3.0, 0.0, 5.0), (0.5, 0.4, -3.0), (5.0, 1.0, 0.0)])
+def test_a_margin_makes_contact_of_what_is_not_so_far_away(centre):
+    far = distance_of_a_sphere(2.0, 17.8, centre, 0.25)
+    sizes = (2.0, 17.8, 0.25, 0.25)
+    without = hypcheck.position(*sizes, *centre)
+    assert without != 0
+    for margin, expected in ((far - 1e-5, without), (far + 1e-5, 0), (far / 2, without), (2 * far, 0)):
+        assert hypcheck.position(*sizes, *centre, margin=margin) == expected
+        assert hypcheck.classify(sizes, [centre], margin=margin).tolist() == [expected]
+        assert hypcheck.classify_scene(sizes, [centre], margin=margin).tolist() == [expected]
+        yes = hypcheck.classify(sizes, [centre], margin=margin, question="contact")
+        assert yes.tolist() == [int(expected == 0)]
+
+
+def test_margins_hold_for_spheroids_that_lean_and_beside_ends_and_leave_invalid_rows_marked():
+    rows = np.array([(*row, *axis) for row in ROWS for axis in AXES.tolist()])
+    near = hypcheck.clearance(rows)
+    for margin in (0.01, 0.3, 0.7, 5.0):
+        found = hypcheck.classify(rows, margin=margin)
+        assert (found[near.distance_upper < margin] == 0).all()
+        sure = near.distance_lower >= margin
+        assert (found[sure] == near.position[sure]).all()
+    assert hypcheck.position(2, 17.8, 0.25, 0.25, 0, 0, 19.0, z_max=17.8, margin=0.9) == 1
+    assert hypcheck.position(2, 17.8, 0.25, 0.25, 0, 0, 19.0, z_max=17.8, solid=True, margin=0.9) == 1
+    assert hypcheck.position(2, 17.8, 0.25, 0.25, 0, 0, 19.0, z_max=17.8, solid=True, margin=1.0) == 0
+    marked = hypcheck.classify([[1, 2, 1, 1, 9, 0, 0], [1, 2, 1, -1, 9, 0, 0]], margin=1, on_invalid="flag")
+    assert marked.tolist() == [1, 127]
+
+
+def test_a_number_that_is_a_fraction_is_no_float64():
+    with pytest.raises(InputError):
+        hypcheck.classify(SIZES, Fraction(1, 3), 0, 0)

@@ -1,0 +1,121 @@
+"""Unit normals at nearest points, and ties: what hypcheck.clearance says beside the proved distances."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import hypcheck
+
+SIZES = (2.0, 17.8, 0.25, 0.15)
+
+
+def nearest_on_the_wall(alpha, gamma, centre):
+    """By the least over a dense curve in the plane of the axis and the centre: good to 1e-6."""
+    height = np.linspace(-12 * gamma, 12 * gamma, 4_000_001)
+    wall, turn = alpha * np.sqrt(1 + (height / gamma) ** 2), np.arctan2(centre[1], centre[0])
+    place = int(np.hypot(wall - np.hypot(*centre[:2]), height - centre[2]).argmin())
+    return np.array([wall[place] * np.cos(turn), wall[place] * np.sin(turn), height[place]])
+
+
+@pytest.mark.parametrize("centre", [(3.0, 4.0, 5.0), (0.5, -0.4, -3.0), (2.9, 0.0, 9.0)])
+def test_the_normal_of_a_sphere_points_from_the_nearest_point_to_its_centre(centre):
+    near = hypcheck.clearance(2.0, 17.8, 0.25, 0.25, centre)
+    way = np.array(centre) - nearest_on_the_wall(2.0, 17.8, centre)
+    assert np.abs(near.normal - way / np.linalg.norm(way)).max() < 2e-4
+
+
+def middle(near):
+    return (near.distance_lower + near.distance_upper) / 2
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {},
+        {"axis": (0.3, 0.1, 0.9)},
+        {"axis": (1.0, -2.0, 0.0)},
+        {"z_min": -4.0, "z_max": 6.0},
+        {"z_min": -4.0, "z_max": 6.0, "solid": True, "axis": (0.0, 1.0, 1.0)},
+    ],
+)
+def test_the_normal_is_the_gradient_of_the_distance(more):
+    points = np.array([[3.0, 1.0, 2.0], [0.3, 0.2, 1.0], [2.6, -1.0, 7.5], [1.0, 0.5, 9.0], [0.2, 5.0, -5.0]])
+    near = hypcheck.clearance((2.0, 4.0, 0.5, 0.3), points, **more)
+    assert np.abs(np.linalg.norm(near.normal, axis=1)[~near.contact] - 1).max() < 1e-12
+    step, gradient = 1e-3, np.empty((len(points), 3))
+    for number, way in enumerate(np.eye(3)):
+        there, back = (
+            middle(hypcheck.clearance((2.0, 4.0, 0.5, 0.3), points + sign * step * way, **more)) for sign in (1, -1)
+        )
+        gradient[:, number] = (there - back) / (2 * step)
+    clear = ~near.contact
+    assert clear.sum() >= 3
+    assert np.abs(gradient - near.normal)[clear].max() < 2e-4
+
+
+def test_in_contact_the_distance_is_0_the_normal_nan_and_a_flag_says_so():
+    near = hypcheck.clearance(SIZES, [[2.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.25, 0.0, 0.0]])
+    assert near.contact.tolist() == [True, False, True]
+    assert near.distance_lower.tolist()[::2] == near.distance_upper.tolist()[::2] == [0.0, 0.0]
+    assert np.isnan(near.normal[::2]).all()
+    assert not near.tie.any()
+
+
+TIES = [
+    ((0.0, 0.0, 1.0), {}, True),
+    ((0.0, 0.0, 0.0), {}, True),
+    ((0.5, 0.2, 1.0), {}, False),
+    ((0.5, 0.2, 0.0), {}, False),
+    ((5.0, 0.0, 0.0), {}, False),
+    ((9.0, 0.0, 0.0), {}, True),
+    ((0.0, 0.0, 1.0), {"axis": (1.0, 0.0, 0.0)}, True),
+    ((0.0, 0.0, 0.0), {"axis": (1.0, 0.0, 2.0)}, True),
+    ((0.0, 0.0, 1.0), {"axis": (1.0, 0.0, 2.0)}, False),
+    ((0.0, 0.0, 9.0), {"z_max": 5.0}, True),
+    ((3.0, 1.0, 9.0), {"z_max": 5.0}, False),
+]
+
+
+@pytest.mark.parametrize(("centre", "more", "expected"), TIES)
+def test_a_tie_is_flagged_where_a_symmetry_moves_the_nearest_point(centre, more, expected):
+    near = hypcheck.clearance(2, 3, 0.25, 0.5, centre, **more)
+    assert near.tie == expected
+    assert abs(np.linalg.norm(near.normal) - 1) < 1e-12
+
+
+def test_a_spheroid_far_out_at_the_waist_has_two_nearest_points_above_and_below():
+    """Farther out than α + γ²/α, the radius of the wall's curve at the waist."""
+    near = hypcheck.clearance(1.0, 0.5, 0.1, 0.1, [9.0, 0.0, 0.0])
+    assert abs(near.nearest[2]) > 1
+    assert near.tie
+    assert abs(near.nearest[2]) == pytest.approx(abs(nearest_on_the_wall(1.0, 0.5, (9.0, 0.0, 0.0))[2]), abs=1e-3)
+
+
+def test_on_the_axis_a_spheroid_that_leans_has_one_of_its_nearest_points():
+    near = hypcheck.clearance(2, 3, 0.25, 0.5, [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], axis=[[1, 0, 0], [1, 0, 2]])
+    x, _, z = near.nearest.T
+    assert np.abs(x**2 / 4 + near.nearest[:, 1] ** 2 / 4 - z**2 / 9 - 1).max() < 1e-9
+    assert (near.distance_lower <= near.distance_upper).all()
+    assert (near.distance_upper - near.distance_lower < 0.2).all()
+    points = np.linalg.norm(near.nearest - [[0, 0, 1], [0, 0, 0]], axis=1)
+    assert (near.distance_upper > points - 0.5).all()
+    assert near.tie.all()
+
+
+def test_one_pair_has_numbers_and_many_have_arrays():
+    one = hypcheck.clearance(*SIZES, 3, 4, 0)
+    many = hypcheck.clearance(SIZES, [[3, 4, 0]])
+    assert isinstance(one.distance_lower, float)
+    assert one.position == 1
+    assert isinstance(one.position, int)
+    assert one.nearest.shape == one.normal.shape == (3,)
+    for name in ("position", "distance_lower", "distance_upper", "lower", "upper", "touch_error"):
+        assert getattr(many, name).tolist() == [getattr(one, name)]
+    assert many.normal.tolist() == [one.normal.tolist()]
+    assert many.nearest.shape == many.touch.shape == (1, 3)
+
+
+def test_the_distance_is_said_first():
+    said = repr(hypcheck.clearance(*SIZES, 3, 4, 0))
+    assert said.index("distance_lower") < said.index("nearest") < said.index(" lower=")

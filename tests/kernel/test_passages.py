@@ -1,0 +1,123 @@
+"""Many straight ways at once, of pairs and of scenes: hits, first times, and which hyperboloid."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+from hypcheck.truth import swept
+
+SIZES = (2.0, 17.8, 0.25, 0.15)
+STARTS = np.array([[1.5, 0.0, 9.0], [0.0, 0.0, 30.0], [3.0, 0.0, 0.0], [5.0, 1.0, 0.0], [2.1, 0.0, 0.0]])
+ENDS = np.array([[1.5, 0.0, -9.0], [5.0, 0.0, 30.0], [0.0, 0.0, 0.0], [5.0, -1.0, 2.0], [9.0, 0.0, 0.0]])
+
+
+def alone(sizes, start, end, **more):
+    return swept.passage(sizes, start, end, **more)
+
+
+@pytest.mark.parametrize(
+    "more", [{}, {"axis": (0.3, 0.1, 0.9)}, {"z_min": -1.0, "z_max": 20.0}, {"z_max": 8.5, "solid": True}]
+)
+def test_many_ways_are_answered_as_the_exact_decision_about_each(more):
+    found = hypcheck.passage(SIZES, STARTS, ENDS, **more)
+    each = [alone(SIZES, start, end, **more) for start, end in zip(STARTS.tolist(), ENDS.tolist(), strict=True)]
+    assert found.hit.tolist() == [way.hit for way in each]
+    assert len({*found.hit.tolist()}) == 2
+    assert found.first == [way.first for way in each]
+    assert np.array_equal(found.first_lower, [way.first_lower for way in each], equal_nan=True)
+    assert np.array_equal(found.first_upper, [way.first_upper for way in each], equal_nan=True)
+    assert found.index.tolist() == [0 if way.hit else -1 for way in each]
+
+
+def test_ways_are_written_in_every_form_with_the_same_answers():
+    expected = [alone(SIZES, *way).hit for way in zip(STARTS.tolist(), ENDS.tolist(), strict=True)]
+    names = dict(zip(("alpha", "gamma", "b", "d"), SIZES, strict=True))
+    table = names | dict(zip(("x", "y", "z", "x1", "y1", "z1"), np.hstack([STARTS, ENDS]).T, strict=True))
+    rows = np.hstack([np.tile(SIZES, (5, 1)), STARTS, ENDS])
+    for ways in (
+        (SIZES, STARTS, ENDS),
+        (*SIZES, STARTS, ENDS.tolist()),
+        (table,),
+        (rows,),
+        (np.hstack([rows, [[0, 0, 2]] * 5]),),
+    ):
+        assert hypcheck.passage(*ways).hit.tolist() == expected
+    assert hypcheck.passage(SIZES, STARTS, ENDS, axis=[[0, 0, 1]] * 5).hit.tolist() == expected
+
+
+def test_one_way_has_numbers():
+    for way in ((SIZES, (3, 0, 0), (0, 0, 0)), (*SIZES, (3, 0, 0), (0, 0, 0))):
+        found = hypcheck.passage(*way)
+        assert found.hit is True
+        assert found.first_lower <= 0.25 <= found.first_upper
+        assert found.first_upper - found.first_lower < 1e-15
+        assert found.index == 0
+        assert isinstance(found.first[0], Fraction)
+    clear = hypcheck.passage(SIZES, (9, 0, 0), (9, 9, 0))
+    assert not clear.hit
+    assert math.isnan(clear.first_lower)
+    assert (clear.first, clear.index) == (None, -1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ((SIZES, STARTS), "passage takes .sizes, start, end., .* not 2 arguments"),
+        ((SIZES[:3], STARTS, ENDS), "the sizes are 3; they must be four"),
+        ((SIZES, STARTS, ENDS[:2]), "have shapes that do not fit together"),
+        ((SIZES, STARTS, ENDS * np.nan), "row 0: x1 is nan; it must be finite"),
+        ((SIZES, STARTS[:, :2], ENDS), r"start is of shape \(5, 2\); it must be three numbers, x0, y0, z0"),
+    ],
+)
+def test_ways_that_mean_nothing_are_refused(arguments, sentence):
+    with pytest.raises(InputError, match=sentence):
+        hypcheck.passage(*arguments)
+
+
+TREES = """
+name = "two trees"
+[[hyperboloid]]
+name = "near"
+alpha = 1
+gamma = 3
+center = [4, 0, 0]
+height = [-5, 5]
+[[hyperboloid]]
+name = "far"
+alpha = 1
+gamma = 3
+center = [12, 0, 0]
+[mover]
+b = 0.5
+d = 0.5
+"""
+
+
+def test_a_scene_says_which_tree_is_hit_first_and_when():
+    scene = hypcheck.Scene.from_text(TREES)
+    one = scene.passage((0, 0, 0), (10, 0, 0))  # its wall is at 3: the mover touches at 2.5
+    assert (one.hit, one.index) == (True, 0)
+    assert one.first_lower <= 0.25 <= one.first_upper
+    assert one.first_upper - one.first_lower < 1e-12
+    back = scene.passage([(20, 0, 0), (20, 0, 0), (0, 9, 0)], [(0, 0, 0), (14, 0, 0), (10, 9, 0)])
+    assert back.hit.tolist() == [True, False, False]
+    assert back.index.tolist() == [1, -1, -1]
+    assert back.first_lower[0] <= 6.5 / 20 <= back.first_upper[0]
+    assert np.isnan(back.first_lower[1:]).all()
+    above = scene.passage((4, 0, 9), (4, 0, 0))  # in through the mouth of an open tree
+    assert not above.hit
+
+
+def test_a_scene_with_parts_says_when_a_part_is_hit_first():
+    parts = TREES + "[[mover.part]]\nb = 0.1\nd = 0.1\narm = 0.25\nangle = 0\n"
+    scene = hypcheck.Scene.from_text(parts)
+    found = scene.passage((0, 0, 0), (10, 0, 0))  # the part is at 0.25 ahead: it touches at 2.65
+    assert found.hit
+    assert found.first_lower <= 0.265 <= found.first_upper
+    assert found.first_upper - found.first_lower < 1e-12

@@ -1,0 +1,166 @@
+"""Scenes from arrays, scenes with one hyperboloid more, less or elsewhere, and margins in scenes."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.errors import InputError
+
+MOVER = hypcheck.Mover(0.3, 0.5)
+
+
+def arrays(count, seed=3):
+    random = np.random.default_rng(seed)
+    side = (9.0 * count) ** 0.5
+    center = np.column_stack([random.uniform(0, side, (count, 2)), random.uniform(-1, 1, count)])
+    return random.uniform(0.2, 0.6, count), random.uniform(1.0, 3.0, count), center, side
+
+
+def scene_of(count, seed=3, **more):
+    alpha, gamma, center, _ = arrays(count, seed)
+    return hypcheck.Scene.from_arrays(alpha, gamma, center, mover=MOVER, z_min=-2.0, z_max=2.5, **more)
+
+
+def centres(count, side, seed=5):
+    random = np.random.default_rng(seed)
+    return np.column_stack([random.uniform(0, side, (count, 2)), random.uniform(-3, 3, count)])
+
+
+def test_a_scene_from_arrays_is_the_scene_of_a_file():
+    body = "[[hyperboloid]]\nsolid = true\nalpha = 1\n"
+    text = (
+        'name = "s"\n[mover]\nb = 0.3\nd = 0.5\n'
+        f'{body}name = "a"\ngamma = 2\ncenter = [1, 2, 3]\naxis = [0.1, 0, 1]\nheight = [-1, 2]\n'
+        f'{body}name = "b"\ngamma = 4\ncenter = [5, 2, 3]\naxis = [0, 0, 1]\nheight = [-1, 3]\n'
+    )
+    made = hypcheck.Scene.from_arrays(
+        1, [2, 4], [[1, 2, 3], [5, 2, 3]], [[0.1, 0, 1], [0, 0, 1]], mover=MOVER, z_min=-1, z_max=[2, 3], solid=True,
+        names=["a", "b"], name="s",
+    )  # fmt: skip
+    assert made.model == hypcheck.Scene.from_text(text).model
+    assert made.position(2.0, 2.0, 3.0) == made.position([2, 2, 3]) == 0
+
+
+def same_answers(scene, other, side):
+    points = centres(3000, side)
+    expected = other.classify(points)
+    assert len({*expected.tolist()}) > 1
+    assert (scene.classify(points) == expected).all()
+    assert [scene.position(*point) for point in points[:200].tolist()] == expected[:200].tolist()
+    ways = points[:300], points[1:301]
+    assert (scene.passage(*ways).hit == other.passage(*ways).hit).all()
+    near, truth = scene.nearest(points[:50]), other.nearest(points[:50])
+    assert near.index.tolist() == truth.index.tolist()
+    assert near.distance_upper.tolist() == truth.distance_upper.tolist()
+
+
+@pytest.mark.parametrize("count", [3, 400])
+def test_scenes_with_one_hyperboloid_more_less_or_elsewhere_answer_as_new_ones(count):
+    scene, (_, _, _, side) = scene_of(count), arrays(count)
+    model, random = scene.model, np.random.default_rng(9)
+    bodies = list(model.hyperboloids)
+    for turn in range(12):
+        if turn % 3 == 0:
+            body = hypcheck.Hyperboloid(f"new {turn}", 0.5, 2.0, (*random.uniform(0, side, 2).tolist(), 0.0))
+            scene, bodies = scene.with_hyperboloid(body), [*bodies, body]
+        elif turn % 3 == 1:
+            place = int(random.integers(0, len(bodies)))
+            center = (*random.uniform(0, side, 2).tolist(), 0.25)
+            scene = scene.moved(bodies[place].name if turn % 2 else place, center)
+            bodies[place] = hypcheck.Hyperboloid(
+                bodies[place].name, bodies[place].alpha, bodies[place].gamma, center, bodies[place].height
+            )
+        else:
+            place = int(random.integers(0, len(bodies)))
+            scene = scene.without(bodies.pop(place).name)
+    assert scene.model.hyperboloids == tuple(bodies)
+    new = hypcheck.Scene(hypcheck.SceneModel(model.name, model.question, tuple(bodies), MOVER))
+    same_answers(scene, new, side)
+
+
+def test_a_scene_is_not_changed_by_what_is_made_of_it():
+    scene, (_, _, _, side) = scene_of(50), arrays(50)
+    points = centres(1000, side)
+    before = scene.classify(points).tolist()
+    scene.moved(0, (0, 0, 0)), scene.without(3), scene.with_hyperboloid(hypcheck.Hyperboloid("x", 9.0, 9.0))
+    assert scene.classify(points).tolist() == before
+    assert len(scene.model.hyperboloids) == 50
+
+
+def test_a_change_costs_far_less_than_a_new_scene():
+    alpha, gamma, center, _ = arrays(20_000)
+    started = time.perf_counter()
+    scene = hypcheck.Scene.from_arrays(alpha, gamma, center, mover=MOVER)
+    scene.position(0.0, 0.0, 0.0)
+    new, started = time.perf_counter() - started, time.perf_counter()
+    for place in range(5):
+        scene = scene.moved(place, (1.0, 2.0, 0.0))
+        scene.position(1.0, 2.0, 0.0)
+    assert (time.perf_counter() - started) / 5 < new / 5
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (
+            lambda scene: scene.without("oak"),
+            "there is no hyperboloid 'oak'; it must be a name, or a number from 0 to 2",
+        ),
+        (lambda scene: scene.without(3), "there is no hyperboloid 3"),
+        (lambda scene: scene.moved(0, (1, 2)), r"center is of shape \(2,\); it must be three numbers"),
+        (lambda scene: scene.moved(0, (1, 2, np.nan)), "the hyperboloid 'hyperboloid 1': z is nan; it must be finite"),
+        (lambda scene: scene.moved(0, (1, 2, 3), (0, 0, 0)), "axis_x, axis_y, axis_z are 0, 0, 0"),
+        (lambda scene: scene.with_hyperboloid(hypcheck.Hyperboloid("new", -1.0, 1.0)), "'new': alpha is -1.0"),
+        (
+            lambda scene: scene.with_hyperboloid(scene.model.hyperboloids[0]),
+            "there is a hyperboloid 'hyperboloid 1' already",
+        ),
+        (
+            lambda _: hypcheck.Scene.from_arrays([1, -1], 1, [[1, 2, 3]] * 2, mover=MOVER),
+            "'hyperboloid 2': alpha is -1.0",
+        ),
+        (
+            lambda _: hypcheck.Scene.from_arrays(1, 1, [[1, 2, 3]] * 2, mover=MOVER, names=["a"]),
+            "there are 1 name for 2",
+        ),
+        (lambda _: hypcheck.Scene.from_arrays(1, 1, [[1, 2, 3]] * 2, mover=MOVER, names="aa"), "two hyperboloids 'a'"),
+        (lambda _: hypcheck.Scene.from_arrays(1, 1, [[1, 2]], mover=MOVER), r"center is of shape \(1, 2\)"),
+        (
+            lambda _: hypcheck.Scene.from_arrays(1, 1, [1, 2, 3], mover=hypcheck.Mover(1.0, -1.0)),
+            "the mover: d is -1.0",
+        ),
+        (
+            lambda _: hypcheck.Scene.from_arrays(1, 1, [1, 2, 3], mover=MOVER, z_min=2, z_max=1),
+            "z_min must be less than",
+        ),
+    ],
+)
+def test_what_is_no_hyperboloid_is_refused_by_its_name(change, sentence):
+    with pytest.raises(InputError, match=sentence):
+        change(scene_of(3))
+
+
+@pytest.mark.parametrize("margin", [0.01, 0.4, 3.0])
+def test_a_margin_in_a_scene_makes_contact_of_what_is_nearer(margin):
+    scene, (_, _, _, side) = scene_of(30), arrays(30)
+    points = centres(400, side)
+    found, near = scene.classify(points, margin=margin), scene.nearest(points)
+    plain = scene.classify(points)
+    sure = near.distance_lower >= margin
+    assert (found[near.distance_upper < margin] == 0).all()
+    assert (found[sure] == plain[sure]).all()
+    assert [scene.position(*point, margin=margin) for point in points[:20].tolist()] == found[:20].tolist()
+
+
+def test_a_margin_holds_for_the_parts_of_a_mover():
+    parts = (hypcheck.MoverPart(0.1, 0.1, 0.2, 0.0), hypcheck.MoverPart(0.1, 0.1, 0.2, 180.0))
+    mover = hypcheck.Mover(0.3, 0.1, parts)
+    scene = hypcheck.Scene.from_arrays(1, 3, [0, 0, 0], mover=mover)
+    # Its parts lie along the x axis; the wall is at x = 1, and the nearer part ends 0.3 from the mover's centre.
+    assert scene.position(1.5, 0.0, 0.0, 0.0) == 1
+    assert scene.position(1.5, 0.0, 0.0, 0.0, margin=0.15) == 1
+    assert scene.position(1.5, 0.0, 0.0, 0.0, margin=0.25) == 0

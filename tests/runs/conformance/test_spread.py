@@ -1,0 +1,83 @@
+"""What a run says of its evenness: how wide a slice near contact could have escaped it, and which coincidences met."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.record import read
+from hypcheck.record.lines import ImplementationLine
+from hypcheck.runs.spread import evenness
+from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.strata import COORDINATES, UPRIGHT
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return FAMILIES["strata"].rows(5, 700)
+
+
+@pytest.fixture
+def line_of(tmp_path, monkeypatch, text_reports):
+    """What a run of a right implementation says of itself."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*options):
+        words = ("verify", "builtin:fast", "--families", "strata,coincidences", "--out", "out", *options)
+        assert main([*words]) == 0
+        (line,) = read(Path("out")).of(ImplementationLine)
+        return line
+
+    return run
+
+
+def test_every_slice_as_wide_as_the_run_says_holds_three_rows_and_of_two_coordinates_one(rows):
+    found = evenness(rows, UPRIGHT)
+    places = {name: COORDINATES[name](rows) for name in UPRIGHT}
+    for low in np.linspace(0, 1 - found.one, 997):
+        for some in places.values():
+            assert ((some >= low) & (some <= low + found.one)).sum() >= 3
+    lows = np.linspace(0, 1 - found.two, 23)
+    for first in UPRIGHT:
+        for second in UPRIGHT:
+            for low in lows if first != second else ():
+                inside = (places[first] >= low) & (places[first] <= low + found.two)
+                assert all(
+                    (inside & (places[second] >= other) & (places[second] <= other + found.two)).any() for other in lows
+                )
+
+
+@pytest.mark.parametrize("name", UPRIGHT)
+def test_rows_without_a_slice_are_said_to_leave_one_that_is_as_wide(rows, name):
+    places = COORDINATES[name](rows)
+    left = evenness(rows[(places < 0.4) | (places > 0.5)], UPRIGHT)
+    assert left.one > 0.1 - 1e-12
+    assert left.two > 0.1 - 1e-12
+    assert evenness(rows, UPRIGHT).one < 0.02
+
+
+def test_few_rows_leave_everything_open(rows):
+    assert (evenness(rows[:2], UPRIGHT).one, evenness(rows[:2], UPRIGHT).two) == (1.0, 1.0)
+
+
+def test_a_run_says_how_evenly_it_asked_and_a_thorough_one_asks_ten_times_as_much(line_of, capsys):
+    usual = line_of("--count", "20")
+    said = capsys.readouterr().out
+    assert re.search(r"near contact of upright spheroids, every slice of \d\.\d % of .* or azimuth was asked 3", said)
+    assert "coincidences, three together: 383 of 383 that are possible were asked" in said
+    thorough = line_of("--count", "20", "--thorough")
+    assert read(Path("out")).header.options["count"] == 200
+    assert (usual.slices["strata"].rows, thorough.slices["strata"].rows) == (240 + 200, 240 + 2000)
+    assert thorough.slices["strata"].one < usual.slices["strata"].one
+    assert thorough.slices["strata"].two < usual.slices["strata"].two
+
+
+def test_rows_outside_the_domain_do_not_count(line_of):
+    everything = line_of("--count", "3").slices["strata"]
+    some = line_of("--count", "3", "--domain", '{"ratio": [0.125, 8]}').slices["strata"]
+    assert some.rows < everything.rows
+    assert some.one > everything.one

@@ -1,0 +1,94 @@
+"""The mesh oracle where the hyperboloid ends: its meshes hold the wall between them; it is right or undecided."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Pair, Position
+from hypcheck.truth.mesh import MeshOutcome, availability, distance_to_mesh
+from hypcheck.truth.mesh_ends import refine
+from hypcheck.truth.mesh_oracle import verdict
+from tests.tools.oracle_agreement import main
+
+pytestmark = pytest.mark.skipif(availability() is not None, reason="python-fcl is not installed")
+TREE = (0.2, 1.0, 0.3, 0.2)
+"""The trunk's and the drone's sizes in the two trees: the trunk ends at z = 2, its rim is at r = 0.2 √5."""
+RIM = 0.2 * math.sqrt(5)
+
+
+def asked(x, z, *heights, axis=(0, 0, 1), sizes=TREE):
+    return verdict(Pair.from_row((*sizes, x, 0, z, *axis, *heights)))
+
+
+@pytest.mark.parametrize("solid", [0, 1])
+@pytest.mark.parametrize("axis", [(0, 0, 1), (1e-9, 0, 1)])
+def test_mesh_oracle_says_contact_on_the_rim_of_a_tree_that_ends_and_exterior_above_it(axis, solid):
+    assert asked(RIM, 2.01, -1, 2, solid, axis=axis).position is Position.CONTACT
+    assert asked(RIM, 2.2001, -1, 2, solid, axis=axis).position is Position.EXTERIOR
+    assert asked(RIM, 2.1999, -1, 2, solid, axis=axis).position is Position.CONTACT
+    assert asked(RIM, -1.21, -1, 2, solid, axis=axis).position is Position.EXTERIOR
+    assert asked(RIM, 2.2001, -1, math.inf, solid, axis=axis).position is Position.CONTACT
+
+
+def test_mesh_oracle_knows_the_disc_of_a_solid_that_a_spheroid_touches_within_its_rim():
+    inside = (5.0, 5.0, 0.5, 0.5)
+    for solid, position in ((0, Position.INTERIOR), (1, Position.CONTACT)):
+        assert asked(0.0, 1.0, -3, 1.2, solid, sizes=inside).position is position
+    assert asked(0.0, 1.6, -3, 1.0, 1, sizes=inside).position is Position.EXTERIOR
+    assert asked(0.0, 1.0, -3, 3.0, 1, sizes=inside).position is Position.INTERIOR
+    assert asked(0.0, 1.0, -3, 1.5, 1, sizes=inside).position is None  # it touches the disc
+
+
+def test_mesh_oracle_says_contact_where_a_short_wall_is_all_within_the_spheroid():
+    assert asked(0.0, 0.0, -0.01, 0.01, 0, sizes=(0.5, 1.0, 2.0, 2.0)).position is Position.CONTACT
+    assert asked(0.0, 0.0, -0.01, 0.01, 0, sizes=(0.5, 1.0, 0.4, 0.4)).position is Position.INTERIOR
+
+
+@pytest.mark.parametrize("solid", [0, 1])
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.3, 0.4, 0.5)])
+def test_meshes_of_a_clear_pair_hold_the_wall_and_the_discs_between_them(solid, axis):
+    """The bodies that FCL is asked about hold the wall: they are beyond the ball, and as near as any of its points."""
+    b, d, x, z, top = 0.5, 0.25, 1.55, 0.35, 0.5
+    pair = Pair.from_row((1.0, 2.0, b, d, x, 0.0, z, *axis, -1.0, top, solid))
+    search = refine(pair)
+    assert search.outcome is MeshOutcome.CLEAR
+    ((vertices, triangles),) = search.meshes
+    w, t = (part.ravel() for part in np.meshgrid(np.linspace(-1, top, 801), np.linspace(-math.pi, math.pi, 1601)))
+    r = np.hypot(1, w / 2)
+    unit = np.array(axis) / np.linalg.norm(axis)
+    way = np.stack([r * np.cos(t) - x, r * np.sin(t), w - z])
+    along = unit @ way
+    least = math.sqrt((((way * way).sum(axis=0) - along**2) / b**2 + (along / d) ** 2).min())
+    assert 1 < distance_to_mesh(vertices, triangles) <= least * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("x", [0.4, 1.6])
+def test_contact_is_shown_by_one_mesh_inside_the_hyperboloid_and_one_outside_both_between_its_ends(x):
+    draw = np.random.default_rng(2)
+    search = refine(Pair.from_row((1.0, 2.0, 1.0, 1.0, x, 0.3, 0.5, 0, 0, 1, -1.0, 0.75, 0)))
+    assert search.outcome is MeshOutcome.CONTACT
+    for side, (vertices, triangles) in zip((-1, 1), search.meshes, strict=True):
+        for triangle in triangles:
+            px, py, pz = (draw.dirichlet([1, 1, 1], 20) @ vertices[triangle] + (x, 0.3, 0.5)).T
+            assert (side * (px * px + py * py - pz * pz / 4 - 1) >= -1e-12).all()
+            assert (np.abs(pz + 0.125) <= 0.875 + 1e-12).all()
+
+
+def test_mesh_oracle_is_undecided_where_fcl_does_not_confirm_what_it_found_about_an_end():
+    for z in (2.01, 2.2001):
+        pair = Pair.from_row((*TREE, RIM, 0, z, 0, 0, 1, -1, 2, 0))
+        assert verdict(pair).position is not None
+        assert verdict(pair, lambda *_: 1.0).position is None
+
+
+def test_mesh_oracle_leaves_extreme_ratios_of_lengths_beside_an_end_undecided():
+    assert verdict(Pair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3, -1, 1, 0))).position is None
+    assert verdict(Pair.from_row((1e300, 1, 1e-300, 1, 2, 0, 0, 0, 0, 1, -1, 1, 0))).position is None
+
+
+def test_mesh_oracle_is_never_wrong_about_random_rows_beside_ends(capsys):
+    assert main(["mesh", "--rows", "400", "--families", "ended,rim,disc,slab"]) == 0
+    assert "0 disagreements" in capsys.readouterr().out

@@ -1,0 +1,69 @@
+"""Signs of quadratics at each other's roots, against sympy's real roots."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hypcheck.truth.pencil import sign_at
+from hypcheck.truth.polynomial_roots import isolate, polynomial_product
+from hypcheck.truth.surds import Surd, sign_at_root
+
+X = sympy.Symbol("x")
+SMALL = st.integers(-6, 6)
+
+
+def surds(numbers):
+    return [Surd(Fraction(number)) for number in numbers]
+
+
+def expected(f, g, low, high):
+    """The sign of g at the root of f between the two, None where there are two roots or an end is one."""
+    f, g = (sympy.Poly(numbers, X) for numbers in (f, g))
+    if f.degree() < 1:
+        return 0
+    roots = [root for root in set(sympy.real_roots(f)) if low <= root <= high]
+    if len(roots) > 1 or any(root in (low, high) for root in roots):
+        return None
+    return int(sympy.sign(sympy.expand(g.as_expr().subs(X, roots[0])))) if roots else 0
+
+
+@given(st.tuples(SMALL, SMALL, SMALL).filter(any), st.tuples(SMALL, SMALL, SMALL), SMALL, st.integers(1, 8))
+def test_sign_of_a_quadratic_at_the_one_root_of_another_is_that_at_sympys_root(f, g, low, width):
+    right = expected(f, g, low, low + width)
+    if right is not None:
+        assert sign_at_root(surds(f), surds(g), Fraction(low), Fraction(low + width)) == right
+
+
+@given(st.integers(1, 9), st.integers(-9, 9), st.integers(1, 5))
+def test_a_quadratic_that_vanishes_at_the_root_has_the_sign_0_there(square, shift, factor):
+    """The root is shift + √square."""
+    f = (1, -2 * shift, shift * shift - square)
+    low = Fraction(shift)
+    assert sign_at_root(surds(f), surds([factor * number for number in f]), low, low + 4) == 0
+    for other in (-1, 1):
+        beside = [factor * number for number in f]
+        beside[2] += other
+        assert sign_at_root(surds(f), surds(beside), low, low + 4) == other
+
+
+def test_the_sign_of_a_polynomial_at_its_own_root_is_0():
+    for root in (Fraction(0), Fraction(2), Fraction(-3, 7)):
+        beside = (root.denominator, -root.numerator)
+        assert sign_at(beside, root) == 0
+        assert (sign_at(beside, root + 1), sign_at(beside, root - 1)) == (1, -1)
+
+
+@pytest.mark.parametrize("gap", [Fraction(1, 3), Fraction(1, 1 << 60), Fraction(1 << 90)])
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_two_roots_are_enclosed_apart_however_near_or_far_they_are(gap, sign):
+    first = Fraction(5, 3)
+    roots = sorted((sign * first, sign * (first + gap)))
+    factors = [(root.denominator, -root.numerator) for root in roots]
+    found = isolate(polynomial_product(*factors))
+    assert len(found) == 2
+    assert all(low < root < high for root, (low, high) in zip(roots, found, strict=True))

@@ -1,0 +1,64 @@
+"""Both bodies turned together keep their position, decided where the hyperboloid leans too; by rational rotations."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from hypcheck import passage
+from hypcheck.kernel.scene import Scene
+from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
+from hypcheck.vectors.frozen import load
+
+TURNS = {
+    "a cycle of the axes": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]),
+    "thirds": np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]),
+    "sevenths": np.array([[2, -6, 3], [3, -2, -6], [6, 3, 2]]),
+}
+"""Whole multiples of rotations: a row is as long as the first one."""
+
+ROWS = [case for case in load("tilted-small-integers").cases if all(float(x).is_integer() for x in case.row)][:60]
+
+
+def turned(turn, row):
+    """Sizes, the centre and both axes, turned and as much longer as the matrix says."""
+    scale = round(float(np.sqrt((turn[0] ** 2).sum())))
+    place, axis = (turn @ np.array(part) for part in (row[4:7], row[7:10]))
+    return [scale * size for size in row[:4]], place.tolist(), axis.tolist(), turn[:, 2].tolist()
+
+
+def scene_of(sizes, axis, upward):
+    alpha, gamma, b, d = sizes
+    tree = Hyperboloid("tree", alpha, gamma, (0.0, 0.0, 0.0), axis=tuple(map(float, upward)))
+    mover = Mover(b, d, axis=tuple(map(float, axis)))
+    return Scene(SceneModel("turned", "position", (tree,), mover, Region(z=Span(-1e6, 1e6))))
+
+
+@pytest.mark.parametrize("name", TURNS)
+def test_a_scene_that_is_turned_answers_as_the_frozen_label_of_the_pair(name):
+    assert len(ROWS) == 60
+    for case in ROWS:
+        sizes, place, axis, upward = turned(TURNS[name], case.row)
+        assert scene_of(sizes, axis, upward).position(*map(float, place)) == case.position
+
+
+@pytest.mark.parametrize("name", TURNS)
+def test_a_passage_that_is_turned_meets_where_the_pair_at_its_start_is_in_contact_or_on_the_way(name):
+    for case in ROWS[:20]:
+        sizes, place, axis, upward = turned(TURNS[name], case.row)
+        still = passage(sizes, place, place, axis, upward)
+        assert still.hit == (case.position == 0)
+        away = [Fraction(part) * 3 for part in place]
+        row = [*map(Fraction, case.row[:4]), *map(Fraction, case.row[4:7])]
+        straight = passage(row[:4], row[4:7], [3 * part for part in row[4:7]], list(case.row[7:10]))
+        assert passage(sizes, place, away, axis, upward).hit == straight.hit
+
+
+def test_axes_that_lie_across_the_hyperboloids_are_parallel_only_if_their_cross_product_is_0():
+    """A long spheroid that leans by 18° meets the wall, whose slope is 14°, and a parallel one does not."""
+    sizes, here, upward = (1.0, 4.0, 0.25, 8.0), (0.0, 0.0, 0.0), (1.0, 2.0, 0.0)
+    for axis, position in (((1.0, 2.0, 0.0), -1), ((1.0, 1.0, 0.0), 0), ((-2.0, -4.0, 0.0), -1)):
+        assert scene_of(sizes, axis, upward).position(*here) == position
+        assert passage(sizes, here, here, axis, upward).hit == (position == 0)
