@@ -22,6 +22,7 @@ BESIDE = (
     "docs/site.css",
     "docs/**/*.svg",
     "docs/**/*.txt",
+    "docs/**/*.toml",
     "cases/LICENSE",
     "cases/**/*.json",
     "hypcheck/report/schemas/*.json",

@@ -12,8 +12,9 @@ Of a mover that reaches over an end, in the hyperboloid's frame:
   its own height it reaches b across the axis, or its shorter semi-axis at least, and e above or below, where both are
   upright, b √(1 − e²/d²).
 
-What is left is decided by truth/ends.py. Heights and distances from an axis are those of along_and_across, with a bound
-of their error; ρ is wrong by α/γ of the error of the height and MARGIN of itself.
+What is left is asked of the kernel, about a spheroid that is a little larger and one that is smaller, where the
+hyperboloid is vertical, and then decided by truth/ends.py. Heights and distances from an axis are those of
+along_and_across, with a bound of their error; ρ is wrong by α/γ of the error of the height and MARGIN of itself.
 """
 
 from __future__ import annotations
@@ -26,10 +27,19 @@ from typing import Any
 
 import numpy as np
 
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Position
-from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows
+from hypcheck.kernel.classify import kernel
 from hypcheck.kernel.scene_index import Bodies
-from hypcheck.kernel.scene_pairs import GREATEST, LEAST, MARGIN, along_and_across, height_and_distance
+from hypcheck.kernel.scene_pairs import (
+    GREATEST,
+    LEAST,
+    MARGIN,
+    along_and_across,
+    height_and_distance,
+    larger_and_smaller,
+)
 from hypcheck.scene.model import Mover, leans
 from hypcheck.truth import ends
 
@@ -131,12 +141,39 @@ def positions_with_ends(
     exterior = beyond | (whole == Position.EXTERIOR) | (open_inside & outer)
     known = between | (open_inside & inner) | crosses
     result = np.where(exterior, Position.EXTERIOR, whole).astype(np.int8)
-    for index in np.flatnonzero(~(exterior | known)).tolist():
+    rest = np.flatnonzero(~(exterior | known))
+    stands = rest[~bodies.leaning[body[rest]]]
+    if len(stands):
+        rows = np.concatenate([sizes, movers, spans, solid[:, None]], axis=1)[stands]
+        result[stands] = _by_kernel(rows, centres[stands], origins[stands], inner[stands], outer[stands])
+        rest = np.setdiff1d(rest, stands[result[stands] != CANNOT_SAY])
+    for index in rest.tolist():
         row, centre, origin, mover, axis, span = (
             column[index].tolist() for column in (sizes, centres, origins, movers, axes, spans)
         )
         result[index] = _exactly(int(whole[index]), row, centre, origin, mover, axis, span, solid=bool(solid[index]))
     return result
+
+
+def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mask) -> Positions:
+    """Positions beside vertical hyperboloids by the kernel, 2 where it does not tell; rows lack the centres' columns.
+
+    It is asked about a spheroid that contains the exact one, and about one within it. What is clear of the wall lies on
+    the side of its centre, which counts where it is surely between the ends (`inner`), or beyond one (`outer`).
+    """
+    place, error = two_sum(centres, -origins)
+    lost = np.abs(error).sum(axis=1)
+    larger, smaller, fits = larger_and_smaller(rows[:, 2:4], lost)
+    around, within = (
+        kernel().answer_ended(np.concatenate([rows[:, :2], size, place, rows[:, 4:]], axis=1))
+        for size in (larger, smaller)
+    )
+    solid = rows[:, -1] != 0
+    sure = (around == Position.EXTERIOR) | (around == Position.INTERIOR)
+    found = np.where(sure & (solid | inner), around, CANNOT_SAY)
+    found[sure & ~solid & outer] = Position.EXTERIOR
+    found[(within == Position.CONTACT) & fits] = Position.CONTACT
+    return np.where(fits, found, CANNOT_SAY).astype(np.int8)
 
 
 def position_with_ends(

@@ -98,7 +98,8 @@ def explorer_page() -> bytes:
 
 
 def _page(**parts: Any) -> bytes:  # noqa: ANN401 - what the template shows
-    style, script = colour_rules() + _template("style.css"), _template("script.js") + "\n" + _template("explorer.js")
+    style = colour_rules() + _template("style.css")
+    script = "\n".join(map(_template, ("script.js", "ends.js", "explorer.js")))
     own = {"style": _trusted(style), "script": _trusted(script)}
     hashes = {"style_hash": _hash(style), "script_hash": _hash(script)}
     page: str = _environment().get_template("page.html").render(**parts, **own, **hashes, version=VERSION)

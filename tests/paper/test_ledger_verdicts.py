@@ -63,6 +63,7 @@ OTHERWISE = {
     "Section 4, discriminant": FALSE,
     "Table 4, purpose": FALSE,
     "Table 5, equal steps": QUESTION,
+    "Section 3.2, maximum height": QUESTION,
     "Section 2, respectively": MISPRINT,
     "Proposition 3.1, wording": MISPRINT,
     "Proposition 5, regime": MISPRINT,

@@ -8,12 +8,14 @@ from functools import cache
 
 import pytest
 
+from hypcheck.geometry.pair import Pair
 from hypcheck.paper.derive import erratum
 from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.book import entries, faults, faults_with_entries
 from hypcheck.paper.ledger.entry import FALSE
 from hypcheck.paper.ledger.points import facts_in_order
+from hypcheck.truth import least
 from tests.paper import printed_rules as printed
 from tests.support.fractions_truth import exact_position
 from tests.support.tilted_fractions import exact_position as tilted_position
@@ -291,3 +293,22 @@ def test_the_tilted_pair_of_the_erratum_is_interior_upright_and_in_contact_as_it
     row = [float(each) for each in (*sizes, *centre.split(","))]
     assert exact_position(tuple(map(Fraction, row))) == INTERIOR
     assert tilted_position((*row, *(float(each) for each in axis.split(",")))) == CONTACT
+
+
+def test_pairs_that_the_centres_height_decides_otherwise_are_confirmed_by_the_least_distance_to_the_wall():
+    """The least value knows neither the pencil nor the rule in the height."""
+    (evidence,) = ledger()["Section 3.2, maximum height"].evidence
+    found = re.findall(r"α = [^:]*", evidence.text.replace("−", "-"))
+    first, second = (
+        Pair(*numbers[:7], z_max=numbers[7])
+        for numbers in ([float(number) for number in re.findall(r"-?\d+", text)] for text in found)
+    )
+    assert first.z > first.z_max
+    assert least.position(first) == CONTACT
+    assert second.z <= second.z_max
+    assert least.position(second) == INTERIOR
+    assert position_of_whole(second) == CONTACT
+
+
+def position_of_whole(pair):
+    return exact_position([Fraction(number) for number in pair.row[:7]])

@@ -84,7 +84,7 @@ def test_explorer_has_no_errors_and_is_readable_and_labelled_for_a_screen_reader
     assert "Exact answer: exterior. Clearance: 0.5 spheroid radii. On the ring" in said(visit)
     unnamed = "all => all.filter(each => !each.labels.length && !each.ariaLabel).map(each => each.outerHTML)"
     assert visit.page.locator("input").evaluate_all(unnamed) == []
-    assert visit.page.locator("input").count() == 11
+    assert visit.page.locator("input").count() == 14
     assert visit.page.get_by_role("application", name="The two bodies in the half plane (r, z)").count() == 1
     assert visit.page.locator(".said").get_attribute("aria-live") == "polite"
     assert page_checks.unreachable(visit) == []
@@ -129,6 +129,58 @@ def test_a_pointer_drags_the_centre_of_the_explorer(visit):
     assert numbers(visit) == moved
     ellipse, edge = (visit.page.locator(f".half-plane {name}").bounding_box() for name in ("ellipse", ".center"))
     assert ellipse["x"] + ellipse["width"] / 2 == pytest.approx(edge["x"] + edge["width"] / 2, abs=1)
+
+
+def test_explorer_draws_and_answers_where_the_hyperboloid_ends(visit):
+    """A drone above the top of a tree: exterior, in contact with the rim from just above it; solid, with the disc."""
+    for name, value in zip(COLUMNS, (0.2, 1, 0.3, 0.2, 0.45, 0, 2.01), strict=True):
+        visit.page.locator(f"#explorer-{name}").fill(str(value))
+    assert "Exact answer: contact" in said(visit)
+    low, high = (visit.page.locator(f"#explorer-{name}") for name in ("z_min", "z_max"))
+    high.fill("2")
+    low.fill("-1")
+    assert "Exact answer: contact. Clearance: not computed beside ends." in said(visit)
+    assert "The formulas know no ends; without these it is contact." in said(visit)
+    assert visit.page.locator(".half-plane .end").count() == 2
+    high.fill("1.5")
+    assert "Exact answer: exterior" in said(visit)
+    visit.page.locator("#explorer-x").fill("0")
+    visit.page.locator("#explorer-z").fill("1.45")
+    assert "Exact answer: interior" in said(visit)
+    visit.page.locator("#explorer-z").fill("1.65")
+    assert "Exact answer: exterior" in said(visit)
+    visit.page.get_by_label("flat ends belong to it (solid)").check()
+    assert "Exact answer: contact" in said(visit)
+    assert visit.page.locator(".half-plane .end.solid").count() == 2
+    high.fill("-2")
+    assert "z_min must be less than z_max" in said(visit)
+    assert high.get_attribute("aria-invalid") == "true"
+    high.fill("")
+    low.fill("")
+    assert visit.page.locator(".half-plane .end").count() == 0
+    assert page_checks.quiet(visit) == []
+
+
+def test_a_pointer_drags_an_end_of_the_explorer_by_its_handle(visit):
+    visit.page.get_by_role("button", name="Ends, or none").click()
+    before = numbers(visit)
+    ends = [visit.page.locator(f"#explorer-{name}") for name in ("z_min", "z_max")]
+    low, high = (float(end.input_value()) for end in ends)
+    assert low < high == 0
+    grip = visit.page.locator(".half-plane .grip").last.bounding_box()
+    x, y = grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] / 2
+    visit.page.mouse.move(x, y)
+    visit.page.mouse.down()
+    visit.page.mouse.move(x, y - 60, steps=3)
+    visit.page.mouse.up()
+    assert numbers(visit) == before
+    assert float(ends[0].input_value()) == low
+    assert float(ends[1].input_value()) > 0.2
+    moved = visit.page.locator(".half-plane .grip").last.bounding_box()
+    assert moved["y"] == pytest.approx(grip["y"] - 60, abs=2)
+    visit.page.get_by_role("button", name="Ends, or none").click()
+    assert [end.input_value() for end in ends] == ["", ""]
+    assert page_checks.quiet(visit) == []
 
 
 def test_explorer_refuses_an_invalid_size_in_one_sentence(visit):

@@ -60,19 +60,50 @@ def rows():
     return [*chosen, *(everyday(draw) for _ in range(ROWS // 4)), *(extreme(draw) for _ in range(ROWS // 4))]
 
 
-@pytest.fixture(scope="module")
-def found(tmp_path_factory):
-    """What the script finds about each row, with the row."""
+def asked_of_node(asked, tmp_path_factory):
+    """What the script finds about each row, with the row; behind its seven numbers it may have z_min, z_max, solid."""
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed")
-    asked, formulas = rows(), tmp_path_factory.mktemp("explorer") / "formulas.json"
+    formulas = tmp_path_factory.mktemp("explorer") / "formulas.json"
     formulas.write_text(html.formulas_as_json(), encoding="utf-8")
-    text = json.dumps([html.row_as_text(row).split() for row in asked])
-    command = [node, str(ANSWERS), str(ROOM / "templates" / "explorer.js"), str(formulas)]
+    text = json.dumps([[NAMES.get(number, repr(number)) for number in row] for row in asked])
+    scripts = [str(ROOM / "templates" / name) for name in ("explorer.js", "ends.js")]
+    command = [node, str(ANSWERS), scripts[0], str(formulas), scripts[1]]
     done = subprocess.run(command, input=text, capture_output=True, check=False, text=True)
     assert done.returncode == 0, done.stderr
     return list(zip(asked, json.loads(done.stdout), strict=True))
+
+
+NAMES = {math.inf: "Infinity", -math.inf: "-Infinity"}
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    return asked_of_node(rows(), tmp_path_factory)
+
+
+def ended_rows():
+    """Frozen vectors of upright spheroids beside hyperboloids that end, and random rows with an end within reach."""
+    draw = random.Random(8)  # noqa: S311 - any rows will do
+    frozen_rows = [row for name in frozen.ENDED_NAMES for row in frozen.load(name).rows.tolist()]
+    upright = [(*row[:7], *row[10:]) for row in frozen_rows if row[7] == row[8] == 0 or row[2] == row[3]]
+    for row in (everyday(draw) for _ in range(ROWS // 2)):
+        end = row[6] + draw.uniform(-1.5, 1.5) * row[3]
+        other = end - draw.choice((math.inf, row[3], 40))
+        upright.append((*row, *draw.choice(((other, end), (end, end + 10 ** draw.uniform(-3, 2)))), draw.randrange(2)))
+    return upright
+
+
+def test_answers_of_the_explorer_beside_ends_are_exact_wherever_it_answers(tmp_path_factory):
+    answered = asked_of_node(ended_rows(), tmp_path_factory)
+    seen = set()
+    for row, each in answered:
+        position = exactly.position(Pair.from_row((*row[:7], 0.0, 0.0, 1.0, *row[7:])).lengths)
+        assert each["ended"] in (None, position), row
+        seen.add((each["position"], each["ended"], row[9]))
+    assert len({case for case in seen if case[1] is not None}) >= 12
+    assert sum(each["ended"] is None for _, each in answered) <= len(answered) / 50
 
 
 @pytest.mark.slow

@@ -87,6 +87,7 @@ PARTS = (
     "dispatch",
     "tilted",
     "ways",
+    "ended_integers",
     "ended",
     "ended_ways",
     "near",

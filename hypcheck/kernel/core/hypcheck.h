@@ -104,9 +104,9 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 /* The position where the hyperboloid ends: rows of 13 doubles, alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, and
    z_min, z_max, solid. It ends at the heights z_min < z_max, of which one or both may be infinite. solid is 0 where the
    wall alone is there: contact is contact with the wall, else 1 or -1 says whether the centre lies within the wall and
-   between the ends. solid is 1 where flat ends belong to it. A position is 1, 0 or -1, exact; 2 where bounds do not
-   tell, which is said beside rims that are touched within about 2^-46, and of lengths beyond 2^±100; 127 where the row is
-   invalid. hypcheck.classify of Python decides all. */
+   between the ends. solid is 1 where flat ends belong to it. A position is 1, 0 or -1, exact; 2 where neither bounds nor
+   integers tell, which is said of pairs within about 2^-46 of contact, most of them tilted, and of lengths beyond 2^±100;
+   127 where the row is invalid. hypcheck.classify of Python decides all. */
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions);
 
 /* Rows of any of these widths. Positions: 7, 10 with an axis, 13 with z_min, z_max, solid behind it, as the functions above
@@ -1659,7 +1659,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_8d618565d50ecccc
+#ifndef HC_EDITION_d9fea34d52f24cfd
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3024,6 +3024,68 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
     return 1;
 }
 
+/* ---- hyperboloids that end: exact integers beside an end, upright ---- */
+
+#define HC_END_BITS 256 /* of a length in its unit, at most */
+#define HC_END_LIMBS (40960 / HC_LIMB_BITS + 64) /* the numbers below have 35,700 bits together */
+
+/* At a height w the circle has r² = alpha² (1 + w²/gamma²), the spheroid's disc s² = b² (1 - (w - z)²/d²), and R = x² + y².
+   `misses`: the circle misses the closed disc, Q = r² - s² + R > 0 and Q² > 4 R r². `reached` is the sign of s², `off` that
+   of R - r². All are multiplied by gamma² d². */
+typedef struct {
+    int known, misses, reached, off;
+} hc_end;
+
+static hc_integer hc_length(hc_pool *pool, hc_parts parts, int unit) {
+    hc_integer number = hc_taken(pool, HC_END_BITS / HC_LIMB_BITS + 2);
+    hc_in_units(&number, parts, unit);
+    return number;
+}
+
+static int hc_spread(const hc_parts *parts, int count, int *unit) {
+    int most = -4096, k;
+    *unit = 4096;
+    for (k = 0; k < count; k++) {
+        *unit = hc_least(*unit, parts[k].exponent);
+        if (parts[k].sign && parts[k].exponent > most) most = parts[k].exponent;
+    }
+    return most + 53 - *unit;
+}
+
+static hc_end hc_exact_end(const double row[13], double w) {
+    const hc_parts radial[4] = {hc_parts_of(row[0]), hc_parts_of(row[2]), hc_parts_of(row[4]), hc_parts_of(row[5])};
+    const hc_parts axial[4] = {hc_parts_of(row[1]), hc_parts_of(row[3]), hc_parts_of(row[6]), hc_parts_of(w)};
+    hc_limb limbs[HC_END_LIMBS];
+    hc_pool pool;
+    hc_end end = {0, 0, 0, 0};
+    int across, along;
+    pool.next = limbs;
+    if (hc_spread(radial, 4, &across) > HC_END_BITS || hc_spread(axial, 4, &along) > HC_END_BITS) return end;
+    {
+        const hc_integer a = hc_length(&pool, radial[0], across), b = hc_length(&pool, radial[1], across);
+        const hc_integer x = hc_length(&pool, radial[2], across), y = hc_length(&pool, radial[3], across);
+        const hc_integer g = hc_length(&pool, axial[0], along), d = hc_length(&pool, axial[1], along);
+        const hc_integer z = hc_length(&pool, axial[2], along), h = hc_length(&pool, axial[3], along);
+        const hc_integer t = hc_sum(&pool, &h, &z, -1), t2 = hc_product(&pool, &t, &t), h2 = hc_product(&pool, &h, &h);
+        const hc_integer a2 = hc_product(&pool, &a, &a), b2 = hc_product(&pool, &b, &b);
+        const hc_integer x2 = hc_product(&pool, &x, &x), y2 = hc_product(&pool, &y, &y);
+        const hc_integer g2 = hc_product(&pool, &g, &g), d2 = hc_product(&pool, &d, &d);
+        const hc_integer up = hc_sum(&pool, &g2, &h2, 1), room = hc_sum(&pool, &d2, &t2, -1), R = hc_sum(&pool, &x2, &y2, 1);
+        const hc_integer R_g2 = hc_product(&pool, &R, &g2), a2_up = hc_product(&pool, &a2, &up), off = hc_sum(&pool, &R_g2, &a2_up, -1);
+        const hc_integer wide = hc_sum(&pool, &R_g2, &a2_up, 1), wide_d2 = hc_product(&pool, &wide, &d2);
+        const hc_integer b2_g2 = hc_product(&pool, &b2, &g2), s = hc_product(&pool, &b2_g2, &room);
+        const hc_integer Q = hc_sum(&pool, &wide_d2, &s, -1), Q2 = hc_product(&pool, &Q, &Q);
+        const hc_integer both = hc_product(&pool, &R_g2, &a2_up), d4 = hc_product(&pool, &d2, &d2);
+        const hc_integer product = hc_product(&pool, &both, &d4), four = hc_multiple(&pool, 4, &product);
+        const hc_integer F = hc_sum(&pool, &Q2, &four, -1);
+        end.known = 1;
+        end.misses = Q.sign > 0 && F.sign > 0;
+        end.reached = room.sign;
+        end.off = off.sign;
+    }
+    return end;
+}
+
 /* ---- hyperboloids that end ---- */
 
 #define HC_MOST_PIECES 48
@@ -3196,6 +3258,65 @@ static int hc_upright_met(const double row[13], double w) {
     return most < 0 || (size > HC_ENDED_LEAST && most * most < 4 * R * r * (1 - HC_ENDED_ERROR));
 }
 
+/* Whether F(w) = Q² - 4 R r² surely grows with every step away from an end, for so far into the body: `side` is 1 at the
+   upper end. F is a quartic, F' = 2 Q Q' - 4 R (r²)', and |F''| has a bound of the sizes of its terms. Where the circle at
+   the end misses the spheroid, so do all those. */
+static int hc_grows_from_end(const double row[13], double w, double far, int side) {
+    const double g = row[0] / row[1], e = row[2] / row[3], t = w - row[6], R = row[4] * row[4] + row[5] * row[5];
+    const double wide = hc_size(w) + far, top = hc_size(t) + far, r2 = 2 * (g * g), s2 = 2 * (e * e);
+    const double Q = row[0] * row[0] + 0.5 * r2 * (w * w) + R - row[2] * row[2] + 0.5 * s2 * (t * t);
+    const double most = row[0] * row[0] + 0.5 * r2 * (wide * wide) + R + row[2] * row[2] + 0.5 * s2 * (top * top);
+    const double rise = r2 * w + s2 * t, steep = r2 * wide + s2 * top;
+    const double slope = -side * (2 * Q * rise - 4 * R * (r2 * w));
+    const double size = 2 * most * steep + 4 * R * (r2 * wide), bend = 2 * (steep * steep) + 2 * most * (r2 + s2) + 4 * R * r2;
+    if (!(size < HC_cap && bend < HC_cap && size > HC_ENDED_LEAST)) return 0;
+    return slope > 4 * HC_ENDED_ERROR * size + bend * far * (1 + HC_ENDED_ERROR);
+}
+
+#define HC_BESIDE_END 6.103515625e-05 /* 2^-14 of d, which is left out beside an end that is looked at in integers */
+
+/* hc_wall_misses of an upright spheroid where bounds tell nothing: the ends in integers, what is next to them by the slope
+   there, and the rest by bounds. */
+static int hc_upright_wall_misses(const hc_sections *pair, const double row[13], double bottom, double top) {
+    double low = bottom, high = top, far = HC_BESIDE_END * row[3];
+    int k;
+    if (far > 0.25 * (top - bottom)) far = 0.25 * (top - bottom);
+    for (k = 0; k < 2; k++) {
+        const double w = row[10 + k];
+        hc_end end;
+        if (w != (k ? top : bottom)) continue; /* the spheroid does not reach this end */
+        end = hc_exact_end(row, w);
+        if (!end.known) return 2;
+        if (!end.misses) return 0;
+        if (!hc_grows_from_end(row, w, 1.0625 * far, k ? 1 : -1)) continue; /* bounds may do */
+        if (k) high = w - far;
+        else low = w + far;
+    }
+    return low < high ? hc_wall_misses(pair, low, high) : 2;
+}
+
+/* 0 where the wall between the ends surely meets the spheroid, 1 where it surely misses it, 2 where neither is known; the
+   spheroid meets the surface without ends, and reaches from z - more to z + more at most. */
+static int hc_ended_wall_misses(const hc_sections *pair, const double row[13], double more, int upright) {
+    const double z = row[6], bottom = row[10] > z - more ? row[10] : z - more, top = row[11] < z + more ? row[11] : z + more;
+    int misses;
+    if (!(bottom <= top)) return 2;
+    misses = hc_wall_misses(pair, bottom, top);
+    if (misses == 2 && (bottom > z - more ? hc_wall_misses(pair, z - more, bottom) == 1 : 1) &&
+        (top < z + more ? hc_wall_misses(pair, top, z + more) == 1 : 1))
+        return 0; /* it meets the surface, but not beyond the ends */
+    return misses == 2 && upright ? hc_upright_wall_misses(pair, row, bottom, top) : misses;
+}
+
+/* hc_disc_misses, in integers where the spheroid is upright and bounds do not tell. */
+static int hc_ended_disc_misses(const hc_sections *pair, const double row[13], double w, int upright) {
+    const int misses = hc_disc_misses(pair, w);
+    hc_end end;
+    if (misses != 2 || !upright) return misses;
+    end = hc_exact_end(row, w);
+    return !end.known ? 2 : end.misses && (end.reached < 0 || end.off > 0);
+}
+
 /* The position of a valid row of 13 whose position without ends is `whole`; 2 where the bounds do not tell. */
 static int hc_ended_position(const double row[13], int whole) {
     const int upright = hc_is_upright(row), solid = row[12] != 0;
@@ -3215,16 +3336,20 @@ static int hc_ended_position(const double row[13], int whole) {
     misses = 1;
     if (whole == 0) {
         const double t = level - z, xi = pair.xi0 - pair.k * t;
-        const double bottom = low > z - more ? low : z - more, top = high < z + more ? high : z + more;
         if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0;
-        misses = bottom <= top ? hc_wall_misses(&pair, bottom, top) : 2;
+        misses = hc_ended_wall_misses(&pair, row, more, upright);
     }
     for (k = 10; solid && k < 12 && misses == 1; k++)
-        if (hc_size(row[k]) <= HC_ENDED_GREATEST) misses = hc_disc_misses(&pair, row[k]);
+        if (hc_size(row[k]) <= HC_ENDED_GREATEST) misses = hc_ended_disc_misses(&pair, row, row[k], upright);
     if (misses != 1) return misses;
     if (whole != 0) return z >= low && z <= high ? whole : 1; /* without ends inside, and the discs missed */
     inside = hc_center_inside(row);
-    return inside == 2 ? 2 : inside ? -1 : 1;
+    if (inside == 2) {
+        const hc_end end = hc_exact_end(row, z);
+        if (!end.known) return 2;
+        inside = end.off <= 0;
+    }
+    return inside ? -1 : 1;
 }
 
 #define HC_ENDED_TOGETHER 256 /* rows that are still in the cache when their ends are looked at */
@@ -3814,7 +3939,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_8d618565d50ecccc
+#define HC_EDITION_d9fea34d52f24cfd
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

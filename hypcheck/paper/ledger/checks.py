@@ -7,6 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import chain
+from math import inf
 
 import sympy
 
@@ -14,7 +15,7 @@ from hypcheck.derivation import pencil
 from hypcheck.derivation.links import known
 from hypcheck.derivation.pencil import read, symbol
 from hypcheck.derivation.printed_equations import check, equality, printed_claims
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import UPRIGHT, Pair, Position
 from hypcheck.paper.ledger.counts import (
     columns_fall,
     directions_of_rotors,
@@ -32,12 +33,14 @@ from hypcheck.paper.ledger.counts import (
 )
 from hypcheck.paper.ledger.entry import Evidence, by_printed, described, signs, with_counterexample
 from hypcheck.paper.ledger.points import (
+    LARGEST,
     PointFacts,
     Rational,
     SquaredRatios,
     Statement,
     coefficients,
     first_change,
+    quadcopter_pairs,
     rational,
     with_c2,
 )
@@ -53,6 +56,8 @@ from hypcheck.paper.ledger.statements import (
     wider,
 )
 from hypcheck.proofs.build import pattern_table
+from hypcheck.truth import ended_prove, exact
+from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.roots import PATTERNS, RootPlace, admissible, pattern_of
 
@@ -294,6 +299,47 @@ def changed_by_leaning() -> Evidence:
     return Evidence("search", text, len(found) == len(searches) and all(each.holds for each in found), leaning=found)
 
 
+def missed_by_the_centres_height() -> Evidence:
+    """Simplest pairs in the regime of Procedures 2.a and 2.b which the centre's height decides otherwise than the end.
+
+    One has its centre above z_max, where nothing is asked, and meets the wall; one has its centre below it, and meets
+    the wall only where there is none.
+    """
+    found = (_above_the_end(), _below_the_end())
+    shows = ("above it, in contact with the wall", "not above it, interior; in contact without the end")
+    text = "; ".join(f"{_with_end(pair)} {what}" for pair, what in zip(found, shows, strict=True))
+    proofs = (ended_prove.prove(pair, exact.decide(pair.lengths)) for pair in found)
+    proved = all(check_certificate(pair, proof) for pair, proof in zip(found, proofs, strict=True))
+    return Evidence("search", text, proved)
+
+
+def _above_the_end() -> Pair:
+    pairs = (_ending(row, row[6] - 1) for row in quadcopter_pairs(LARGEST))
+    decided = ((pair, exact.decide(pair.lengths)) for pair in pairs)
+    return next(pair for pair, decision in decided if decision.position is Position.CONTACT and not decision.tangent)
+
+
+def _below_the_end() -> Pair:
+    pairs = (_ending((*row[:6], -row[6]), -row[6]) for row in quadcopter_pairs(LARGEST))
+    return next(
+        pair
+        for pair in pairs
+        if exact.position(pair.lengths) is Position.INTERIOR
+        and exact.position(pair.without_ends.lengths) is Position.CONTACT
+    )
+
+
+def _ending(row: Sequence[float], height: float) -> Pair:
+    return Pair.from_row((*row, *UPRIGHT, -inf, height, 0.0))
+
+
+def _with_end(pair: Pair) -> str:
+    """The pair: "α = 3, γ = 1, b = 3, d = 2, C = (1, 0, 1), z_max = 0:"."""
+    alpha, gamma, b, d, *center = (f"{number:g}" for number in pair.row[:7])
+    text = f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)}), z_max = {pair.z_max:g}:"
+    return text.replace("-", "−")
+
+
 CHECKS: dict[str, Callable[[], Evidence]] = {
     each.__name__: each
     for each in (
@@ -304,7 +350,7 @@ CHECKS: dict[str, Callable[[], Evidence]] = {
         operations_of_the_sizes, operations_of_roots, directions_of_rotors, share_of_discriminants,
         discriminants_closest_to_zero, discriminant_is_no_distance, discriminant_falls_at_each_height, greatest_share,
         rows_fall, columns_fall, equal_steps, second_row_read_as_a_quarter, refused_for_a_zero_coefficient,
-        refused_though_the_hull_is_in_contact, valid_though_the_body_meets_the_wall,
+        refused_though_the_hull_is_in_contact, valid_though_the_body_meets_the_wall, missed_by_the_centres_height,
     )
 }  # fmt: skip
 """By the names that claims.toml has."""

@@ -363,7 +363,7 @@ class LeaningWitness:
 def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[LeaningWitness]:
     """The simplest pair that is `before` upright and `after` as it leans, both proved."""
     tried = 0
-    for numbers in _pairs(largest):
+    for numbers in quadcopter_pairs(largest):
         vertical = Pair.from_row(numbers)
         if exact.position(vertical.lengths) is not before:
             continue
@@ -375,7 +375,7 @@ def first_change(before: Position, after: Position, shows: str, largest: int = L
     return Search(tried, None)
 
 
-def _pairs(largest: int) -> Iterator[tuple[float, ...]]:
+def quadcopter_pairs(largest: int) -> Iterator[tuple[float, ...]]:
     """Sizes and centres (x, 0, z) with α ≥ b, the regime of Procedures 2.a and 2.b, and b > d, as a quadcopter has."""
     sizes = range(1, largest + 1)
     whole = (each for each in product(sizes, repeat=6) if each[0] >= each[2] > each[3])

@@ -254,7 +254,7 @@ const explorer = (() => {
 
   return {
     COLUMNS, SIZES, POSITIONS, PRECISIONS,
-    answerOf, clearance, decide, expectedOf, fits, inWords, ringRadius, rootsOf, rounded, run, short, squaredGap,
+    answerOf, clearance, decide, expectedOf, fits, integers, inWords, ringRadius, rootsOf, rounded, run, short, squaredGap,
   };
 })();
 
@@ -268,8 +268,10 @@ function explored(place) {
   const find = (name) => place.querySelector(`[data-is="${name}"]`);
   const [picture, line, said, origin] = ["picture", "line", "said", "origin"].map(find);
   const fields = Object.fromEntries(COLUMNS.map((name) => [name, find(name)]));
+  const heights = { z_min: find("z_min"), z_max: find("z_max") };
   const sliders = Object.fromEntries(SIZES.map((name) => [name, find(`${name}-slider`)]));
   let row = place.dataset.row.split(" ").map(Number);
+  let wallEnds = { low: -Infinity, high: Infinity, solid: false };
   let view = { r: 0, z: 0, scales: [1, 1] }; // the middle of the picture, and its units for one length across and up
 
   function element(name, attributes = {}, text = "") {
@@ -313,9 +315,24 @@ function explored(place) {
 
   // ---- the pictures
 
+  /** The wall on one side of the axis, of what the picture shows between its ends. */
   function meridian(side) {
-    const points = Array.from({ length: 97 }, (_, step) => view.z + ((step / 96 - 0.5) * HEIGHT) / view.scales[1]);
+    const half = HEIGHT / 2 / view.scales[1];
+    const [low, high] = [Math.max(view.z - half, wallEnds.low), Math.min(view.z + half, wallEnds.high)];
+    const points = low > high ? [] : Array.from({ length: 97 }, (_, step) => low + (step / 96) * (high - low));
     return points.map((z) => `${across(side * wall(z)).toFixed(2)},${up(z).toFixed(2)}`);
+  }
+
+  /** The ends: a flat end of a solid, or the mouth of an open wall, with what can be dragged in its middle. */
+  function endLines() {
+    return [wallEnds.low, wallEnds.high].filter(Number.isFinite).flatMap((end) => {
+      const [left, right, height] = [across(-wall(end)), across(wall(end)), up(end)];
+      const grip = Math.min(Math.max(across(0), 12), WIDTH - 12);
+      return [
+        element("line", { class: wallEnds.solid ? "end solid" : "end", x1: left, x2: right, y1: height, y2: height }),
+        element("rect", { class: "grip", x: grip - 9, y: height - 5, width: 18, height: 10 }),
+      ];
+    });
   }
 
   function drawPicture(decision) {
@@ -328,8 +345,9 @@ function explored(place) {
       element("line", { class: "waist", x1: across(-row[0]), x2: across(row[0]), y1: up(0), y2: up(0) }),
       element("polyline", { class: "wall", points: right.join(" ") }),
       element("polyline", { class: "wall", points: left.join(" ") }),
+      ...endLines(),
       element("ellipse", {
-        class: `body ${POSITIONS[decision.position]}`,
+        class: `body ${POSITIONS[decision.shown] ?? "unknown"}`,
         cx: across(r),
         cy: up(z),
         rx: limited(b * view.scales[0]),
@@ -425,19 +443,29 @@ function explored(place) {
   /** Let everything on the page follow the row. */
   function update() {
     const decision = explorer.decide(row);
+    const ended = Number.isFinite(wallEnds.low) || Number.isFinite(wallEnds.high);
+    decision.shown = ended ? ends.position(row, wallEnds, decision.position) : decision.position;
     const wrong = fillFormulas(decision);
     fillNumbers(decision);
     drawPicture(decision);
     drawLine(decision);
     const ring = decision.ring ? " On the ring: Δ is 0, and nothing touches." : "";
     const errors = wrong.length ? `Wrong: ${wrong.join(", ")}.` : "No formula is wrong where it claims to be right.";
-    const exact = `Exact answer: ${POSITIONS[decision.position]}. Clearance: ${explorer.clearance(decision)}.`;
-    said.textContent = `${exact}${ring} ${errors}`;
+    const clear = ended ? "not computed beside ends" : explorer.clearance(decision);
+    const answer = POSITIONS[decision.shown] ?? "not known, these numbers are too long to be decided here";
+    const exact = `Exact answer: ${answer}. Clearance: ${clear}.`;
+    const whole = `The formulas know no ends; without these it is ${POSITIONS[decision.position]}.`;
+    said.textContent = `${exact}${ended ? ` ${whole}` : ""}${ring} ${errors}`;
     find("to-ring").disabled = !Number.isFinite(explorer.ringRadius(row));
     COLUMNS.forEach((name, column) => {
       if (document.activeElement !== fields[name]) fields[name].value = String(row[column]);
       fields[name].removeAttribute("aria-invalid");
     });
+    Object.entries({ z_min: wallEnds.low, z_max: wallEnds.high }).forEach(([name, end]) => {
+      if (document.activeElement !== heights[name]) heights[name].value = Number.isFinite(end) ? String(end) : "";
+      heights[name].removeAttribute("aria-invalid");
+    });
+    find("solid").checked = wallEnds.solid;
     SIZES.forEach((name, column) => {
       if (document.activeElement !== sliders[name]) sliders[name].value = String(Math.log10(row[column]));
       sliders[name].setAttribute("aria-valuetext", short(row[column]));
@@ -461,10 +489,45 @@ function explored(place) {
     said.textContent = `${label} must be ${wanted} of float64. The picture shows the last numbers that were valid.`;
   }
 
+  /** Let the wall end as the fields say; an empty one is no end. */
+  function typedEnds() {
+    const [low, high] = ["z_min", "z_max"].map((name) => {
+      const { value, validity } = heights[name];
+      if (validity.badInput) return NaN;
+      return value.trim() === "" ? { z_min: -Infinity, z_max: Infinity }[name] : Number(value) + 0;
+    });
+    if (low < high && low < Infinity && high > -Infinity) return setEnds({ low, high });
+    Object.values(heights).forEach((field) => field.setAttribute("aria-invalid", "true"));
+    said.textContent = "z_min must be less than z_max, and both numbers of float64 or empty. The picture shows the last ends that were valid.";
+  }
+
+  function setEnds(changes) {
+    wallEnds = { ...wallEnds, ...changes };
+    origin.textContent = "";
+    update();
+  }
+
+  /** Ends at the bottom and at the middle of the picture, or none where there are some. */
+  function toggleEnds() {
+    if (Number.isFinite(wallEnds.low) || Number.isFinite(wallEnds.high)) return setEnds({ low: -Infinity, high: Infinity });
+    const digits = (value) => Number(value.toPrecision(3)) + 0;
+    const [low, high] = [digits(view.z - (0.4 * HEIGHT) / view.scales[1]), digits(row[6])];
+    return setEnds(low < high ? { low, high } : { high });
+  }
+
   /** Move the centre in the half plane: to the distance r from the axis and the height z. */
   function moveTo(r, z) {
     set({ x: Math.max(r, 0), y: 0, z });
   }
+
+  /** Which end has its grip under the pointer, "low" or "high", or null. */
+  function gripAt(at) {
+    const grip = Math.min(Math.max(across(0), 12), WIDTH - 12);
+    const near = ["high", "low"].filter((name) => Number.isFinite(wallEnds[name]));
+    return near.find((name) => Math.abs(at.x - grip) <= 14 && Math.abs(at.y - up(wallEnds[name])) <= 10) ?? null;
+  }
+
+  let held = null; // the end that is dragged, or null: the centre
 
   function pointed(event) {
     const matrix = picture.getScreenCTM().inverse();
@@ -474,7 +537,10 @@ function explored(place) {
       const digit = 10 ** Math.ceil(Math.log10(scale));
       return Number((Math.round(value * digit) / digit).toPrecision(12));
     };
-    moveTo(near(view.r + (at.x - WIDTH / 2) / wide, wide), near(view.z - (at.y - HEIGHT / 2) / tall, tall));
+    if (event.type === "pointerdown") held = gripAt(at);
+    const z = near(view.z - (at.y - HEIGHT / 2) / tall, tall);
+    if (held === null) return moveTo(near(view.r + (at.x - WIDTH / 2) / wide, wide), z);
+    if (held === "low" ? z < wallEnds.high : z > wallEnds.low) setEnds({ [held]: z });
   }
 
   const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
@@ -492,6 +558,7 @@ function explored(place) {
   /** Show a case of the run: its row, and where it comes from. */
   function open(numbers, name) {
     row = numbers;
+    wallEnds = { low: -Infinity, high: Infinity, solid: false };
     showSpheroid();
     update();
     origin.textContent = `Case ${name}.`;
@@ -500,6 +567,8 @@ function explored(place) {
   }
 
   COLUMNS.forEach((name) => fields[name].addEventListener("input", () => typed(name)));
+  Object.values(heights).forEach((field) => field.addEventListener("input", typedEnds));
+  find("solid").addEventListener("input", () => setEnds({ solid: find("solid").checked }));
   SIZES.forEach((name) => {
     const slid = () => set({ [name]: Number((10 ** Number(sliders[name].value)).toPrecision(3)) });
     sliders[name].addEventListener("input", slid);
@@ -512,6 +581,7 @@ function explored(place) {
   picture.addEventListener("keydown", pressed);
   const buttons = {
     "to-ring": () => moveTo(explorer.ringRadius(row), 0),
+    "to-ends": toggleEnds,
     "show-all": () => (showAll(), update()),
     "show-spheroid": () => (showSpheroid(), update()),
     "zoom-in": () => zoom(1.5),

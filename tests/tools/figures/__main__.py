@@ -1,4 +1,6 @@
-"""The pictures of docs/figures.md, redrawn from simulations, and the README's of the two bodies; each as SVG and PDF.
+"""The pictures of docs/figures.md, redrawn from simulations, the README's of the two bodies, and that of a landing.
+
+Each is drawn as SVG and PDF.
 
 `python -m tests.tools.figures` (`make figures`) writes them.
 """
@@ -19,7 +21,7 @@ from hypcheck.report.plots.simulations import flights, forest_plots
 from hypcheck.report.plots.style import styled
 from hypcheck.report.plots.svg import Plot, standalone
 from hypcheck.scene.reading import read_scene
-from tests.tools.figures import bodies, paper
+from tests.tools.figures import bodies, landing, paper
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 DRAWN_WITH = DOCS / "figures" / "drawn-with.txt"
@@ -60,9 +62,9 @@ def pictures() -> dict[str, bytes]:
 
 
 def bodies_pictures() -> dict[str, bytes]:
-    """The picture of the two bodies, which takes no simulation."""
+    """The pictures of the two bodies and of the landing, which take no simulation."""
     with styled():
-        return both("figures/bodies", bodies.plot())
+        return both("figures/bodies", bodies.plot()) | both("figures/landing", landing.plot())
 
 
 def main() -> None:

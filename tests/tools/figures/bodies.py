@@ -21,6 +21,9 @@ CENTRES = ((2.5, 0.55), (1.5, -0.9), (-0.6, -1.35))
 ASIDE = (0.0, 0.4, 0.0)
 """How far to the right of them their names stand, so that no line crosses one."""
 
+Z_MAX = 1.85
+"""Where the wall ends; an open end."""
+
 TOP, SIDE = 2.1, 3.2
 """How far the picture goes, up and to the side."""
 
@@ -39,7 +42,7 @@ def plot() -> Plot:
     axes.add_patch(Rectangle((-SIDE, -TOP), 2 * SIDE, 2 * TOP, facecolor=GROUND, zorder=0))
     axes.spines[:].set_visible(False)
     _hyperboloid(axes)
-    answers = [Position(position(ALPHA, GAMMA, B, D, x, 0.0, z)) for x, z in CENTRES]
+    answers = [Position(position(ALPHA, GAMMA, B, D, x, 0.0, z, z_max=Z_MAX)) for x, z in CENTRES]
     for (x, z), answer, aside in zip(CENTRES, answers, ASIDE, strict=True):
         axes.add_patch(Ellipse((x, z), 2 * B, 2 * D, facecolor=_FILLS[answer], edgecolor=ON_MAP, linewidth=1.4))
         axes.plot([x], [z], marker="o", markersize=3, color=ON_MAP)
@@ -48,18 +51,23 @@ def plot() -> Plot:
     said = (
         f"A plane through the axis of a hyperboloid of one sheet: its waist has the radius α, and at the height γ its "
         f"radius is α√2. Spheroids with the semi-axes b (across) and d (along the axis) stand in three positions: "
-        f"{', '.join(answer.label for answer in answers)}. Here α = {ALPHA:g}, γ = {GAMMA:g}, b = {B:g}, d = {D:g}."
+        f"{', '.join(answer.label for answer in answers)}. The wall ends at the height z_max. "
+        f"Here α = {ALPHA:g}, γ = {GAMMA:g}, b = {B:g}, d = {D:g}, "
+        f"z_max = {Z_MAX:g}."
     )
     return Plot("bodies", "A spheroid and a hyperboloid of one sheet", said, figure)
 
 
 def _hyperboloid(axes: Axes) -> None:
-    """Both branches of the meridian, the inside between them, and the axis."""
-    heights = [TOP * (step / 60 - 1) for step in range(121)]
+    """Both branches of the meridian up to the end, the inside between them, and the axis."""
+    heights = [-TOP + (Z_MAX + TOP) * step / 120 for step in range(121)]
     radii = [ALPHA * math.hypot(1, height / GAMMA) for height in heights]
     axes.fill_betweenx(heights, [-each for each in radii], radii, color="#f7edd3", linewidth=0)
     for side in (-1, 1):
         axes.plot([side * each for each in radii], heights, color=ON_MAP, linewidth=1.8)
+    rim = ALPHA * math.hypot(1, Z_MAX / GAMMA)
+    axes.plot([-rim, rim], [Z_MAX, Z_MAX], color=ON_MAP, linewidth=0.8, linestyle=(0, (2, 2)))
+    axes.text(rim + 0.12, Z_MAX, "z_max, where it may end", ha="left", va="center", color=ON_MAP)
     axes.plot([0, 0], [-TOP, TOP], color=ON_MAP, linewidth=0.8, linestyle=(0, (8, 3, 1, 3)))
     axes.text(-0.06, TOP - 0.08, "axis, z", ha="right", va="top", color=ON_MAP)
     axes.text(-2.0, 1.25, "hyperboloid\nof one sheet", ha="right", va="center", color=ON_MAP)

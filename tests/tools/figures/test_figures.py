@@ -52,7 +52,7 @@ def test_picture_of_a_simulation_equals_a_newly_drawn_one(name, kind):
     DRAWN_WITH.read_text(encoding="utf-8") != versions(),
     reason=f"drawn with {DRAWN_WITH.read_text(encoding='utf-8').strip()}; here is {versions().strip()}",
 )
-def test_picture_of_the_two_bodies_equals_a_newly_drawn_one():
+def test_pictures_of_the_two_bodies_and_of_the_landing_equal_newly_drawn_ones():
     """`make figures` draws it anew."""
     for name, content in bodies_pictures().items():
         assert (DOCS / name).read_bytes() == content, name
@@ -65,6 +65,16 @@ def test_the_picture_of_the_two_bodies_is_the_first_of_the_readme_and_names_size
     rows = [(bodies.ALPHA, bodies.GAMMA, bodies.B, bodies.D, x, 0.0, z) for x, z in bodies.CENTRES]
     assert {exact_position(row) for row in rows} == {1, 0, -1}
     assert {"α", "γ", "b", "d", "waist, z = 0", *(each.label for each in Position)} <= texts
+    assert "z_max, where it may end" in texts
+    assert bodies.Z_MAX > max(z + bodies.D for _, z in bodies.CENTRES)  # so it is right of them without an end
+
+
+def test_the_picture_of_the_landing_shows_the_height_of_the_first_contact_and_the_answer_at_the_end():
+    """The top is at z = 2 and the drone reaches 0.2 down: it touches first at z = 2.2, its centre above the rim."""
+    root = ElementTree.parse(DOCS / "figures" / "landing.svg").getroot()  # noqa: S314 - our own
+    texts = {"".join(element.itertext()).strip() for element in root.iter()}
+    assert {"first contact, z = 2.20", "z = 2.01: contact", "z = 3.2: exterior", "z_max = 2", "low tree"} <= texts
+    assert "(figures/landing.svg)" in (DOCS / "scenes.md").read_text(encoding="utf-8")
 
 
 COMMITTED = sorted([*(DOCS / "figures").glob("*.svg"), *(DOCS / "simulate").glob("*.svg")])

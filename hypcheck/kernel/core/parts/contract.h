@@ -104,9 +104,9 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 /* The position where the hyperboloid ends: rows of 13 doubles, alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z, and
    z_min, z_max, solid. It ends at the heights z_min < z_max, of which one or both may be infinite. solid is 0 where the
    wall alone is there: contact is contact with the wall, else 1 or -1 says whether the centre lies within the wall and
-   between the ends. solid is 1 where flat ends belong to it. A position is 1, 0 or -1, exact; 2 where bounds do not
-   tell, which is said beside rims that are touched within about 2^-46, and of lengths beyond 2^±100; 127 where the row is
-   invalid. hypcheck.classify of Python decides all. */
+   between the ends. solid is 1 where flat ends belong to it. A position is 1, 0 or -1, exact; 2 where neither bounds nor
+   integers tell, which is said of pairs within about 2^-46 of contact, most of them tilted, and of lengths beyond 2^±100;
+   127 where the row is invalid. hypcheck.classify of Python decides all. */
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions);
 
 /* Rows of any of these widths. Positions: 7, 10 with an axis, 13 with z_min, z_max, solid behind it, as the functions above

@@ -170,6 +170,65 @@ static int hc_upright_met(const double row[13], double w) {
     return most < 0 || (size > HC_ENDED_LEAST && most * most < 4 * R * r * (1 - HC_ENDED_ERROR));
 }
 
+/* Whether F(w) = Q² - 4 R r² surely grows with every step away from an end, for so far into the body: `side` is 1 at the
+   upper end. F is a quartic, F' = 2 Q Q' - 4 R (r²)', and |F''| has a bound of the sizes of its terms. Where the circle at
+   the end misses the spheroid, so do all those. */
+static int hc_grows_from_end(const double row[13], double w, double far, int side) {
+    const double g = row[0] / row[1], e = row[2] / row[3], t = w - row[6], R = row[4] * row[4] + row[5] * row[5];
+    const double wide = hc_size(w) + far, top = hc_size(t) + far, r2 = 2 * (g * g), s2 = 2 * (e * e);
+    const double Q = row[0] * row[0] + 0.5 * r2 * (w * w) + R - row[2] * row[2] + 0.5 * s2 * (t * t);
+    const double most = row[0] * row[0] + 0.5 * r2 * (wide * wide) + R + row[2] * row[2] + 0.5 * s2 * (top * top);
+    const double rise = r2 * w + s2 * t, steep = r2 * wide + s2 * top;
+    const double slope = -side * (2 * Q * rise - 4 * R * (r2 * w));
+    const double size = 2 * most * steep + 4 * R * (r2 * wide), bend = 2 * (steep * steep) + 2 * most * (r2 + s2) + 4 * R * r2;
+    if (!(size < HC_cap && bend < HC_cap && size > HC_ENDED_LEAST)) return 0;
+    return slope > 4 * HC_ENDED_ERROR * size + bend * far * (1 + HC_ENDED_ERROR);
+}
+
+#define HC_BESIDE_END 6.103515625e-05 /* 2^-14 of d, which is left out beside an end that is looked at in integers */
+
+/* hc_wall_misses of an upright spheroid where bounds tell nothing: the ends in integers, what is next to them by the slope
+   there, and the rest by bounds. */
+static int hc_upright_wall_misses(const hc_sections *pair, const double row[13], double bottom, double top) {
+    double low = bottom, high = top, far = HC_BESIDE_END * row[3];
+    int k;
+    if (far > 0.25 * (top - bottom)) far = 0.25 * (top - bottom);
+    for (k = 0; k < 2; k++) {
+        const double w = row[10 + k];
+        hc_end end;
+        if (w != (k ? top : bottom)) continue; /* the spheroid does not reach this end */
+        end = hc_exact_end(row, w);
+        if (!end.known) return 2;
+        if (!end.misses) return 0;
+        if (!hc_grows_from_end(row, w, 1.0625 * far, k ? 1 : -1)) continue; /* bounds may do */
+        if (k) high = w - far;
+        else low = w + far;
+    }
+    return low < high ? hc_wall_misses(pair, low, high) : 2;
+}
+
+/* 0 where the wall between the ends surely meets the spheroid, 1 where it surely misses it, 2 where neither is known; the
+   spheroid meets the surface without ends, and reaches from z - more to z + more at most. */
+static int hc_ended_wall_misses(const hc_sections *pair, const double row[13], double more, int upright) {
+    const double z = row[6], bottom = row[10] > z - more ? row[10] : z - more, top = row[11] < z + more ? row[11] : z + more;
+    int misses;
+    if (!(bottom <= top)) return 2;
+    misses = hc_wall_misses(pair, bottom, top);
+    if (misses == 2 && (bottom > z - more ? hc_wall_misses(pair, z - more, bottom) == 1 : 1) &&
+        (top < z + more ? hc_wall_misses(pair, top, z + more) == 1 : 1))
+        return 0; /* it meets the surface, but not beyond the ends */
+    return misses == 2 && upright ? hc_upright_wall_misses(pair, row, bottom, top) : misses;
+}
+
+/* hc_disc_misses, in integers where the spheroid is upright and bounds do not tell. */
+static int hc_ended_disc_misses(const hc_sections *pair, const double row[13], double w, int upright) {
+    const int misses = hc_disc_misses(pair, w);
+    hc_end end;
+    if (misses != 2 || !upright) return misses;
+    end = hc_exact_end(row, w);
+    return !end.known ? 2 : end.misses && (end.reached < 0 || end.off > 0);
+}
+
 /* The position of a valid row of 13 whose position without ends is `whole`; 2 where the bounds do not tell. */
 static int hc_ended_position(const double row[13], int whole) {
     const int upright = hc_is_upright(row), solid = row[12] != 0;
@@ -189,16 +248,20 @@ static int hc_ended_position(const double row[13], int whole) {
     misses = 1;
     if (whole == 0) {
         const double t = level - z, xi = pair.xi0 - pair.k * t;
-        const double bottom = low > z - more ? low : z - more, top = high < z + more ? high : z + more;
         if (hc_point_within(&pair, hc_radius(&pair, level), level, xi, pair.eta, xi)) return 0;
-        misses = bottom <= top ? hc_wall_misses(&pair, bottom, top) : 2;
+        misses = hc_ended_wall_misses(&pair, row, more, upright);
     }
     for (k = 10; solid && k < 12 && misses == 1; k++)
-        if (hc_size(row[k]) <= HC_ENDED_GREATEST) misses = hc_disc_misses(&pair, row[k]);
+        if (hc_size(row[k]) <= HC_ENDED_GREATEST) misses = hc_ended_disc_misses(&pair, row, row[k], upright);
     if (misses != 1) return misses;
     if (whole != 0) return z >= low && z <= high ? whole : 1; /* without ends inside, and the discs missed */
     inside = hc_center_inside(row);
-    return inside == 2 ? 2 : inside ? -1 : 1;
+    if (inside == 2) {
+        const hc_end end = hc_exact_end(row, z);
+        if (!end.known) return 2;
+        inside = end.off <= 0;
+    }
+    return inside ? -1 : 1;
 }
 
 #define HC_ENDED_TOGETHER 256 /* rows that are still in the cache when their ends are looked at */

@@ -1,0 +1,73 @@
+"""Positions beside hyperboloids that end, by the compiled kernel: against frozen rows, in every mode, and by hairs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.truth import exact
+from hypcheck.vectors.frozen import ENDED_NAMES, load
+from tests.tools import ended_agreement
+from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
+
+compiled = pytest.importorskip("hypcheck.kernel._compiled")
+
+
+def answered(rows, mode=TO_NEAREST):
+    positions = np.empty(len(rows), np.int8)
+    with rounded(mode):
+        compiled.classify_ended(np.ascontiguousarray(rows), positions)
+    return positions
+
+
+@pytest.mark.parametrize("mode", [TO_NEAREST, *DIRECTED])
+def test_the_kernel_answers_no_frozen_row_with_ends_wrongly_and_leaves_few_upright_ones_open(mode):
+    left_open = 0
+    for name in ENDED_NAMES:
+        cases = load(name)
+        positions = answered(cases.rows, mode)
+        decided = positions != CANNOT_SAY
+        assert (positions[decided] == cases.positions[decided]).all(), name
+        left_open += 0 if name.startswith("tilted") else int((~decided).sum())
+    assert left_open <= 12
+
+
+def test_touches_of_a_rim_and_rows_an_ulp_off_are_decided_by_the_kernel():
+    for name in ("ended-rim-tangent", "ended-rim-neighbourhood"):
+        cases = load(name)
+        positions = answered(cases.rows)
+        assert (positions == cases.positions).mean() > 0.9
+
+
+@pytest.mark.parametrize(("leaning", "most_open"), [(False, 0.03), (True, 0.25)])
+def test_rows_a_hair_from_contact_are_right_and_few_are_left_open(leaning, most_open):
+    random = np.random.default_rng(1)
+    rows = ended_agreement.hairs(random, 600, leaning=leaning)
+    positions = answered(rows)
+    decided = positions != CANNOT_SAY
+    truth = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+    assert (positions[decided] == truth[decided]).all()
+    assert (~decided).mean() < most_open
+    assert {-1, 0, 1} == set(truth.tolist())
+
+
+@pytest.mark.parametrize("unit", [2.0**-200, 2.0**-60, 2.0**60, 2.0**200])
+@pytest.mark.parametrize("axial", [1.0, 2.0**-70, 2.0**90])
+def test_exact_touches_in_other_units_are_left_open_or_answered_rightly(unit, axial):
+    rows = load("ended-rim-neighbourhood").rows.copy()
+    rows[:, [0, 2, 4, 5]] *= unit
+    rows[:, [1, 3, 6, 10, 11]] *= unit * axial
+    positions = answered(rows)
+    expected = load("ended-rim-neighbourhood").positions
+    assert ((positions == CANNOT_SAY) | (positions == expected)).all()
+    assert (positions == expected).any()
+
+
+def test_a_row_does_not_change_the_answers_to_others():
+    rows = np.concatenate([load(name).rows for name in ENDED_NAMES])
+    together = answered(rows)
+    order = np.random.default_rng(1).permutation(len(rows))
+    assert (answered(rows[order]) == together[order]).all()
+    assert [answered(row[None])[0] for row in rows[:300]] == together[:300].tolist()

@@ -1,0 +1,169 @@
+"""Whether exact rule, least value and kernel agree about hyperboloids that end: a tool, run by hand.
+
+    python -m tests.tools.ended_agreement --rows 1000000 [--tilted] [--seed 1]
+    python -m tests.tools.ended_agreement --ways --rows 100000 [--tilted]
+    python -m tests.tools.ended_agreement --modes --rows 1000
+
+Half of the rows are random, half lie within 10⁻⁹ radii of contact with a rim, a flat end or the wall. The least value
+is the one of truth/least.py, a branch and bound; the exact rule that of truth/sections.py. With `--ways` the kernel's
+hits are compared with the exact first contact. With `--modes` the kernel is asked under all four rounding modes about
+rows of every family that ends, as many of each, and compared with the exact rule. Each disagreement is printed with its
+row and makes the status 1. The last lines count rows, and those that the kernel and the least value leave open.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections import Counter
+
+import numpy as np
+
+from hypcheck import passage
+from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.kernel import _compiled, compiled_kernel
+from hypcheck.truth import exact, least
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
+from tests.support.ended_ways import near_a_rim, past_a_tower
+from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
+
+CHUNK = 2000
+NEAREST, NEAR = -50, -30
+"""Hairs are from 2⁻⁵⁰ to 2⁻³⁰ radii, 10⁻¹⁵ to 10⁻⁹."""
+
+
+def random_rows(random, count, *, leaning):
+    """Rows (n, 13): any sizes, the end within reach of the spheroid."""
+    sizes = np.exp2(random.uniform(-3, 3, (count, 4)))
+    alpha, gamma, b, d = sizes.T
+    high = random.uniform(-2, 2, count) * gamma
+    spread = np.stack([alpha + b, alpha + b, d], axis=1)
+    centres = random.normal(size=(count, 3)) * spread + [0, 0, 1] * high[:, None]
+    return _with_ends(random, sizes, centres, _axes(random, count, leaning), high)
+
+
+def hairs(random, count, *, leaning):
+    """The same, but within 2⁻³⁰ radii of contact with a rim, a flat end or the wall below an end."""
+    sizes = np.exp2(random.uniform(-3, 3, (count, 4)))
+    alpha, gamma, b, d = sizes.T
+    high, azimuth = random.uniform(-2, 2, count) * gamma, random.uniform(0, 2 * np.pi, count)
+    axis, level = _axes(random, count, leaning), np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1)
+    kind = np.arange(count) % 3  # rim, flat end, wall
+    height = np.where(kind == 2, high - random.uniform(0, 1, count) * d, high)
+    radius = alpha * np.hypot(1, height / gamma)
+    point = np.column_stack([radius[:, None] * level, height])
+    point[kind == 1, :2] *= random.uniform(0, 1, (count, 1))[kind == 1]
+    turn = random.uniform(0, np.pi, count)
+    rim = np.column_stack([np.cos(turn)[:, None] * level, np.sin(turn)])
+    wall = (
+        np.column_stack([(radius / alpha**2)[:, None] * level, -height / gamma**2])
+        * random.choice([-1, 1], count)[:, None]
+    )
+    normal = np.where((kind == 2)[:, None], wall, np.where((kind == 1)[:, None], [[0.0, 0.0, 1.0]], rim))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    unit = axis / np.linalg.norm(axis, axis=1)[:, None]
+    along = (normal * unit).sum(axis=1)[:, None] * unit
+    shift = (b * b)[:, None] * (normal - along) + (d * d)[:, None] * along
+    share = 1 + random.choice([-1, 1], count) * np.exp2(random.uniform(NEAREST, NEAR, count))
+    centres = point + shift * (share / np.sqrt((normal * shift).sum(axis=1)))[:, None]
+    return _with_ends(random, sizes, centres, axis, high)
+
+
+def _axes(random, count, leaning):
+    return random.normal(size=(count, 3)) if leaning else np.tile([0.0, 0.0, 1.0], (count, 1))
+
+
+def _with_ends(random, sizes, centres, axis, high):
+    low = high - sizes[:, 1] * np.exp2(random.uniform(-3, 2, len(high)))
+    low[random.uniform(size=len(high)) < 0.3] = -np.inf
+    rows = np.column_stack([sizes, centres, axis, low, high, random.integers(0, 2, len(high))])
+    down = random.uniform(size=len(high)) < 0.5
+    rows[np.ix_(down, [6, 9])] *= -1
+    rows[np.ix_(down, [10, 11])] = -rows[np.ix_(down, [11, 10])]
+    return np.ascontiguousarray(rows + 0.0)
+
+
+def compare_positions(rows, kind, counts):
+    """Count what is open, and yield a sentence for each disagreement."""
+    by_kernel = compiled_kernel.answer_ended(rows)
+    for row, answer in zip(rows.tolist(), by_kernel.tolist(), strict=True):
+        pair = Pair.from_row(row)
+        truth, other = exact.position(pair.lengths), least.position(pair)
+        counts[kind, "rows"] += 1
+        counts[kind, "open to the kernel"] += answer == CANNOT_SAY
+        counts[kind, "open to the least value"] += other is None
+        if answer not in (CANNOT_SAY, truth) or other not in (None, truth):
+            yield f"{row}: exact {truth.label}, kernel {answer}, least value {other}"
+
+
+def compare_ways(rows, kind, counts):
+    """The same of ways: hits and times of the kernel beside the exact first contact."""
+    hits, times = compiled_kernel.answer_ways(rows)
+    for row, hit, at in zip(rows.tolist(), hits.tolist(), times.tolist(), strict=True):
+        low, high, solid = row[13:]
+        truth = passage(row[:4], row[4:7], row[7:10], row[10:13], z_min=low, z_max=high, solid=bool(solid))
+        counts[kind, "rows"] += 1
+        counts[kind, "open to the kernel"] += hit == CANNOT_SAY
+        if hit not in (CANNOT_SAY, truth.hit) or at > truth.first_upper:
+            yield f"{row}: exact {truth}, kernel {hit} at {at}"
+
+
+def compare_modes(given, counts):
+    """Rows of every family that ends under four rounding modes, beside the exact rule; ways beside round to nearest."""
+    for name, family in {**ENDED_FAMILIES, **ENDED_WAY_FAMILIES}.items():
+        rows = np.ascontiguousarray(family.rows(given.seed, given.rows))
+        ways = rows.shape[1] == len(ENDED_WAY_FAMILIES["ended-way-thin"].columns)
+        truth = None if ways else np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+        for mode in (TO_NEAREST, *DIRECTED):
+            answers = np.empty(len(rows), np.int8)
+            with rounded(mode):
+                (_compiled.passage if ways else _compiled.classify_ended)(rows, answers)
+            truth = answers.copy() if truth is None else truth
+            counts[name, "rows"] += len(rows)
+            counts[name, "open to the kernel"] += int((answers == CANNOT_SAY).sum())
+            for index in np.flatnonzero((answers != truth) & (answers != CANNOT_SAY) & (truth != CANNOT_SAY)).tolist():
+                yield f"{mode}: {rows[index].tolist()}: {truth[index]}, kernel {answers[index]}"
+
+
+def chunks(given, counts):
+    """The sentences of one chunk after the other, until the time is over."""
+    random, started = np.random.default_rng(given.seed), time.monotonic()
+    done, turn = 0, 0
+    while done < given.rows and time.monotonic() - started < given.minutes * 60:
+        count = min(CHUNK, given.rows - done)
+        near = turn % 2 == 1
+        if given.ways:
+            make = near_a_rim if near else past_a_tower
+            rows = make(int(random.integers(2**31)), count, leaning=given.tilted)
+            yield from compare_ways(rows, "beside a rim" if near else "random", counts)
+        else:
+            rows = (hairs if near else random_rows)(random, count, leaning=given.tilted)
+            yield from compare_positions(rows, "within 1e-9" if near else "random", counts)
+        done, turn = done + count, turn + 1
+
+
+def main(arguments):
+    """Compare and print; returns the status."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rows", type=int, default=100_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--tilted", action="store_true")
+    parser.add_argument("--ways", action="store_true")
+    parser.add_argument("--modes", action="store_true")
+    given = parser.parse_args(arguments)
+    counts: Counter[tuple[str, str]] = Counter()
+    found = 0
+    for sentence in compare_modes(given, counts) if given.modes else chunks(given, counts):
+        found += 1
+        sys.stdout.write(f"{sentence}\n")
+    for (kind, what), number in counts.items():
+        sys.stdout.write(f"{kind:28} {what:26} {number:9,}\n")
+    sys.stdout.write(f"{found} disagreements\n")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
