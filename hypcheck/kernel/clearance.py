@@ -21,6 +21,7 @@ roundings of a semi-axis. Both hold for lengths in 2^±300, which are asked for.
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
@@ -31,7 +32,7 @@ from numpy.typing import ArrayLike
 
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.forms import Argument, pairs_of
-from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.pair import COLUMNS, REFUSED
 from hypcheck.geometry.rows import (
     PAIRS,
     Floats,
@@ -55,6 +56,7 @@ GUESS = 2.0**-32
 WIDTH = 2.0**-30
 """How wide an interval of f, or of δ against δ + v, may be before it is halved."""
 
+_LARGEST = sys.float_info.max
 _OUTWARD = 1 + 2.0**-48
 _POINTS = 2.0**-46
 _RANGE = (2.0**-300, 2.0**300)
@@ -182,15 +184,14 @@ def clearance(
     number = required("position", threads, on_invalid)
     asked = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
     queries = asked.rows()
-    if on_invalid == "raise" and invalid(queries).any():
-        require_valid_pairs(queries, asked)
     found = clearances(queries, number)
+    if on_invalid == "raise" and (found.position == REFUSED).any():
+        require_valid_pairs(queries, asked)
     return found.one if asked.single else found
 
 
 def clearances(queries: Rows, threads: int | None = None) -> Clearance:
     """The same of rows of any width; invalid ones have the position 127 and NaN everywhere."""
-    refused = invalid(queries)
     if PAIRS.end(queries):
         from hypcheck.kernel.ended import ended_clearances  # noqa: PLC0415 - rows with heights alone need it
 
@@ -198,6 +199,7 @@ def clearances(queries: Rows, threads: int | None = None) -> Clearance:
     upright = queries.shape[1] == len(COLUMNS)
     compiled = upright and choice().kernel == "compiled"
     found = _compiled(queries, threads) if compiled else Clearance.empty(queries)
+    refused = found.position == REFUSED if compiled else invalid(queries)
     places = np.flatnonzero(~refused & (np.isnan(found.lower) | np.isinf(found.touch_error)))
     with np.errstate(all="ignore"):
         for start in range(0, len(places), CHUNK):
@@ -215,7 +217,10 @@ def _fill_ties(found: Clearance, queries: Rows, threads: int | None) -> None:
     A distance changes by no more than the centre moves, so the bounds hold with twice the shift, which covers its
     rounding. Of the shifts along x and y the better counts.
     """
-    lost = np.flatnonzero(np.isnan(found.nearest).any(axis=1) & np.isin(found.position, (-1, 1)))
+    unknown = np.isnan(found.nearest).any(axis=1)
+    if not unknown.any():
+        return
+    lost = np.flatnonzero(unknown & (np.abs(found.position) == 1))
     for column in (4, 5) if len(lost) else ():
         rows, shift = queries[lost].copy(), _SHIFT * queries[lost, 0]
         rows[:, column] += shift
@@ -236,7 +241,7 @@ def _compiled(rows: Rows, threads: int | None) -> Clearance:
 
     position, found = compiled_kernel.near_rows(rows, threads)
     lower, upper, error, least, most = found[:, :5].T
-    error[error == np.finfo(np.float64).max] = np.inf
+    error[error == _LARGEST] = np.inf
     return Clearance(position, least, most, found[:, 8:], lower, upper, found[:, 5:8], error, rows)
 
 
