@@ -6,20 +6,40 @@ alone. So a run tells how wide a slice can be without three such rows, and a sli
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from itertools import combinations
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations.description import Description
 from hypcheck.record.lines import SlicesPart
 from hypcheck.runs.cases import frozen_count, frozen_vectors
 from hypcheck.runs.plan import ConformancePlan, chosen_families
 from hypcheck.runs.results import JudgingRules
-from hypcheck.vectors import crossed, strata
+from hypcheck.vectors import crossed
 from hypcheck.vectors.family import Family
+from hypcheck.vectors.strata import HIGHEST
+
+COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
+    {
+        "|z|/γ": lambda rows: np.abs(rows[:, 6]) / rows[:, 1] / HIGHEST,
+        "c/a": lambda rows: _share_of_octaves(rows[:, 1] / rows[:, 3] * rows[:, 2] / rows[:, 0], -10, 10),
+        "d/b": lambda rows: _share_of_octaves(rows[:, 3] / rows[:, 2], -10, 10),
+        "α/b": lambda rows: _share_of_octaves(rows[:, 0] / rows[:, 2], -3, 7),
+        "azimuth": lambda rows: np.arctan2(rows[:, 5], rows[:, 4]) / (2 * np.pi) + 0.5,
+        "lean": lambda rows: np.cos(np.arctan2(np.hypot(rows[:, 7], rows[:, 8]), np.abs(rows[:, 9]))),
+        "heading": lambda rows: np.arctan2(rows[:, 8], rows[:, 7]) / np.pi % 1,
+    }
+)
+"""What a narrow fault may depend on, from 0 to 1 in the range that is asked; upright rows have the first five.
+
+|z|/γ is up to HIGHEST; c/a, where c = γ/d and a = α/b, and the other ratios are in octaves."""
+
+UPRIGHT = tuple(COORDINATES)[:5]
+
 
 ROWS_OF_ONE = 3
 """So many rows are asked in each slice of one coordinate that is as wide as a run says."""
@@ -40,16 +60,20 @@ def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> 
             rows = np.concatenate([*_rows_of(plan, family)])
             rows = rows[rules.asked_of(family.name, rows)[0]]
             if len(rows):
-                names = tuple(strata.COORDINATES) if family.tilted else strata.UPRIGHT
+                names = tuple(COORDINATES) if family.tilted else UPRIGHT
                 found[family.name] = evenness(rows, names)
     return found
 
 
 def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
     """How evenly the rows lie in the ranges of these coordinates."""
-    places = np.stack([strata.COORDINATES[name](rows) for name in names])
+    places = np.stack([COORDINATES[name](rows) for name in names])
     one = max(_widest(np.sort(some[(some >= 0) & (some <= 1)])) for some in places)
     return SlicesPart(coordinates=list(names), rows=len(rows), one=one, two=_side(places))
+
+
+def _share_of_octaves(ratio: Floats, low: int, high: int) -> Floats:
+    return np.asarray((np.log2(ratio) - low) / (high - low))
 
 
 def _widest(sorted_places: NDArray[np.float64]) -> float:

@@ -10,9 +10,6 @@ The height is that of the centre, not of the point of contact: a bisection finds
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from types import MappingProxyType
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -37,28 +34,6 @@ _EIGHTH = 0.41421356237309503
 """The tangent of π/8: circle_at spans a quarter of the circle between this and its opposite."""
 
 _HALVINGS = 54
-
-
-COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
-    {
-        "|z|/γ": lambda rows: np.abs(rows[:, 6]) / rows[:, 1] / HIGHEST,
-        "c/a": lambda rows: _share_of_octaves(rows[:, 1] / rows[:, 3] * rows[:, 2] / rows[:, 0], -10, 10),
-        "d/b": lambda rows: _share_of_octaves(rows[:, 3] / rows[:, 2], -10, 10),
-        "α/b": lambda rows: _share_of_octaves(rows[:, 0] / rows[:, 2], -3, 7),
-        "azimuth": lambda rows: np.arctan2(rows[:, 5], rows[:, 4]) / (2 * np.pi) + 0.5,
-        "lean": lambda rows: np.cos(np.arctan2(np.hypot(rows[:, 7], rows[:, 8]), np.abs(rows[:, 9]))),
-        "heading": lambda rows: np.arctan2(rows[:, 8], rows[:, 7]) / np.pi % 1,
-    }
-)
-"""What a narrow fault may depend on, from 0 to 1 in the range that is asked; upright rows have the first five.
-
-|z|/γ is up to HIGHEST; c/a, where c = γ/d and a = α/b, and the other ratios are in octaves."""
-
-UPRIGHT = tuple(COORDINATES)[:5]
-
-
-def _share_of_octaves(ratio: Floats, low: int, high: int) -> Floats:
-    return np.asarray((np.log2(ratio) - low) / (high - low))
 
 
 def lattice(draw: Draw, n: int) -> NDArray[np.float64]:

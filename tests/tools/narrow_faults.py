@@ -22,9 +22,9 @@ from hypcheck import classify
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Rows, within
 from hypcheck.runs.cases import family_chunks, frozen_vectors
+from hypcheck.runs.spread import COORDINATES, UPRIGHT
 from hypcheck.truth import backward_error, exact
 from hypcheck.vectors.families import select
-from hypcheck.vectors.strata import COORDINATES, UPRIGHT
 
 TOLERANCE = Fraction(8, 1 << 53)
 NAMES = ("alpha", "gamma", "b", "d", "x", "y", "z")

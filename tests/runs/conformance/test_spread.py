@@ -11,9 +11,8 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.record.lines import ImplementationLine
-from hypcheck.runs.spread import evenness
+from hypcheck.runs.spread import COORDINATES, UPRIGHT, evenness
 from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.strata import COORDINATES, UPRIGHT
 
 
 @pytest.fixture(scope="module")
