@@ -1659,7 +1659,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_d9fea34d52f24cfd
+#ifndef HC_EDITION_4023fd7b50a46311
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3352,7 +3352,7 @@ static int hc_ended_position(const double row[13], int whole) {
     return inside ? -1 : 1;
 }
 
-#define HC_ENDED_TOGETHER 256 /* rows that are still in the cache when their ends are looked at */
+#define HC_ENDED_TOGETHER 2048 /* rows that are still in the cache when their ends are looked at */
 
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) {
     size_t i, k;
@@ -3939,7 +3939,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_d9fea34d52f24cfd
+#define HC_EDITION_4023fd7b50a46311
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -264,7 +264,7 @@ static int hc_ended_position(const double row[13], int whole) {
     return inside ? -1 : 1;
 }
 
-#define HC_ENDED_TOGETHER 256 /* rows that are still in the cache when their ends are looked at */
+#define HC_ENDED_TOGETHER 2048 /* rows that are still in the cache when their ends are looked at */
 
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) {
     size_t i, k;
