@@ -7,12 +7,14 @@ Numbers are made, and answers compared, in the default environment alone. x86-64
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 import json
 import math
 import random
 import struct
 import sys
 from contextlib import contextmanager
+from dataclasses import fields
 from fractions import Fraction
 from pathlib import Path
 
@@ -168,8 +170,10 @@ def _shown(passage):
 
 def as_bits(result):
     """The result as text that tells any two results apart."""
-    if hasattr(result, "__slots__") and not isinstance(result, (int, float)):
-        return [as_bits(getattr(result, name)) for name in result.__slots__]
+    if dataclasses.is_dataclass(result):
+        own = [field.name for field in fields(result) if field.repr]
+        more = [name for name in ("normal", "tie", "first_lower", "first_upper", "index") if hasattr(result, name)]
+        return [as_bits(getattr(result, name)) for name in own + more]
     array = np.asarray(result)
     return [array.dtype.str, array.shape, array.tobytes().hex()]
 

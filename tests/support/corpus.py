@@ -19,7 +19,7 @@ import numpy as np
 
 CASES = Path(__file__).parents[2] / "cases"
 GROUPS = {"positions": "", "tilted-positions": "axis", "ways": "end", "tilted-ways": "end axis"}
-GROUPS["ended-positions"] = "axis heights"
+GROUPS |= {"ended-positions": "axis heights", "ended-ways": "end axis heights"}
 """The content of a file, and the groups of columns that its rows have behind the sizes and the centre."""
 REFUSED = {"refusals": "", "tilted-refusals": "axis", "way-refusals": "end", "tilted-way-refusals": "end axis"}
 REFUSED["ended-refusals"] = "axis heights"

@@ -25,7 +25,7 @@ import hypcheck
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
-from hypcheck.kernel import integers, numpy_kernel, scalar, tilted_integers
+from hypcheck.kernel import classify, integers, numpy_kernel, scalar, tilted_integers
 from hypcheck.runs.oracles import ORACLES
 from hypcheck.truth import heights, least
 from hypcheck.truth.swept import by_roots, journey_of
@@ -41,7 +41,9 @@ WAYS = ("end", "end axis")
 """The groups of rows about straight ways."""
 ENDED = ("axis heights",)
 """That of rows about hyperboloids that end."""
-ALL = POSITIONS + WAYS + ENDED
+ENDED_WAYS = ("end axis heights",)
+"""That of rows about ways beside them."""
+ALL = POSITIONS + WAYS + ENDED + ENDED_WAYS
 UPRIGHT = ("",)
 
 
@@ -143,6 +145,10 @@ def of_ways_in_numpy(questions: Questions) -> list[int]:
     return numpy_kernel.answer_ways(np.ascontiguousarray(questions.rows))[0].tolist()
 
 
+def of_ways_in_c(questions: Questions) -> list[int]:
+    return classify.kernel().answer_ways(np.ascontiguousarray(questions.rows))[0].tolist()
+
+
 def of_scene_call(sizes, center, axis=None) -> int:
     return int(hypcheck.classify_scene(sizes, *([number] for number in center), axis=axis)[0])
 
@@ -168,7 +174,7 @@ def of_scene_step(sizes, center, axis=None) -> int:
 
 
 def of_scene_passage(sizes, center, end, axis=None) -> int:
-    return int(scene_of(sizes, axis).passage(center, end)[0])
+    return int(scene_of(sizes, axis).passage(center, end).hit)
 
 
 def of_clearance(questions: Questions) -> list[int]:
@@ -197,9 +203,13 @@ def of_command(questions: Questions) -> list[int]:
 
 def of_passage(questions: Questions) -> Times:
     """hypcheck.passage, whose bounds of the first contact are neighbouring floats."""
+    ends = [{}] * len(questions)
+    if questions.heights is not None:
+        ends = [dict(zip(("z_min", "z_max", "solid"), three, strict=True)) for three in questions.heights.tolist()]
     found = [
-        hypcheck.passage(tuple(sizes), start, end, *axis)
-        for sizes, start, end, *axis in zip(
+        hypcheck.passage(tuple(sizes), start, end, *axis, **heights)
+        for heights, sizes, start, end, *axis in zip(
+            ends,
             *(part.tolist() for part in (questions.sizes, questions.center, questions.end)),
             *([] if questions.axis is None else [questions.axis.tolist()]),
             strict=True,
@@ -409,5 +419,8 @@ DECIDERS = (
     Decider("builtin:passage-certified", partial(of_method, "passage-certified"), takes=("end",), refuses=False),
     Decider("the C header, ways", of_header, takes=WAYS, abstains=0.1, lacks=lacks_compiler),
     Decider("the numpy kernel, ways", of_ways_in_numpy, takes=WAYS, abstains=0.7),
+    Decider("hypcheck.passage, ends", of_passage, takes=ENDED_WAYS, refuses=False, drawn=False),
+    Decider("the kernel, ways and ends", of_ways_in_c, takes=ENDED_WAYS, abstains=0.2, refuses=False, drawn=False),
+    Decider("the numpy kernel, ways and ends", of_ways_in_numpy, ENDED_WAYS, 1.0, refuses=False, drawn=False),
     Decider("certificates of ways", checkers.check_ways, takes=WAYS, every=3, refuses=False, drawn=False),
 )
