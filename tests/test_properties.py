@@ -19,10 +19,10 @@ from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import heights, least
 from tests.support import fractions_truth, tilted_fractions
 from tests.support.corpus import Questions
 from tests.support.deciders import CANNOT_SAY, DECIDERS, Decider, answers_of
+from tests.support.inside import heights_position, least_position
 from tests.support.strategies import rows_of
 
 Draw = Callable[..., object]
@@ -302,8 +302,8 @@ def truth_of(row, groups):
     position = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
     if "heights" in groups:
         pair = Pair.from_row(row)
-        found = least.position(pair)
-        return int(heights.position(pair) if found is None else found)
+        found = least_position(pair)
+        return int(heights_position(pair) if found is None else found)
     if "end" not in groups:
         return position(row)
     sizes, start, end, axis = row[:4], row[4:7], row[7:10], row[10:]

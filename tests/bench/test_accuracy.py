@@ -13,8 +13,8 @@ from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.truth.flip_exponents import flip_exponents
 from tests.support import exactly
+from tests.support.inside import flip_exponents
 
 INF = math.inf
 

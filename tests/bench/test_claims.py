@@ -30,9 +30,9 @@ from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import count
 from hypcheck.geometry.pair import Position
 from hypcheck.implementations.method import RECIPROCAL, by_rows
-from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.families import FAMILIES
 from tests.support import exactly
+from tests.support.inside import flip_exponents
 
 FEW = replace(QUICK, bodies=600, timed=600)
 

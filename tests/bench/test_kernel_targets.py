@@ -18,12 +18,10 @@ from hypcheck.bench.timing import KernelTarget, Samples
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import tilted_rows
 from hypcheck.implementations.alternatives import by_eigenvectors
-from hypcheck.kernel.choice import LEVELS, choice
 from hypcheck.record import SCHEMA
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AbsentLine, KernelLine
-from hypcheck.truth.nearest import nearest
-from hypcheck.truth.nearest_rows import clearances
+from tests.support.inside import LEVELS, choice, clearances, nearest
 from tests.support.records import violations
 
 PUBLISHED = Path(hypcheck.__file__).parent / "report" / "schemas" / f"record-{SCHEMA}.json"

@@ -20,10 +20,9 @@ from hypcheck.cli.bench import bench
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit, NothingJudgedError
 from hypcheck.implementations.meshes import FCL
-from hypcheck.kernel.scene import Scene
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.fields import as_json
+from tests.support.inside import Scene, plan_of
 from tests.support.records import violations
 from tests.support.scenes import HILLS, PLAIN
 

@@ -20,9 +20,9 @@ from hypcheck.implementations.session import Limits
 from hypcheck.record.measurements import AbsentLine, AccuracyLine, BoundingLine, SpeedLine, StabilityLine, WorkloadLine
 from hypcheck.report import markdown
 from hypcheck.runs import judge
-from hypcheck.truth.flip_exponents import flip_exponents
 from tests.bench.test_run import ended
 from tests.support import exactly
+from tests.support.inside import flip_exponents
 from tests.support.judging import ends_of
 from tests.tools.miniatures import QUICK, command
 

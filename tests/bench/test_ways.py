@@ -18,9 +18,9 @@ from hypcheck.implementations.builtin import passage_methods
 from hypcheck.implementations.ways import WAY_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
-from hypcheck.truth.passage_error import size_error
 from hypcheck.vectors.families import WAY_FAMILIES
 from tests.bench.test_run import RECORD, ended
+from tests.support.inside import size_error
 from tests.support.records import violations
 from tests.support.without_drawing import draw_nothing
 from tests.tools.miniatures import NOT_ISOLATED, command

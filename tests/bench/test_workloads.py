@@ -7,9 +7,8 @@ import pytest
 
 from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, scene_of
 from hypcheck.geometry.rows import first_trouble
-from hypcheck.truth.flip_exponents import flip_exponents
-from hypcheck.truth.nearest_rows import clearances
 from tests.support import exactly
+from tests.support.inside import clearances, flip_exponents
 
 
 @pytest.mark.parametrize("name", WORKLOADS)

@@ -12,7 +12,8 @@ from hypcheck.answer import answer, answer_as_json, answer_as_text
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.tables.numbers import exact_text, readable_text
-from hypcheck.truth.exact import Decision
+from tests.support.inside import Certificate, Decision
+from tests.support.inside import exact as oracle
 from tests.support.pairs import pairs
 
 
@@ -143,7 +144,6 @@ def test_readable_text_marks_a_rounded_number():
 
 
 def test_classify_ends_with_6_if_the_oracles_disagree(monkeypatch, capsys):
-    from hypcheck.truth import exact as oracle
 
     right = oracle.decide
 
@@ -160,7 +160,6 @@ def test_classify_ends_with_6_if_the_oracles_disagree(monkeypatch, capsys):
 
 def test_classify_ends_with_6_and_prints_no_proof_if_the_proof_does_not_hold(monkeypatch, capsys):
     from hypcheck import answer as module
-    from hypcheck.truth.certificate import Certificate
 
     def wrong(pair, decision):
         return Certificate(decision.position, multiplier=Fraction(4))

@@ -28,9 +28,9 @@ from hypcheck.implementations.alternatives import (
 )
 from hypcheck.implementations.builtin import builtin, builtin_methods
 from hypcheck.implementations.method import on_rows, on_scene
-from hypcheck.kernel import numpy_kernel
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
 from tests.support import exactly
+from tests.support.inside import numpy_kernel_positions
 
 BY_PAIRS = [name for name, each in FORMULAS.items() if each.classifies_pairs]
 
@@ -117,7 +117,7 @@ def test_a_bounding_shape_is_never_clear_where_the_spheroid_is_not(answer, rows)
 def test_bounding_sphere_is_exact_for_spheres_and_contains_other_spheroids(tower):
     spheres = tower.copy()
     spheres[:, 3] = spheres[:, 2]
-    assert (bounding_sphere(spheres) == numpy_kernel.positions(spheres)).all()
+    assert (bounding_sphere(spheres) == numpy_kernel_positions(spheres)).all()
     tall = tower.copy()
     tall[:, 3] = 8 * tall[:, 2]
     wide = tall.copy()

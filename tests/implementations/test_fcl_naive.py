@@ -15,9 +15,9 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import meshes
 from hypcheck.implementations.meshes import FCL, PAIRINGS, naive_fcl, shared_meshes
-from hypcheck.truth.mesh_oracle import verdict
 from hypcheck.vectors.families import FAMILIES
 from tests.support.fractions_truth import exact_position, near_contact_rows, tangent_row
+from tests.support.inside import verdict
 
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")
 

@@ -14,7 +14,7 @@ from hypcheck.geometry.rows import WAYS, with_axis
 from hypcheck.implementations.description import Description, described
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome, StartError
-from hypcheck.truth.swept import passage
+from tests.support.inside import passage
 from tests.tools.miniatures import LIMITS, NOT_ISOLATED, command, compiled, function, rows
 
 SHARED = ("-shared", "-fPIC")

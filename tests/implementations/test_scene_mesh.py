@@ -22,10 +22,9 @@ from hypcheck.implementations.meshes import (
     scene_mesh,
     turns_of,
 )
-from hypcheck.truth.nearest import nearest
-from hypcheck.truth.nearest_rows import clearances
 from hypcheck.vectors.families import TILTED_FAMILIES
 from tests.support import exactly
+from tests.support.inside import clearances, nearest
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
 ENGINES = [

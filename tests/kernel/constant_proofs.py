@@ -16,9 +16,18 @@ from pathlib import Path
 
 from hypcheck.derivation.program import cut, program_of
 from hypcheck.derivation.rounding import gamma, relative_error_counts
-from hypcheck.kernel import core
-from hypcheck.kernel.core import generate
-from hypcheck.kernel.programs import certified, fixed, lines, tilted
+from hypcheck.kernel.programs import fixed
+from tests.support.inside import (
+    CERTIFIED,
+    CERTIFIED_CONSTANTS,
+    CONSTANTS,
+    TILTED,
+    certified,
+    core,
+    generate,
+    lines,
+    tilted,
+)
 
 U = Fraction(certified.U)
 GREATEST, LEAST_NORMAL = Fraction(sys.float_info.max), Fraction(sys.float_info.min)
@@ -37,13 +46,13 @@ def covers(needed: Fraction) -> Proof:
 
 def _count(program: str, step: str) -> Fraction:
     """The bound that the roundings counted in a step need, with one unit for the second order."""
-    found = {"certified": certified.CERTIFIED, "single": certified.SINGLE}[program]
+    found = {"certified": CERTIFIED, "single": certified.SINGLE}[program]
     return (relative_error_counts(found, [step]).counts[step] + 1) * U
 
 
 def _parts(names: tuple[str, ...], known: tuple[str, ...]) -> Fraction:
     """The most that the roundings of these steps can do, counted from what is known."""
-    counts = (relative_error_counts(cut(certified.CERTIFIED, known, (name,)), (name,)).counts[name] for name in names)
+    counts = (relative_error_counts(cut(CERTIFIED, known, (name,)), (name,)).counts[name] for name in names)
     return gamma(max(counts), U)
 
 
@@ -55,7 +64,7 @@ def _leaning(name: str) -> Fraction:
 def _less_sure(value: Fraction) -> bool:
     """Below it by no more than a thousandth, and by more than what both sides of its comparison are rounded by."""
     known = ("minus_F_least", "d_least", "psi", "e_psi", "p", "s_along", "t")
-    part = cut(tilted.TILTED, known, ("room", "slope_most"))
+    part = cut(TILTED, known, ("room", "slope_most"))
     counts = relative_error_counts(part, ("room", "slope_most")).counts
     count = counts["room"] + counts["slope_most"] + 2  # the product with it, and s_along
     return 1 - Fraction(1, 1000) < value <= (1 - U) ** count
@@ -63,7 +72,7 @@ def _less_sure(value: Fraction) -> bool:
 
 def _greatest_l(value: Fraction) -> bool:
     """With the squares at their limits no value overflows, and what underflows is within a unit of the least bound."""
-    square, far = (Fraction(tilted.CONSTANTS[name]) for name in ("greatest_square", "farthest_square"))
+    square, far = (Fraction(CONSTANTS[name]) for name in ("greatest_square", "farthest_square"))
     p = s = t = square
     k = p * s + value * (s * (t + 1) + p * (t + 1) + t * value)
     d, m = (p + value) * k, t * far + (t + 1) * far
@@ -71,8 +80,8 @@ def _greatest_l(value: Fraction) -> bool:
     N, N_slope = value * (t + 1) * (s + p) * far + (p + value) * g, (t + 1) * (s + p) * far + g + (p + value) * m
     k_slope = s * (t + 1) + p * (t + 1) + 2 * t * value
     psi = d * (N + value * N_slope + d) + value * N * (k + (p + value) * k_slope)
-    least = Fraction(tilted.CONSTANTS["least_square"])
-    lost = LEAST_NORMAL * 2 * psi * Fraction(tilted.CONSTANTS["greatest_axis"])
+    least = Fraction(CONSTANTS["least_square"])
+    lost = LEAST_NORMAL * 2 * psi * Fraction(CONSTANTS["greatest_axis"])
     return psi * (p + s * (t + 1) / least) < GREATEST and lost < U * least**6
 
 
@@ -92,7 +101,7 @@ def _height(value: Fraction) -> bool:
 
 def _seen(value: Fraction) -> bool:
     """What contract.h says of a time: 2⁻⁴³ (1 + S) larger there is contact, the slack of the centre included."""
-    return (value + 1) * Fraction(certified.CONSTANTS["u_4"]) * (1 + 20 * U) <= Fraction(1, 2**43)
+    return (value + 1) * Fraction(CERTIFIED_CONSTANTS["u_4"]) * (1 + 20 * U) <= Fraction(1, 2**43)
 
 
 def widths() -> list[int]:

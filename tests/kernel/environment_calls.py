@@ -20,6 +20,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.support.inside import swept
+
 CASES = Path(__file__).parents[2] / "cases"
 FTZ, DAZ = 0x8000, 0x40
 SETTINGS = [*(rounding << 13 | flush for rounding in range(4) for flush in (0, FTZ | DAZ)), FTZ, DAZ]
@@ -180,8 +182,6 @@ def as_bits(result):
 
 def truths(pairs, ways, scenes):
     """Positions that are known without the functions that are called, or by their exact oracle."""
-    from hypcheck.truth import swept
-
     upright = [position for _, position in pairs[7]]
     found = {"classify tilted": [position for _, position in pairs[10]], "classify": upright}
     for row, hit in ways:

@@ -13,7 +13,7 @@ from typing import Any
 from hypcheck.derivation.evaluation import EXACT, outputs
 from hypcheck.derivation.program import Program, cut
 from hypcheck.geometry.pair import Position
-from hypcheck.kernel.programs import certified, tilted
+from tests.support.inside import CERTIFIED_CONSTANTS, tilted
 
 BOUNDS = {
     "delta_3": "E",
@@ -51,7 +51,7 @@ LIMITS = {
 }
 """By program and by value: the constants between which it has to lie; a size without one has to be above 0."""
 
-CONSTANTS = {"certified": certified.CONSTANTS, "tilted": tilted.CONSTANTS}
+CONSTANTS = {"certified": CERTIFIED_CONSTANTS, "tilted": tilted.CONSTANTS}
 
 Wrong = list[dict[str, Any]]
 
@@ -74,7 +74,7 @@ def rule(delta: int, c1: int, c2: int, slope_B: int, offset_B: int, slope_A: int
 def wrong_signs(program: Program) -> Wrong:
     """Signs for which the second stage answers otherwise than the rule; a value equal to its bound has none."""
     sizes = dict.fromkeys(("alpha", "gamma", "b", "d", "A", "B"), 1)
-    inputs = {**certified.CONSTANTS, **sizes, **dict.fromkeys(BOUNDS.values(), 2), "P_plus_Q": 1}
+    inputs = {**CERTIFIED_CONSTANTS, **sizes, **dict.fromkeys(BOUNDS.values(), 2), "P_plus_Q": 1}
     asked = []
     for signs in itertools.product((-1, 0, 1), repeat=len(BOUNDS)):
         for at_bound in (2, -2) if 0 in signs else (2,):

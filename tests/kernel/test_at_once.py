@@ -11,9 +11,8 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import tilted_rows
-from hypcheck.kernel import classify as step_by_step
-from hypcheck.kernel import compiled_kernel
-from hypcheck.kernel.choice import LEVELS
+from tests.support.inside import LEVELS, classify, compiled_kernel
+from tests.support.inside import kernel_classify as step_by_step
 
 core = pytest.importorskip("hypcheck.kernel._compiled")
 if hypcheck.kernel.choice.choice().kernel != "compiled":
@@ -31,7 +30,7 @@ def alone():
     assert hypcheck.classify is core.classify  # from now on C knows numpy's arrays
     core.set_slow_calls(lambda *_call, **_options: LEFT, lambda *_call, **_options: LEFT, hypcheck.Prepared)
     yield core
-    core.set_slow_calls(step_by_step.classify, step_by_step.classify_scene, hypcheck.Prepared)
+    core.set_slow_calls(classify, step_by_step.classify_scene, hypcheck.Prepared)
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +56,7 @@ def test_an_ordinary_call_of_the_c_entry_answers_as_the_python_code(columns, cou
     ):
         assert found.dtype == np.int8
         assert found.tolist() == expected.tolist()
-    leaning = step_by_step.classify(rows).tolist()
+    leaning = classify(rows).tolist()
     assert alone.classify(rows, out=np.full(count, 99, np.int8), threads=None).tolist() == leaning
     assert step_by_step.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
     assert alone.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
@@ -185,7 +184,7 @@ def test_points_and_an_axis_each_are_answered_in_c_as_rows(columns, count, level
         random = np.random.default_rng(5)
         axes = np.where(random.random((count, 1)) < 0.5, [0.0, 0.0, -2.0], random.normal(size=(count, 3)))
         rows = tilted_rows(SIZES, (*points.T,), (*axes.T,))
-        upright, leaning = step_by_step.classify(rows[:, :7].copy()).tolist(), step_by_step.classify(rows).tolist()
+        upright, leaning = classify(rows[:, :7].copy()).tolist(), classify(rows).tolist()
         for given in (points, np.asfortranarray(points), points.astype(object).tolist() if count <= 100 else points):
             assert alone.classify_scene(SIZES, given).tolist() == upright
             assert alone.classify(SIZES, given).tolist() == upright
@@ -208,10 +207,10 @@ def test_sizes_may_be_columns_in_c(columns, alone):
     x, y, z = (column[:200] for column in columns)
     alpha, d = np.linspace(1, 3, 200), np.linspace(0.1, 2, 200)
     rows = np.column_stack([alpha, np.full(200, 17.8), np.full(200, 0.25), d, x, y, z])
-    expected = step_by_step.classify(rows).tolist()
+    expected = classify(rows).tolist()
     assert alone.classify(alpha, 17.8, 0.25, d, x, y, z).tolist() == expected
     axis = (0.3, 0.1, 0.9)
-    leaning = step_by_step.classify(np.hstack([rows, np.tile(axis, (200, 1))])).tolist()
+    leaning = classify(np.hstack([rows, np.tile(axis, (200, 1))])).tolist()
     assert alone.classify(alpha, 17.8, 0.25, d, x, y, z, axis=axis).tolist() == leaning
 
 

@@ -13,7 +13,7 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth.exact import position as exactly
+from tests.support.inside import position as exactly
 
 SIZES = (2.0, 17.8, 0.25, 0.15)
 POINTS = np.array([[0.0, 0.0, 5.0], [1.9, 0.0, 5.0], [3.0, 0.0, 5.0], [2.3, 0.1, -1.0]])

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.choice import EXTENSION, LEVELS, KernelChoice, choice, most_threads
+from tests.support.inside import EXTENSION, LEVELS, KernelChoice, choice, most_threads
 
 CPUINFO = Path("/proc/cpuinfo")
 

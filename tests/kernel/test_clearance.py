@@ -11,10 +11,10 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import choice, clearance_points
-from hypcheck.truth import nearest_rows
-from hypcheck.truth.nearest import nearest
+from hypcheck.kernel import clearance_points
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from tests.support.inside import clearances, nearest
+from tests.support.inside import kernel_choice as choice
 from tests.support.nearest_points import is_circle, nearest_points
 
 UPRIGHT = ("uniform", "tangent", "ring", "near-axis", "extreme-subnormal", "extreme-magnitude", "on-surface", "waist")
@@ -32,7 +32,7 @@ def found(rows):
 
 
 def test_clearance_intervals_contain_the_exact_clearance_on_each_family(rows, found):
-    true = nearest_rows.clearances(rows)
+    true = clearances(rows)
     assert (found.position == true.position).all()
     assert ((found.lower <= true.clearance) & (true.clearance <= found.upper)).all()
     assert (found.upper - found.lower <= 2.0**-29 * np.maximum(1, 1 + found.lower)).all()
@@ -52,7 +52,7 @@ def test_clearance_intervals_stay_right_if_the_guess_of_the_touch_is_wrong(rows,
     choice.choice.cache_clear()
     other = hypcheck.clearance(rows[::8])
     choice.choice.cache_clear()
-    true = nearest_rows.clearances(rows[::8]).clearance
+    true = clearances(rows[::8]).clearance
     assert ((other.lower <= true) & (true <= other.upper)).all()
     assert (other.upper - other.lower <= (2.0**-30 + 2.0**-50) * np.maximum(1, 1 + other.lower)).all()
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Lengths, Pair
-from hypcheck.kernel import clearance_points, numpy_kernel
-from hypcheck.truth.nearest import nearest
+from hypcheck.kernel import clearance_points
 from tests.support import exactly
+from tests.support.inside import nearest, numpy_kernel
 from tests.support.nearest_points import nearest_points
 from tests.truth.tilted_cases import phi
 

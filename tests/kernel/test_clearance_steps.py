@@ -7,9 +7,10 @@ import pytest
 
 import hypcheck
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import choice, clearance
-from hypcheck.truth import nearest_rows
+from hypcheck.kernel import clearance
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from tests.support.inside import clearances
+from tests.support.inside import kernel_choice as choice
 from tests.support.nearest_points import is_circle, nearest_points
 
 UPRIGHT = ("uniform", "tangent", "ring", "near-axis", "extreme-subnormal", "extreme-magnitude", "on-surface", "waist")
@@ -29,7 +30,7 @@ def rows():
 
 
 def test_clearance_in_the_numpy_kernel_encloses_the_exact_clearances_touches_and_distances(rows, numpy_kernel):
-    found, true = hypcheck.clearance(rows), nearest_rows.clearances(rows)
+    found, true = hypcheck.clearance(rows), clearances(rows)
     assert (found.position == true.position).all()
     assert ((found.lower <= true.clearance) & (true.clearance <= found.upper)).all()
     assert (found.upper - found.lower <= 2.0**-29 * np.maximum(1, 1 + found.lower)).all()

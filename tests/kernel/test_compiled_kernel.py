@@ -11,9 +11,9 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
-from hypcheck.kernel import compiled_kernel, numpy_kernel
 from hypcheck.scene.model import QUESTIONS
 from tests.support import exactly
+from tests.support.inside import compiled_kernel, numpy_kernel
 from tests.tools.attack.places import near_contact, scenes
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")

@@ -7,8 +7,8 @@ import pytest
 
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.truth import exact
 from hypcheck.vectors.frozen import ENDED_NAMES, load
+from tests.support.inside import position
 from tests.tools import ended_agreement
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
@@ -47,7 +47,7 @@ def test_rows_a_hair_from_contact_are_right_and_few_are_left_open(leaning, most_
     rows = ended_agreement.hairs(random, 600, leaning=leaning)
     positions = answered(rows)
     decided = positions != CANNOT_SAY
-    truth = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+    truth = np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
     assert (positions[decided] == truth[decided]).all()
     assert (~decided).mean() < most_open
     assert {-1, 0, 1} == set(truth.tolist())

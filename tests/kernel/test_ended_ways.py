@@ -11,9 +11,9 @@ import pytest
 from hypcheck import passage
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS, with_axis
-from hypcheck.kernel import compiled_kernel, numpy_kernel
 from hypcheck.vectors.frozen import WAY_NAMES, load
 from tests.support.ended_ways import near_a_rim, past_a_tower
+from tests.support.inside import compiled_kernel, numpy_kernel_answer_ways
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -95,7 +95,7 @@ def test_the_kernel_answers_no_way_beside_an_end_wrongly_and_gives_no_late_time(
     for time, each in zip(times.tolist(), truth, strict=True):
         assert math.isnan(time) or 0 <= time <= each.first_upper
     assert np.isnan(times[hits == 1]).mean() < 0.1
-    by_numpy, _ = numpy_kernel.answer_ways(rows)
+    by_numpy, _ = numpy_kernel_answer_ways(rows)
     assert ((by_numpy == CANNOT_SAY) | (by_numpy == right)).all()
 
 
@@ -140,7 +140,7 @@ def test_ends_that_are_infinite_or_far_away_change_no_answer_about_ways(name):
             np.testing.assert_array_equal(said, expected)
 
 
-@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
 @pytest.mark.parametrize(
     ("column", "value", "valid"),
     [

@@ -15,12 +15,11 @@ from hypothesis import strategies as st
 from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
 from hypcheck.derivation.program import Program, program_of
 from hypcheck.derivation.proofs import SYMBOLIC
-from hypcheck.kernel.core import generate
 from hypcheck.kernel.programs import fixed
-from hypcheck.kernel.programs.integers import INTEGERS
 from hypcheck.vectors.families import FAMILIES
 from tests.kernel.compiling import HEADER, needs_compiler, shared_library
 from tests.support import exactly
+from tests.support.inside import INTEGERS, header
 
 HALF, WHOLE = 2**64, 2**128
 
@@ -238,7 +237,7 @@ def test_the_fixed_point_stage_without_its_error_bound_answers_some_tangencies_w
 
 
 def test_the_header_has_every_step_of_fixed_point():
-    text = generate.header()
+    text = header()
     for program, wanted in ((fixed.TERMS, fixed.TERM_RESULTS), (fixed.DISCRIMINANT, ("delta", "middle"))):
         for name in wanted:
             assert f"const hc_fixed {name} = " in text, (program.name, name)

@@ -10,7 +10,7 @@ import sys
 
 import pytest
 
-from hypcheck.kernel.choice import choice
+from tests.support.inside import choice
 
 pytestmark = pytest.mark.skipif(
     platform.machine() != "x86_64" or platform.libc_ver()[0] != "glibc",

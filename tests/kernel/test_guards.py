@@ -11,12 +11,19 @@ import pytest
 
 from hypcheck.derivation.evaluation import EXACT, outputs
 from hypcheck.geometry.pair import Lengths, Pair, Position, to_integers
-from hypcheck.kernel import integers, scene_lines
-from hypcheck.kernel.programs import certified, lines, tilted
-from hypcheck.kernel.programs.integers import FLOAT64_BITS
 from tests.kernel import program_rules
 from tests.kernel.compiling import STRICT, needs_compiler, program
 from tests.support import exactly
+from tests.support.inside import (
+    CERTIFIED,
+    CERTIFIED_CONSTANTS,
+    FLOAT64_BITS,
+    TILTED,
+    certified,
+    integers_position,
+    lines,
+    scene_lines,
+)
 
 GREATEST = Fraction(sys.float_info.max)
 LEAST_NORMAL = Fraction(sys.float_info.min)
@@ -25,21 +32,21 @@ U = Fraction(certified.U)
 
 @pytest.mark.slow
 def test_the_certified_stage_decides_by_the_exact_rule_for_all_combinations_of_signs():
-    assert program_rules.wrong_signs(certified.CERTIFIED) == []
+    assert program_rules.wrong_signs(CERTIFIED) == []
 
 
 def test_the_stage_of_leaning_rows_decides_by_its_rule_for_all_combinations_of_signs():
-    assert program_rules.wrong_signs_of_leaning_rows(tilted.TILTED) == []
+    assert program_rules.wrong_signs_of_leaning_rows(TILTED) == []
 
 
-@pytest.mark.parametrize("program", [certified.CERTIFIED, tilted.TILTED], ids=lambda program: program.name)
+@pytest.mark.parametrize("program", [CERTIFIED, TILTED], ids=lambda program: program.name)
 def test_the_float_stages_decide_only_rows_within_their_limits(program):
     assert program_rules.wrong_limits(program) == []
 
 
 def test_no_product_overflows_on_rows_that_the_certified_stage_decides():
     """With every size and centre at its limit the largest product of the bound is far from the largest float64."""
-    most, far = (Fraction(certified.CONSTANTS[name]) for name in ("greatest", "farthest"))
+    most, far = (Fraction(CERTIFIED_CONSTANTS[name]) for name in ("greatest", "farthest"))
     m2 = 2 * (2 * most + 1 + far)
     m1 = 2 * (most * most + 2 * most + most * far)
     m0 = 2 * most * most
@@ -51,7 +58,7 @@ def test_no_product_overflows_on_rows_that_the_certified_stage_decides():
 
 
 def test_underflow_in_the_certified_stage_is_less_than_one_spare_unit_of_its_bound():
-    least, most = (Fraction(certified.CONSTANTS[name]) for name in ("least", "greatest"))
+    least, most = (Fraction(CERTIFIED_CONSTANTS[name]) for name in ("least", "greatest"))
     lost = 4 * most * 2 * LEAST_NORMAL / least**2  # of c1, where x², y² and z² are lost
     assert lost < U * least * least  # AB, the least of the terms' sum that e1 is measured by
 
@@ -87,7 +94,7 @@ def test_the_chord_program_compares_both_ends_of_the_chord(at):
 def test_the_longest_integer_from_float64_lengths_has_the_counted_number_of_bits():
     longest = Pair(sys.float_info.max, 1.0, 5e-324, 1.0, 5e-324, 0.0, 0.0).lengths.alpha
     assert longest.bit_length() == FLOAT64_BITS
-    assert integers.position(Lengths(longest, 1, 0, 0, 1, 1, 0)) is Position.INTERIOR
+    assert integers_position(Lengths(longest, 1, 0, 0, 1, 1, 0)) is Position.INTERIOR
 
 
 def test_integers_answer_contact_for_a_tangency_whose_slope_at_the_pole_is_0():
@@ -99,7 +106,7 @@ def test_integers_answer_contact_for_a_tangency_whose_slope_at_the_pole_is_0():
     assert double**3 + c2 * double**2 + c1 * double - A * B == 3 * double**2 + 2 * c2 * double + c1 == 0
     assert 3 * B**2 + 2 * c2 * B + c1 == 0
     assert 0 < double < B
-    assert integers.position(Lengths(alpha, b, x, y, gamma, d, z)) is Position.CONTACT
+    assert integers_position(Lengths(alpha, b, x, y, gamma, d, z)) is Position.CONTACT
 
 
 SCENE = """

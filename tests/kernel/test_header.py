@@ -9,10 +9,8 @@ import subprocess
 import pytest
 
 from hypcheck.derivation.program import needed
-from hypcheck.kernel.core import generate
 from hypcheck.kernel.printed import scalars
 from hypcheck.kernel.printing import modules
-from hypcheck.kernel.programs import certified
 from tests.kernel.compiling import (
     CLANG,
     COMPILER,
@@ -23,6 +21,7 @@ from tests.kernel.compiling import (
     needs_compiler,
     needs_gcc,
 )
+from tests.support.inside import CERTIFIED, CERTIFIED_CONSTANTS, generate, header
 
 WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-pedantic", "-Werror")
 COMPILERS = pytest.mark.parametrize(
@@ -35,7 +34,7 @@ CPP_COMPILERS = [
 
 
 def test_the_committed_header_is_what_its_generator_prints():
-    assert HEADER.read_text(encoding="utf-8") == generate.header(), f"run {generate.COMMAND}"
+    assert HEADER.read_text(encoding="utf-8") == header(), f"run {generate.COMMAND}"
 
 
 @pytest.mark.parametrize("name", modules.modules())
@@ -45,12 +44,12 @@ def test_each_committed_printed_module_is_what_its_generator_prints(name):
 
 def test_the_header_has_every_step_of_the_certified_program():
     text = HEADER.read_text(encoding="utf-8")
-    for step in needed(certified.CERTIFIED, ("exterior", "interior", "decided")):
+    for step in needed(CERTIFIED, ("exterior", "interior", "decided")):
         assert re.search(rf"const HC_(NUMBER|TRUTH) {step.name} = ", text), step.name
 
 
 def test_limits_of_the_scalar_function_are_those_of_the_certified_program():
-    constants = certified.CONSTANTS
+    constants = CERTIFIED_CONSTANTS
     assert (scalars.LEAST, scalars.GREATEST, scalars.FARTHEST, scalars.SLACK) == tuple(
         constants[name] for name in ("least", "greatest", "farthest", "slack")
     )

@@ -7,9 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from hypcheck.kernel import numpy_kernel, scene_lines
-from hypcheck.kernel.numpy_kernel import Buffers, chunks
 from tests.support import exactly
+from tests.support.inside import Buffers, chunks, numpy_kernel, positions_of_scene, scene_lines
 
 
 @pytest.mark.thorough
@@ -21,7 +20,7 @@ def test_the_numpy_kernel_is_exact_for_heights_and_sizes_without_lines():
         rows = np.column_stack([*(np.full(len(x), size) for size in sizes), x, y, z])
         rows[:, 4:] *= sizes[2]
         columns = np.ascontiguousarray(rows[:, 4:].T)
-        assert (numpy_kernel.positions_of_scene(sizes, *columns) == exactly.positions(rows)).all()
+        assert (positions_of_scene(sizes, *columns) == exactly.positions(rows)).all()
 
 
 SCENES = [

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from hypcheck.kernel import numpy_kernel, scene_lines
 from tests.support import exactly
+from tests.support.inside import numpy_kernel, positions_of_scene, scene_lines
 from tests.tools.attack.places import Scene, sizes
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
@@ -75,9 +75,7 @@ def test_parallel_lines_decide_no_centre_near_contact_wrongly():
     assert len(SCENES) > 20
     assert [wrong(scene) for scene in near()] == [0] * 10
     for scene in near()[:4]:
-        assert (
-            numpy_kernel.positions_of_scene(scene.sizes, scene.x, scene.y, scene.z) == exactly.positions(scene.rows)
-        ).all()
+        assert (positions_of_scene(scene.sizes, scene.x, scene.y, scene.z) == exactly.positions(scene.rows)).all()
 
 
 @pytest.mark.parametrize("margin", [0.0, -scene_lines.FLOAT32_MARGIN])
@@ -113,7 +111,7 @@ def test_a_centre_beyond_single_precision_is_answered_exactly_by_later_stages(co
     expected = np.full(len(rows), 127)
     valid = np.isfinite(rows).all(axis=1)
     expected[valid] = exactly.positions(rows[valid])
-    assert (numpy_kernel.positions_of_scene(TOWER, *tower) == expected).all()
+    assert (positions_of_scene(TOWER, *tower) == expected).all()
 
 
 @pytest.mark.parametrize("unit", [1e-12, 1e12])

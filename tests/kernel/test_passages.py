@@ -10,7 +10,7 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
-from hypcheck.truth import swept
+from tests.support.inside import passage
 
 SIZES = (2.0, 17.8, 0.25, 0.15)
 STARTS = np.array([[1.5, 0.0, 9.0], [0.0, 0.0, 30.0], [3.0, 0.0, 0.0], [5.0, 1.0, 0.0], [2.1, 0.0, 0.0]])
@@ -18,7 +18,7 @@ ENDS = np.array([[1.5, 0.0, -9.0], [5.0, 0.0, 30.0], [0.0, 0.0, 0.0], [5.0, -1.0
 
 
 def alone(sizes, start, end, **more):
-    return swept.passage(sizes, start, end, **more)
+    return passage(sizes, start, end, **more)
 
 
 @pytest.mark.parametrize(

@@ -16,8 +16,7 @@ from hypcheck.derivation.program import cut, needed
 from hypcheck.derivation.proofs import SYMBOLIC
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.kernel.programs import certified, lines
-from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
+from tests.support.inside import CERTIFIED, CERTIFIED_CONSTANTS, INTEGERS, SLACK, bits_counted, certified, lines
 
 U = Fraction(certified.U)
 WITHOUT_MARGINS = {"u_8": 0, "more": 1, "less": 1}
@@ -25,7 +24,7 @@ positives = st.fractions(Fraction(1, 64), 64, max_denominator=64)
 sevens = st.tuples(*[positives] * 7)
 
 
-@pytest.mark.parametrize("program", [certified.CERTIFIED, certified.SINGLE], ids=lambda program: program.name)
+@pytest.mark.parametrize("program", [CERTIFIED, certified.SINGLE], ids=lambda program: program.name)
 def test_the_discriminant_of_the_kernel_programs_is_that_of_the_proved_formula(program):
     """Step for step the discriminant of the formula "hessian", which the derivation proves equal to g's."""
     proved = needed(FORMULAS["hessian"].program, ("delta_3", "c1", "c2", "c0"))
@@ -47,9 +46,9 @@ def test_the_magnitude_of_the_discriminant_is_at_most_the_product_in_its_error_b
 @given(sevens)
 def test_terms_of_the_error_bounds_are_the_counted_magnitudes(values):
     row = dict(zip(COLUMNS, values, strict=True))
-    inputs = {**row, **certified.CONSTANTS, **certified.SINGLE_CONSTANTS}
+    inputs = {**row, **CERTIFIED_CONSTANTS, **certified.SINGLE_CONSTANTS}
     for program, names in (
-        (certified.CERTIFIED, {"c1": "terms_1", "c2": "terms_2", "c0": "AB"}),
+        (CERTIFIED, {"c1": "terms_1", "c2": "terms_2", "c0": "AB"}),
         (certified.SINGLE, {"c1": "M1", "c2": "M2"}),
     ):
         counted = relative_error_counts(program, tuple(names))
@@ -73,7 +72,7 @@ def test_error_bounds_of_the_discriminant_are_those_of_the_kernel_page(step):
         "E": 4 * (a1 * E3 + a3 * E1) + 2 * a2 * E2 + u4 * (4 * a1 * a3 + a2**2),
     }
     known = tuple(letters) if step != "E" else ("a1", "a2", "a3", "E1", "E2", "E3", "u_4", "slack")
-    part = cut(certified.CERTIFIED, known, (step,))
+    part = cut(CERTIFIED, known, (step,))
     inputs = {**letters, **{str(s): s for s in (a1, a2, a3, E1, E2, E3)}, "slack": sympy.Integer(1)}
     (value,) = outputs(part, SYMBOLIC, inputs, (step,))
     assert sympy.expand(value - page[step]) == 0
@@ -81,12 +80,12 @@ def test_error_bounds_of_the_discriminant_are_those_of_the_kernel_page(step):
 
 def test_rounding_of_the_certified_error_bounds_is_within_their_slack():
     """Counted from the numbers they are built on, which are not negative, every bound has fewer than 100 factors."""
-    known = ("A", "B", "AB", "BP", "AQ", "P", "Q", "c1", "c2", "h1", "h2", "h3", *certified.CONSTANTS)
+    known = ("A", "B", "AB", "BP", "AQ", "P", "Q", "c1", "c2", "h1", "h2", "h3", *CERTIFIED_CONSTANTS)
     for step in ("E", "bound_A", "bound_B", "offset_bound_A", "offset_bound_B", "e1", "e2"):
-        part = cut(certified.CERTIFIED, known, (step,))
+        part = cut(CERTIFIED, known, (step,))
         counts = relative_error_counts(part, (step,), positive=set(part.inputs) - {"c1", "c2", "h1", "h2", "h3"})
         assert counts.counts[step] < 100
-        assert (1 - U) ** -100 < Fraction(certified.SLACK)
+        assert (1 - U) ** -100 < Fraction(SLACK)
 
 
 @pytest.mark.slow
@@ -125,7 +124,7 @@ def test_the_error_that_the_piece_program_subtracts_covers_its_roundings(part):
     assert count <= 4
     counted = relative_error_counts(cut(lines.PIECE, ("K", "R", "rise"), (size,)) if not part else lines.PIECE, [size])
     assert counted.counts[size] <= 4
-    assert gamma(count, U) + U < Fraction(certified.CONSTANTS["u_8"]) * (1 - gamma(5, U)) - 2 * U
+    assert gamma(count, U) + U < Fraction(CERTIFIED_CONSTANTS["u_8"]) * (1 - gamma(5, U)) - 2 * U
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
-from hypcheck.kernel.scalar import exact_position
+from tests.support.inside import exact_position
 
 FUNCTIONS = pytest.mark.parametrize("function", [hypcheck.position, exact_position], ids=["public", "plain-python"])
 

@@ -12,11 +12,19 @@ import pytest
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.geometry.pair import Position
-from hypcheck.kernel.specialise import last_stages
-from hypcheck.kernel.specialise.first_stages import line_at
-from hypcheck.kernel.specialise.last_stages import exact_constants, search
-from hypcheck.kernel.specialise.settings import FORMATS, Box, Setting, centres, position_of_box, scaled
 from hypcheck.scene.model import Span
+from tests.support.inside import (
+    FORMATS,
+    Box,
+    Setting,
+    centres,
+    exact_constants,
+    last_stages,
+    line_at,
+    position_of_box,
+    scaled,
+    search,
+)
 
 SIZES = [(2.0, 17.8, 0.25, 0.15), (1.0, 4.0, 1.0, 1.0), (0.01, 1e4, 10.0, 0.01), (3.0, 1.0, 2.0**60, 1.0)]
 CORNER = (Fraction(40), Fraction(50))

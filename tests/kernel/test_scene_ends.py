@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.kernel.scene import Scene
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
-from hypcheck.truth.swept import passage
+from tests.support.inside import Scene, passage
 from tests.support.scenes import truth_beside, truth_in
 
 STUMP = Hyperboloid("stump", 0.2, 1.0, (0.0, 0.0, 0.0), Span(-1.0, 2.0))

@@ -11,11 +11,11 @@ import pytest
 
 import hypcheck
 from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.scene_pairs import position_beside, positions_beside
 from hypcheck.scene import model
 from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, Span
 from tests.support import exactly
+from tests.support.inside import Scene
 
 
 def truth_about(body, mover, centre):

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.scene import Scene
 from hypcheck.scene import model
 from hypcheck.scene.model import Hyperboloid, Mover, Region, Span
 from tests.kernel.test_scene_index import truth_about
+from tests.support.inside import Scene
 
 HILLS = (
     Hyperboloid("low", 0.5, 4.0, (0.0, 0.0, 0.0), Span(-1.0, 5.0)),

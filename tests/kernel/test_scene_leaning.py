@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.scene import Scene
 from hypcheck.scene.model import (
     FREE,
     QUESTIONS,
@@ -24,6 +23,7 @@ from hypcheck.scene.model import (
     Span,
 )
 from tests.support import scenes
+from tests.support.inside import Scene
 from tests.support.tilted_fractions import exact_position
 
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1

@@ -10,13 +10,20 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines, printed_operations
-from hypcheck.kernel.specialise.first_stages import Thresholds
-from hypcheck.kernel.specialise.plan import decided_by, far_corner, plan_of
-from hypcheck.kernel.specialise.settings import centres, settings_of
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
 from tests.support import exactly
+from tests.support.inside import (
+    Thresholds,
+    centres,
+    decided_by,
+    far_corner,
+    plan_as_json,
+    plan_lines,
+    plan_of,
+    printed_operations,
+    settings_of,
+)
 from tests.support.scenes import scene
 
 

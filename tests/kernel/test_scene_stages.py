@@ -14,13 +14,25 @@ from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, float_arithmetic
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.domain import representable
-from hypcheck.kernel.specialise.first_stages import entry, line_at, thresholds
-from hypcheck.kernel.specialise.last_stages import backward_bound, discriminant, search, search_begin
-from hypcheck.kernel.specialise.settings import FORMATS, Box, ScaledSetting, Setting, position_of_box, scaled
 from hypcheck.scene.model import Span
-from hypcheck.truth.pencil import cubic
 from hypcheck.vectors.fixed_sizes import families_for
 from tests.support import exactly
+from tests.support.inside import (
+    FORMATS,
+    Box,
+    ScaledSetting,
+    Setting,
+    backward_bound,
+    cubic,
+    discriminant,
+    entry,
+    line_at,
+    position_of_box,
+    scaled,
+    search,
+    search_begin,
+    thresholds,
+)
 
 SIZES = [
     (2.0, 17.8, 0.25, 0.15),

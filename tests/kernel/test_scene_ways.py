@@ -13,8 +13,8 @@ from hypcheck import passage
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import WITHOUT_ENDS, Position
 from hypcheck.kernel import scene_index
-from hypcheck.kernel.scene import Scene
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+from tests.support.inside import Scene
 
 
 def forest(count, seed, height=None, **changes):

@@ -10,11 +10,11 @@ import pytest
 import sympy
 
 from hypcheck.derivation.program import needed
-from hypcheck.kernel.programs.integers import FLOAT64_BITS, INTEGERS, bits_counted
 from hypcheck.vectors.families import FAMILIES
 from tests.kernel.compiling import HEADER, needs_compiler, shared_library
 from tests.kernel.test_page import PAGE
 from tests.support import exactly
+from tests.support.inside import FLOAT64_BITS, INTEGERS, bits_counted
 
 UNSURE = 2
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.kernel.choice import choice
+from tests.support.inside import choice
 
 SIZES = (2.0, 17.8, 0.25, 0.15)
 THREADS = 8

@@ -9,13 +9,9 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
-from hypcheck.kernel import numpy_kernel
-from hypcheck.kernel.choice import choice
-from hypcheck.kernel.classify import kernel
-from hypcheck.kernel.scalar import exact_position
 from hypcheck.scene.model import QUESTIONS
-from hypcheck.truth.float_filter import positions
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
+from tests.support.inside import choice, exact_position, kernel, numpy_kernel, positions
 
 KERNELS = [numpy_kernel, kernel()] if choice().kernel == "compiled" else [numpy_kernel]
 SIZES = (2.0, 3.0, 0.5, 1.5)

@@ -12,10 +12,9 @@ import pytest
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.geometry.pair import TILTED_COLUMNS, Pair
-from hypcheck.kernel import integers, tilted_integers
-from hypcheck.kernel.core import generate
-from hypcheck.kernel.programs.integers import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC
+from hypcheck.kernel import tilted_integers
 from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
+from tests.support.inside import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC, generate, integers_position
 
 
 def small_rows(seed, count):
@@ -73,7 +72,7 @@ RINGS = (  # a pole is a double root of the quartic, and the pair is clear; the 
 def reference(row):
     """The position by Python's integers, which are asked all frozen cases."""
     if row[2] == row[3] or row[7] == row[8] == 0:
-        return int(integers.position(Pair.from_row(row[:7]).lengths))
+        return int(integers_position(Pair.from_row(row[:7]).lengths))
     return int(tilted_integers.position(row))
 
 

@@ -10,12 +10,11 @@ import pytest
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.program import cut
 from hypcheck.derivation.rounding import gamma, relative_error_counts
-from hypcheck.kernel.programs import tilted
-from hypcheck.kernel.programs.certified import SLACK, U
 from tests.kernel.test_tilted_integers import small_rows
+from tests.support.inside import CONSTANTS, SLACK, TILTED, U, tilted
 from tests.support.tilted_fractions import derivative, exact_position, interpolated, matrices, value
 
-EXACTLY = {name: Fraction(each) for name, each in tilted.CONSTANTS.items()}
+EXACTLY = {name: Fraction(each) for name, each in CONSTANTS.items()}
 
 
 def in_units_of_b(row):
@@ -24,9 +23,7 @@ def in_units_of_b(row):
 
 
 def found(row, at, constants=EXACTLY):
-    return evaluate(
-        tilted.TILTED, EXACT, dict(zip(tilted.ROW, map(Fraction, row), strict=True)) | constants | {"l": at}
-    )
+    return evaluate(TILTED, EXACT, dict(zip(tilted.ROW, map(Fraction, row), strict=True)) | constants | {"l": at})
 
 
 @pytest.mark.parametrize("row", small_rows(11, 12))
@@ -58,18 +55,18 @@ def test_the_tilted_program_decides_rightly_with_any_multiplier():
 @pytest.mark.parametrize("name", tilted.BOUNDED)
 def test_error_bounds_of_the_tilted_program_cover_its_roundings_and_underflow(name):
     counts = tilted.counted()
-    allowed = Fraction(tilted.CONSTANTS[f"u_{name}"]) / Fraction(SLACK)
+    allowed = Fraction(CONSTANTS[f"u_{name}"]) / Fraction(SLACK)
     assert gamma(counts.counts[name], Fraction(U)) + Fraction(U) < allowed
-    (step,) = (step for step in tilted.TILTED.steps if step.name == tilted.BOUNDED[name])
+    (step,) = (step for step in TILTED.steps if step.name == tilted.BOUNDED[name])
     assert step.arguments == (f"u_{name}", counts.magnitudes[name])
 
 
 def test_rounding_of_the_tilted_error_bounds_is_within_their_slack():
     names = tuple(tilted.BOUNDED.values())
-    magnitudes = cut(tilted.TILTED, (*tilted.ROW, "l", *tilted.CONSTANTS), names)
+    magnitudes = cut(TILTED, (*tilted.ROW, "l", *CONSTANTS), names)
     assert max(relative_error_counts(magnitudes, names, positive=()).counts[name] for name in names) < 100
     assert (1 - Fraction(U)) ** -100 < Fraction(SLACK)
-    room = cut(tilted.TILTED, ("minus_F_least", "d_least", "psi", "e_psi", "p", "s_along", "t"), ("room", "width"))
+    room = cut(TILTED, ("minus_F_least", "d_least", "psi", "e_psi", "p", "s_along", "t"), ("room", "width"))
     assert max(relative_error_counts(room, ("room", "width")).counts[name] for name in ("room", "width")) < 4
 
 

@@ -7,9 +7,9 @@ import subprocess
 import numpy as np
 import pytest
 
-from hypcheck.truth.float_filter import positions
 from tests.kernel.compiling import needs_compiler, program
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
+from tests.support.inside import positions
 from tests.tools.attack.tilted_places import at_the_limits, far, near_contact
 
 pytestmark = pytest.mark.slow

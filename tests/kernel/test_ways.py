@@ -11,9 +11,8 @@ import pytest
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import ways
-from hypcheck.kernel import compiled_kernel, numpy_kernel
-from hypcheck.truth.passage_error import hits_at_size, scaled_passage
 from hypcheck.vectors.frozen import WAY_NAMES, load
+from tests.support.inside import compiled_kernel, hits_at_size, numpy_kernel_answer_ways, scaled_passage
 from tests.tools.attack.rounding import DIRECTED, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -44,7 +43,7 @@ def test_the_compiled_kernel_answers_no_frozen_way_wrongly_and_decides_most(name
     assert (hits[decided] == cases.positions[decided]).all()
     assert decided.all() or name in TOUCHING
     assert np.isnan(times[hits != 1]).all()
-    by_numpy, _ = numpy_kernel.answer_ways(cases.rows)
+    by_numpy, _ = numpy_kernel_answer_ways(cases.rows)
     assert ((by_numpy == CANNOT_SAY) | (by_numpy == cases.positions)).all()
 
 
@@ -85,7 +84,7 @@ def test_the_compiled_kernel_answers_no_way_wrongly_in_any_rounding_mode(mode):
         assert ((hits == CANNOT_SAY) | (hits == cases.positions)).all()
 
 
-@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
 @pytest.mark.parametrize("column", range(10))
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.0, -1.0])
 def test_an_invalid_way_is_refused_and_changes_no_other_answer(answer_ways, column, value):
@@ -99,7 +98,7 @@ def test_an_invalid_way_is_refused_and_changes_no_other_answer(answer_ways, colu
 
 
 @pytest.mark.parametrize("axis", [(0.0, -0.0, 0.0), (math.nan, 0.0, 1.0), (0.0, 1.0, -math.inf)])
-@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel.answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
 def test_a_way_whose_axis_has_no_direction_is_refused(answer_ways, axis):
     rows = np.array([(*DOWN, 1.0, 0.0, 1.0), (*DOWN, *axis)])
     hits, times = answer_ways(rows)

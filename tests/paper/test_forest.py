@@ -17,9 +17,9 @@ from hypcheck.errors import InputError
 from hypcheck.paper.forest import ForestPlan, Procedure1, Trees, judged, simulate_forest, walk
 from hypcheck.scene.model import Hyperboloid, Region, Span
 from hypcheck.scene.reading import read_scene
-from hypcheck.truth.swept import passage
 from hypcheck.vectors.draw import Draw
 from tests.support.fractions_truth import exact_position
+from tests.support.inside import passage
 
 FOREST = read_scene("forest")
 TREES = Trees(FOREST)

@@ -27,9 +27,8 @@ from hypcheck.paper.ledger.points import (
     strata,
     witness,
 )
-from hypcheck.truth.certificate import Certificate
-from hypcheck.truth.roots import classify_by_roots
 from tests.support.fractions_truth import exact_position
+from tests.support.inside import Certificate, classify_by_roots
 
 LAMBDA = sympy.Symbol("lambda")
 

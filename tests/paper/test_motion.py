@@ -14,9 +14,9 @@ from hypcheck.paper.motion import MOST_CONTACTS, Contact, MoveVerdicts, stays_on
 from hypcheck.paper.quadcopter import any_angle, craft_of, small_angle
 from hypcheck.scene.model import Span
 from hypcheck.scene.reading import read_scene
-from hypcheck.truth.swept import passage
 from hypcheck.truth.turning import turning
 from hypcheck.vectors.draw import Draw
+from tests.support.inside import passage
 
 INTERIOR, EXTERIOR = Position.INTERIOR, Position.EXTERIOR
 TOWER = (2.0, 17.8, 0.25, 0.15)

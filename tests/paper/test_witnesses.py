@@ -15,9 +15,9 @@ from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.book import entries, faults, faults_with_entries
 from hypcheck.paper.ledger.entry import FALSE
 from hypcheck.paper.ledger.points import facts_in_order
-from hypcheck.truth import least
 from tests.paper import printed_rules as printed
 from tests.support.fractions_truth import exact_position
+from tests.support.inside import least_position
 from tests.support.tilted_fractions import exact_position as tilted_position
 
 EXTERIOR, CONTACT, INTERIOR = 1, 0, -1
@@ -304,9 +304,9 @@ def test_pairs_that_the_centres_height_decides_otherwise_are_confirmed_by_the_le
         for numbers in ([float(number) for number in re.findall(r"-?\d+", text)] for text in found)
     )
     assert first.z > first.z_max
-    assert least.position(first) == CONTACT
+    assert least_position(first) == CONTACT
     assert second.z <= second.z_max
-    assert least.position(second) == INTERIOR
+    assert least_position(second) == INTERIOR
     assert position_of_whole(second) == CONTACT
 
 

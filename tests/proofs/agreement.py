@@ -15,9 +15,8 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.proofs.build import BUILT, CHECKER
-from hypcheck.truth.certificate import Certificate, check_certificate
-from hypcheck.truth.prove import prove
 from hypcheck.vectors.families import FAMILIES
+from tests.support.inside import Certificate, check_certificate, prove
 
 BATCH = 5000
 

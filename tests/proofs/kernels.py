@@ -10,9 +10,8 @@ from tempfile import TemporaryDirectory
 
 from hypcheck.errors import InputError
 from hypcheck.kernel.printing.coq import proof_of
-from hypcheck.kernel.specialise.plan import plan_of
-from hypcheck.kernel.specialise.settings import FORMATS
 from hypcheck.proofs.build import ProofError, check_kernel
+from tests.support.inside import FORMATS, plan_of
 from tests.support.scenes import random_scene
 
 

@@ -17,16 +17,14 @@ from hypcheck.cli.scene import planned
 from hypcheck.errors import InputError
 from hypcheck.kernel.printing import coq
 from hypcheck.kernel.printing.coq import proof_of
-from hypcheck.kernel.programs import certified
 from hypcheck.paper.ledger import checks
 from hypcheck.paper.ledger.book import claims
 from hypcheck.proofs import build
 from hypcheck.proofs.build import CONTROL, accepted, weakened
-from hypcheck.truth.kinds import Kind
-from hypcheck.truth.roots import PATTERNS
 from hypcheck.vectors import frozen
 from tests.proofs.agreement import disagreements
 from tests.proofs.state import up_to_date
+from tests.support.inside import CERTIFIED_CONSTANTS, PATTERNS, SLACK, Kind, U, certified
 
 ALWAYS_CLEAR = """
 name = "far away"
@@ -121,14 +119,14 @@ def test_constants_proved_in_coq_are_those_of_the_kernel():
     kernel = build.source("Kernel")
     for step, units, constant in (("c0", 8, "u_8"), ("c1", 12, "u_12"), ("c2", 8, "u_8"), ("delta_3", 1536, "u_1536")):
         assert re.search(rf"Theorem error_of_{step} .*?<= {units} \* u \*", kernel, re.DOTALL), step
-        unit = Fraction(certified.SINGLE_CONSTANTS[constant]) / Fraction(certified.SLACK)
-        assert unit == units * Fraction(certified.U) == units * Fraction(1, 2**52)
+        unit = Fraction(certified.SINGLE_CONSTANTS[constant]) / Fraction(SLACK)
+        assert unit == units * Fraction(U) == units * Fraction(1, 2**52)
     bound = build.source("RunningBound")
     assert "Definition unit := / 2 ^ 52.\nDefinition slack := 1 + / 2 ^ 20.\n" in bound
     assert "4 * unit * slack; 8 * unit * slack; 12 * unit * slack; slack; 16 * unit * slack] 0." in bound
-    assert Fraction(certified.SLACK) == 1 + Fraction(1, 2**20)
+    assert Fraction(SLACK) == 1 + Fraction(1, 2**20)
     for units in (4, 8, 12, 16):
-        assert Fraction(certified.CONSTANTS[f"u_{units}"]) == units * Fraction(1, 2**52) * Fraction(certified.SLACK)
+        assert Fraction(CERTIFIED_CONSTANTS[f"u_{units}"]) == units * Fraction(1, 2**52) * Fraction(SLACK)
 
 
 def test_emit_writes_the_proof_of_each_discriminant_beside_the_kernel(tmp_path):

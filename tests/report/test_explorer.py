@@ -24,11 +24,10 @@ from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.implementations.method import by_rows
 from hypcheck.report import contents, html
 from hypcheck.report.document import Code
-from hypcheck.truth.kinds import Kind
-from hypcheck.truth.nearest import nearest
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES
 from tests.support import exactly
+from tests.support.inside import Kind, nearest
 
 FEW = 400
 ROWS = int(os.environ.get("HYPCHECK_EXPLORER", FEW))

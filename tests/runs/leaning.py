@@ -6,8 +6,8 @@ import numpy as np
 
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import invalid, with_axis
-from hypcheck.truth.float_filter import positions
 from hypcheck.vectors import frozen
+from tests.support.inside import positions
 
 hypcheck = {"name": "leaning", "tilt": True, "refuses": True}
 

@@ -14,8 +14,8 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from hypcheck.truth.flip_exponents import flip_exponents
 from tests.support import exactly
+from tests.support.inside import flip_exponents
 from tests.support.judging import ends_of, wrong_cases
 from tests.support.pairs import ordinary_pairs
 

@@ -19,9 +19,9 @@ from hypcheck.cli.main import main
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits
-from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.scaffold.project import LANGUAGES, Language, Project
 from hypcheck.vectors.families import FAMILIES
+from tests.support.inside import DIALECTS
 from tests.support.without_drawing import COMMAND
 from tests.tools.miniatures import restarts_of
 

@@ -11,9 +11,9 @@ from types import SimpleNamespace
 from typing import Any
 
 from hypcheck.geometry.pair import WITHOUT_ENDS, Position
-from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, place
 from tests.support.corpus import Questions, row_of
+from tests.support.inside import Certificate, check_certificate
 
 NOT_PROVED = 99
 """The answer where a certificate does not prove the label: no decider may give it."""

@@ -25,14 +25,22 @@ import hypcheck
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
-from hypcheck.kernel import classify, integers, numpy_kernel, scalar, tilted_integers
+from hypcheck.kernel import tilted_integers
 from hypcheck.runs.oracles import ORACLES
-from hypcheck.truth import heights, least
-from hypcheck.truth.swept import by_roots, journey_of
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
 from tests.support import checkers, exactly, fractions_truth, tilted_fractions
 from tests.support.corpus import Questions
+from tests.support.inside import (
+    by_roots,
+    exact_position,
+    heights_position,
+    integers_position,
+    journey_of,
+    least_position,
+    numpy_kernel_answer_ways,
+)
+from tests.support.inside import kernel_classify as classify
 
 CANNOT_SAY, REFUSED = 2, 127
 POSITIONS = ("", "axis")
@@ -114,7 +122,7 @@ def of_position(sizes, center, axis=None, heights=None) -> int:
 
 
 def of_python(sizes, center, axis=None, heights=None) -> int:
-    return scalar.exact_position(*sizes, *center, axis=axis, **ends_of(heights))
+    return exact_position(*sizes, *center, axis=axis, **ends_of(heights))
 
 
 def of_columns(questions: Questions) -> list[int]:
@@ -126,23 +134,23 @@ def of_columns(questions: Questions) -> list[int]:
 
 def of_least_value(questions: Questions) -> list[int]:
     """The least value on the wall and the discs, which knows no polynomial of the pair."""
-    found = [least.position(Pair.from_row(row)) for row in questions.rows.tolist()]
+    found = [least_position(Pair.from_row(row)) for row in questions.rows.tolist()]
     return [CANNOT_SAY if position is None else int(position) for position in found]
 
 
 def of_rule(questions: Questions) -> list[int]:
-    return [int(heights.position(Pair.from_row(row))) for row in questions.rows.tolist()]
+    return [int(heights_position(Pair.from_row(row))) for row in questions.rows.tolist()]
 
 
 def of_integers(sizes, center, axis=None) -> int:
     """The last stage in Python, which decides alone here."""
     if axis is None:
-        return int(integers.position(Pair(*sizes, *center).lengths))
+        return int(integers_position(Pair(*sizes, *center).lengths))
     return int(tilted_integers.position((*sizes, *center, *axis)))
 
 
 def of_ways_in_numpy(questions: Questions) -> list[int]:
-    return numpy_kernel.answer_ways(np.ascontiguousarray(questions.rows))[0].tolist()
+    return numpy_kernel_answer_ways(np.ascontiguousarray(questions.rows))[0].tolist()
 
 
 def of_ways_in_c(questions: Questions) -> list[int]:

@@ -6,8 +6,8 @@ import numpy as np
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.runs import judge
-from hypcheck.truth.backward_error import quick_bracket
 from tests.support import exactly
+from tests.support.inside import quick_bracket
 
 
 def wrong_cases(rows, truth, answers, criterion) -> list[judge.WrongCase]:

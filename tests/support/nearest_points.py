@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth.nearest import nearest, ratio
+from tests.support.inside import nearest, ratio
 
 _BITS = 96
 

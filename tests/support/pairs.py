@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth.kinds import Kind
+from tests.support.inside import Kind
 
 
 def _pair(values: tuple[float, ...]) -> Pair | None:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.scene.model import QUESTIONS, UPRIGHT, Hyperboloid, Mover, Region, SceneModel, Span
-from hypcheck.truth import exact
+from tests.support.inside import position
 
 
 def scene(sizes=(2.0, 17.8, 0.25, 0.15), question="position", **spans):
@@ -60,7 +60,7 @@ def truth_beside(body, semi_axes, axis, centre):
     offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
     heights = (-math.inf, math.inf) if body.height is None else body.height.ends
     row = (body.alpha, body.gamma, *semi_axes, *offset, *axis, *heights, body.solid)
-    return exact.position(Lengths.of(row, body.axis))
+    return position(Lengths.of(row, body.axis))
 
 
 def truth_in(scene, centre, axis=UPRIGHT):

@@ -11,6 +11,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.tables import streams
+from tests.support.inside import float_filter, nearest_rows
 
 HEADER = ",".join(COLUMNS)
 GOOD = "1,2,1,1,2.5,0,0"
@@ -39,7 +40,6 @@ def test_classify_leaves_an_old_output_unchanged_if_a_row_is_bad(kind, tmp_path,
 
 
 def test_classify_writes_no_output_and_ends_with_6_if_oracles_disagree(tmp_path, source, monkeypatch, capsys):
-    from hypcheck.truth import float_filter
 
     right = float_filter.filtered
     monkeypatch.setattr(float_filter, "filtered", lambda rows: -right(rows))
@@ -49,7 +49,6 @@ def test_classify_writes_no_output_and_ends_with_6_if_oracles_disagree(tmp_path,
 
 
 def test_tangency_that_only_one_oracle_finds_is_a_disagreement(tmp_path, source, monkeypatch, capsys):
-    from hypcheck.truth import nearest_rows
 
     right = nearest_rows.clearances
 

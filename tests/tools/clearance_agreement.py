@@ -20,8 +20,8 @@ import numpy as np
 
 from hypcheck import clearance
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import nearest_rows
 from hypcheck.vectors.families import FAMILIES
+from tests.support.inside import clearances
 from tests.support.nearest_points import is_circle, nearest_points
 
 CHUNK = 20_000
@@ -46,7 +46,7 @@ def drawn(seed: int, count: int) -> Iterator[np.ndarray]:
 
 def faults(rows: np.ndarray, said, points: int) -> Iterator[str]:
     """What `said` gets wrong, in sentences; of each `points`-th row the place of touch too."""
-    true = nearest_rows.clearances(rows)
+    true = clearances(rows)
     wrong = ~((said.lower <= true.clearance) & (true.clearance <= said.upper)) | (said.position != true.position)
     for k in np.flatnonzero(wrong).tolist():
         yield f"{rows[k].tolist()}: {true.clearance[k]!r} is not from {said.lower[k]!r} to {said.upper[k]!r}"

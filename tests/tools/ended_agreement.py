@@ -23,10 +23,10 @@ import numpy as np
 from hypcheck import passage
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel import _compiled, compiled_kernel
-from hypcheck.truth import exact, least
+from hypcheck.kernel import _compiled
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
 from tests.support.ended_ways import near_a_rim, past_a_tower
+from tests.support.inside import answer_ways, compiled_kernel, least_position, position
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
 CHUNK = 2000
@@ -90,7 +90,7 @@ def compare_positions(rows, kind, counts):
     by_kernel = compiled_kernel.answer_ended(rows)
     for row, answer in zip(rows.tolist(), by_kernel.tolist(), strict=True):
         pair = Pair.from_row(row)
-        truth, other = exact.position(pair.lengths), least.position(pair)
+        truth, other = position(pair.lengths), least_position(pair)
         counts[kind, "rows"] += 1
         counts[kind, "open to the kernel"] += answer == CANNOT_SAY
         counts[kind, "open to the least value"] += other is None
@@ -100,7 +100,7 @@ def compare_positions(rows, kind, counts):
 
 def compare_ways(rows, kind, counts):
     """The same of ways: hits and times of the kernel beside the exact first contact."""
-    hits, times = compiled_kernel.answer_ways(rows)
+    hits, times = answer_ways(rows)
     for row, hit, at in zip(rows.tolist(), hits.tolist(), times.tolist(), strict=True):
         low, high, solid = row[13:]
         truth = passage(row[:4], row[4:7], row[7:10], row[10:13], z_min=low, z_max=high, solid=bool(solid))
@@ -115,7 +115,7 @@ def compare_modes(given, counts):
     for name, family in {**ENDED_FAMILIES, **ENDED_WAY_FAMILIES}.items():
         rows = np.ascontiguousarray(family.rows(given.seed, given.rows))
         ways = rows.shape[1] == len(ENDED_WAY_FAMILIES["ended-way-thin"].columns)
-        truth = None if ways else np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+        truth = None if ways else np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
         for mode in (TO_NEAREST, *DIRECTED):
             answers = np.empty(len(rows), np.int8)
             with rounded(mode):

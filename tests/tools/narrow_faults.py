@@ -23,8 +23,8 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Rows, within
 from hypcheck.runs.cases import family_chunks, frozen_vectors
 from hypcheck.runs.spread import COORDINATES, UPRIGHT
-from hypcheck.truth import backward_error, exact
 from hypcheck.vectors.families import select
+from tests.support.inside import decide, tolerated
 
 TOLERANCE = Fraction(8, 1 << 53)
 NAMES = ("alpha", "gamma", "b", "d", "x", "y", "z")
@@ -97,7 +97,7 @@ def rejected(fault: Fault, rows: Rows, right: np.ndarray) -> bool:
     answers = classify(np.ascontiguousarray(fault.inputs(rows)))
     for place in np.flatnonzero(answers != right).tolist():
         pair = Pair.from_row(tuple(rows[place].tolist()))
-        if not backward_error.tolerated(pair, exact.decide(pair.lengths), [Position(int(answers[place]))], TOLERANCE):
+        if not tolerated(pair, decide(pair.lengths), [Position(int(answers[place]))], TOLERANCE):
             return True
     return False
 

@@ -25,10 +25,10 @@ from itertools import groupby
 
 from sympy import QQ, Poly, symbols
 
-from hypcheck.truth.swept import passage
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import WAY_FAMILIES
 from tests.support import fractions_truth, tilted_fractions
+from tests.support.inside import passage
 
 T = symbols("t")
 BITS = 300

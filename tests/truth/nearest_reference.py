@@ -8,7 +8,7 @@ import numpy as np
 from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth.nearest import nearest
+from tests.support.inside import nearest
 
 
 def reference(row):

@@ -10,9 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth.backward_error import exponent, quick_bracket, tolerated
-from hypcheck.truth.changes import corner
+from tests.support.inside import corner, decide, exponent, position, quick_bracket, tolerated
 from tests.support.pairs import grid_pairs, ordinary_pairs, pairs
 
 POSITIONS = st.sampled_from(list(Position))
@@ -20,7 +18,7 @@ POSITIONS = st.sampled_from(list(Position))
 
 def error(row: tuple[float, ...], answer: Position) -> float:
     pair = Pair.from_row(row)
-    ends = quick_bracket(pair, exact.decide(pair.lengths), answer)
+    ends = quick_bracket(pair, decide(pair.lengths), answer)
     assert ends.lower == ends.upper
     return ends.upper
 
@@ -45,7 +43,7 @@ def test_backward_errors_equal_values_worked_out_by_hand(row, answer, expected, 
 @pytest.mark.slow
 @given(pairs, POSITIONS)
 def test_changing_lengths_by_the_backward_error_makes_the_answer_right(pair, answer):
-    truth = exact.decide(pair.lengths)
+    truth = decide(pair.lengths)
     found = quick_bracket(pair, truth, answer).upper
     assume(0 < found < 1 and found > 1e-300)
     assert tolerated(pair, truth, [answer], Fraction(found))
@@ -54,7 +52,7 @@ def test_changing_lengths_by_the_backward_error_makes_the_answer_right(pair, ans
 
 @given(grid_pairs, POSITIONS)
 def test_exponent_of_the_backward_error_is_the_floor_of_its_logarithm(pair, answer):
-    truth = exact.decide(pair.lengths)
+    truth = decide(pair.lengths)
     octave = exponent(pair, truth, answer)
     found = quick_bracket(pair, truth, answer).upper
     if not math.isfinite(octave):
@@ -68,8 +66,8 @@ def test_larger_change_towards_a_clear_position_never_loses_it(pair, first, seco
     """A larger change towards a clear position never loses it: the corner is the best of the box."""
     toward = Position(side)
     less, more = sorted((first, second))
-    if exact.position(corner(pair.lengths, less, toward)) is toward:
-        assert exact.position(corner(pair.lengths, more, toward)) is toward
+    if position(corner(pair.lengths, less, toward)) is toward:
+        assert position(corner(pair.lengths, more, toward)) is toward
 
 
 @pytest.mark.slow
@@ -80,5 +78,5 @@ def test_change_within_the_box_reaches_a_position_only_if_its_corner_does(pair, 
     denominators = math.lcm(*(value.denominator for value in changed))
     alpha, gamma, b, d, x, y, z = (int(value * denominators) for value in changed)
     inside = type(pair.lengths)(alpha, b, x, y, gamma, d, z)
-    if exact.position(inside) is toward:
-        assert exact.position(corner(pair.lengths, box, toward)) is toward
+    if position(inside) is toward:
+        assert position(corner(pair.lengths, box, toward)) is toward

@@ -11,9 +11,8 @@ import pytest
 import sympy
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth.backward_error import bracket, estimate, quick_bracket, tolerated
 from hypcheck.truth.box_form import Form
+from tests.support.inside import Decision, bracket, decide, estimate, exact, quick_bracket, tolerated
 from tests.tools.oracle_agreement import rows
 from tests.truth.tilted_cases import SYMMETRIC
 
@@ -22,7 +21,7 @@ STEP = 2.0**-20
 
 
 def decided(row):
-    return exact.decide(Pair.from_row(row).lengths)
+    return decide(Pair.from_row(row).lengths)
 
 
 @pytest.mark.parametrize(
@@ -50,9 +49,9 @@ def test_bracket_of_a_tilted_backward_error_holds_the_value_worked_out_by_hand(r
 def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair():
     for _, row in rows(["near", "grid"], 6, seed=3):
         pair = Pair.from_row(row[:7])
-        truth = exact.decide(pair.lengths)
+        truth = decide(pair.lengths)
         for answer in set(Position) - {truth.position}:
-            found = bracket(Pair(*row[:7], 0.0, 0.0, 2.0), exact.Decision(truth.position, truth.limit_of), answer)
+            found = bracket(Pair(*row[:7], 0.0, 0.0, 2.0), Decision(truth.position, truth.limit_of), answer)
             error = quick_bracket(pair, truth, answer).upper
             assert found.lower <= error * (1 + 1e-4)
             assert error <= found.upper * (1 + 1e-4)

@@ -9,9 +9,7 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth.certificate import Certificate, check_certificate
-from hypcheck.truth.prove import prove
+from tests.support.inside import Certificate, check_certificate, exact, prove
 from tests.support.pairs import pairs
 
 RING = Pair(1, 2, 1, 1, 2.5, 0, 0)

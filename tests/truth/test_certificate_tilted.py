@@ -9,10 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth.certificate import Certificate, check_certificate, pivots
-from hypcheck.truth.pencil import quartic
-from hypcheck.truth.prove import prove
+from tests.support.inside import Certificate, check_certificate, decide, exact, pivots, prove, quartic
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, WITNESSES, grown, near_contact, random_rows
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
@@ -64,7 +61,7 @@ def test_double_root_at_a_pole_does_not_prove_the_ring_tangent(row):
 def test_double_root_at_a_double_pole_does_not_prove_a_crossing_tangent():
     # Upright and on the axis det(S + λH) has a double root at −A = −1/4 whatever the height.
     crossing = Pair(1, 1, 2, 2, 0, 0, 0.5, 0, 0, 1)
-    assert not exact.decide(crossing.lengths).tangent
+    assert not decide(crossing.lengths).tangent
     assert not check_certificate(crossing, Certificate(CONTACT, double_root=Fraction(-1, 4)))
 
 

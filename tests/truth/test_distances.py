@@ -11,8 +11,8 @@ from hypcheck.answer import DisagreementError
 from hypcheck.answers import answers
 from hypcheck.geometry.pair import Pair
 from hypcheck.truth import distances
-from hypcheck.truth.nearest import nearest
 from hypcheck.vectors.families import TILTED_FAMILIES
+from tests.support.inside import nearest
 
 
 def one_by_one(rows):

@@ -13,10 +13,18 @@ from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import backward_error, ended_prove, exact, heights, least
-from hypcheck.truth.certificate import Certificate, check_certificate
+from hypcheck.truth import ended_prove
 from hypcheck.truth.ended_clearance import clearance
 from hypcheck.truth.sections import has_root
+from tests.support.inside import (
+    Certificate,
+    backward_error,
+    check_certificate,
+    decide,
+    exact,
+    heights_position,
+    least_position,
+)
 from tests.support.strategies import rows_of
 
 INF = math.inf
@@ -62,10 +70,10 @@ def pair_of(row, ends, solid):
 def test_positions_beside_ends_are_those_found_by_hand(row, ends, open_position, solid_position, limit):
     for solid, expected in enumerate((open_position, solid_position)):
         pair = pair_of(row, ends, solid)
-        decision = exact.decide(pair.lengths)
+        decision = decide(pair.lengths)
         assert decision.position is expected
-        assert heights.position(pair) is expected
-        assert least.position(pair) in (None, expected)
+        assert heights_position(pair) is expected
+        assert least_position(pair) in (None, expected)
         named = dict(zip(("z_min", "z_max", "solid"), (*ends, solid), strict=True))
         assert hypcheck.position(*row[:7], axis=row[7:] or None, **named) == expected
         if limit is not None and expected is CONTACT:
@@ -82,8 +90,8 @@ STEEP = (189762196.0, 1.0, 2604.0, 1.0, 0.0, 156261249365.0, 0.0, 0.0, 1.0, 3.0,
 def test_least_value_and_rule_in_the_height_agree_with_the_exact_decision(row):
     pair = Pair.from_row(row)
     position = exact.position(pair.lengths)
-    assert heights.position(pair) is position
-    assert least.position(pair) in (None, position)
+    assert heights_position(pair) is position
+    assert least_position(pair) in (None, position)
 
 
 @settings(max_examples=30)
@@ -92,7 +100,7 @@ def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
     pair = Pair.from_row(row)
     if not pair.has_ends:
         return
-    decision = exact.decide(pair.lengths)
+    decision = decide(pair.lengths)
     certificate = ended_prove.prove(pair, decision)
     witnessed = bool(certificate.points or certificate.pieces) or certificate.multiplier is not None
     assert witnessed or decision.position is CONTACT
@@ -103,7 +111,7 @@ def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
 
 def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing():
     pair = pair_of((1, 1, 1, 1, 2.5, 0, -0.9), (0, 3), 0)
-    certificate = ended_prove.prove(pair, exact.decide(pair.lengths))
+    certificate = ended_prove.prove(pair, decide(pair.lengths))
     assert check_certificate(pair, certificate)
     first, *rest = certificate.pieces
     for pieces in (
@@ -121,7 +129,7 @@ def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
     pair = Pair.from_row(row)
     if not pair.has_ends:
         return
-    decision = exact.decide(pair.lengths)
+    decision = decide(pair.lengths)
     found = clearance(pair, decision)
     assert (found < 0) <= (decision.position is CONTACT) <= (found <= 0)
     for factor, meets in ((1 - 1e-9, False), (1 + 1e-9, True)):
@@ -134,17 +142,17 @@ def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
 def test_the_clearance_of_a_centre_on_wall_or_disc_is_minus_one():
     for row, ends, solid in (((*RIM, 1, 1, 3.75, 0, 3), (-1, 3), 0), ((*RIM, 1, 0.5, 2, 0, 3, 1, 0, 1), (-1, 3), 1)):
         pair = pair_of(row, ends, solid)
-        assert clearance(pair, exact.decide(pair.lengths)) == -1
+        assert clearance(pair, decide(pair.lengths)) == -1
 
 
 def test_backward_error_beside_a_rim_is_bracketed_by_what_was_moved():
     """A touch moved outward by a relative 2⁻³⁰ of x is about so far from contact, and contact from exterior."""
     for change, answer in ((2.0**-30, CONTACT), (-(2.0**-30), EXTERIOR)):
         pair = pair_of((*RIM, 1.25, 1.25, 4.5 * (1 + change), 0, 4), (-1, 3), 0)
-        ends = backward_error.bracket(pair, exact.decide(pair.lengths), answer)
+        ends = backward_error.bracket(pair, decide(pair.lengths), answer)
         assert 2.0**-40 < ends.lower <= ends.upper < 2.0**-28
     pair = pair_of((*RIM, 1, 1, 0, 0, 3), (-1, 3), 0)
-    truth = exact.decide(pair.lengths)
+    truth = decide(pair.lengths)
     assert truth.position is INTERIOR
     assert backward_error.bracket(pair, truth, EXTERIOR).upper == 0, "a centre at an end has two sides"
 

@@ -8,21 +8,21 @@ import pytest
 from hypothesis import given
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth.exact import cubic
+from tests.support.inside import decide
+from tests.support.inside import exact_cubic as cubic
 from tests.support.pairs import KINDS, WITNESSES, pairs
 
 
 @pytest.mark.parametrize(("row", "position", "clearance", "why"), WITNESSES)
 def test_exact_decisions_of_known_witnesses_are_right(row, position, clearance, why):
-    decision = exact.decide(Pair.from_row(row).lengths)
+    decision = decide(Pair.from_row(row).lengths)
     assert decision.position is position, why
     assert decision.tangent == (clearance == 0), why
 
 
 @pytest.mark.parametrize(("row", "kind"), KINDS)
 def test_exact_kinds_of_known_witnesses_are_right(row, kind):
-    assert exact.decide(Pair.from_row(row).lengths).kind is kind
+    assert decide(Pair.from_row(row).lengths).kind is kind
 
 
 @given(pairs)
@@ -44,6 +44,6 @@ def test_the_exact_cubic_is_the_determinant_of_the_pencil(pair):
 def test_pairs_one_ulp_from_a_tangency_are_decided_rightly(ulps):
     """r − a = 1 is a tangency from outside; one ulp of x to either side is contact, or clear."""
     x = 3.0 + ulps * 2.0**-51
-    decision = exact.decide(Pair(2.0, 5.0, 1.0, 1.0, x, 0.0, 0.0).lengths)
+    decision = decide(Pair(2.0, 5.0, 1.0, 1.0, x, 0.0, 0.0).lengths)
     assert decision.tangent == (ulps == 0)
     assert decision.position is (Position.EXTERIOR if ulps > 0 else Position.CONTACT)

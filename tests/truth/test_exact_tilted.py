@@ -13,10 +13,8 @@ from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth.pencil import quartic
 from hypcheck.truth.rationals import sign_with_root
-from hypcheck.truth.surds import Surd
+from tests.support.inside import Decision, Surd, decide, exact, quartic
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 
 
@@ -79,7 +77,7 @@ def test_tangency_from_a_rational_rotation_is_tangent_and_turns_clear_when_shrun
     assert {side for _, side in TANGENT} == {Position.EXTERIOR, Position.INTERIOR}
     step = Fraction(1, 2**200)
     for row, side in TANGENT:
-        decision = exact.decide(Lengths.of(row))
+        decision = decide(Lengths.of(row))
         assert decision.position is Position.CONTACT
         assert decision.limit_of is side
         assert exact.position(Lengths.of(grown(row, 1 - step))) is side
@@ -99,7 +97,7 @@ def test_a_spheroid_that_touches_at_one_point_and_crosses_elsewhere_is_not_tange
         heights = (points**2 * (1 / alpha**2, 1 / alpha**2, -1 / gamma**2)).sum(axis=1) - 1
         if heights.min() < -1e-3 and heights.max() > 1e-3:
             crossing += 1
-            assert exact.decide(Lengths.of(row)) == exact.Decision(Position.CONTACT)
+            assert decide(Lengths.of(row)) == Decision(Position.CONTACT)
     assert crossing == len(TOUCHING_AND_CROSSING) > 20
 
 
@@ -110,8 +108,8 @@ def test_exact_positions_of_tilted_pairs_equal_those_worked_out_by_hand(row, pos
 
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
 def test_double_root_at_a_pole_is_a_tangency_unless_a_simple_root_lies_before_it(row, position, limit_of):
-    decision = exact.decide(Pair.from_row(row).lengths)
-    assert decision == exact.Decision(position, limit_of)
+    decision = decide(Pair.from_row(row).lengths)
+    assert decision == Decision(position, limit_of)
 
 
 def test_pair_refuses_an_axis_without_direction():

@@ -9,16 +9,15 @@ import pytest
 
 from hypcheck.geometry.pair import Pair
 from hypcheck.runs import judge
-from hypcheck.truth import backward_error, exact, float_filter
-from hypcheck.truth.flip_exponents import distance_exponents, flip_exponents
 from hypcheck.vectors.families import FAMILIES
+from tests.support.inside import backward_error, decide, distance_exponents, flip_exponents, positions
 
 
 def one_by_one(rows):
     octaves = []
     for row in rows.tolist():
         pair = Pair.from_row(row)
-        truth = exact.decide(pair.lengths)
+        truth = decide(pair.lengths)
         targets = judge.right_positions(truth.position, 0, truth.position.name.lower())
         octaves.append(min(backward_error.exponent(pair, truth, target) for target in targets))
     return octaves
@@ -34,7 +33,7 @@ def test_distance_exponents_equal_those_of_exact_changes(name):
 def test_fewer_than_5_percent_of_ordinary_rows_need_an_exact_distance_exponent():
     for name in ("tower-body", "uniform", "forest-type-2"):
         rows = FAMILIES[name].rows(12, 1000)
-        assert np.isnan(distance_exponents(rows, float_filter.positions(rows))).mean() < 0.05
+        assert np.isnan(distance_exponents(rows, positions(rows))).mean() < 0.05
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
@@ -45,7 +44,7 @@ def test_next_to_a_power_of_two_distance_exponents_are_nan_or_right(sign):
     for place, (exponent, step) in enumerate((k, step) for k in range(-42, -2) for step in steps):
         rows[place, :4] = 2.0, 1000.0, 1.0, 1.0
         rows[place, 4] = 3 + sign * 6 * 2.0**exponent * (1 + step)
-    found = distance_exponents(rows, float_filter.positions(rows))
+    found = distance_exponents(rows, positions(rows))
     told = ~np.isnan(found)
     assert 0.3 < told.mean() < 1
     assert found[told].tolist() == np.array(one_by_one(rows))[told].tolist()

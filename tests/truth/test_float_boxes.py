@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth import exact, float_boxes
-from hypcheck.truth.backward_error import lower_ends, quick_bracket
-from hypcheck.truth.changes import goal_of
+from hypcheck.truth import float_boxes
 from hypcheck.vectors import frozen
+from tests.support.inside import decide, goal_of, lower_ends, quick_bracket
 from tests.support.tilted_fractions import exact_position
 from tests.tools.oracle_agreement import rows
 
@@ -30,7 +29,7 @@ def test_lower_end_never_exceeds_a_change_that_is_proved_to_be_enough_and_is_fou
     compared = found = 0
     for answer in Position:
         some = [case for case in cases if case.position is not answer]
-        truths = [exact.decide(Lengths.of(case.row)) for case in some]
+        truths = [decide(Lengths.of(case.row)) for case in some]
         ends = lower_ends([Pair.from_row(case.row) for case in some], truths, [[answer]] * len(some))
         for case, end in zip(some, ends, strict=True):
             assert end <= case.flips[answer].upper
@@ -44,7 +43,7 @@ def test_lower_end_never_exceeds_a_change_that_is_proved_to_be_enough_and_is_fou
 def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
     draw = random.Random(5)  # noqa: S311
     for _, row in rows(["uniform", "near", "stiff"], 12, seed=7):
-        truth = exact.decide(Lengths.of(row))
+        truth = decide(Lengths.of(row))
         for answer in set(Position) - {truth.position}:
             (end,) = lower_ends([Pair.from_row(row)], [truth], [[answer]])
             if end in (0, math.inf):  # nothing is proved, the answer needs no change, or none is enough
@@ -69,7 +68,7 @@ def test_quick_bracket_agrees_with_the_frozen_one_and_is_narrow_where_first_deri
     narrow = 0
     cases = tilted_cases("tilted-uniform")[:4] + tilted_cases("tilted-near-contact")[:6]
     for case in cases:
-        truth = exact.decide(Lengths.of(case.row))
+        truth = decide(Lengths.of(case.row))
         for answer, known in case.flips.items():
             found = quick_bracket(Pair.from_row(case.row), truth, answer)
             assert found.lower <= known.upper

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.truth import exact, float_boxes
+from hypcheck.truth import float_boxes
 from hypcheck.truth.box_form import Goal
-from hypcheck.truth.changes import goal_of
 from hypcheck.truth.float_boxes import Enclosures
+from tests.support.inside import goal_of, position
 from tests.truth.tilted_cases import random_rows
 
 ROWS = [
@@ -85,7 +85,7 @@ def enough_by_sizes(row, goal, truth):
     for _ in range(30):
         middle = (low + high) / 2
         moved = [Fraction(a) * (1 + way * middle) for a, way in zip(row[:4], goal.sizes, strict=True)]
-        there = exact.position(Lengths.of([*moved, *map(Fraction, row[4:])]))
+        there = position(Lengths.of([*moved, *map(Fraction, row[4:])]))
         reached = (there is not truth) if goal.leave else (there is goal.side)
         low, high = (low, middle) if reached else (middle, high)
     return high
@@ -93,7 +93,7 @@ def enough_by_sizes(row, goal, truth):
 
 @pytest.mark.parametrize("row", ROWS)
 def test_lower_ends_are_at_most_a_sufficient_change_of_the_sizes_and_above_a_fifth_of_it(row):
-    truth = exact.position(Lengths.of(row))
+    truth = position(Lengths.of(row))
     answers = [Position.CONTACT] if truth is not Position.CONTACT else [Position.EXTERIOR, Position.INTERIOR]
     for answer in answers:
         goal = goal_of(truth, answer)

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import exact, float_filter
+from tests.support.inside import exact, filtered, float_filter, positions
 
 
 @pytest.mark.parametrize("spread", [1, 4, 9, 25])
 def test_the_float_filter_decides_most_rows_and_none_wrongly(spread):
     rows = 2.0 ** np.random.default_rng(spread).uniform(-spread, spread, (3000, 7))
-    proved = float_filter.filtered(rows)
+    proved = filtered(rows)
     expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
     decided = proved != float_filter.UNDECIDED
     assert (proved[decided] == expected[decided]).all()
@@ -29,15 +29,15 @@ def test_next_to_a_tangency_the_float_filter_is_undecided_or_right(exponent, sig
     rows = np.zeros((kept.sum(), 7))
     rows[:, 0], rows[:, 1], rows[:, 2:4], rows[:, 4] = a[kept], 1000.0, 1.0, x[kept]
     expected = 1 if sign > 0 else 0
-    assert set(float_filter.filtered(rows).tolist()) <= {expected, float_filter.UNDECIDED}
-    assert set(float_filter.positions(rows).tolist()) <= {expected}
+    assert set(filtered(rows).tolist()) <= {expected, float_filter.UNDECIDED}
+    assert set(positions(rows).tolist()) <= {expected}
 
 
 def test_the_float_filter_decides_ordinary_rows_of_every_position():
     """Rows of one order of size, of which it leaves half a percent or more without any witness that has no stand-in."""
     rows = 2.0 ** np.random.default_rng(6).uniform(-2, 2, (4000, 7))
     rows[:, 4:] *= np.random.default_rng(7).choice((-1, 1), (4000, 3))
-    proved = float_filter.filtered(rows)
+    proved = filtered(rows)
     expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
     for position in (-1, 0, 1):
         assert (proved[expected == position] == position).mean() > 0.999

@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import exact, float_filter
-from hypcheck.truth.float_filter import lines_for_sizes
+from tests.support.inside import filtered, float_filter, lines_for_sizes, position, positions
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
 ULPS = np.arange(-40, 41)
@@ -35,8 +34,8 @@ def beside_lines(some, height):
 
 
 def assert_right(rows):
-    proved = float_filter.filtered(rows)
-    expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+    proved = filtered(rows)
+    expected = np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
     decided = proved != float_filter.UNDECIDED
     assert (proved[decided] == expected[decided]).all()
     return decided
@@ -85,7 +84,7 @@ def test_lines_decide_most_positions_in_a_tower():
     rng = np.random.default_rng(3)
     rows = np.column_stack([np.tile(TOWER, (4000, 1)), rng.uniform(-4, 4, (4000, 2)), rng.uniform(-17.8, 17.8, 4000)])
     proved = float_filter._by_lines(np.ascontiguousarray(rows.T))
-    truth = float_filter.positions(rows)
+    truth = positions(rows)
     assert (proved == truth).mean() > 0.99
 
 

@@ -12,8 +12,6 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth.mesh import MeshOutcome, availability
-from hypcheck.truth.mesh_oracle import verdict
 from tests.support.fractions_truth import (
     everyday,
     exact_position,
@@ -22,6 +20,7 @@ from tests.support.fractions_truth import (
     steps_at,
     tangent_rows,
 )
+from tests.support.inside import MeshOutcome, availability, verdict
 
 pytest.importorskip("fcl", reason="python-fcl has no wheel here")
 

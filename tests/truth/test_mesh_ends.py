@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth.mesh import MeshOutcome, availability, distance_to_mesh
 from hypcheck.truth.mesh_ends import refine
-from hypcheck.truth.mesh_oracle import verdict
+from tests.support.inside import MeshOutcome, availability, distance_to_mesh, verdict
 from tests.tools.oracle_agreement import main
 
 pytestmark = pytest.mark.skipif(availability() is not None, reason="python-fcl is not installed")

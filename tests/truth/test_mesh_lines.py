@@ -10,8 +10,7 @@ from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import mesh_lines as mesh
-from hypcheck.truth.mesh import availability
-from hypcheck.truth.mesh_oracle import verdict
+from tests.support.inside import availability, verdict
 from tests.support.tilted_fractions import exact_position
 from tests.truth.tilted_cases import SYMMETRIC
 

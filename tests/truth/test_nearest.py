@@ -17,8 +17,8 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.truth.dual import Dual
-from hypcheck.truth.nearest import NearestStage, nearest
-from hypcheck.truth.nearest_rows import clearances, positions
+from tests.support.inside import NearestStage, clearances, nearest
+from tests.support.inside import nearest_rows_positions as positions
 from tests.support.nearest_points import nearest_points
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference, ulps
 

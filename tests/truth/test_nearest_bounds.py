@@ -12,9 +12,8 @@ from mpmath import mp, mpf
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import Pair
 from hypcheck.truth import double_double, upright_distances
-from hypcheck.truth import nearest as oracle
-from hypcheck.truth.nearest import NearestStage, nearest
-from hypcheck.truth.nearest_rows import clearances
+from tests.support.inside import NearestStage, clearances, nearest
+from tests.support.inside import truth_nearest as oracle
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference
 
 

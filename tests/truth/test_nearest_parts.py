@@ -11,9 +11,9 @@ import pytest
 
 from hypcheck.geometry.pair import Lengths, Pair, to_integers
 from hypcheck.truth import dual as dual_of
-from hypcheck.truth import nearest
 from hypcheck.truth.dual import Dual
-from hypcheck.truth.nearest import Enclosure, ratio
+from tests.support.inside import Enclosure, ratio
+from tests.support.inside import truth_nearest as nearest
 
 LEAST = math.ulp(0.0)
 

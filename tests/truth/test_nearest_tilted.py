@@ -6,7 +6,8 @@ import math
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact, nearest
+from tests.support.inside import exact
+from tests.support.inside import truth_nearest as nearest
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, in_floats
 
 FLOAT_TANGENT = [(found, side) for row, side in TANGENT if (found := in_floats(row)) is not None]

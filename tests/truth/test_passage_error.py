@@ -9,9 +9,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from hypcheck.truth import passage_error
-from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, time_window, tolerance
-from hypcheck.truth.swept import passage
+from tests.support.inside import hits_at_size, is_tolerated, passage, passage_error, size_error, time_window, tolerance
 
 BESIDE = (2.0, 3.0, 1.0, 1.0, -4.0, 3.5, 0.0, 4.0, 3.5, 0.0)
 """Past the waist at 3.5 from the axis: 1.5 from the surface, so that it touches when grown by a half."""

@@ -12,14 +12,23 @@ from hypothesis import strategies as st
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth import exact
-from hypcheck.truth.certificate import surfaces
 from hypcheck.truth.journey import _ring_between
-from hypcheck.truth.passage_error import hits_at_size, is_tolerated, size_error, tolerance
-from hypcheck.truth.pencil import quartic
-from hypcheck.truth.surds import Surd, sign_at_root
-from hypcheck.truth.swept import by_roots, by_steps, journey_of, passage
 from hypcheck.vectors.tilted import RINGS, TWO_POINTS
+from tests.support.inside import (
+    Surd,
+    by_roots,
+    by_steps,
+    exact,
+    hits_at_size,
+    is_tolerated,
+    journey_of,
+    passage,
+    quartic,
+    sign_at_root,
+    size_error,
+    surfaces,
+    tolerance,
+)
 
 CONTACT = Position.CONTACT
 

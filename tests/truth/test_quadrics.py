@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact, quadrics
-from hypcheck.truth.certificate import Certificate, proves, surfaces
+from hypcheck.truth import quadrics
 from hypcheck.vectors import frozen
+from tests.support.inside import Certificate, exact, proves, surfaces
 
 QUADRICS = {
     "cone": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 0]],

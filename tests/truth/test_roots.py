@@ -11,11 +11,21 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact, polynomial_roots
-from hypcheck.truth.kinds import Kind
-from hypcheck.truth.pencil import cubic
-from hypcheck.truth.polynomial_roots import _none_by_descartes, linear_factor, polynomial_product
-from hypcheck.truth.roots import Invariants, RootPlace, classify_by_roots, classify_invariants, coefficients, real_roots
+from tests.support.inside import (
+    Invariants,
+    Kind,
+    RootPlace,
+    _none_by_descartes,
+    classify_by_roots,
+    classify_invariants,
+    coefficients,
+    cubic,
+    decide,
+    linear_factor,
+    polynomial_product,
+    polynomial_roots,
+    real_roots,
+)
 from tests.truth.test_steps import discriminant
 
 # Rows alpha, gamma, b, d, x, y, z. With z = 0 the cubic is (λ − B)(λ² − (P − 1 − A) λ + A); with r = 0 it is
@@ -175,7 +185,7 @@ def test_double_roots_of_small_pairs_have_the_kinds_of_the_exact_decision():
         pair = Pair(*map(float, row))
         g = cubic(pair.lengths)
         if discriminant((g.n3, g.n2, g.n1, g.n0)) == 0:
-            kind = exact.decide(pair.lengths).kind
+            kind = decide(pair.lengths).kind
             assert classify_by_roots(pair).kind is kind, row
             kinds.add(kind)
     assert len(kinds) >= 8

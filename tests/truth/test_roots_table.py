@@ -18,15 +18,7 @@ import sympy
 from sympy.abc import w
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.kinds import Kind
-from hypcheck.truth.roots import (
-    COMPLEX,
-    KIND_OF,
-    PATTERNS,
-    Invariants,
-    admissible,
-    classify_invariants,
-)
+from tests.support.inside import COMPLEX, KIND_OF, PATTERNS, Invariants, Kind, admissible, classify_invariants
 
 # Multiplicities of the real roots of W in ascending order, for each contact set off the axis …
 CONTACT_SETS = {

@@ -9,12 +9,10 @@ import mpmath
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.exact import discriminant as discriminant_of
 from hypcheck.truth.journey import piece
-from hypcheck.truth.pencil import cubic, quartic
-from hypcheck.truth.polynomial_roots import value
 from hypcheck.truth.rationals import shortened
-from hypcheck.truth.swept import WIDTH_BITS, journey_of, reach, steps
+from tests.support.inside import WIDTH_BITS, cubic, journey_of, quartic, reach, steps, value
+from tests.support.inside import exact_discriminant as discriminant_of
 from tests.truth.test_passage_certificate import INSIDE, OUTSIDE, THROUGH, TUNNEL, random_ways
 
 WAYS = [THROUGH, OUTSIDE, TUNNEL, INSIDE, *random_ways(12)]

@@ -9,9 +9,7 @@ import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.truth.pencil import sign_at
-from hypcheck.truth.polynomial_roots import isolate, polynomial_product
-from hypcheck.truth.surds import Surd, sign_at_root
+from tests.support.inside import Surd, isolate, polynomial_product, sign_at, sign_at_root
 
 X = sympy.Symbol("x")
 SMALL = st.integers(-6, 6)

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.swept import passage
 from tests.support.fractions_truth import TRIPLES, exact_position, sign
+from tests.support.inside import passage
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 HALF = Fraction(1, 2)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from hypcheck import passage
-from hypcheck.kernel.scene import Scene
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.vectors.frozen import load
+from tests.support.inside import Scene
 
 TURNS = {
     "a cycle of the axes": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]),

@@ -7,8 +7,8 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import Rows
-from hypcheck.truth.kinds import Kind
 from tests.support import exactly
+from tests.support.inside import Kind
 
 COUNT = 1500
 """Rows of a family that is looked at as a whole."""

@@ -9,9 +9,6 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth.kinds import Kind
-from hypcheck.truth.passage_error import hits_at_size
-from hypcheck.truth.pencil import cubic
 from hypcheck.vectors import coincidences, double_roots
 from hypcheck.vectors.double_roots import gather
 from hypcheck.vectors.draw import Draw
@@ -19,6 +16,7 @@ from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.ways import more_than_a_radius_away, ring_attempt
 from tests.support import exactly
+from tests.support.inside import Kind, cubic, hits_at_size
 from tests.vectors.case_rows import COUNT, fractions, kinds, lengths_of, ratios
 
 EXTERIOR, CONTACT, INTERIOR = Position

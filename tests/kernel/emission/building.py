@@ -18,11 +18,9 @@ import pytest
 
 from hypcheck.implementations.description import domain_of
 from hypcheck.implementations.domain import representable
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import description, emitted
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.vectors.fixed_sizes import families_for
+from tests.support.inside import DIALECTS, description, emitted, plan_of
 from tests.support.judging import wrong_cases
 
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")

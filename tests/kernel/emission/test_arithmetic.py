@@ -15,10 +15,6 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.kernel import emitted
-from hypcheck.kernel.emission.pair import METHODS, emitted_pair
-from hypcheck.kernel.emission.whole import whole, whole_plan
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import Mover
 from hypcheck.scene.reading import read_scene
 from hypcheck.vectors import frozen
@@ -26,6 +22,7 @@ from tests.kernel.compiling import CLANG, compiled_source, needs_clang, needs_co
 from tests.kernel.emission.building import COMMAND, COMMANDS, load_module, pointer, skip_without, worst_error
 from tests.kernel.emission.test_leaning import SCENES as LEANING
 from tests.support import exactly
+from tests.support.inside import METHODS, emitted, emitted_pair, plan_of, whole, whole_plan
 from tests.support.scenes import scene
 from tests.tools.attack.places import near_contact
 

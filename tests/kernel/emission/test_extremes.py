@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.scene.model import QUESTIONS, Span
 from tests.kernel.emission.building import asking, built, worst_error, worst_of
+from tests.support.inside import plan_of
 from tests.support.scenes import scene
 
 RATIOS = [

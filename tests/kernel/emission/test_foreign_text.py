@@ -7,12 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import emitted
-from hypcheck.kernel.emission.plan_text import comment_text
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import Hyperboloid
 from tests.kernel.emission.building import asking, built, skip_without
+from tests.support.inside import DIALECTS, comment_text, emitted, plan_of
 from tests.support.scenes import PLAIN
 
 WORDS = (

@@ -10,13 +10,11 @@ import pytest
 
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description, described_by_json
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import description, emitted
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
 from tests.kernel.emission.building import COMMAND, answers, answers_by_scene, asking, built, needs, worst_error
 from tests.support import exactly
+from tests.support.inside import DIALECTS, description, emitted, plan_of
 from tests.support.scenes import scene
 
 TOWER = read_scene("tower")

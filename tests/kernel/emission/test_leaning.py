@@ -15,11 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description, described_by_json, domain_of
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import description, emitted
-from hypcheck.kernel.specialise.last_stages import leaning_search
 from hypcheck.kernel.specialise.leaning import FRAME_NAMES
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.vectors import families, fixed_sizes
@@ -36,6 +32,7 @@ from tests.kernel.emission.building import (
     worst_error,
 )
 from tests.kernel.emission.test_conformance import gated
+from tests.support.inside import DIALECTS, description, emitted, leaning_search, plan_of
 from tests.support.judging import wrong_cases
 
 PITCHED = (0.3, 0.1, 1.0)

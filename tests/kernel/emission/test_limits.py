@@ -11,12 +11,10 @@ import pytest
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import emitted
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from tests.kernel.emission.building import COMMAND, COMMANDS, asking, built, skip_without
 from tests.support import exactly
+from tests.support.inside import DIALECTS, emitted, plan_of
 from tests.support.scenes import HILLS, scene
 
 SIZES = (2.0, 17.8, 0.25, 0.15)

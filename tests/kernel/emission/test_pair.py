@@ -10,10 +10,10 @@ from hypcheck.cli.main import main
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.kernel.emission.pair import emitted_pair
 from hypcheck.kernel.programs import dual
 from hypcheck.vectors import frozen
 from tests.kernel.emission.building import asking_pairs, built_of, skip_without
+from tests.support.inside import emitted_pair
 
 COMMAND = ["hypcheck", "emit"]
 UNFILTERED = {

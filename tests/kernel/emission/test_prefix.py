@@ -8,8 +8,8 @@ import subprocess
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.kernel.core import HEADER
 from tests.kernel.emission.building import needs
+from tests.support.inside import HEADER
 
 ROWS = "{2, 17.8, 0.25, 0.15, 3, 0, 5}"
 """A row of the tower's sizes, outside."""

@@ -13,11 +13,10 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import Mover, Region, Span
 from hypcheck.scene.reading import read_scene
 from tests.kernel.emission.building import asking, built, needs, skip_without, worst_error
+from tests.support.inside import DIALECTS, plan_of
 from tests.support.scenes import HILLS, PLAIN, extreme_scene, random_scene
 
 ALL = os.environ.get("HYPCHECK_KERNELS") == "all"

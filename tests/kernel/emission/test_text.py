@@ -12,13 +12,10 @@ from dataclasses import replace
 
 import pytest
 
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import description, emitted
-from hypcheck.kernel.emission.plan_text import operations_before
-from hypcheck.kernel.specialise.plan import plan_of
 from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
 from tests.kernel.emission.building import COMMAND, built, skip_without
+from tests.support.inside import DIALECTS, description, emitted, operations_before, plan_of
 from tests.support.scenes import HILLS, PLAIN, scene
 
 SCENES = {

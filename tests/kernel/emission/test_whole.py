@@ -12,9 +12,6 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.whole import whole, whole_plan
-from hypcheck.kernel.scene import Scene
 from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from tests.kernel.emission.building import (
     COMMAND,
@@ -25,6 +22,7 @@ from tests.kernel.emission.building import (
     skip_without,
     worst_error,
 )
+from tests.support.inside import DIALECTS, Scene, whole, whole_plan
 
 PARTS = (MoverPart(0.1, 0.05, 0.135, 45.0), MoverPart(0.1, 0.05, 0.135, 165.0), MoverPart(0.08, 0.05, 0.135, 285.0))
 

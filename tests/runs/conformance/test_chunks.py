@@ -7,10 +7,10 @@ import pytest
 
 from hypcheck.runs import cases as chunks
 from hypcheck.runs.cases import CHUNK_ROWS, EXPONENTS_OF, CaseChunk, cases_of_chunk, first_unfrozen, searched_chunks
-from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.families import FAMILIES, parse_case_id
 from tests.support import exactly
+from tests.support.inside import flip_exponents
 
 
 @pytest.mark.parametrize("name", FAMILIES)

@@ -7,8 +7,8 @@ import json
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.kernel.core.generate import TARGET
 from hypcheck.vectors import frozen
+from tests.support.inside import TARGET
 from tests.tools.miniatures import compiled_text
 
 FEW = "ended-way-disc,ended-way-opening,ended-way-uniform"

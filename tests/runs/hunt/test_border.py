@@ -10,10 +10,10 @@ import pytest
 from hypcheck.geometry.rows import invalid
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt_search import MOVERS
-from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES
 from tests.support.fractions_truth import exact_position
+from tests.support.inside import flip_exponents
 
 ROWS = FAMILIES["uniform"].rows(5, 24)
 

@@ -19,10 +19,9 @@ from hypcheck.runs.hunt import target_of
 from hypcheck.runs.judge import Status
 from hypcheck.runs.minimise import characters, complexity, minimise, rounded, same_query, simpler_than, small_pairs
 from hypcheck.runs.replay import ReplayCase
-from hypcheck.truth.exact import decide
-from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.families import FAMILIES
 from tests.support.fractions_truth import exact_position
+from tests.support.inside import Kind, decide
 
 
 def minimised(spec, row, domain=None, **claims):

@@ -18,10 +18,10 @@ from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt import Hunt, HuntPlan, target_of
 from hypcheck.runs.hunt_search import neighbours, run_hunt
 from hypcheck.runs.judge import Mistake, Status
-from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.draw import Draw
 from tests.support import exactly
 from tests.support.fractions_truth import exact_position
+from tests.support.inside import flip_exponents
 
 
 class Double:

@@ -14,10 +14,10 @@ from hypcheck.geometry.rows import WAYS, invalid
 from hypcheck.runs.hunt_place import TILTED, WAY, way_place
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.runs.minimise import same_query, small_ways
-from hypcheck.truth.passage_error import hits_at_size, scaled_passage
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import WAY_FAMILIES
+from tests.support.inside import hits_at_size, scaled_passage
 from tests.tools.way_agreement import Said, faults
 
 THROUGH = (1.0, 2.0, 1.0, 1.0, 6.0, 0.5, 0.25, -10.0, 0.5, 0.0)

@@ -8,8 +8,6 @@ import sys
 import numpy as np
 import pytest
 
-from hypcheck.kernel.choice import LEVELS
-from hypcheck.kernel.core import generate
 from tests.kernel.compiling import (
     CLANG,
     COMPILER,
@@ -20,6 +18,7 @@ from tests.kernel.compiling import (
     shared_library,
 )
 from tests.support import exactly
+from tests.support.inside import LEVELS, generate
 from tests.tools.attack.places import Scene, near_contact, scenes
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 from tests.tools.attack.strike import Batch, batches, drawn, strike, tally

@@ -19,16 +19,13 @@ from pathlib import Path
 import numpy as np
 
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel.emission.kernel import emitted
-from hypcheck.kernel.emission.pair import METHODS, emitted_pair
-from hypcheck.kernel.emission.whole import whole, whole_plan
-from hypcheck.kernel.specialise.plan import ScenePlan, plan_of
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene, shipped_scenes
 from tests.kernel.emission.building import COMMAND, answers, answers_by_scene, pointer, worst_error
 from tests.kernel.emission.test_leaning import SCENES as LEANING
 from tests.kernel.emission.test_pair import UNFILTERED
 from tests.kernel.emission.test_whole import centres, expected, forest, told
+from tests.support.inside import METHODS, ScenePlan, emitted, emitted_pair, plan_of, whole, whole_plan
 from tests.tools.attack import places
 from tests.tools.attack.strike import truth_of
 from tests.tools.evidence.battery.constructed import BESIDE_TANGENCIES

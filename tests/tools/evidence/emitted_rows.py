@@ -13,11 +13,9 @@ import numpy as np
 
 import hypcheck
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
-from hypcheck.kernel.specialise.first_stages import AXIAL, RADIAL
-from hypcheck.kernel.specialise.last_stages import LeaningSearch
-from hypcheck.kernel.specialise.plan import ScenePlan, Stages
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE
+from tests.support.inside import AXIAL, RADIAL, LeaningSearch, ScenePlan, Stages
 from tests.support.judging import wrong_cases
 
 BLOCK = 300

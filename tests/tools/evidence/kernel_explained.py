@@ -15,14 +15,14 @@ from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.derivation.program import Program
-from hypcheck.kernel.programs import certified, tilted
 from tests.kernel.constant_proofs import PROOFS
 from tests.kernel.program_rules import SIGNS, wrong_limits
+from tests.support.inside import CERTIFIED, TILTED
 from tests.tools.evidence.c_sites import Mutant
 
 TABLE = Path(__file__).with_name("explained_kernel_mutants.json")
 
-PROGRAMS = {"hc_certified": certified.CERTIFIED, "hc_tilted": tilted.TILTED}
+PROGRAMS = {"hc_certified": CERTIFIED, "hc_tilted": TILTED}
 """The programs that functions are printed from, and that have rules for all signs and limits."""
 
 STRICTER = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}

@@ -7,10 +7,8 @@ from fractions import Fraction
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.kernel.emission.whole import whole_plan
-from hypcheck.kernel.specialise.plan import ONE_SIDED, plan_of
-from hypcheck.kernel.specialise.settings import scaled
 from hypcheck.scene.model import FREE
+from tests.support.inside import ONE_SIDED, plan_of, scaled, whole_plan
 from tests.tools.evidence.emitted_kernels import _scenes, _whole_scenes
 
 UPRIGHT = [(name, plan_of(scene, precision)) for name, scene, precision in _scenes()]

@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Ellipse, Rectangle
 
 from hypcheck.geometry.pair import Position
-from hypcheck.kernel.scalar import position
 from hypcheck.report.plots.planes import ON_MAP, REGIONS
 from hypcheck.report.plots.style import new_figure
 from hypcheck.report.plots.svg import Plot
+from tests.support.inside import scalar_position as position
 
 ALPHA, GAMMA, B, D = 1.0, 1.5, 0.55, 0.35
 

@@ -12,8 +12,6 @@ from unittest.mock import patch
 from hypcheck.answers import classify_table
 from hypcheck.cli.scene import planned
 from hypcheck.cli.settings import read_settings
-from hypcheck.kernel.emission.kernel import emitted
-from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines
 from hypcheck.record.integrity import check, repair
 from hypcheck.record.reader import notes, read, recorded_cases
 from hypcheck.report import code_hosts, html
@@ -25,6 +23,7 @@ from hypcheck.scene.reading import read_scene
 from hypcheck.tables.streams import Route
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import examine
+from tests.support.inside import emitted, plan_as_json, plan_lines
 from tests.support.records import resealed
 from tests.tools.fuzz.judging import require_sentence
 from tests.tools.fuzz.tables import require_agreement

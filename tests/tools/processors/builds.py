@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from hypcheck.kernel import core
+from tests.support.inside import core
 
 HERE = Path(__file__).parent
 HEADER_FOLDER = Path(core.__file__).parent

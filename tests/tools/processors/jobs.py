@@ -13,10 +13,10 @@ import numpy as np
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY, WAYS
 from hypcheck.implementations.ways import certified
-from hypcheck.truth import nearest_rows
 from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.frozen import ENDED_NAMES, NAMES, TILTED_NAMES, WAY_NAMES, load
 from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_CONTENTS, INVALID_NAMES
+from tests.support.inside import nearest_rows
 from tests.tools.attack.places import Scene
 from tests.tools.attack.strike import Batch, batches
 from tests.tools.processors.builds import LEVELS, MODES, Build, BuildError

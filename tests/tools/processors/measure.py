@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hypcheck.kernel.core import generate
+from tests.support.inside import generate
 from tests.tools.processors.builds import HEADER_FOLDER, Build, run
 from tests.tools.processors.jobs import stack_used
 

@@ -14,10 +14,10 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.tables.strict_json import read_document
-from hypcheck.truth.kinds import Kind
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import StoredCertificate, cases_text
 from hypcheck.vectors.checking import faults_of
+from tests.support.inside import Kind
 
 STEP = 23
 """Every STEP-th frozen case is checked here; `make check-cases` checks all."""

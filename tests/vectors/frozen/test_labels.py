@@ -16,8 +16,6 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.implementations.domain import Domain, representable
 from hypcheck.tables.numbers import Literal, decimal_of, exact_text, hex_of, is_shortest, rational_of
-from hypcheck.truth.certificate import Certificate
-from hypcheck.truth.prove import prove
 from hypcheck.vectors import freezing
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cancellation import BEGINNINGS, STRATA, CancellationSearch, searches, worst_row
@@ -29,6 +27,7 @@ from hypcheck.vectors.freezing import extended, frozen, frozen_invalid_rows
 from hypcheck.vectors.invalid_rows import invalid_rows
 from hypcheck.vectors.labels import labelled, shows_crossing, stored_certificate
 from tests.support import exactly
+from tests.support.inside import Certificate, prove
 from tests.support.pairs import pairs
 
 # flag → rows that have it and rows that have it not, by hand. A row is α, γ, b, d, x, y, z.

@@ -9,11 +9,11 @@ from functools import partial
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.truth.kinds import Kind
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import case_fields, cases_text, read_cases
 from hypcheck.vectors.flags import FLAGS
 from hypcheck.vectors.format import HEAD_FIELDS, MEMBERS, content_with
+from tests.support.inside import Kind
 
 SOUND = frozen.path_of("tangent-ladder").read_text(encoding="utf-8").splitlines()
 FIRST = SOUND.index('"cases": [') + 1

@@ -13,7 +13,6 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import TILTED_COLUMNS, Position
 from hypcheck.geometry.rows import invalid
-from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import case_fields, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
@@ -21,6 +20,7 @@ from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.flags import TILTED_FLAGS
 from hypcheck.vectors.format import TILTED_SCHEMA, content_with
 from hypcheck.vectors.labels import shows_crossing
+from tests.support.inside import Bracket
 from tests.support.records import violations
 from tests.vectors.frozen.test_files import bits, schema, text_of
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from hypcheck.truth import nearest_rows, swept
+from tests.support.inside import clearances, passage
 from tests.tools.attack.strike import truth_of
 from tests.tools.evidence.seeds import CLEARANCES, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, WAYS
 
@@ -98,7 +98,7 @@ def constructed() -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
         rows = rows_of(text)
         yield kind, rows, np.array([_hit(row) for row in rows.tolist()])
     rows = np.array(CLEARANCES_AT_ENDS)
-    known = nearest_rows.clearances(rows)
+    known = clearances(rows)
     yield CLEARANCES, np.column_stack([rows, known.clearance]), known.position
     for kind, scene in _scenes():
         right = np.full(len(scene), 127, np.int8)
@@ -108,7 +108,7 @@ def constructed() -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
 
 
 def _hit(row: list[float]) -> bool:
-    return swept.passage(row[:4], row[4:7], row[7:10], axis=row[10:] or (0, 0, 1)).hit
+    return passage(row[:4], row[4:7], row[7:10], axis=row[10:] or (0, 0, 1)).hit
 
 
 def _scenes() -> Iterator[tuple[int, np.ndarray]]:

@@ -1,0 +1,292 @@
+"""What tests know of the inside of hypcheck, in one place: if a module or a function moves, this file alone changes.
+
+What at most two test modules use they import themselves.
+"""
+
+from __future__ import annotations
+
+from hypcheck.kernel import choice as kernel_choice
+from hypcheck.kernel import classify as kernel_classify
+from hypcheck.kernel import compiled_kernel, core, numpy_kernel, scene_lines
+from hypcheck.kernel.choice import (
+    EXTENSION,
+    LEVELS,
+    NUMBER_OF,
+    POSITION_OF,
+    KernelChoice,
+    choice,
+    compiled,
+    most_threads,
+)
+from hypcheck.kernel.classify import classify, kernel
+from hypcheck.kernel.compiled_kernel import answer_ways
+from hypcheck.kernel.core import HEADER, generate
+from hypcheck.kernel.core.generate import TARGET, header
+from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.kernel import description, emitted
+from hypcheck.kernel.emission.pair import METHODS, emitted_pair
+from hypcheck.kernel.emission.plan_text import (
+    comment_text,
+    operations_before,
+    plan_as_json,
+    plan_lines,
+    printed_operations,
+)
+from hypcheck.kernel.emission.whole import whole, whole_plan
+from hypcheck.kernel.integers import position as integers_position
+from hypcheck.kernel.numpy_kernel import Buffers, chunks, positions_of_scene
+from hypcheck.kernel.numpy_kernel import answer_ways as numpy_kernel_answer_ways
+from hypcheck.kernel.numpy_kernel import positions as numpy_kernel_positions
+from hypcheck.kernel.programs import certified, lines, tilted
+from hypcheck.kernel.programs.certified import CERTIFIED, SLACK, U
+from hypcheck.kernel.programs.certified import CONSTANTS as CERTIFIED_CONSTANTS
+from hypcheck.kernel.programs.integers import (
+    COEFFICIENTS,
+    DISCRIMINANT,
+    FLOAT64_BITS,
+    INTEGERS,
+    INVARIANTS,
+    QUARTIC,
+    bits_counted,
+)
+from hypcheck.kernel.programs.tilted import CONSTANTS, TILTED
+from hypcheck.kernel.scalar import exact_position
+from hypcheck.kernel.scalar import position as scalar_position
+from hypcheck.kernel.scene import Scene
+from hypcheck.kernel.specialise import last_stages
+from hypcheck.kernel.specialise.first_stages import AXIAL, RADIAL, Thresholds, entry, line_at, thresholds
+from hypcheck.kernel.specialise.last_stages import (
+    LeaningSearch,
+    backward_bound,
+    discriminant,
+    exact_constants,
+    leaning_search,
+    search,
+    search_begin,
+)
+from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages, decided_by, far_corner, plan_of
+from hypcheck.kernel.specialise.settings import (
+    FORMATS,
+    Box,
+    ScaledSetting,
+    Setting,
+    centres,
+    position_of_box,
+    scaled,
+    settings_of,
+)
+from hypcheck.truth import (
+    backward_error,
+    exact,
+    float_filter,
+    heights,
+    nearest_rows,
+    passage_error,
+    polynomial_roots,
+    swept,
+)
+from hypcheck.truth import nearest as truth_nearest
+from hypcheck.truth.backward_error import Bracket, bracket, estimate, exponent, lower_ends, quick_bracket, tolerated
+from hypcheck.truth.certificate import Certificate, check_certificate, pivots, proves, surfaces
+from hypcheck.truth.changes import corner, goal_of
+from hypcheck.truth.exact import Decision, decide, kind_of, position
+from hypcheck.truth.exact import cubic as exact_cubic
+from hypcheck.truth.exact import discriminant as exact_discriminant
+from hypcheck.truth.flip_exponents import distance_exponents, flip_exponents
+from hypcheck.truth.float_filter import filtered, lines_for_sizes, positions
+from hypcheck.truth.heights import position as heights_position
+from hypcheck.truth.kinds import Kind
+from hypcheck.truth.least import position as least_position
+from hypcheck.truth.mesh import MeshOutcome, availability, distance_to_mesh
+from hypcheck.truth.mesh_oracle import verdict
+from hypcheck.truth.nearest import Enclosure, NearestStage, nearest, ratio
+from hypcheck.truth.nearest_rows import clearances
+from hypcheck.truth.nearest_rows import positions as nearest_rows_positions
+from hypcheck.truth.passage_error import hits_at_size, is_tolerated, scaled_passage, size_error, time_window, tolerance
+from hypcheck.truth.pencil import cubic, quartic, sign_at
+from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate, linear_factor, polynomial_product, value
+from hypcheck.truth.prove import prove
+from hypcheck.truth.roots import (
+    COMPLEX,
+    KIND_OF,
+    PATTERNS,
+    Invariants,
+    RootPlace,
+    admissible,
+    classify_by_roots,
+    classify_invariants,
+    coefficients,
+    real_roots,
+)
+from hypcheck.truth.surds import Surd, sign_at_root
+from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, journey_of, passage, reach, steps
+
+__all__ = [
+    "AXIAL",
+    "CERTIFIED",
+    "CERTIFIED_CONSTANTS",
+    "COEFFICIENTS",
+    "COMPLEX",
+    "CONSTANTS",
+    "DIALECTS",
+    "DISCRIMINANT",
+    "EXTENSION",
+    "FLOAT64_BITS",
+    "FORMATS",
+    "HEADER",
+    "INTEGERS",
+    "INVARIANTS",
+    "KIND_OF",
+    "LEVELS",
+    "METHODS",
+    "NUMBER_OF",
+    "ONE_SIDED",
+    "PATTERNS",
+    "POSITION_OF",
+    "QUARTIC",
+    "RADIAL",
+    "SLACK",
+    "TARGET",
+    "TILTED",
+    "WIDTH_BITS",
+    "Box",
+    "Bracket",
+    "Buffers",
+    "Certificate",
+    "Decision",
+    "Enclosure",
+    "Invariants",
+    "KernelChoice",
+    "Kind",
+    "LeaningSearch",
+    "MeshOutcome",
+    "NearestStage",
+    "RootPlace",
+    "ScaledSetting",
+    "Scene",
+    "ScenePlan",
+    "Setting",
+    "Stages",
+    "Surd",
+    "Thresholds",
+    "U",
+    "_none_by_descartes",
+    "admissible",
+    "answer_ways",
+    "availability",
+    "backward_bound",
+    "backward_error",
+    "bits_counted",
+    "bracket",
+    "by_roots",
+    "by_steps",
+    "centres",
+    "certified",
+    "check_certificate",
+    "choice",
+    "chunks",
+    "classify",
+    "classify_by_roots",
+    "classify_invariants",
+    "clearances",
+    "coefficients",
+    "comment_text",
+    "compiled",
+    "compiled_kernel",
+    "core",
+    "corner",
+    "cubic",
+    "decide",
+    "decided_by",
+    "description",
+    "discriminant",
+    "distance_exponents",
+    "distance_to_mesh",
+    "emitted",
+    "emitted_pair",
+    "entry",
+    "estimate",
+    "exact",
+    "exact_constants",
+    "exact_cubic",
+    "exact_discriminant",
+    "exact_position",
+    "exponent",
+    "far_corner",
+    "filtered",
+    "flip_exponents",
+    "float_filter",
+    "generate",
+    "goal_of",
+    "header",
+    "heights",
+    "heights_position",
+    "hits_at_size",
+    "integers_position",
+    "is_tolerated",
+    "isolate",
+    "journey_of",
+    "kernel",
+    "kernel_choice",
+    "kernel_classify",
+    "kind_of",
+    "last_stages",
+    "leaning_search",
+    "least_position",
+    "line_at",
+    "linear_factor",
+    "lines",
+    "lines_for_sizes",
+    "lower_ends",
+    "most_threads",
+    "nearest",
+    "nearest_rows",
+    "nearest_rows_positions",
+    "numpy_kernel",
+    "numpy_kernel_answer_ways",
+    "numpy_kernel_positions",
+    "operations_before",
+    "passage",
+    "passage_error",
+    "pivots",
+    "plan_as_json",
+    "plan_lines",
+    "plan_of",
+    "polynomial_product",
+    "polynomial_roots",
+    "position",
+    "position_of_box",
+    "positions",
+    "positions_of_scene",
+    "printed_operations",
+    "prove",
+    "proves",
+    "quartic",
+    "quick_bracket",
+    "ratio",
+    "reach",
+    "real_roots",
+    "scalar_position",
+    "scaled",
+    "scaled_passage",
+    "scene_lines",
+    "search",
+    "search_begin",
+    "settings_of",
+    "sign_at",
+    "sign_at_root",
+    "size_error",
+    "steps",
+    "surfaces",
+    "swept",
+    "thresholds",
+    "tilted",
+    "time_window",
+    "tolerance",
+    "tolerated",
+    "truth_nearest",
+    "value",
+    "verdict",
+    "whole",
+    "whole_plan",
+]
