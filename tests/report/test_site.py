@@ -18,7 +18,7 @@ CUT_OFF = """[...document.querySelectorAll('.md-typeset__scrollwrap')]
 """What the tables begin with whose last columns only scrolling shows."""
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.skipif(importlib.util.find_spec("mkdocs") is None, reason="mkdocs is not installed; make .venv/ready-docs")
 def test_no_table_of_the_engines_page_is_cut_off_at_1280_pixels(tmp_path):
     words = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)]

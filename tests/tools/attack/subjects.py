@@ -11,16 +11,9 @@ from unittest.mock import patch
 
 import numpy as np
 
-from tests.support.inside import (
-    LEVELS,
-    NUMBER_OF,
-    POSITION_OF,
-    compiled,
-    exact_position,
-    numpy_kernel,
-    numpy_kernel_positions,
-    positions_of_scene,
-)
+from hypcheck.kernel import numpy_kernel
+from hypcheck.kernel.choice import LEVELS, NUMBER_OF, POSITION_OF, compiled
+from hypcheck.kernel.scalar import exact_position
 
 
 @dataclass(frozen=True)
@@ -94,7 +87,7 @@ def _agreed(ask: Callable[[str], np.ndarray]) -> np.ndarray:
 
 def _numpy_scene(sizes: tuple[float, ...], *columns: np.ndarray, axis: tuple[float, ...] | None = None) -> np.ndarray:
     with patch.object(numpy_kernel, "LINES_FROM", 1):  # its lines are attacked in small scenes too
-        return positions_of_scene(sizes, *columns, axis)
+        return numpy_kernel.positions_of_scene(sizes, *columns, axis)
 
 
 def one_by_one(position: Callable[..., int], name: str, every: int) -> Subject:
@@ -116,7 +109,7 @@ def one_by_one(position: Callable[..., int], name: str, every: int) -> Subject:
 def subjects() -> list[Subject]:
     """The compiled kernel at every level of this machine, numpy, and the functions of one pair."""
     found = [
-        Subject("numpy", numpy_kernel_positions, _numpy_scene),
+        Subject("numpy", numpy_kernel.positions, _numpy_scene),
         one_by_one(exact_position, "pair, Python", every=16),
     ]
     try:

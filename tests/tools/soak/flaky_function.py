@@ -13,7 +13,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3]))
 
-from tests.support.inside import kernel_classify as kernel
+from hypcheck.kernel import classify as kernel
 from tests.tools.soak import moods
 
 sys.argv = ["flaky", os.environ["HYPCHECK_SOAK_SEED"], os.environ["HYPCHECK_SOAK_FOLDER"]]

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from base import serve
 
-from tests.support.inside import passage
+from hypcheck.truth.swept import passage
 
 TIMES, LEANING = "times" in sys.argv, "leaning" in sys.argv
 

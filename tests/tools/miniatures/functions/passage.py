@@ -3,7 +3,7 @@
 import numpy as np
 
 from hypcheck.geometry.rows import WAYS, invalid
-from tests.support.inside import passage
+from hypcheck.truth.swept import passage
 
 hypcheck = {"name": "passage", "question": "passage", "times": True, "refuses": True}
 
