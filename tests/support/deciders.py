@@ -83,7 +83,7 @@ class Decider:
     takes: tuple[str, ...] = POSITIONS
     abstains: float = 0.0
     every: int = 1
-    examples: int = 4
+    examples: int = 3
     refuses: bool = True
     takes_any_array: bool = False
     drawn: bool = True
