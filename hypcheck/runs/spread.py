@@ -21,13 +21,15 @@ from hypcheck.runs.plan import ConformancePlan, chosen_families
 from hypcheck.runs.results import JudgingRules
 from hypcheck.vectors import crossed
 from hypcheck.vectors.family import Family
-from hypcheck.vectors.strata import HIGHEST
+from hypcheck.vectors.strata import HIGHEST, RATIO_OCTAVES
 
 COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
     {
         "|z|/γ": lambda rows: np.abs(rows[:, 6]) / rows[:, 1] / HIGHEST,
-        "c/a": lambda rows: _share_of_octaves(rows[:, 1] / rows[:, 3] * rows[:, 2] / rows[:, 0], -10, 10),
-        "d/b": lambda rows: _share_of_octaves(rows[:, 3] / rows[:, 2], -10, 10),
+        "c/a": lambda rows: _share_of_octaves(
+            rows[:, 1] / rows[:, 3] * rows[:, 2] / rows[:, 0], -RATIO_OCTAVES, RATIO_OCTAVES
+        ),
+        "d/b": lambda rows: _share_of_octaves(rows[:, 3] / rows[:, 2]),
         "α/b": lambda rows: _share_of_octaves(rows[:, 0] / rows[:, 2], -3, 7),
         "azimuth": lambda rows: np.arctan2(rows[:, 5], rows[:, 4]) / (2 * np.pi) + 0.5,
         "lean": lambda rows: np.cos(np.arctan2(np.hypot(rows[:, 7], rows[:, 8]), np.abs(rows[:, 9]))),
@@ -36,10 +38,10 @@ COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
 )
 """What a narrow fault may depend on, from 0 to 1 in the range that is asked; upright rows have the first five.
 
-|z|/γ is up to HIGHEST; c/a, where c = γ/d and a = α/b, and the other ratios are in octaves."""
+|z|/γ is up to HIGHEST; c/a, where c = γ/d and a = α/b, and the other ratios are in octaves.
+"""
 
 UPRIGHT = tuple(COORDINATES)[:5]
-
 
 ROWS_OF_ONE = 3
 """So many rows are asked in each slice of one coordinate that is as wide as a run says."""
@@ -72,7 +74,7 @@ def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
     return SlicesPart(coordinates=list(names), rows=len(rows), one=one, two=_side(places))
 
 
-def _share_of_octaves(ratio: Floats, low: int, high: int) -> Floats:
+def _share_of_octaves(ratio: Floats, low: int = -RATIO_OCTAVES, high: int = RATIO_OCTAVES) -> Floats:
     return np.asarray((np.log2(ratio) - low) / (high - low))
 
 

@@ -13,7 +13,7 @@ from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.geometry.rows import CANNOT_SAY
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import flip_exponents
 
 INF = math.inf
@@ -23,7 +23,7 @@ INF = math.inf
 def truth():
     workload = WORKLOADS["near-contact"]
     rows = workload.rows(5, 120)
-    return WorkloadTruth(workload, rows, exactly.positions(rows), flip_exponents(rows))
+    return WorkloadTruth(workload, rows, inside.positions(rows), flip_exponents(rows))
 
 
 @pytest.fixture(scope="module")

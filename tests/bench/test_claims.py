@@ -31,7 +31,7 @@ from hypcheck.derivation.program import count
 from hypcheck.geometry.pair import Position
 from hypcheck.implementations.method import RECIPROCAL, by_rows
 from hypcheck.vectors.families import FAMILIES
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import flip_exponents
 
 FEW = replace(QUICK, bodies=600, timed=600)
@@ -65,7 +65,7 @@ def test_methods_compared_in_cost_claims_answer_alike_in_c_and_in_numpy(answers)
 
 def test_cost_claims_weigh_the_rotors_by_the_share_of_flight_rows_in_contact():
     rows = FAMILIES["flight"].rows(1, 4000)
-    touching = exactly.positions(rows) == Position.CONTACT
+    touching = inside.positions(rows) == Position.CONTACT
     assert 100 < np.count_nonzero(touching) < 2000
     assert claims.share_touching(claims.flight_of(1, 4000)) == np.mean(touching)
 

@@ -15,7 +15,7 @@ from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.meshes import FCL
-from tests.support import exactly
+from tests.support import inside
 
 PLAN = BenchPlan(quick=True, amounts=replace(QUICK, cell=4, map_lines=15, judged=400, most_triangles=300))
 
@@ -38,7 +38,7 @@ def test_each_cell_of_the_stability_map_holds_rows_of_its_size_ratios():
     a, c = rows[:, 0] / rows[:, 2], rows[:, 1] / rows[:, 3]
     assert (np.abs(2 * np.log10(a) - (error_maps.FIRST + cells // side + 0.5)) <= 0.5 + 1e-9).all()
     assert (np.abs(2 * np.log10(c) - (error_maps.FIRST + cells % side + 0.5)) <= 0.5 + 1e-9).all()
-    assert set(Counter(exactly.positions(rows).tolist())) == {-1, 0, 1}
+    assert set(Counter(inside.positions(rows).tolist())) == {-1, 0, 1}
 
 
 def test_the_place_maps_show_the_errors_of_float32_on_the_ring():
@@ -55,7 +55,7 @@ def test_the_place_maps_show_the_errors_of_float32_on_the_ring():
 def test_a_place_map_marks_each_kind_of_wrong_answer_with_its_own_letter():
     r, z = error_maps.mapped_regions(PLAN)["whole"]
     rows = error_maps.grid(r, z)
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     lines = error_maps.letters_of(np.zeros_like(truth), rows, "position", r[2])
     assert "".join(lines).count("w") == np.count_nonzero(truth)
     lines = error_maps.letters_of(np.ones_like(truth), rows, "position", r[2])

@@ -21,7 +21,7 @@ from hypcheck.record.measurements import AbsentLine, AccuracyLine, BoundingLine,
 from hypcheck.report import markdown
 from hypcheck.runs import judge
 from tests.bench.test_run import ended
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import flip_exponents
 from tests.support.judging import ends_of
 from tests.tools.miniatures import QUICK, command
@@ -68,7 +68,7 @@ def test_of_the_tilted_workloads_only_one_axis_is_a_single_scene():
 
 def test_tilted_near_contact_workload_has_all_positions_at_distances_from_1e_16_to_1e_2():
     rows = TILTED_WORKLOADS["near-contact"].rows(1, 150)
-    assert set(exactly.positions(rows).tolist()) == {-1, 0, 1}
+    assert set(inside.positions(rows).tolist()) == {-1, 0, 1}
     exponents = flip_exponents(rows)
     assert exponents.min() < -53
     assert exponents.max() > -7

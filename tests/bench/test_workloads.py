@@ -7,7 +7,7 @@ import pytest
 
 from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, scene_of
 from hypcheck.geometry.rows import first_trouble
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import clearances, flip_exponents
 
 
@@ -29,7 +29,7 @@ def test_uniform_and_flight_workloads_have_one_scene_and_near_contact_several(na
 
 def test_near_contact_workload_alternates_its_scenes_and_has_every_position():
     rows = WORKLOADS["near-contact"].rows(1, 1200)
-    positions = exactly.positions(rows)
+    positions = inside.positions(rows)
     for place, scene in enumerate(NEAR_SCENES):
         assert (rows[place :: len(NEAR_SCENES), :4] == scene).all()
         assert {0, 1} <= set(positions[place :: len(NEAR_SCENES)].tolist())
@@ -47,4 +47,4 @@ def test_near_contact_workload_has_distances_of_every_decade_down_to_1e_15():
 
 def test_every_second_row_of_the_ring_workload_is_clear_with_a_zero_discriminant():
     rows = WORKLOADS["ring"].rows(1, 400)
-    assert (exactly.positions(rows[::2]) == 1).all()
+    assert (inside.positions(rows[::2]) == 1).all()

@@ -18,7 +18,7 @@ from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.points import Point, facts, facts_in_order
 from hypcheck.paper.ledger.statements import quadcopters
 from tests.derivation.test_proofs import mutants
-from tests.support import exactly
+from tests.support import inside
 
 
 @pytest.mark.parametrize("name", REPAIRED)
@@ -66,7 +66,7 @@ def test_repaired_procedure_2b_accepts_interior_hulls_and_rotors_that_the_printe
         if not statements.wide(hull) or (hull.c1 and hull.c2 and place % 25):
             continue
         for each in quadcopters(hull)[:1]:
-            rotors = exactly.position(each.farthest.pair.lengths) is Position.INTERIOR
+            rotors = inside.position(each.farthest.pair.lengths) is Position.INTERIOR
             if statements.interior(hull) or rotors:
                 assert quadcopter_says(REPAIRED["procedure-2b-repaired"], each), hull.point
                 differ += not each.answer

@@ -29,7 +29,7 @@ from hypcheck.implementations.alternatives import (
 from hypcheck.implementations.builtin import builtin, builtin_methods
 from hypcheck.implementations.method import on_rows, on_scene
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import numpy_kernel_positions
 
 BY_PAIRS = [name for name, each in FORMULAS.items() if each.classifies_pairs]
@@ -85,7 +85,7 @@ def test_the_bounding_sphere_answers_alike_by_scene_and_by_rows(tower):
 def test_root_methods_are_right_away_from_contact(answer):
     regimes = [FAMILIES[name].rows(3, 250) for name in ("tower-body", "forest-type-1", "forest-type-2")]
     rows = np.concatenate([*regimes, FAMILIES["out-of-regime"].rows(3, 250)])
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     wrong = np.flatnonzero(answer(rows) != truth)
     assert set(truth.tolist()) == {-1, 0, 1}
     assert len(wrong) <= 2  # ratios at random may come near
@@ -95,7 +95,7 @@ def test_root_methods_are_right_away_from_contact(answer):
 @pytest.mark.slow
 def test_mpmath_roots_with_50_digits_are_right_where_15_digits_are_not():
     rows = WORKLOADS["near-contact"].rows(1, 150)
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     fewer, more = (alternatives.mpmath_roots(rows, digits) for digits in (15, 50))
     assert np.count_nonzero(fewer != truth) > 0
     assert (more == truth).all()
@@ -111,7 +111,7 @@ def test_a_bounding_shape_is_never_clear_where_the_spheroid_is_not(answer, rows)
     found = answer(rows)
     claimed = found != 0
     assert claimed.any()
-    assert (found[claimed] == exactly.positions(rows)[claimed]).all()
+    assert (found[claimed] == inside.positions(rows)[claimed]).all()
 
 
 def test_bounding_sphere_is_exact_for_spheres_and_contains_other_spheroids(tower):
@@ -122,13 +122,13 @@ def test_bounding_sphere_is_exact_for_spheres_and_contains_other_spheroids(tower
     tall[:, 3] = 8 * tall[:, 2]
     wide = tall.copy()
     wide[:, 2] = wide[:, 3]
-    assert (bounding_sphere(tall) == exactly.positions(wide)).all()
+    assert (bounding_sphere(tall) == inside.positions(wide)).all()
 
 
 @pytest.mark.parametrize("name", ["exact-integers", "exact-oracle", "nearest-point"])
 def test_the_exact_bench_methods_are_never_wrong(name, rows):
     some = rows[::9]
-    assert (builtin(name).answer(some) == exactly.positions(some)).all()
+    assert (builtin(name).answer(some) == inside.positions(some)).all()
 
 
 def test_methods_only_for_bench_can_be_opened_by_name():
@@ -144,7 +144,7 @@ LEANING = ("tilted-uniform", "tilted-tower")
 @pytest.mark.parametrize("method", [by_eigenvectors, by_roots])
 def test_numpy_methods_for_tilted_rows_are_right_away_from_contact(method, name):
     rows = TILTED_FAMILIES[name].rows(3, 300)
-    assert (method(rows) == exactly.positions(rows)).all()
+    assert (method(rows) == inside.positions(rows)).all()
 
 
 @pytest.mark.parametrize("method", [by_eigenvectors, by_roots])

@@ -13,7 +13,7 @@ from hypcheck.implementations.domain import UNIT_ROUNDOFF, representable
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.vectors.families import select
-from tests.support import exactly
+from tests.support import inside
 from tests.support.judging import wrong_cases
 
 
@@ -37,7 +37,7 @@ def test_each_built_in_method_gives_answers_that_its_question_allows(name, rows)
 def test_the_built_in_methods_that_are_kernels_are_exact(name, rows):
     method = builtin(name)
     assert method.exact
-    assert (method.answer(rows) == exactly.positions(rows)).all()
+    assert (method.answer(rows) == inside.positions(rows)).all()
     assert {each.name for each in builtin_methods().values() if each.exact and not each.measured} == {
         "fast",
         "fast-numpy",
@@ -48,7 +48,7 @@ def test_the_built_in_methods_that_are_kernels_are_exact(name, rows):
 def test_the_built_in_dual_form_has_a_backward_error_below_one_unit(precision, rows):
     method = builtin(f"dual-{precision}")
     asked = rows[method.domain.holds(rows) & representable(rows, precision)]
-    cases = wrong_cases(asked, exactly.positions(asked), method.answer(asked), Criterion(precision=precision))
+    cases = wrong_cases(asked, inside.positions(asked), method.answer(asked), Criterion(precision=precision))
     assert cases  # at a tangency one side or the other is bound to be missed
     unit = UNIT_ROUNDOFF[precision]
     assert max(judge.in_units(judge.measured(case, "position"), unit) for case in cases) < 1

@@ -23,7 +23,7 @@ from hypcheck.implementations.meshes import (
     turns_of,
 )
 from hypcheck.vectors.families import TILTED_FAMILIES
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import clearances, nearest
 
 TOWER = (2.0, 17.8, 0.25, 0.15)
@@ -66,7 +66,7 @@ def test_scene_mesh_answers_rightly_farther_from_contact_than_its_deviation(engi
     rows = WORKLOADS["uniform"].rows(1, 400)
     mesh = scene_mesh(engine, pairing, TOWER, height_of(TOWER, rows), 3000)
     doubtful = np.abs(clearances(rows).clearance) <= mesh.deviation
-    answers, truth = mesh.answers(rows), exactly.positions(rows)
+    answers, truth = mesh.answers(rows), inside.positions(rows)
     assert (answers[~doubtful] == truth[~doubtful]).all()
     assert set(answers.tolist()) == {-1, 0, 1}
 
@@ -94,7 +94,7 @@ def test_turns_of_gives_rotations_that_take_the_z_axis_to_each_axis():
 @pytest.mark.parametrize("engine", ENGINES)
 def test_scene_mesh_with_more_triangles_has_fewer_errors_near_contact(engine):
     rows = WORKLOADS["near-contact"].rows(1, 1800)[::6]
-    truth, height = exactly.positions(rows), height_of(TOWER, rows)
+    truth, height = inside.positions(rows), height_of(TOWER, rows)
     wrong = [
         np.count_nonzero(scene_mesh(engine, "point", TOWER, height, n).answers(rows) != truth) for n in (100, 10_000)
     ]

@@ -9,7 +9,7 @@ import pytest
 
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.kernel import clearance_points
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import nearest, numpy_kernel
 from tests.support.nearest_points import nearest_points
 from tests.truth.tilted_cases import phi
@@ -86,7 +86,7 @@ def test_the_multiplier_of_the_numpy_kernel_maximises_phi_or_is_next_to_a_pole()
 
 
 def gaps_of(rows, gaps, touches):
-    position = np.array([exactly.position(Lengths.of(row if len(row) == 10 else [*row, 0, 0, 1])) for row in rows])
+    position = np.array([inside.position(Lengths.of(row if len(row) == 10 else [*row, 0, 0, 1])) for row in rows])
     clear = np.flatnonzero(position)
     rows, position = rows[clear], position[clear].astype(np.int8)
     return rows, position, gaps(rows, position, touches(rows).point)

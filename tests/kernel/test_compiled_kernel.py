@@ -12,7 +12,7 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.scene.model import QUESTIONS
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import compiled_kernel, numpy_kernel
 from tests.tools.attack.places import near_contact, scenes
 
@@ -36,8 +36,8 @@ def scene():
 def test_the_compiled_kernel_answers_each_question_as_the_exact_position_does(kernel, question, rows, scene):
     yes = {"exterior": 1, "interior": -1, "contact": 0}
     for truth, (answers, refused) in (
-        (exactly.positions(rows), kernel.answer_rows(rows, question)),
-        (exactly.positions(scene.rows), kernel.answer_scene(scene.sizes, (scene.x, scene.y, scene.z), question)),
+        (inside.positions(rows), kernel.answer_rows(rows, question)),
+        (inside.positions(scene.rows), kernel.answer_scene(scene.sizes, (scene.x, scene.y, scene.z), question)),
     ):
         assert refused == 0
         assert answers.tolist() == (truth if question == "position" else (truth == yes[question]).astype(int)).tolist()
@@ -62,10 +62,10 @@ def test_the_compiled_kernel_answers_127_for_an_invalid_row_and_no_other_changes
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 7, np.int64(2), 10**9])
 def test_classify_answers_do_not_depend_on_the_number_of_threads(threads, rows, scene):
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     assert (hypcheck.classify(rows, threads=threads) == truth).all()
     found = hypcheck.classify_scene(scene.sizes, scene.x, scene.y, scene.z, threads=threads)
-    assert (found == exactly.positions(scene.rows)).all()
+    assert (found == inside.positions(scene.rows)).all()
     assert hypcheck.classify(rows[:2], threads=threads).tolist() == truth[:2].tolist()
     assert hypcheck.classify(rows[:0], threads=threads).tolist() == []
 
@@ -91,7 +91,7 @@ def test_the_c_function_answers_the_position_to_an_unknown_question(scene):
     for question in (-1, 4, 1 << 20):
         refused = library.hypcheck_ask_scene(question, pointers[0], ctypes.c_size_t(len(answers)), *pointers[1:])
         assert refused == 0
-        assert (answers == exactly.positions(scene.rows)).all()
+        assert (answers == inside.positions(scene.rows)).all()
 
 
 def test_python_threads_run_while_the_compiled_kernel_computes():
@@ -136,7 +136,7 @@ def test_an_error_in_a_part_is_raised_in_the_caller_after_the_other_parts(bad):
 def test_classify_scene_is_exact_for_columns_of_any_stride_type_and_alignment(scene):
     """Of so many rows that threads share them."""
     count = 2 * compiled_kernel.ROWS_A_THREAD // len(scene.x) + 1
-    truth = np.tile(exactly.positions(scene.rows), count)
+    truth = np.tile(inside.positions(scene.rows), count)
     table = np.tile(np.column_stack([scene.x, scene.y, scene.z]), (count, 1))
     x, y, z = np.ascontiguousarray(table.T)
     assert (hypcheck.classify_scene(scene.sizes, *table.T) == truth).all()
@@ -149,7 +149,7 @@ def test_classify_scene_is_exact_for_columns_of_any_stride_type_and_alignment(sc
 
 def test_classify_is_exact_for_rows_of_any_alignment(rows):
     shifted = np.frombuffer(b"\0" + rows.tobytes(), np.float64, rows.size, 1).reshape(rows.shape)
-    assert (hypcheck.classify(shifted) == exactly.positions(rows)).all()
+    assert (hypcheck.classify(shifted) == inside.positions(rows)).all()
 
 
 def test_the_compiled_extension_refuses_wrong_buffers_in_one_sentence():

@@ -18,7 +18,7 @@ from hypcheck.derivation.proofs import SYMBOLIC
 from hypcheck.kernel.programs import fixed
 from hypcheck.vectors.families import FAMILIES
 from tests.kernel.compiling import HEADER, needs_compiler, shared_library
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import INTEGERS, header
 
 HALF, WHOLE = 2**64, 2**128
@@ -221,7 +221,7 @@ def answers(library, rows) -> np.ndarray:
 @needs_compiler
 def test_the_fixed_point_stage_is_never_wrong_and_decides_nearly_all_rows_but_tangencies(library):
     rows = rows_of(*FAMILIES, count=5)
-    truth, found = exactly.positions(rows), answers(library, rows)
+    truth, found = inside.positions(rows), answers(library, rows)
     assert (found == truth)[found != 2].all()
     told = rows_of("ring", "near-tangent-outside", "near-tangent-inside", "tower-body", "extreme-magnitude", "waist")
     assert (answers(library, told) != 2).mean() > 0.97
@@ -233,7 +233,7 @@ def test_the_fixed_point_stage_is_never_wrong_and_decides_nearly_all_rows_but_ta
 def test_the_fixed_point_stage_without_its_error_bound_answers_some_tangencies_wrongly(tmp_path):
     rows = rows_of("tangent")
     found = answers(built(tmp_path, delta=0), rows)
-    assert (found != exactly.positions(rows))[found != 2].any()
+    assert (found != inside.positions(rows))[found != 2].any()
 
 
 def test_the_header_has_every_step_of_fixed_point():

@@ -13,7 +13,7 @@ from hypcheck.derivation.evaluation import EXACT, outputs
 from hypcheck.geometry.pair import Lengths, Pair, Position, to_integers
 from tests.kernel import program_rules
 from tests.kernel.compiling import STRICT, needs_compiler, program
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import (
     CERTIFIED,
     CERTIFIED_CONSTANTS,
@@ -144,7 +144,7 @@ def position_at(sizes: tuple[float, ...], R: Fraction, z: Fraction, *, above: bo
     x = (root + Fraction(1, 2**119)) if above else root * (1 - Fraction(1, 2**100))
     alpha, gamma, b, d = map(Fraction, sizes)
     radial, axial = to_integers((alpha, b, x)), to_integers((gamma, d, z))
-    return exactly.position(Lengths(*radial, 0, *axial))
+    return inside.position(Lengths(*radial, 0, *axial))
 
 
 @pytest.mark.thorough

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import Buffers, chunks, numpy_kernel, positions_of_scene, scene_lines
 
 
@@ -20,7 +20,7 @@ def test_the_numpy_kernel_is_exact_for_heights_and_sizes_without_lines():
         rows = np.column_stack([*(np.full(len(x), size) for size in sizes), x, y, z])
         rows[:, 4:] *= sizes[2]
         columns = np.ascontiguousarray(rows[:, 4:].T)
-        assert (positions_of_scene(sizes, *columns) == exactly.positions(rows)).all()
+        assert (positions_of_scene(sizes, *columns) == inside.positions(rows)).all()
 
 
 SCENES = [
@@ -42,7 +42,7 @@ def test_lines_of_the_numpy_kernel_decide_most_centres_near_the_surface_and_none
     away, angle = draw.uniform(-3, 3, count) * b, draw.uniform(0, 6.28, count)
     r = alpha * np.sqrt(1 + (z / gamma) ** 2) + away
     columns = r * np.cos(angle), r * np.sin(angle), z
-    truth = exactly.positions(np.column_stack([np.tile(sizes, (count, 1)), *columns]))
+    truth = inside.positions(np.column_stack([np.tile(sizes, (count, 1)), *columns]))
     lines = scene_lines.lines_of(sizes, z)
     numbers = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
     for ask, constants, buffers, shares in (

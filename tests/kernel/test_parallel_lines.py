@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import numpy_kernel, positions_of_scene, scene_lines
 from tests.tools.attack.places import Scene, sizes
 
@@ -64,7 +64,7 @@ def wrong(scene: Scene) -> int:
         part = slice(start, start + 1024)
         rest = numpy_kernel.by_lines(lines, (columns[0][part], columns[1][part], columns[2][part]), answers[part])
         answers[start + rest] = 99
-    return int(((answers != 99) & (answers != exactly.positions(scene.rows))).sum())
+    return int(((answers != 99) & (answers != inside.positions(scene.rows))).sum())
 
 
 SCENES = [TOWER, *(tuple(some) for some in sizes(np.random.default_rng(2), 60).tolist())]
@@ -75,7 +75,7 @@ def test_parallel_lines_decide_no_centre_near_contact_wrongly():
     assert len(SCENES) > 20
     assert [wrong(scene) for scene in near()] == [0] * 10
     for scene in near()[:4]:
-        assert (positions_of_scene(scene.sizes, scene.x, scene.y, scene.z) == exactly.positions(scene.rows)).all()
+        assert (positions_of_scene(scene.sizes, scene.x, scene.y, scene.z) == inside.positions(scene.rows)).all()
 
 
 @pytest.mark.parametrize("margin", [0.0, -scene_lines.FLOAT32_MARGIN])
@@ -110,7 +110,7 @@ def test_a_centre_beyond_single_precision_is_answered_exactly_by_later_stages(co
     rows = np.column_stack([np.tile(TOWER, (len(tower[0]), 1)), *tower])
     expected = np.full(len(rows), 127)
     valid = np.isfinite(rows).all(axis=1)
-    expected[valid] = exactly.positions(rows[valid])
+    expected[valid] = inside.positions(rows[valid])
     assert (positions_of_scene(TOWER, *tower) == expected).all()
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from hypcheck.vectors.families import FAMILIES
 from tests.kernel.compiling import needs_compiler, program
-from tests.support import exactly
+from tests.support import inside
 from tests.tools.attack.places import near_contact
 
 # Reads rows, answers them as rows and, with the sizes of the first, as scenes of odd lengths, from memory that ends
@@ -78,8 +78,8 @@ def test_sanitizers_find_no_fault_in_the_c_core(options, tmp_path):
     bad = rows[: 7 * 4].copy()
     bad[np.arange(28), np.arange(28) % 7] = np.repeat([np.nan, np.inf, -np.inf, -1.0], 7)
     valid = (np.isfinite(bad) & (bad > 0))[:, :4].all(axis=1) & np.isfinite(bad[:, 4:]).all(axis=1)
-    expected = np.concatenate([exactly.positions(rows), np.where(valid, 0, 127)])
-    expected[len(rows) :][valid] = exactly.positions(bad[valid])
+    expected = np.concatenate([inside.positions(rows), np.where(valid, 0, 127)])
+    expected[len(rows) :][valid] = inside.positions(bad[valid])
     sanitizers = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
     path = program(tmp_path, DRIVER, "-std=c99", "-O0", "-ffp-contract=off", *sanitizers, *options)
     done = subprocess.run([path], input=np.concatenate([rows, bad]).tobytes(), capture_output=True, check=False)

@@ -14,7 +14,7 @@ from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.kernel.scene_pairs import position_beside, positions_beside
 from hypcheck.scene import model
 from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, Span
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import Scene
 
 
@@ -23,7 +23,7 @@ def truth_about(body, mover, centre):
     offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, body.center, strict=True)]
     radial = integers(body.alpha, mover.b, *offset[:2])
     axial = integers(body.gamma, mover.d, offset[2])
-    return exactly.position(Lengths(*radial, *axial))
+    return inside.position(Lengths(*radial, *axial))
 
 
 def integers(*values):

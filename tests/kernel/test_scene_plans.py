@@ -12,7 +12,7 @@ from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.errors import InputError
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import (
     Thresholds,
     centres,
@@ -134,7 +134,7 @@ def test_lines_of_a_plan_leave_contact_and_the_centre_s_side_answers_a_one_sided
     for question in ("position", "exterior", "interior"):
         (stages,) = plan_of(scene(question=question)).settings
         rows = sample(stages.setting)
-        contact = (exactly.positions(rows) == 0).mean()
+        contact = (inside.positions(rows) == 0).mean()
         outside = (rows[:, 4] ** 2 + rows[:, 5] ** 2 > 4 * (1 + (rows[:, 6] / 17.8) ** 2)).mean()
         if question == "position":
             assert stages.shares["lines"] <= 1 - contact

@@ -16,7 +16,7 @@ from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.domain import representable
 from hypcheck.scene.model import Span
 from hypcheck.vectors.fixed_sizes import families_for
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import (
     FORMATS,
     Box,
@@ -62,7 +62,7 @@ def test_a_centre_beyond_a_line_has_the_position_that_the_line_proves(sizes, pre
     rows = rows[representable(rows, precision)]
     scale, _, _, values = at_entry(sizes, form, rows)
     told = 0
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     for share in (Fraction(1, 64), Fraction(1, 3), Fraction(7, 8)):
         for pole in (-scale.A, scale.B):
             line = line_at(pole * share, scale, form, 1)
@@ -126,7 +126,7 @@ def test_thresholds_of_a_stage_separate_the_exact_positions(sizes, height):
     radial = float(scaled(sizes, form).radial)
 
     def position(square):
-        return exactly.position(Pair(*sizes, square**0.5 / radial, 0.0, height).lengths)
+        return inside.position(Pair(*sizes, square**0.5 / radial, 0.0, height).lengths)
 
     assert position(found.outer * (1 + 1e-14)) is Position.EXTERIOR
     assert position(found.outer * (1 - 1e-14)) is Position.CONTACT

@@ -13,7 +13,7 @@ from hypcheck.derivation.program import needed
 from hypcheck.vectors.families import FAMILIES
 from tests.kernel.compiling import HEADER, needs_compiler, shared_library
 from tests.kernel.test_page import PAGE
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import FLOAT64_BITS, INTEGERS, bits_counted
 
 UNSURE = 2
@@ -111,7 +111,7 @@ def test_the_tangency_stage_answers_tangencies_and_not_rows_one_ulp_beside_them(
         beside[:, column] = np.nextafter(beside[:, column], np.inf)
         found = asked(library.beside, beside)
         assert (found[beside[:, 6] != 0] == UNSURE).mean() > 0.5
-        assert (found == exactly.positions(beside))[found != UNSURE].all()
+        assert (found == inside.positions(beside))[found != UNSURE].all()
 
 
 @needs_compiler
@@ -121,7 +121,7 @@ def test_the_tangency_stage_is_right_on_tangencies_moved_by_a_tiny_length(librar
     for column in (4, 5, 6):
         moved = rows[rows[:, column] == 0]
         moved[:, column] = hair * moved[:, 1 if column == 6 else 2]
-        found, truth = asked(library.beside, moved), exactly.positions(moved)
+        found, truth = asked(library.beside, moved), inside.positions(moved)
         assert (found == truth)[found != UNSURE].all()
         assert (found != UNSURE).mean() > 0.8
         assert len(set(truth.tolist())) > 1
@@ -132,7 +132,7 @@ def test_the_tangency_stage_decides_most_rows_in_the_plane_of_the_waist_rightly(
     random = np.random.default_rng(8)
     whole = random.integers(1, 6, (300, 4)) * [1.0, 5.0, 1.0, 1.0]
     rows = np.column_stack([whole, random.integers(0, 20, (300, 2)) / 4, np.zeros(300)])
-    found, truth = asked(library.in_plane, rows), exactly.positions(rows)
+    found, truth = asked(library.in_plane, rows), inside.positions(rows)
     assert (found == truth)[found != UNSURE].all()
     assert (found != UNSURE).mean() > 0.8
     assert set(found.tolist()) == {-1, 0, 1, UNSURE}

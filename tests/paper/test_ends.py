@@ -15,7 +15,7 @@ from hypcheck.paper.ends import EndVerdicts
 from hypcheck.paper.flights import Moves
 from hypcheck.paper.quadcopter import craft_of
 from hypcheck.scene.reading import read_scene, shipped_text
-from tests.support import exactly
+from tests.support import inside
 
 TREES = Path(__file__).parents[2] / "docs" / "simulate" / "two-trees.toml"
 FOREST = ("simulate", "forest", "--scene", str(TREES))
@@ -86,7 +86,7 @@ ENDED = (0.0, 0.0, 1.0, -17.8, -2.0, 0.0)
 
 
 def position(sizes, at, heights):
-    return exactly.position(Pair(*sizes, *at, *heights).lengths)
+    return inside.position(Pair(*sizes, *at, *heights).lengths)
 
 
 def is_valid(craft, at, heights):

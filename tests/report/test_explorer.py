@@ -26,7 +26,7 @@ from hypcheck.report import contents, html
 from hypcheck.report.document import Code
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import Kind, nearest
 
 FEW = 400
@@ -98,7 +98,7 @@ def test_answers_of_the_explorer_beside_ends_are_exact_wherever_it_answers(tmp_p
     answered = asked_of_node(ended_rows(), tmp_path_factory)
     seen = set()
     for row, each in answered:
-        position = exactly.position(Pair.from_row((*row[:7], 0.0, 0.0, 1.0, *row[7:])).lengths)
+        position = inside.position(Pair.from_row((*row[:7], 0.0, 0.0, 1.0, *row[7:])).lengths)
         assert each["ended"] in (None, position), row
         seen.add((each["position"], each["ended"], row[9]))
     assert len({case for case in seen if case[1] is not None}) >= 12
@@ -116,7 +116,7 @@ def test_exact_answers_of_the_explorer_equal_those_of_classify(found):
 def test_explorer_agrees_with_the_exact_decision_on_tangencies_and_the_ring(found):
     seen = set()
     for row, each in found:
-        decision = exactly.decide(Pair.from_row(row).lengths)
+        decision = inside.decide(Pair.from_row(row).lengths)
         assert (each["tangent"], each["ring"]) == (decision.tangent, decision.kind is Kind.EXTERIOR_RING), row
         seen.add((each["tangent"], each["ring"]))
     assert len(seen) == 3

@@ -14,7 +14,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import flip_exponents
 from tests.support.judging import ends_of, wrong_cases
 from tests.support.pairs import ordinary_pairs
@@ -27,7 +27,7 @@ INSIDE = (4.0, 5.0, 1.0, 1.0, 0.0, 0.0, 0.0)
 
 def judged(row, answer, criterion=Criterion()):  # noqa: B008  frozen
     rows = np.array([row])
-    return wrong_cases(rows, exactly.positions(rows), np.array([answer], dtype=np.int8), criterion)
+    return wrong_cases(rows, inside.positions(rows), np.array([answer], dtype=np.int8), criterion)
 
 
 @pytest.mark.parametrize(
@@ -115,7 +115,7 @@ def test_judge_refuses_an_invalid_criterion(bad):
 def test_exponent_of_a_wrong_case_contains_its_measured_error(some, seed):
     rows = np.array([pair.row for pair in some])
     answers = np.random.default_rng(seed).integers(-1, 2, len(rows)).astype(np.int8)
-    for case in wrong_cases(rows, exactly.positions(rows), answers, Criterion()):
+    for case in wrong_cases(rows, inside.positions(rows), answers, Criterion()):
         error = judge.measured(case, "position")
         assert case.truth != case.answer
         if math.isfinite(case.exponent):

@@ -17,7 +17,7 @@ from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.score import score
 from hypcheck.runs.tally import UnansweredCase, WorstCase
-from tests.support import exactly
+from tests.support import inside
 
 CRITERION = Criterion(tolerance=Fraction(0))
 
@@ -43,7 +43,7 @@ class Numbered:
 
 def answered(rows, numbers):
     """Every third of the rows answered otherwise than is right, some without an answer."""
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     answers = np.where(numbers % 3 == 0, np.where(truth == 0, 1, 0), truth).astype(np.int8)
     status = np.full(len(rows), Outcome.ANSWERED, dtype=np.int8)
     status[numbers % 7 == 1], status[numbers % 49 == 2] = Outcome.CRASH, Outcome.TIMEOUT
@@ -57,7 +57,7 @@ def tallied(rows, start=0, stop=None):
     numbers = np.arange(len(rows))[start:stop]
     part = rows[start:stop]
     exponents = np.floor(numbers[numbers < 50] / 9.0)
-    scored = score(part, exactly.positions(part), answered(part, numbers), CRITERION)
+    scored = score(part, inside.positions(part), answered(part, numbers), CRITERION)
     return scored.tally(Numbered(), numbers, exponents, left_out={"precision": 3})
 
 
@@ -126,7 +126,7 @@ def test_tallies_of_parts_add_up_to_the_whole_in_any_order():
 def test_tally_keeps_the_cases_with_the_largest_errors():
     rows = rows_near_contact(120)
     answers = answered(rows, np.arange(120)).answers
-    wrong = np.flatnonzero((answers != CANNOT_SAY) & (answers != exactly.positions(rows)))
+    wrong = np.flatnonzero((answers != CANNOT_SAY) & (answers != inside.positions(rows)))
     assert len(wrong) > 20
     errors = sorted((judge.about_error_of(rows[n].tolist(), int(answers[n]), "position") for n in wrong), reverse=True)
     assert [case.error for case in tallied(rows).worst] == errors[:3]

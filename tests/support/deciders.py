@@ -29,7 +29,7 @@ from hypcheck.kernel import tilted_integers
 from hypcheck.runs.oracles import ORACLES
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
-from tests.support import checkers, exactly, fractions_truth, tilted_fractions
+from tests.support import checkers, fractions_truth, inside, tilted_fractions
 from tests.support.corpus import Questions
 from tests.support.inside import (
     by_roots,
@@ -243,7 +243,7 @@ def of_oracle(name: str, questions: Questions) -> list[int]:
 
 
 def of_float_filter(questions: Questions) -> list[int]:
-    return exactly.positions(np.ascontiguousarray(questions.rows)).tolist()
+    return inside.positions(np.ascontiguousarray(questions.rows)).tolist()
 
 
 def of_discriminant(questions: Questions) -> Times:

@@ -6,7 +6,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.runs import judge
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import quick_bracket
 
 
@@ -19,5 +19,5 @@ def wrong_cases(rows, truth, answers, criterion) -> list[judge.WrongCase]:
 def ends_of(row, answer) -> tuple[float, float]:
     """Two ends between which the backward error of a position is proved to lie."""
     pair = Pair.from_row(row)
-    ends = quick_bracket(pair, exactly.decide(pair.lengths), Position(answer))
+    ends = quick_bracket(pair, inside.decide(pair.lengths), Position(answer))
     return ends.lower, ends.upper

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import Rows
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import Kind
 
 COUNT = 1500
@@ -19,7 +19,7 @@ def lengths_of(rows: Rows) -> list[Lengths]:
 
 
 def kinds(rows: Rows) -> Counter[Kind]:
-    return Counter(exactly.decide(lengths).kind for lengths in lengths_of(rows))
+    return Counter(inside.decide(lengths).kind for lengths in lengths_of(rows))
 
 
 def fractions(rows: Rows) -> list[tuple[Fraction, ...]]:

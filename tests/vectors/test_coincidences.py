@@ -15,7 +15,7 @@ from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.ways import more_than_a_radius_away, ring_attempt
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import Kind, cubic, hits_at_size
 from tests.vectors.case_rows import COUNT, fractions, kinds, lengths_of, ratios
 
@@ -51,7 +51,7 @@ def test_tangency_construction_states_tangency_and_side_as_the_exact_decision_do
     usable = found.usable
     assert usable.mean() > 0.5
     for row, outer, tangent in zip(found.rows[usable], found.outer[usable], found.tangent[usable], strict=True):
-        decision = exactly.decide(Pair.from_row(row.tolist()).lengths)
+        decision = inside.decide(Pair.from_row(row.tolist()).lengths)
         assert decision.tangent == tangent
         if tangent:
             assert decision.kind.limit_of is (EXTERIOR if outer else INTERIOR)
@@ -104,7 +104,7 @@ def test_near_tangent_rows_are_near_a_tangency() -> None:
                 )
                 for k in (246, 266)
             ]
-            assert [exactly.position(changed) for changed in spheroids] == [clear, CONTACT]
+            assert [inside.position(changed) for changed in spheroids] == [clear, CONTACT]
 
 
 def test_near_tangent_rows_reach_down_to_one_ulp() -> None:
@@ -116,7 +116,7 @@ def test_near_tangent_rows_reach_down_to_one_ulp() -> None:
                 for toward in (np.inf, -np.inf):
                     back = [*row]
                     back[column] = float(np.nextafter(row[column], toward))
-                    if back[column] and row[column] and exactly.decide(Pair.from_row(back).lengths).tangent:
+                    if back[column] and row[column] and inside.decide(Pair.from_row(back).lengths).tangent:
                         steps[name] += 1
     assert min(steps.values()) >= 3
     assert len(steps) == 2
@@ -142,7 +142,7 @@ def test_interior_positions_with_a_vanishing_coefficient_and_a_waist_above_one_o
     rows = FAMILIES["coefficient-zero"].rows(0, 400)
     for lengths, (a, _) in zip(lengths_of(rows), ratios(rows), strict=True):
         g = cubic(lengths)
-        if a > 1 and exactly.position(lengths) is INTERIOR:
+        if a > 1 and inside.position(lengths) is INTERIOR:
             left_out["c2" if g.n2 == 0 else "c1"] += 1
     assert min(left_out["c1"], left_out["c2"]) > 20
 

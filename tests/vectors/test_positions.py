@@ -8,7 +8,7 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from tests.support import exactly
+from tests.support import inside
 from tests.vectors.case_rows import COUNT
 
 EXTERIOR, CONTACT, INTERIOR = Position
@@ -38,7 +38,7 @@ LIMITED = {
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_each_family_has_at_least_10_percent_of_every_position_that_it_allows(name: str) -> None:
-    found = Counter(exactly.positions(FAMILIES[name].rows(5, COUNT)).tolist())
+    found = Counter(inside.positions(FAMILIES[name].rows(5, COUNT)).tolist())
     expected = LIMITED.get(name, set(Position))
     assert set(found) == {int(position) for position in expected}
     assert all(count >= 0.1 * COUNT for count in found.values()), found
@@ -46,6 +46,6 @@ def test_each_family_has_at_least_10_percent_of_every_position_that_it_allows(na
 
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
 def test_a_tilted_family_meets_every_position_that_it_promises(name: str) -> None:
-    found = Counter(exactly.positions(TILTED_FAMILIES[name].rows(5, 300)).tolist())
+    found = Counter(inside.positions(TILTED_FAMILIES[name].rows(5, 300)).tolist())
     assert set(found) == set(map(int, LIMITED.get(name, set(Position))))
     assert min(found.values()) >= 10, found

@@ -10,7 +10,7 @@ import pytest
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.vectors import fixed_sizes
-from tests.support import exactly
+from tests.support import inside
 
 SIDES = (Position.EXTERIOR, Position.INTERIOR)
 SIZES = (
@@ -22,7 +22,7 @@ SIZES = (
 
 
 def position(sizes, x, z):
-    return exactly.position(Pair(*sizes, x, 0.0, z).lengths)
+    return inside.position(Pair(*sizes, x, 0.0, z).lengths)
 
 
 @pytest.mark.parametrize("sizes", SIZES)

@@ -10,7 +10,7 @@ import pytest
 from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, within
 from hypcheck.vectors import random_pairs
 from hypcheck.vectors.families import FAMILIES
-from tests.support import exactly
+from tests.support import inside
 from tests.vectors.case_rows import COUNT, ratios
 
 
@@ -64,7 +64,7 @@ def test_rows_of_float32_and_float16_families_are_exact_in_these_formats() -> No
 
 def test_symmetric_images_of_a_pair_have_the_same_position() -> None:
     rows = FAMILIES["symmetric-images"].rows(0, 960)
-    answers = exactly.positions(rows).reshape(-1, 16)
+    answers = inside.positions(rows).reshape(-1, 16)
     assert (answers == answers[:, :1]).all()
     assert len(np.unique(rows[:16].view(np.uint64), axis=0)) == 16
     assert (np.signbit(rows[:, 4:]) & (rows[:, 4:] == 0)).any(), "−0.0 is among them"
@@ -86,7 +86,7 @@ def test_whole_domain_family_covers_the_domain_to_its_ends_and_not_beyond() -> N
 def test_whole_domain_family_has_every_position_in_each_regime_and_near_its_ends() -> None:
     rows = FAMILIES["whole-domain"].rows(0, 4000)
     a, c = (rows[:, :2] / rows[:, 2:4]).T
-    found = exactly.positions(rows)
+    found = inside.positions(rows)
     for wide in (True, False):
         for bent in (True, False):
             chosen = ((a >= 1) == wide) & ((c * c >= a) == bent)
@@ -100,7 +100,7 @@ def test_one_number_changed_family_changes_one_number_from_row_to_row() -> None:
     turns = rows.reshape(60, random_pairs.TURN, 7)
     changed = turns[:, 1:] != turns[:, :-1]
     assert (changed.sum(axis=2) <= 1).all()
-    answers = exactly.positions(rows).reshape(60, random_pairs.TURN)
+    answers = inside.positions(rows).reshape(60, random_pairs.TURN)
     for column in range(7):
         assert (changed[:, 2 * column, column] | (turns[:, 0, column] == 0)).all()
         assert (answers[:, 2 * column] != answers[:, 2 * column + 1]).sum() >= 6
@@ -113,7 +113,7 @@ def test_small_integers_come_in_quartets_of_the_same_numbers_many_of_them_equal(
     assert (turned[:, 4:] == first[:, [6, 4, 5]]).all()
     assert (swapped == first[:, [1, 0, 3, 2, 4, 5, 6]]).all()
     assert (doubled == first * [2, 1, 2, 1, 1, 1, 1]).all()
-    positions = exactly.positions(rows)
+    positions = inside.positions(rows)
     for alike in (
         (rows[:, :4] == 1).all(axis=1),
         (rows[:, :4] == rows[:, :1]).all(axis=1),

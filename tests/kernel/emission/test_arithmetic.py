@@ -21,7 +21,7 @@ from hypcheck.vectors import frozen
 from tests.kernel.compiling import CLANG, compiled_source, needs_clang, needs_compiler, needs_gcc, shared_library
 from tests.kernel.emission.building import COMMAND, COMMANDS, load_module, pointer, skip_without, worst_error
 from tests.kernel.emission.test_leaning import SCENES as LEANING
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import METHODS, emitted, emitted_pair, plan_of, whole, whole_plan
 from tests.support.scenes import scene
 from tests.tools.attack.places import near_contact
@@ -94,7 +94,7 @@ def rows():
 def positions(rows):
     """The labels of the frozen vectors, and exact positions of the others, both found in the usual arithmetic."""
     labels = np.concatenate([frozen.load(name).positions for name in frozen.NAMES])
-    found = np.concatenate([labels, exactly.positions(rows[len(labels) :])])
+    found = np.concatenate([labels, inside.positions(rows[len(labels) :])])
     assert found[-1] == 1
     return found
 
@@ -408,10 +408,10 @@ def test_emitted_kernels_for_a_leaning_mover_are_never_wrong_where_subnormal_num
     turned = np.random.default_rng(1).normal(size=(400, 3))
     near = turned[:, :2] / np.hypot(*turned[:, :2].T)[:, None] * np.linspace(1.6, 2.4, 400)[:, None]
     rows = np.column_stack([np.tile((2.0, 17.8, 0.25, 0.15), (400, 1)), near, 0.5 * turned[:, 2], turned])
-    assert set(exactly.positions(rows).tolist()) == {-1, 0, 1}
+    assert set(inside.positions(rows).tolist()) == {-1, 0, 1}
     for length in (1e300, 1e-100, 1e-200, 1e-300, 1e-308, 1e-310):
         shorter = np.ascontiguousarray(rows * np.where(np.arange(10) < 7, 1.0, length))
-        truth = exactly.positions(shorter)
+        truth = inside.positions(shorter)
         assert (ask((NEAREST, 0), shorter) == truth).all()
         assert (ask((NEAREST, 1), shorter) == (2 if length < 1e-152 else truth)).all()
 

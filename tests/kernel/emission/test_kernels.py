@@ -13,7 +13,7 @@ from hypcheck.implementations.description import Description, described_by_json
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
 from tests.kernel.emission.building import COMMAND, answers, answers_by_scene, asking, built, needs, worst_error
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import DIALECTS, description, emitted, plan_of
 from tests.support.scenes import scene
 
@@ -50,7 +50,7 @@ def test_an_emitted_kernel_answers_cannot_say_beyond_the_height_and_for_other_si
     beyond = np.abs(rows[:, 6]) > 1
     for found in (answers(library, rows), answers_by_scene(library, rows)):
         assert (found[beyond] == CANNOT_SAY).all()
-        assert (found[~beyond] == exactly.positions(rows[~beyond])).all()
+        assert (found[~beyond] == inside.positions(rows[~beyond])).all()
     rows[:, 0] = 1.5
     assert (answers(library, rows) == CANNOT_SAY).all()
     assert (answers_by_scene(library, rows) == CANNOT_SAY).all()

@@ -13,7 +13,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from tests.kernel.emission.building import COMMAND, COMMANDS, asking, built, skip_without
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import DIALECTS, emitted, plan_of
 from tests.support.scenes import HILLS, scene
 
@@ -33,7 +33,7 @@ def test_an_emitted_kernel_is_right_or_cannot_say_where_squares_overflow(questio
     far = 10.0 ** draw.uniform(0, 37, (400, 3)) * draw.choice([0.0, 1.0, 1.0], (400, 3))
     rows = rows_at(far)
     found = asking(built(tmp_path, scene(SIZES, question), language, "float32"), language)(rows)
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     right = truth if question == "position" else truth == Position[question.upper()]
     said = found != CANNOT_SAY
     assert (found[said] == right[said]).all()
@@ -51,7 +51,7 @@ def test_an_emitted_kernel_proves_no_exterior_centre_interior_where_the_square_o
     skip_without(language)
     z = 1.35e154 * np.linspace(1, 1.8, 40)
     rows = np.concatenate([rows_at(np.column_stack([x * z / SIZES[1], 0 * z, z])) for x in (1.0, 2.1, 2.5, 6.0)])
-    truth = exactly.positions(rows)
+    truth = inside.positions(rows)
     right = truth if question == "position" else truth == Position[question.upper()]
     assert set(truth.tolist()) == {-1, 1}
     found = asking(built(tmp_path, scene(SIZES, question), language), language)(rows)
@@ -116,7 +116,7 @@ def test_the_error_bound_of_an_emitted_kernel_holds_on_the_border_of_its_region(
         ends = [(across, along, up) for across in x_ends(x) for along in x_ends(y) for up in x_ends(z)]
         near = [(body.alpha, 0.0, up) for up in x_ends(z)]
         rows = rows_at([*ends, *near], stages.setting.sizes)
-        assert (kernel(rows) == exactly.positions(rows)).all()
+        assert (kernel(rows) == inside.positions(rows)).all()
 
 
 def x_ends(span):
@@ -157,6 +157,6 @@ def test_an_emitted_kernel_with_many_settings_answers_cannot_say_for_other_sizes
     # A library is asked by scene too, so of one pair of sizes at a time.
     tables = np.split(queries, len(queries)) if language in COMMANDS else [queries]
     found = np.concatenate([asked(table) for table in tables])
-    assert (found[:9] == exactly.positions(rows)).all()
+    assert (found[:9] == inside.positions(rows)).all()
     assert len(set(found[:9].tolist())) == 2
     assert (found[9:] == CANNOT_SAY).all()

@@ -9,7 +9,7 @@ from hypcheck.runs import cases as chunks
 from hypcheck.runs.cases import CHUNK_ROWS, EXPONENTS_OF, CaseChunk, cases_of_chunk, first_unfrozen, searched_chunks
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.families import FAMILIES, parse_case_id
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import flip_exponents
 
 
@@ -44,7 +44,7 @@ def test_chunks_of_a_family_contain_each_of_its_cases_once():
 )
 def test_case_id_leads_to_the_case_that_it_names(chunk):
     made = cases_of_chunk(chunk)
-    assert made.positions.tolist() == exactly.positions(made.rows).tolist()
+    assert made.positions.tolist() == inside.positions(made.rows).tolist()
     assert (made.by_column == made.rows).all()
     for index in (0, 7, len(chunk) - 1):
         name = chunk.name(index)

@@ -19,7 +19,7 @@ from hypcheck.runs.hunt import Hunt, HuntPlan, target_of
 from hypcheck.runs.hunt_search import neighbours, run_hunt
 from hypcheck.runs.judge import Mistake, Status
 from hypcheck.vectors.draw import Draw
-from tests.support import exactly
+from tests.support import inside
 from tests.support.fractions_truth import exact_position
 from tests.support.inside import flip_exponents
 
@@ -94,7 +94,7 @@ def test_local_search_halves_its_step_until_it_rests_if_it_finds_nothing_worse()
     """Wrong on the row (1, 2, 1, 1, 2.5, 0, 0) alone: γ of the rows beside it shows each step."""
     ring = np.array([1, 2, 1, 1, 2.5, 0, 0])
     block = np.concatenate([[ring], np.tile((2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0), (1000, 1))])
-    double = Double(lambda rows: np.where((rows == ring).all(axis=1), 0, exactly.positions(rows)))
+    double = Double(lambda rows: np.where((rows == ring).all(axis=1), 0, inside.positions(rows)))
     run = Hunt(target_of("double", double), HuntPlan(None, 85_000))
     run_hunt(run, everywhere=[hunt_search.HuntStratum("one row", lambda seed, number: block)])
     rows = np.concatenate(double.rows)
@@ -109,7 +109,7 @@ def test_local_search_restarts_with_the_first_step_at_a_worse_answer():
     """Exterior rows are called contact: the farther off, the worse. Beside each row that is the worst, α times 1.5."""
     clear, crossing = (3.0, 40.0, 1.0, 1.0, 4.125, 1.0, 5.0), (3.0, 40.0, 1.0, 1.0, 3.0, 0.0, 5.0)
     block, worst = np.array([clear, *[crossing] * 1000]), []
-    double = Double(lambda rows: np.minimum(exactly.positions(rows), 0))
+    double = Double(lambda rows: np.minimum(inside.positions(rows), 0))
     run = Hunt(target_of("double", double), HuntPlan(None, 9_000))
     run_hunt(
         run,
@@ -179,7 +179,7 @@ def test_hunt_with_a_budget_of_queries_keeps_it_and_is_repeatable():
 
 
 def test_a_budget_of_seconds_ends_the_hunt():
-    run = Hunt(target_of("double", Double(exactly.positions)), HuntPlan(0.3))
+    run = Hunt(target_of("double", Double(inside.positions)), HuntPlan(0.3))
     run_hunt(run)
     assert run.over
     assert 0.3 <= run.seconds < 5
@@ -187,7 +187,7 @@ def test_a_budget_of_seconds_ends_the_hunt():
 
 
 def test_hunt_asks_only_rows_in_the_declared_regimes_and_precision():
-    double = Double(exactly.positions, precision="float32")
+    double = Double(inside.positions, precision="float32")
     target = target_of("double", double, regimes=("a>=1", "c2>=a"))
     run_hunt(Hunt(target, HuntPlan(None, 3000)))
     rows = np.concatenate(double.rows)
@@ -247,7 +247,7 @@ def test_hunt_asks_a_kernel_for_one_scene_only_about_its_sizes():
 def test_hunt_finds_errors_near_contact_for_fixed_sizes():
     def grown(rows):
         rows = rows * [1, 1, 1 + 2.0**-44, 1 + 2.0**-44, 1, 1, 1]
-        return exactly.positions(rows)
+        return inside.positions(rows)
 
     run = Hunt(target_of("double", Double(grown, domain=ONE_SCENE)), HuntPlan(None, 20_000))
     run_hunt(run)

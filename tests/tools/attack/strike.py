@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.vectors.families import TILTED_FAMILIES
-from tests.support import exactly
+from tests.support import inside
 from tests.tools.attack import places, tilted_places
 from tests.tools.attack.places import Scene
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
@@ -45,7 +45,7 @@ def batches(seed: int, rows: int) -> Iterator[Batch]:
 
 def truth_of(rows: np.ndarray) -> np.ndarray:
     """The exact positions of rows of seven or ten."""
-    return exactly.positions(rows)
+    return inside.positions(rows)
 
 
 def drawn(seed: int, rows: int) -> Iterator[tuple[str, np.ndarray | Scene]]:

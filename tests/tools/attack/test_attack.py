@@ -17,7 +17,7 @@ from tests.kernel.compiling import (
     needs_compiler,
     shared_library,
 )
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import LEVELS, generate
 from tests.tools.attack.places import Scene, near_contact, scenes
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
@@ -94,7 +94,7 @@ def test_kernels_answer_rightly_for_heights_whose_squares_underflow():
     for sizes in ((4.0, 1.0, 4.0, 4.0), (1.0, 4.0, 1.0, 2.0), (0.5, 4.0, 1.0, 2.0)):
         z = random.uniform(-1, 1, 3000) * 10.0 ** random.choice([-310, -300, -200, -162, -150, -45], 3000)
         scene = Scene("axis", sizes, np.zeros(3000), np.zeros(3000), z)
-        _, wrong, _ = tally(strike(subjects(), [Batch("axis", scene, exactly.positions(scene.rows), (TO_NEAREST,))]))
+        _, wrong, _ = tally(strike(subjects(), [Batch("axis", scene, inside.positions(scene.rows), (TO_NEAREST,))]))
         assert sum(wrong.values()) == 0
 
 
@@ -149,7 +149,7 @@ def test_kernel_answers_do_not_depend_on_the_rounding_mode(mode, flush, tmp_path
     rows = near_contact(random, 6_000)
     rows[::50, 4:] *= 1e-310
     scene = next(scenes(random, 1, 5000))
-    truth, truth_of_scene = exactly.positions(rows), exactly.positions(scene.rows)
+    truth, truth_of_scene = inside.positions(rows), inside.positions(scene.rows)
     control = shared_library(tmp_path, MODES, "-frounding-math")
     written_in_c = [subject for subject in subjects() if subject.name in (*LEVELS, "pair, C")]
     for subject in written_in_c:

@@ -14,7 +14,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import AXIS, COLUMNS, REFUSED, Pair
 from hypcheck.tables.chunk import ADDED
-from tests.support import exactly
+from tests.support import inside
 
 MOST = 12
 """Rows whose answers are looked at."""
@@ -79,4 +79,4 @@ def _right(numbers) -> int:
     if not valid:
         return REFUSED
     pair = Pair.from_row(row)
-    return int(exactly.position(pair.lengths))
+    return int(inside.position(pair.lengths))

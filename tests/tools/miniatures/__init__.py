@@ -23,7 +23,7 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import Answered, Limits, Outcome
 from hypcheck.isolation.launch import Isolation
-from tests.support import exactly
+from tests.support import inside
 
 HERE = Path(__file__).parent
 UNLUCKY = 17
@@ -48,7 +48,7 @@ def rows(n: int = 40, *, lucky: bool = False):
 
 def truth(some):
     """Their positions, by integers."""
-    return np.array([exactly.position(Pair(*row).lengths) for row in some.tolist()], dtype=np.int8)
+    return np.array([inside.position(Pair(*row).lengths) for row in some.tolist()], dtype=np.int8)
 
 
 def signs(some):

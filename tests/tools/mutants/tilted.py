@@ -13,7 +13,7 @@ import numpy as np
 
 from hypcheck import classify
 from hypcheck.geometry.pair import Lengths
-from tests.support import exactly
+from tests.support import inside
 from tests.tools.mutants.dual import dual_positions
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
@@ -412,6 +412,6 @@ def another_axis_of_the_same_direction(rows):
 def seen_from_the_side(rows):
     """Everything turned by a quarter about the hyperboloid's axis, and mirrored below its waist."""
     return [
-        int(exactly.position(Lengths.of((alpha, gamma, b, d, -y, x, -z, -axis_y, axis_x, -axis_z))))
+        int(inside.position(Lengths.of((alpha, gamma, b, d, -y, x, -z, -axis_y, axis_x, -axis_z))))
         for alpha, gamma, b, d, x, y, z, axis_x, axis_y, axis_z in rows.tolist()
     ]

@@ -26,7 +26,7 @@ from hypcheck.vectors.format import content_with
 from hypcheck.vectors.freezing import extended, frozen, frozen_invalid_rows
 from hypcheck.vectors.invalid_rows import invalid_rows
 from hypcheck.vectors.labels import labelled, shows_crossing, stored_certificate
-from tests.support import exactly
+from tests.support import inside
 from tests.support.inside import Certificate, prove
 from tests.support.pairs import pairs
 
@@ -80,7 +80,7 @@ BY_HAND = {
 
 
 def flags_at(*rows):
-    return flags_of(rows, [exactly.decide(Pair.from_row(row).lengths) for row in rows])
+    return flags_of(rows, [inside.decide(Pair.from_row(row).lengths) for row in rows])
 
 
 @pytest.mark.parametrize("flag", BY_HAND)
@@ -105,9 +105,7 @@ def test_rounding_flags_of_cases_agree_with_the_wrong_answers_of_built_in_method
     names = ("osculation", "near-axis", "ring-neighbourhood", "extreme-float32", "worst-cancellation")
     rows = np.concatenate([vectors.load(name).rows[:60] for name in names])
     flags = flags_at(*map(tuple, rows.tolist()))
-    positions = np.asarray(
-        [exactly.decide(Pair.from_row(row).lengths).position for row in rows.tolist()], dtype=np.int8
-    )
+    positions = np.asarray([inside.decide(Pair.from_row(row).lengths).position for row in rows.tolist()], dtype=np.int8)
     for formula, precision in DEFEATED:
         method = builtin_methods()[f"{formula}-{precision}"]
         asked = np.flatnonzero(representable(rows, precision))
@@ -140,7 +138,7 @@ def test_flags_of_a_case_come_in_the_order_of_the_table():
 @given(pairs)
 @settings(max_examples=25)
 def test_shortened_proofs_still_prove_a_crossing(pair):
-    decision = exactly.decide(pair.lengths)
+    decision = inside.decide(pair.lengths)
     found = stored_certificate(pair.row, prove(pair, decision))
     crosses = decision.position is Position.CONTACT and not decision.tangent
     assert bool(found.offsets) == crosses
