@@ -23,7 +23,8 @@ from hypcheck.float_environment import in_default_environment
 if TYPE_CHECKING:
     from hypcheck.errors import InputError
     from hypcheck.kernel.classify import Prepared, classify, classify_scene
-    from hypcheck.kernel.clearance import Clearance, clearance
+    from hypcheck.kernel.clearance import clearance
+    from hypcheck.kernel.clearance_bounds import Clearance
     from hypcheck.kernel.passage import passage
     from hypcheck.kernel.passages import Passages
     from hypcheck.kernel.scalar import position
@@ -57,7 +58,7 @@ __all__ = [
 
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
-    "Clearance": ("hypcheck.kernel.clearance", "Clearance"),
+    "Clearance": ("hypcheck.kernel.clearance_bounds", "Clearance"),
     "Hyperboloid": ("hypcheck.scene.model", "Hyperboloid"),
     "InputError": ("hypcheck.errors", "InputError"),
     "Mover": ("hypcheck.scene.model", "Mover"),
