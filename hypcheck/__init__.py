@@ -7,7 +7,8 @@
     hypcheck.clearance((alpha, gamma, b, d), points, axis=...) -> hypcheck.Clearance: distance, nearest point, normal
     hypcheck.passage((alpha, gamma, b, d), start, end, axis=...) -> .hit, .first_lower, .first_upper
     hypcheck.Scene.from_toml(path), .from_arrays(alpha, gamma, center, mover=hypcheck.Mover(b, d)): many hyperboloids;
-        .classify(points), .passage(start, end), .nearest(points), .with_hyperboloid(…), .moved(…), .without(…)
+        .classify(points), .passage(start, end), .first_contact(path), .nearest(points);
+        .with_hyperboloid(…), .moved(…), .without(…)
     hypcheck.InputError: what they raise about invalid rows, scenes and files, with a sentence
 
 They are loaded when first used; all but position and passage load numpy.
@@ -23,12 +24,12 @@ from hypcheck.float_environment import in_default_environment
 if TYPE_CHECKING:
     from hypcheck.errors import InputError
     from hypcheck.kernel.classify import Prepared, classify, classify_scene
-    from hypcheck.kernel.clearance import clearance
-    from hypcheck.kernel.clearance_bounds import Clearance
+    from hypcheck.kernel.clearance import Clearance, clearance
     from hypcheck.kernel.passage import passage
     from hypcheck.kernel.passages import Passages
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.scene import Scene
+    from hypcheck.kernel.scene_flights import FirstContact, LeastDistance
     from hypcheck.kernel.scene_nearest import Nearest
     from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
     from hypcheck.truth.swept import Passage
@@ -36,8 +37,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Clearance",
+    "FirstContact",
     "Hyperboloid",
     "InputError",
+    "LeastDistance",
     "Mover",
     "MoverPart",
     "Nearest",
@@ -58,9 +61,11 @@ __all__ = [
 
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
-    "Clearance": ("hypcheck.kernel.clearance_bounds", "Clearance"),
+    "Clearance": ("hypcheck.kernel.clearance", "Clearance"),
+    "FirstContact": ("hypcheck.kernel.scene_flights", "FirstContact"),
     "Hyperboloid": ("hypcheck.scene.model", "Hyperboloid"),
     "InputError": ("hypcheck.errors", "InputError"),
+    "LeastDistance": ("hypcheck.kernel.scene_flights", "LeastDistance"),
     "Mover": ("hypcheck.scene.model", "Mover"),
     "MoverPart": ("hypcheck.scene.model", "MoverPart"),
     "Nearest": ("hypcheck.kernel.scene_nearest", "Nearest"),

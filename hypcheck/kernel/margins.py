@@ -1,9 +1,9 @@
 """Positions with a margin: what is not proved to be at least so far away is contact.
 
 Two proofs are tried. The spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ)) contains all points
-within δ of the given one, for any v > 0 (clearance_bounds.py says why): if it is clear, so is the given one, on the
-same side, and its distance is at least δ. Here v is b, for which the wider semi-axis is b + δ. What that leaves is
-decided by the distance's lower bound. _OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
+within δ of the given one, for any v > 0 (clearance.py says why): if it is clear, so is the given one, on the same side,
+and its distance is at least δ. Here v is b, for which the wider semi-axis is b + δ. What that leaves is decided by the
+distance's lower bound. _OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import REFUSED, trouble_with
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.kernel.choice import POSITION_OF, Question
+from hypcheck.kernel.classify import positions_of_rows
 from hypcheck.kernel.clearance import clearances
-from hypcheck.kernel.in_use import positions_of_rows
 
 _OUTWARD = 1 + 2.0**-48
 _RANGE = (2.0**-300, 2.0**300)
@@ -35,12 +35,17 @@ def checked_margin(margin: object) -> float:
     return float(value)  # type: ignore[arg-type]
 
 
-def enlarged(b: ArrayLike, d: ArrayLike, margin: float) -> tuple[Floats, Floats]:
-    """Semi-axes of spheroids that contain all points within `margin` of those given, (n,) each; inf where unknown."""
-    b, d = np.asarray(b, np.float64), np.asarray(d, np.float64)
-    fits = (np.minimum(b, d) >= _RANGE[0]) & (np.maximum(b, d) <= _RANGE[1]) & (_RANGE[0] <= margin <= _RANGE[1])
+def enlarged(b: ArrayLike, d: ArrayLike, margin: ArrayLike, half: ArrayLike | None = None) -> tuple[Floats, Floats]:
+    """Semi-axes of spheroids that contain all points within `margin` of those given, (n,) each; inf where unknown.
+
+    They are no larger than they must be in the directions in which the given ones are `half` (n,) wide: b without.
+    """
+    b, d, margin = (np.asarray(each, np.float64) for each in (b, d, margin))
+    v = b if half is None else np.asarray(half, np.float64)
+    fits = (np.minimum(b, d) >= _RANGE[0]) & (np.maximum(b, d) <= _RANGE[1])
+    fits = fits & (margin >= _RANGE[0]) & (margin <= _RANGE[1]) & (v >= _RANGE[0])
     with np.errstate(all="ignore"):
-        wide, tall = (b + margin) * _OUTWARD, np.sqrt((b + margin) * (d * d / b + margin)) * _OUTWARD
+        wide, tall = (np.sqrt((v + margin) * (axis * axis / v + margin)) * _OUTWARD for axis in (b, d))
     return np.where(fits, wide, math.inf), np.where(fits, tall, math.inf)
 
 

@@ -7,7 +7,7 @@ scene_pairs.py, scene_ends.py and scene_sweeps.py give the answer of each hyperb
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,10 +22,20 @@ from hypcheck.kernel.choice import POSITION_OF
 from hypcheck.kernel.margins import checked_margin
 from hypcheck.kernel.passages import First, Passages
 from hypcheck.kernel.scene_ends import position_with_ends, positions_with_ends
+from hypcheck.kernel.scene_flights import (
+    FirstContact,
+    Paths,
+    Swept,
+    first_segments,
+    measured,
+    paths_of,
+    require_for_each,
+)
 from hypcheck.kernel.scene_frames import places_of_parts
 from hypcheck.kernel.scene_index import (
     near_ways,
 )
+from hypcheck.kernel.scene_least import Flights, Least, least_distances
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     position_beside,
@@ -159,34 +169,92 @@ class Scene(PreparedScene):
         the mover has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts
         as contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
+        swept = self._swept(start, end, heading, axis)
+        result = np.zeros(len(swept.starts), np.bool_)
+        result[swept.query[swept.hits]] = True
+        single = np.ndim(start) == 1 and np.ndim(end) == 1 and len(result) == 1 and np.ndim(heading) == 0
+        return Passages(bool(result[0]) if single else result, self._measure(swept))
+
+    @in_default_environment
+    def first_contact(
+        self, path: ArrayLike | Sequence[ArrayLike], heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
+    ) -> FirstContact:
+        """The first contact of the mover on a flight, a polyline of its centre, and its least distance all along.
+
+        `path` is (T, 3), or many: (k, T, 3), or a list of points (T, 3), in the scene's coordinates. `heading` and
+        `axis` are as in passage, the same all along or one for each segment, of all paths one after the other. `.hit`,
+        `.segment` and the first contact's `.time_lower` ≤ time ≤ `.time_upper`, `.index`, the hyperboloid's, and
+        `.center` are decided as by passage. `.least` has the least distance of the mover itself, its parts left aside:
+        `.distance_lower`, `.distance_upper`, `.segment`, `.time`, `.index`, `.center`. Times and `.least` are found
+        when they are asked for. Raises InputError for numbers that are not finite and for a path without points.
+
+        >>> scene = Scene.from_arrays([2, 1], 17.8, [[0, 0, 0], [9, 0, 0]], mover=Mover(0.25, 0.25))
+        >>> found = scene.first_contact([[5, 9, 0], [5, 0, 0], [9, 0, 0]])
+        >>> found.hit, found.segment, found.index
+        (True, 1, 1)
+        >>> scene.first_contact([[5, 9, 0], [5, 0, 0]]).least.distance_upper.__round__(6)
+        2.75
+        """
+        paths = paths_of(path)
+        require_for_each(paths, "heading", np.shape(heading))
+        require_for_each(paths, "axis", () if axis is None else np.shape(axis)[:-1])
+        swept = self._swept(paths.starts, paths.ends, heading, axis)
+        hit, segments = first_segments(paths, np.unique(swept.query[swept.hits]))
+        first = np.full(len(hit), -1)
+        first[hit] = segments - paths.first[:-1][hit]
+        passages = measured(self._measure(swept), segments)
+        single = paths.single
+        return FirstContact(
+            bool(hit[0]) if single else hit, int(first[0]) if single else first, passages, paths,
+            lambda: self._least(paths, swept),
+        )  # fmt: skip
+
+    def _least(self, paths: Paths, swept: Swept) -> Least:
+        """The least distance of each path; segments are counted over all paths."""
+        hit, segments = first_segments(paths, np.unique(swept.query[swept.own]))
+        own = measured(self._measure(swept, parts=False), segments)
+        clear = np.flatnonzero(~hit[paths.path])
+        axes = None if swept.movers is None else swept.movers[clear]
+        flights = Flights(paths.starts[clear], paths.ends[clear], paths.path[clear], axes)
+        found = least_distances(self._bodies, self.model.mover, self._grid, self._reaches, flights, len(hit))
+        asked = found.segment >= 0
+        found.segment[asked] = clear[found.segment[asked]]
+        found.lower[hit], found.upper[hit], found.segment[hit] = 0.0, 0.0, segments
+        found.time[hit], found.body[hit] = own.first_upper, own.index
+        return found
+
+    def _swept(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, axis: ArrayLike | None) -> Swept:
+        """Straight ways, and which pairs of them and of hyperboloids have contact."""
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
         starts, ends, headings, *columns = ways_of(start, end, heading, axes)
         movers = directions(columns) if columns else None
         query, body = near_ways(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
-        hits = hits_beside(bodies, body, mover, starts[query], ends[query], None if movers is None else movers[query])
+        sizes = np.broadcast_to((mover.b, mover.d), (len(body), 2))
+        own = hits_beside(bodies, body, sizes, starts[query], ends[query], None if movers is None else movers[query])
+        swept = Swept(starts, ends, headings, movers, query, body, own, own.copy())
+        for pair in np.flatnonzero(own).tolist() if mover.parts else ():
+            swept.hits[pair] = not is_clear(bodies, int(body[pair]), *self._sweeps(swept, int(query[pair])))
+        return swept
 
-        def sweeps(way: int) -> tuple[Spheroid, list[Spheroid]]:
-            own_axis = UPRIGHT if movers is None else movers[way].tolist()
-            return self._sweeps(starts[way].tolist(), ends[way].tolist(), float(headings[way]), own_axis)
-
-        for pair in np.flatnonzero(hits).tolist() if mover.parts else ():
-            hits[pair] = not is_clear(bodies, int(body[pair]), *sweeps(query[pair]))
-        result = np.zeros(len(starts), np.bool_)
-        result[query[hits]] = True
+    def _measure(self, swept: Swept, *, parts: bool = True) -> Callable[[int], First]:
+        """What finds the first contact of a way that has one: of the parts, or of the mover itself."""
+        hits = swept.hits if parts else swept.own
 
         def measure(way: int) -> First:
-            touched = body[hits & (query == way)].tolist()
-            return min((first_contact(bodies, index, *sweeps(way)), index) for index in touched)
+            here = slice(*np.searchsorted(swept.query, (way, way + 1)).tolist())
+            touched = swept.body[here][hits[here]].tolist()
+            mover, others = self._sweeps(swept, way)
+            sweeps = (mover, others if parts else [])
+            return min((first_contact(self._bodies, index, *sweeps), index) for index in touched)
 
-        single = np.ndim(start) == 1 and np.ndim(end) == 1 and len(starts) == 1 and np.ndim(heading) == 0
-        return Passages(bool(result[0]) if single else result, measure)
+        return measure
 
-    def _sweeps(
-        self, start: list[float], end: list[float], heading: float, axis: Sequence[float]
-    ) -> tuple[Spheroid, list[Spheroid]]:
-        """The sweep of the mover, and those of its parts."""
-        mover = self.model.mover
+    def _sweeps(self, swept: Swept, way: int) -> tuple[Spheroid, list[Spheroid]]:
+        """The sweep of the mover on a way, and those of its parts."""
+        mover, heading = self.model.mover, float(swept.headings[way])
+        start, end = swept.starts[way].tolist(), swept.ends[way].tolist()
+        axis = UPRIGHT if swept.movers is None else swept.movers[way].tolist()
         places = (places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
         parts = [
             (part.b, part.d, Sweep(here, there, axis)) for part, here, there in zip(mover.parts, *places, strict=True)

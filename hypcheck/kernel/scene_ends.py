@@ -30,7 +30,7 @@ import numpy as np
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Position
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows
-from hypcheck.kernel.in_use import kernel
+from hypcheck.kernel.classify import kernel
 from hypcheck.kernel.scene_index import Bodies
 from hypcheck.kernel.scene_pairs import (
     GREATEST,
@@ -103,16 +103,16 @@ class _Place:
         return crosses & (self.centre_between_and_beyond()[0] | (self.half < inf))
 
 
-def meets_for_sure(mover: Mover, shapes: Rows, spans: Rows, places: Rows, lost: Floats) -> Mask:
+def meets_for_sure(least: Floats, shapes: Rows, spans: Rows, places: Rows, lost: Floats) -> Mask:
     """Whether bounds show that movers meet walls at their own heights, (n,): `places` (n, 3) in the walls' frames.
 
-    Each coordinate of them is `lost` (n,) off at most, besides a few roundings.
+    `least` (n,) are their shorter semi-axes. Each coordinate of a place is `lost` (n,) off at most, besides a few
+    roundings.
     """
     with np.errstate(all="ignore"):
         size = np.abs(places).sum(axis=1)
         across = np.hypot(places[:, 0], places[:, 1])
         error = 2 * lost + MARGIN * size + LEAST
-        least = min(mover.b, mover.d)
         alpha, gamma, low, high = shapes[:, 0], shapes[:, 1], spans[:, 0], spans[:, 1]
         level = np.clip(places[:, 2], low, high)
         place = _Place(alpha, gamma, places[:, 2], across, error, low, high, level, least, least, inf)

@@ -158,11 +158,21 @@ def _middles(of: _Pairs, cells: Floats) -> Floats:
 
 def _try(found: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
     """Take points into account; the unit vectors along which they are from their spheroids."""
-    way = place - of.centre
-    along = (of.axis * way).sum(axis=1)
-    across = way - along[:, None] * of.axis
+    upper, normal = from_spheroids(of.b, of.d, of.axis, place - of.centre)
+    best = np.full(len(found.upper), np.inf)
+    np.minimum.at(best, owner, upper)
+    better = best < found.upper
+    winners = np.flatnonzero((upper == best[owner]) & better[owner])
+    found.point[owner[winners]] = place[winners]
+    found.upper[better] = best[better]
+    return normal
+
+
+def from_spheroids(b: Floats, d: Floats, axes: Rows, way: Rows) -> tuple[Floats, Rows]:
+    """How far points, `way` (n, 3) from the centres, are from spheroids with unit axes (n, 3), and the unit normals."""
+    along = (axes * way).sum(axis=1)
+    across = way - along[:, None] * axes
     off = np.sqrt((across * across).sum(axis=1))
-    b, d = of.b, of.d
     beyond = np.maximum(np.maximum(b * off - b * b, d * np.abs(along) - d * d), 0)
     for _ in range(_TURNS):  # (b off/(b² + t))² + (d along/(d² + t))² = 1, from below
         p, q = b * b + beyond, d * d + beyond
@@ -173,17 +183,11 @@ def _try(found: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
             break
     p, q = b * b + beyond, d * d + beyond
     share = np.maximum(np.hypot(b * off / p, d * along / q), 1)
-    rest = across * (1 - b * b / p / share)[:, None] + of.axis * (along * (1 - d * d / q / share))[:, None]
+    rest = across * (1 - b * b / p / share)[:, None] + axes * (along * (1 - d * d / q / share))[:, None]
     inside = np.hypot(off / b, along / d) <= 1
-    upper = np.where(inside, 0, np.sqrt((rest * rest).sum(axis=1)))
-    best = np.full(len(found.upper), np.inf)
-    np.minimum.at(best, owner, upper)
-    better = best < found.upper
-    winners = np.flatnonzero((upper == best[owner]) & better[owner])
-    found.point[owner[winners]] = place[winners]
-    found.upper[better] = best[better]
-    normal = across / p[:, None] + of.axis * (along / q)[:, None]
-    return np.asarray(normal / np.sqrt((normal * normal).sum(axis=1, keepdims=True)))
+    normal = across / p[:, None] + axes * (along / q)[:, None]
+    distance = np.where(inside, 0, np.sqrt((rest * rest).sum(axis=1)))
+    return distance, np.asarray(normal / np.sqrt((normal * normal).sum(axis=1, keepdims=True)))
 
 
 def _least(of: _Pairs, cells: Floats, normal: Floats) -> tuple[Floats, Floats]:

@@ -1,6 +1,6 @@
 """Which hyperboloid of a scene is nearest to the mover: distances of pairs between proved numbers, and the least.
 
-A pair's distance is that of clearance() for the rounded offset from the hyperboloid's centre to the mover's; each
+A pair's distance is that of clearance.py for the rounded offset from the hyperboloid's centre to the mover's; each
 coordinate of the offset is rounded by u of its size at most, which _ROUNDED of their sum holds. If one of two bodies is
 moved, their distance changes by no more than that. Whether a pair is in contact is decided from the exact offset, as
 Scene.position decides it: the upper bound is 0 in contact, and only there.
@@ -86,10 +86,7 @@ def _ask(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: In
     """Take these pairs into account: each centre's with the least upper bound, and whether others may be as near."""
     centres, axes = movers
     pairs = _pairs_of(bodies, mover, centres[query], None if axes is None else axes[query], body)
-    low, high, point, cut = _to_wholes(pairs)
-    most = found.distance_upper.copy()
-    np.minimum.at(most, query, high)
-    _to_what_stands(pairs, (low, high, point), np.flatnonzero(cut & (low <= most[query]) & np.isfinite(high)))
+    low, high, point = _distances(pairs, query, found.distance_upper)
     _decide_contact(pairs, low, high)
     point = pairs.in_scene(point)
     order = np.argsort(high, kind="stable")
@@ -110,6 +107,28 @@ def _ask(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: In
     reaching[known & (before <= found.distance_upper)] += 1
     asked = np.unique(query)
     found.tied[asked] = reaching[asked] > 1
+
+
+def distances(
+    bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None, pairs: tuple[Indices, Indices], most: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Bounds of the distances of movers from hyperboloids, and points of these, in the scene, for the upper bounds.
+
+    `pairs` are numbers of groups, each of which wants its least distance alone, and of hyperboloids, (n,) for centres
+    (n, 3); `most` are upper bounds of what the groups want. Bounds above that may be loose. Contact is not decided.
+    """
+    group, body = pairs
+    made = _pairs_of(bodies, mover, centres, axes, body)
+    low, high, point = _distances(made, group, most)
+    return low, high, made.in_scene(point)
+
+
+def _distances(pairs: _Pairs, group: Indices, most: Floats) -> tuple[Floats, Floats, Floats]:
+    low, high, point, cut = _to_wholes(pairs)
+    most = most.copy()
+    np.minimum.at(most, group, high)
+    _to_what_stands(pairs, (low, high, point), np.flatnonzero(cut & (low <= most[group]) & np.isfinite(high)))
+    return low, high, point
 
 
 def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
@@ -193,8 +212,9 @@ def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
         point = said.nearest.copy()
         level, ended = point[:, 2], np.isfinite(pairs.spans).any(axis=1)
         solid = pairs.bodies.solid[pairs.body] & ended
-        cut = ended & (solid | ~((level - rounded >= bottom) & (level + rounded <= top)))
         to_planes = np.nanmin(np.abs(rows[:, 6:7] - pairs.spans), axis=1) - rows[:, 2:4].max(axis=1) - rounded
+        cut = ended & ~((level - rounded >= bottom) & (level + rounded <= top))
+        cut |= solid & (to_planes < high)  # else its discs are farther than its wall
         low[solid] = np.minimum(low, np.maximum(to_planes, 0))[solid]
         some = np.flatnonzero(cut)
         at = _at_height(rows[some], point[some], np.clip(level[some], bottom[some], top[some]))

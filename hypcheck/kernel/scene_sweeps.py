@@ -22,37 +22,49 @@ import numpy as np
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.kernel.classify import classify
-from hypcheck.kernel.in_use import kernel
+from hypcheck.kernel.classify import classify, kernel
 from hypcheck.kernel.scene_ends import meets_for_sure
 from hypcheck.kernel.scene_frames import TURNING, frames_of, turned, turned_axes
 from hypcheck.kernel.scene_index import Bodies
 from hypcheck.kernel.scene_pairs import LEAST, MARGIN, height_and_distance, larger_and_smaller
-from hypcheck.scene.model import Mover
 from hypcheck.truth import ended_sweeps, swept
 from hypcheck.truth.ended_sweeps import EndedSweep
 
 
 def hits_beside(
-    bodies: Bodies, body: Indices, mover: Mover, starts: Rows, ends: Rows, axes: Rows | None = None
+    bodies: Bodies, body: Indices, semi_axes: Rows, starts: Rows, ends: Rows, axes: Rows | None = None
 ) -> Mask:
-    """Which sweeps of a mover have contact with their hyperboloid, (n,).
+    """Which sweeps of spheroids have contact with their hyperboloid, (n,).
 
-    `starts` and `ends`, (n, 3), are in the scene's coordinates, and `axes`, (n, 3), the mover's; None: it is upright.
+    `semi_axes` are b and d (n, 2); `starts` and `ends`, (n, 3), are in the scene's coordinates, and `axes`, (n, 3),
+    those of the spheroids; None: they are upright.
     """
+    hits, undecided = bounded_hits(bodies, body, semi_axes, starts, ends, axes)
+    for index in np.flatnonzero(undecided).tolist():
+        axis = UPRIGHT if axes is None else axes[index].tolist()
+        sweep = Sweep(starts[index].tolist(), ends[index].tolist(), axis)
+        b, d = semi_axes[index].tolist()
+        hits[index] = not is_clear(bodies, int(body[index]), (b, d, sweep))
+    return hits
+
+
+def bounded_hits(
+    bodies: Bodies, body: Indices, semi_axes: Rows, starts: Rows, ends: Rows, axes: Rows | None = None
+) -> tuple[Mask, Mask]:
+    """The same by bounds alone, and which sweeps these do not decide, (n,) each."""
     origins, shapes, spans = bodies.origins[body], bodies.shapes[body], bodies.spans[body]
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
         lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
-        own_axes = axes
+        own_axes, longest = axes, semi_axes.max(axis=1)
         if bodies.leaning[body].any():
-            start, end, own_axes, turning = _in_frames(bodies.axes[body], mover, start, end, axes)
+            start, end, own_axes, turning = _in_frames(bodies.axes[body], longest, start, end, axes)
             lost = lost + turning
-        reach = max(mover.b, mover.d) * (1 + MARGIN) + lost + MARGIN * (np.abs(start[:, 2]) + np.abs(end[:, 2]))
+        reach = longest * (1 + MARGIN) + lost + MARGIN * (np.abs(start[:, 2]) + np.abs(end[:, 2]))
         low, high = np.minimum(start[:, 2], end[:, 2]), np.maximum(start[:, 2], end[:, 2])
         leaves = ~((low - reach > spans[:, 0]) & (high + reach < spans[:, 1])) & np.isfinite(spans).any(axis=1)
         beyond = (high + reach < spans[:, 0]) | (low - reach > spans[:, 1])
-    larger, smaller, fits = larger_and_smaller(np.broadcast_to((mover.b, mover.d), (len(body), 2)), lost)
+    larger, smaller, fits = larger_and_smaller(semi_axes, lost)
     place = [start, end] if own_axes is None else [start, end, own_axes]
     hits = np.zeros(len(body), np.bool_)
     open_ways = ~fits & ~beyond
@@ -67,24 +79,21 @@ def hits_beside(
     hits[asked] = said == 1
     open_ways[asked] = (said != 1) | leaves[asked]
     some = asked[leaves[asked]]
-    open_ways[some] &= ~_meet_on_the_way(mover, shapes[some], spans[some], start[some], end[some], lost[some])
-    for index in np.flatnonzero(open_ways).tolist():
-        axis = UPRIGHT if axes is None else axes[index].tolist()
-        sweep = Sweep(starts[index].tolist(), ends[index].tolist(), axis)
-        hits[index] = not is_clear(bodies, int(body[index]), (mover.b, mover.d, sweep))
-    return hits
+    places = shapes[some], spans[some], start[some], end[some], lost[some]
+    open_ways[some] &= ~_meet_on_the_way(semi_axes[some].min(axis=1), *places)
+    return hits, open_ways
 
 
-def _meet_on_the_way(mover: Mover, shapes: Rows, spans: Rows, start: Floats, end: Floats, lost: Floats) -> Mask:
+def _meet_on_the_way(least: Floats, shapes: Rows, spans: Rows, start: Floats, end: Floats, lost: Floats) -> Mask:
     """Whether bounds show contact at one of five times, in the frames of hyperboloids with these ends."""
     found = np.zeros(len(shapes), np.bool_)
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
-        found |= meets_for_sure(mover, shapes, spans, start + share * (end - start), lost)
+        found |= meets_for_sure(least, shapes, spans, start + share * (end - start), lost)
     return found
 
 
 def _in_frames(
-    upward: Rows, mover: Mover, start: Floats, end: Floats, axes: Rows | None
+    upward: Rows, longest: Floats, start: Floats, end: Floats, axes: Rows | None
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Both ends and the mover's axis in the frames of hyperboloids with these axes, and how far they are off at most.
 
@@ -92,7 +101,7 @@ def _in_frames(
     """
     frames = frames_of(upward)
     lean = (upward[:, :2] != 0).any(axis=1)
-    size = np.maximum(np.abs(start).sum(axis=1), np.abs(end).sum(axis=1)) + max(mover.b, mover.d)
+    size = np.maximum(np.abs(start).sum(axis=1), np.abs(end).sum(axis=1)) + longest
     error = np.where(lean, TURNING * size + LEAST, 0.0)
     return turned(frames, start), turned(frames, end), turned_axes(frames, axes), error
 

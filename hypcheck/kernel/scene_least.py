@@ -1,0 +1,381 @@
+"""The least distance of a mover from the hyperboloids of a scene along flights that are clear: branch and bound.
+
+A flight is a polyline of the mover's centre. The distance changes by no more than the centre moves, so where it is at
+least f at one place of a piece of a flight, it is at least f − r on the piece, with r the length from that place to the
+piece's farther end. Pieces are many segments at first, then one, then part of one; each is asked about the hyperboloids
+near it alone. A pair of a piece and a hyperboloid is dropped when its bound is not below what was reached elsewhere,
+but for a tolerance, and halved otherwise.
+
+Near a least distance that takes many halvings. So of a piece within a segment one more proof is tried: the spheroid
+that contains all points within δ of the mover (margins.py), and no more than that along the normal, is asked whether
+its whole sweep is clear. If it is, the distance is at least δ all along.
+
+Which hyperboloids are near: a body stands in the cells of its reach (scene_index.py), and a mover that is larger by the
+distance in question has a longer reach. The box of a piece, longer by the greatest difference of both, overlaps a cell
+of each hyperboloid that is so near.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hypcheck.geometry.pair import UPRIGHT
+from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
+from hypcheck.kernel.margins import enlarged
+from hypcheck.kernel.scene_gaps import from_spheroids
+from hypcheck.kernel.scene_index import OUTWARD, PAD, Bodies, PlaneGrid, reaches
+from hypcheck.kernel.scene_nearest import distances
+from hypcheck.kernel.scene_pairs import along_and_across
+from hypcheck.kernel.scene_sweeps import bounded_hits, hits_beside
+from hypcheck.scene.model import Mover, Span
+
+_TOLERANCE = 2.0**-26
+"""How far apart both bounds of a least distance may be, in units of the distance and the mover's size."""
+
+_ROUNDED = 2.0**-44
+"""More than the rounding of a place on a segment, and of a distance there, in units of the coordinates."""
+
+_ROUNDS, _MOST_PIECES = 200, 1 << 18
+"""Where more would have to be asked, the bounds stay as they are."""
+
+_FEW = 8
+"""Sweeps that are decided exactly where bounds do not decide; each takes some milliseconds."""
+
+_LOOKED_AT = 1 << 12
+"""Segments of a flight from which a first upper bound is taken."""
+
+_AT_A_TIME = 1 << 20
+"""Pairs that are looked up together."""
+
+
+@dataclass(frozen=True)
+class Flights:
+    """Segments of flights from `starts` to `ends`, (n, 3), with the mover's `axes` (n, 3), None where it is upright.
+
+    `flight` (n,) is the number of the flight, from 0 and ascending. A flight's segments follow each other.
+    """
+
+    starts: Rows
+    ends: Rows
+    flight: Indices
+    axes: Rows | None
+
+
+@dataclass(frozen=True)
+class Least:
+    """The least distance of each flight (k,): its bounds, and in which segment, when, and from which it is reached."""
+
+    lower: Floats
+    upper: Floats
+    segment: Indices
+    time: Floats
+    body: Indices
+
+
+@dataclass(frozen=True)
+class _Pieces:
+    """Pieces (n,) of flights, each beside one hyperboloid: segments `first` to `last`.
+
+    Of one segment alone it is the times `begin` to `end`.
+    """
+
+    first: Indices
+    last: Indices
+    begin: Floats
+    end: Floats
+    body: Indices
+
+    def some(self, index: Indices | Mask) -> _Pieces:
+        return _Pieces(*(column[index] for column in vars(self).values()))
+
+
+@dataclass(frozen=True)
+class _Places:
+    """A place on each piece: its segment, time and centre, how long the piece is from there, and the rounding of it."""
+
+    segment: Indices
+    time: Floats
+    centre: Rows
+    radius: Floats
+    error: Floats
+
+
+@dataclass(frozen=True)
+class _Search:
+    """What is asked: flights in a scene; `length` (n + 1,) sums the segments before each, with an error of `loose`."""
+
+    bodies: Bodies
+    mover: Mover
+    grid: PlaneGrid
+    reach: Floats
+    flights: Flights
+    length: Floats
+    loose: float
+
+    def flight_of(self, pieces: _Pieces) -> Indices:
+        return self.flights.flight[pieces.first]
+
+    def axes_of(self, segment: Indices) -> Rows | None:
+        return None if self.flights.axes is None else self.flights.axes[segment]
+
+    def places(self, pieces: _Pieces) -> _Places:
+        """The middle of each piece, or a corner of the flight near it."""
+        alone = pieces.first == pieces.last
+        segment = (pieces.first + pieces.last + 1) // 2
+        time = np.where(alone, (pieces.begin + pieces.end) / 2, 0.0)
+        starts, ends = self.flights.starts[segment], self.flights.ends[segment]
+        centre = starts + time[:, None] * (ends - starts)
+        whole = self.length[segment + 1] - self.length[segment] + self.loose
+        farther = np.maximum(
+            self.length[segment] - self.length[pieces.first], self.length[pieces.last + 1] - self.length[segment]
+        )
+        radius = np.where(alone, (pieces.end - pieces.begin) / 2 * whole, farther + self.loose) * OUTWARD
+        error = _ROUNDED * (np.abs(starts).sum(axis=1) + np.abs(ends).sum(axis=1))
+        return _Places(segment, time, centre, radius, error)
+
+
+def least_distances(
+    bodies: Bodies, mover: Mover, grid: PlaneGrid, reach: Floats, flights: Flights, count: int
+) -> Least:
+    """The least distances of `count` flights, of which those that have segments here are clear of all hyperboloids.
+
+    Of others, and where numbers overflow, nothing is known: the bounds are 0 and inf. `grid` and `reach` are those of
+    the scene.
+    """
+    least = Least(
+        np.zeros(count), np.full(count, np.inf), np.full(count, -1), np.full(count, np.nan), np.full(count, -1)
+    )  # fmt: skip
+    if not len(flights.starts):
+        return least
+    lengths = np.sqrt(((flights.ends - flights.starts) ** 2).sum(axis=1))
+    length = np.append(0.0, np.cumsum(lengths))
+    loose = (len(lengths) + 4) * 2.0**-52 * float(length[-1])
+    search = _Search(bodies, mover, grid, reach, flights, length, loose)
+    _reach_some(search, least)
+    asked = np.unique(flights.flight)
+    asked = asked[np.isfinite(least.upper[asked])]
+    scale = np.frexp(least.upper[asked])[1]
+    for exponent in np.unique(scale).tolist():
+        _narrow(search, least, asked[scale == exponent])
+    return least
+
+
+def _reach_some(search: _Search, least: Least) -> None:
+    """An upper bound for each flight: from a place near a hyperboloid, looked for farther and farther away."""
+    flights, within = search.flights.flight, 0.0
+    left, begin, counts = np.unique(flights, return_index=True, return_counts=True)
+    number = np.arange(len(flights)) - np.repeat(begin, counts)
+    some = np.flatnonzero(number % np.repeat(1 + counts // _LOOKED_AT, counts) == 0)
+    while len(left):
+        segments = some[np.isin(flights[some], left)]
+        pieces = _near_pieces(search, segments, within, np.full(len(least.upper), within + search.grid.side))
+        place = search.places(pieces)
+        bound = _cylinder_bounds(search, pieces.body, place, np.full(len(pieces.body), np.inf))
+        flight = search.flight_of(pieces)
+        order = np.lexsort((bound, flight))
+        _, first = np.unique(flight[order], return_index=True)
+        chosen = order[first]
+        _ask(search, least, pieces.some(chosen))
+        left = np.setdiff1d(left, flight[chosen])
+        within = max(2 * within, search.grid.side)
+
+
+def _narrow(search: _Search, least: Least, wanted: Indices) -> None:
+    """Both bounds of these flights, whose upper bounds are alike."""
+    segments = np.flatnonzero(np.isin(search.flights.flight, wanted))
+    pieces = _near_pieces(search, segments, float(least.upper[wanted].max()), least.upper)
+    floor, size = np.full(len(least.upper), np.inf), max(search.mover.b, search.mover.d)
+    for turn in range(_ROUNDS):
+        flight = search.flight_of(pieces)
+        place, bound, half = _ask(search, least, pieces)
+        bound = bound - place.radius
+        target = least.upper[flight] - _TOLERANCE * (least.upper[flight] + size) - 8 * place.error
+        left = np.flatnonzero(~(bound >= target))
+        alone = left[pieces.first[left] == pieces.last[left]]
+        proved = _proved(search, pieces.some(alone), target[alone], half[alone])
+        left = np.setdiff1d(left, alone[proved])
+        most = turn + 1 == _ROUNDS or len(left) > _MOST_PIECES
+        short = (pieces.first[left] == pieces.last[left]) & (place.radius[left] <= 4 * place.error[left])
+        ended = left if most else left[short]
+        np.minimum.at(floor, flight[ended], bound[ended])
+        if most or short.all():
+            break
+        pieces = _halved(pieces.some(left[~short]))
+    upper = least.upper[wanted]
+    reached = upper - _TOLERANCE * (upper + size) - 8 * _errors(search, len(floor))[wanted]
+    least.lower[wanted] = np.maximum(np.minimum(floor[wanted], reached), 0)
+
+
+def _errors(search: _Search, count: int) -> Floats:
+    """The greatest rounding of a place on each flight, (count,)."""
+    flights, found = search.flights, np.zeros(count)
+    error = _ROUNDED * (np.abs(flights.starts).sum(axis=1) + np.abs(flights.ends).sum(axis=1))
+    np.maximum.at(found, flights.flight, error)
+    return found
+
+
+def _ask(search: _Search, least: Least, pieces: _Pieces) -> tuple[_Places, Floats, Floats]:
+    """Take the places of pieces into account; these, lower bounds of their distances, and half widths along those."""
+    place, flight = search.places(pieces), search.flight_of(pieces)
+    bound = _cylinder_bounds(search, pieces.body, place, least.upper[flight])
+    half = np.full(len(bound), search.mover.b)
+    some = np.flatnonzero(bound - place.radius <= least.upper[flight])
+    centre, axes, pairs = place.centre[some], search.axes_of(place.segment[some]), (flight[some], pieces.body[some])
+    low, high, point = distances(search.bodies, search.mover, centre, axes, pairs, least.upper)
+    low, high = low - place.error[some], high + place.error[some]
+    bound[some] = np.maximum(bound[some], low)
+    half[some] = _half_widths(search.mover, axes, point - centre)
+    order = np.lexsort((high, pairs[0]))
+    reached, first = np.unique(pairs[0][order], return_index=True)
+    best = order[first]
+    better = high[best] < least.upper[reached]
+    to, chosen = reached[better], best[better]
+    least.upper[to], least.body[to] = high[chosen], pairs[1][chosen]
+    least.segment[to], least.time[to] = place.segment[some][chosen], place.time[some][chosen]
+    return place, bound, half
+
+
+def _half_widths(mover: Mover, axes: Rows | None, way: Rows) -> Floats:
+    """Half of how wide the mover is along its gaps to points, `way` (n, 3) from its centre; b where unknown."""
+    with np.errstate(all="ignore"):
+        unit = np.tile(UPRIGHT, (len(way), 1)) if axes is None else axes / np.abs(axes).max(axis=1, keepdims=True)
+        unit = unit / np.sqrt((unit * unit).sum(axis=1, keepdims=True))
+        b, d = np.full(len(way), mover.b), np.full(len(way), mover.d)
+        _, normal = from_spheroids(b, d, unit, way)
+        steep = (normal * unit).sum(axis=1)
+        half = np.hypot(b * np.sqrt(np.maximum(1 - steep * steep, 0)), d * steep)
+        return np.asarray(np.where(half > 0, half, b))
+
+
+def _proved(search: _Search, pieces: _Pieces, target: Floats, half: Floats) -> Mask:
+    """Whether the sweep of a larger spheroid proves that the distance is at least the target on pieces of segments."""
+    starts, ends = search.flights.starts[pieces.first], search.flights.ends[pieces.first]
+    error = _ROUNDED * (np.abs(starts).sum(axis=1) + np.abs(ends).sum(axis=1))
+    with np.errstate(all="ignore"):
+        b, d = enlarged(search.mover.b, search.mover.d, target + error, half)
+        sizes = np.stack(np.broadcast_arrays(b, d), axis=1)
+        fits = np.flatnonzero(np.isfinite(sizes).all(axis=1))
+    here, there = (starts + time[:, None] * (ends - starts) for time in (pieces.begin, pieces.end))
+    body, sizes, here, there = pieces.body[fits], sizes[fits], here[fits], there[fits]
+    axes = search.axes_of(pieces.first[fits])
+    hits, undecided = bounded_hits(search.bodies, body, sizes, here, there, axes)
+    few = np.flatnonzero(undecided)
+    if len(few) <= _FEW:
+        few_axes = None if axes is None else axes[few]
+        hits[few] = hits_beside(search.bodies, body[few], sizes[few], here[few], there[few], few_axes)
+        undecided[few] = False
+    proved = np.zeros(len(target), np.bool_)
+    proved[fits] = ~(hits | undecided)
+    return proved
+
+
+def _halved(pieces: _Pieces) -> _Pieces:
+    """Two pieces for each, which meet at the place that was asked; of a whole segment its ends, too."""
+    alone = pieces.first == pieces.last
+    whole = pieces.some(alone & (pieces.begin == 0) & (pieces.end == 1))
+    segment, middle = (pieces.first + pieces.last + 1) // 2, (pieces.begin + pieces.end) / 2
+    several = [
+        replace(pieces, last=np.where(alone, pieces.last, segment - 1), end=np.where(alone, middle, 1.0)),
+        replace(pieces, first=np.where(alone, pieces.first, segment), begin=np.where(alone, middle, 0.0)),
+        replace(whole, end=whole.begin),
+        replace(whole, begin=whole.end),
+    ]
+    return _joined(several)
+
+
+def _joined(several: Sequence[_Pieces]) -> _Pieces:
+    columns = zip(*(vars(each).values() for each in several), strict=True)
+    return _Pieces(*(np.concatenate(column) for column in columns))
+
+
+def _near_pieces(search: _Search, segments: Indices, within: float, most: Floats) -> _Pieces:
+    """Pieces, one or several of these segments, each with hyperboloids: all that may be `within` a distance of it.
+
+    Those whose cylinder is farther from a piece than its flight's `most` (k,) are left out.
+    """
+    flights, bodies, grid = search.flights, search.bodies, search.grid
+    step = max(within, grid.side)
+    place = np.floor((search.length[segments] - search.length[segments[0]]) / step)
+    new = np.append(True, (np.diff(flights.flight[segments]) != 0) | (np.diff(place) != 0) | (np.diff(segments) != 1))
+    if flights.axes is not None:
+        new[1:] |= (np.diff(flights.axes[segments], axis=0) != 0).any(axis=1)
+    begin = np.flatnonzero(new)
+    first, last = segments[begin], segments[np.append(begin[1:], len(segments)) - 1]
+    starts, ends = flights.starts[segments], flights.ends[segments]
+    low = np.minimum(np.minimum.reduceat(starts, begin), np.minimum.reduceat(ends, begin))
+    high = np.maximum(np.maximum.reduceat(starts, begin), np.maximum.reduceat(ends, begin))
+    pad = _longer_reach(search, within, Span(float(low[:, 2].min()), float(high[:, 2].max())))
+    padding = pad + PAD * (np.abs(low[:, :2]) + np.abs(high[:, :2]))
+    low, high = low[:, :2] - padding, high[:, :2] + padding
+    with np.errstate(all="ignore"):
+        across = np.floor(high / grid.side) - np.floor(low / grid.side) + 1
+        cells = np.where(np.isfinite(across).all(axis=1), across.prod(axis=1), np.inf)
+    members = min(len(bodies.tall), max(len(grid.members), 1))
+    load = np.minimum(cells, members) * (1 + len(grid.everywhere) / np.maximum(cells, 1))
+    found = []
+    for some in np.split(np.arange(len(first)), np.flatnonzero(np.diff(np.cumsum(load) // _AT_A_TIME)) + 1):
+        piece, body = _looked_up(search, low[some], high[some], cells[some] < members)
+        found.append(_worth_asking(search, first[some][piece], last[some][piece], body, most))
+    return _joined(found)
+
+
+def _looked_up(search: _Search, low: Floats, high: Floats, by_cells: Mask) -> tuple[Indices, Indices]:
+    """Pairs of a box' number and a hyperboloid's: those of the box' cells, or all."""
+    bodies, grid = search.bodies, search.grid
+    some, others = np.flatnonzero(by_cells), np.flatnonzero(~by_cells)
+    box, body = grid.near_boxes(low[some], high[some])
+    once = np.sort(some[box] * len(bodies.tall) + body)
+    once = once[np.append(True, np.diff(once) != 0)[: len(once)]]
+    always = np.array(grid.everywhere, np.int64)
+    every = np.arange(len(bodies.tall))
+    return (
+        np.concatenate([once // len(every), np.repeat(some, len(always)), np.repeat(others, len(every))]),
+        np.concatenate([once % len(every), np.tile(always, len(some)), np.tile(every, len(others))]),
+    )
+
+
+def _worth_asking(search: _Search, first: Indices, last: Indices, body: Indices, most: Floats) -> _Pieces:
+    pieces = _Pieces(first, last, np.zeros(len(first)), np.ones(len(first)), body)
+    place, upper = search.places(pieces), most[search.flight_of(pieces)]
+    bound = _cylinder_bounds(search, body, place, upper)
+    return pieces.some(np.flatnonzero(bound - place.radius <= upper))
+
+
+def _longer_reach(search: _Search, within: float, height: Span) -> float:
+    """How much farther from its axis than the grid knows a hyperboloid can be `within` a distance of the mover."""
+    mover = search.mover
+    larger = Mover((mover.b + within) * OUTWARD, (mover.d + within) * OUTWARD, axis=mover.axis)
+    far = reaches(search.bodies, larger, height)
+    known = np.isfinite(search.reach)
+    with np.errstate(all="ignore"):
+        return float(np.maximum(far - search.reach, 0)[known].max(initial=0.0)) * OUTWARD + within * 2.0**-40
+
+
+def _cylinder_bounds(search: _Search, body: Indices, place: _Places, most: Floats) -> Floats:
+    """A lower bound of the distance of each place (n,), by the cylinder about what stands.
+
+    Where it is above `most` (n,) and twice the piece's radius the distance may be less than it, but not than these.
+    """
+    bodies, centre = search.bodies, place.centre
+    longest = max(search.mover.b, search.mover.d)
+    origins, shapes, tall = bodies.origins[body], bodies.shapes[body], bodies.tall[body]
+    with np.errstate(all="ignore"):
+        way = centre - origins
+        along, across, error = way[:, 2], np.hypot(way[:, 0], way[:, 1]), np.zeros(len(body))
+        lean = np.flatnonzero(bodies.leaning[body])
+        if len(lean):
+            along[lean], across[lean], error[lean] = along_and_across(
+                centre[lean], origins[lean], bodies.axes[body[lean]]
+            )
+        low, high = bodies.spans[body].T
+        beyond = np.maximum(np.maximum(along - high, low - along), 0)
+        level = np.minimum(tall, np.abs(along) + longest + most + 2 * place.radius)
+        wide = shapes[:, 0] * np.sqrt(1 + (level / shapes[:, 1]) ** 2) * OUTWARD
+        beside = np.maximum(across - wide, 0)
+        size = np.abs(centre).sum(axis=1) + np.abs(origins).sum(axis=1)
+        lost = (error + _ROUNDED * size) * (2 + shapes[:, 0] / shapes[:, 1]) + _ROUNDED * wide
+        least = np.hypot(beside, beyond) * (1 - 2.0**-40) - longest - lost
+        return np.asarray(np.where(np.isfinite(least), np.maximum(least, 0), 0))

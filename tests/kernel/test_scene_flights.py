@@ -1,0 +1,276 @@
+"""Scene.first_contact: flights against the exact passage of single pairs, values worked out by hand, and properties."""
+
+from __future__ import annotations
+
+import itertools
+from fractions import Fraction
+from math import sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hypcheck import InputError, Scene, passage
+from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
+
+BALL, DRONE = Mover(1.0, 1.0), Mover(0.3, 0.15)
+ANYWHERE = Region()
+
+
+def scene(*bodies, mover=BALL, region=ANYWHERE):
+    return Scene(SceneModel("trees", "position", bodies, mover, region))
+
+
+def wood(seed, *, count=40, mover=DRONE, tilted=False):
+    """Trees that end, some solid, on a square of 20 m; some tilted where that is wanted."""
+    random = np.random.default_rng(seed)
+    trees = []
+    for number in range(count):
+        alpha, gamma, x, y, z = random.uniform((0.1, 1, -10, -10, -1), (0.6, 4, 10, 10, 1)).tolist()
+        height = [None, Span(-1.0, 2.5), Span(-3.0, 4.0)][number % 3]
+        axis = (*random.uniform(-0.3, 0.3, 2).tolist(), 1.0) if tilted and number % 2 else UPRIGHT
+        trees.append(Hyperboloid(f"t{number}", alpha, gamma, (x, y, z), height, axis, solid=number % 2 == 0))
+    return scene(*trees, mover=mover)
+
+
+def flight(seed, corners, step=1.0):
+    random = np.random.default_rng(seed)
+    start = random.uniform((-9, -9, -1), (9, 9, 3))
+    moves = random.normal(size=(corners - 1, 3)) * (step, step, 0.3 * step)
+    return start + np.vstack([np.zeros(3), np.cumsum(moves, axis=0)])
+
+
+def single_passages(world, points, axis=None):
+    """The first segment with contact by the exact decision about each pair alone, its time, and the hyperboloid."""
+    mover = world.model.mover
+    for segment, (here, there) in enumerate(itertools.pairwise(points.tolist())):
+        contacts = []
+        for number, body in enumerate(world.model.hyperboloids):
+            ends = [[Fraction(p) - Fraction(c) for p, c in zip(at, body.center, strict=True)] for at in (here, there)]
+            low, high = (-np.inf, np.inf) if body.height is None else body.height.ends
+            found = passage(
+                (body.alpha, body.gamma, mover.b, mover.d), *ends, axis or UPRIGHT, body.axis,
+                z_min=low, z_max=high, solid=body.solid,
+            )  # fmt: skip
+            if found.hit:
+                contacts.append((found.first, number))
+        if contacts:
+            return segment, *min(contacts)
+    return None
+
+
+@pytest.mark.parametrize("tilted", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_flights_first_contact_is_that_of_the_exact_passages_of_single_pairs(seed, tilted):
+    axis = (0.2, -0.1, 1.0) if tilted else None
+    mover = Mover(0.3, 0.15, axis=axis or UPRIGHT)
+    world, points = wood(seed, mover=mover, tilted=tilted), flight(seed + 10, 9)
+    found, wanted = world.first_contact(points), single_passages(world, points, axis)
+    assert found.hit == (wanted is not None)
+    if wanted is None:
+        assert found.segment == found.index == -1
+        assert np.isnan(found.time_lower)
+        assert np.isnan(found.center).all()
+        return
+    segment, (low, high), number = wanted
+    assert (found.segment, found.index) == (segment, number)
+    assert found.time_lower <= low <= high <= found.time_upper
+    assert found.time_upper - found.time_lower < 1e-9
+
+
+TOWER = Hyperboloid("tower", 2.0, 30.0)
+
+
+def test_the_first_contact_of_a_ball_with_a_waist_is_where_it_was_worked_out():
+    """The waist's radius is 2 and the ball's 1: at z = 0 contact begins 3 from the axis, at y = 0 when x = 3."""
+    found = scene(TOWER).first_contact([[5, 9, 0], [5, 0, 0], [1, 0, 0]])
+    assert (found.hit, found.segment, found.index) == (True, 1, 0)
+    assert found.time_lower <= 0.5 <= found.time_upper
+    assert found.center == pytest.approx((3, 0, 0))
+    assert (found.least.distance_lower, found.least.distance_upper) == (0, 0)
+    assert (found.least.segment, found.least.index) == (1, 0)
+
+
+def test_the_least_distance_of_a_ball_from_a_waist_is_where_it_was_worked_out():
+    """Past (0, 3.5, 0): 3.5 − 2 − 1 from the waist; γ is so large that no other point of the wall is nearer."""
+    found = scene(TOWER).first_contact([[-4, 3.5, 0], [4, 3.5, 0], [4, 9, 0]])
+    assert not found.hit
+    assert found.least.distance_lower <= 0.5 <= found.least.distance_upper
+    assert found.least.distance_upper - found.least.distance_lower < 1e-7
+    assert (found.least.segment, found.least.index) == (0, 0)
+    assert found.least.center == pytest.approx((0, 3.5, 0), abs=1e-3)
+
+
+def test_the_least_distance_over_a_solid_top_is_that_to_its_disc_and_beside_an_open_one_that_to_its_rim():
+    """The top is at 4 with radius 3 · √(1 + (4/3)²) = 5. The ball's centre passes 7 high through its axis."""
+    solid = Hyperboloid("trunk", 3.0, 3.0, height=Span(-4.0, 4.0), solid=True)
+    hollow = Hyperboloid("tube", 3.0, 3.0, height=Span(-4.0, 4.0))
+    path = [[-20, 0, 7], [0, 0, 7], [0, 0, 12]]
+    least = scene(solid).first_contact(path).least
+    assert least.distance_lower <= 2 <= least.distance_upper < 2 + 1e-6
+    least = scene(hollow).first_contact([[-20, 0, 7], [20, 0, 7]]).least
+    assert least.distance_lower <= 2 <= least.distance_upper < 2 + 1e-6
+    assert abs(least.center[0]) == pytest.approx(5, abs=1e-2)
+    inside = scene(hollow).first_contact([[0, 0, 9], [0, 0, 6]]).least
+    below = sqrt(27) - 1  # 9 + w² + (6 − w)² is least where w = 3, below the rim
+    assert inside.distance_lower <= below <= inside.distance_upper < below + 1e-6
+
+
+def test_the_least_distance_inside_a_solid_is_that_to_its_nearer_end():
+    """The top is at 4, and the ball's centre rises from −1 to 1: 4 − 1 − 1. The wall is 19 away."""
+    solid = Hyperboloid("trunk", 20.0, 90.0, height=Span(-9.0, 4.0), solid=True)
+    least = scene(solid).first_contact([[0, 0, -1], [0, 0, 1]]).least
+    assert least.distance_lower <= 2 <= least.distance_upper < 2 + 1e-6
+
+
+def test_the_least_distance_inside_a_tower_is_that_to_its_wall():
+    found = scene(Hyperboloid("tower", 8.0, 90.0)).first_contact([[0, 0, -30], [0, 2, 0], [0, 0, 30]])
+    assert not found.hit
+    assert found.least.distance_lower <= 8 - 2 - 1 <= found.least.distance_upper < 5 + 1e-6
+    assert (found.least.segment, found.least.time) in ((0, pytest.approx(1, abs=1e-3)), (1, pytest.approx(0, abs=1e-3)))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_place_on_a_clear_flight_is_nearer_than_its_least_distance(seed):
+    """Scene.nearest at 20 places of each segment, and at the place that was found."""
+    tilted = seed % 2 == 1
+    mover = Mover(0.3, 0.15, axis=(0.3, 0.0, 1.0) if tilted else UPRIGHT)
+    world = wood(seed, count=9, mover=mover, tilted=tilted)
+    paths = [flight(seed * 100 + number, 4, 0.5) for number in range(8)]
+    found = world.first_contact(paths)
+    for number in np.flatnonzero(~found.hit)[:2].tolist():
+        path = paths[number]
+        shares = np.linspace(0, 1, 20)[:, None, None]
+        places = (path[:-1] + shares * (path[1:] - path[:-1])).reshape(-1, 3)
+        near = world.nearest(places)
+        lower, upper = found.least.distance_lower[number], found.least.distance_upper[number]
+        assert 0 < upper - lower < 1e-7 * (1 + upper)
+        assert lower <= near.distance_upper.min()
+        here = world.nearest(found.least.center[number])
+        assert here.distance_lower[0] <= upper
+        assert here.distance_upper[0] >= lower
+        assert upper <= near.distance_upper.min() + 1e-7 * (1 + upper)
+        assert here.tied[0] or here.index[0] == found.least.index[number]
+
+
+def test_many_flights_answer_as_each_alone():
+    world = wood(3)
+    paths = [flight(seed, corners) for seed, corners in zip(range(12), [1, 2, 3, 6] * 3, strict=True)]
+    together = world.first_contact(paths)
+    assert 2 < together.hit.sum() < 12
+    for number, path in enumerate(paths):
+        alone = world.first_contact(path)
+        assert (alone.hit, alone.segment, alone.index) == (
+            together.hit[number], together.segment[number], together.index[number],
+        )  # fmt: skip
+        assert np.array_equal(alone.time_lower, together.time_lower[number], equal_nan=True)
+        low, high = together.least.distance_lower[number], together.least.distance_upper[number]
+        assert alone.least.distance_lower <= high
+        assert low <= alone.least.distance_upper
+
+
+def time_along(found, lengths):
+    """The first contact as a share of the flight."""
+    return None if not found.hit else (sum(lengths[: found.segment]) + found.time_lower * lengths[found.segment])
+
+
+@given(st.integers(0, 10**6), st.integers(1, 7))
+@settings(max_examples=10, deadline=None)
+def test_a_flight_with_a_corner_more_on_a_segment_answers_the_same(seed, eighths):
+    """Numbers of few digits, so that the corner lies on the segment exactly."""
+    world = wood(seed % 5)
+    points = np.round(flight(seed, 4) * 64) / 64
+    middle = points[1] + eighths / 8 * (points[2] - points[1])
+    split = np.vstack([points[:2], middle, points[2:]])
+    whole, parts = world.first_contact(points), world.first_contact(split)
+    lengths = [1.0, 1.0, 1.0]
+    shares = [1.0, eighths / 8, 1 - eighths / 8, 1.0]
+    assert whole.hit == parts.hit
+    if whole.hit:
+        assert time_along(parts, shares) == pytest.approx(time_along(whole, lengths), abs=1e-9)
+    assert whole.least.distance_lower <= parts.least.distance_upper
+    assert parts.least.distance_lower <= whole.least.distance_upper
+
+
+@given(st.integers(0, 10**6))
+@settings(max_examples=10, deadline=None)
+def test_a_reversed_flight_has_contact_where_the_flight_has_and_the_same_least_distance(seed):
+    world, points = wood(seed % 5), flight(seed, 4)
+    ahead, back = world.first_contact(points), world.first_contact(points[::-1])
+    assert ahead.hit == back.hit
+    assert ahead.least.distance_lower <= back.least.distance_upper
+    assert back.least.distance_lower <= ahead.least.distance_upper
+
+
+def test_a_flight_that_begins_in_contact_has_its_first_contact_at_once():
+    found = scene(TOWER).first_contact([[2, 0, 0], [9, 0, 0], [2, 0, 0]])
+    assert (found.segment, found.time_lower, found.time_upper, found.index) == (0, 0, 0, 0)
+    assert tuple(found.center) == (2, 0, 0)
+
+
+def test_a_flight_that_touches_at_a_corner_alone_has_contact_at_the_end_of_the_first_of_both_segments():
+    found = scene(TOWER).first_contact([[6, 1, 0], [3, 0, 0], [6, -1, 0]])
+    assert (found.hit, found.segment) == (True, 0)
+    assert found.time_lower <= 1 <= found.time_upper
+
+
+def test_a_path_of_one_point_stays_there():
+    assert scene(TOWER).first_contact([[3, 0, 0]]).hit
+    found = scene(TOWER).first_contact([[4, 0, 0]])
+    assert not found.hit
+    assert found.least.distance_lower <= 1 <= found.least.distance_upper
+
+
+def test_parts_decide_contact_and_the_least_distance_is_that_of_the_mover():
+    """Between two rotors the ball itself meets the wall's rim region, and its parts do not."""
+    parts = tuple(MoverPart(0.1, 0.1, 0.85, angle) for angle in (90.0, -90.0))
+    thin = Hyperboloid("pole", 0.05, 30.0, (1.5, 0.0, 0.0))
+    world = scene(thin, mover=Mover(1.0, 1.0, parts))
+    found = world.first_contact([[-3, 0, 0], [0.6, 0, 0]])
+    assert not found.hit
+    assert (found.least.distance_lower, found.least.distance_upper) == (0, 0)
+    assert found.least.time == pytest.approx((3 + 0.45) / 3.6)
+
+
+def test_headings_and_axes_are_given_for_all_segments_or_for_each():
+    world = scene(Hyperboloid("tower", 2.0, 30.0), mover=Mover(2.0, 0.5, axis=FREE))
+    path = [[3.0, -9, 0], [3.0, 0, 0], [9, 0, 0]]
+    flat, upright = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    assert world.first_contact(path, axis=upright).hit
+    assert not world.first_contact(path[:2], axis=flat).hit
+    assert world.first_contact(path, axis=[flat, upright]).segment == 1
+    with pytest.raises(InputError, match="axis is given for 3 segments, and there are 2"):
+        world.first_contact(path, axis=[flat, upright, flat])
+
+
+@pytest.mark.parametrize(
+    ("path", "says"),
+    [
+        ([[0, 0], [1, 1]], r"the path is of shape \(2, 2\); it must be points \(T, 3\)"),
+        ([], r"the path is of shape \(0,\)"),
+        (np.zeros((0, 2, 3)), "there is no path"),
+        ([[[0, 0, 0]], [[0, 0]]], r"path 1 is of shape \(1, 2\)"),
+        ([[0, 0, 0], [0, np.nan, 0]], "the path, point 1: y is nan; it must be finite"),
+        ([[[0, 0, 0]], [[0, 0, np.inf]]], "path 1, point 0: z is inf"),
+        ("north", "the path is"),
+        (np.zeros((2, 0, 3)), "one at least"),
+        (3.0, "the path is of shape"),
+    ],
+)
+def test_what_is_no_path_is_refused_by_a_sentence(path, says):
+    with pytest.raises(InputError, match=says):
+        scene(TOWER).first_contact(path)
+
+
+@pytest.mark.parametrize("away", [30.0, 3e4, 1e9])
+def test_a_flight_far_from_all_trees_finds_the_nearest(away):
+    """The trees' trunks are 0.1 wide at their feet at most 20 m away from each other: the nearest is in a corner."""
+    world = wood(2)
+    path = [[away, away, 0], [away + 1, away, 0]]
+    least = world.first_contact(path).least
+    near = world.nearest(path[0])
+    assert least.distance_lower <= near.distance_upper[0]
+    assert least.distance_upper >= near.distance_lower[0] - 1
+    assert least.distance_upper - least.distance_lower < 1e-6 * away
+    assert world.nearest(least.center).distance_upper[0] >= least.distance_lower
