@@ -36,10 +36,13 @@ SOUNDNESS = ("Geometry", "Certificates", "UnitBall", "Checker")
 RULE = ("Duality", "AnyAxis", "Completeness", "Cubic", "Rule", "Paper", "RootPatterns")
 """What the exact answers rest on."""
 
+STAGES = ("Positions", "HalfPlanes", "Tangency")
+"""From the signs that the kernel's stages ask for to the position."""
+
 ROUNDING = ("Rounding", "Floats", "StageTwo", "Kernel", "RunningBound", "Region")
 """What the constants of the kernel and the bounds of emitted kernels rest on."""
 
-FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *ROUNDING)
+FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING)
 """Every file, in the order in which Coq needs them; the name says what it proves."""
 
 AXIOMS = (
