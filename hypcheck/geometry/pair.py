@@ -204,6 +204,7 @@ class Lengths:
             return cls(a, b, x, y, g, d, z, axis, along)
         low = None if others[3] == -math.inf else ends[0]
         high = None if others[4] == math.inf else ends[-1]
+        low, high = counted_along(along, upward, low, high)
         return cls(a, b, x, y, g, d, z, axis, along, low=low, high=high, solid=bool(others[5]))
 
     @property
@@ -216,6 +217,15 @@ class Lengths:
         """Whether the axes of both are parallel, or the spheroid is a sphere."""
         (a, b, c), (u, v, w) = self.axis, self.upward
         return (b * w == c * v and c * u == a * w and a * v == b * u) or self.b == self.d
+
+
+def counted_along(
+    axis: Vector, upward: Sequence[float | Fraction], low: int | None, high: int | None
+) -> tuple[int | None, int | None]:
+    """Two heights along a vector, as heights along a parallel axis, which may point the other way; None is infinite."""
+    if sum(a * b for a, b in zip(axis, upward, strict=True)) > 0:
+        return low, high
+    return None if high is None else -high, None if low is None else -low
 
 
 def trouble_with(name: str, value: object) -> str | None:

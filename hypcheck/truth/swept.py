@@ -35,6 +35,7 @@ from hypcheck.geometry.pair import (
     Lengths,
     Position,
     Vector,
+    counted_along,
     over_one_denominator,
     trouble_with,
     trouble_with_heights,
@@ -285,6 +286,7 @@ def journey_of(
         c, h, z, s, *ended = integers(gamma, d, z0, z1 - z0, *ends)
         axes = (0, 0, 1), (0, 0, 1)
     low, high = ended[0] if math.isfinite(heights[0]) else None, ended[-1] if math.isfinite(heights[1]) else None
+    low, high = counted_along(axes[1], tower, low, high)
     return Journey(Lengths(a, w, x, y, c, h, z, *axes, low, high, bool(heights[2])), (u, v, s))
 
 

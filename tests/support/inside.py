@@ -87,7 +87,7 @@ from hypcheck.truth import (
 )
 from hypcheck.truth import nearest as truth_nearest
 from hypcheck.truth.backward_error import Bracket, bracket, estimate, exponent, lower_ends, quick_bracket, tolerated
-from hypcheck.truth.certificate import Certificate, check_certificate, pivots, proves, surfaces
+from hypcheck.truth.certificate import Certificate, Piece, check_certificate, pivots, proves, surfaces
 from hypcheck.truth.changes import corner, goal_of
 from hypcheck.truth.exact import Decision, decide, kind_of, position
 from hypcheck.truth.exact import cubic as exact_cubic
@@ -161,6 +161,7 @@ __all__ = [
     "LeaningSearch",
     "MeshOutcome",
     "NearestStage",
+    "Piece",
     "RootPlace",
     "ScaledSetting",
     "Scene",

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.geometry.pair import Pair, Position
-from tests.support.inside import Certificate, check_certificate, exact, prove
+from tests.support.inside import Certificate, Piece, check_certificate, exact, prove
 from tests.support.pairs import pairs
 
 RING = Pair(1, 2, 1, 1, 2.5, 0, 0)
@@ -72,6 +72,63 @@ def test_certificate_written_by_hand_is_accepted(pair, certificate):
 )
 def test_certificate_with_a_flaw_is_refused(pair, certificate, flaw):
     assert not check_certificate(pair, certificate), flaw
+
+
+BALL = Pair(1, 1, 1, 1, 1, 0, 0, z_min=-2, z_max=2, solid=1)
+"""Its centre lies on the wall of a solid body: half of it is within."""
+LOW = Pair(1, 1, 0.5, 0.5, 0, 0, -3, z_min=1, z_max=3)
+"""On the axis, far below the ends."""
+CUTS_THE_WALL = Pair(1, 1, 1, 1, 2, 0, 2, z_min=1, z_max=3)
+
+
+@pytest.mark.parametrize(
+    ("pair", "certificate", "holds"),
+    [
+        (BALL, Certificate(Position.CONTACT, points=(_point(0.5, 0, 0), _point(1.5, 0, 0))), True),
+        (BALL, Certificate(Position.CONTACT, points=(_point(1.5, 0, 0),)), False),
+        (BALL, Certificate(Position.CONTACT, points=(_point(0.5, 0, 0),)), False),
+        (BALL, Certificate(Position.CONTACT, points=(_point(1, 0, 0),)), True),
+        # A point of a flat end lies on the border of a solid body, and outside of it above the end.
+        (replace(BALL, x=0, z=2), Certificate(Position.CONTACT, points=(_point(0, 0, 2),)), True),
+        (replace(BALL, x=0, z=2), Certificate(Position.CONTACT, points=(_point(0, 0, 1.5), _point(0, 0, 2.5))), True),
+        (replace(BALL, x=0, z=2, solid=0), Certificate(Position.CONTACT, points=(_point(0, 0, 2),)), False),
+        # Near the wall, and on one side of it: h is 0.44, or −0.19.
+        (Pair(1, 1, 0.1, 0.1, 1.2, 0, 0, z_max=2), Certificate(Position.CONTACT, points=(_point(1.2, 0, 0),)), False),
+        (Pair(1, 1, 0.05, 0.05, 0.9, 0, 0, z_max=2), Certificate(Position.CONTACT, points=(_point(0.9, 0, 0),)), False),
+        # What holds beside the whole hyperboloid says nothing of one that ends.
+        (Pair(5, 5, 0.5, 0.5, 0, 0, 0), Certificate(Position.INTERIOR, multiplier=Fraction(-4)), True),
+        *(
+            (Pair(5, 5, 0.5, 0.5, 0, 0, z, **ends), Certificate(Position.INTERIOR, multiplier=Fraction(-4)), holds)
+            for z, ends, holds in [
+                (0, {"z_max": 1.0}, True),
+                (0, {"z_min": -1.0}, True),
+                (2, {"z_max": 1.0}, False),
+                (-2, {"z_min": -1.0}, False),
+                (0, {"z_max": 0.5, "solid": 1.0}, False),
+                (0, {"z_max": 0.75, "solid": 1.0}, True),
+                (0, {"z_min": -0.5, "solid": 1.0}, False),
+            ]
+        ),
+        # With λ = 0 a piece says that the spheroid does not reach its heights.
+        (
+            LOW,
+            Certificate(Position.EXTERIOR, pieces=(Piece(Fraction(1), Fraction(3), Fraction(0), Fraction(1)),)),
+            True,
+        ),
+        (replace(LOW, z=0.5), Certificate(Position.EXTERIOR, multiplier=Fraction(0)), False),
+        *(
+            (
+                CUTS_THE_WALL,
+                Certificate(Position.EXTERIOR, pieces=(Piece(low, high, Fraction(0), Fraction(mu)),)),
+                False,
+            )
+            for low, high in [(Fraction(1), Fraction(3)), (Fraction(1), None), (None, Fraction(3)), (None, None)]
+            for mu in (1, 2, 8, 64)
+        ),
+    ],
+)
+def test_certificates_beside_ends_prove_what_is_true_and_nothing_else(pair, certificate, holds):
+    assert check_certificate(pair, certificate) is holds
 
 
 def test_certificate_of_contact_accepts_points_on_the_spheroid_and_none_beyond_it():

@@ -10,10 +10,12 @@ import pytest
 from hypcheck import passage
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.vectors.frozen import load
+from tests.support.corpus import expected, questions
 from tests.support.inside import Scene
 
 TURNS = {
     "a cycle of the axes": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]),
+    "upside down": np.diag([1, -1, -1]),
     "thirds": np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]),
     "sevenths": np.array([[2, -6, 3], [3, -2, -6], [6, 3, 2]]),
 }
@@ -62,3 +64,22 @@ def test_axes_that_lie_across_the_hyperboloids_are_parallel_only_if_their_cross_
     for axis, position in (((1.0, 2.0, 0.0), -1), ((1.0, 1.0, 0.0), 0), ((-2.0, -4.0, 0.0), -1)):
         assert scene_of(sizes, axis, upward).position(*here) == position
         assert passage(sizes, here, here, axis, upward).hit == (position == 0)
+
+
+@pytest.mark.parametrize("name", ["a cycle of the axes", "upside down"])
+def test_a_passage_counts_heights_along_the_axis_that_it_is_told(name):
+    ended = questions("axis heights")[::29]
+    for case, row in zip(ended.cases, ended.rows.tolist(), strict=True):
+        sizes, place, axis, upward = turned(TURNS[name], row)
+        heights = dict(zip(("z_min", "z_max", "solid"), row[10:], strict=True))
+        for along in (axis, None) if axis[:2] == upward[:2] == [0, 0] else (axis,):
+            assert passage(sizes, place, place, along, upward, **heights).hit == (expected(case) == 0)
+
+
+def test_an_upright_spheroid_passes_beyond_the_end_of_a_hyperboloid_that_points_down():
+    """It stands above z = −1, where it is told to point down and to end 1 above its centre along that."""
+    way = (0.9, 0.9, 0.25, 0.5), (9.0, 0.0, -3.0), (0.0, 0.0, -3.0)
+    for upward, hit in (((0, 0, 1), True), ((0, 0, -1), False), ((0, 0, -3), False), ((1e-30, 0, -1), False)):
+        for axis in (None, (0, 0, 1), (0, 0, -1)):
+            assert passage(*way, axis, upward, z_max=1.0).hit == hit
+            assert passage(*way, axis, upward, z_min=-1.0).hit != hit
