@@ -269,7 +269,8 @@ hypcheck replay ring-0007 builtin:table-2-float64
 hypcheck replay 2,5,1,1,3,0,0 library:./libcollide.so
 hypcheck replay reports/latest/record.jsonl:3 "command:./adapter --fast"
 
-The values of a formula are shown in the implementation's precision beside exact arithmetic. >> marks the first decision
+The values of a built-in formula are shown in its precision beside exact arithmetic; with --values, of another
+implementation, those of the formula nearest to it. >> marks the first decision
 that rounding changed, and > the number that it depends on.
 
 Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC cannot be started.
@@ -280,6 +281,7 @@ Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC canno
 @click.argument("case", type=completing.CASE)
 @click.argument("spec", type=completing.SPEC)
 @click.option("--formula", metavar="NAME", help="The formula to show.  [default: its own, or one with the same answer]")
+@click.option("--values", is_flag=True, help="The values of a formula that is not the implementation's own, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
 @PRECISION
 @QUESTION
@@ -293,6 +295,7 @@ def replay(
     case: str,
     spec: str,
     formula: str | None,
+    values: bool,
     as_json: bool,
     precision: str | None,
     question: str | None,
@@ -313,6 +316,6 @@ def replay(
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
         done = run(asked, implementation, criterion, formula)
-    for line in [replay_as_json(done)] if as_json else replay_lines(done):
+    for line in [replay_as_json(done)] if as_json else replay_lines(done, values=values or formula is not None):
         click.echo(printable(line))
     context.exit(Exit.HELD if done.judgement.passes else Exit.WRONG)

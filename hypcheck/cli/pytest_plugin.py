@@ -113,7 +113,8 @@ def _told(out: Path) -> str | None:
     lines = [f"hypcheck: {verdict(record).sentence}"]
     if failed:
         worst = _worst(record, failed)
-        lines.append(worst.message)
+        if worst.message not in lines[0]:
+            lines.append(worst.message)
         if worst.replay:
             lines.append(f"replay: {worst.replay}")
         if len(failed) > 1:

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli.progress import summary_options, watched
-from hypcheck.cli.settings import print_settings
 from hypcheck.errors import Exit, HypcheckError, InputError, system_reason
 from hypcheck.messages import escaped, printable
 from hypcheck.tables.streams import made_folder, same_file
@@ -54,7 +53,7 @@ def recording(
 ) -> Iterator[Recording]:
     """Write the record of a run to `out` while the block lasts; then write the reports, and print the summary.
 
-    When the run begins, its `title`, how implementations are isolated and its settings are printed. Its first result
+    When the run begins, its `title` and how implementations are isolated are printed. Its first result
     removes reports of an earlier run, whose record stays until the new one is complete. A run that ends without any
     result leaves an earlier run as it was. An interrupted run leaves a truncated record with reports. `carried` are
     lines of the run that this one resumes; its record may be the one in `out`. Raises InputError if `out` cannot be
@@ -102,14 +101,13 @@ def recording(
 
 
 def _print_beginning(title: str, provenance: Provenance | None) -> None:
-    """Print the title of a run, how its implementations are isolated, and its settings."""
+    """Print the title of a run, and how its implementations are isolated; the summary says its settings."""
     if provenance is not None and provenance.isolation is not None:
         from hypcheck.isolation.means import isolation_text
 
         title += f"; {isolation_text(provenance.isolation.means, provenance.isolation.missing)}"
     if title:
         _print_note(title)
-    print_settings(None if provenance is None else provenance.settings)
 
 
 def run_stages(stages: Sequence[Stage]) -> None:

@@ -265,8 +265,8 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
 
     Reports are written to --out: record.jsonl, report.html, report.md, summary.json, junit.xml, results.sarif,
     gl-code-quality-report.json, badge.json, measurements.csv and pictures. Options and SPECs that are not given are
-    read from hypcheck.toml in the working directory, if it exists. Each option that weakens the gate is shown at the
-    start and in every report.
+    read from hypcheck.toml in the working directory, if it exists. Each option that weakens the gate is shown in the
+    summary and in every report.
     """
     chosen = _chosen_specs(context, specs, self_check=options.pop("self_check"))
     unused = _WITHOUT_SPEC if chosen else _WITH_SPEC

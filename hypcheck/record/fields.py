@@ -122,6 +122,10 @@ Bin = Annotated[list[int], Meta(min_length=4, max_length=4)]
 """The two numbers of a bin, its cases, and how many of them did not end as right."""
 
 Truth = Annotated[int, Meta(ge=-1, le=1)]
+TruthKey = Annotated[str, one_of("-1", "0", "1")]
+AnswerKey = Annotated[str, one_of("-1", "0", "1", "2", "none")]
+"""What is true of a row, and what was answered: the numbers of the protocol; "none" where no valid answer came."""
+
 Question = Annotated[str, one_of("position", "exterior", "interior", "contact", "passage")]
 Precision = Annotated[str, one_of("float16", "bfloat16", "float32", "float64", "x87", "binary128", "exact")]
 Mistake = Annotated[str, one_of("false-clear", "false-contact", "wrong-side", "late", "early")]

@@ -11,7 +11,8 @@ adds the axis of tilted spheroids, and that an implementation takes them; 1.6.0 
 way, times of first contact with the mistakes late and early, the axis of fixed sizes in a domain, and in a benchmark
 the end of a way and the kinds sampling and advancement; 1.7.0 adds to the header how implementations were isolated, and
 the causes of wrong answers; 1.8.0 adds why rows and families were not asked, and how many fresh rows were; 1.9.0
-adds heights of hyperboloids that end, that an implementation takes them, and how evenly a run asked.
+adds heights of hyperboloids that end, that an implementation takes them, and how evenly a run asked; 1.10.0 adds how
+often each answer was given where each was right.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from msgspec import UNSET, Meta, UnsetType
 
 from hypcheck.record.fields import (
     Amount,
+    AnswerKey,
     Axis,
     Bin,
     Centre,
@@ -43,13 +45,14 @@ from hypcheck.record.fields import (
     Sizes,
     Span,
     Truth,
+    TruthKey,
     Unsigned,
     one_of,
     require_octaves,
     require_possible,
 )
 
-SCHEMA = "1.9.0"
+SCHEMA = "1.10.0"
 """The version of the records that are written."""
 
 
@@ -228,7 +231,8 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
 
     `octaves` are counts by the floor of log2 of the cases' distances to the other answer, `failing` the statuses that
     fail the run. Since 1.8.0, `not_asked` counts the skipped rows by reason, and `fresh` the rows asked that nobody
-    knew before the run, of implementations under test.
+    knew before the run, of implementations under test. Since 1.10.0, `answers` counts their answers: by what is true,
+    then by what was answered.
     """
 
     method: str
@@ -243,6 +247,7 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
     not_asked: Counts | UnsetType = UNSET
     counts: Counts
     mistakes: Counts
+    answers: dict[TruthKey, dict[AnswerKey, Count]] | UnsetType = UNSET
     octaves: dict[str, Counts]
     size_bins: list[Bin]
     place_bins: list[Bin]

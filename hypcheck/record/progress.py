@@ -7,6 +7,7 @@ from typing import Annotated
 from msgspec import UNSET, Meta, UnsetType, field
 
 from hypcheck.record.fields import (
+    AnswerKey,
     Axis,
     Centre,
     Count,
@@ -20,6 +21,7 @@ from hypcheck.record.fields import (
     RecordLine,
     Row,
     Truth,
+    TruthKey,
     Unsigned,
     one_of,
     require_octaves,
@@ -120,6 +122,7 @@ class SavedTally(LinePart, frozen=True, kw_only=True):
     denied: Totals = field(default_factory=dict)
     fresh: Total = 0
     not_asked: Totals = field(default_factory=dict)
+    answers: dict[TruthKey, dict[AnswerKey, Total]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         require_octaves(self.octaves)

@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.report.document import (
     Block,
@@ -31,6 +32,7 @@ from hypcheck.report.measured import (
     BATCH,
     SINGLE,
     MeasuredMethod,
+    by_ratio,
     measured_methods,
     noise_floor,
     reference,
@@ -38,7 +40,7 @@ from hypcheck.report.measured import (
     way_totals,
     workloads,
 )
-from hypcheck.report.messages import figure, listed
+from hypcheck.report.messages import figure, listed, pace, with_interval
 
 DISTANCES = {"1e-12": 1e-12, "1e-9": 1e-9, "1e-6": 1e-6, "0.001": 1e-3}
 """Distances below which errors may not matter: of a metre, 1e-12 is an atom's width, 1e-3 a millimetre."""
@@ -179,15 +181,9 @@ def _reliable(
     return [each for each in found if each.line.kind != "bounding" and holds(each)]
 
 
-def _by_ratio(found: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
-    """The methods that have a ratio there, the fastest first."""
-    ranked = [(ratio, each) for each in found if (ratio := each.ratio(workload, mode)) is not None]
-    return [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
-
-
 def _fastest(record: Record, found: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
     """The fastest method, and after it those as fast within the noise, by their ratios."""
-    ranked = _by_ratio(found, workload, mode)
+    ranked = by_ratio(found, workload, mode)
     if not ranked:
         return []
     best = ranked[0]
@@ -261,7 +257,7 @@ def _price_sentences(record: Record) -> Iterator[Text]:
     Both are the fastest of their kind on the first timed workload; nothing if there is none of a kind.
     """
     timed, known = timed_workloads(record), workloads(record)
-    ranked = _by_ratio(measured_methods(record), timed[0]) if timed else []
+    ranked = by_ratio(measured_methods(record), timed[0]) if timed else []
     never = next((each for each in ranked if each.never_wrong), None)
     fastest = next((each for each in ranked if each.wrong and each.line.kind != "bounding"), None)
     if never is not None and fastest is not None:
@@ -273,6 +269,48 @@ def _price_sentences(record: Record) -> Iterator[Text]:
         )
         err: Text = (Code(fastest.name), f", the fastest of those that err ({ends})")
         yield ("The price of exactness: in a batch ", Code(never.name), f" takes {times} as long as ", err, ".")
+
+
+def own_method_facts(record: Record) -> Iterator[str]:
+    """The user's methods of a benchmark: how near to contact each errs, and its time."""
+    found, against, known = measured_methods(record), reference(record) or "the reference", workloads(record)
+    for each in found:
+        if not each.foreign:
+            continue
+        end = each.reliable_above
+        errors = (
+            "reliable at no distance" if end == math.inf else f"errors end at {figure(end)}" if end else "none wrong"
+        )
+        yield f"{each.name}: {each.wrong:,} of {counted(each.asked, 'answer')} wrong, {errors}"
+        for name in known:
+            line, ratio = each.speed.get((name, BATCH)), each.ratio(name)
+            if line is not None and ratio is not None:
+                time = f"{with_interval(line.median_ns, line.ci95_ns)} ns a row in a batch"
+                span = " to ".join(map(figure, each.ratio_interval(name)))
+                yield f"{each.name}, {known[name].title}: {time}, {pace(ratio, against)} ({span})"
+
+
+def best_rival_facts(record: Record) -> Iterator[str]:
+    """Each of the user's methods against the fastest that errs no farther from contact."""
+    found, timed = measured_methods(record), timed_workloads(record)
+    for each in found:
+        own = each.ratio(timed[0]) if timed else None
+        if not each.foreign or not own:
+            continue
+        rivals = [
+            other
+            for other in found
+            if not other.foreign
+            and other.line.question == each.line.question
+            and other.accuracy.keys() == each.accuracy.keys()
+            and all(other.accuracy[name].reliable_above <= line.reliable_above for name, line in each.accuracy.items())
+        ]
+        best = next(iter(by_ratio(rivals, timed[0])), None)
+        against = None if best is None else best.ratio(timed[0])
+        if best is None or not against:
+            yield f"{each.name}: no other method that was measured is as reliable"
+        else:
+            yield f"{each.name}: {pace(own / against, f'{best.name}, the fastest that is as reliable')}"
 
 
 def advised_method_sections(record: Record) -> Iterator[Section]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from hypcheck.geometry.pair import COLUMNS, trouble_with_row
 from hypcheck.isolation.means import isolation_text
 from hypcheck.messages import counted
 from hypcheck.record import Record
+from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import CauseLine, IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes
@@ -33,11 +35,14 @@ from hypcheck.report.document import (
     table,
 )
 from hypcheck.report.measured import measured_methods
-from hypcheck.report.messages import Replays, error_text, families_text, figure, settings_facts, share_text
+from hypcheck.report.messages import Replays, error_text, families_text, figure, from_hex, settings_facts, share_text
+from hypcheck.report.model import implementations, under_test
 from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
+from hypcheck.report.square import squares
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.verdict import Failure, Verdict, failures, verdict
+from hypcheck.runs.judges import judge_of
 
 
 def settings_sections(record: Record) -> Iterator[Section]:
@@ -115,6 +120,17 @@ def _omitted_failures(left_out: int) -> list[Text]:
     return [(f"… and {counted(left_out, 'more failure')}; ", *files, " list them all.")]
 
 
+def square_sections(record: Record) -> Iterator[Section]:
+    """How often each answer was given where each was right; none if no answer was wrong."""
+    if verdict(record).passed:
+        return
+    blocks: list[Block] = []
+    for square, passing in squares(record):
+        blocks += [square, *([Paragraph(f"{passing[:1].upper()}{passing[1:]}.")] if passing else [])]
+    if blocks:
+        yield Section("Answers against the truth", tuple(blocks))
+
+
 _CAUSES = prose(
     "A cause is a rule that is known to be wrong: at each of these rows it gives the very answer that was given, and"
     " where it errs hardly any right answer denies it. `hypcheck explain CAUSE` says more. *Unexplained* are those that"
@@ -154,9 +170,40 @@ def can_be_drawn(row: Sequence[float]) -> bool:
 
 
 def explorer_sections(record: Record) -> Iterator[Section]:
-    """The bodies of the first failing case, or on the ring, to be moved."""
+    """The bodies of a failing case, or on the ring, to be moved."""
+    shown = list(shown_case(record))
     rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
-    yield Section("Look closer", (Explorer(next(iter(rows), ON_THE_RING)),), page=True)
+    row = shown[0][0] if shown else next(iter(rows), ON_THE_RING)
+    yield Section("Look closer", (*(Paragraph(text) for _, text in shown), Explorer(row)), page=True)
+
+
+def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], Text]]:
+    """The wrong answer with the greatest error whose bodies one can see: its row and a sentence; none without any."""
+    found = [
+        (case, from_hex(numbers_of(case)), each)
+        for each in implementations(record)
+        for group in each.groups
+        for case in group.worst
+        if each.gated and case.status in (group.failing or ())
+    ]
+    for case, row, each in sorted(found, key=lambda seen: -seen[0].backward_error):
+        if can_be_drawn(row) and _can_be_seen(row):
+            asked = judge_of(each.question)
+            answers = f" is {asked.truth_in_words(case.truth)}; ", Code(each.name), " answered "
+            yield row, (Code(case.case), *answers, Strong(asked.in_words(case.answer)), ".")
+            return
+
+
+_ALIKE = 20.0
+"""Lengths of a picture differ by at most this factor if all of them are to be seen."""
+
+
+def _can_be_seen(row: Sequence[float]) -> bool:
+    """Whether the wall and the spheroid have sizes that fit into one picture, and lie near each other."""
+    alpha, gamma, b, d, x, y, z = row
+    gap = abs(math.hypot(x, y) - alpha * math.hypot(1, z / gamma))
+    sizes = (alpha, b, d)
+    return max(sizes) <= _ALIKE * min(sizes) and gap <= _ALIKE / 4 * b
 
 
 def compared_sections(record: Record) -> Iterator[Section]:
@@ -198,8 +245,13 @@ def _remarks(line: MethodLine) -> Iterator[str]:
         yield line.note
 
 
-FAILING: tuple[Callable[[Record], Iterator[Section]], ...] = (cause_sections, failure_sections)
-"""The sections that come first: why answers are wrong, and what failed."""
+FAILING: tuple[Callable[[Record], Iterator[Section]], ...] = (
+    square_sections,
+    explorer_sections,
+    cause_sections,
+    failure_sections,
+)
+"""The sections of a failing run that come first: which answers are wrong, a picture, why, and what failed."""
 
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     settings_sections,
@@ -219,13 +271,15 @@ PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     accuracy.family_sections,
     verification.map_sections,
     verification.timing_sections,
-    explorer_sections,
     run_sections,
 )
 """The other sections in reading order, the run last.
 
 A part is empty if the record has none of its lines.
 """
+
+PASSING = tuple(part for part in PARTS if part not in (accuracy.family_sections, verification.method_sections))
+"""Those of a run with SPEC that passed: it has no wrong answers to be told apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,10 +293,14 @@ class Content:
 
 def content(record: Record, against: Record | None = None) -> Content:
     """The content of a report; with another record, the changes follow the failures."""
-    failing = [section for part in FAILING for section in part(record)]
+    ended = verdict(record)
+    first, later = (FAILING, PARTS) if not ended.passed else ((), PASSING if under_test(record) else PARTS)
+    failing = [section for part in first for section in part(record)]
     changed = [] if against is None else [changes.change_section(record, against)]
-    others = [section for part in PARTS for section in part(record)]
-    return Content(report_title(record), verdict(record), (*failing, *changed, *others))
+    others = [section for part in later for section in part(record)]
+    if ended.passed:
+        others[-1:-1] = explorer_sections(record)
+    return Content(report_title(record), ended, (*failing, *changed, *others))
 
 
 def report_title(record: Record) -> str:
@@ -263,6 +321,7 @@ def overview(record: Record, beside: Collection[str]) -> Content:
     shows = bullets([f"{said[:1].upper()}{said[1:]}." for part in parts for said in part(record)])
     pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)
     sections = [
+        *square_sections(record),
         *failure_sections(record),
         *settings_sections(record),
         *advice.advice_sections(record),

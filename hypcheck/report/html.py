@@ -165,34 +165,52 @@ WIDTH, HEIGHT = 96.0, 64.0
 _STEEPEST = 1e300
 """A limit of the scale, so that no place in a picture is infinity times zero."""
 
+_FILLED = 0.8
+"""The part of a small picture's width that the spheroid and the way to the wall fill where they lie far apart."""
+
+_DOT = 1.5
+"""The least half width of a spheroid in a small picture."""
+
 _POINTS = 16
 """Straight pieces of the meridian in a small picture."""
 
 
 def small_picture(row: Sequence[float]) -> str:
-    """Both bodies of a row of seven numbers near the spheroid, as an element of SVG: our own words and numbers.
+    """The spheroid of a row of seven numbers and the wall beside it, as an element of SVG: our own words and numbers.
 
-    Heights have a scale of their own where the spheroid would be too thin to be seen.
+    Heights have a scale of their own where the spheroid would be too thin to be seen. A spheroid whose centre is more
+    than two radii from the wall is drawn smaller, at least as a dot, so that both are in the picture.
     """
     alpha, gamma, b, d, x, y, z = row
     r = min(math.hypot(x, y), sys.float_info.max)
     wide, tall = min(WIDTH / 4 / b, _STEEPEST), min(HEIGHT / 4 / d, _STEEPEST)
     if max(wide, tall) <= 4 * min(wide, tall):
         wide = tall = min(wide, tall)
+    gap, middle = _limited_gap(alpha * math.hypot(1, z / gamma) - r), 0.0
+    if abs(gap) > 2 * b:
+        low, high = min(-b, gap), max(b, gap)
+        wide = tall = WIDTH * _FILLED / (high - low)
+        middle = (low + high) / 2
+    centre = WIDTH / 2 - middle * wide
     points = []
     for step in range(_POINTS + 1):
         height = z + (step / _POINTS - 0.5) * HEIGHT / tall
-        across = WIDTH / 2 + (alpha * math.hypot(1, height / gamma) - r) * wide
+        across = centre + (alpha * math.hypot(1, height / gamma) - r) * wide
         up = HEIGHT / 2 - (height - z) * tall
         points.append(f"{_limited(across, WIDTH):.2f},{_limited(up, HEIGHT):.2f}")
     wall = " ".join(points)
     drawn = (
         f'<polygon class="inside" points="{wall} {-WIDTH:g},0 {-WIDTH:g},{HEIGHT:g}"/>'
         f'<polyline class="wall" points="{wall}"/>'
-        f'<ellipse class="body" cx="{WIDTH / 2:g}" cy="{HEIGHT / 2:g}" rx="{b * wide:.3g}" ry="{d * tall:.3g}"/>'
+        f'<ellipse class="body" cx="{centre:.4g}" cy="{HEIGHT / 2:g}"'
+        f' rx="{max(b * wide, _DOT):.3g}" ry="{max(min(d * tall, HEIGHT), _DOT):.3g}"/>'
     )
     head = f'<svg class="bodies" viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img" aria-label="{short_row(row)}">'
     return f"{head}{drawn}</svg>"
+
+
+def _limited_gap(gap: float) -> float:
+    return min(max(gap, -_STEEPEST), _STEEPEST)
 
 
 def _limited(place: float, size: float) -> float:

@@ -31,6 +31,7 @@ from hypcheck.report.messages import (
     figure,
     from_hex,
     implementation_claims,
+    pace,
     rows_not_asked,
     settings_facts,
 )
@@ -121,7 +122,7 @@ def _answer_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCa
 
 def _time_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
     for line in record.of(SpeedLine):
-        ratio = "" if line.ratio is None else f"{figure(line.ratio)} times the reference's time, "
+        ratio = "" if line.ratio is None else f"{pace(line.ratio, 'the reference')}, "
         said = f"{ratio}{figure(line.median_ns)} ns"
         yield JunitCase(_name(line), output=(said,))
     for unmeasured in record.of(UnmeasuredLine):

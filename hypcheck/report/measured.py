@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from hypcheck.record import Record
@@ -49,6 +49,11 @@ class MeasuredMethod:
     def tier(self) -> str:
         """The language that it is written in."""
         return self.line.tier
+
+    @property
+    def foreign(self) -> bool:
+        """Whether a SPEC of the user names it."""
+        return self.line.kind == "foreign"
 
     @property
     def exact(self) -> bool:
@@ -199,6 +204,12 @@ def reference(record: Record) -> str | None:
     """The name of the reference method, if the record has one."""
     named = record.header.options.get("reference")
     return None if named is None else str(named)
+
+
+def by_ratio(found: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
+    """The methods that have a ratio there, the fastest first."""
+    ranked = [(ratio, each) for each in found if (ratio := each.ratio(workload, mode)) is not None]
+    return [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
 
 
 def noise_floor(record: Record, workload: str, mode: str) -> float | None:

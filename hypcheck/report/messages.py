@@ -6,6 +6,7 @@ import math
 import shlex
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 from msgspec import UNSET, UnsetType
@@ -56,6 +57,15 @@ def with_interval(value: float, interval: Sequence[float] | None) -> str:
     return figure(value) if interval is None else f"{figure(value)} ({' to '.join(map(figure, interval))})"
 
 
+def pace(ratio: float, other: str) -> str:
+    """A time by that of another method: "24 times as fast as NAME", "takes 3 times as long as NAME"."""
+    return (
+        f"{figure(1 / ratio)} times as fast as {other}"
+        if 0 < ratio < 1
+        else f"takes {figure(ratio)} times as long as {other}"
+    )
+
+
 def from_hex(row: Sequence[str]) -> tuple[float, ...]:
     """The numbers of a row as a record keeps it. Raises InputError where one is beyond float64."""
     try:
@@ -82,20 +92,14 @@ def classify_command(row: Sequence[float]) -> str:
     return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:7]))}{axis}"
 
 
-FAR = 1e-3
-"""From this backward error on, units in the last place say nothing any more."""
-
-
 def error_text(case: WrongAnswer) -> str:
-    """How wrong an answer is: "wrong by 12 u", "wrong by 18 % of each number", "wrong at any distance".
+    """How wrong an answer is, in the unit of the tolerance: "wrong by 12 u", "wrong at any distance".
 
     Of a time, the first contact and the way to it.
     """
     if case.time is UNSET or case.first is UNSET:
         if case.backward_error >= 1:
             return "wrong at any distance"
-        if case.backward_error >= FAR:
-            return f"wrong by {figure(100 * case.backward_error)} % of each number"
         return f"wrong by {figure(case.backward_error_u)} u"
     radii = figure(case.backward_error)
     return f"at {case.time!r}, but the first contact is at {case.first[0]!r}, {radii} radii of the way from there"
@@ -116,8 +120,13 @@ def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
     yield "; ".join(parts)
 
 
-def implementation_claims(line: ImplementationLine | NotStartedLine) -> Iterator[str]:
-    """Sentences without a full stop about an implementation; none about one that did not start."""
+def implementation_claims(
+    line: ImplementationLine | NotStartedLine, rows: Mapping[str, int] = MappingProxyType({})
+) -> Iterator[str]:
+    """Sentences without a full stop about an implementation; none about one that did not start.
+
+    `rows` counts rows that were not asked, by reason.
+    """
     if isinstance(line, NotStartedLine):
         return
     declared, used = line.declared, line.used
@@ -125,9 +134,9 @@ def implementation_claims(line: ImplementationLine | NotStartedLine) -> Iterator
     yield f"declares {description_text(declared)}"
     if changed:
         yield f"judged as {listed([_declared_value(used, name) for name in changed])}, as the options say"
-    left_out = families_not_asked(line)
+    left_out = [text for text in (families_not_asked(line), rows_not_asked(rows)) if text]
     if left_out:
-        yield f"not asked: {left_out}"
+        yield f"not asked: {'; '.join(left_out)}"
     yield from spread(line)
     again, restarts = line.again, line.restarts
     other = again.within + again.beyond

@@ -115,6 +115,15 @@ class ImplementationTotal:
         return dict(sorted(total.items()))
 
     @property
+    def answers(self) -> dict[str, dict[str, int]]:
+        """How often each answer was given, by what is true, then by the answer; empty in records before 1.10.0."""
+        total: dict[str, Counter[str]] = {}
+        for group in self.groups:
+            for truth, counts in (group.answers or {}).items():
+                total.setdefault(truth, Counter()).update(counts)
+        return {truth: dict(counts) for truth, counts in total.items()}
+
+    @property
     def worst(self) -> WrongAnswer | None:
         """The recorded case with the greatest backward error; the first of equals."""
         return worst_case([case for group in self.groups for case in group.worst])

@@ -13,7 +13,14 @@ from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import CauseLine, EquationLine, FindingLine, ProofLine
 from hypcheck.record.measurements import AbsentLine, BoundingLine, CostLine, KernelLine, SpeedLine, UnmeasuredLine
-from hypcheck.report.advice import EVERYWHERE, IN_FLOATS, POSITION, recommendations
+from hypcheck.report.advice import (
+    EVERYWHERE,
+    IN_FLOATS,
+    POSITION,
+    best_rival_facts,
+    own_method_facts,
+    recommendations,
+)
 from hypcheck.report.changes import (
     FASTER,
     SLOWER,
@@ -25,7 +32,15 @@ from hypcheck.report.changes import (
 )
 from hypcheck.report.drawings import ALONE, ReportContext
 from hypcheck.report.formats import WrittenReport
-from hypcheck.report.measured import NEAREST, MeasuredMethod, WayTotal, measured_methods, way_totals, workloads
+from hypcheck.report.measured import (
+    NEAREST,
+    MeasuredMethod,
+    WayTotal,
+    measured_methods,
+    reference,
+    way_totals,
+    workloads,
+)
 from hypcheck.report.messages import (
     UNEXPLAINED,
     Replays,
@@ -34,7 +49,7 @@ from hypcheck.report.messages import (
     figure,
     implementation_claims,
     listed,
-    rows_not_asked,
+    pace,
     settings_facts,
     share_text,
     tolerance_of,
@@ -47,7 +62,9 @@ from hypcheck.report.model import (
     under_test,
     worst_error_u,
 )
+from hypcheck.report.square import aligned, squares
 from hypcheck.report.verdict import failures, verdict
+from hypcheck.runs.judge import Status
 
 
 def oracle_facts(record: Record) -> Iterator[str]:
@@ -86,7 +103,7 @@ def method_facts(record: Record) -> Iterator[str]:
     """For each precision: how many methods err beyond the tolerance, and the greatest backward error."""
     tolerance = tolerance_of(record.header.options)
     beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
-    found = [each for each in implementations(record) if each.asked]
+    found = [each for each in implementations(record) if each.asked and not each.gated]
     for precision in dict.fromkeys(each.precision for each in found if not each.exact):
         methods = [each for each in found if each.precision == precision and not each.exact]
         wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
@@ -137,7 +154,7 @@ def _way_fact(each: WayTotal) -> str:
     missed, false = (figure(100 * each.share(part)) for part in (each.missed, each.false))
     silent = f", {figure(100 * each.share(each.abstained))} % cannot say" if each.abstained else ""
     time = "" if each.time_ns is None else f", {figure(each.time_ns / 1000)} µs a way"
-    ratio = "" if each.ratio is None else f" ({figure(each.ratio)} times the reference's time)"
+    ratio = "" if each.ratio is None else f" ({pace(each.ratio, 'the reference')})"
     wrong = f"{missed} % missed contacts, {false} % false contacts{silent}, of {each.asked:,} ways"
     return f"{each.name}: {wrong}{time}{ratio}"
 
@@ -203,16 +220,17 @@ def summary_lines(
     colour: bool = False,
     width: int | None = None,
 ) -> list[str]:
-    """At most MOST_LINES lines of plain text, and those about causes.
+    """At most MOST_LINES lines of plain text, and those of squares and about causes; the reason of a failure first.
 
     With `colour`, the first is green or red; with `width`, lines are cut to that.
     """
     ended = verdict(record)
     head = click.style(escaped(ended.sentence), fg="green" if ended.passed else "red", bold=True)
     found = [
+        *_failures(record, ended.sentence),
         *settings_facts(record.header.settings),
-        *_failures(record),
         *([] if against is None else _changes(record, against)),
+        *own_method_facts(record),
         *_advice(record),
         *_absent(record),
         *_unmeasured(record),
@@ -224,9 +242,17 @@ def summary_lines(
         *claim_facts(record),
         *benchmark_facts(record),
     ]
-    reports = list(_reports(written))
+    reports = [*_reports(written), *best_rival_facts(record)]
+    drawn = [] if ended.passed else list(_squares(record))
     lines = [*_causes(record), *found[: MOST_LINES - 1 - len(reports)], *reports]
-    return [head if colour else click.unstyle(head), *(_line(line, width) for line in lines)]
+    return [head if colour else click.unstyle(head), *drawn, *(_line(line, width) for line in lines)]
+
+
+def _squares(record: Record) -> Iterator[str]:
+    for block, passing in squares(record):
+        yield from (f"  {line}" for line in aligned(block))
+        if passing:
+            yield f"  {passing}"
 
 
 def _line(text: str, width: int | None) -> str:
@@ -234,8 +260,14 @@ def _line(text: str, width: int | None) -> str:
     return indent + escaped(text, width)
 
 
-def _failures(record: Record) -> Iterator[str]:
-    found = failures(record)
+def _failures(record: Record, said: str) -> Iterator[str]:
+    """The failures that neither the verdict, `said`, nor the causes of wrong answers name."""
+    explained = {line.method for line in record.of(CauseLine)}
+    found = [
+        each
+        for each in failures(record)
+        if each.message not in said and not (each.kind == Status.WRONG.value and each.name in explained)
+    ]
     for each in found[:MOST_FAILURES]:
         named = each.case is None or each.case in each.message
         yield f"  ✗ {each.message}" if named else f"  ✗ {each.case}: {each.message}"
@@ -283,15 +315,12 @@ def _changes(record: Record, against: Record) -> Iterator[str]:
 
 def _under_test(record: Record) -> Iterator[str]:
     """What gated implementations declare, what they were judged as, and what a verdict that is no pass leaves out."""
-    held = verdict(record).passed
     for tested in under_test(record):
-        yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line))
         counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
+        yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line, counts))
         fresh = sum(group.fresh or 0 for group in tested.groups)
-        parts = [counted(fresh, "fresh row")] if fresh else []
-        parts += [f"not asked: {rows_not_asked(counts)}"] if counts else []
-        if parts and not held:
-            yield f"{tested.name}: {'; '.join(parts)}"
+        if fresh:
+            yield f"{tested.name}: {counted(fresh, 'fresh row')}"
 
 
 def _timings(record: Record) -> Iterator[str]:
@@ -302,11 +331,12 @@ def _timings(record: Record) -> Iterator[str]:
 
 def _advice(record: Record) -> Iterator[str]:
     """The advice of a benchmark."""
+    against = reference(record) or "the reference"
     for each in recommendations(record).advice:
         ratio = each.use.ratio(each.workload, each.need.mode) or 0.0
         where = "" if each.need.where == EVERYWHERE else f", {each.need.where}"
         asked = "" if each.need.asked == POSITION else f", {each.need.asked}"
-        yield f"{each.need.what}{where}{asked}: {each.use.name}, {figure(ratio)} times the reference's time"
+        yield f"{each.need.what}{where}{asked}: {each.use.name}, {pace(ratio, against)}"
 
 
 def _absent(record: Record) -> Iterator[str]:

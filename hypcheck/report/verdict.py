@@ -19,7 +19,7 @@ from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, ForestLine, KernelLine, RefusedLine, SceneLine
-from hypcheck.report.measured import MeasuredMethod, measured_methods
+from hypcheck.report.measured import MeasuredMethod, by_ratio, measured_methods, reference, timed_workloads
 from hypcheck.report.messages import (
     Replays,
     classify_command,
@@ -28,6 +28,7 @@ from hypcheck.report.messages import (
     figure,
     from_hex,
     listed,
+    pace,
     rows_not_asked,
     with_interval,
 )
@@ -42,7 +43,7 @@ from hypcheck.report.model import (
     under_test,
     worst_error_u,
 )
-from hypcheck.runs.judge import UNANSWERED, in_words
+from hypcheck.runs.judge import UNANSWERED, Status, in_words
 from hypcheck.runs.judges import judge_of
 
 
@@ -160,6 +161,11 @@ def _method_clauses(record: Record) -> Iterator[str]:
     found = [each for each in measured_methods(record) if each.asked or each.speed]
     if not found:
         return
+    scenes, against = timed_workloads(record), reference(record)
+    best = next(iter(by_ratio([each for each in found if each.never_wrong], scenes[0])), None) if scenes else None
+    ratio = None if best is None else best.ratio(scenes[0])
+    if best is not None and ratio and against and best.name != against:
+        yield f"right on every row and {pace(ratio, against)}: {best.name}"
     timed = sum(bool(each.speed) for each in found)
     workloads = {name for each in found for name in each.accuracy} | {name for each in found for name, _ in each.speed}
     yield f"{counted(len(found), 'method')} compared on {counted(len(workloads), 'workload')}, {timed:,} of them timed"
@@ -321,7 +327,7 @@ def verdict(record: Record) -> Verdict:
         return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_failure_counts(found)}.")
     if code == 0:
         return _passed(record)
-    parts = (MEANINGS[code] if code in EXITS_UNFINISHED else "", _failure_counts(found))
+    parts = (MEANINGS[code] if code in EXITS_UNFINISHED else "", _reasons(record, found))
     reason = "; ".join(filter(None, parts)) or MEANINGS.get(code, "no line of the record says why")
     if code != EXIT_INCONCLUSIVE:
         return Verdict(False, f"FAILED with exit code {code}: {reason}.")
@@ -347,6 +353,38 @@ def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
     if not (unfinished or unexplained or contradictory):
         return None
     return Failure("run", "hypcheck", "ended", "unfinished" if unfinished else "unexplained", ended.sentence)
+
+
+def _reasons(record: Record, found: list[Failure]) -> str:
+    """Why the run failed: what happened to implementations; of others how many failures, or what the only one is."""
+    if len(found) == 1 and found[0].subject in _TELLING and found[0].kind != Status.WRONG.value:
+        return found[0].message
+    tested = [each for each in found if each.subject == "implementation"]
+    said = [*_wrong_clauses(record), *(each.message for each in tested if each.group in _WHOLE)]
+    if tested and said:
+        rest = [f"and {counted(len(said) - _NAMED, 'more reason')}"] if len(said) > _NAMED else []
+        others = _failure_counts([each for each in found if each not in tested])
+        return "; ".join([*said[:_NAMED], *rest, *([others] if others else [])])
+    return found[0].message if len(found) == 1 and found[0].subject in _TELLING else _failure_counts(found)
+
+
+_TELLING = ("implementation", "findings", "measurement")
+"""Subjects of failures whose message says in one sentence what happened."""
+
+_WHOLE = ("start", "all families")
+"""Groups of failures of an implementation as a whole."""
+
+
+def _wrong_clauses(record: Record) -> Iterator[str]:
+    """Of each implementation under test, how many cases of those asked ended in each way that fails the run."""
+    for each in implementations(record):
+        ended = sum(
+            (Counter({status: group.counts.get(status, 0) for status in group.failing or ()}) for group in each.groups),
+            Counter(),
+        )
+        counts = [f"{number:,} {status}" for status, number in in_order(ended).items()]
+        if each.gated and counts:
+            yield f"{each.name}: {', '.join(counts)} of {counted(each.asked, 'case')}"
 
 
 def _failure_counts(found: list[Failure]) -> str:

@@ -14,6 +14,7 @@ from hypcheck.implementations.description import Description
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.not_asked import too_few
 from hypcheck.implementations.session import StartError
+from hypcheck.messages import counted
 from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
@@ -254,14 +255,15 @@ class ImplementationLines:
 
     def _troubles(self, total: CasesResult, groups: Sequence[GroupLine], *, finished: bool) -> Iterator[str]:
         """Reasons why the implementation fails as a whole, not in one family."""
-        if finished and not any(group.judged for group in groups):
+        nothing_judged = finished and not any(group.judged for group in groups)
+        if nothing_judged:
             asked = sum(line.asked for line in groups)
             why = f"it abstained from all {asked:,} cases" if asked else "it was asked none of them"
             yield f"no case of {self.used.name} was judged: {why}"
         abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups)
-        if abstained > self.plan.max_abstained:
-            allowed = f"at most {self.plan.max_abstained} are allowed"
-            yield f"{self.used.name} abstained from {abstained} cases; {allowed}"
+        if abstained > self.plan.max_abstained and not nothing_judged:
+            allowed = f"at most {self.plan.max_abstained:,} are allowed"
+            yield f"{self.used.name} abstained from {counted(abstained, 'case')}; {allowed}"
         if self.plan.deterministic and total.retest.within:
             changed = f"changed {total.retest.within} answers within the tolerance"
             yield f"{self.used.name} {changed} when asked again"

@@ -196,8 +196,10 @@ def _of_sums(
     skipped = counts[Status.SKIPPED.value]
     asked = sums.asked == sum(counts.values()) - skipped and (sums.fresh or 0) <= sums.asked
     asked = asked and (sums.not_asked is UNSET or sum(sums.not_asked.values()) == skipped)
+    answers = [number for row in (sums.answers or {}).values() for number in row.values()]
+    asked = asked and (not answers or sum(answers) == sums.asked) and min(answers, default=0) >= 0
     if family in INVALID_CONTENTS:
-        agree = not (sums.mistakes or exponents or any(bins) or sums.worst)
+        agree = not (sums.mistakes or answers or exponents or any(bins) or sums.worst)
     else:
         measured: Counter[str] = Counter()
         for counted in exponents.values():

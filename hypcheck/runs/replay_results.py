@@ -119,8 +119,8 @@ _LABEL = 12
 _FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
 
 
-def replay_lines(done: Replay) -> Iterator[str]:
-    """The whole replay, line by line."""
+def replay_lines(done: Replay, *, values: bool = True) -> Iterator[str]:
+    """The whole replay, line by line; without `values`, only a formula that SPEC itself evaluates is shown."""
     case = done.case
     yield from _titled("case", case.name)
     for name, value in zip(done.used.asked.layout.columns(len(case.row)), case.row, strict=True):
@@ -139,7 +139,12 @@ def replay_lines(done: Replay) -> Iterator[str]:
         yield from _cause_lines(cause, done.used.language)
     if done.choice is not None and isinstance(done.truth, ProvedTruth):
         yield ""
-        yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
+        if values or done.choice.own or done.choice.comparison is None:
+            yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
+        else:
+            yield from _titled(
+                "values", f"--values shows those of {done.choice.comparison.formula.name}, {done.choice.why}"
+            )
 
 
 def _way_lines(truth: Passage, row: Row) -> Iterator[str]:

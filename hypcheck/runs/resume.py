@@ -297,6 +297,7 @@ def _saved_tally(tally: Tally, layout: Layout) -> SavedTally:
         denied=dict(tally.diagnosis.denied),
         fresh=tally.fresh,
         not_asked=dict(tally.not_asked),
+        answers={truth: dict(counts) for truth, counts in tally.answers.items()},
     )
 
 
@@ -307,6 +308,7 @@ def _restored_tally(content: SavedTally) -> Tally:
         not_asked=content.not_asked,
         counts=content.counts,
         mistakes=content.mistakes,
+        answers=content.answers,
         dangerous=content.dangerous,
         exponents=content.octaves,
         size_bins=Histogram.of_lists(content.size_bins),

@@ -16,7 +16,7 @@ import numpy as np
 from msgspec import UNSET, UnsetType
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Layout, Mask, Rows
+from hypcheck.geometry.rows import Layout, Mask, Positions, Rows
 from hypcheck.record import lines
 from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.lines import GroupLine
@@ -188,7 +188,8 @@ class Tally:
 
     `asked` does not include skipped rows, of which `not_asked` counts the reasons (implementations.not_asked.ROWS).
     `fresh` of those asked are rows that nobody knew before. `counts` are by status, SKIPPED included. `mistakes` count
-    wrong and tolerated answers by kind. `dangerous` counts answers that claim clear in contact, beyond the tolerance
+    wrong and tolerated answers by kind. `answers` count answers by what is true and by what was answered, as in the
+    record's line. `dangerous` counts answers that claim clear in contact, beyond the tolerance
     and not excused. `exponents` count statuses by floor(log2) of the cases' distance to the nearest other position.
     `size_bins` and `place_bins` are histograms over sizes and places. `worst` are the worst cases, the worst first, and
     `unanswered` the first cases without a valid answer, by place. `diagnosis` says which causes explain wrong answers,
@@ -200,6 +201,7 @@ class Tally:
     not_asked: Mapping[str, int] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
     mistakes: Mapping[str, int] = field(default_factory=dict)
+    answers: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     dangerous: int = 0
     exponents: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     size_bins: Histogram = field(default_factory=Histogram)
@@ -212,18 +214,15 @@ class Tally:
 def merged_tally(tallies: Iterable[Tally]) -> Tally:
     """The tally of all cases of these tallies, which may come in any order."""
     parts = tuple(tallies)
-    exponents: dict[str, Mapping[str, int]] = {}
-    for part in parts:
-        for key, counts in part.exponents.items():
-            exponents[key] = _added((exponents.get(key, {}), counts))
     return Tally(
         asked=sum(part.asked for part in parts),
         fresh=sum(part.fresh for part in parts),
         not_asked=_added(part.not_asked for part in parts),
         counts=_added(part.counts for part in parts),
         mistakes=_added(part.mistakes for part in parts),
+        answers=_added_tables(part.answers for part in parts),
         dangerous=sum(part.dangerous for part in parts),
-        exponents=exponents,
+        exponents=_added_tables(part.exponents for part in parts),
         size_bins=added(part.size_bins for part in parts),
         place_bins=added(part.place_bins for part in parts),
         worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
@@ -257,6 +256,9 @@ def group_line(
         not_asked=dict(sorted(tallied.not_asked.items())),
         counts=dict(sorted(tallied.counts.items())),
         mistakes=dict(sorted(tallied.mistakes.items())),
+        answers=UNSET
+        if failing is UNSET or not tallied.answers
+        else {truth: dict(sorted(counts.items())) for truth, counts in sorted(tallied.answers.items())},
         octaves={key: dict(sorted(tallied.exponents[key].items())) for key in sorted(tallied.exponents, key=float)},
         size_bins=tallied.size_bins.as_lists(),
         place_bins=tallied.place_bins.as_lists(),
@@ -282,6 +284,30 @@ def _added(parts: Iterable[Mapping[str, int]]) -> Mapping[str, int]:
     for part in parts:
         total.update(part)
     return dict(total)
+
+
+def _added_tables(parts: Iterable[Mapping[str, Mapping[str, int]]]) -> Mapping[str, Mapping[str, int]]:
+    total: dict[str, Mapping[str, int]] = {}
+    for part in parts:
+        for key, counts in part.items():
+            total[key] = _added((total.get(key, {}), counts))
+    return total
+
+
+_ANSWERS = ("-1", "0", "1", "2", "none")
+"""The answers of the record, in the order of their columns in answer_counts."""
+
+
+def answer_counts(truth: Positions, answers: NDArray[np.int8], answered: Mask) -> dict[str, dict[str, int]]:
+    """The number of rows by what is true (n,) and by what was answered (n,); "none" where `answered` (n,) is false."""
+    columns = np.where(answered, answers + 1, len(_ANSWERS) - 1)
+    counts = np.bincount((truth.astype(np.int64) + 1) * len(_ANSWERS) + columns, minlength=3 * len(_ANSWERS))
+    table = counts.reshape(3, len(_ANSWERS)).tolist()
+    by_truth = {
+        str(number): {name: cases for name, cases in zip(_ANSWERS, row, strict=True) if cases}
+        for number, row in zip((-1, 0, 1), table, strict=True)
+    }
+    return {number: row for number, row in by_truth.items() if row}
 
 
 def counts_of(status: StatusCodes) -> dict[str, int]:

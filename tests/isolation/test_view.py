@@ -180,9 +180,10 @@ def test_checkout_of_an_action_and_what_was_built_beside_this_package_are_hidden
 def test_run_says_first_what_see_shows_and_lists_it_as_weaker(project, capsys, text_reports):
     spec = f"command:{sys.executable} -I -S -c pass"
     assert main(["verify", spec, "--see", "../beside", "--see", "build", "--out", "out"]) == 5
-    first, second, *_ = capsys.readouterr().err.splitlines()
+    said = capsys.readouterr()
+    first, second = said.err.splitlines()[0], said.out.splitlines()[1]
     assert f"; --see shows it {project / 'beside'}, {project / 'project/build'}; " in first
-    assert second == "hypcheck: weaker than the default: --see ../beside, build, not nothing (command line)"
+    assert second == "weaker than the default: --see ../beside, build, not nothing (command line)"
     assert main(["verify", spec, "--see", "nowhere", "--out", "out"]) == 2
     assert "--see is 'nowhere', which is not there; it must be a file or folder" in capsys.readouterr().err
 

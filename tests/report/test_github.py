@@ -111,7 +111,7 @@ def test_a_failing_run_on_github_prints_annotations_and_writes_the_step_summary(
     token = stop.removeprefix("::stop-commands::")
     assert re.fullmatch("[0-9a-f]{32}", token)
     end = rest.index(f"::{token}::")
-    assert any("ended as wrong" in line for line in rest[:end])
+    assert any(" wrong of " in line for line in rest[:end])
     assert [line.startswith("::error title=hypcheck%3A table-2-float64%2C ring::") for line in rest[end + 1 :]] == [
         True
     ]

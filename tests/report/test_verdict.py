@@ -46,10 +46,17 @@ def test_run_without_failures_has_passed(record, sentence):
     [
         (DISAGREEMENT, 6, "1 disagreement of oracles"),
         (UNPROVED, 6, "1 failed proof"),
-        (EXACT_WRONG, 1, "1 implementation failure"),
-        (EXACT_ABSTAINS, 1, "1 implementation failure"),
-        (CRASHED, 1, "1 implementation failure"),
-        (DRIFT, 1, "1 drift from what is known"),
+        (
+            EXACT_WRONG,
+            1,
+            (
+                "fast promises to be exact, but 1 of 5 cases ended as wrong;"
+                " tangent/1/1/0 is contact; answered: exterior (false-clear, wrong by 0 u)"
+            ),
+        ),
+        (EXACT_ABSTAINS, 1, "fast promises to be exact, but 2 of 5 cases ended as abstained"),
+        (CRASHED, 1, "theirs: 2 of 5 cases ended as crash"),
+        (DRIFT, 1, "table-2 errs on uniform inside its stated regimes; see uniform/1/1/4"),
     ],
 )
 def test_each_failure_alone_fails_the_run(line, code, says):
@@ -90,7 +97,11 @@ UNMEASURED = [line for line in bench_lines.lines() if line["type"] != "compariso
 @pytest.mark.parametrize(
     ("body", "code", "sentence"),
     [
-        (changed("comparison", verdict="slower", change=1.4), 3, "FAILED with exit code 3: 1 failed measurement."),
+        (
+            changed("comparison", verdict="slower", change=1.4),
+            3,
+            "FAILED with exit code 3: fast is slower than the baseline allows (uniform, batch): 1.4 (",
+        ),
         (
             changed("comparison", verdict="inconclusive"),
             4,

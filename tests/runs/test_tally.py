@@ -61,6 +61,17 @@ def tallied(rows, start=0, stop=None):
     return scored.tally(Numbered(), numbers, exponents, left_out={"precision": 3})
 
 
+def test_answers_are_counted_by_what_is_true_and_by_what_was_answered():
+    truth = np.array([1, 1, 0, 0, -1, -1], dtype=np.int8)
+    answers = np.array([1, 0, 0, CANNOT_SAY, -1, CANNOT_SAY], dtype=np.int8)
+    answered = np.array([True, True, True, True, True, False])
+    assert tally.answer_counts(truth, answers, answered) == {
+        "1": {"0": 1, "1": 1},
+        "0": {"0": 1, "2": 1},
+        "-1": {"-1": 1, "none": 1},
+    }
+
+
 def test_histogram_bins_equal_the_counts_of_a_plain_loop():
     rng = np.random.default_rng(4)
     rows = 2.0 ** rng.uniform(-9, 9, (500, 7))

@@ -1,7 +1,7 @@
 """Error against run time: how near to contact a method is reliable, its cost, and the front that no other method beats.
 
-Of methods for ways, the share of missed and of false contacts stands in place of the distance. Names stand beside
-points if they cover neither each other nor a point; the other points have only tooltips.
+Of methods for ways, the share of missed and of false contacts stands in place of the distance. The methods of
+the front and those of the user have names; the other points have tooltips.
 """
 
 from __future__ import annotations
@@ -209,6 +209,12 @@ class ParetoPoint:
     reliable_above: float
     asked: int
     exact: bool
+    foreign: bool = False
+
+    @property
+    def label(self) -> str:
+        """Its name beside the mark; those of the user are marked."""
+        return escaped(self.name, 28) + " (yours)" * self.foreign
 
     @property
     def shown(self) -> bool:
@@ -233,7 +239,8 @@ def points(record: Record, workload: str, *, everywhere: bool = False) -> list[P
             continue
         errors = each if everywhere else here
         reliable_above, time_ns = errors.reliable_above, speed.median_ns
-        found.append(ParetoPoint(each.name, each.tier, time_ns, reliable_above, errors.asked, each.exact))
+        place = (time_ns, reliable_above, errors.asked)
+        found.append(ParetoPoint(each.name, each.tier, *place, each.exact, each.foreign))
     return found
 
 
@@ -273,7 +280,10 @@ def front_plots(record: Record) -> Iterator[Plot]:
 
 
 def _plot(name: str, title: str, found: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> Plot:
-    """A plot with names along the front, or, if `timed` names the workload of the times, with all names."""
+    """A plot with names along the front and of the user's methods, or with all if they are few; others have tooltips.
+
+    `timed` names the workload of the times if the title does not.
+    """
     drawn = new_figure(WIDTH, height)
     axes = drawn.subplots()
     best = front(found)
@@ -289,13 +299,17 @@ def _plot(name: str, title: str, found: Sequence[ParetoPoint], height: float = 3
     ]
     tips = _draw_methods(axes, name, marks)
     _legend(drawn, marks, Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label=_UNBEATEN))
-    important = sorted(found, key=lambda point: (point not in best, point.time_ns))
-    names = [escaped(point.name, 28) if timed or point in best else None for point in important]
+    important = sorted(found, key=lambda point: (not point.foreign, point not in best, point.time_ns))
+    first = sum(point.foreign or point in best for point in found)
+    names = [point.label if place < first or len(found) <= _FEW else None for place, point in enumerate(important)]
     places = [(point.time_ns, heights[point.reliable_above]) for point in important]
-    place_labels(axes, places, names, steps, len(best))
+    place_labels(axes, places, names, steps, first)
     said = f"The front, from the fastest: {'; '.join(point.tip for point in best)}."
     return Plot(name, title, said, drawn, tips)
 
+
+_FEW = 10
+"""So many methods all have their names."""
 
 _UNBEATEN = "no method is faster and more reliable"
 
@@ -317,7 +331,7 @@ def _axes(axes: Axes, found: Sequence[ParetoPoint], timed: str) -> dict[float, f
         axes.axhspan(always - 0.05 * span, always + 0.06 * span, color=colour("rule"), alpha=0.45, linewidth=0)
     axes.set_yticks([height for height, _ in ticks], [label for _, label in ticks])
     axes.set_ylim(ticks[0][0] - 0.08 * span, ticks[-1][0] + 0.08 * span)
-    axes.set_ylabel("at most 1 in 1000 wrong above this distance")
+    axes.set_ylabel("errors end at this distance to contact (relative)")
     times = [point.time_ns for point in found]
     least, most = min(times) / 2, max(times) * 3
     log_axis(axes, "x", least, most)

@@ -59,7 +59,7 @@ def refused(out, capsys, *more):
         (lambda lines: lines[0]["options"].update(seed=2), "--seed was 2, and is 1 now"),
         (lambda lines: lines[0]["options"].update(families=["ring"]), '--families was ["ring"], and is'),
         (lambda lines: lines[0]["options"].update(specs=["builtin:fast"]), 'specs was ["builtin:fast"], and is'),
-        (lambda lines: lines[0].update(schema="1.2.0"), 'schema was "1.2.0", and is "1.9.0" now'),
+        (lambda lines: lines[0].update(schema="1.2.0"), 'schema was "1.2.0", and is "1.10.0" now'),
         (lambda lines: lines[0].update(schema="2.0.0"), "has schema 2.0.0; this program reads 1.x"),
         (lambda lines: lines[0].update(hypcheck="0.0.1"), 'hypcheck was "0.0.1", and is'),
         (lambda lines: lines[0]["versions"].update(numpy="1.0"), 'numpy was "1.0", and is'),
