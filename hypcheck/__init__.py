@@ -24,7 +24,8 @@ from hypcheck.float_environment import in_default_environment
 if TYPE_CHECKING:
     from hypcheck.errors import InputError
     from hypcheck.kernel.classify import Prepared, classify, classify_scene
-    from hypcheck.kernel.clearance import Clearance, clearance
+    from hypcheck.kernel.clearance import clearance
+    from hypcheck.kernel.clearance_bounds import Clearance
     from hypcheck.kernel.passage import passage
     from hypcheck.kernel.passages import Passages
     from hypcheck.kernel.scalar import position
@@ -61,7 +62,7 @@ __all__ = [
 
 _HOMES = {
     "__version__": ("hypcheck.version", "VERSION"),
-    "Clearance": ("hypcheck.kernel.clearance", "Clearance"),
+    "Clearance": ("hypcheck.kernel.clearance_bounds", "Clearance"),
     "FirstContact": ("hypcheck.kernel.scene_flights", "FirstContact"),
     "Hyperboloid": ("hypcheck.scene.model", "Hyperboloid"),
     "InputError": ("hypcheck.errors", "InputError"),

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, HEIGHTS, SIZES
-from hypcheck.geometry.rows import PAIRS, Rows, as_numbers, as_rows, names_of
+from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, HEIGHTS, SIZES, trouble_with_row
+from hypcheck.geometry.rows import PAIRS, Rows, as_numbers, as_rows, names_of, require_valid
 from hypcheck.messages import counted
 
 Argument: TypeAlias = Any
@@ -62,6 +62,13 @@ class Pairs:
         if self.given is not None:
             return self.given
         return as_rows(self.columns, tilted=True, heights=True)
+
+    def require_valid(self, rows: Rows) -> None:
+        """Raise InputError about the first invalid of these rows; one pair alone has no index."""
+        trouble = trouble_with_row(rows[0].tolist()) if self.single else None
+        if trouble is not None:
+            raise InputError(trouble)
+        require_valid(rows)
 
 
 def pairs_of(

@@ -39,7 +39,7 @@ from hypcheck.geometry.pair import COLUMNS, UPRIGHT, Axis, Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Mask, Positions, Rows
 from hypcheck.implementations.method import Answers, ByColumns
 from hypcheck.kernel import numpy_kernel
-from hypcheck.kernel.classify import kernel
+from hypcheck.kernel.in_use import kernel
 
 AnyFloats = NDArray[Any]
 

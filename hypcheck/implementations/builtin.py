@@ -26,7 +26,7 @@ from hypcheck.implementations.method import Answers, Method, by_rows, on_rows
 from hypcheck.implementations.ways import WAY_SOLVERS, WaySolver, hits_and_times
 from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.choice import choice
-from hypcheck.kernel.classify import kernel
+from hypcheck.kernel.in_use import kernel
 from hypcheck.messages import suggestion
 from hypcheck.truth import exact, nearest_rows
 from hypcheck.version import VERSION

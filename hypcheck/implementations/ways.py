@@ -40,7 +40,7 @@ from hypcheck.geometry.pair import COLUMNS, Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
 from hypcheck.implementations.meshes import COAL, FCL, LARGEST, MeshGrid, MeshLibrary, grid_of, rows_by_sizes
 from hypcheck.implementations.method import Answers
-from hypcheck.kernel.classify import kernel
+from hypcheck.kernel.in_use import kernel
 from hypcheck.truth.mesh import Triangles, Vertices, fcl_module, mesh_object
 from hypcheck.truth.passage_error import scaled_passage
 

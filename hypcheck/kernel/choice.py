@@ -14,6 +14,7 @@ import os
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
+from operator import index
 from types import ModuleType
 from typing import Literal
 
@@ -92,3 +93,20 @@ NUMBER_OF = {question: number for number, question in enumerate(QUESTIONS)}
 
 POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 """The position to which a question is answered yes."""
+
+
+def required(question: str, threads: int | None, on_invalid: str) -> int | None:
+    """The number of threads, when all three make sense."""
+    if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
+        raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
+    if question not in QUESTIONS:
+        raise InputError(f"question is {question!r}; it must be one of {', '.join(QUESTIONS)}")
+    if threads is None:
+        return None
+    try:
+        number = 0 if isinstance(threads, bool) else index(threads)
+    except TypeError:
+        number = 0
+    if number < 1:
+        raise InputError(f"threads is {threads!r}; it must be a whole number greater than 0")
+    return number

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import InitVar, dataclass, field
-from functools import cache
-from operator import index
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Answers, Argument, Pairs, named_points, pairs_of
+from hypcheck.geometry.forms import Answers, Argument, named_points, pairs_of
 from hypcheck.geometry.pair import (
     AXIS,
     CENTER,
@@ -30,73 +28,18 @@ from hypcheck.geometry.rows import (
     Columns,
     Floats,
     Positions,
-    Rows,
     as_columns,
     as_numbers,
     as_rows,
     require_valid,
     tilted_rows,
 )
-from hypcheck.kernel.choice import Question, choice
+from hypcheck.kernel.choice import Question, required
+from hypcheck.kernel.in_use import kernel, positions_of_rows
 from hypcheck.messages import escaped
-from hypcheck.scene.model import QUESTIONS
 
 ROWS_AT_A_TIME = 1 << 22
 """Rows that are made at a time of centres with an axis each: some 300 MB, and work for four threads."""
-
-
-class Kernel(Protocol):
-    """What a module that answers has. The first two return answers, 127 for invalid rows, and how many those are."""
-
-    def fill_valid_scene(
-        self, sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
-    ) -> bool:
-        """Whether all centres of contiguous columns are valid: then `out`, contiguous and apart, has positions.
-
-        False, and no output, also where a kernel gains nothing by it.
-        """
-
-    def prepared(self, sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
-        """What is kept of valid sizes, a valid axis and centres like those to come; of no meaning elsewhere."""
-
-    def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
-        """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
-
-    def answer_scene(
-        self,
-        sizes: Sizes,
-        columns: Columns,
-        question: Question,
-        threads: int | None = None,
-        axis: Axis | None = None,
-    ) -> tuple[Positions, int]:
-        """Answers for valid sizes and the centres of three columns; None is upright, an invalid axis answers 127."""
-
-    def answer_ways(self, rows: Rows) -> tuple[Positions, Floats]:
-        """Contact on straight ways, C-contiguous rows (n, 10), (n, 13) or (n, 16) as geometry.rows.WAYS has them.
-
-        Hits, int8 (n,): 1 and 0 are exact, 2 is said where bounds do not tell, 127 of an invalid row. Times, float64
-        (n,): no contact comes before them; NaN where there is no hit, or where bounds do not tell when.
-        """
-
-    def answer_ended(self, rows: Rows, threads: int | None = None) -> Positions:
-        """Exact positions for C-contiguous rows (n, 13); 2 where bounds do not tell, 127 of an invalid row."""
-
-
-def kernel() -> Kernel:
-    """The module that choice() names. Raises InputError where the environment asks for one that is not there."""
-    return _kernel_named(choice().kernel)
-
-
-@cache
-def _kernel_named(name: str) -> Kernel:
-    if name == "compiled":
-        from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
-
-        return compiled_kernel
-    from hypcheck.kernel import numpy_kernel  # noqa: PLC0415 - the compiled kernel does without
-
-    return numpy_kernel
 
 
 @dataclass(frozen=True)
@@ -188,20 +131,12 @@ def classify(
     _require_fitting(out, len(queries))
     result, refused = positions_of_rows(queries, question if not margin else "position", number)
     if refused and on_invalid == "raise":
-        require_valid_pairs(queries, asked)
+        asked.require_valid(queries)
     if margin:
         from hypcheck.kernel.margins import with_margin  # noqa: PLC0415 - a margin alone needs it
 
         result = with_margin(queries, result, margin, question, number)
     return int(result[0]) if asked.single else _into(out, result)
-
-
-def require_valid_pairs(queries: Rows, asked: Pairs) -> None:
-    """Raise InputError about an invalid row; one pair alone has no index."""
-    trouble = trouble_with_row(queries[0].tolist()) if asked.single else None
-    if trouble is not None:
-        raise InputError(trouble)
-    require_valid(queries)
 
 
 def _of_scene(
@@ -223,15 +158,6 @@ def _of_scene(
     return classify_scene(
         _sizes(sizes), x, y, z, out, axis=axis or None, on_invalid=marked, question=question, threads=threads
     )
-
-
-def positions_of_rows(queries: Rows, question: Question, threads: int | None) -> tuple[Positions, int]:
-    """Answers for C-contiguous rows of any width, 127 for invalid ones, and how many these are."""
-    if not PAIRS.end(queries):
-        return kernel().answer_rows(queries, question, threads)
-    from hypcheck.kernel.ended import answer_ended_rows  # noqa: PLC0415 - rows with heights alone need it
-
-    return answer_ended_rows(queries, question, threads)
 
 
 @in_default_environment
@@ -336,23 +262,6 @@ def _one_axis(numbers: Floats, on_invalid: str) -> Axis:
     if trouble is not None and on_invalid == "raise":
         raise InputError(trouble)
     return vx, vy, vz
-
-
-def required(question: str, threads: int | None, on_invalid: str) -> int | None:
-    """The number of threads, when all three make sense."""
-    if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
-        raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
-    if question not in QUESTIONS:
-        raise InputError(f"question is {question!r}; it must be one of {', '.join(QUESTIONS)}")
-    if threads is None:
-        return None
-    try:
-        number = 0 if isinstance(threads, bool) else index(threads)
-    except TypeError:
-        number = 0
-    if number < 1:
-        raise InputError(f"threads is {threads!r}; it must be a whole number greater than 0")
-    return number
 
 
 def _sizes(sizes: Sizes) -> Sizes:

@@ -1,9 +1,9 @@
 """Positions with a margin: what is not proved to be at least so far away is contact.
 
 Two proofs are tried. The spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ)) contains all points
-within δ of the given one, for any v > 0 (clearance.py says why): if it is clear, so is the given one, on the same side,
-and its distance is at least δ. Here v is b, for which the wider semi-axis is b + δ. What that leaves is decided by the
-distance's lower bound. _OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
+within δ of the given one, for any v > 0 (clearance_bounds.py says why): if it is clear, so is the given one, on the
+same side, and its distance is at least δ. Here v is b, for which the wider semi-axis is b + δ. What that leaves is
+decided by the distance's lower bound. _OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import REFUSED, trouble_with
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.kernel.choice import POSITION_OF, Question
-from hypcheck.kernel.classify import positions_of_rows
 from hypcheck.kernel.clearance import clearances
+from hypcheck.kernel.in_use import positions_of_rows
 
 _OUTWARD = 1 + 2.0**-48
 _RANGE = (2.0**-300, 2.0**300)

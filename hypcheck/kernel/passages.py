@@ -31,7 +31,7 @@ from hypcheck.geometry.rows import (
     names_of,
     require_valid,
 )
-from hypcheck.kernel.classify import kernel
+from hypcheck.kernel.in_use import kernel
 from hypcheck.truth import swept
 from hypcheck.truth.rationals import rounded_toward
 

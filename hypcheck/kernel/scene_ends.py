@@ -30,7 +30,7 @@ import numpy as np
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Position
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows
-from hypcheck.kernel.classify import kernel
+from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.scene_index import Bodies
 from hypcheck.kernel.scene_pairs import (
     GREATEST,

@@ -12,8 +12,9 @@ from math import inf
 
 import numpy as np
 
-from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.pair import Pair, Sizes
 from hypcheck.geometry.rows import Floats
+from hypcheck.kernel import integers
 from hypcheck.kernel.printed import scalars
 from hypcheck.kernel.programs.lines import (
     CAP,
@@ -30,7 +31,6 @@ from hypcheck.kernel.programs.lines import (
     LESS,
     SIDES,
 )
-from hypcheck.kernel.scalar import exact_position
 
 Line = tuple[float, float]
 """K and M: of the line K + M T."""
@@ -186,7 +186,7 @@ def _known_point(sizes: Sizes, height: float, side: int) -> KnownPlace | None:
         return None
     for step in STEPS:
         x = shortened(sizes[2] * math.sqrt(max(edge * (1 - side * step), 0.0)), up=side < 0)
-        if exact_position(*sizes, x, 0.0, height) != side:
+        if integers.position(Pair.from_row((*sizes, x, 0.0, height)).lengths) != side:
             return KnownPlace(height * height, x * x)
     return None
 

@@ -1,6 +1,6 @@
 """Which hyperboloid of a scene is nearest to the mover: distances of pairs between proved numbers, and the least.
 
-A pair's distance is that of clearance.py for the rounded offset from the hyperboloid's centre to the mover's; each
+A pair's distance is that of clearance() for the rounded offset from the hyperboloid's centre to the mover's; each
 coordinate of the offset is rounded by u of its size at most, which _ROUNDED of their sum holds. If one of two bodies is
 moved, their distance changes by no more than that. Whether a pair is in contact is decided from the exact offset, as
 Scene.position decides it: the upper bound is 0 in contact, and only there.

@@ -22,7 +22,8 @@ import numpy as np
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.kernel.classify import classify, kernel
+from hypcheck.kernel.classify import classify
+from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.scene_ends import meets_for_sure
 from hypcheck.kernel.scene_frames import TURNING, frames_of, turned, turned_axes
 from hypcheck.kernel.scene_index import Bodies

@@ -15,7 +15,7 @@ from types import ModuleType
 from typing import Any
 
 from hypcheck.errors import InputError, UnavailableError, system_reason
-from hypcheck.kernel.classify import kernel
+from hypcheck.kernel.in_use import kernel
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.reader import FILE, GROWING

@@ -7,7 +7,7 @@ import pytest
 
 import hypcheck
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import clearance
+from hypcheck.kernel import clearance_bounds
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.support.inside import clearances
 from tests.support.inside import kernel_choice as choice
@@ -76,7 +76,7 @@ def test_clearance_scales_only_extreme_rows_and_only_by_exact_powers_of_two():
     rows = np.array([row, np.ldexp(row, 990), np.ldexp(row, -1000), row, row])
     rows[3, 2] = 1e-310
     rows[4, 0], rows[4, 2] = 1e300, 1e-310
-    scaled, shift = clearance.scaled(rows)
+    scaled, shift = clearance_bounds.scaled(rows)
     assert (np.ldexp(scaled, -shift[:, None]) == rows).all()
     assert shift[0] == 0
     assert (scaled[1] == scaled[2]).all()

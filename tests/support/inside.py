@@ -18,7 +18,7 @@ from hypcheck.kernel.choice import (
     compiled,
     most_threads,
 )
-from hypcheck.kernel.classify import classify, kernel
+from hypcheck.kernel.classify import classify
 from hypcheck.kernel.compiled_kernel import answer_ways
 from hypcheck.kernel.core import HEADER, generate
 from hypcheck.kernel.core.generate import TARGET, header
@@ -33,6 +33,7 @@ from hypcheck.kernel.emission.plan_text import (
     printed_operations,
 )
 from hypcheck.kernel.emission.whole import whole, whole_plan
+from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.integers import position as integers_position
 from hypcheck.kernel.numpy_kernel import Buffers, chunks, positions_of_scene
 from hypcheck.kernel.numpy_kernel import answer_ways as numpy_kernel_answer_ways

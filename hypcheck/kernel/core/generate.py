@@ -15,7 +15,7 @@ from pathlib import Path
 
 from hypcheck.derivation.program import Program, Step, needed
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
-from hypcheck.kernel import clearance
+from hypcheck.kernel import clearance_bounds
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
 from hypcheck.kernel.programs import certified, fixed, lines, tilted
 from hypcheck.kernel.programs.integers import (
@@ -46,7 +46,7 @@ CONSTANTS = {
     "greatest_size": lines.GREATEST_SIZE,
     "least_height": 2.0**-150,
     "greatest_height": 2.0**150,
-    **clearance.CONSTANTS,
+    **clearance_bounds.CONSTANTS,
 }
 QUESTIONS = {
     "position": {"plus": "exterior", "minus": "interior", "decided": "decided"},

@@ -1,9 +1,8 @@
-"""Rows (n, 13), whose hyperboloids end: what the kernel's bounds tell, and the rest in exact integers.
+"""Clearances beside hyperboloids that end, rows (n, 13), enclosed by exact decisions of truth/ends.py.
 
-The rest is decided by truth/ends.py, the only exact decision about ends that there is. Clearances are enclosed by it
-too: a spheroid scaled about its centre by 1 + clearance just touches wall, rim or disc. Let c be the clearance of a
-clear pair. Whatever is nearer than c min(b, d) lies in the scaled spheroid, and the point that it touches is
-c max(b, d) from the spheroid at most: the distance lies between, and of a sphere it is known.
+A spheroid scaled about its centre by 1 + clearance just touches wall, rim or disc. Let c be the clearance of a clear
+pair. Whatever is nearer than c min(b, d) lies in the scaled spheroid, and the point that it touches is c max(b, d) from
+the spheroid at most: the distance lies between, and of a sphere it is known.
 """
 
 from __future__ import annotations
@@ -13,25 +12,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Lengths, Pair, Position
-from hypcheck.geometry.rows import CANNOT_SAY, Indices, Positions, Rows, invalid
-from hypcheck.kernel.choice import Question
-from hypcheck.kernel.classify import kernel
-from hypcheck.kernel.clearance import Clearance, clearances
+from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position
+from hypcheck.geometry.rows import Indices, Rows, invalid
+from hypcheck.kernel.clearance_bounds import Clearance, clearances_without_ends
 from hypcheck.kernel.scene_gaps import gaps
 from hypcheck.truth import ended_clearance, exact, least
 from hypcheck.truth.rationals import rounded_toward
-
-
-def answer_ended_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
-    """Answers for C-contiguous rows (n, 13) as kernel().answer_rows has them: 127 for invalid rows, and how many."""
-    positions = kernel().answer_ended(rows, threads)
-    for index in np.flatnonzero(positions == CANNOT_SAY).tolist():
-        positions[index] = exact.position(Lengths.of(rows[index].tolist()))
-    refused = positions == REFUSED
-    if question != "position":
-        positions = np.where(refused, REFUSED, positions == Position[question.upper()]).astype(np.int8)
-    return positions, int(refused.sum())
 
 
 def ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
@@ -41,7 +27,7 @@ def ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
     `nearest` where no shorter gap was measured. Nothing is proved of their error.
     Invalid rows are left as rows of which nothing is known.
     """
-    found = replace(clearances(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), threads), rows=rows)
+    found = replace(clearances_without_ends(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), threads), rows=rows)
     refused = invalid(rows)
     for values in (found.lower, found.upper, found.touch, found.distance_lower, found.distance_upper, found.nearest):
         values[refused] = np.nan

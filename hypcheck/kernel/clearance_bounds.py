@@ -1,0 +1,358 @@
+"""Clearances, distances and nearest points of many pairs, each between two numbers that are proved.
+
+Floats only guess (clearance_points.py). What is returned is proved by exact decisions of the kernel about other rows:
+
+- A spheroid f times as large, rounded outward, that is clear proves clearance ≥ f − 1; rounded inward and in contact it
+  proves clearance ≤ f − 1.
+- Let n be a unit vector and √(nᵀQn) = v the spheroid's half width along it, Q its matrix of squared semi-axes. For any
+  v > 0 and δ > 0 the spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ)) contains all points
+  within δ of the given one: its matrix is (1 + δ/v) Q + (1 + v/δ) δ² I, and (p + q)² ≤ (1 + t) p² + (1 + 1/t) q² for
+  the support functions p and q and any t > 0. If it is clear, the distance is at least δ. Along n nothing is lost.
+- A point of the hyperboloid and one of the spheroid are no nearer than their bodies, but for the rounding below.
+- Between the two measures: clearance · min(b, d) ≤ distance ≤ clearance · max(b, d).
+
+Where a guess cannot be proved, the same decisions halve the interval. No bound of a rounding error decides but these:
+
+Points. Each coordinate of an end of the gap takes fewer than 16 roundings of terms below |X| or |C| + max(b, d), where
+an axis leans times (max/min of b, d)²; _POINTS = 2⁻⁴⁶ holds that for both ends, and for |X − Y|. _OUTWARD covers the 12
+roundings of a semi-axis. Both hold for lengths in 2^±300, which are asked for.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.pair import COLUMNS, REFUSED
+from hypcheck.geometry.rows import Floats, Indices, Integers, Mask, Positions, Rows, invalid
+from hypcheck.kernel import clearance_points as points
+from hypcheck.kernel import normals
+from hypcheck.kernel.choice import choice
+from hypcheck.kernel.in_use import kernel
+from hypcheck.kernel.numpy_kernel import leaning
+
+CHUNK = 1 << 14
+GUESS = 2.0**-32
+"""How far from a guess, in units of 1 or of the guess where that is greater, a proof is tried first."""
+
+WIDTH = 2.0**-30
+"""How wide an interval of f, or of δ against δ + v, may be before it is halved."""
+
+_LARGEST = sys.float_info.max
+_OUTWARD = 1 + 2.0**-48
+_POINTS = 2.0**-46
+_RANGE = (2.0**-300, 2.0**300)
+_HALVINGS = 120
+_SUBNORMAL = 2.0**-900
+_ORDINARY = 60
+
+CONSTANTS = {
+    "guess": GUESS,
+    "width": WIDTH,
+    "outward": _OUTWARD,
+    "inward": 1 - 2.0**-48,
+    "points": _POINTS,
+    "least_grown": 2.0**-900,
+    "greatest_grown": 2.0**900,
+    "less_than": 1 - 2.0**-40,
+    **points.CONSTANTS,
+}
+"""Those of the same steps in C (core/parts/near.h). Products from least_grown to greatest_grown are rounded well."""
+
+Question = Callable[[Indices, Floats], Mask]
+"""Whether rows of these numbers have what is asked, for these factors or lengths."""
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """What clearance() says of n rows; every array is of shape (n,), or (n, 3) for points. One pair alone has numbers.
+
+    `position`: the exact position, as classify has it; `contact` says where that is contact.
+
+    `distance_lower` ≤ distance ≤ `distance_upper`: the Euclidean distance between the two bodies, in the unit of the
+    row; 0 in contact. For a sphere it is the clearance times the radius, else it is not.
+
+    `nearest`: a point of the hyperboloid whose distance from the spheroid is `distance_upper` at most, but for the
+    rounding of its coordinates; where no gap could be measured it is `touch`. `normal`: the unit vector from there to
+    the spheroid, which is the gradient of the distance with respect to the centre; NaN in contact; nothing is proved of
+    its error. `tie`: another point is as near, by a symmetry of both bodies; then `nearest` is one of them.
+
+    `lower` ≤ clearance ≤ `upper`: the clearance in spheroid radii. The spheroid, 1 + clearance times as large about its
+    centre, first touches the hyperboloid; it is negative in contact, 0 in a tangency, −1 for a centre on the surface.
+    The signs agree with `position`: lower ≥ 0 where it is clear, upper ≤ 0 in contact.
+
+    `touch`: the place where that spheroid first touches, of several the one towards +x or +z. The exact place is not
+    farther than `touch_error` away; that is inf where nothing is proved.
+    """
+
+    position: Positions
+    distance_lower: Floats
+    distance_upper: Floats
+    nearest: Floats
+    lower: Floats
+    upper: Floats
+    touch: Floats
+    touch_error: Floats
+    rows: Rows = field(repr=False)
+    """The pairs, as rows."""
+
+    @classmethod
+    def empty(cls, rows: Rows) -> Clearance:
+        """Room for these rows, of which nothing is known."""
+        count = len(rows)
+        distance_lower, distance_upper, lower, upper, touch_error = (np.full(count, np.nan) for _ in range(5))
+        nearest, touch = (np.full((count, 3), np.nan) for _ in range(2))
+        position = np.full(count, 127, np.int8)
+        return cls(position, distance_lower, distance_upper, nearest, lower, upper, touch, touch_error, rows)
+
+    @property
+    def contact(self) -> Mask:
+        """Whether the two are in contact."""
+        return np.equal(self.position, 0)
+
+    @cached_property
+    @in_default_environment
+    def normal(self) -> Floats:
+        """The unit vectors from `nearest` to the spheroids."""
+        found = normals.normals(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        return found if np.ndim(self.position) else found[0]
+
+    @cached_property
+    @in_default_environment
+    def tie(self) -> Mask:
+        """Whether another point is as near, by a symmetry of both bodies."""
+        found = normals.ties(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        return found if np.ndim(self.position) else found[0]
+
+    @property
+    def one(self) -> Clearance:
+        """The first row alone, with numbers in the place of arrays (n,)."""
+        first = {name: getattr(self, name)[0] for name in _MEASURED}
+        numbers: dict[str, Any] = {name: value if np.ndim(value) else value.item() for name, value in first.items()}
+        return replace(self, **numbers | {"rows": self.rows[:1]})
+
+
+_MEASURED = tuple(part.name for part in fields(Clearance) if part.name != "rows")
+
+
+def clearances_without_ends(queries: Rows, threads: int | None = None) -> Clearance:
+    """What clearance() says of rows (n, 7) or (n, 10); invalid ones have the position 127 and NaN everywhere."""
+    upright = queries.shape[1] == len(COLUMNS)
+    compiled = upright and choice().kernel == "compiled"
+    found = _compiled(queries, threads) if compiled else Clearance.empty(queries)
+    refused = found.position == REFUSED if compiled else invalid(queries)
+    places = np.flatnonzero(~refused & (np.isnan(found.lower) | np.isinf(found.touch_error)))
+    with np.errstate(all="ignore"):
+        for start in range(0, len(places), CHUNK):
+            _fill(found, places[start : start + CHUNK], queries, threads)
+        _fill_ties(found, queries, threads)
+    return found
+
+
+_SHIFT = 2.0**-36
+
+
+def _fill_ties(found: Clearance, queries: Rows, threads: int | None) -> None:
+    """Nearest points where a spheroid that leans is on the axis, so that no direction is known: those of one beside it.
+
+    A distance changes by no more than the centre moves, so the bounds hold with twice the shift, which covers its
+    rounding. Of the shifts along x and y the better counts.
+    """
+    unknown = np.isnan(found.nearest).any(axis=1)
+    if not unknown.any():
+        return
+    lost = np.flatnonzero(unknown & (np.abs(found.position) == 1))
+    for column in (4, 5) if len(lost) else ():
+        rows, shift = queries[lost].copy(), _SHIFT * queries[lost, 0]
+        rows[:, column] += shift
+        beside = Clearance.empty(rows)
+        _fill(beside, np.arange(len(rows)), rows, threads)
+        high = np.nextafter(beside.distance_upper + 2 * shift, np.inf)
+        low = np.nextafter(np.fmax(beside.distance_lower - 2 * shift, 0), 0)
+        known = (beside.position == found.position[lost]) & np.isfinite(beside.nearest).all(axis=1)
+        better = known & (np.isnan(found.nearest[lost]).any(axis=1) | (high < found.distance_upper[lost]))
+        found.distance_lower[lost[known]] = np.fmax(found.distance_lower[lost], low)[known]
+        found.distance_upper[lost[better]] = np.fmin(found.distance_upper[lost], high)[better]
+        found.nearest[lost[better]], found.touch[lost[better]] = beside.nearest[better], beside.touch[better]
+
+
+def _compiled(rows: Rows, threads: int | None) -> Clearance:
+    """What the compiled kernel says of rows (n, 7), by the same steps; touch_error is inf where it knows less."""
+    from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
+
+    position, found = compiled_kernel.near_rows(rows, threads)
+    lower, upper, error, least, most = found[:, :5].T
+    error[error == _LARGEST] = np.inf
+    return Clearance(position, least, most, found[:, 8:], lower, upper, found[:, 5:8], error, rows)
+
+
+def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
+    """The answers about some valid rows; those that lean, and those that do not, together."""
+    some = queries[places]
+    lean = leaning(some) if some.shape[1] > len(COLUMNS) else np.zeros(len(some), np.bool_)
+    for chosen in (lean, ~lean):
+        if chosen.any():
+            rows = np.ascontiguousarray(some[chosen] if chosen is lean else some[chosen, : len(COLUMNS)])
+            answers = _answers(rows, threads)
+            for name in _MEASURED:
+                getattr(found, name)[places[chosen]] = getattr(answers, name)
+
+
+def _answers(rows: Rows, threads: int | None) -> Clearance:
+    """The answers about rows that all lean, (n, 10), or that are all upright, (n, 7)."""
+    rows, shift = scaled(rows)
+    leans = rows.shape[1] > len(COLUMNS)
+    position = _positions(rows, threads)
+    touches = points.leaning_touches(rows) if leans else points.upright_touches(rows)
+    low, high = _factors(rows, position, touches.factor, threads)
+    lower, upper = np.maximum(_less_one(low, -np.inf), -1.0), _less_one(high, np.inf)
+    lengths = rows[:, 2:4]
+    least = np.nextafter(np.maximum(lower, 0) * lengths.min(axis=1), 0)
+    most = np.where(position == 0, 0.0, np.nextafter(upper * lengths.max(axis=1), np.inf))
+    nearest = touches.point.copy()
+    clear = np.flatnonzero(position)
+    if len(clear):
+        ask = points.leaning_gaps if leans else points.upright_gaps
+        gaps = ask(rows[clear], position[clear], touches.point[clear])
+        usual = _usual(rows[clear])
+        measured = np.where(usual, _measured(rows[clear], gaps), np.inf)
+        shorter = measured <= most[clear]
+        most[clear[shorter]], nearest[clear[shorter]] = measured[shorter], gaps.there[shorter]
+        least[clear] = _separated(rows[clear], gaps, usual, least[clear], most[clear], threads)
+    least = _lowered(least, shift, 0.0)
+    most = _lowered(most, shift, np.inf)
+    touch, nearest = (np.ldexp(each, -shift[:, None]) for each in (touches.point, nearest))
+    error = _lowered(touches.error, shift, np.inf)
+    return Clearance(position, least, most, nearest, lower, upper, touch, error, rows)
+
+
+def scaled(rows: Rows) -> tuple[Rows, Integers]:
+    """The rows with all lengths times 2^shift, exactly: the longest about 1, or longer where b or d would be subnormal.
+
+    The shift is 0 where the longest is ordinary, and where a length would be rounded.
+    """
+    lengths = rows[:, : len(COLUMNS)]
+    _, exponents = np.frexp(np.abs(lengths).max(axis=1))
+    shift = np.where(np.abs(exponents) > _ORDINARY, -exponents, 0)
+    small = np.ldexp(rows[:, 2:4].min(axis=1), shift) < _SUBNORMAL
+    shift = np.where(small, 900 - exponents, shift)
+    moved = np.ldexp(lengths, shift[:, None])
+    shift = np.where((np.ldexp(moved, -shift[:, None]) == lengths).all(axis=1), shift, 0)
+    found = rows.copy()
+    found[:, : len(COLUMNS)] = np.where(shift[:, None] == 0, lengths, moved)
+    return found, shift
+
+
+def _lowered(length: Floats, shift: Integers, towards: float) -> Floats:
+    """The lengths times 2^−shift, rounded towards a side."""
+    return np.where((shift != 0) & (length > 0), np.nextafter(np.ldexp(length, -shift), towards), length)
+
+
+def _positions(rows: Rows, threads: int | None) -> Positions:
+    return kernel().answer_rows(np.ascontiguousarray(rows), "position", threads)[0]
+
+
+def _less_one(factor: Floats, towards: float) -> Floats:
+    """factor − 1, which is exact from 1/2 to 2, and else rounded towards a side."""
+    return np.where((factor >= 0.5) & (factor <= 2), factor - 1, np.nextafter(factor - 1, towards))
+
+
+def _enlarged(rows: Rows, factor: Floats, towards: float) -> Rows:
+    """The rows with b and d times a factor, rounded towards a side; times 1 they are as they were."""
+    grown = rows.copy()
+    product = rows[:, 2:4] * factor[:, None]
+    grown[:, 2:4] = np.where(factor[:, None] == 1, product, np.nextafter(product, towards))
+    return grown
+
+
+def _factors(rows: Rows, position: Positions, guess: Floats, threads: int | None) -> tuple[Floats, Floats]:
+    """Factors by which the spheroid, grown, is clear and is in contact: low < 1 + clearance ≤ high, proved."""
+
+    def clear(some: Indices, factor: Floats) -> Mask:
+        return np.isin(_positions(_enlarged(rows[some], factor, np.inf), threads), (-1, 1))
+
+    def meets(some: Indices, factor: Floats) -> Mask:
+        return np.asarray(_positions(_enlarged(rows[some], factor, 0.0), threads) == 0)
+
+    low, high = np.where(position == 0, 0.0, 1.0), np.where(position == 0, 1.0, np.inf)
+    scale = np.maximum(guess, 1)
+    tried = guess - GUESS * scale
+    some = np.flatnonzero((tried > low) & (tried < high))
+    low[some] = np.where(clear(some, tried[some]), tried[some], low[some])
+    tried = guess + GUESS * scale
+    some = np.flatnonzero((tried < high) & (tried > low) & np.isfinite(tried))
+    high[some] = np.where(meets(some, tried[some]), tried[some], high[some])
+    _halve(rows, low, high, clear, meets)
+    return low, high
+
+
+def _halve(rows: Rows, low: Floats, high: Floats, clear: Question, meets: Question) -> None:
+    """Halve what is wider than WIDTH, in logarithms where it spans more than a factor of 2, until nothing is proved."""
+    largest = np.minimum(np.finfo(np.float64).max / rows[:, 2:4].max(axis=1) / 2, 2.0**1000)
+    some = np.arange(len(rows))
+    for _ in range(_HALVINGS):
+        some = some[high[some] - low[some] > WIDTH * np.maximum(1, low[some])]
+        if not len(some):
+            return
+        above, below = np.minimum(high[some], largest[some]), np.maximum(low[some], WIDTH / 2)
+        middle = np.where(above > 2 * below, np.sqrt(below) * np.sqrt(above), below + (above - below) / 2)
+        inside = (middle > low[some]) & (middle < high[some])
+        some, middle = some[inside], middle[inside]
+        is_clear = clear(some, middle)
+        low[some[is_clear]] = middle[is_clear]
+        rest, middle = some[~is_clear], middle[~is_clear]
+        met = meets(rest, middle)
+        high[rest[met]] = middle[met]
+        some = np.concatenate([some[is_clear], rest[met]])
+
+
+def _usual(rows: Rows) -> Mask:
+    """Which rows have lengths within the range of the bounds; coordinates may be smaller."""
+    size = np.abs(rows[:, : len(COLUMNS)])
+    return np.asarray((size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1))
+
+
+def _measured(rows: Rows, gaps: points.Gaps) -> Floats:
+    """The length of each gap, and more than the error of its ends."""
+    b, d = rows[:, 2], rows[:, 3]
+    largest = np.maximum(b, d)
+    if rows.shape[1] > len(COLUMNS):
+        largest = largest * (largest / np.minimum(b, d)) ** 2
+    way = gaps.there - gaps.here
+    length = np.sqrt((way * way).sum(axis=1))
+    terms = np.abs(gaps.there).sum(axis=1) + np.abs(rows[:, 4:7]).sum(axis=1) + largest
+    return np.asarray(length + _POINTS * (length + terms))
+
+
+def _separated(rows: Rows, gaps: points.Gaps, usual: Mask, least: Floats, most: Floats, threads: int | None) -> Floats:
+    """The distances that a spheroid which contains all points so near proves, or `least` where that is more."""
+    v = gaps.support
+
+    def clear(some: Indices, length: Floats) -> Mask:
+        grown = rows[some]
+        for column in (2, 3):
+            size = rows[some, column]
+            grown[:, column] = np.sqrt((v[some] + length) * (size * size / v[some] + length)) * _OUTWARD
+        return np.isin(_positions(grown, threads), (-1, 1))
+
+    low, high = least.copy(), most.copy()
+    tried = np.minimum(gaps.length, most) - GUESS * (gaps.length + v)
+    fair = usual & (v >= _RANGE[0]) & (v <= _RANGE[1]) & (tried <= _RANGE[1])
+    some = np.flatnonzero(fair & (tried > low))
+    proved = clear(some, tried[some])
+    low[some[proved]] = tried[some[proved]]
+    some = some[~proved]
+    for _ in range(_HALVINGS):
+        some = some[np.isfinite(high[some]) & (high[some] - low[some] > WIDTH * (low[some] + v[some]))]
+        if not len(some):
+            break
+        middle = low[some] + (high[some] - low[some]) / 2
+        proved = clear(some, middle)
+        low[some[proved]], high[some[~proved]] = middle[proved], middle[~proved]
+    return low

@@ -1,0 +1,82 @@
+"""The kernel in use: what a module that answers rows has, and the one that choice.py names."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Protocol
+
+import numpy as np
+
+from hypcheck.geometry.pair import REFUSED, Axis, Lengths, Position, Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Columns, Floats, Positions, Rows
+from hypcheck.kernel.choice import Question, choice
+
+
+class Kernel(Protocol):
+    """What a module that answers has. The first two return answers, 127 for invalid rows, and how many those are."""
+
+    def fill_valid_scene(
+        self, sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
+    ) -> bool:
+        """Whether all centres of contiguous columns are valid: then `out`, contiguous and apart, has positions.
+
+        False, and no output, also where a kernel gains nothing by it.
+        """
+
+    def prepared(self, sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
+        """What is kept of valid sizes, a valid axis and centres like those to come; of no meaning elsewhere."""
+
+    def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
+        """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
+
+    def answer_scene(
+        self,
+        sizes: Sizes,
+        columns: Columns,
+        question: Question,
+        threads: int | None = None,
+        axis: Axis | None = None,
+    ) -> tuple[Positions, int]:
+        """Answers for valid sizes and the centres of three columns; None is upright, an invalid axis answers 127."""
+
+    def answer_ways(self, rows: Rows) -> tuple[Positions, Floats]:
+        """Contact on straight ways, C-contiguous rows (n, 10), (n, 13) or (n, 16) as geometry.rows.WAYS has them.
+
+        Hits, int8 (n,): 1 and 0 are exact, 2 is said where bounds do not tell, 127 of an invalid row. Times, float64
+        (n,): no contact comes before them; NaN where there is no hit, or where bounds do not tell when.
+        """
+
+    def answer_ended(self, rows: Rows, threads: int | None = None) -> Positions:
+        """Exact positions for C-contiguous rows (n, 13); 2 where bounds do not tell, 127 of an invalid row."""
+
+
+def kernel() -> Kernel:
+    """The module that choice() names. Raises InputError where the environment asks for one that is not there."""
+    return _kernel_named(choice().kernel)
+
+
+@cache
+def _kernel_named(name: str) -> Kernel:
+    if name == "compiled":
+        from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
+
+        return compiled_kernel
+    from hypcheck.kernel import numpy_kernel  # noqa: PLC0415 - the compiled kernel does without
+
+    return numpy_kernel
+
+
+def positions_of_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
+    """Answers for C-contiguous rows of any width, 127 for invalid ones, and how many these are."""
+    if not PAIRS.end(rows):
+        return kernel().answer_rows(rows, question, threads)
+    positions = kernel().answer_ended(rows, threads)
+    left = np.flatnonzero(positions == CANNOT_SAY)
+    if len(left):
+        from hypcheck.truth import exact  # noqa: PLC0415 - the only exact decision about ends; few rows need it
+
+        positions[left] = [exact.position(Lengths.of(row)) for row in rows[left].tolist()]
+    refused = positions == REFUSED
+    if question != "position":
+        positions = np.where(refused, REFUSED, positions == Position[question.upper()]).astype(np.int8)
+    return positions, int(refused.sum())
