@@ -17,13 +17,16 @@ K the largest second derivatives in the cell. With m = min(b, d), |V|_M ≤ |V|/
 where r' ≤ α/γ, r'' ≤ α²/(γ² r) at the least r of the cell, and N ≤ n₀ + (√(1 + r'²) h + r k)/m. Cells whose bound is
 above what some point has are dropped, the others halved, so that few are left about each minimum. Each coordinate of
 X − C, and of its parts along and across the axis, is within 32u (|X| + |C|), so that n is within 64u (|X| + |C|)/m,
-besides 16u of itself; _SLACK covers both. No polynomial of the pair and no multiplier is used.
+besides 16u of itself; 256u covers both. Where roundings loosen the bound of a cell more than its width does, cells are
+looked at in numpy's long double, if it is finer here. No polynomial of the pair and no multiplier is used.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +34,8 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Floats
 
 _SLACK = 256 * 2.0**-53
+_FINE = np.longdouble
+_FINE_SLACK = 128 * float(np.finfo(_FINE).eps)
 _MOST_CELLS, _ROUNDS = 60_000, 60
 _RANGE = (2.0**-200, 2.0**200)
 _WIDTH = 2.0**-40
@@ -79,11 +84,9 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
     lengths = [abs(number) for number in (*pair.row[:7], pair.z_min, pair.z_max) if number and math.isfinite(number)]
     if not (min(lengths) > _RANGE[0] and max(lengths) < _RANGE[1]):
         return NOTHING
-    v = np.array(pair.axis) / max(map(abs, pair.axis))
-    v /= math.sqrt(float(v @ v))
-    found = _to_wall(pair, v, side_alone=side_alone, width=width)
+    found = _to_wall(pair, side_alone=side_alone, width=width)
     for end in (pair.z_min, pair.z_max) if pair.solid else ():
-        disc = _to_disc(pair, v, end)
+        disc = _to_disc(pair, end)
         if disc is None:
             return Least(0.0, found.upper, found.point)
         nearer = disc if disc.upper < found.upper else found
@@ -91,51 +94,88 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
     return found
 
 
-def _to_disc(pair: Pair, v: Floats, end: float) -> Least | None:
+def _unit(pair: Pair, number: type[np.floating[Any]] = np.float64) -> Floats:
+    """The unit vector of the spheroid's axis."""
+    v = np.array(pair.axis, dtype=number) / max(map(abs, pair.axis))
+    return np.asarray(v / np.sqrt(v @ v))
+
+
+def _to_disc(pair: Pair, end: float) -> Least | None:
     """The least n in an end disc, infinite where it is at the rim; None where bounds do not tell which."""
     if not math.isfinite(end):
         return Least(math.inf, math.inf, NOTHING.point)
-    b2, d2 = pair.b * pair.b, pair.d * pair.d
-    half = b2 * float(v[0] * v[0] + v[1] * v[1]) + d2 * float(v[2] * v[2])
-    rise = end - pair.z
-    across = (d2 - b2) * v[2] * v[:2] / half * rise + (pair.x, pair.y)
-    radius = pair.alpha * math.hypot(1, end / pair.gamma)
-    off = float(math.hypot(*across)) - radius
-    size = abs(rise) + abs(end) + abs(pair.z)
-    loose = _SLACK * (radius + abs(pair.x) + abs(pair.y) + size * max(b2, d2) / half)
+    v = _unit(pair, _FINE)
+    alpha, gamma, b, d, x, y, z = map(_FINE, pair.row[:7])
+    b2, d2, height = b * b, d * d, _FINE(end)
+    half = b2 * (v[0] * v[0] + v[1] * v[1]) + d2 * v[2] * v[2]
+    rise = height - z
+    across = (d2 - b2) * v[2] * v[:2] / half * rise + (x, y)
+    radius = alpha * np.hypot(1, height / gamma)
+    off = np.hypot(*across) - radius
+    size = abs(rise) + abs(height) + abs(z)
+    loose = _FINE_SLACK * (radius + abs(x) + abs(y) + size * max(b2, d2) / half)
     if off > loose:
         return Least(math.inf, math.inf, NOTHING.point)
-    least, error = abs(rise) / math.sqrt(half), _SLACK * size / math.sqrt(half)
+    least, error = abs(rise) / np.sqrt(half), _FINE_SLACK * size / np.sqrt(half)
     if off > -loose:
         return None
-    return Least(least - error, least + error, (float(across[0]), float(across[1]), end))
+    return _least(least - error, least + error, (*across, height))
 
 
-def _to_wall(pair: Pair, v: Floats, *, side_alone: bool, width: float) -> Least:
-    """Branch and bound over the wall."""
+def _least(lower: np.floating[Any], upper: np.floating[Any], point: Iterable[np.floating[Any]]) -> Least:
+    """Bounds of any width in float64, rounded outwards."""
+    first, second, third = map(float, point)
+    return Least(math.nextafter(float(lower), 0), math.nextafter(float(upper), math.inf), (first, second, third))
+
+
+def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> Least:
+    """Branch and bound over the wall, in long double from where the roundings of float64 matter."""
     cells = _first_cells(pair)
-    m = min(pair.b, pair.d)
-    best, point, lowest = math.inf, NOTHING.point, math.inf
+    slack = _SLACK
+    best, point, lowest = math.inf, np.array(NOTHING.point), 0.0
     for _ in range(_ROUNDS):
-        w, t, h, k = cells
-        q, qw, qt, error, r, X = _values(pair, v, w, t)
-        place = int(np.argmin(q + error))
-        if q[place] + error[place] < best:
-            best, point = float(q[place] + error[place]), tuple(X[:, place].tolist())
-        rise = min(pair.alpha / pair.gamma, 2.0**400)
-        least_r = pair.alpha * np.hypot(1, np.maximum(np.abs(w) - h, 0) / pair.gamma)
-        most_r = r + rise * h
-        n = np.sqrt(q + error) + (math.hypot(1, rise) * h + most_r * k) / m
-        kww = 2 * (1 + rise * rise) / m**2 + 2 * n * (rise * rise / least_r) / m
-        kwt, ktt = 2 * most_r * rise / m**2 + 2 * n * rise / m, 2 * most_r**2 / m**2 + 2 * n * most_r / m
-        bound = q - error - np.abs(qw) * h - np.abs(qt) * k - (kww * h * h + 2 * kwt * h * k + ktt * k * k) / 2
-        bound -= _SLACK * (np.abs(qw) * h + np.abs(qt) * k)
+        at_most, bound, loose, error, curvatures, X = _bounds(pair, cells, slack)
+        place = int(np.argmin(at_most))
+        if at_most[place] < best:
+            best, point = at_most[place], X[:, place]
         keep = bound <= best
-        lowest = max(0.0, float(bound[keep].min())) if keep.any() else best
-        if best - lowest <= width * best or keep.sum() > _MOST_CELLS or (side_alone and not lowest <= 1 <= best):
+        lowest = max(lowest, bound[keep].min()) if keep.any() else best
+        settled = not lowest <= 1 <= best if side_alone else best - lowest <= width * best
+        if settled or keep.sum() > _MOST_CELLS:
             break
-        cells = _halved(cells[:, keep], kww[keep], ktt[keep])
-    return Least(math.sqrt(lowest) * (1 - _SLACK), math.sqrt(best) * (1 + _SLACK), point)
+        nearest = int(np.argmin(bound))
+        if error[nearest] > loose[nearest]:
+            if slack == _FINE_SLACK or _FINE_SLACK >= _SLACK:
+                break
+            cells, slack = cells[:, keep].astype(_FINE), _FINE_SLACK
+            continue
+        cells = _halved(cells[:, keep], *curvatures[:, keep])
+    return _least(np.sqrt(lowest) * (1 - slack), np.sqrt(best) * (1 + slack), point)
+
+
+def _bounds(pair: Pair, cells: Floats, slack: float) -> tuple[Floats, ...]:
+    """An upper bound of the least q in each cell, a lower bound, and the points (3, n) of the first.
+
+    Between the two: the term of second order, the error of q₀, and K_ww and K_θθ (2, n).
+    """
+    w, _, h, k = cells
+    number = cells.dtype.type
+    alpha, gamma = number(pair.alpha), number(pair.gamma)
+    edges = [np.clip(at, number(pair.z_min), number(pair.z_max)) for at in (w - h, w, w + h)]
+    values, qw, qt, errors, r, X = _values(pair, np.concatenate(edges), np.tile(cells[1], 3), slack)
+    middle = slice(len(w), 2 * len(w))
+    q, qw, qt, error, r = values[middle], qw[middle], qt[middle], errors[middle], r[middle]
+    lowest = (values + errors).reshape(3, -1).argmin(axis=0) * len(w) + np.arange(len(w))
+    m = min(pair.b, pair.d)
+    rise = min(alpha / gamma, 2.0**400)
+    least_r = alpha * np.hypot(1, np.maximum(np.abs(w) - h, 0) / gamma)
+    most_r = r + rise * h
+    n = np.sqrt(q + error) + (np.hypot(1, rise) * h + most_r * k) / m
+    kww = 2 * (1 + rise * rise) / m**2 + 2 * n * (rise * rise / least_r) / m
+    kwt, ktt = 2 * most_r * rise / m**2 + 2 * n * rise / m, 2 * most_r**2 / m**2 + 2 * n * most_r / m
+    loose = (kww * h * h + 2 * kwt * h * k + ktt * k * k) / 2 * (1 + slack)
+    bound = q - error - (np.abs(qw) * h + np.abs(qt) * k) * (1 + slack) - loose
+    return (values + errors)[lowest], bound, loose, error, np.stack([kww, ktt]), X[:, lowest]
 
 
 def _first_cells(pair: Pair) -> Floats:
@@ -154,22 +194,25 @@ def _first_cells(pair: Pair) -> Floats:
     return np.stack([w.ravel(), t.ravel(), np.full(w.size, half), np.full(w.size, math.pi / 32 * (1 + 1e-12))])
 
 
-def _values(pair: Pair, v: Floats, w: Floats, t: Floats) -> tuple[Floats, ...]:
+def _values(pair: Pair, w: Floats, t: Floats, slack: float) -> tuple[Floats, ...]:
     """q, its slopes, a bound of the error of q, r, and the points (3, n)."""
-    r = pair.alpha * np.hypot(1, w / pair.gamma)
-    slope = (pair.alpha / pair.gamma) ** 2 * w / r
+    number = w.dtype.type
+    alpha, gamma, b, d, *center = map(number, pair.row[:7])
+    v = _unit(pair, number)
+    r = alpha * np.hypot(1, w / gamma)
+    slope = (alpha / gamma) ** 2 * w / r
     cosine, sine = np.cos(t), np.sin(t)
     X = np.stack([r * cosine, r * sine, w])
-    D = X - np.array([[pair.x], [pair.y], [pair.z]])
+    D = X - np.array(center)[:, None]
     along = v @ D
     across = D - along * v[:, None]
-    q = (across * across).sum(axis=0) / pair.b**2 + (along / pair.d) ** 2
-    grad = 2 * (across / pair.b**2 + along / pair.d**2 * v[:, None])
+    q = (across * across).sum(axis=0) / b**2 + (along / d) ** 2
+    grad = 2 * (across / b**2 + along / d**2 * v[:, None])
     qw = grad[0] * slope * cosine + grad[1] * slope * sine + grad[2]
     qt = r * (grad[1] * cosine - grad[0] * sine)
     size = np.abs(X) + np.abs([[pair.x], [pair.y], [pair.z]])
     m = min(pair.b, pair.d)
-    off = _SLACK * np.sqrt((size * size).sum(axis=0)) / m
+    off = slack * np.sqrt((size * size).sum(axis=0)) / m
     return q, qw, qt, off * (2 * np.sqrt(np.abs(q)) + off), r, X
 
 

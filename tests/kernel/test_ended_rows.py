@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -71,3 +74,33 @@ def test_a_row_does_not_change_the_answers_to_others():
     order = np.random.default_rng(1).permutation(len(rows))
     assert (answered(rows[order]) == together[order]).all()
     assert [answered(row[None])[0] for row in rows[:300]] == together[:300].tolist()
+
+
+def test_the_tool_of_agreement_names_a_wrong_answer_of_the_kernel(monkeypatch):
+    """The row stands in a sentence, and rows and meshes asked are counted."""
+    rows = ended_agreement.random_rows(np.random.default_rng(1), 6, leaning=True)
+    right = answered(rows)
+    wrong = np.where(np.arange(6) == 4, -right + (right == 0), right).astype(np.int8)
+    monkeypatch.setattr(ended_agreement.compiled_kernel, "answer_ended", lambda _: wrong)
+    counts = Counter()
+    (sentence,) = ended_agreement.compare_positions(rows, ended_agreement.RANDOM, counts, 3)
+    assert str(rows[4].tolist()) in sentence
+    assert counts["random", "rows"] == 6
+    assert counts["random", "asked of meshes"] == 2
+
+
+def test_a_run_of_agreement_that_ended_early_goes_on_from_its_log(tmp_path, monkeypatch, capsys):
+    """Chunks of the log are not asked again, and count."""
+    asked = []
+
+    def found(_, number):
+        asked.append(number)
+        return [["random", "rows", 1000]], []
+
+    monkeypatch.setattr(ended_agreement, "chunk_found", found)
+    monkeypatch.setattr(ended_agreement, "ProcessPoolExecutor", ThreadPoolExecutor)
+    log = str(tmp_path / "found.jsonl")
+    assert ended_agreement.main(["--rows", "2000", "--log", log]) == 0
+    assert ended_agreement.main(["--rows", "5000", "--log", log]) == 0
+    assert sorted(asked) == [0, 1, 2, 3, 4]
+    assert capsys.readouterr().out.splitlines()[-1].startswith("5,000 rows, 0 disagreements")

@@ -1,22 +1,30 @@
 """Whether exact rule, least value and kernel agree about hyperboloids that end: a tool, run by hand.
 
-    python -m tests.tools.ended_agreement --rows 1000000 [--tilted] [--seed 1]
+    python -m tests.tools.ended_agreement --rows 1000000 --jobs 16 --seconds 400 --log upright.jsonl
+    python -m tests.tools.ended_agreement --rows 100000 --tilted --jobs 16 --seconds 100 --log tilted.jsonl
     python -m tests.tools.ended_agreement --ways --rows 100000 [--tilted]
     python -m tests.tools.ended_agreement --modes --rows 1000
 
 Half of the rows are random, half lie within 10⁻⁹ radii of contact with a rim, a flat end or the wall. The least value
-is the one of truth/least.py, a branch and bound; the exact rule that of truth/sections.py. With `--ways` the kernel's
-hits are compared with the exact first contact. With `--modes` the kernel is asked under all four rounding modes about
-rows of every family that ends, as many of each, and compared with the exact rule. Each disagreement is printed with its
-row and makes the status 1. The last lines count rows, and those that the kernel and the least value leave open.
+is the one of truth/least.py, a branch and bound; the exact rule that of truth/sections.py. One row in `--mesh` (100) is
+asked of meshes and FCL too. With `--ways` the kernel's hits are compared with the exact first contact. With `--modes`
+the kernel is asked under all four rounding modes about rows of every family that ends, as many of each, and compared
+with the exact rule.
+
+Rows come in chunks, each from the seed and its number. A log keeps what chunks found, so that a run that was ended, by
+`--seconds` too, goes on where it was. Progress goes to the standard error. Each disagreement is printed with its row
+and makes the status 1. The last lines count rows, and those that the kernel, the least value and the mesh leave open.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import time
 from collections import Counter
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from pathlib import Path
 
 import numpy as np
 
@@ -26,10 +34,15 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel import _compiled
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
 from tests.support.ended_ways import near_a_rim, past_a_tower
-from tests.support.inside import answer_ways, compiled_kernel, least_position, position
+from tests.support.inside import answer_ways, compiled_kernel, least_position, position, verdict
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
+from tests.tools.progress_line import progress_line
 
-CHUNK = 2000
+CHUNK = 1000
+RANDOM = "random"
+PARTS = ("a rim", "a flat end", "the wall")
+"""What every third row of hairs lies near."""
+
 NEAREST, NEAR = -50, -30
 """Hairs are from 2⁻⁵⁰ to 2⁻³⁰ radii, 10⁻¹⁵ to 10⁻⁹."""
 
@@ -85,17 +98,23 @@ def _with_ends(random, sizes, centres, axis, high):
     return np.ascontiguousarray(rows + 0.0)
 
 
-def compare_positions(rows, kind, counts):
-    """Count what is open, and yield a sentence for each disagreement."""
+def compare_positions(rows, kind, counts, every):
+    """Count what is open, and yield a sentence for each disagreement; one row in `every` is asked of meshes too."""
     by_kernel = compiled_kernel.answer_ended(rows)
-    for row, answer in zip(rows.tolist(), by_kernel.tolist(), strict=True):
+    for number, (row, answer) in enumerate(zip(rows.tolist(), by_kernel.tolist(), strict=True)):
         pair = Pair.from_row(row)
         truth, other = position(pair.lengths), least_position(pair)
-        counts[kind, "rows"] += 1
-        counts[kind, "open to the kernel"] += answer == CANNOT_SAY
-        counts[kind, "open to the least value"] += other is None
-        if answer not in (CANNOT_SAY, truth) or other not in (None, truth):
-            yield f"{row}: exact {truth.label}, kernel {answer}, least value {other}"
+        name = kind if kind == RANDOM else f"{kind} of {PARTS[number % 3]}"
+        counts[name, "rows"] += 1
+        counts[name, "open to the kernel"] += answer == CANNOT_SAY
+        counts[name, "open to the least value"] += other is None
+        by_mesh = None
+        if number % every == 0:
+            by_mesh = verdict(pair).position
+            counts[name, "asked of meshes"] += 1
+            counts[name, "open to meshes"] += by_mesh is None
+        if answer not in (CANNOT_SAY, truth) or other not in (None, truth) or by_mesh not in (None, truth):
+            yield f"{row}: exact {truth.label}, kernel {answer}, least value {other}, mesh {by_mesh}"
 
 
 def compare_ways(rows, kind, counts):
@@ -127,21 +146,56 @@ def compare_modes(given, counts):
                 yield f"{mode}: {rows[index].tolist()}: {truth[index]}, kernel {answers[index]}"
 
 
-def chunks(given, counts):
-    """The sentences of one chunk after the other, until the time is over."""
-    random, started = np.random.default_rng(given.seed), time.monotonic()
-    done, turn = 0, 0
-    while done < given.rows and time.monotonic() - started < given.minutes * 60:
-        count = min(CHUNK, given.rows - done)
-        near = turn % 2 == 1
-        if given.ways:
-            make = near_a_rim if near else past_a_tower
-            rows = make(int(random.integers(2**31)), count, leaning=given.tilted)
-            yield from compare_ways(rows, "beside a rim" if near else "random", counts)
-        else:
-            rows = (hairs if near else random_rows)(random, count, leaning=given.tilted)
-            yield from compare_positions(rows, "within 1e-9" if near else "random", counts)
-        done, turn = done + count, turn + 1
+def chunk_found(given, number):
+    """The counts of a chunk as a list of [kind, what, count], and the sentences of its disagreements."""
+    counts: Counter[tuple[str, str]] = Counter()
+    random, near = np.random.default_rng([given.seed, number]), number % 2 == 1
+    if given.ways:
+        rows = (near_a_rim if near else past_a_tower)(int(random.integers(2**31)), CHUNK, leaning=given.tilted)
+        sentences = list(compare_ways(rows, "beside a rim" if near else RANDOM, counts))
+    else:
+        rows = (hairs if near else random_rows)(random, CHUNK, leaning=given.tilted)
+        sentences = list(compare_positions(rows, "within 1e-9" if near else RANDOM, counts, given.mesh))
+    return [[*key, count] for key, count in counts.items()], sentences
+
+
+def restored(given):
+    """What the log has of the chunks of this seed and these rows: of each its number, its counts and its sentences."""
+    if given.log is None or not given.log.exists():
+        return {}
+    lines = (json.loads(line) for line in given.log.read_text(encoding="utf-8").splitlines() if line.endswith("}"))
+    return {line["chunk"]: (line["counts"], line["sentences"]) for line in lines if line["of"] == name_of(given)}
+
+
+def name_of(given):
+    """What chunks are of."""
+    return [given.seed, given.tilted, given.ways, given.mesh]
+
+
+def found_in_chunks(given):
+    """Yield what each chunk found, first those of the log; new ones are asked until the time is over."""
+    done = restored(given)
+    wanted = -(-given.rows // CHUNK)
+    yield from (found for number, found in done.items() if number < wanted)
+    numbers = iter([number for number in range(wanted) if number not in done])
+    started = time.monotonic()
+    with ProcessPoolExecutor(given.jobs) as pool:
+        running = {}
+        while True:
+            while len(running) < 2 * given.jobs and time.monotonic() - started < given.seconds:
+                number = next(numbers, None)
+                if number is None:
+                    break
+                running[pool.submit(chunk_found, given, number)] = number
+            if not running:
+                return
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                number, (counts, sentences) = running.pop(future), future.result()
+                if given.log is not None:
+                    line = {"of": name_of(given), "chunk": number, "counts": counts, "sentences": sentences}
+                    with given.log.open("a", encoding="utf-8") as log:
+                        log.write(json.dumps(line) + "\n")
+                yield counts, sentences
 
 
 def main(arguments):
@@ -149,20 +203,31 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rows", type=int, default=100_000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--seconds", type=float, default=3600.0, help="no chunk begins later")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--mesh", type=int, default=100, metavar="N", help="one row in N is asked of meshes and FCL")
+    parser.add_argument("--log", type=Path, help="keeps what chunks found")
     parser.add_argument("--tilted", action="store_true")
     parser.add_argument("--ways", action="store_true")
     parser.add_argument("--modes", action="store_true")
     given = parser.parse_args(arguments)
     counts: Counter[tuple[str, str]] = Counter()
-    found = 0
-    for sentence in compare_modes(given, counts) if given.modes else chunks(given, counts):
-        found += 1
-        sys.stdout.write(f"{sentence}\n")
-    for (kind, what), number in counts.items():
+    disagreed = 0
+    started = time.monotonic()
+    tell = progress_line(lambda chunks: f"{chunks * CHUNK:,} rows, {disagreed} disagreements", every=20)
+    by_modes = (([], [sentence]) for sentence in compare_modes(given, counts))
+    results = by_modes if given.modes else found_in_chunks(given)
+    for number, (some, sentences) in enumerate(results, 1):
+        counts.update({(kind, what): count for kind, what, count in some})
+        disagreed += len(sentences)
+        for sentence in sentences:
+            sys.stdout.write(f"{sentence}\n")
+        tell(number)
+    for (kind, what), number in sorted(counts.items()):
         sys.stdout.write(f"{kind:28} {what:26} {number:9,}\n")
-    sys.stdout.write(f"{found} disagreements\n")
-    return 1 if found else 0
+    rows = sum(number for (_, what), number in counts.items() if what == "rows")
+    sys.stdout.write(f"{rows:,} rows, {disagreed} disagreements, {time.monotonic() - started:.0f} s\n")
+    return 1 if disagreed else 0
 
 
 if __name__ == "__main__":
