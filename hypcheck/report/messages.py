@@ -27,10 +27,12 @@ from hypcheck.record.lines import (
     ImplementationLine,
     NotStartedLine,
     SettingsPart,
+    SlicesPart,
     WrongAnswer,
 )
 from hypcheck.record.reader import recorded_cases
 from hypcheck.runs.judge import DEFAULT_TOLERANCE
+from hypcheck.vectors.border_lines import NEAREST_OCTAVE, SEARCHED
 
 
 def listed(items: Sequence[str], last: str = "and") -> str:
@@ -149,6 +151,9 @@ def implementation_claims(
 def spread(line: ImplementationLine) -> Iterator[str]:
     """Sentences without a full stop: how narrow a fault could have escaped the run, and which coincidences met."""
     for family, slices in (line.slices or {}).items():
+        if family in SEARCHED:
+            yield from _searched(slices, tilted=SEARCHED[family].tilted)
+            continue
         where = f"near contact of {'tilted' if family.startswith('tilted') else 'upright'} spheroids"
         names = listed(slices.coordinates, "or")
         yield (
@@ -158,6 +163,15 @@ def spread(line: ImplementationLine) -> Iterator[str]:
     if line.crossed:
         met, all_ = (sum(pair[place] for pair in line.crossed.values()) for place in (0, 1))
         yield f"coincidences, three together: {met:,} of {all_:,} that are possible were asked"
+
+
+def _searched(slices: SlicesPart, *, tilted: bool) -> Iterator[str]:
+    """How evenly a directed search asked at all distances from contact."""
+    yield (
+        f"a directed search followed {'tilted' if tilted else 'upright'} spheroids from clear to contact, to where its "
+        f"answers change; from {2.0**NEAREST_OCTAVE:.1g} of their size off contact to all of it, every slice of "
+        f"{_percent(slices.one)} of the octaves was asked 3 times or more on each side of contact"
+    )
 
 
 def _percent(share: float) -> str:

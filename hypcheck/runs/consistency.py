@@ -20,6 +20,8 @@ from hypcheck.implementations.implementation import MAX_FAULTS
 from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
 from hypcheck.record.lines import GroupLine, ImplementationLine
+from hypcheck.runs import border_search
+from hypcheck.runs.border_search import SearchStep
 from hypcheck.runs.cases import EXPONENTS_OF, CaseChunk
 from hypcheck.runs.diagnosis import FAILING
 from hypcheck.runs.judge import DANGEROUS, UNANSWERED, Mistake, Status
@@ -28,6 +30,7 @@ from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
 from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT, Tally, WorstCase
+from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.families import ALL, family_of
 from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
@@ -60,12 +63,13 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     if len(tallied) < len(groups):
         raise ValueError("a family has two lines")
     fixed_sizes = {family: plan.count for family in tallied if MARK in family and not plan.filtered}
+    without_search = {family: 0 for family in SEARCHED if whole.used.domain.settings}
     question = whole.used.question
     refuses = INVALID_NAMES[QUESTIONS[question].layout][0] in tallied
     tilt, heights = whole.used.tilt is True, whole.used.heights is True
     used = Description(whole.used.name, question=question, refuses=refuses, tilt=tilt, heights=heights)
     planned = planned_cases(plan, used)
-    trouble = _difference(tallied, planned | fixed_sizes)
+    trouble = _difference(tallied, planned | fixed_sizes | without_search)
     for line in groups:
         numbers = (line.octaves, (line.size_bins, line.place_bins))
         trouble = trouble or _of_sums(line.family, line, *numbers) or _of_failing(line, plan)
@@ -85,8 +89,9 @@ def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan:
 
 def _of_fresh(family: str, sums: GroupLine | Tally, plan: ConformancePlan, *, unfinished: bool = False) -> str:
     """The fresh rows that were asked must be those of the plan, but for skipped ones; no more in an unfinished run."""
-    generated = plan.fresh is not None and (family in ALL or MARK in family)
+    generated = plan.fresh is not None and (family in ALL or family in SEARCHED or MARK in family)
     most = plan.count * family_of(family).times if generated else 0
+    most = min(most, border_search.MOST) if family in SEARCHED else most
     least = 0 if unfinished else most - sums.counts.get(Status.SKIPPED.value, 0)
     return (
         "" if least <= (sums.fresh or 0) <= most else f"{family} has {sums.fresh} fresh rows, but {most} were planned"
@@ -138,7 +143,7 @@ def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
             waiting.append(step)
             if done[step.family] > counted[step.family]:  # not one step more than was done is made
                 break
-        elif isinstance(step, InvalidRows):
+        elif isinstance(step, (SearchStep, InvalidRows)):
             done[step.family] += len(step)
         else:
             waiting = [chunk for chunk in waiting if not step.asks(chunk)]

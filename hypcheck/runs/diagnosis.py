@@ -31,7 +31,6 @@ from hypcheck.runs.root_causes import ROOT_CAUSES
 from hypcheck.runs.slips import TILTED_SLIPS, UPRIGHT_SLIPS, WAY_SLIPS
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
-from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 PLACE_CAUSES: tuple[Cause, ...] = (*PLACES, *ROOT_CAUSES, *WIDER_ROUNDINGS)
@@ -262,7 +261,7 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
     layout = QUESTIONS[criterion.question].layout
     widths: dict[int, list[tuple[Rows, Positions]]] = {}
     for family in clean:
-        if family in INVALID_CONTENTS or MARK in family:
+        if family in INVALID_CONTENTS or family not in frozen.ALL_NAMES:
             continue
         found = frozen.load(family)
         inside = claimed(found.rows, domain, criterion.precision, extreme=is_extreme(family), layout=layout)

@@ -16,6 +16,8 @@ from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.session import Limits
 from hypcheck.processes import usable_processors
+from hypcheck.runs import border_search
+from hypcheck.runs.border_search import SearchStep
 from hypcheck.runs.cases import (
     PACE,
     CaseChunk,
@@ -31,6 +33,7 @@ from hypcheck.runs.known_failures import KnownFailure, read_known_failures
 from hypcheck.runs.results import InvalidRows, JudgingRules
 from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
 from hypcheck.vectors import fixed_sizes
+from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.families import ALL, select
 from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_NAMES
@@ -118,7 +121,8 @@ def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
     A domain with fixed sizes has families of its own. An implementation that refuses invalid rows is asked these too.
     Raises InputError naming a family that does not exist.
     """
-    families, chunks = chosen_families(plan, used), list[CaseChunk | InvalidRows](invalid_rows(used))
+    families = chosen_families(plan, used)
+    chunks: list[CaseChunk | SearchStep | InvalidRows] = [*searches(plan, used), *invalid_rows(used)]
     if _asks_everything(plan, used):
         families, chunks = (*families, *fixed_sizes.families_for(used.domain.settings)), [*searched_chunks(), *chunks]
     cases = _cases_of(plan, families) | {chunk.family: len(chunk) for chunk in chunks}
@@ -128,6 +132,21 @@ def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
 def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
     """Whether cases of other families are asked too: those that a search found, and those of fixed sizes."""
     return not plan.filtered and used.asked.layout is PAIRS
+
+
+def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]:
+    """The directed searches of a run of all families, by the seed of its fresh rows if there are any.
+
+    None about ways, whose truth takes milliseconds a row, nor where only fixed sizes are claimed.
+    """
+    if not _asks_everything(plan, used) or used.domain.settings or not plan.count:
+        return ()
+    seed = plan.seed if plan.fresh is None else plan.fresh
+    return tuple(
+        SearchStep(family.name, seed, min(plan.count * family.times, border_search.MOST))
+        for family in SEARCHED.values()
+        if used.tilt or not family.tilted
+    )
 
 
 def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
@@ -267,7 +286,8 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
             f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "
             'description must say "tilt": true'
         )
-    return steps_of_chunks(_chunks(plan, families, used), invalid_rows(used), plan.pace)
+    last: tuple[SearchStep | InvalidRows, ...] = (*searches(plan, used), *invalid_rows(used))
+    return steps_of_chunks(_chunks(plan, families, used), last, plan.pace)
 
 
 def rules_of(plan: ConformancePlan, used: Description) -> JudgingRules:

@@ -1,4 +1,4 @@
-"""The steps of a conformance run in order: chunks, retests, the invalid rows; their tasks, retries and merged results.
+"""The steps of a conformance run in order: chunks, retests, searches, the invalid rows; their tasks and merged results.
 
 An executor performs the tasks. Each task starts with the full limits, and its result says what is left of them. The
 sum over tasks is checked when results are merged, in the order of the steps: the step that exceeds the limits is the
@@ -19,6 +19,7 @@ from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import Crashed, Implementation, open_implementation
 from hypcheck.implementations.session import Allowance, Limits, StartError
+from hypcheck.runs.border_search import SearchStep, ask_search
 from hypcheck.runs.cases import PACE, CaseChunk, Pace
 from hypcheck.runs.results import (
     CasesResult,
@@ -30,7 +31,7 @@ from hypcheck.runs.results import (
 )
 from hypcheck.runs.retest import RetestStep, retest
 
-Step = CaseChunk | RetestStep | InvalidRows
+Step = CaseChunk | RetestStep | SearchStep | InvalidRows
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +79,8 @@ def perform_task(
         result = ask_chunk(task, implementation, rules)
     elif isinstance(task, RetestStep):
         result = retest(task, implementation, rules)
+    elif isinstance(task, SearchStep):
+        result = ask_search(task, implementation, rules)
     else:
         result = ask_invalid_rows(task, implementation)
     return TaskResult(result, implementation.allowance)
@@ -159,9 +162,9 @@ class TaskExecution:
 
 
 def steps_of_chunks(
-    chunks: Iterable[CaseChunk], invalid: Iterable[InvalidRows] = (), pace: Pace = PACE
+    chunks: Iterable[CaseChunk], last: Iterable[SearchStep | InvalidRows] = (), pace: Pace = PACE
 ) -> Iterator[Step]:
-    """The steps that ask these chunks, with their retests, and then these invalid rows."""
+    """The steps that ask these chunks, with their retests, and then those that come last."""
     rows, rounds, parts = 0, 0, set[int]()
     for chunk in chunks:
         yield chunk
@@ -171,7 +174,7 @@ def steps_of_chunks(
             yield from _retest_steps(rounds, parts, pace)
             rows, rounds, parts = 0, rounds + 1, set()
     yield from _retest_steps(rounds, parts, pace)
-    yield from invalid
+    yield from last
 
 
 def _retest_steps(number: int, parts: set[int], pace: Pace) -> Iterator[RetestStep]:

@@ -13,15 +13,44 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.implementations.description import Description
+from hypcheck.kernel.classify import classify
 from hypcheck.record.lines import SlicesPart
+from hypcheck.runs.border_search import SearchStep, beside_border, far_numbers, first_of, rows_at
 from hypcheck.runs.cases import frozen_count, frozen_vectors
-from hypcheck.runs.plan import ConformancePlan, chosen_families
+from hypcheck.runs.plan import ConformancePlan, chosen_families, searches
 from hypcheck.runs.results import JudgingRules
 from hypcheck.vectors import crossed
+from hypcheck.vectors.border_lines import RUNGS, octaves_of
 from hypcheck.vectors.family import Family
-from hypcheck.vectors.strata import HIGHEST, RATIO_OCTAVES
+from hypcheck.vectors.strata import FARTHEST_OCTAVE, HIGHEST, NEAREST_OCTAVE, RATIO_OCTAVES
+
+DISTANCE = "distance to contact"
+
+
+def _distance_octaves(rows: Rows) -> Floats:
+    """The octave of each spheroid's distance from contact, as a share of its size, (n,); NaN outside of those asked.
+
+    Contact begins or ends where the size changes by that share, which is found by halving.
+    """
+    low, high = np.full(len(rows), NEAREST_OCTAVE - 1.0), np.full(len(rows), FARTHEST_OCTAVE + 1.0)
+    touching = np.asarray(classify(rows)) == Position.CONTACT
+    grown = np.where(touching, -1.0, 1.0)
+
+    def changes(octave: Floats) -> Mask:
+        resized = rows.copy()
+        resized[:, 2:4] *= (1 + grown * np.exp2(octave))[:, None]
+        return np.asarray((np.asarray(classify(resized)) == Position.CONTACT) != touching)
+
+    known = changes(high)
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        beyond = changes(middle)
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    return np.where(known, high, np.nan)
+
 
 COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
     {
@@ -32,16 +61,17 @@ COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
         "d/b": lambda rows: _share_of_octaves(rows[:, 3] / rows[:, 2]),
         "α/b": lambda rows: _share_of_octaves(rows[:, 0] / rows[:, 2], -3, 7),
         "azimuth": lambda rows: np.arctan2(rows[:, 5], rows[:, 4]) / (2 * np.pi) + 0.5,
+        DISTANCE: lambda rows: (_distance_octaves(rows) - NEAREST_OCTAVE) / (FARTHEST_OCTAVE - NEAREST_OCTAVE),
         "lean": lambda rows: np.cos(np.arctan2(np.hypot(rows[:, 7], rows[:, 8]), np.abs(rows[:, 9]))),
         "heading": lambda rows: np.arctan2(rows[:, 8], rows[:, 7]) / np.pi % 1,
     }
 )
-"""What a narrow fault may depend on, from 0 to 1 in the range that is asked; upright rows have the first five.
+"""What a narrow fault may depend on, from 0 to 1 in the range that is asked; upright rows have the first six.
 
 |z|/γ is up to HIGHEST; c/a, where c = γ/d and a = α/b, and the other ratios are in octaves.
 """
 
-UPRIGHT = tuple(COORDINATES)[:5]
+UPRIGHT = tuple(COORDINATES)[:6]
 
 ROWS_OF_ONE = 3
 """So many rows are asked in each slice of one coordinate that is as wide as a run says."""
@@ -49,29 +79,58 @@ ROWS_OF_ONE = 3
 MOST = 40_000
 """Rows of a family and a seed that are looked at: more would make no slice wider."""
 
-_FAMILIES = ("strata", "tilted-strata")
+_HALVINGS = 13
+
+_FAMILIES = {"search": "strata", "tilted-search": "tilted-strata"}
+"""The families of lattices, by the searches near whose rows theirs lie."""
+
 _FINEST = 256
 """Parts of a range: a slice of two coordinates is not said to be narrower than two of these."""
 
 
 def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> dict[str, SlicesPart]:
-    """How evenly each family of lattices was asked near contact; none of which no row was asked."""
+    """How evenly each family of lattices was asked near contact, and each search at all distances.
+
+    Rows that a search asks in any case count with the family. Nothing of which no row was asked.
+    """
     found = {}
+    steps = {_FAMILIES[step.family]: step for step in searches(plan, used)}
+    first = first_of(rules.criterion)
     for family in chosen_families(plan, used):
-        if family.name in _FAMILIES:
-            rows = np.concatenate([*_rows_of(plan, family)])
-            rows = rows[rules.asked_of(family.name, rows)[0]]
+        if family.name in _FAMILIES.values():
+            rows = _asked(rules, family.name, np.concatenate([*_rows_of(plan, family)]))
+            if family.name in steps:
+                beside = beside_border(steps[family.name], first)
+                rows = np.concatenate([rows, _asked(rules, steps[family.name].family, beside)])
             if len(rows):
-                names = tuple(COORDINATES) if family.tilted else UPRIGHT
-                found[family.name] = evenness(rows, names)
+                found[family.name] = evenness(rows, tuple(COORDINATES) if family.tilted else UPRIGHT)
+    for step in steps.values():
+        numbers = far_numbers(step, first)
+        inside = rules.asked_of(step.family, rows_at(step.family, step.seed, numbers))[0]
+        if len(inside):
+            found[step.family] = _evenness_of_far(step, numbers[inside])
     return found
 
 
+def _asked(rules: JudgingRules, family: str, rows: Rows) -> Rows:
+    return rows[rules.asked_of(family, rows)[0]]
+
+
 def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
-    """How evenly the rows lie in the ranges of these coordinates."""
+    """How evenly those rows that are near contact lie in the ranges of these coordinates, `distance` among them."""
     places = np.stack([COORDINATES[name](rows) for name in names])
+    places = places[:, np.isfinite(places[names.index(DISTANCE)])]
     one = max(_widest(np.sort(some[(some >= 0) & (some <= 1)])) for some in places)
-    return SlicesPart(coordinates=list(names), rows=len(rows), one=one, two=_side(places))
+    return SlicesPart(coordinates=list(names), rows=places.shape[1], one=one, two=_side(places))
+
+
+def _evenness_of_far(step: SearchStep, numbers: Indices) -> SlicesPart:
+    """How evenly a search asked at all distances: of the two sides of contact, the one that was asked less evenly."""
+    line, rung = np.divmod(numbers, RUNGS)
+    octaves = octaves_of(step.family, step.seed, line, rung)
+    sides = [octaves[(rung < RUNGS // 2) == clear] for clear in (True, False)]
+    one = max(_widest(np.sort(some)) for some in sides)
+    return SlicesPart(coordinates=[DISTANCE], rows=len(numbers), one=one, two=1)
 
 
 def _share_of_octaves(ratio: Floats, low: int = -RATIO_OCTAVES, high: int = RATIO_OCTAVES) -> Floats:

@@ -22,6 +22,7 @@ from hypcheck.vectors import (
     tilted,
     ways,
 )
+from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
 
@@ -207,8 +208,11 @@ def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:
 
 
 def family_of(name: str) -> Family:
-    """The family of exactly this name, one for given sizes (razor@2.0,…) too. Raises InputError where there is none."""
-    family = family_at(name) if MARK in name else ALL.get(name)
+    """The family of exactly this name, also one for given sizes (razor@2.0,…) or of a search.
+
+    Raises InputError where there is none.
+    """
+    family = family_at(name) if MARK in name else ALL.get(name) or SEARCHED.get(name)
     if family is None:
         raise InputError(f"there is no family {name!r}; {_advice(name)}")
     return family

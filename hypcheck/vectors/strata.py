@@ -30,6 +30,9 @@ HIGHEST = 2.0
 RATIO_OCTAVES = 10
 """c/a and d/b are from 2^−RATIO_OCTAVES to 2^RATIO_OCTAVES."""
 
+NEAREST_OCTAVE, FARTHEST_OCTAVE = -40, -30
+"""Rows are from 2^NEAREST_OCTAVE to 2^FARTHEST_OCTAVE radii off contact."""
+
 _EIGHTH = 0.41421356237309503
 """The tangent of π/8: circle_at spans a quarter of the circle between this and its opposite."""
 
@@ -47,7 +50,7 @@ def lattice(draw: Draw, n: int) -> NDArray[np.float64]:
     return np.asarray(points - np.floor(points))
 
 
-def _octaves(share: Floats, low: int, high: int) -> Floats:
+def octaves(share: Floats, low: int, high: int) -> Floats:
     """From 2^low to 2^high, evenly in octaves, and evenly within each."""
     octave = share * (high - low)
     whole = np.floor(octave)
@@ -64,16 +67,22 @@ def _around(share: Floats) -> tuple[Floats, Floats]:
     )
 
 
-def _made(points: NDArray[np.float64], axis: Vectors) -> Rows:
-    height, slope, shape, waist, azimuth, side, distance, unit = points[:8]
-    a, b = _octaves(waist, -3, 7), _octaves(unit, -1, 1)
-    d = b * _octaves(shape, -RATIO_OCTAVES, RATIO_OCTAVES)
-    size = _centred(a * b, a * _octaves(slope, -RATIO_OCTAVES, RATIO_OCTAVES) * d, b, d)
+def _near(points: NDArray[np.float64]) -> Floats:
+    """How far off contact the rows of a lattice are, in radii: negative is in contact."""
+    side, distance = points[5:7]
+    outwards = np.where(np.floor(side * 4) % 2 == 0, 1.0, -1.0)
+    return np.asarray(outwards * octaves(distance, NEAREST_OCTAVE, FARTHEST_OCTAVE))
+
+
+def _made(points: NDArray[np.float64], axis: Vectors, off: Floats) -> Rows:
+    height, slope, shape, waist, azimuth, side, _, unit = points[:8]
+    a, b = octaves(waist, -3, 7), octaves(unit, -1, 1)
+    d = b * octaves(shape, -RATIO_OCTAVES, RATIO_OCTAVES)
+    size = _centred(a * b, a * octaves(slope, -RATIO_OCTAVES, RATIO_OCTAVES) * d, b, d)
     level = HIGHEST * (2 * height - 1)
     outward = np.where(side < 0.5, 1.0, -1.0)
-    nearness = np.where(np.floor(side * 4) % 2 == 0, 1.0, -1.0) * _octaves(distance, -40, -30)
     foot = _foot(size, level, axis, outward)
-    rows = beside_at(size, (np.ones(len(a)), np.zeros(len(a))), foot, axis, outward * (1 + nearness))
+    rows = beside_at(size, (np.ones(len(a)), np.zeros(len(a))), foot, axis, outward * (1 + off))
     return _turned(rows, _around(azimuth))
 
 
@@ -111,14 +120,25 @@ def _turned(rows: Rows, to: tuple[Floats, Floats]) -> Rows:
 
 def upright(draw: Draw, n: int) -> Rows:
     """From 2⁻⁴⁰ to 2⁻³⁰ radii off contact, to either side of it, outside and inside; |z| below 2γ."""
-    zero = np.zeros(n)
-    return np.ascontiguousarray(_made(lattice(draw, n), (zero, zero, np.ones(n)))[:, :7])
+    points = lattice(draw, n)
+    return upright_at(points, _near(points))
+
+
+def upright_at(points: NDArray[np.float64], off: Floats) -> Rows:
+    """The rows of these points of a lattice, (10, n), so many radii off contact."""
+    zero = np.zeros(len(off))
+    return np.ascontiguousarray(_made(points, (zero, zero, np.ones(len(off))), off)[:, :7])
 
 
 def tilted(draw: Draw, n: int) -> Rows:
     """The same with axes everywhere."""
     points = lattice(draw, n)
+    return tilted_at(points, _near(points))
+
+
+def tilted_at(points: NDArray[np.float64], off: Floats) -> Rows:
+    """The rows with axes of these points of a lattice, so many radii off contact."""
     up = points[8]
     across = np.sqrt(1 - up * up)
     cosine, sine = _around(points[9])
-    return _made(points, (across * cosine, across * sine, up))
+    return _made(points, (across * cosine, across * sine, up), off)

@@ -5,7 +5,8 @@ each of two. There it is wrong by 1e-9 to 1e-5: one number or both sizes of the 
 all lengths go through float32. Faults are drawn from a seed that is new unless it is given, so that no family can be
 made for them. A fault is rejected if a row that a run asks has an answer that is wrong beyond the tolerance.
 
-`--without` leaves out families, as `--without strata,tilted-strata` does: the share that others reject.
+`--without` leaves out families, as `--without strata,tilted-strata` does: the share that others reject. `search` is
+the directed search.
 """
 
 from __future__ import annotations
@@ -21,8 +22,11 @@ import numpy as np
 from hypcheck import classify
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Rows, within
+from hypcheck.runs.border_search import MOST, SearchStep, first_of, rows_at, searched
 from hypcheck.runs.cases import family_chunks, frozen_vectors
+from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.spread import COORDINATES, UPRIGHT
+from hypcheck.runs.tally import STATUS_CODES
 from hypcheck.vectors.families import select
 from tests.support.inside import decide, tolerated
 
@@ -94,7 +98,31 @@ def asked(count: int, without: frozenset[str], *, tilted: bool) -> Rows:
 
 def rejected(fault: Fault, rows: Rows, right: np.ndarray) -> bool:
     """Whether an answer to one of these rows is wrong beyond the tolerance."""
-    answers = classify(np.ascontiguousarray(fault.inputs(rows)))
+    return _beyond(rows, answers_of(fault, rows), right)
+
+
+def rejected_by_search(fault: Fault, count: int) -> bool:
+    """Whether the directed search of a run, which follows the answers, asks a row whose answer is."""
+    step = SearchStep("tilted-search" if fault.tilted else "search", 1, min(10 * count, MOST))
+    found = False
+
+    def ask(numbers: np.ndarray) -> np.ndarray:
+        nonlocal found
+        rows = rows_at(step.family, step.seed, numbers)
+        answers, right = answers_of(fault, rows), np.asarray(classify(rows))
+        found = found or _beyond(rows, answers, right)
+        return np.where(answers == right, STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG])
+
+    searched(len(step), first_of(Criterion()), ask)
+    return found
+
+
+def answers_of(fault: Fault, rows: Rows) -> np.ndarray:
+    """The answers of an implementation with this fault."""
+    return np.asarray(classify(np.ascontiguousarray(fault.inputs(rows))))
+
+
+def _beyond(rows: Rows, answers: np.ndarray, right: np.ndarray) -> bool:
     for place in np.flatnonzero(answers != right).tolist():
         pair = Pair.from_row(tuple(rows[place].tolist()))
         if not tolerated(pair, decide(pair.lengths), [Position(int(answers[place]))], TOLERANCE):
@@ -111,11 +139,13 @@ def main(seed: int | None, faults: int, count: int, without: str) -> None:
     """Draw faults, and print which escape and the share that is rejected."""
     seed = secrets.randbelow(1 << 32) if seed is None else seed
     stream = random.Random(seed)  # noqa: S311 - nothing secret is drawn
-    rows = {tilted: asked(count, frozenset(without.split(",")), tilted=tilted) for tilted in (False, True)}
+    left_out = frozenset(without.split(","))
+    rows = {tilted: asked(count, left_out, tilted=tilted) for tilted in (False, True)}
     right = {tilted: np.asarray(classify(rows[tilted])) for tilted in rows}
     caught = 0
     for fault in (drawn(stream) for _ in range(faults)):
         found = rejected(fault, rows[fault.tilted], right[fault.tilted])
+        found = found or ("search" not in left_out and rejected_by_search(fault, count))
         caught += found
         if not found:
             click.echo(f"escaped: {fault}")

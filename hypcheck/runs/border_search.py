@@ -1,0 +1,209 @@
+"""A directed search in a run: on lines across the border of contact, to where the answers of an implementation change.
+
+On a line (vectors/border_lines.py) a spheroid grows, and is clear until it touches, and in contact from then on. Each
+side of the border is a search of its own, for the rung from which on the answers are right:
+
+- Far sides come first, a few. Each begins at a rung anywhere, evenly over all distances, and goes on halfway to the
+  border while answers are right.
+- A near side begins beside the border, as near as the tolerance lets an answer be wrong. Where the answer is right
+  there, the side is done. Where it is wrong, though perhaps by less than is tolerated, the search goes outwards in
+  doubled steps until an answer is right, and halves what lies between: its rows are those at which the implementation's
+  border is not the true one.
+
+Every row that is asked is judged by the exact truth, like those of any family. So many rows are asked as the run says:
+those that sides need, then those of new lines. Nothing depends on anything but the seed and the answers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from itertools import count, islice
+
+import numpy as np
+
+from hypcheck.geometry.rows import Indices, Rows
+from hypcheck.implementations.implementation import Crashed, Implementation
+from hypcheck.runs.cases import CaseChunk, ChunkCases
+from hypcheck.runs.judge import Criterion, Status
+from hypcheck.runs.judges import judge_of
+from hypcheck.runs.results import CasesResult, JudgingRules, merged_result, result_of_final
+from hypcheck.runs.score import score
+from hypcheck.runs.tally import STATUS_CODES, StatusCodes, Tally
+from hypcheck.vectors.border_lines import FARTHEST_OCTAVE, LINES, NEAREST_OCTAVE, RUNGS, RUNGS_ON_A_SIDE, SEARCHED
+
+ROUNDS = 32
+"""A search asks one in so many of its rows at a time, and half of them at first, whatever is answered."""
+
+FAR = 32
+"""A far line for so many rows of a search."""
+
+MOST = 40_000
+"""Rows of a search at most: it holds all its sides."""
+
+_CLEARLY = 4
+"""A near side begins at so many times the tolerated change, of all numbers of a row together."""
+
+_GOLDEN = 0.6180339887498949
+
+
+@dataclass(frozen=True, slots=True)
+class SearchStep:
+    """The step of a run that asks so many rows of a search, whose lines are those of the seed."""
+
+    family: str
+    seed: int
+    rows: int
+
+    def __len__(self) -> int:
+        return self.rows
+
+    @property
+    def chunk(self) -> CaseChunk:
+        """All rows that the search may ask, for their names and places."""
+        return CaseChunk(self.family, self.seed, 0, -(-self.rows // LINES) * LINES * RUNGS)
+
+
+@dataclass(slots=True)
+class _Side:
+    """One side of a line: the `first` rung that is asked, and the range in which answers become right.
+
+    At `wrong` and further in they are wrong, or within the tolerance of the border; at `right` one is right. `right` is
+    None until one was. `next` is the rung to ask; None if the side is done.
+    """
+
+    number: int
+    wrong: int
+    next: int | None
+    right: int | None = None
+    begun: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.begun = self.wrong
+
+    def told(self, status: int) -> None:
+        """Choose what to ask after the row with `next` has ended so."""
+        asked = self.next
+        self.next = None
+        if asked is None or status not in (_RIGHT, _WRONG):
+            return
+        if status == _RIGHT:
+            self.right = asked
+        else:
+            self.wrong = asked
+        if self.right is None:
+            further = min(2 * asked - self.begun, RUNGS_ON_A_SIDE - 1)
+            self.next = further if further > asked else None
+        elif self.right - self.wrong > 1:
+            self.next = (self.wrong + self.right) // 2
+
+
+_RIGHT, _WRONG = STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG]
+
+
+def searched(rows: int, first: int, ask: Callable[[Indices], StatusCodes]) -> None:
+    """Ask so many rows of a search that begins at this rung.
+
+    `ask` is given the ascending numbers of rows in the family, and returns the status of each answer before it is
+    judged whether a wrong one is tolerated.
+    """
+    sides = _sides(first, rows // FAR)
+    active: list[_Side] = []
+    left = rows
+    while left:
+        together = at_first(rows) if left == rows else -(-rows // ROUNDS)
+        active = active[:left]
+        active += islice(sides, max(0, min(left, together) - len(active)))
+        active.sort(key=_place)
+        status = ask(np.array([_place(side) for side in active], dtype=np.int64))
+        left -= len(active)
+        for side, ended in zip(active, status.tolist(), strict=True):
+            side.told(ended)
+        active = [side for side in active if side.next is not None]
+
+
+def at_first(rows: int) -> int:
+    """How many sides a search of so many rows begins at first, so that nothing can keep it from asking them."""
+    return -(-rows // 2)
+
+
+def beside_border(step: SearchStep, first: int) -> Rows:
+    """The rows beside the border that a search asks at first, when it begins at this rung."""
+    sides = islice(_sides(first, step.rows // FAR), at_first(step.rows))
+    near = np.array([_place(side) for side in sides][2 * (step.rows // FAR) :], dtype=np.int64)
+    return rows_at(step.family, step.seed, near)
+
+
+def far_numbers(step: SearchStep, first: int) -> Indices:
+    """The numbers in the family of the rows at which the far sides of a search begin."""
+    sides = islice(_sides(first, step.rows // FAR), 2 * (step.rows // FAR))
+    return np.array([_place(side) for side in sides], dtype=np.int64)
+
+
+def _sides(first: int, far: int) -> Iterator[_Side]:
+    """The sides of all lines, of which the first are `far` ones."""
+    begins = far_rungs(first, far)
+    for number, begin in enumerate(begins):
+        yield _Side(number, first - 1, begin)
+    for number in count(len(begins)):
+        yield _Side(number, first - 1, first)
+
+
+def far_rungs(first: int, far: int) -> list[int]:
+    """The rungs at which the sides of so many far lines begin: on each side evenly, from the first rung outwards."""
+    shares = ((line + side / 2) * _GOLDEN % 1 for line in range(far) for side in (0, 1))
+    return [first + int(share * (RUNGS_ON_A_SIDE - first)) for share in shares]
+
+
+def _place(side: _Side) -> int:
+    """The number in the family of the row that a side asks next."""
+    line, half = divmod(side.number, 2)
+    return line * RUNGS + half * RUNGS_ON_A_SIDE + (side.next or 0)
+
+
+def first_of(criterion: Criterion) -> int:
+    """The rung at which a search begins: nearer, most wrong answers are tolerated."""
+    tolerated = float(criterion.tolerance * criterion.unit)
+    if not tolerated:
+        return 0
+    share = (math.log2(_CLEARLY * tolerated) - NEAREST_OCTAVE) / (FARTHEST_OCTAVE - NEAREST_OCTAVE)
+    return min(max(0, math.ceil(share * RUNGS_ON_A_SIDE)), RUNGS_ON_A_SIDE - 1)
+
+
+def rows_at(family: str, seed: int, places: Indices) -> Rows:
+    """The rows of a searched family with these ascending numbers."""
+    lines, rungs = np.divmod(places, RUNGS)
+    if not len(places):
+        return np.empty((0, len(SEARCHED[family].columns)))
+    parts = []
+    for lattice in sorted({*(lines // LINES).tolist()}):
+        some = lines // LINES == lattice
+        parts.append(SEARCHED[family].rungs(seed, lattice, lines[some] % LINES, rungs[some]))
+    return np.ascontiguousarray(np.concatenate(parts))
+
+
+def ask_search(step: SearchStep, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
+    """Perform a search. All its answers are judged now."""
+    parts: list[CasesResult] = []
+    most = len(step) if implementation.max_rows is None else min(len(step), implementation.max_rows)
+
+    def ask(places: Indices) -> StatusCodes:
+        rows = rows_at(step.family, step.seed, places)
+        inside, left_out = rules.asked_of(step.family, rows)
+        chosen = np.ascontiguousarray(rows[inside])
+        answered = implementation.classify(chosen)
+        scored = score(chosen, judge_of(rules.criterion.question).truth(chosen), answered, rules.criterion)
+        made = ChunkCases(step.chunk, chosen, np.ascontiguousarray(chosen.T), scored.truth)
+        result = result_of_final(made, places[inside], scored, rules, left_out=left_out)
+        parts.append(replace(result, outcomes=answered.outcomes))
+        status = np.full(len(places), STATUS_CODES[Status.SKIPPED], dtype=np.int8)
+        status[inside] = scored.status
+        return status
+
+    searched(most, first_of(rules.criterion), ask)
+    if most < len(step):
+        left_out = {"slow": len(step) - most}
+        tally = Tally(counts={Status.SKIPPED.value: len(step) - most}, not_asked=left_out)
+        parts.append(CasesResult(tallies={step.family: tally}))
+    return merged_result(parts)
