@@ -12,8 +12,8 @@ from hypcheck.cli.main import main
 from hypcheck.geometry.rows import within
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
-from hypcheck.runs.border_search import beside_border, far_numbers, first_of, rows_at, searched
 from hypcheck.runs.border_search import SearchStep as Step
+from hypcheck.runs.border_search import beside_border, far_numbers, first_of, rows_at, searched
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.tally import STATUS_CODES
 from hypcheck.truth import float_filter
