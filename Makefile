@@ -17,7 +17,7 @@ COMPILED := $(BIN)/python -c 'from hypcheck.derivation import printed_equations,
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams evidence docs release format clean
+.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams evidence docs packages release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -124,6 +124,9 @@ format: $(VENV)/ready-dev ## rewrite the code in the house format
 
 docs: $(VENV)/ready-docs ## the site of all pages, its links checked; build/site/index.html
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
+
+packages: $(VENV)/ready-dev ## the packages of other languages, in dist/; packages/
+	$(BIN)/python -m packages --out dist
 
 release: $(VENV)/ready-dev ## the wheel and the sdist of a clean tree in dist/, and the tag of its version
 	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 2; }

@@ -27,6 +27,7 @@ from hypcheck.kernel.programs.integers import (
     QUARTIC,
     bits_counted,
 )
+from hypcheck.version import VERSION
 
 HERE = Path(__file__).parent
 TARGET = HERE / "hypcheck.h"
@@ -110,6 +111,7 @@ def _part(name: str) -> str:
     text = (HERE / "parts" / name).read_text(encoding="utf-8")
     printed = {key: make() for key, make in _TEXTS.items() if f"@{key}@" in text}
     said = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(kilobytes()), "TILTED_KILOBYTES": str(tilted_kilobytes())}
+    said["VERSION"] = VERSION
     return re.sub(r"@(\w+)@", lambda match: said.get(match[1], match[0]), _filled(text, printed))
 
 

@@ -141,6 +141,10 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 const char *hypcheck_level(void);
 int hypcheck_use_level(const char *name);
 
+/* The version of this header, and that of the one the program was linked with. */
+#define HYPCHECK_VERSION "0.1.0"
+const char *hypcheck_version(void);
+
 #ifdef __cplusplus
 }
 #endif
@@ -1659,7 +1663,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_4023fd7b50a46311
+#ifndef HC_EDITION_909da1863d127638
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -2283,6 +2287,8 @@ int hypcheck_use_level(const char *name) {
         }
     return 0;
 }
+
+const char *hypcheck_version(void) { return HYPCHECK_VERSION; }
 
 static int8_t hc_answer(int question, int position) {
     switch (question) {
@@ -3939,7 +3945,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_4023fd7b50a46311
+#define HC_EDITION_909da1863d127638
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -37,6 +37,7 @@ OF_THE_MACHINE = {
     "hc_level_of",
     "hypcheck_level",
     "hypcheck_use_level",
+    "hypcheck_version",
     "hc_lowest_bit",
     "hc_spread",
 }

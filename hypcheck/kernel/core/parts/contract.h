@@ -141,6 +141,10 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 const char *hypcheck_level(void);
 int hypcheck_use_level(const char *name);
 
+/* The version of this header, and that of the one the program was linked with. */
+#define HYPCHECK_VERSION "@VERSION@"
+const char *hypcheck_version(void);
+
 #ifdef __cplusplus
 }
 #endif

@@ -82,6 +82,8 @@ int hypcheck_use_level(const char *name) {
     return 0;
 }
 
+const char *hypcheck_version(void) { return HYPCHECK_VERSION; }
+
 static int8_t hc_answer(int question, int position) {
     switch (question) {
     case HYPCHECK_EXTERIOR: return position > 0;

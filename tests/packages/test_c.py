@@ -1,0 +1,150 @@
+"""The package for C and C++, as a stranger has it: unpacked, built, installed, and used in each of the three ways."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+from pathlib import Path
+
+import pytest
+
+from hypcheck.version import VERSION
+
+ROOT = Path(__file__).resolve().parents[2]
+HEADER = ROOT / "hypcheck" / "kernel" / "core" / "hypcheck.h"
+SYMBOLS = ROOT / "packages" / "c" / "symbols.map"
+CMAKE = shutil.which("cmake", path=str(Path(sys.executable).parent)) or shutil.which("cmake")
+CPP = shutil.which("c++")
+POSITIONS = "-1 0 1"
+"""Of the example: within the tower's wall, across it, and more than a metre outside."""
+
+needs_cmake = pytest.mark.skipif(None in (CMAKE, CPP), reason="there is no cmake or no C++ compiler")
+
+
+def quietly(*command, **options):
+    """What a command that must succeed prints."""
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def packed(folder, name="c"):
+    """The archive of a language, built into the folder."""
+    quietly(sys.executable, "-m", "packages", name, "--out", folder, cwd=ROOT)
+    return folder / f"hypcheck-{name}-{VERSION}.tar.gz"
+
+
+@pytest.fixture(scope="module")
+def unpacked(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("c")
+    archive = packed(folder)
+    with tarfile.open(archive) as files:
+        files.extractall(folder)  # noqa: S202
+    return folder / f"hypcheck-c-{VERSION}"
+
+
+@pytest.fixture(scope="module")
+def installed(unpacked):
+    """Where the shared library, built from the archive as CMake does it unasked, is installed."""
+    build, prefix = unpacked.parent / "build", unpacked.parent / "prefix"
+    quietly(CMAKE, "-S", unpacked, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}", "-DCMAKE_INSTALL_LIBDIR=lib")
+    quietly(CMAKE, "--build", build)
+    quietly(CMAKE, "--install", build)
+    moved = unpacked.parent / "moved"  # what is installed must not remember where
+    prefix.rename(moved)
+    return moved
+
+
+def declared():
+    """The functions that the header declares."""
+    contract, _, _ = HEADER.read_text(encoding="utf-8").partition("#if defined(HYPCHECK_IMPLEMENTATION)")
+    return set(re.findall(r"^[\w ]+[ *](\w+)\([^;]*;", contract, re.MULTILINE))
+
+
+def check_examples(build):
+    assert quietly(build / "example").splitlines() == [POSITIONS, f"{VERSION} {VERSION}"]
+    assert quietly(build / "example_cpp").splitlines() == ["1", f"{VERSION} {VERSION}"]
+
+
+def test_the_symbol_table_lists_every_function_that_the_header_declares_and_no_other():
+    assert len(declared()) > 15
+    listed = re.findall(r"^ {8}(\w+);$", SYMBOLS.read_text(encoding="utf-8"), re.MULTILINE)
+    assert listed == sorted(declared())
+
+
+def test_the_node_of_the_symbol_table_is_the_major_version():
+    assert re.findall(r"^(\w+) {", SYMBOLS.read_text(encoding="utf-8"), re.MULTILINE) == [
+        f"HYPCHECK_{VERSION.partition('.')[0]}"
+    ]
+
+
+def test_all_that_the_header_declares_to_a_program_begins_with_its_name():
+    contract, _, _ = HEADER.read_text(encoding="utf-8").partition("#if defined(HYPCHECK_IMPLEMENTATION)")
+    code = re.sub(r"/\*.*?\*/", "", contract, flags=re.DOTALL)
+    names = re.findall(r"^#define (\w+)|^}\s*(\w+);|(\w+) = \d+|^[\w ]+[ *](\w+)\(", code, re.MULTILINE)
+    found = {name for groups in names for name in groups if name}
+    assert {"HYPCHECK_H", "HYPCHECK_VERSION", "HYPCHECK_CONTACT", "hypcheck_near"} | declared() <= found
+    assert [name for name in found if not name.startswith(("hypcheck_", "HYPCHECK_"))] == []
+
+
+def test_all_that_the_header_defines_besides_is_static_and_begins_with_hc():
+    _, _, code = HEADER.read_text(encoding="utf-8").partition("#if defined(HYPCHECK_IMPLEMENTATION)")
+    named = r"^#define (\w+)|^(?:HC_\w+ )?static [^;(=]*?(\w+)(?:\(|\[| = |, \w+ = )"
+    found = {name for groups in re.findall(named, code, re.MULTILINE) for name in groups if name}
+    assert len(found) > 200
+    assert {name for name in found if not name.startswith(("hc_", "HC_"))} <= {"HYPCHECK_SELF", "HYPCHECK_SMALL_LIMBS"}
+
+
+def test_two_archives_of_one_tree_have_the_same_bytes(tmp_path):
+    first, second = (packed(tmp_path / name).read_bytes() for name in ("first", "second"))
+    assert first == second
+
+
+@needs_cmake
+@pytest.mark.skipif(shutil.which("readelf") is None, reason="there is no readelf, which lists symbols")
+def test_the_shared_library_exports_what_the_header_declares_under_its_version(installed):
+    table = quietly("readelf", "--dyn-syms", "--wide", installed / "lib" / "libhypcheck.so")
+    exported = [line.split()[-1] for line in table.splitlines() if re.search(r" (GLOBAL|WEAK) +DEFAULT +\d+ ", line)]
+    major = VERSION.partition(".")[0]
+    assert sorted(exported) == sorted(f"{name}@@HYPCHECK_{major}" for name in declared())
+
+
+@needs_cmake
+def test_the_example_finds_the_installed_package(installed, tmp_path):
+    source = ROOT / "packages" / "c" / "examples"
+    quietly(CMAKE, "-S", source, "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={installed}", "-DCMAKE_BUILD_TYPE=Debug")
+    quietly(CMAKE, "--build", tmp_path)
+    check_examples(tmp_path)
+
+
+@needs_cmake
+def test_the_example_fetches_the_archive(unpacked, tmp_path):
+    source = ROOT / "packages" / "c" / "examples"
+    archive = unpacked.parent / f"{unpacked.name}.tar.gz"
+    quietly(CMAKE, "-S", source, "-B", tmp_path, f"-DHYPCHECK_URL={archive.as_uri()}")
+    quietly(CMAKE, "--build", tmp_path)
+    check_examples(tmp_path)
+
+
+@needs_cmake
+@pytest.mark.skipif(shutil.which("pkg-config") is None, reason="there is no pkg-config")
+def test_the_example_is_built_with_what_pkg_config_says(installed, tmp_path):
+    environment = {"PKG_CONFIG_PATH": str(installed / "lib" / "pkgconfig"), "PATH": "/usr/bin:/bin"}
+    assert quietly("pkg-config", "--modversion", "hypcheck", env=environment).strip() == VERSION
+    options = quietly("pkg-config", "--cflags", "--libs", "hypcheck", env=environment).split()
+    for compiler, source, name in (("cc", "example.c", "example"), ("c++", "example.cpp", "example_cpp")):
+        path = ROOT / "packages" / "c" / "examples" / source
+        quietly(compiler, path, "-o", tmp_path / name, *options, f"-Wl,-rpath,{installed / 'lib'}")
+    check_examples(tmp_path)
+
+
+@needs_cmake
+@pytest.mark.slow
+def test_the_installed_library_passes_the_gate(installed, tmp_path):
+    library = installed / "lib" / "libhypcheck.so"
+    options = ("--count", "0", "--out", tmp_path / "report")
+    out = quietly(sys.executable, "-m", "hypcheck", "verify", f"library:{library}", *options, cwd=tmp_path)
+    assert re.match(r"HELD: libhypcheck.so: [89],\d{3} judged: ", out)
