@@ -136,3 +136,15 @@ def test_margins_hold_for_spheroids_that_lean_and_beside_ends_and_leave_invalid_
 def test_a_number_that_is_a_fraction_is_no_float64():
     with pytest.raises(InputError):
         hypcheck.classify(SIZES, Fraction(1, 3), 0, 0)
+
+
+def test_numbers_for_sizes_and_heights_are_those_of_every_row():
+    heights = {"z_min": -1.0, "z_max": 2.0, "solid": True}
+    for points in (POINTS, [[1.9, 0.0, 2.1], [0.0, 0.0, 2.2]]):
+        rows = [(*SIZES, *point, 0.0, 0.0, 1.0, -1.0, 2.0, 1.0) for point in np.asarray(points).tolist()]
+        assert hypcheck.classify(SIZES, points, **heights).tolist() == by_truth(rows)
+
+
+def test_a_centre_without_sizes_is_refused():
+    with pytest.raises(InputError, match="the columns alpha, gamma, b, d are missing"):
+        hypcheck.classify(x=1.0, y=2.0, z=3.0)

@@ -208,6 +208,8 @@ def test_passage_that_grazes_a_rim_at_an_irrational_time_hits_and_a_hair_above_d
         level = 1.25 + lift
         assert ball.passage((rim, -1.0, level), (rim, np.pi, level)).tolist() == [hit]
         assert ball.passage((rim, -1.0, level), (rim, 1.0, level)).tolist() == [hit]
+        exact = passage((1.125, 0.75, 0.25, 0.25), (rim, -1.0, level), (rim, np.pi, level), z_min=0.0, z_max=1.0)
+        assert (exact.hit, exact.grazes) == (bool(hit), lift == 0)
 
 
 def test_parts_of_a_mover_pass_through_an_opening_that_the_mover_does_not_fit():
@@ -216,9 +218,14 @@ def test_parts_of_a_mover_pass_through_an_opening_that_the_mover_does_not_fit():
     asked = scene(body, mover=Mover(1.1, 0.3, rotors))
     up = (0.0, 0.0, -1.0), (0.0, 0.0, 3.0)
     assert asked.classify(0.0, 0.0, [-1.0, 0.9, 1.1, 3.0]).tolist() == [-1, -1, 1, 1]
+    assert [asked.position(0.0, 0.0, z) for z in (-1.0, 0.9, 1.1, 3.0)] == [-1, -1, 1, 1]
     assert asked.passage(*up).tolist() == [0]
     wide = (replace(rotors[0], arm=0.95), rotors[1])
-    assert scene(body, mover=Mover(1.1, 0.3, wide)).passage(*up).tolist() == [1]
+    touching = scene(body, mover=Mover(1.1, 0.3, wide))
+    assert touching.passage(*up).tolist() == [1]
+    for z, position in ((-1.0, 0), (0.9, 0), (3.0, 1)):
+        assert touching.position(0.0, 0.0, z) == position
+        assert touching.passage((0.0, 0.0, z), (0.0, 0.0, z)).tolist() == [int(position == 0)]
 
 
 def test_ends_of_a_hyperboloid_whose_axis_points_down_are_counted_downwards():

@@ -78,7 +78,7 @@ BALL = Pair(1, 1, 1, 1, 1, 0, 0, z_min=-2, z_max=2, solid=1)
 """Its centre lies on the wall of a solid body: half of it is within."""
 LOW = Pair(1, 1, 0.5, 0.5, 0, 0, -3, z_min=1, z_max=3)
 """On the axis, far below the ends."""
-CUTS_THE_WALL = Pair(1, 1, 1, 1, 2, 0, 2, z_min=1, z_max=3)
+CUTS_THE_WALL = Pair(1, 1, 1, 1, 2.5, 0, 2, z_min=1, z_max=3)
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ BY_HAND = [
 
 
 def pair_of(row, ends, solid):
-    axis = row[7:] or (0, 0, 1)
+    axis = tuple(row[7:]) or (0, 0, 1)
     return Pair.from_row((*map(float, row[:7]), *map(float, axis), *map(float, ends), float(solid)))
 
 
@@ -109,14 +109,15 @@ def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
         assert not check_certificate(pair, replace(certificate, position=other))
 
 
-def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing():
-    pair = pair_of((1, 1, 1, 1, 2.5, 0, -0.9), (0, 3), 0)
+@pytest.mark.parametrize("unit", [1, 8, 1 / 8])
+def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing(unit):
+    pair = pair_of([unit * size for size in (1, 1, 1, 1, 2.5, 0, -0.9)], (0, 3 * unit), 0)
     certificate = ended_prove.prove(pair, decide(pair.lengths))
     assert check_certificate(pair, certificate)
     first, *rest = certificate.pieces
     for pieces in (
         (),
-        (replace(first, low=first.low + 1 if first.low is not None else Fraction(1)), *rest),
+        (replace(first, low=first.low + Fraction(unit) if first.low is not None else Fraction(unit)), *rest),
         (replace(first, plane=-first.plane), *rest),
         (replace(first, multiplier=Fraction(-1)), *rest),
     ):
