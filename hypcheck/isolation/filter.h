@@ -62,7 +62,8 @@ static const unsigned short REFUSED[] = {
 /* Calls that programs can do without where a system does not have them: ENOSYS. clone3 passes its flags in memory. */
 static const unsigned short UNKNOWN[] = {
     SYS_memfd_create, SYS_userfaultfd, SYS_shmget, 424 /* pidfd_send_signal */, 425 /* io_uring_setup */,
-    426 /* io_uring_enter */, 427 /* io_uring_register */, 435 /* clone3 */, 447 /* memfd_secret */,
+    426 /* io_uring_enter */, 427 /* io_uring_register */, 435 /* clone3 */, 440 /* process_madvise */, 447 /* memfd_secret */,
+    448 /* process_mrelease */,
 };
 
 /* Calls whose first argument is the process that gets a signal or is opened. */

@@ -359,6 +359,98 @@ def import_second_copy():
     return f"imported {classify}"
 
 
+def abstract_socket():
+    """A name in no folder, at which a process outside could wait."""
+    import _socket
+
+    _socket.socket(_socket.AF_UNIX, _socket.SOCK_STREAM).bind(f"\0hypcheck-{JUDGE}")
+    return "bound"
+
+
+def count_descriptors():
+    """What the judge has open and left open when it started this program."""
+    found = []
+    for number in range(3, 1024):
+        try:
+            os.fstat(number)
+        except OSError:
+            continue
+        found.append(os.readlink(f"/proc/self/fd/{number}"))
+    return f"{len(found)} inherited: {' '.join(found)}"
+
+
+def read_by_another_root():
+    """What is hidden at its place may be seen from where another process begins."""
+    found = []
+    for process in ("self", "1", os.getppid(), JUDGE):
+        for begin in ("root", "cwd"):
+            try:
+                with open(f"/proc/{process}/{begin}/{VECTORS}") as file:
+                    found.append(len(file.read()))
+            except OSError:
+                continue
+    return f"read {len(found)} files"
+
+
+def replace_interpreter():
+    """What the next question would run."""
+    import encodings
+
+    tried = []
+    for folder in (os.path.dirname(os.path.realpath(sys.executable)), os.path.dirname(encodings.__file__)):
+        try:
+            os.close(os.open(os.path.join(folder, f"hypcheck-{JUDGE}"), os.O_CREAT | os.O_WRONLY))
+            os.remove(os.path.join(folder, f"hypcheck-{JUDGE}"))
+            tried.append(folder)
+        except OSError:
+            continue
+    return f"wrote into {len(tried)} folders"
+
+
+CALLS = {
+    "ptrace": (101, 0x4206, JUDGE, 0, 0),
+    "add_key": (248, b"user", b"x", b"y", 1, -3),
+    "keyctl": (250, 0, -3, 1),
+    "perf_event_open": (298, None, JUDGE, -1, -1, 0),
+    "fanotify_init": (300, 0, 0),
+    "open_by_handle_at": (304, -100, None, 0),
+    "kcmp": (312, os.getpid(), JUDGE, 0, 0, 0),
+    "bpf": (321, 0, None, 0),
+    "userfaultfd": (323, 1),
+    "io_uring_setup": (425, 1, bytes(120)),
+    "pidfd_getfd": (438, -1, 0, 0),
+    "process_madvise": (440, -1, None, 0, 0, 0),
+    "process_mrelease": (448, -1, 0),
+    "process_vm_readv": (310, JUDGE, None, 0, None, 0, 0),
+    "shmget": (29, 1, 4096, 0o1600),
+    "msgget": (68, 1, 0o1600),
+    "mq_open": (240, b"hypcheck", 0o102, 0o600, None),
+    "memfd_secret": (447, 0),
+}
+"""By their names, numbers of x86-64, and arguments with which they do nothing."""
+
+
+def call_what_exploits_like():
+    """Each call in a child, as one may end with a signal; what is neither refused nor unknown is named."""
+    libc, answered = ctypes.CDLL(None, use_errno=True), []
+    for name, call in CALLS.items():
+        child = os.fork()
+        if not child:
+            done = libc.syscall(*call)
+            os._exit(0 if done >= 0 else ctypes.get_errno())
+        _, status = os.waitpid(child, 0)
+        if os.WIFEXITED(status) and os.WEXITSTATUS(status) not in (1, 38):
+            answered.append(name)
+    return f"answered: {' '.join(answered)}"
+
+
+def flood_with_words():
+    """More than any report should keep."""
+    for _ in range(256):
+        os.write(2, b"x" * (1 << 16))
+    return "flooded"
+
+
 def attack():
     try:
         return globals()[ATTACK]()

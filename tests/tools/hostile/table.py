@@ -104,6 +104,16 @@ ATTACKS = (
     Attack("memory_in_no_process", "takes memory that is in no process", ("Errno 38",) * 3 + (None,)),
     Attack("exhaust_descriptors", "opens files without end", ("Too many open files",) * 3 + (None,)),
     Attack("link_scratch", "replaces the scratch folder by a link", ("busy|Read-only", "Permission|busy", None, None)),
+    Attack("abstract_socket", "listens at a name that is no file", (REFUSED,) * 3 + (None,)),
+    Attack("count_descriptors", "finds descriptors of the judge", ("^0 inherited",) * 4),
+    Attack("read_by_another_root", "reads vectors by the root of others", ("^read 0 files",) * 2 + (None, None)),
+    Attack("replace_interpreter", "writes beside its interpreter", ("^wrote into 0 folders",) * 2 + (None, None)),
+    Attack("flood_with_words", "floods its standard error", ("^[x |]{1,399}…$",) * 4),
+    *(
+        [Attack("call_what_exploits_like", "makes calls of exploits", ("^answered: $|^answered:$",) * 3 + (None,))]
+        if platform.machine() == "x86_64"
+        else []
+    ),
     Attack("escape_to_new_namespace", "becomes the superuser of a namespace", (DENIED,) * 3 + (None,)),
     Attack("look_at_processes", "reads the environments of others", ("of 0 others",) * 2 + (None, None)),
 )
