@@ -23,7 +23,7 @@ from hypcheck.tables.chunk import SweepAnswers, Table, TableAnswers, TableChunk,
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
-from hypcheck.tables.streams import Route, reading, same_file, writing
+from hypcheck.tables.streams import Route, open_input, replace_output, same_file
 from hypcheck.truth import exact, float_filter, nearest_rows
 from hypcheck.truth.nearest import NearestStage
 from hypcheck.truth.nearest_rows import upright_mask
@@ -108,8 +108,8 @@ def classify_table(
     """Write the answers about every row of the table at `route.source` to `route.target`.
 
     `watch` is given the length of the source in bytes (None for a stream), and yields what takes note of progress. A
-    row that is no valid query raises InputError, or with `mark` is marked as refused (127). `workers` processes answer;
-    None: one for each processor. This process answers the first `alone` chunks itself.
+    row that is not a valid query raises InputError, or with `mark` is marked as refused (127). `workers` processes
+    answer; None: one for each processor. This process answers the first `alone` chunks itself.
 
     The output appears when it is complete. After an error, the target is as it was before. Raises InputError if a file
     cannot be opened, read or written, NothingJudgedError if the table has no rows, and what answers() raises.
@@ -117,10 +117,10 @@ def classify_table(
     if same_file(route.source, route.target):
         raise InputError(f"--output {route.target} is the input itself; name another file")
     many = min(MOST_WORKERS, usable_processors()) if workers is None else workers
-    with reading(route.source, patient=True) as reader:
+    with open_input(route.source, patient=True) as reader:
         table = _READ[route.source_format](reader, mark=mark)
         with (
-            writing(route.target) as writer,
+            replace_output(route.target) as writer,
             _WRITE[route.target_format](writer, table) as sink,
             watch(reader.size()) as advance,
             closing(

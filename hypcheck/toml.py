@@ -65,7 +65,7 @@ def parsed(text: str, name: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{name}: is no TOML: {error}") from None
+        raise InputError(f"{name}: is not valid TOML: {error}") from None
     except RecursionError:
         raise InputError(f"{name}: cannot be read as TOML: it is nested too deeply") from None
     except ValueError:  # an integer of more than 4300 digits

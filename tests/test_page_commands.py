@@ -58,7 +58,7 @@ NOT_TYPED = {
     "hypcheck simulate tower --pitch 20 --runs 200": "it takes a quarter of an hour",
     "pip ": "it needs the package index",
     "python3 -m venv": CLONE,
-    "jq ": "it is no program of ours, and not everywhere",
+    "jq ": "it is not a program of ours, and not everywhere",
     **dict.fromkeys(("aarch64-", "arm-", "riscv64-", "s390x-", "i686-", "clang --target=wasm32"), OTHER_COMPILER),
 }
 """How commands begin that are not typed, and why. The longest beginning here or in LONG is the one that holds."""

@@ -20,13 +20,13 @@ def test_a_byte_order_mark_in_a_toml_file_is_ignored(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("a = ", "a.toml: is no TOML: Invalid value"),
+        ("a = ", "a.toml: is not valid TOML: Invalid value"),
         ("a = " + "[" * 5000, "a.toml: cannot be read as TOML: it is nested too deeply"),
         ("a = " + "9" * 5000, "a.toml: has an integer with too many digits"),
         ("a = 0x" + "f" * 5000, "a.toml: has an integer with too many digits"),
         ("\n\na" + ".a" * 5000 + " = 1", "a.toml, line 3: has more than 100 dots"),
         ('"=\\"".1.1 .1 . 1' * 30 + " = 1", "a.toml, line 1: has more than 100 dots"),
-        ("a = '\x1b'", r"a.toml: is no TOML: .* character '\\x1b'"),
+        ("a = '\x1b'", r"a.toml: is not valid TOML: .* character '\\x1b'"),
     ],
 )
 def test_invalid_toml_is_refused_in_one_sentence(text, message):

@@ -48,7 +48,7 @@ class ForeignMethod:
 def foreign_method(
     spec: str, limits: Limits, taken: Sequence[str], *, tilted: bool = False, layout: Layout = PAIRS
 ) -> ForeignMethod:
-    """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is no SPEC.
+    """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is not a SPEC.
 
     So it does if it would be asked about tilted spheroids, and its description does not say tilt, or if its question is
     about rows of another layout.

@@ -106,7 +106,7 @@ def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 def plan_with_specs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     """The plan with the methods of its SPECs; those that cannot be started are recorded instead.
 
-    Raises InputError if a text is no SPEC.
+    Raises InputError if a text is not a SPEC.
     """
     found: list[foreign.ForeignMethod] = []
     for spec in plan.specs:

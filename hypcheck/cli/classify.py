@@ -66,7 +66,7 @@ standard output is written as the rows come.
 @click.option(
     "--on-invalid",
     type=click.Choice(("fail", "flag")),
-    help="A row that is no valid pair: fail (the default), or flag it as refused (127) and go on.",
+    help="A row that is not a valid pair: fail (the default), or flag it as refused (127) and go on.",
 )
 def classify(
     alpha: str | None,
@@ -160,7 +160,7 @@ def _pair_of(
 
 
 def _with_heights(pair: Pair, z_min: str | None, z_max: str | None, solid: bool) -> Pair:
-    """The pair with these ends. Raises InputError naming what is no valid height."""
+    """The pair with these ends. Raises InputError naming what is not a valid height."""
     if solid and z_min is None and z_max is None:
         raise InputError("--solid says that flat ends belong to the hyperboloid; give --z-min, --z-max or both")
     low = -math.inf if z_min is None else _number("--", "z-min", z_min)

@@ -228,7 +228,7 @@ def answer_shell(instruction: str) -> None:
     except KeyError as error:
         raise InputError(f"{COMPLETE} is {instruction!r}, but {error.args[0]} is not set; the shell sets it") from None
     except ValueError:  # of COMP_CWORD
-        raise InputError(f"{COMPLETE} is {instruction!r}, but COMP_CWORD is no number; the shell sets it") from None
+        raise InputError(f"{COMPLETE} is {instruction!r}, but COMP_CWORD is not a number; the shell sets it") from None
 
 
 def _completing(shell: str) -> ShellComplete:

@@ -73,9 +73,9 @@ def _write(lines: Iterable[str], output: str) -> None:
         for line in lines:
             click.echo(line)
         return
-    from hypcheck.tables.streams import writing
+    from hypcheck.tables.streams import replace_output
 
-    with writing(output) as file:
+    with replace_output(output) as file:
         for line in lines:
             file.write(f"{line}\n".encode())
 
@@ -219,7 +219,7 @@ def _show(name: str) -> None:
     from hypcheck.scene.reading import shipped_scenes, shipped_text
 
     if name not in shipped_scenes():
-        raise InputError(f"--show-scene: {name!r} is no shipped scene; there are {', '.join(shipped_scenes())}")
+        raise InputError(f"--show-scene: {name!r} is not a shipped scene; there are {', '.join(shipped_scenes())}")
     click.echo(shipped_text(name), nl=False)
 
 

@@ -14,7 +14,7 @@ from hypcheck.cli.progress import summary_options
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import counted, escaped, printable
 from hypcheck.report.formats import REPORTS, kept_formats
-from hypcheck.tables.streams import STREAM, same_file, writing
+from hypcheck.tables.streams import STREAM, replace_output, same_file
 
 if TYPE_CHECKING:
     from hypcheck.record import Record
@@ -105,7 +105,7 @@ def _print(record: Record, name: str, against: Record | None) -> None:
             click.echo(line)
         return
     content = render(name, record, ReportContext(against=against))
-    with writing("-") as file:
+    with replace_output("-") as file:
         file.write(content)
 
 
@@ -114,7 +114,7 @@ def _into_file(record: Record, source: Path, out: Path, name: str, against: Reco
     from hypcheck.report.write import render
 
     content = render(name, record, ReportContext(_beside(source, out), against))
-    with writing(str(out)) as file:
+    with replace_output(str(out)) as file:
         file.write(content)
     click.echo(f"{name}: {printable(out)}")
 

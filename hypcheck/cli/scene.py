@@ -88,7 +88,7 @@ def _measured(found: ScenePlan) -> Iterator[dict[str, Any]]:
 
 LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 
-_EMIT_HELP = """Write code to take: a kernel with only what a scene needs, or a method for one pair of any sizes.
+_EMIT_HELP = """Generate source code: a kernel with only what a scene needs, or a method for one pair of any sizes.
 
 With --method exact the file answers every float64 row rightly: floats where a proved bound allows, whole numbers for
 the rest, without dependencies. With --method certified it has the floats alone, and says 2 where they cannot say;

@@ -166,7 +166,9 @@ def _oracles(text: str) -> tuple[str, ...]:
     names = names_in(text)
     unknown = [name for name in names if name not in ORACLES]
     if unknown or not names:
-        raise InputError(f"--oracles: {unknown[0] if unknown else text!r} is no oracle; there are {', '.join(ORACLES)}")
+        raise InputError(
+            f"--oracles: {unknown[0] if unknown else text!r} is not an oracle; there are {', '.join(ORACLES)}"
+        )
     return names
 
 

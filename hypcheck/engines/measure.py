@@ -344,4 +344,4 @@ def _read(path: Path) -> EngineRecord:
     try:
         return msgspec.json.decode(path.read_bytes(), type=EngineRecord)
     except msgspec.MsgspecError as error:
-        raise InputError(f"{path} is no record of an engine: {error}") from None
+        raise InputError(f"{path} is not a record of an engine: {error}") from None

@@ -118,7 +118,7 @@ Table = Mapping[str, ArrayLike]
 
 
 def names_of(values: object) -> list[str] | None:
-    """The names of a table's columns; None of what is no table."""
+    """The names of a table's columns; None of what is not a table."""
     if isinstance(values, np.ndarray):
         return None if values.dtype.names is None else list(values.dtype.names)
     names = getattr(values, "keys", None)

@@ -226,7 +226,7 @@ def _integers(result: object, n: int) -> IntegerAnswers:
     try:
         array = np.asarray(result)
     except ValueError:  # of several lengths, or an array that numpy cannot take
-        raise ContractError(f"it returned {_kind(result)} that is no array of one integer a row") from None
+        raise ContractError(f"it returned {_kind(result)} that is not an array of one integer a row") from None
     if array.shape != (n,):
         raise ContractError(f"it returned {_kind(result)} of shape {array.shape} for {n} rows; it must be ({n},)")
     if array.dtype.kind not in "iub":

@@ -330,7 +330,7 @@ def open_implementation(
 ) -> Implementation:
     """The implementation that a SPEC names, running; `precision`, `question` and `domain` replace what it declares.
 
-    Raises InputError if the text is no SPEC, and StartError if the implementation cannot be started.
+    Raises InputError if the text is not a SPEC, and StartError if the implementation cannot be started.
     """
     spec = parse_spec(text)
     limits = limits or Limits()
@@ -342,7 +342,7 @@ def open_implementation(
 
 
 def require_named(specs: Iterable[str]) -> None:
-    """Raise InputError if one of these texts is no SPEC, or names a built-in method that does not exist."""
+    """Raise InputError if one of these texts is not a SPEC, or names a built-in method that does not exist."""
     for spec in map(parse_spec, specs):
         if spec.kind == "builtin":
             from hypcheck.implementations.builtin import builtin  # noqa: PLC0415 - loads every formula

@@ -370,7 +370,7 @@ def _not_run(program: str, error: OSError) -> str:
     if isinstance(error, PermissionError):
         return f"the program {program!r} is not executable"
     if error.errno == errno.ENOEXEC:
-        return f"{program!r} is no program for this machine: another architecture, or a script without a #! line"
+        return f"{program!r} is not a program for this machine: another architecture, or a script without a #! line"
     return f"the system could not run the program {program!r}: {system_reason(error)}"
 
 

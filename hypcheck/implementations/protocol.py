@@ -242,7 +242,7 @@ class CommandSession(ProcessSession):
             return described_by_json(line, _DEFAULTS, _REQUIRED)
         except InputError as error:
             self._process.kill()
-            raise StartError(f"its first line is no description: {error}{self.evidence}") from None
+            raise StartError(f"its first line is not a description: {error}{self.evidence}") from None
 
     def _first_line(self) -> bytes:
         seconds = self._limits.startup_timeout

@@ -23,7 +23,7 @@ from typing import Any, NoReturn
 from hypcheck.errors import InputError
 from hypcheck.messages import json_trouble
 from hypcheck.tables.numbers import shown, shown_json
-from hypcheck.tables.streams import Reader, reading, same_file, writing
+from hypcheck.tables.streams import Reader, open_input, replace_output, same_file
 
 Raw = dict[str, Any]
 """A line as decoded from JSON, before it becomes a struct."""
@@ -77,7 +77,7 @@ _MAY_BE_HUGE = re.compile(rb"[0-9]{20}|[eE][+]?[0-9]{3}")
 
 
 def _no_constant(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number of JSON")
+    raise ValueError(f"{text} is not a number of JSON")
 
 
 def _finite(text: str) -> float:
@@ -116,7 +116,7 @@ class RecordScan:
     """An iterator over the whole lines of a record, header and footer included, each without its checksum.
 
     A line is whole if it has its line end. The iterator ends with the file, which may be cut off within a line. It
-    raises DamagedError if anything else is wrong, and InputError if the file is no record that this program reads.
+    raises DamagedError if anything else is wrong, and InputError if the file is not a record that this program reads.
     """
 
     def __init__(self, reader: Reader, longest: int = LONGEST) -> None:
@@ -171,7 +171,7 @@ class RecordScan:
         if self.sealed:
             self._check_seal(text)
         if line["type"] != "header" or major is None:
-            self._no_record(f"its first line is no header with a schema such as {READABLE}.0.0")
+            self._no_record(f"its first line is not a header with a schema such as {READABLE}.0.0")
         if minor >= SEALED_SINCE and not self.sealed:
             self.sealed = True
             self._refuse(f"it has no checksum at its end, which it must have since schema {READABLE}.{SEALED_SINCE}.0")
@@ -188,15 +188,15 @@ class RecordScan:
         try:
             line = (_FINITE_DECODER if _MAY_BE_HUGE.search(text) else _DECODER).decode(text.decode())
         except UnicodeDecodeError as error:
-            self._refuse(f"its byte {error.start} is no UTF-8")
+            self._refuse(f"its byte {error.start} is not UTF-8")
         except RecursionError:
             self._refuse("it is nested too deeply")
         except json.JSONDecodeError as error:
-            self._refuse(f"it is no JSON at character {error.pos + 1}: {json_trouble(error)}")
+            self._refuse(f"it is not valid JSON at character {error.pos + 1}: {json_trouble(error)}")
         except ValueError as error:
             self._refuse(str(error))
         if not isinstance(line, dict) or not isinstance(line.get("type"), str):
-            self._refuse("it is no object with a type")
+            self._refuse("it is not an object with a type")
         return line
 
     def _check_seal(self, text: bytes) -> None:
@@ -224,13 +224,13 @@ class RecordScan:
 
     def _refuse(self, what: str) -> NoReturn:
         if self.lines == 0 and not self.sealed:
-            self._no_record(f"its first line is no header ({what})")
+            self._no_record(f"its first line is not a header ({what})")
         raise DamagedError(
             f"{self._reader.name} is damaged in line {self.lines + 1}, at byte {self.end}: {what}", self.end
         )
 
     def _no_record(self, why: str) -> NoReturn:
-        raise InputError(f"{self._reader.name} is no record: {why}; a record begins with a header")
+        raise InputError(f"{self._reader.name} is not a record: {why}; a record begins with a header")
 
 
 _BLOCK = 1 << 20
@@ -262,7 +262,7 @@ class FileCondition:
 
 def check(path: Path) -> FileCondition:
     """The condition of a file that is complete or cut off. Raises DamagedError and InputError as RecordScan does."""
-    with reading(str(path)) as reader:
+    with open_input(str(path)) as reader:
         scan = RecordScan(reader)
         for _ in scan:
             pass
@@ -276,7 +276,7 @@ def repair(path: Path, target: Path) -> FileCondition:
     """
     if same_file(str(path), str(target)):
         raise InputError(f"--out {target} is the record itself; name another file, to keep what is lost")
-    with reading(str(path)) as reader, writing(str(target)) as writer:
+    with open_input(str(path)) as reader, replace_output(str(target)) as writer:
         scan, why = RecordScan(reader), ""
         try:
             for _ in scan:

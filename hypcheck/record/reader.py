@@ -23,7 +23,7 @@ from hypcheck.record.fields import RecordLine, decoded
 from hypcheck.record.integrity import Raw, RecordScan
 from hypcheck.record.lines import SCHEMA, FaultPart, FooterLine, GroupLine, HeaderLine, NotStartedLine, WrongAnswer
 from hypcheck.tables.numbers import shown_json
-from hypcheck.tables.streams import STREAM, reading
+from hypcheck.tables.streams import STREAM, open_input
 
 FILE = "record.jsonl"
 """The record's name in the folder of a run."""
@@ -96,15 +96,15 @@ def read(path: Path) -> Record:
     """The record in a file, or in the folder of a run; without a footer if it was cut off after its first line.
 
     Raises DamagedError, an InputError that names the byte and what is wrong there, if it is not as it was written, and
-    InputError if it is no record that this program reads, or a line has an invalid value.
+    InputError if it is not a record that this program reads, or a line has an invalid value.
     """
     path = file_of(path)
-    with reading(str(path)) as reader:
+    with open_input(str(path)) as reader:
         raws = list(RecordScan(reader))  # all of them: damage matters more than an invalid value before it
     header, *found = _decoded(raws, path)
     footer = found.pop() if found and isinstance(found[-1], FooterLine) else None
     if not isinstance(header, HeaderLine) or not (footer is None or isinstance(footer, FooterLine)):
-        raise TypeError("the scan accepted a file that is no record")
+        raise TypeError("the scan accepted a file that is not a record")
     return Record(header, tuple(found), footer)
 
 

@@ -5,7 +5,7 @@ A cause is never guessed. It explains a wrong answer only where its rule, evalua
 that errs where the implementation is right is not.
 
 This file has what a cause is, and the causes that are about places: on the ring, outside a regime, where rounding
-decides. slips.py has those about every row: a wrong sign, a column taken for another, an axis that is ignored.
+decides. formula_errors.py has those about every row: a wrong sign, a column taken for another, an axis that is ignored.
 causes.toml has the texts of both.
 """
 
@@ -37,7 +37,7 @@ SILENT = 100
 """What a rule gives for a row about which it says nothing."""
 
 
-class Standing(IntEnum):
+class Scope(IntEnum):
     """How far a rule reaches, in the order in which rules are asked to explain what is left."""
 
     PLACE = 0
@@ -122,7 +122,7 @@ class Cause:
     why: str
     remedy: str
     rule: Rule
-    standing: Standing
+    scope: Scope
     subject: str = "upright"
     claim: str = ""
     slack: float = 0.02
@@ -137,7 +137,7 @@ class Cause:
     @property
     def rounds(self) -> bool:
         """Whether its rule explains whatever roundings may give, so that no right answer denies it."""
-        return self.standing is Standing.ROUNDING and self.subject == "upright"
+        return self.scope is Scope.ROUNDING and self.subject == "upright"
 
 
 @cache
@@ -149,7 +149,7 @@ def _texts() -> dict[str, dict[str, str]]:
 def cause(
     name: str,
     rule: Rule,
-    standing: Standing,
+    scope: Scope,
     *,
     subject: str = "upright",
     slack: float = 0.02,
@@ -157,7 +157,7 @@ def cause(
 ) -> Cause:
     """The cause with the texts of that name in causes.toml."""
     texts = _texts()[name]
-    return Cause(name=name, rule=rule, standing=standing, subject=subject, slack=slack, certain=certain, **texts)
+    return Cause(name=name, rule=rule, scope=scope, subject=subject, slack=slack, certain=certain, **texts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -424,10 +424,10 @@ def _greatest(*values: Floats) -> Floats:
 
 
 PLACES: tuple[Cause, ...] = (
-    cause("ring", _ring, Standing.PLACE, slack=4, certain=_delta_is_exact),
-    cause("groove", _groove, Standing.PLACE),
-    cause("throat", _throat, Standing.PLACE),
-    cause("zero-coefficient", _zero_coefficient, Standing.PLACE, slack=4, certain=_coefficients_are_exact),
+    cause("ring", _ring, Scope.PLACE, slack=4, certain=_delta_is_exact),
+    cause("groove", _groove, Scope.PLACE),
+    cause("throat", _throat, Scope.PLACE),
+    cause("zero-coefficient", _zero_coefficient, Scope.PLACE, slack=4, certain=_coefficients_are_exact),
     *(
         Cause(
             name=kind.value,
@@ -435,20 +435,20 @@ PLACES: tuple[Cause, ...] = (
             why=f"{kind.description} There Δ = 0, as the roots of g are: {kind.roots}. Touching is contact",
             remedy="a tangency is contact: exterior and interior must also require: Δ > 0",
             rule=_tangency(kind, kind.limit_of),
-            standing=Standing.PLACE,
+            scope=Scope.PLACE,
         )
         for kind in Kind
         if kind.limit_of is not None
     ),
-    cause("out-of-range", _out_of_range, Standing.ROUNDING),
-    cause("lost-beside-the-ring", _lost_beside_the_ring, Standing.ROUNDING),
-    cause("lost-to-rounding", _lost, Standing.ROUNDING),
-    cause("lost-outside-the-regime", _lost_outside, Standing.ROUNDING),
+    cause("out-of-range", _out_of_range, Scope.ROUNDING),
+    cause("lost-beside-the-ring", _lost_beside_the_ring, Scope.ROUNDING),
+    cause("lost-to-rounding", _lost, Scope.ROUNDING),
+    cause("lost-outside-the-regime", _lost_outside, Scope.ROUNDING),
 )
 """The causes about places, those in exact arithmetic first."""
 
 WIDER_ROUNDINGS: tuple[Cause, ...] = (
-    cause("float64-for-more", _lost_in_float64, Standing.ROUNDING),
-    cause("half-the-digits", _half_lost, Standing.ROUNDING),
+    cause("float64-for-more", _lost_in_float64, Scope.ROUNDING),
+    cause("half-the-digits", _half_lost, Scope.ROUNDING),
 )
 """Roundings of a narrower format than the declared one, which explain what no other rounding does."""

@@ -25,10 +25,10 @@ from hypcheck.geometry.rows import WAYS, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.runs import judge
-from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, Answers, Asked, Cause, Standing, subject_of
+from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, Answers, Asked, Cause, Scope, subject_of
+from hypcheck.runs.formula_errors import TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS, WAY_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.root_causes import ROOT_CAUSES
-from hypcheck.runs.slips import TILTED_SLIPS, UPRIGHT_SLIPS, WAY_SLIPS
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
@@ -36,7 +36,7 @@ from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 PLACE_CAUSES: tuple[Cause, ...] = (*PLACES, *ROOT_CAUSES, *WIDER_ROUNDINGS)
 """The causes about places of upright spheroids."""
 
-CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_SLIPS, *TILTED_SLIPS, *WAY_SLIPS)
+CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_FORMULA_ERRORS, *TILTED_FORMULA_ERRORS, *WAY_FORMULA_ERRORS)
 """All causes; a set of them is a number with a bit for each, in this order."""
 
 UNEXPLAINED = "unexplained"
@@ -291,9 +291,9 @@ def _standing(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) 
         {(family, causes): each for family, one in diagnoses.items() for causes, each in one.explained.items()}
     )
 
-    def of(standing: Standing) -> list[Cause]:
-        """The causes of this standing that explain something, and that right answers hardly deny."""
-        some = ((cause, left.number(cause)) for cause in CAUSES if cause.standing is standing)
+    def of(scope: Scope) -> list[Cause]:
+        """The causes of this scope that explain something, and that right answers hardly deny."""
+        some = ((cause, left.number(cause)) for cause in CAUSES if cause.scope is scope)
         return [
             cause for cause, number in some if number and (cause.rounds or denied[cause.name] <= cause.slack * number)
         ]
@@ -304,7 +304,7 @@ def _standing(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) 
         right = denied[RIGHT] - denied[cause.name]
         return inside * (outside + right) > LIFT * outside * (inside + denied[cause.name])
 
-    everywhere, places, rounding = of(Standing.EVERYWHERE), of(Standing.PLACE), of(Standing.ROUNDING)
+    everywhere, places, rounding = of(Scope.EVERYWHERE), of(Scope.PLACE), of(Scope.ROUNDING)
     known = [*places, *rounding]
     first = max(everywhere, key=left.number, default=None)
     # A few families may hold nothing that denies a rule: what is known of their places explains as much then.

@@ -17,7 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, Floats, Mask
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.messages import suggestion
-from hypcheck.runs.causes import Asked, Cause, Standing
+from hypcheck.runs.causes import Asked, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.judges import passage_of
@@ -56,9 +56,9 @@ _ABOUT = {
 }
 
 _SHOWN = {
-    Standing.PLACE: "in one place: elsewhere its answers are right",
-    Standing.ROUNDING: "where roundings decide: the same code is right in exact arithmetic",
-    Standing.EVERYWHERE: "at every row where it makes a difference: most wrong answers of a run have this cause then",
+    Scope.PLACE: "in one place: elsewhere its answers are right",
+    Scope.ROUNDING: "where roundings decide: the same code is right in exact arithmetic",
+    Scope.EVERYWHERE: "at every row where it makes a difference: most wrong answers of a run have this cause then",
 }
 
 
@@ -185,7 +185,7 @@ def explained_lines(cause: Cause) -> Iterator[str]:
 
 
 def _recognise(cause: Cause) -> str:
-    return f"wrong answers lie {_SHOWN[cause.standing]}"
+    return f"wrong answers lie {_SHOWN[cause.scope]}"
 
 
 def _answer_text(answer: int, time: float | None) -> str:

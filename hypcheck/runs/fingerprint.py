@@ -62,7 +62,7 @@ class NamedFile:
 def files_of(text: str) -> Iterator[NamedFile]:
     """The files of a SPEC: a library, a Python file or module, or a command with those of its words that are files.
 
-    Nothing is imported or run to find them. Raises InputError if the text is no SPEC.
+    Nothing is imported or run to find them. Raises InputError if the text is not a SPEC.
     """
     spec = parse_spec(text)
     if spec.kind == "builtin":
@@ -80,7 +80,7 @@ def sha256(path: Path) -> str:
     digest = hashlib.sha256()
     try:
         if path.exists() and not path.is_file():  # a pipe may block for ever
-            return "is no regular file"
+            return "is not a regular file"
         file = path.open("rb")
     except OSError as error:
         return system_reason(error)

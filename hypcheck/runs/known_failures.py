@@ -33,9 +33,9 @@ from hypcheck.messages import suggestion
 from hypcheck.record import Record
 from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine
 from hypcheck.runs.cases import frozen_vectors
-from hypcheck.runs.causes import Asked, Cause, Standing
+from hypcheck.runs.causes import Asked, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
-from hypcheck.tables.streams import writing
+from hypcheck.tables.streams import replace_output
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import family_of, parse_case_id
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
@@ -68,7 +68,7 @@ class KnownFailure:
 @cache
 def excusable_causes() -> Mapping[str, tuple[Cause, ...]]:
     """The causes that an entry may name, by their ids: those about places and roundings."""
-    names = dict.fromkeys(cause.name for cause in CAUSES if cause.standing is not Standing.EVERYWHERE)
+    names = dict.fromkeys(cause.name for cause in CAUSES if cause.scope is not Scope.EVERYWHERE)
     return {name: tuple(cause for cause in CAUSES if cause.name == name) for name in names}
 
 
@@ -254,7 +254,7 @@ def update(path: Path, record: Record) -> str:
         for cause, line in causes.items()
         if (None, cause) not in known
     ]
-    with writing(str(path)) as writer:
+    with replace_output(str(path)) as writer:
         writer.write(render(entries).encode())
     return f"{path}: {len(entries)} known failures"
 

@@ -21,7 +21,7 @@ from hypcheck.runs.causes import (
     Asked,
     Cause,
     Numbers,
-    Standing,
+    Scope,
     cause,
     rounded,
     silent,
@@ -149,12 +149,12 @@ def _of_either_size(asked: Asked, sizes: Floats, roots: Floats, answers: Answers
 
 
 ROOT_CAUSES: tuple[Cause, ...] = (
-    cause("complex-pair-ignored", _complex_pair_ignored, Standing.PLACE),
-    cause("repeated-root-beyond-a-pole", _repeated_beyond_a_pole, Standing.PLACE),
-    cause("root-at-upper-pole", _at_upper_pole, Standing.PLACE, slack=4),
-    cause("root-at-lower-pole", _at_lower_pole, Standing.PLACE, slack=4),
-    cause("computed-roots", _computed_roots, Standing.ROUNDING),
-    cause("imaginary-part-tolerance", _imaginary_part, Standing.ROUNDING),
-    cause("root-separation-tolerance", _separation, Standing.ROUNDING),
+    cause("complex-pair-ignored", _complex_pair_ignored, Scope.PLACE),
+    cause("repeated-root-beyond-a-pole", _repeated_beyond_a_pole, Scope.PLACE),
+    cause("root-at-upper-pole", _at_upper_pole, Scope.PLACE, slack=4),
+    cause("root-at-lower-pole", _at_lower_pole, Scope.PLACE, slack=4),
+    cause("computed-roots", _computed_roots, Scope.ROUNDING),
+    cause("imaginary-part-tolerance", _imaginary_part, Scope.ROUNDING),
+    cause("root-separation-tolerance", _separation, Scope.ROUNDING),
 )
 """The causes of code that computes roots, those in exact arithmetic first."""

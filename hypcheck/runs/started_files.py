@@ -70,7 +70,7 @@ class StartedFiles:
 
 
 def started_files(text: str) -> StartedFiles:
-    """The files of a SPEC that exist, with what they load. Raises InputError if the text is no SPEC."""
+    """The files of a SPEC that exist, with what they load. Raises InputError if the text is not a SPEC."""
     spec, found = parse_spec(text), StartedFiles()
     if spec.kind == "library":
         found.add(spec.words[0], ())

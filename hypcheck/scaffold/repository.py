@@ -21,7 +21,7 @@ from hypcheck.errors import InputError
 from hypcheck.messages import counted
 from hypcheck.scaffold.project import LANGUAGES, Project, filled
 from hypcheck.scaffold.requirement import Requirement
-from hypcheck.tables.streams import made_folder, writing
+from hypcheck.tables.streams import made_folder, replace_output
 
 SETTINGS = "hypcheck.toml"
 WORKFLOW = ".github/workflows/hypcheck.yml"
@@ -158,7 +158,7 @@ def write_all(root: Path, texts: Mapping[str, str], *, force: bool, replaced: Co
             stack.enter_context(made_folder(target.parent))
             stack.enter_context(_new(target))
         for target, text in targets.items():
-            writer = stack.enter_context(writing(str(target)))
+            writer = stack.enter_context(replace_output(str(target)))
             writer.write(text.encode())
             writer.flush(to_disk=True)
 

@@ -400,7 +400,7 @@ class _TomlScanner:
     def _take(self, pattern: re.Pattern[str]) -> str:
         match = pattern.match(self._text, self._at)
         if match is None:
-            raise AssertionError("a text that is no TOML was to be scanned")
+            raise AssertionError("a text that is not valid TOML was to be scanned")
         self._at = match.end()
         return match.group()
 

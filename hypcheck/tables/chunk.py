@@ -43,11 +43,11 @@ _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "
 def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
     """Raise InputError, beginning with `where`, unless each column is there once (columns_of), and no added one.
 
-    Other names are allowed and passed through; none but the empty one may stand twice.
+    Other names are allowed and passed through; none but the empty one may occur twice.
     """
     double = first_double([name for name in names if name])
     if double is not None:
-        raise InputError(f"{where}: {noun} {double}")
+        raise InputError(f"{where}: duplicate {noun} {shown(double)}")
     columns = columns_of(names)
     for name in added_to(columns):
         if name in names:
@@ -94,10 +94,10 @@ def added_to(columns: Sequence[str]) -> tuple[str, ...]:
 
 
 def first_double(names: Sequence[str]) -> str | None:
-    """The end of a sentence about the first name that stands more than once; None if there is none."""
+    """The first name that occurs more than once; None if there is none."""
     for name, count in Counter(names).items():
         if count > 1:
-            return f"{shown(name)} stands {'twice' if count == 2 else f'{count} times'}; it must stand once"
+            return name
     return None
 
 
@@ -134,7 +134,7 @@ class TableChunk:
 
     rows: float64 of the layout, with an axis where a row has one; the numbers of a refused row mean nothing.
     refused: bool (n,), the rows that are no valid query; all False unless marking was asked for.
-    texts: the text of each row without its line end; None if the table is no text.
+    texts: the text of each row without its line end; None if the table is not text.
     layout: WAYS where rows have an end.
     """
 

@@ -103,7 +103,7 @@ def _explained(error: str) -> str:
 def read_csv(reader: Reader, *, mark: bool) -> Table:
     """The table in `reader`. Raises InputError: now about the header, about a row while the chunks are read.
 
-    With `mark` a row whose value is no number, or not allowed, is marked as refused; a row with too few or too many
+    With `mark` a row whose value is not a number, or not allowed, is marked as refused; a row with too few or too many
     cells is an error all the same.
     """
     records = _Records(reader)

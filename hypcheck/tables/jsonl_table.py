@@ -46,8 +46,8 @@ from hypcheck.tables.strict_json import strict_decoder
 def read_jsonl(reader: Reader, *, mark: bool) -> Table:
     """The table in `reader`. Raises InputError while the chunks are read.
 
-    With `mark` a row whose value is no number, or not allowed, is marked as refused; a line that is no JSON object, or
-    lacks a key, is an error all the same.
+    With `mark` a row whose value is not a number, or not allowed, is marked as refused; a line that is
+    not a JSON object, or lacks a key, is an error all the same.
     """
     return Table(_chunks(reader, mark=mark))
 
@@ -180,7 +180,7 @@ def _columns_or_heights(row: dict[str, object]) -> tuple[str, ...]:
 
 
 def _values(text: str, where: str) -> dict[str, object]:
-    """The values of a line by column, numbers as Literal or int. Raises InputError if it is no object of them."""
+    """The values of a line by column, numbers as Literal or int. Raises InputError if it is not an object of them."""
     try:
         row = _LITERAL_DECODER.decode(text)
     except json.JSONDecodeError as error:

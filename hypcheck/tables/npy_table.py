@@ -35,7 +35,7 @@ _TOO_LONG = 1 << 63
 def read_npy(reader: Reader, *, mark: bool) -> Table:
     """The table in `reader`. Raises InputError: now about the header and the length, later about a row.
 
-    With `mark` a row that is no valid query is marked as refused.
+    With `mark` a row that is not a valid query is marked as refused.
     """
     layout = _layout(reader)
     return Table(_chunks(reader, layout, mark=mark), columns=PAIRS.ended[: layout.width])

@@ -132,7 +132,7 @@ class Writer:
 
 
 @contextmanager
-def reading(path: str, *, patient: bool = False) -> Iterator[Reader]:
+def open_input(path: str, *, patient: bool = False) -> Iterator[Reader]:
     """The file at `path`, or standard input for "-". Raises InputError if it cannot be opened.
 
     A pipe to which nothing is written within PIPE_S seconds is refused. With `patient` it is waited for without end, as
@@ -181,7 +181,7 @@ def remove_file(path: Path) -> None:
 
 
 @contextmanager
-def writing(path: str, *, follow: bool = True) -> Iterator[Writer]:
+def replace_output(path: str, *, follow: bool = True) -> Iterator[Writer]:
     """A new file that takes the place of `path` when the block ends well; standard output for "-".
 
     Raises InputError if it cannot be written. A link is followed, and a device or pipe written directly, unless
@@ -212,7 +212,7 @@ def write_files(contents: Mapping[str, bytes], *, follow: bool = True) -> None:
     `follow` is as for `writing`.
     """
     with ExitStack() as stack:
-        writers = [stack.enter_context(writing(path, follow=follow)) for path in contents]
+        writers = [stack.enter_context(replace_output(path, follow=follow)) for path in contents]
         for writer, content in zip(writers, contents.values(), strict=True):
             writer.write(content)
         for writer in writers:  # before the first takes its place

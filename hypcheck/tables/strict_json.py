@@ -17,7 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import first_double
 from hypcheck.tables.numbers import Literal, shown, shown_json
-from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextLines, reading
+from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextLines, open_input
 
 _LONGEST_INTEGER = 400
 """Digits of an integer that is read as int; more are beyond float64, and beyond 4300 Python refuses them."""
@@ -48,7 +48,8 @@ def strict_decoder(
 def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     members = dict(pairs)
     if len(members) < len(pairs):
-        raise ValueError(f"key {first_double([name for name, _ in pairs])}")
+        double = first_double([name for name, _ in pairs])
+        raise ValueError(f"duplicate key {shown(str(double))}")
     return members
 
 
@@ -103,7 +104,7 @@ def read_document(path: str, largest: int = LARGEST) -> JsonDocument:
 
     Raises InputError if it is none.
     """
-    with reading(path) as reader:
+    with open_input(path) as reader:
         text = "".join(_bounded(reader, largest))
         return _JsonScanner(text.removeprefix(BYTE_ORDER_MARK), reader.name).document()
 
@@ -142,7 +143,7 @@ class _JsonScanner:
             if not isinstance(key, str):
                 raise InputError(f"{place}: a key must be a string")
             if key in members:
-                raise InputError(f"{place}: key {shown(key)} stands twice; it must stand once")
+                raise InputError(f"{place}: duplicate key {shown(key)}")
             self._expect(":", f"a colon must follow the key {shown(key)}")
             if key == CASES:
                 cases = self._elements()

@@ -232,7 +232,7 @@ def parse_case_id(text: str) -> CaseId:
     """What a case id names. Raises InputError where it names nothing, or rows of another generator version."""
     match = _CASE_ID.fullmatch(text)
     if match is None:
-        raise InputError(f"{text!r} is no case id; it must be family/version/seed/index, as in tower-body/1/0/17")
+        raise InputError(f"{text!r} is not a case id; it must be family/version/seed/index, as in tower-body/1/0/17")
     name, version, seed, index = match.group(1), *map(int, match.groups()[1:])
     try:
         family = family_of(name)

@@ -328,7 +328,7 @@ def flags_of_case(place: JsonPlace, value: Any, known: Mapping[str, FlagFacts]) 
         if not isinstance(flag, str) or flag not in known:
             raise InputError(f"{place}: the flag {shown_json(flag)} is not among those that the file describes")
     if len(set(flags)) < len(flags):
-        raise InputError(f"{place}: a flag stands twice")
+        raise InputError(f"{place}: duplicate flag")
     return tuple(flags)
 
 

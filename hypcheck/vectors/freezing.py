@@ -18,7 +18,7 @@ from typing import Any
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, Layout, Rows
-from hypcheck.tables.streams import writing
+from hypcheck.tables.streams import replace_output
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import AnyVector, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
@@ -47,11 +47,11 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
         if name not in ALL_NAMES:
             raise InputError(f"there are no frozen vectors {name!r}; there are {', '.join(ALL_NAMES)}")
     if not folder.is_dir():
-        raise InputError(f"{folder} is no folder; create it, or name another folder with --into")
+        raise InputError(f"{folder} is not a folder; create it, or name another folder with --into")
     earlier = {name: _earlier(name, folder / f"{name}.json") for name in wanted}  # all of them, before one is replaced
     for name, before in earlier.items():
         text = _text(name, before)
-        with writing(str(folder / f"{name}.json")) as writer:
+        with replace_output(str(folder / f"{name}.json")) as writer:
             writer.write(text.encode())
         done(name)
 
@@ -188,6 +188,6 @@ def keep_rows(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool = Fa
     before = read_cases(path, content) if there else CaseFile[Any](described("found", made_by), content, ())
     known = _named(before.cases)
     added = labelled(content, extended(before.head.name, known, rows)[len(known) :])
-    with writing(path) as writer:
+    with replace_output(path) as writer:
         writer.write(cases_text(assembled(before.head, content, (*before.cases, *added))).encode())
     return len(added)

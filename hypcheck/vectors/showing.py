@@ -14,7 +14,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import counted, suggestion
 from hypcheck.tables.numbers import equals_text, hex_of, readable_text
-from hypcheck.tables.streams import writing
+from hypcheck.tables.streams import replace_output
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
@@ -217,7 +217,7 @@ def generate(name: str, seed: int, count: int, form: str, target: str) -> None:
     The same bytes on every machine. Raises InputError where there is no such family, or `target` cannot be written.
     """
     data = FORMATS[form](_family_to_generate(name), seed, count)
-    with writing(target) as writer:
+    with replace_output(target) as writer:
         writer.write(data)
 
 

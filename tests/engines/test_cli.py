@@ -123,7 +123,7 @@ def test_record_of_an_engine_skips_families_that_it_cannot_answer_with_the_reaso
 
 def test_a_json_file_that_is_no_record_of_an_engine_raises_an_input_error(tmp_path):
     (tmp_path / "coal.json").write_text("{}")
-    with pytest.raises(InputError, match=r"coal\.json is no record of an engine: .*schema"):
+    with pytest.raises(InputError, match=r"coal\.json is not a record of an engine: .*schema"):
         read_records(tmp_path)
 
 

@@ -228,9 +228,9 @@ def test_answers_that_depend_on_the_batch_size_reach_the_caller_unchanged():
 
 
 BAD_DESCRIPTIONS = [
-    ("gate 1.0 ready", "its first line is no description: the description is 'gate 1.0 ready'; it must be JSON"),
+    ("gate 1.0 ready", "its first line is not a description: the description is 'gate 1.0 ready'; it must be JSON"),
     ('{"protocol":1,"name":"x",', "it must be JSON"),
-    ('{"protocol":1,"name":"x","name":"y"}', "key 'name' stands twice; it must stand once"),
+    ('{"protocol":1,"name":"x","name":"y"}', "duplicate key 'name'"),
     ('\ufeff{"protocol":1,"name":"x"}', "it must be JSON"),
     ("[1, 2]", r"the description is \[1, 2\]; it must be an object with protocol, name"),
     ('{"name":"x"}', "the description lacks protocol"),

@@ -58,7 +58,7 @@ def test_a_fault_of_a_function_fails_only_its_own_row_with_the_reason(name):
         ("too_many", r"it returned an array of shape \(2,\) for 1 rows; it must be \(1,\)"),
         ("nothing", r"it returned a NoneType of shape \(\) for 1 rows; it must be \(1,\)"),
         ("masked", "it returned a masked array with masked answers; it must answer every row"),
-        ("ragged", "it returned a list that is no array of one integer a row"),
+        ("ragged", "it returned a list that is not an array of one integer a row"),
     ],
 )
 def test_a_function_that_does_not_return_one_integer_per_row_breaks_the_protocol(name, sentence):

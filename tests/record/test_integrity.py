@@ -112,12 +112,12 @@ def test_checksum_of_a_record_line_covers_all_earlier_bytes_except_checksums_and
 
 @pytest.mark.parametrize("line", [b"[1]", b'"header"', b"3", b'{"type": 3}', b'{"types": "header"}'])
 def test_a_first_line_that_is_no_object_with_a_type_is_refused(line):
-    with pytest.raises(InputError, match="it is no object with a type"):
+    with pytest.raises(InputError, match="it is not an object with a type"):
         list(RecordScan(Reader(io.BytesIO(line + b"\n"), "it")))
 
 
 def test_a_later_line_without_a_type_is_refused():
-    with pytest.raises(InputError, match="it is no object with a type"):
+    with pytest.raises(InputError, match="it is not an object with a type"):
         list(RecordScan(Reader(io.BytesIO(resealed([LINES[0], {"types": "drift"}, *LINES[2:]])), "it")))
 
 

@@ -198,16 +198,16 @@ def test_a_record_of_a_newer_minor_version_is_read_without_its_additions(path):
     [
         ("", "is empty; a record begins with a header"),
         ('{"type": "head', "is cut off within its first line; nothing of it can be used"),
-        ("alpha,gamma", "is no record: it has no whole line"),
-        ("alpha,gamma\n", "is no record: its first line is no header .it is no JSON at character 1"),
-        ("[1]\n", "its first line is no header .it is no object with a type"),
-        ('{"type": "group"}\n', "its first line is no header with a schema such as 1.0.0"),
-        ('{"type": "header", "schema": 1}\n', "its first line is no header with a schema such as 1.0.0"),
-        ('{"type": "header", "schema": "1.x"}\n', "its first line is no header with a schema such as 1.0.0"),
+        ("alpha,gamma", "is not a record: it has no whole line"),
+        ("alpha,gamma\n", "is not a record: its first line is not a header .it is not valid JSON at character 1"),
+        ("[1]\n", "its first line is not a header .it is not an object with a type"),
+        ('{"type": "group"}\n', "its first line is not a header with a schema such as 1.0.0"),
+        ('{"type": "header", "schema": 1}\n', "its first line is not a header with a schema such as 1.0.0"),
+        ('{"type": "header", "schema": "1.x"}\n', "its first line is not a header with a schema such as 1.0.0"),
         (OLDER % "9.0.0", "has schema 9.0.0; this program reads 1.x"),
         (OLDER % "1.2.0", "is damaged in line 1, at byte 0: it has no checksum at its end"),
         (OLDER % "1.0.0" + "{", "is damaged in line 4, at byte 95: it stands after the footer"),
-        (OLDER % "1.0.0" + "{}\n", "in line 4, at byte 95: it is no object with a type"),
+        (OLDER % "1.0.0" + "{}\n", "in line 4, at byte 95: it is not an object with a type"),
         (OLDER % "1.0.0" + '{"type": "x"}\n', "in line 4, at byte 95: it stands after the footer"),
         (
             (OLDER % "1.0.0").replace("3", "4"),
@@ -215,9 +215,9 @@ def test_a_record_of_a_newer_minor_version_is_read_without_its_additions(path):
         ),
         (
             (OLDER % "1.0.0").replace('"n"', "n"),
-            "in line 2, at byte 38: it is no JSON at character 19: expecting property",
+            "in line 2, at byte 38: it is not valid JSON at character 19: expecting property",
         ),
-        ((OLDER % "1.0.0").replace("1}", "NaN}"), "in line 2, at byte 38: NaN is no number of JSON"),
+        ((OLDER % "1.0.0").replace("1}", "NaN}"), "in line 2, at byte 38: NaN is not a number of JSON"),
         ((OLDER % "1.0.0").replace("1}", "1e999}"), "in line 2, at byte 38: 1e999 is too large for float64"),
         (
             (OLDER % "1.0.0").replace("1}", f"{'9' * 5000}}}"),
@@ -235,7 +235,7 @@ def test_a_file_that_is_no_record_is_refused_naming_the_byte(path, text, message
 
 def test_binary_data_and_missing_files_are_refused(path, tmp_path):
     path.write_bytes((OLDER % "1.0.0").encode().replace(b"group", b"gr\xffup"))
-    with pytest.raises(InputError, match="in line 2, at byte 38: its byte 12 is no UTF-8"):
+    with pytest.raises(InputError, match="in line 2, at byte 38: its byte 12 is not UTF-8"):
         read(path)
     with pytest.raises(InputError, match=r"cannot read .*: no such file"):
         read(tmp_path / "none.jsonl")

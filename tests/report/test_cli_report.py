@@ -106,7 +106,7 @@ def test_report_of_a_truncated_record_says_truncated(run, capsys):
 def test_report_of_a_file_that_is_no_record_is_refused_in_one_sentence(run, capsys):
     (run / "record.jsonl").write_bytes(b"\xff\xfe\x00")
     assert main(["report", str(run)]) == 2
-    assert "is no record" in capsys.readouterr().err
+    assert "is not a record" in capsys.readouterr().err
 
 
 def test_report_refers_to_the_pictures_of_the_run_only_beside_them(run, tmp_path):

@@ -11,7 +11,7 @@ from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.session import Answered
-from hypcheck.runs.causes import SILENT, Asked, Standing
+from hypcheck.runs.causes import SILENT, Asked, Scope
 from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import score
@@ -108,7 +108,7 @@ def test_diagnosis_names_a_rule_that_gives_all_answers(implementation, cause):
 
 def test_diagnosis_of_random_mistakes_names_no_rule_about_every_row():
     causes, wrong = diagnosed(with_mistakes_by_chance)
-    everywhere = {cause.name for cause in CAUSES if cause.standing is Standing.EVERYWHERE}
+    everywhere = {cause.name for cause in CAUSES if cause.scope is Scope.EVERYWHERE}
     assert not everywhere & causes.keys()
     assert causes[None] > wrong / 2
 

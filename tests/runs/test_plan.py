@@ -72,7 +72,7 @@ def test_a_file_that_cannot_be_read_has_the_reason_in_the_place_of_a_digest(tmp_
     assert sha256(tmp_path / "file").startswith("ba7816bf8f01cfea414140de5dae2223")
     assert sha256(tmp_path / "none") == "no such file or directory"
     os.mkfifo(tmp_path / "pipe")
-    assert sha256(tmp_path / "pipe") == "is no regular file"
+    assert sha256(tmp_path / "pipe") == "is not a regular file"
 
 
 def test_a_file_that_cannot_be_sent_to_a_cluster_is_named(tmp_path, monkeypatch):

@@ -131,7 +131,7 @@ def test_remedy_of_the_ring_without_its_condition_on_the_sizes_would_make_false_
     assert not false_clear(applied(EVERYWHERE, cause.remedy))
 
 
-FORMULA_SLIPS = {
+FORMULA_ERRORS = {
     cause.name: {**EVERYWHERE, **change}
     for cause, change in (
         (cause, change)
@@ -186,7 +186,7 @@ FORMULA_SLIPS = {
 }
 
 
-def coefficient_slips():
+def coefficient_errors():
     """A sign turned, or a term left out, of c0, c1, c2 or Δ, as their causes name them."""
     terms = {
         "c0": ("-A*B",),
@@ -203,17 +203,17 @@ def coefficient_slips():
                     yield cause, {**EVERYWHERE, name: "".join((*parts[:place], other, *parts[place + 1 :]))}
 
 
-FORMULA_SLIPS |= dict(coefficient_slips())
+FORMULA_ERRORS |= dict(coefficient_errors())
 
 
-@pytest.mark.parametrize("name", FORMULA_SLIPS)
+@pytest.mark.parametrize("name", FORMULA_ERRORS)
 def test_remedy_of_a_slip_leaves_no_wrong_answer_of_a_formula_with_that_slip(name):
-    assert wrong(FORMULA_SLIPS[name]).size > 0
-    assert wrong(applied(FORMULA_SLIPS[name], BY_NAME[name].remedy)).size == 0
+    assert wrong(FORMULA_ERRORS[name]).size > 0
+    assert wrong(applied(FORMULA_ERRORS[name], BY_NAME[name].remedy)).size == 0
 
 
-def test_remedies_of_all_slips_and_places_together_do_no_harm_to_a_right_formula():
-    assert wrong(mended(EVERYWHERE, [BY_NAME[name] for name in (*PLACES, *FORMULA_SLIPS)])).size == 0
+def test_remedies_of_all_formula_errors_and_places_together_do_no_harm_to_a_right_formula():
+    assert wrong(mended(EVERYWHERE, [BY_NAME[name] for name in (*PLACES, *FORMULA_ERRORS)])).size == 0
 
 
 def test_rows_of_these_tests_are_valid():

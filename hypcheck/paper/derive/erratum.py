@@ -29,7 +29,7 @@ from hypcheck.paper.ledger.statements import (
     refused_though_inside,
 )
 from hypcheck.paper.tower import PRINTED
-from hypcheck.tables.streams import writing
+from hypcheck.tables.streams import replace_output
 from hypcheck.version import VERSION
 
 COMPILER = "pdflatex"
@@ -168,6 +168,6 @@ def compile_note(path: Path, seconds: float = 120) -> str:
         if done.returncode:
             return f"not compiled: {COMPILER} ended with {done.returncode}; run it on {path} to see why"
         target = path.with_suffix(".pdf")
-        with writing(str(target)) as file:
+        with replace_output(str(target)) as file:
             file.write(Path(folder, "note.pdf").read_bytes())
     return f"wrote {target}"

@@ -149,7 +149,7 @@ def rational(letters: tuple[sympy.Symbol, ...], expression: sympy.Expr) -> Ratio
     Raises ValueError for other coefficients, which would be written as floats.
     """
     if any(not number.is_Integer for number in expression.atoms(sympy.Number)):
-        raise ValueError(f"{expression} has a coefficient that is no whole number")
+        raise ValueError(f"{expression} has a coefficient that is not a whole number")
     return sympy.lambdify(letters, expression, modules=[{}])  # type: ignore[no-any-return]
 
 

@@ -74,7 +74,7 @@ SETTINGS = {
     "lines.markersize": 4.5,
     "svg.fonttype": "none",  # text stays text: it can be read aloud, found and copied
     "svg.hashsalt": "hypcheck",  # element ids: the same picture is the same file
-    "text.parse_math": False,  # a name with dollars in it is no formula
+    "text.parse_math": False,  # a name with dollars in it is not a formula
 }
 """The differences from matplotlib's defaults; settings of users are not read."""
 

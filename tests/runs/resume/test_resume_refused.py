@@ -1,4 +1,4 @@
-"""A file that is no record of the same interrupted run is refused in one sentence, and nothing changes."""
+"""A file that is not a record of the same interrupted run is refused in one sentence, and nothing changes."""
 
 from __future__ import annotations
 

@@ -7,8 +7,8 @@ import sys
 import click
 
 from tests.tools.evidence.floors import broken
-from tests.tools.evidence.page import page
-from tests.tools.evidence.parts import KEPT, PAGE, PARTS, Figures, Unavailable, kept, part, text_of
+from tests.tools.evidence.page import write_page
+from tests.tools.evidence.parts import KEPT, PARTS, Figures, Unavailable, kept, part, text_of
 
 
 @click.command()
@@ -26,7 +26,7 @@ def main(names: tuple[str, ...], write: bool) -> None:
         click.echo(f"## {part(name).TITLE}\n\n{part(name).section(found).strip()}\n")
     if write:
         KEPT.write_text(text_of(figures), encoding="utf-8")
-        PAGE.write_text(page(figures), encoding="utf-8")
+        write_page(figures)
     for sentence in fallen:
         click.echo(sentence, err=True)
     sys.exit(1 if fallen else 0)

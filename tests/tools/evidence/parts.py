@@ -17,6 +17,8 @@ from typing import Any, Protocol
 ROOT = Path(__file__).resolve().parents[3]
 KEPT = Path(__file__).with_name("figures.json")
 PAGE = ROOT / "docs" / "evidence.md"
+TABLES = ROOT / "docs" / "evidence"
+"""The folder of the long lists of the page."""
 
 PARTS: dict[str, str] = {
     "fuzz": "fuzz",

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from tests.tools.evidence import floors
 from tests.tools.evidence.page import page
-from tests.tools.evidence.parts import KEPT, PAGE, PARTS, kept, text_of
+from tests.tools.evidence.parts import KEPT, PAGE, PARTS, TABLES, kept, text_of
 
 
 def test_evidence_page_equals_the_one_printed_from_the_kept_figures():
     """`make evidence` writes both; `python -m tests.tools.evidence PART --write` one part of them."""
     assert list(kept()) == list(PARTS)
     assert KEPT.read_text(encoding="utf-8") == text_of(kept())
-    assert PAGE.read_text(encoding="utf-8") == page(kept())
+    text, tables = page(kept())
+    assert PAGE.read_text(encoding="utf-8") == text
+    assert {path.name: path.read_text(encoding="utf-8") for path in TABLES.iterdir()} == tables
 
 
 def test_every_kept_figure_of_evidence_is_within_its_floor_and_ceiling():

@@ -205,7 +205,7 @@ def test_freeze_prints_the_names_of_the_files_that_it_wrote(capsys, tmp_path):
     assert lines == [str(tmp_path / "invalid.json"), str(tmp_path / "tower-body.json")]
     for name in ("invalid", "tower-body"):
         assert (tmp_path / f"{name}.json").read_bytes() == vectors.path_of(name).read_bytes()
-    assert "is no folder" in refused(capsys, "freeze", "--into", str(tmp_path / "nowhere"))
+    assert "is not a folder" in refused(capsys, "freeze", "--into", str(tmp_path / "nowhere"))
     assert "no frozen vectors 'rnig'" in refused(capsys, "freeze", "rnig", "--into", str(tmp_path))
 
 

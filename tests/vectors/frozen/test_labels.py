@@ -263,7 +263,7 @@ def test_freezing_does_not_overwrite_a_file_of_another_family(tmp_path):
         freezing.freeze(["ring"], tmp_path)
     with pytest.raises(InputError, match="no frozen vectors 'rnig'"):
         freezing.freeze(["rnig"], tmp_path)
-    with pytest.raises(InputError, match="is no folder"):
+    with pytest.raises(InputError, match="is not a folder"):
         freezing.freeze(["ring"], tmp_path / "nowhere")
 
 

@@ -129,7 +129,7 @@ CASES_AT_FAULT = {
     "flags": [
         (["not-a-flag"], "is not among those"),
         (["tangent"], "is not among those"),  # a flag that there is, but the file does not describe it
-        (["a<1", "a<1"], "stands twice"),
+        (["a<1", "a<1"], "duplicate flag"),
         ("a<1", "must be a list"),
         ([1], "is not among those"),
     ],
@@ -210,9 +210,9 @@ def test_case_whose_decimal_and_hexadecimal_numbers_differ_is_refused(tmp_path, 
 def test_vector_file_with_a_duplicate_key_is_refused_wherever_it_stands(tmp_path):
     lines = list(SOUND)
     lines[FIFTH] = lines[FIFTH].replace('"position":', '"position":1,"position":', 1)
-    assert f", line {FIFTH + 1}: key 'position' stands twice" in refused(tmp_path, lines)
+    assert f", line {FIFTH + 1}: duplicate key 'position'" in refused(tmp_path, lines)
     place = next(place for place, line in enumerate(SOUND) if line.startswith('"count"'))
-    assert f", line {place + 2}: key 'count' stands twice" in refused(
+    assert f", line {place + 2}: duplicate key 'count'" in refused(
         tmp_path, [*SOUND[: place + 1], SOUND[place], *SOUND[place + 1 :]]
     )
 

@@ -17,7 +17,7 @@ from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS
 from hypcheck.geometry.rows import WAYS, Floats, Rows
 from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
-from hypcheck.runs.causes import SILENT, Answers, Asked, Cause, Rule, Standing, cause, silent
+from hypcheck.runs.causes import SILENT, Answers, Asked, Cause, Rule, Scope, cause, silent
 from hypcheck.runs.judges import passage_of, time_is_right
 
 _MOSTLY = 0.5
@@ -125,12 +125,12 @@ class SlippedRule:
         return answers
 
 
-def _formula_slips() -> Iterator[Cause]:
+def _formula_errors() -> Iterator[Cause]:
     """Formulas with a sign or a term of a coefficient or of Δ wrong, or the decision."""
 
     def slip(name: str, what: str, why: str, remedy: str, rule: Rule) -> Cause:
         sentence = f"it answers as if{what}"
-        return Cause(name=name, sentence=sentence, why=why, remedy=remedy, rule=rule, standing=Standing.EVERYWHERE)
+        return Cause(name=name, sentence=sentence, why=why, remedy=remedy, rule=rule, scope=Scope.EVERYWHERE)
 
     why = "Equation (14) and Table 2 of the paper have these coefficients, which follow from the determinant of λH + S"
     for name, terms in _COEFFICIENTS.items():
@@ -216,12 +216,12 @@ def _horizontally(asked: Asked) -> Answers:
     return asked.said(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
 
 
-def _slips(subject: str, rules: Mapping[str, Rule], standing: Standing = Standing.EVERYWHERE) -> tuple[Cause, ...]:
-    return tuple(cause(name, rule, standing, subject=subject) for name, rule in rules.items())
+def _errors(subject: str, rules: Mapping[str, Rule], scope: Scope = Scope.EVERYWHERE) -> tuple[Cause, ...]:
+    return tuple(cause(name, rule, scope, subject=subject) for name, rule in rules.items())
 
 
-UPRIGHT_SLIPS = (
-    *_slips(
+UPRIGHT_FORMULA_ERRORS = (
+    *_errors(
         "upright",
         {
             "always-0": _always(0),
@@ -261,7 +261,7 @@ UPRIGHT_SLIPS = (
             "P-not-squared": _terms(P=lambda row: (abs(row["x"]) + abs(row["y"])) * row["b"] * row["d"] ** 2),
         },
     ),
-    *_formula_slips(),
+    *_formula_errors(),
 )
 """The simplest first."""
 
@@ -313,7 +313,7 @@ def _along(factor: Callable[[Rows], Floats]) -> Rule:
     return _changed(change)
 
 
-TILTED_SLIPS = _slips(
+TILTED_FORMULA_ERRORS = _errors(
     "tilted",
     {
         "axis-ignored": _axis(lambda x, y, z: (0 * x, 0 * y, 1 + 0 * z)),
@@ -419,17 +419,17 @@ def _times_off(asked: Asked, *, late: bool) -> Answers:
     return _where_time(asked, is_off)
 
 
-WAY_SLIPS = (
-    *_slips("way", {"between-positions": _between}, Standing.PLACE),
-    *_slips(
+WAY_FORMULA_ERRORS = (
+    *_errors("way", {"between-positions": _between}, Scope.PLACE),
+    *_errors(
         "way",
         {
             "late-times": lambda asked: _times_off(asked, late=True),
             "early-times": lambda asked: _times_off(asked, late=False),
         },
-        Standing.ROUNDING,
+        Scope.ROUNDING,
     ),
-    *_slips(
+    *_errors(
         "way",
         {
             "only-the-start": lambda asked: _timed(asked, _touches(asked, 4), 0.0),

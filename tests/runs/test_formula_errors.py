@@ -7,13 +7,13 @@ import pytest
 
 import hypcheck
 from hypcheck.runs.causes import SILENT, Asked
+from hypcheck.runs.formula_errors import WAY_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion
-from hypcheck.runs.slips import WAY_SLIPS
 from tests.support.fractions_truth import exact_position
 
 SIZES = (2.0, 3.0, 0.25, 0.15)
 COUNT = 150
-RULES = {cause.name: cause.rule for cause in WAY_SLIPS}
+RULES = {cause.name: cause.rule for cause in WAY_FORMULA_ERRORS}
 
 
 def ways(count, seed=7):
@@ -71,7 +71,7 @@ def test_slip_of_testing_only_the_ends_explains_only_missed_contacts():
     assert (said[~missed] == SILENT).all()
 
 
-def test_slips_of_swapped_columns_do_not_apply_to_tilted_spheroids():
+def test_formula_errors_of_swapped_columns_do_not_apply_to_tilted_spheroids():
     leaning = np.hstack([ROWS, np.tile([0.0, 0.0, 1.0], (COUNT, 1))])
     assert (RULES["way-x-z"](asked(HITS, rows=leaning)) == SILENT).all()
     assert RULES["only-the-start"](asked(HITS, rows=leaning)).tolist() == STARTS.tolist()
@@ -98,7 +98,7 @@ def test_slip_of_times_counted_from_the_end_explains_such_times_and_no_right_one
 
 
 @pytest.mark.parametrize(("name", "off"), [("late-times", 1e-4), ("early-times", -1e-4)])
-def test_slips_of_slightly_wrong_times_are_distinguished_by_direction(name, off):
+def test_formula_errors_of_slightly_wrong_times_are_distinguished_by_direction(name, off):
     assert ON_THE_WAY.sum() > 5
     assert explained(name, FIRST + off)[ON_THE_WAY].all()
     for other in (FIRST - off, FIRST, FIRST + 100 * off):
@@ -106,5 +106,5 @@ def test_slips_of_slightly_wrong_times_are_distinguished_by_direction(name, off)
 
 
 @pytest.mark.parametrize("name", ["times-from-the-end", "late-times"])
-def test_slips_about_times_do_not_apply_to_answers_without_times(name):
+def test_formula_errors_about_times_do_not_apply_to_answers_without_times(name):
     assert (RULES[name](asked(HITS)) == SILENT).all()
