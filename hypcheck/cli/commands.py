@@ -115,27 +115,35 @@ class CommandGroup(click.Group):
         raise click.UsageError(f"there is no command {name!r}; {suggestion(name, known, most=1)}", ctx)
 
 
-COMMANDS = {
-    "classify": "hypcheck.cli.classify:classify",
-    "verify": "hypcheck.cli.verify:verify",
-    "bench": "hypcheck.cli.bench:bench",
-    "engines": "hypcheck.cli.engines:engines",
-    "cases": "hypcheck.cli.cases:cases",
-    "hunt": "hypcheck.cli.hunt:hunt",
-    "minimise": "hypcheck.cli.hunt:minimise",
-    "replay": "hypcheck.cli.hunt:replay",
-    "explain": "hypcheck.cli.explain:explain",
-    "derive": "hypcheck.cli.paper:derive",
-    "report": "hypcheck.cli.record:report",
-    "record": "hypcheck.cli.record:record_",
-    "plan": "hypcheck.cli.scene:plan",
-    "emit": "hypcheck.cli.scene:emit",
-    "simulate": "hypcheck.cli.paper:simulate",
-    "init": "hypcheck.cli.setup:init",
-    "info": "hypcheck.cli.setup:info",
-    "completion": "hypcheck.cli.commands:completion",
+GROUPS = {
+    "Use": {
+        "classify": "hypcheck.cli.classify:classify",
+        "plan": "hypcheck.cli.scene:plan",
+        "emit": "hypcheck.cli.scene:emit",
+    },
+    "Test": {
+        "init": "hypcheck.cli.setup:init",
+        "verify": "hypcheck.cli.verify:verify",
+        "replay": "hypcheck.cli.hunt:replay",
+        "explain": "hypcheck.cli.explain:explain",
+        "hunt": "hypcheck.cli.hunt:hunt",
+        "minimise": "hypcheck.cli.hunt:minimise",
+        "bench": "hypcheck.cli.bench:bench",
+        "engines": "hypcheck.cli.engines:engines",
+        "cases": "hypcheck.cli.cases:cases",
+        "report": "hypcheck.cli.record:report",
+        "record": "hypcheck.cli.record:record_",
+    },
+    "Understand": {
+        "derive": "hypcheck.cli.paper:derive",
+        "simulate": "hypcheck.cli.paper:simulate",
+        "info": "hypcheck.cli.setup:info",
+        "completion": "hypcheck.cli.commands:completion",
+    },
 }
-"""Name → module:attribute of the click command."""
+"""The commands by what they are for: name → module:attribute of the click command."""
+
+COMMANDS = {name: place for group in GROUPS.values() for name, place in group.items()}
 
 _WORDS = f"{__name__}.words"
 """The key of the words after the command in a context's meta: --help among them works with bad settings too."""
@@ -145,8 +153,18 @@ class LazyGroup(CommandGroup):
     """A group whose commands are those of COMMANDS."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
-        """The names, in the order in which a new user needs them."""
+        """The names, group by group."""
         return list(COMMANDS)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the commands, each group under its heading."""
+        widest = max(map(len, COMMANDS))
+        for title, names in GROUPS.items():
+            found = [(name, self.get_command(ctx, name)) for name in names]
+            limit = formatter.width - 6 - widest
+            rows = [(f"{name:{widest}}", each.get_short_help_str(limit)) for name, each in found if each is not None]
+            with formatter.section(title):
+                formatter.write_dl(rows)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
         """The command of that name, or None."""

@@ -101,7 +101,7 @@ common = with_options(SEED, CONTINUOUS, ENDS, OUT, FORMAT, SHOW)
 
 
 @click.group(
-    cls=CommandGroup, short_help="The paper's two applications: a walker among trees, a quadcopter in a tower."
+    cls=CommandGroup, short_help="Simulate the paper's two applications: a walker among trees, a quadcopter in a tower."
 )
 def simulate() -> None:
     """Simulate the two applications of the paper, with every assumption in a scene file (docs/simulate.md).

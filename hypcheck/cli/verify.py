@@ -178,7 +178,7 @@ _THOROUGH = 10
 """Times as many generated rows."""
 
 
-@click.command(short_help="Derive, prove, cross-check, judge and time; or gate the implementations that SPEC names.")
+@click.command(short_help="Test the implementations that SPEC names; without SPEC, hypcheck itself.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...", type=completing.SPEC)
 @click.option(
     "--out", type=OutputPath(), default=Path("reports/latest"), show_default=True, help="The folder of the reports."

@@ -312,12 +312,12 @@ def test_a_case_id_names_its_row(name: str, index: int) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("uniform", "no case id"),
-        ("uniform/1/0", "no case id"),
-        ("uniform/1/0/-1", "no case id"),
-        ("uniform/1/0/01", "no case id"),
-        ("uniform/1/0/1 ", "no case id"),
-        ("uniform/1/0/٣", "no case id"),
+        ("uniform", "not a case id"),
+        ("uniform/1/0", "not a case id"),
+        ("uniform/1/0/-1", "not a case id"),
+        ("uniform/1/0/01", "not a case id"),
+        ("uniform/1/0/1 ", "not a case id"),
+        ("uniform/1/0/٣", "not a case id"),
         ("unifrom/1/0/1", "did you mean uniform"),
         ("uniform/999/0/1", "generator"),
     ],

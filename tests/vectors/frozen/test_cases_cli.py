@@ -105,7 +105,7 @@ def test_cases_show_prints_a_generated_case_like_a_frozen_one(capsys):
         ("rnig-0001", "did you mean ring"),
         ("ring-1", "the last one is"),
         ("zzzz", "there are forest-type-1"),
-        ("ring/1/0", "no case id"),
+        ("ring/1/0", "not a case id"),
         ("rnig/1/0/1", "did you mean ring"),
         ("", "there are"),
     ],
