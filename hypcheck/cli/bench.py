@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -25,6 +26,9 @@ from hypcheck.cli.options import (
 from hypcheck.cli.recording import recording, run_stages
 from hypcheck.cli.settings import in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
+
+if TYPE_CHECKING:
+    from hypcheck.bench.plan import BenchPlan
 
 METHODS = completing.Names(completing.bench_methods, many=True)
 WORKLOADS = completing.Names(completing.workloads, many=True)
@@ -94,28 +98,11 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     from tempfile import TemporaryDirectory
 
     from hypcheck.bench import run
-    from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
-    from hypcheck.processes import usable_processors
     from hypcheck.record.writer import Provenance
     from hypcheck.report.write import import_all
     from hypcheck.runs.fingerprint import FileSnapshot, fingerprints
 
-    quick = options["quick"]
-    if options["max_slowdown"] is not None and options["baseline"] is None:
-        raise InputError("--max-slowdown compares a run with an earlier one; name the earlier one with --baseline")
-    plan = BenchPlan(
-        specs=specs,
-        methods=names_in(options["methods"]),
-        workloads=names_in(options["workloads"]),
-        quick=quick,
-        amounts=QUICK if quick else FULL,
-        processes=options["processes"] or (3 if quick else 5),
-        rounds=options["rounds"] or (3 if quick else 5),
-        workers=options["workers"] or usable_processors(),
-        max_slowdown=options["max_slowdown"] or MAX_SLOWDOWN,
-        scenes=options["scene"],
-        **{name: options[name] for name in ("seed", "baseline", "kernel", "forest", "tilted", "question")},
-    )
+    plan = _plan_of(specs, options)
     bounds = isolated(plan.limits, options["isolate"], options["pass_env"], options["see"], options["out"])
     plan, isolation = replace(plan, limits=bounds), isolation_of(specs, bounds)
     _refuse_replacing(options["baseline"], options["out"])
@@ -143,6 +130,29 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
             err=True,
         )
     context.exit(outcome.exit_code)
+
+
+def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> BenchPlan:
+    """The plan of a benchmark. Raises InputError about a wrong option."""
+    from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
+    from hypcheck.processes import usable_processors
+
+    quick = options["quick"]
+    if options["max_slowdown"] is not None and options["baseline"] is None:
+        raise InputError("--max-slowdown compares a run with an earlier one; name the earlier one with --baseline")
+    return BenchPlan(
+        specs=specs,
+        methods=names_in(options["methods"]),
+        workloads=names_in(options["workloads"]),
+        quick=quick,
+        amounts=QUICK if quick else FULL,
+        processes=options["processes"] or (3 if quick else 5),
+        rounds=options["rounds"] or (3 if quick else 5),
+        workers=options["workers"] or usable_processors(),
+        max_slowdown=options["max_slowdown"] or MAX_SLOWDOWN,
+        scenes=options["scene"],
+        **{name: options[name] for name in ("seed", "baseline", "kernel", "forest", "tilted", "question")},
+    )
 
 
 def _refuse_replacing(baseline: Path | None, out: Path) -> None:

@@ -76,10 +76,10 @@ def summary_options() -> dict[str, Any]:
 
 
 @contextmanager
-def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> Iterator[Pace]:
+def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> Iterator[ShownPace]:
     """A bar of `length` steps (None if unknown), of which some were `done` before; `unit` names what a rate counts."""
     if length == 0 or not is_terminal(sys.stderr):
-        yield Pace(None, unit)
+        yield ShownPace(None, unit)
         return
     with click.progressbar(
         map(str, repeat("")) if length is None else None,  # click asks it for a length, and it has none
@@ -90,10 +90,10 @@ def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> It
         item_show_func=lambda text: text,
     ) as bar:
         bar.update(done)
-        yield Pace(bar, unit)
+        yield ShownPace(bar, unit)
 
 
-class Pace:
+class ShownPace:
     """Updates a bar ten times a second, and shows the rate beside it, and the time left at that rate.
 
     Without a bar nothing is shown.

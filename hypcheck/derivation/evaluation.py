@@ -213,7 +213,7 @@ UNDEFINED = Undefined()
 
 @total_ordering
 @dataclass(frozen=True, slots=True, eq=False)
-class Surd:
+class QuadraticSurd:
     """The number p + q√h: p and q rational, q ≠ 0, and h > 0 rational and not the square of a rational.
 
     It is therefore irrational, never zero, and equal to another exactly when p and q are. `surd` makes one.
@@ -223,11 +223,11 @@ class Surd:
     q: Fraction
     h: Fraction
 
-    def __add__(self, other: object) -> Fraction | Surd | Undefined:
+    def __add__(self, other: object) -> Fraction | QuadraticSurd | Undefined:
         parts = self._parts(other)
         return NotImplemented if parts is None else surd(self.p + parts[0], self.q + parts[1], self.h)
 
-    def __mul__(self, other: object) -> Fraction | Surd | Undefined:
+    def __mul__(self, other: object) -> Fraction | QuadraticSurd | Undefined:
         parts = self._parts(other)
         if parts is None:
             return NotImplemented
@@ -237,10 +237,10 @@ class Surd:
     __radd__ = __add__
     __rmul__ = __mul__
 
-    def __neg__(self) -> Surd:
-        return Surd(-self.p, -self.q, self.h)
+    def __neg__(self) -> QuadraticSurd:
+        return QuadraticSurd(-self.p, -self.q, self.h)
 
-    def __abs__(self) -> Surd:
+    def __abs__(self) -> QuadraticSurd:
         return self if self.sign > 0 else -self
 
     def __sub__(self, other: Any) -> Any:
@@ -250,7 +250,7 @@ class Surd:
         return -self + other
 
     def __truediv__(self, other: Any) -> Any:
-        if isinstance(other, Surd):
+        if isinstance(other, QuadraticSurd):
             return self * other.reciprocal
         return NotImplemented if self._parts(other) is None else self * (1 / Fraction(other))
 
@@ -258,10 +258,10 @@ class Surd:
         return self.reciprocal * other
 
     @property
-    def reciprocal(self) -> Fraction | Surd:
+    def reciprocal(self) -> Fraction | QuadraticSurd:
         """1 over it, by the conjugate: p² − q²h is not zero, since h is not a square."""
         norm = self.p**2 - self.q**2 * self.h
-        return Surd(self.p / norm, -self.q / norm, self.h)
+        return QuadraticSurd(self.p / norm, -self.q / norm, self.h)
 
     @property
     def sign(self) -> int:
@@ -286,7 +286,7 @@ class Surd:
         return None if parts is None else sign_of(surd(self.p - parts[0], self.q - parts[1], self.h))
 
     def _parts(self, other: object) -> tuple[Fraction, Fraction] | None:
-        if isinstance(other, Surd):
+        if isinstance(other, QuadraticSurd):
             if other.h != self.h:
                 raise ValueError(f"√{self.h} and √{other.h} do not lie in one quadratic field")
             return other.p, other.q
@@ -295,19 +295,19 @@ class Surd:
         return None
 
 
-def surd(p: Fraction, q: Fraction, h: Fraction) -> Fraction | Surd:
+def surd(p: Fraction, q: Fraction, h: Fraction) -> Fraction | QuadraticSurd:
     """p + q√h, as a Fraction where q is 0; `h` must be no square of a rational."""
-    return Surd(p, q, h) if q else p
+    return QuadraticSurd(p, q, h) if q else p
 
 
-def sign_of(number: Fraction | Surd) -> int:
+def sign_of(number: Fraction | QuadraticSurd) -> int:
     """+1, 0 or −1."""
-    if isinstance(number, Surd):
+    if isinstance(number, QuadraticSurd):
         return number.sign
     return (number > 0) - (number < 0)
 
 
-def square_root(number: Any) -> Fraction | Surd | Undefined:
+def square_root(number: Any) -> Fraction | QuadraticSurd | Undefined:
     """The root of a rational, exact; UNDEFINED below zero. Raises TypeError for the root of an irrational number."""
     if isinstance(number, Undefined):
         return UNDEFINED
@@ -315,7 +315,7 @@ def square_root(number: Any) -> Fraction | Surd | Undefined:
     if rational < 0:
         return UNDEFINED
     root = Fraction(math.isqrt(rational.numerator), math.isqrt(rational.denominator))
-    return root if root * root == rational else Surd(Fraction(0), Fraction(1), rational)
+    return root if root * root == rational else QuadraticSurd(Fraction(0), Fraction(1), rational)
 
 
 EXACT = Arithmetic(

@@ -40,7 +40,7 @@ from hypcheck.runs.fingerprint import sha256
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class CodePlace:
     """A file, relative to the working directory where it lies under it, and a line from 1; None: it is not known."""
 
     file: str
@@ -52,7 +52,7 @@ class PlacedFailure:
     """A failure, its place, and a fingerprint that a later run of the same code repeats and no other failure has."""
 
     failure: Failure
-    place: Place
+    place: CodePlace
     fingerprint: str
 
     @property
@@ -72,7 +72,7 @@ class PlacedFailure:
         return self.failure.kind != INCONCLUSIVE
 
 
-UNKNOWN = Place(FILE)
+UNKNOWN = CodePlace(FILE)
 """The place of what no file of the code under test is known for: the record, since readers require a place."""
 
 
@@ -91,7 +91,7 @@ def placed_failures(record: Record) -> list[PlacedFailure]:
     return found
 
 
-def _places(record: Record) -> Iterator[tuple[str, Place]]:
+def _places(record: Record) -> Iterator[tuple[str, CodePlace]]:
     """The place of each implementation under test for which one is known, by its name in reports."""
     hashes = record.header.files or {}
     for tested in under_test(record):
@@ -101,7 +101,7 @@ def _places(record: Record) -> Iterator[tuple[str, Place]]:
             continue
         file = _file(spec, hashes)
         if file is not None:
-            yield tested.name, Place(_relative(file), _line(spec, file, hashes.get(file)))
+            yield tested.name, CodePlace(_relative(file), _line(spec, file, hashes.get(file)))
 
 
 def _file(spec: Spec, hashes: Mapping[str, str]) -> str | None:
@@ -222,7 +222,7 @@ def _cause_rule(line: CauseLine) -> dict[str, Any]:
     }
 
 
-def _cause_result(line: CauseLine, rule: int, place: Place) -> dict[str, Any]:
+def _cause_result(line: CauseLine, rule: int, place: CodePlace) -> dict[str, Any]:
     """A note: the failures that it explains are results of their own."""
     digest = hashlib.sha256(f"cause\0{line.spec}\0{line.cause}".encode("utf-8", "replace")).hexdigest()
     told = f"{line.cases:,} wrong: {line.sentence}; fix: {line.remedy}"
@@ -236,7 +236,7 @@ def _cause_result(line: CauseLine, rule: int, place: Place) -> dict[str, Any]:
     }
 
 
-def _location(place: Place) -> dict[str, Any]:
+def _location(place: CodePlace) -> dict[str, Any]:
     """The place as a URI reference; readers take a file without a line as its first one."""
     uri = quote(place.file.encode("utf-8", "replace"))
     absolute = {"uri": f"file://{uri}"} if uri.startswith("/") else {"uri": uri, "uriBaseId": "%SRCROOT%"}

@@ -283,7 +283,7 @@ PASSING = tuple(part for part in PARTS if part not in (accuracy.family_sections,
 
 
 @dataclass(frozen=True, slots=True)
-class Content:
+class ReportContent:
     """What a report for people shows."""
 
     title: str
@@ -291,7 +291,7 @@ class Content:
     sections: tuple[Section, ...]
 
 
-def content(record: Record, against: Record | None = None) -> Content:
+def content(record: Record, against: Record | None = None) -> ReportContent:
     """The content of a report; with another record, the changes follow the failures."""
     ended = verdict(record)
     first, later = (FAILING, PARTS) if not ended.passed else ((), PASSING if under_test(record) else PARTS)
@@ -300,7 +300,7 @@ def content(record: Record, against: Record | None = None) -> Content:
     others = [section for part in later for section in part(record)]
     if ended.passed:
         others[-1:-1] = explorer_sections(record)
-    return Content(report_title(record), ended, (*failing, *changed, *others))
+    return ReportContent(report_title(record), ended, (*failing, *changed, *others))
 
 
 def report_title(record: Record) -> str:
@@ -315,7 +315,7 @@ _OTHER_REPORTS = (
 )
 
 
-def overview(record: Record, beside: Collection[str]) -> Content:
+def overview(record: Record, beside: Collection[str]) -> ReportContent:
     """The content of the page; it shows the pictures among the files `beside` it."""
     parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
     shows = bullets([f"{said[:1].upper()}{said[1:]}." for part in parts for said in part(record)])
@@ -333,4 +333,4 @@ def overview(record: Record, beside: Collection[str]) -> Content:
         *run_sections(record),
         Section("The rest", (bullets([_OTHER_REPORTS]),)),
     ]
-    return Content(report_title(record), verdict(record), tuple(sections))
+    return ReportContent(report_title(record), verdict(record), tuple(sections))

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report.contents import Content, content, overview
+from hypcheck.report.contents import ReportContent, content, overview
 from hypcheck.report.document import (
     Block,
     Bullets,
@@ -70,7 +70,7 @@ def render_overview(record: Record, context: ReportContext = ALONE) -> bytes:
     return _page(overview(record, context.beside), context.beside)
 
 
-def _page(whole: Content, beside: Collection[str]) -> bytes:
+def _page(whole: ReportContent, beside: Collection[str]) -> bytes:
     """A content in UTF-8; `beside` are the names of the files beside it."""
     lines = [f"# {running_text(whole.title)}", "", f"**{running_text(whole.verdict.sentence)}**", ""]
     for section in (section for section in whole.sections if not section.page):

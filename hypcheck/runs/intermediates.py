@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.derivation.evaluation import EXACT, Surd, evaluate
+from hypcheck.derivation.evaluation import EXACT, QuadraticSurd, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import BOOLEAN, OPERATIONS, Program, Step, cut, line_of, steps_of
@@ -28,7 +28,7 @@ from hypcheck.implementations.implementation import Implementation
 DIGITS = 8
 _GUARD = 8
 
-Number = Fraction | Surd
+Number = Fraction | QuadraticSurd
 Row = tuple[float, ...]
 
 
@@ -44,11 +44,11 @@ def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scal
 
 def rational(value: Number, bits: int = 64) -> Fraction:
     """A rational within a relative 2^−bits of the value; the value itself if it is rational."""
-    if not isinstance(value, Surd):
+    if not isinstance(value, QuadraticSurd):
         return value
     # p and q√h of one sign cannot cancel. Of two signs, p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have one sign.
     if value.p * value.q < 0:
-        return (value.p**2 - value.q**2 * value.h) / rational(Surd(value.p, -value.q, value.h), bits + 1)
+        return (value.p**2 - value.q**2 * value.h) / rational(QuadraticSurd(value.p, -value.q, value.h), bits + 1)
     return value.p + value.q * _root(value.h, bits + 1)
 
 
@@ -64,7 +64,7 @@ def number_text(value: object, digits: int = DIGITS) -> str:
     """A value of either arithmetic as text: yes or no, "undefined", inf or nan, or a number with `digits` digits."""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, (Fraction, Surd)):
+    if isinstance(value, (Fraction, QuadraticSurd)):
         return _decimal(rational(value, 4 * digits + _GUARD), digits)
     return str(value)
 
@@ -87,7 +87,7 @@ def _trimmed(text: str) -> str:
 
 def relative_error(value: object, exact: object) -> float | None:
     """|value − exact|/|exact|: 0 if equal, inf if exact is 0 or value not finite, None if they are no numbers."""
-    if isinstance(value, bool) or not isinstance(exact, (Fraction, Surd)):
+    if isinstance(value, bool) or not isinstance(exact, (Fraction, QuadraticSurd)):
         return None
     if not isinstance(value, Fraction):
         return math.inf
@@ -111,9 +111,9 @@ _DUAL_DECIDED = Program(
 class Intermediate:
     """One value of a program: its name, its operation, its value in the machine's format, and its exact value.
 
-    `value` is a truth value, a Fraction, or a float that is not finite; `exact` is a truth value, a Fraction, a Surd or
-    UNDEFINED. `error_u` is the relative error in units u of the format. It is None for a decision, which is a truth
-    value or one of several constants, and for values that are undefined in exact arithmetic.
+    `value` is a truth value, a Fraction, or a float that is not finite; `exact` is a truth value, a Fraction, a
+    QuadraticSurd or UNDEFINED. `error_u` is the relative error in units u of the format. It is None for a decision,
+    which is a truth value or one of several constants, and for values that are undefined in exact arithmetic.
     """
 
     name: str
@@ -224,7 +224,7 @@ def _culprit(wrong: Step, values: Mapping[str, Intermediate]) -> str | None:
 
 def _absolute_error(each: Intermediate) -> tuple[int, Fraction]:
     """A key that sorts by error; numbers that are not finite, or undefined in exact arithmetic, come last."""
-    if not isinstance(each.value, Fraction) or not isinstance(each.exact, (Fraction, Surd)):
+    if not isinstance(each.value, Fraction) or not isinstance(each.exact, (Fraction, QuadraticSurd)):
         return (1, Fraction(0))
     return (0, abs(rational(each.exact - each.value)))
 

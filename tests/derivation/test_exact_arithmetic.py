@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.derivation.evaluation import EXACT, UNDEFINED, Surd, square_root, surd
+from hypcheck.derivation.evaluation import EXACT, UNDEFINED, QuadraticSurd, square_root, surd
 
 rationals = st.fractions(min_value=-1000, max_value=1000, max_denominator=1000)
 roots = st.sampled_from([Fraction(2), Fraction(3, 7), Fraction(10**12 + 1), Fraction(1, 10**9 + 7)])
@@ -21,7 +21,7 @@ def decimal_of(number):
     """The number to 200 digits, by decimal square root."""
     with localcontext() as context:
         context.prec = 200
-        if isinstance(number, Surd):
+        if isinstance(number, QuadraticSurd):
             root = (Decimal(number.h.numerator) / number.h.denominator).sqrt()
             return decimal_of(number.p) + decimal_of(number.q) * root
         return Decimal(number.numerator) / number.denominator
@@ -72,7 +72,7 @@ def test_tiny_surds_with_huge_coefficients_have_the_right_sign():
 def test_square_root_gives_a_fraction_for_squares_and_a_surd_otherwise():
     assert square_root(Fraction(49, 4)) == Fraction(7, 2)
     assert isinstance(square_root(Fraction(49, 4)), Fraction)
-    assert isinstance(square_root(Fraction(50, 4)), Surd)
+    assert isinstance(square_root(Fraction(50, 4)), QuadraticSurd)
     assert square_root(Fraction(50, 4)) * square_root(Fraction(50, 4)) == Fraction(25, 2)
     assert square_root(Fraction(0)) == 0
 

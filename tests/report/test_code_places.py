@@ -11,7 +11,7 @@ from pydantic_sarif.model import StaticAnalysisResultsFormatSarifVersion210JsonS
 
 from hypcheck.record import Record, read
 from hypcheck.record.lines import CauseLine
-from hypcheck.report.code_hosts import UNKNOWN, Place, placed_failures, render_badge, render_gitlab, render_sarif
+from hypcheck.report.code_hosts import UNKNOWN, CodePlace, placed_failures, render_badge, render_gitlab, render_sarif
 from hypcheck.report.verdict import failures
 from tests.report import record_samples
 from tests.report.record_samples import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED
@@ -141,29 +141,29 @@ def test_a_python_function_is_placed_at_its_definition(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
     told = hashlib.sha256(SOURCE.encode()).hexdigest()
-    assert place_of("python:mine.py:position", {"mine.py": told}) == Place("mine.py", 8)
-    assert place_of("python:./mine.py:position", {"mine.py": told}) == Place("mine.py", 8)
-    assert place_of("python:mine:other", {str(tmp_path / "mine.py"): told}) == Place("mine.py", 4)
-    assert place_of("python:mine.py:imported", {"mine.py": told}) == Place("mine.py")
+    assert place_of("python:mine.py:position", {"mine.py": told}) == CodePlace("mine.py", 8)
+    assert place_of("python:./mine.py:position", {"mine.py": told}) == CodePlace("mine.py", 8)
+    assert place_of("python:mine:other", {str(tmp_path / "mine.py"): told}) == CodePlace("mine.py", 4)
+    assert place_of("python:mine.py:imported", {"mine.py": told}) == CodePlace("mine.py")
 
 
 def test_changed_python_file_of_an_implementation_is_placed_without_a_line(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(SOURCE, encoding="utf-8")
-    assert place_of("python:mine.py:position", {"mine.py": "0" * 64}) == Place("mine.py")
-    assert place_of("python:mine.py:position", {}) == Place("mine.py")
+    assert place_of("python:mine.py:position", {"mine.py": "0" * 64}) == CodePlace("mine.py")
+    assert place_of("python:mine.py:position", {}) == CodePlace("mine.py")
 
 
 @pytest.mark.parametrize(
     ("spec", "files", "place"),
     [
-        ("library:./build/libmine.so", [], Place("build/libmine.so")),
-        ("command:python3 adapter.py --fast", ["/usr/bin/python3", "adapter.py"], Place("adapter.py")),
-        ("command:./adapter --fast", ["adapter"], Place("adapter")),
+        ("library:./build/libmine.so", [], CodePlace("build/libmine.so")),
+        ("command:python3 adapter.py --fast", ["/usr/bin/python3", "adapter.py"], CodePlace("adapter.py")),
+        ("command:./adapter --fast", ["adapter"], CodePlace("adapter")),
         ("command:adapter", ["/usr/bin/adapter"], UNKNOWN),
         ("builtin:table-2-float32", [], UNKNOWN),
         ("what is this?", [], UNKNOWN),
-        ("python:pack.mine:f", ["/somewhere/pack/mine.py"], Place("/somewhere/pack/mine.py")),
+        ("python:pack.mine:f", ["/somewhere/pack/mine.py"], CodePlace("/somewhere/pack/mine.py")),
     ],
 )
 def test_implementation_is_placed_in_code_as_far_as_its_file_is_known(spec, files, place):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from hypcheck.derivation.evaluation import UNDEFINED, Surd
+from hypcheck.derivation.evaluation import UNDEFINED, QuadraticSurd
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
@@ -49,7 +49,7 @@ def test_comparison_names_the_less_accurate_of_two_numbers_in_a_wrong_decision()
     """λm < B, where λm is a surd just above B = 16/49: it loses more digits than B's single rounding does."""
     found = compare_formula(FORMULAS["local-maximum"], "float16", (0.875, 0.5, 1.125, 0.875, -2.0, 0.625, -0.25))
     assert (found.first_wrong, found.culprit) == ("below_B", "lambda_m")
-    assert isinstance(found.values["lambda_m"].exact, Surd)
+    assert isinstance(found.values["lambda_m"].exact, QuadraticSurd)
     assert found.values["B"].exact == Fraction(16, 49) < found.values["lambda_m"].exact
     assert found.values["lambda_m"].value < found.values["B"].value != found.values["B"].exact
 

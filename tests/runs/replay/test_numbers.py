@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.derivation.evaluation import UNDEFINED, Surd
+from hypcheck.derivation.evaluation import UNDEFINED, QuadraticSurd
 from hypcheck.runs.intermediates import number_of, number_text, rational, relative_error
 
 FRACTIONS = st.fractions(min_value=-(10**6), max_value=10**6, max_denominator=10**6).filter(bool)
@@ -28,14 +28,14 @@ def decimal_of(surd):
 
 @given(FRACTIONS, FRACTIONS, NOT_SQUARES)
 def test_rational_approximation_of_a_surd_is_within_its_precision(p, q, h):
-    value = Surd(p, q, Fraction(h))
+    value = QuadraticSurd(p, q, Fraction(h))
     near, true = rational(value, 80), Fraction(decimal_of(value))
     assert abs(near - true) <= abs(true) / 2**79
 
 
 def test_decimal_text_of_a_surd_that_nearly_cancels_is_right():
     close = Fraction(math.isqrt(2 * 10**80), 10**40)  # √2 to 40 digits
-    value = Surd(-close, Fraction(1), Fraction(2))
+    value = QuadraticSurd(-close, Fraction(1), Fraction(2))
     true = Fraction(decimal_of(value))
     assert 0 < true < Fraction(1, 10**39)
     assert abs(rational(value, 60) - true) <= true / 2**59
@@ -43,7 +43,7 @@ def test_decimal_text_of_a_surd_that_nearly_cancels_is_right():
 
 
 def test_decimal_text_of_a_surd_with_a_tiny_root_is_right():
-    value = Surd(Fraction(0), Fraction(3), Fraction(1, 2**2001))
+    value = QuadraticSurd(Fraction(0), Fraction(3), Fraction(1, 2**2001))
     true = Fraction(9, 2**2001)
     assert abs(rational(value, 64) ** 2 - true) < true / 2**62
 
@@ -61,7 +61,7 @@ def test_decimal_text_of_a_surd_with_a_tiny_root_is_right():
         (Fraction(1, 8), "0.125"),
         (Fraction(1, 2**20), "9.5367432e-7"),
         (Fraction(10) ** 1000 / 3, "3.3333333e999"),
-        (Surd(Fraction(0), Fraction(-1), Fraction(2)), "-1.4142136"),
+        (QuadraticSurd(Fraction(0), Fraction(-1), Fraction(2)), "-1.4142136"),
         (UNDEFINED, "undefined"),
         (True, "yes"),
         (False, "no"),
@@ -90,5 +90,7 @@ def test_relative_error_of_special_and_ordinary_values_is_right():
     assert relative_error(Fraction(1), UNDEFINED) is None
     assert relative_error(True, False) is None
     root = Fraction(float(np.sqrt(np.float64(2))))
-    expected = abs(Fraction(decimal_of(Surd(Fraction(0), Fraction(1), Fraction(2)))) - root) / Fraction(2**0.5)
-    assert relative_error(root, Surd(Fraction(0), Fraction(1), Fraction(2))) == pytest.approx(float(expected), rel=1e-9)
+    expected = abs(Fraction(decimal_of(QuadraticSurd(Fraction(0), Fraction(1), Fraction(2)))) - root) / Fraction(2**0.5)
+    assert relative_error(root, QuadraticSurd(Fraction(0), Fraction(1), Fraction(2))) == pytest.approx(
+        float(expected), rel=1e-9
+    )
