@@ -129,6 +129,14 @@ class Program:
         raise KeyError(name)
 
 
+_OF_BOOLEANS = {
+    ("select", (BOOLEAN, BOOLEAN, BOOLEAN)),
+    ("eq", (BOOLEAN, BOOLEAN)),
+    ("ne", (BOOLEAN, BOOLEAN)),
+}
+"""What takes truth values in the place of numbers."""
+
+
 def kind_of(step: Step, kinds: dict[str, str]) -> str:
     """NUMBER or BOOLEAN: the kind of the step's result, given the kinds of the names before it.
 
@@ -140,7 +148,7 @@ def kind_of(step: Step, kinds: dict[str, str]) -> str:
     if len(step.arguments) != len(operation.takes):
         raise ValueError(f"{step.operation} takes {len(operation.takes)} arguments, not {len(step.arguments)}")
     given = tuple(_kind_of_argument(argument, kinds) for argument in step.arguments)
-    if step.operation == "select" and given == (BOOLEAN, BOOLEAN, BOOLEAN):
+    if (step.operation, given) in _OF_BOOLEANS:
         return BOOLEAN
     if given != operation.takes:
         raise ValueError(f"{step.operation} takes ({', '.join(operation.takes)}), not ({', '.join(given)})")

@@ -77,6 +77,12 @@ _CHOOSE = (
     "if (has_sizes(sizes, {sizes}){also}) {{\n    *one = position_{place}, *many = many_{place};\n    return TRUE;\n}}"
 )
 
+_C_FUNCTION = "/* {meaning} */\nstatic TYPE {name}({inputs})\n{{"
+_CPP_FUNCTION = "// {meaning}\nTYPE {name}({inputs})\n{{"
+_RUST_FUNCTION = "/// {meaning}\nfn {name}({inputs}) -> TYPE {{"
+_JAVASCRIPT_FUNCTION = "/** {meaning} */\nfunction {name}({inputs}) {{"
+_PYTHON_FUNCTION = 'def {name}({inputs}) -> TYPE:\n    """{meaning}"""'
+
 _C_LIKE = {
     "constant": "const {number} {name} = {value};",
     "begin": "static int position_{place}({number} x, {number} y, {number} z{axis})\n{{",
@@ -101,6 +107,17 @@ _C_LIKE = {
     "choose": _CHOOSE.replace("TRUE", "1"),
     "note": "/* {text} */",
     "unused": "(void){name};",
+    "function of number": _C_FUNCTION.replace("TYPE", "{number}"),
+    "function of boolean": _C_FUNCTION.replace("TYPE", "int"),
+    "function of answer": _C_FUNCTION.replace("TYPE", "int"),
+    "input": "{number} {name}",
+    "record": "typedef struct {{\n{fields}\n}} setting;",
+    "record field": "{number} {name};",
+    "given record": ", const setting *of",
+    "unpack": "const {number} {name} = of->{name};",
+    "keep": "{number} {name} = {value};",
+    "keep on": "{name} = {value};",
+    "loop": "for (int round = 0; round < {times}; round++) {{",
 }
 
 _CPP = {
@@ -116,6 +133,12 @@ _CPP = {
     "field": "{value}",
     "choose": _CHOOSE.replace("TRUE", "true"),
     "note": "// {text}",
+    "function of number": _CPP_FUNCTION.replace("TYPE", "{number}"),
+    "function of boolean": _CPP_FUNCTION.replace("TYPE", "bool"),
+    "function of answer": _CPP_FUNCTION.replace("TYPE", "int"),
+    "record": "struct Setting {{\n{fields}\n}};",
+    "given record": ", const Setting &of",
+    "unpack": "const {number} {name} = of.{name};",
 }
 
 _RUST = {
@@ -138,6 +161,16 @@ _RUST = {
     "unused": "let _ = {name};",
     "choose": "if has_sizes(sizes, [{sizes}]){also} {{\n    return Some(position_{place});\n}}",
     "note": "// {text}",
+    "function of number": _RUST_FUNCTION.replace("TYPE", "{number}"),
+    "function of boolean": _RUST_FUNCTION.replace("TYPE", "bool"),
+    "function of answer": _RUST_FUNCTION.replace("TYPE", "i8"),
+    "input": "{name}: {number}",
+    "record": "struct Setting {{\n{fields}\n}}",
+    "record field": "{name}: {number},",
+    "given record": ", of: &Setting",
+    "unpack": "let {name} = of.{name};",
+    "keep": "let mut {name} = {value};",
+    "loop": "for _ in 0..{times} {{",
 }
 
 _JAVASCRIPT = {
@@ -158,6 +191,14 @@ _JAVASCRIPT = {
     "choose": "if (alpha === {of[0]} && gamma === {of[1]} && b === {of[2]} && d === {of[3]}{also}) "
     "return position_{place};",
     "note": "// {text}",
+    **dict.fromkeys(("function of number", "function of boolean", "function of answer"), _JAVASCRIPT_FUNCTION),
+    "input": "{name}",
+    "record": "",
+    "record field": "",
+    "given record": ", {{ {inputs} }}",
+    "unpack": "",
+    "keep": "let {name} = {value};",
+    "loop": "for (let round = 0; round < {times}; round++) {{",
 }
 
 _PYTHON = {
@@ -184,6 +225,17 @@ _PYTHON = {
     "choose": "({sizes}{also}): position_{place},",
     "note": "# {text}",
     "unused": "",
+    "function of number": _PYTHON_FUNCTION.replace("TYPE", "float"),
+    "function of boolean": _PYTHON_FUNCTION.replace("TYPE", "bool"),
+    "function of answer": _PYTHON_FUNCTION.replace("TYPE", "int"),
+    "input": "{name}: float",
+    "record": "",
+    "record field": "",
+    "given record": ", {inputs}",
+    "unpack": "",
+    "keep": "{name} = {value}",
+    "keep on": "{name} = {value}",
+    "loop": "for _ in range({times}):",
 }
 
 

@@ -19,10 +19,12 @@ from hypcheck.errors import InputError
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_function
 from hypcheck.kernel.emission.plan_text import comment_text, header
+from hypcheck.kernel.emission.routines import routines_text
 from hypcheck.kernel.printing.languages import Spelling, statements
 from hypcheck.kernel.specialise import last_stages, leaning
 from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, LeaningSearch
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages
+from hypcheck.kernel.specialise.searching import SETTING, search_of
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import escaped
 from hypcheck.scene.model import FREE
@@ -79,9 +81,6 @@ PREFIX = "hypcheck"
 """With it the functions have the names that `verify library:` asks for."""
 
 _PREFIX, _LONGEST_PREFIX = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", re.ASCII), 40
-
-SETTING = ("A", "B", "PR", "QZ", "AR", "CZ", "low_a", "low_b")
-"""The constants of a search, in the order in which a kernel holds them."""
 
 
 def require_prefix(prefix: str, language: str) -> None:
@@ -214,28 +213,8 @@ def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
 
 
 def search_text(plan: ScenePlan, dialect: Dialect) -> str:
-    """The search for an upright spheroid."""
-
-    def printed(program: Program, *wanted: str) -> str:
-        return "\n".join(dialect.statements(program, wanted, plan.format.name))
-
-    parts = {
-        "number": dialect.number_of(plan.format.name),
-        "place": printed(last_stages.PLACE, "to_a", "to_b"),
-        "place_all": printed(last_stages.PLACE, "to_a", "to_b", "lambda_"),
-        "falls": printed(last_stages.falls(), "past"),
-        "falls_at_zero": printed(last_stages.falls("_zero"), "past_zero"),
-        "geometric": printed(last_stages.GEOMETRIC, "middle"),
-        "arithmetic": printed(last_stages.ARITHMETIC, "middle"),
-        "start": printed(last_stages.START, "P", "Q", "ar", "cz"),
-        "half": printed(last_stages.HALF, "half"),
-        "phi": printed(last_stages.PHI, "above_zero"),
-        "one": dialect.literal(1.0, plan.format.name),
-        "zero": dialect.literal(0.0, plan.format.name),
-        "steps": str(GEOMETRIC_STEPS + plan.format.bits + 3),
-        "geometric_steps": str(GEOMETRIC_STEPS),
-    }
-    return dialect.filled("search", parts) + "\n"
+    """The search for an upright spheroid, with the record of its constants."""
+    return "\n" + routines_text(search_of(GEOMETRIC_STEPS + plan.format.bits + 3), dialect, plan.format.name) + "\n"
 
 
 _CALLS = {

@@ -28,7 +28,6 @@ from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import setting_function
 from hypcheck.kernel.emission.kernel import (
     PREFIX,
-    SETTING,
     asked_of_compiler,
     description,
     description_in_language,
@@ -39,6 +38,7 @@ from hypcheck.kernel.emission.plan_text import whole_header
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.specialise.last_stages import DualSearch
 from hypcheck.kernel.specialise.plan import ScenePlan, plan_of
+from hypcheck.kernel.specialise.searching import SETTING
 from hypcheck.scene.model import Hyperboloid, SceneModel, Span
 
 MOST_SETTINGS = 20_000

@@ -90,24 +90,26 @@ def statements(program: Program, wanted: tuple[str, ...], spelling: Spelling) ->
         reserved = sorted(spelling.reserved.intersection((step.name, *step.reads)))
         if reserved:
             raise ValueError(f"program {program.name}: step {step.name}: {reserved[0]} is no name in the language")
-        lines.append(
-            spelling.declaration.format(
-                type=spelling.number if kinds[step.name] == NUMBER else spelling.boolean,
-                name=step.name,
-                value=_value(program, step, spelling),
-            )
-        )
+        if step.operation not in spelling.operations:
+            raise ValueError(f"program {program.name}: step {step.name}: the language has no {step.operation}")
+        lines.append(declared(step.name, kinds[step.name], value_of(step, spelling), spelling))
     return tuple(lines)
 
 
-def _value(program: Program, step: Step, spelling: Spelling) -> str:
-    template = spelling.operations.get(step.operation)
-    if template is None:
-        raise ValueError(f"program {program.name}: step {step.name}: the language has no {step.operation}")
-    return template.format(*(_argument(argument, spelling) for argument in step.arguments))
+def declared(name: str, kind: str, value: str, spelling: Spelling) -> str:
+    """The statement that makes a name of this kind this value, written in the language."""
+    return spelling.declaration.format(
+        type=spelling.number if kind == NUMBER else spelling.boolean, name=name, value=value
+    )
 
 
-def _argument(argument: Argument, spelling: Spelling) -> str:
+def value_of(step: Step, spelling: Spelling) -> str:
+    """What a step computes. Raises KeyError for an operation that the language has no template for."""
+    return spelling.operations[step.operation].format(*(argument_of(each, spelling) for each in step.arguments))
+
+
+def argument_of(argument: Argument, spelling: Spelling) -> str:
+    """A name, or an integer as the language writes it."""
     return argument if isinstance(argument, str) else spelling.constant(argument)
 
 
@@ -134,14 +136,15 @@ def statements_in(
     numbers = NUMBERS[language]
     if number is not None and number not in numbers:
         raise ValueError(f"{language} has no type of numbers {number!r}; it has {', '.join(numbers)}")
-    return statements(program, wanted, _spelling(language, number or numbers[0]))
+    return statements(program, wanted, spelling_of(language, number or numbers[0]))
 
 
 c_statements = partial(statements_in, "c")
 
 
 @cache
-def _spelling(language: str, number: str) -> Spelling:
+def spelling_of(language: str, number: str) -> Spelling:
+    """How a language writes programs in this type of numbers."""
     return _SPELLINGS[language](number)
 
 

@@ -1,0 +1,81 @@
+"""Routines: malformed ones raise errors; well-formed ones are run round by round, and parts that nothing needs go."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from hypcheck.derivation.evaluation import EXACT
+from hypcheck.derivation.program import Step, steps_of
+from hypcheck.derivation.routines import Answer, Call, Loop, Routine, called, needed_parts, run
+
+TWICE = Routine("twice", "Twice a number.", ("x",), steps_of("y = x + x"), "y")
+IS_ABOVE = Routine("is_above", "Whether it is above 9.", ("x",), steps_of("above = x > 9"), "above")
+FIBONACCI = Routine(
+    "fibonacci",
+    "0 if the seventh number of Fibonacci from a and b on is above 9, else 1.",
+    ("a", "b"),
+    (
+        Loop(
+            6,
+            (("one", "a", "old"), ("next", "b", "sum")),
+            steps_of("sum = one + next\nold = next + 0\nidle = one - 1"),
+        ),
+        Call("above", IS_ABOVE, ("one",)),
+    ),
+    Answer((("above", 0),), 1),
+)
+
+
+def looping(times=2, kept=(("k", "x", "y"),), body="y = k + 1", result="k"):
+    return Routine("r", "", ("x",), (Loop(times, kept, steps_of(body)),), result)
+
+
+@pytest.mark.parametrize(
+    ("malformed", "complaint"),
+    [
+        (lambda: Routine("r", "", ("x", "x"), (), "x"), "x is defined twice"),
+        (lambda: Routine("r", "", ("x-1",), (), "x"), "'x-1' is not a name"),
+        (lambda: Routine("r", "", ("x",), (), "y"), "there is no y"),
+        (lambda: Routine("r", "", ("x",), (), Answer((("x", 1),), 0)), "x is no condition"),
+        (lambda: Routine("r", "", ("x",), (Step("y", "add", ("x",)),), "y"), "y: add takes 2 arguments, not 1"),
+        (lambda: Routine("r", "", ("x",), (Call("y", TWICE, ("x", "x")),), "y"), "y: twice takes 1 arguments, not 2"),
+        (lambda: Routine("r", "", ("x",), (Call("y", TWICE, ("z",)),), "y"), "z is no number"),
+        (lambda: looping(times=0), "a loop has 0 rounds"),
+        (lambda: looping(kept=(("k", "z", "y"),)), "keeps z, which is no number"),
+        (lambda: looping(kept=(("x", "x", "y"),)), "x is defined twice"),
+        (lambda: looping(body="y = k > 1"), "keeps y, which is no number"),
+        (lambda: looping(kept=(("k", "x", "k"),)), "a round ends with k, which its body does not make"),
+        (lambda: looping(result="y"), "there is no y"),
+    ],
+)
+def test_a_malformed_routine_is_refused(malformed, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        malformed()
+
+
+def test_a_loop_gives_all_that_it_keeps_to_the_next_round_at_once():
+    numbers = Routine("f", "", ("a", "b"), FIBONACCI.parts, "one")
+    assert run(numbers, EXACT, {"a": 0, "b": 1}) == 8  # 0 1 1 2 3 5 8
+
+
+@pytest.mark.parametrize(("first", "second", "answer"), [(0, 1, 1), (1, 1, 0)])
+def test_an_answer_is_that_of_the_first_condition_that_holds(first, second, answer):
+    assert run(FIBONACCI, EXACT, {"a": first, "b": second}) == answer
+
+
+def test_a_routine_is_run_in_the_arithmetic_it_is_given():
+    halves = looping(times=3, body="y = k / 2")
+    assert run(halves, EXACT, {"x": 1}) == Fraction(1, 8)
+
+
+def test_parts_that_nothing_needs_are_left_out():
+    (loop, _) = needed_parts(FIBONACCI.parts, ("above",))
+    assert [step.name for step in loop.body] == ["sum", "old"]
+    assert needed_parts(FIBONACCI.parts, ("a",)) == ()
+
+
+def test_routines_that_are_called_come_once_and_before_what_calls_them():
+    outer = Routine("outer", "", ("x",), (Call("y", FIBONACCI, ("x", 1)), Call("z", IS_ABOVE, ("x",))), "y")
+    assert [routine.name for routine in called(outer)] == ["is_above", "fibonacci"]

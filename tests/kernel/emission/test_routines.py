@@ -1,0 +1,40 @@
+"""Routines printed: what is printed gives what the routine is run to, and a language's reserved names are refused."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hypcheck.derivation.float_arithmetic import float_arithmetic
+from hypcheck.derivation.program import steps_of
+from hypcheck.derivation.routines import Loop, Routine, run
+from hypcheck.kernel.emission.routines import routines_text
+from hypcheck.kernel.specialise.searching import search_of
+from hypcheck.scene.reading import read_scene
+from tests.support.inside import DIALECTS, plan_of
+
+STEPS = 71
+
+
+def test_the_printed_search_answers_as_the_routine_is_run():
+    """From the axis to far outside: every answer occurs."""
+    plan = plan_of(replace(read_scene("tower-simplest"), question="position"))
+    constants, routine, scope = plan.settings[0].last.constants, search_of(STEPS), {"math": math}
+    exec(routines_text(routine, DIALECTS["python"], "float64"), scope)  # noqa: S102 - our own text
+    found = []
+    for r in np.geomspace(1e-4, 1e4, 300):
+        given = {"R": float(r * r), "zz": 0.25, "height": 0.5}
+        found.append(run(routine, float_arithmetic("float64"), {**given, **constants}))
+        assert scope["search"](*given.values(), *(constants[name] for name in routine.record)) == found[-1]
+    assert sorted(set(found)) == [-1, 0, 1]
+
+
+def test_a_name_that_a_language_reserves_is_refused():
+    loop = Loop(2, (("short", "x", "y"),), steps_of("y = short + 1"))
+    routine = Routine("r", "One more, twice.", ("x",), (loop,), "short")
+    assert "short = y" in routines_text(routine, DIALECTS["python"], "float64")
+    with pytest.raises(ValueError, match="short is no name in c"):
+        routines_text(routine, DIALECTS["c"], "float64")
