@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import sys
 from array import array
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
@@ -65,12 +65,16 @@ class Answer:
     decision: its position and tangency, and the kind of an upright pair, decided in integers.
     clearance: in spheroid radii, 0 for a tangency, negative where the surfaces cross.
     certificate: proves the decision, and was checked.
+    margin: a length, or None where none was asked with.
+    with_margin: the position where what is not proved to be at least the margin away is contact.
     """
 
     pair: Pair
     decision: Decision
     clearance: float
     certificate: Certificate
+    margin: float | None = None
+    with_margin: Position | None = None
 
 
 def measured_clearance(pair: Pair, decision: Decision) -> float:
@@ -90,16 +94,28 @@ def ended_clearance_of(pair: Pair, decision: Decision) -> float:
     return ended_clearance.clearance(pair, decision)
 
 
-def answer(pair: Pair) -> Answer:
+def answer(pair: Pair, margin: float | None = None) -> Answer:
     """Decide, measure and prove. Raises DisagreementError where two oracles, or a proof and its claim, contradict.
 
-    A pair with an axis that is an upright one all the same is answered as that.
+    A pair with an axis that is an upright one all the same is answered as that. `margin`, a length of 0 or more, asks
+    for the position with it besides.
     """
     pair = pair.upright if pair.is_upright else pair
     decision = exact.decide(pair.lengths)
-    if pair.has_ends:
-        return Answer(pair, decision, ended_clearance_of(pair, decision), proved(pair, decision))
-    return Answer(pair, decision, measured_clearance(pair, decision), proved(pair, decision))
+    clearance = (ended_clearance_of if pair.has_ends else measured_clearance)(pair, decision)
+    certificate = proved(pair, decision)
+    if margin is None:
+        return Answer(pair, decision, clearance, certificate)
+    return Answer(pair, decision, clearance, certificate, margin, _with_margin(pair, decision, margin))
+
+
+def _with_margin(pair: Pair, decision: Decision, margin: float) -> Position:
+    from hypcheck.kernel.classify import classify  # noqa: PLC0415 - it loads numpy, which other answers do without
+
+    found = Position(int(classify(pair.row, margin=margin)))
+    if found not in (decision.position, Position.CONTACT):
+        raise _disagreement(pair.row, decision.position, decision.tangent, f"with a margin {found.label}")
+    return found
 
 
 def proved(pair: Pair, decision: Decision) -> Certificate:
@@ -179,9 +195,16 @@ def answer_as_json(answer: Answer) -> str:
             "distance_upper": _as_json(high),
             "clearance": _as_json(answer.clearance),
             "kind": None if decision.kind is None else decision.kind.value,
+            **_margin_as_json(answer),
             "proof": proof_as_json(answer.pair, answer.certificate),
         }
     )
+
+
+def _margin_as_json(answer: Answer) -> dict[str, Any]:
+    if answer.margin is None or answer.with_margin is None:
+        return {}
+    return {"margin": answer.margin, "position_with_margin": int(answer.with_margin)}
 
 
 def _as_json(number: float) -> float | str:
@@ -318,6 +341,7 @@ def answer_as_text(answer: Answer) -> str:
     proof = proof_lines(answer.pair, answer.certificate)
     lines = [
         decision.position.label + ", tangent" * decision.tangent,
+        *_margin_lines(answer),
         f"distance   {_distance_as_text(*distance_of(answer.pair))}",
         f"clearance  {radii} ({_meaning(clearance)})",
         *([] if decision.kind is None else [f"kind       {kind_as_text(decision.kind)}"]),
@@ -325,6 +349,14 @@ def answer_as_text(answer: Answer) -> str:
         *(f"{'':11}{line}" for line in proof[1:]),
     ]
     return "\n".join(lines)
+
+
+def _margin_lines(answer: Answer) -> Iterator[str]:
+    if answer.margin is None or answer.with_margin is None:
+        return
+    proof = "is not proved" if answer.with_margin is Position.CONTACT else "is proved"
+    length = repr(answer.margin).removesuffix(".0")
+    yield f"margin     {answer.with_margin.label}: a distance of at least {length} {proof}"
 
 
 def _distance_as_text(low: float, high: float) -> str:

@@ -35,6 +35,8 @@ The hyperboloid ends at --z-min and --z-max. Without --solid its wall alone is t
 and a spheroid without contact is interior if its centre lies within the wall and between the ends. With --solid flat
 ends belong to it, as to a trunk.
 
+With --margin the position is said a second time, where all that is not proved to be at least so far away is contact.
+
 A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order, and axis_x, axis_y, axis_z where spheroids
 are tilted; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added. With x1,
 y1, z1, the end of a sweep, hit (1 or 0), label, first_lower and first_upper are. z_min, z_max and solid (0 or 1) say
@@ -55,6 +57,7 @@ standard output is written as the rows come.
 @click.option("--z-min", metavar="NUMBER", help="Height where the hyperboloid ends below; without it, it does not.")
 @click.option("--z-max", metavar="NUMBER", help="Height where it ends above.")
 @click.option("--solid", is_flag=True, help="Flat ends belong to it.")
+@click.option("--margin", metavar="LENGTH", help="Also say the position where nearer than this is contact.")
 @click.option("--json", "as_json", is_flag=True, help="Answer with one JSON object, its proof in exact numbers.")
 @click.option(
     "--input", "source", metavar="FILE", help="A table of pairs: .csv, .jsonl, .npy, or - for standard input."
@@ -79,6 +82,7 @@ def classify(
     z_min: str | None,
     z_max: str | None,
     solid: bool,
+    margin: str | None,
     as_json: bool,
     source: str | None,
     target: str | None,
@@ -89,7 +93,9 @@ def classify(
     sizes = dict(zip(SIZES, (alpha, gamma, b, d), strict=True))
     vectors = {"--center": center is not None, "--axis": axis is not None, "--end": end is not None}
     heights = {"--z-min": z_min is not None, "--z-max": z_max is not None, "--solid": solid}
-    for_a_pair = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
+    for_a_pair = {"--json": as_json, "--margin": margin is not None} | {
+        f"--{name}": text is not None for name, text in sizes.items()
+    }
     for_a_table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
     if source is not None:
         _refuse(for_a_pair | vectors | heights, "is for one pair, and --input for a table; use one of them")
@@ -97,13 +103,24 @@ def classify(
         return
     _refuse(for_a_table, "is for tables; name one with --input")
     pair = _with_heights(_pair_of(sizes, center, axis), z_min, z_max, solid)
-    click.echo(_answered(pair, as_json=as_json) if end is None else _swept(pair, end, as_json=as_json))
+    length = None if margin is None else _margin(margin, end)
+    click.echo(_answered(pair, length, as_json=as_json) if end is None else _swept(pair, end, as_json=as_json))
 
 
-def _answered(pair: Pair, *, as_json: bool) -> str:
+def _answered(pair: Pair, margin: float | None, *, as_json: bool) -> str:
     from hypcheck.answer import answer, answer_as_json, answer_as_text
 
-    return (answer_as_json if as_json else answer_as_text)(answer(pair))
+    return (answer_as_json if as_json else answer_as_text)(answer(pair, margin))
+
+
+def _margin(text: str, end: tuple[str, str, str] | None) -> float:
+    """The margin that the text writes. Raises InputError where it is no length, and for a sweep."""
+    if end is not None:
+        raise InputError("--margin is for a position; with --end the question is a sweep, so leave one of them out")
+    margin = _number("--", "margin", text)
+    if not 0 <= margin < math.inf:
+        raise InputError(f"--margin is {text}; it must be a finite number, 0 or more")
+    return margin
 
 
 def _swept(pair: Pair, end: tuple[str, str, str], *, as_json: bool) -> str:

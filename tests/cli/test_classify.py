@@ -167,3 +167,18 @@ def test_classify_ends_with_6_and_prints_no_proof_if_the_proof_does_not_hold(mon
     monkeypatch.setattr(module, "prove", wrong)
     assert main(options(1, 2, 1, 1, 2.5, 0, 0)) == 6
     assert "does not hold" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("center", "margin", "position"),
+    [("2.5", "0.49", 1), ("2.5", "0.51", 0), ("0.5", "0.1", 0), ("2", "0", 0), ("2.5", "0", 1)],
+)
+def test_classify_with_a_margin_says_the_position_where_nearer_is_contact(center, margin, position, capsys):
+    """A ball of radius 1 beside a waist of radius 1: the distance at 2.5 is 0.5; at 2 and at 0.5 the surfaces meet."""
+    sizes = ["--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", center, "0", "0"]
+    assert main(["classify", *sizes, "--json", "--margin", margin]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["margin"], found["position_with_margin"]) == (float(margin), position)
+    assert main(["classify", *sizes, "--json"]) == 0
+    plain = json.loads(capsys.readouterr().out)
+    assert plain == {name: value for name, value in found.items() if "margin" not in name}
