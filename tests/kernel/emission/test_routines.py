@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -20,16 +21,23 @@ STEPS = 71
 
 
 def test_the_printed_search_answers_as_the_routine_is_run():
-    """From the axis to far outside: every answer occurs."""
+    """From the axis to far outside: every answer occurs; where it changes, down to neighbouring numbers."""
     plan = plan_of(replace(read_scene("tower-simplest"), question="position"))
     constants, routine, scope = plan.settings[0].last.constants, search_of(STEPS), {"math": math}
     exec(routines_text(routine, DIALECTS["python"], "float64"), scope)  # noqa: S102 - our own text
-    found = []
-    for r in np.geomspace(1e-4, 1e4, 300):
-        given = {"R": float(r * r), "zz": 0.25, "height": 0.5}
-        found.append(run(routine, float_arithmetic("float64"), {**given, **constants}))
-        assert scope["search"](*given.values(), *(constants[name] for name in routine.record)) == found[-1]
-    assert sorted(set(found)) == [-1, 0, 1]
+
+    def answer(r):
+        given = {"R": r * r, "zz": 0.25, "height": 0.5}
+        found = run(routine, float_arithmetic("float64"), {**given, **constants})
+        assert scope["search"](*given.values(), *(constants[name] for name in routine.record)) == found
+        return found
+
+    asked = [(answer(r), r) for r in np.geomspace(1e-4, 1e4, 100).tolist()]
+    assert {found for found, _ in asked} == {-1, 0, 1}
+    for (before, low), (after, high) in pairwise(asked):
+        left, right = low, high
+        while before != after and left < (middle := (left + right) / 2) < right:
+            left, right = (middle, right) if answer(middle) == before else (left, middle)
 
 
 def test_a_name_that_a_language_reserves_is_refused():
