@@ -30,6 +30,8 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int | None, built: P
             return
         names = (*build.SOUNDNESS, "ExtractedChecker") if soundness else build.FILES
         _prove(names, built)
+        if not soundness:
+            click.echo(f"{build.refuse_changes(2, built)} changes of the printed C are refused")
         _refuse([change for change in weakened() if change.file in names][:count], built)
         build.build_checker(built)
         sys.exit(build.run_checker(build.upright_files(), built))

@@ -22,6 +22,7 @@ from time import perf_counter
 
 from hypcheck import toml
 from hypcheck.errors import Exit, HypcheckError, InputError
+from hypcheck.proofs import printed_c
 
 SOURCES = Path(__file__).parent
 BUILT = SOURCES.parents[1] / "build" / "proofs"
@@ -42,7 +43,13 @@ STAGES = ("Positions", "HalfPlanes", "Tangency")
 ROUNDING = ("Rounding", "Floats", "StageTwo", "Kernel", "RunningBound", "Region")
 """What the constants of the kernel and the bounds of emitted kernels rest on."""
 
-FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING)
+HEADER_TEXT = "HeaderText"
+"""The printed C of hypcheck.h as strings of Coq: made when the proofs are built, and kept nowhere else."""
+
+PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns")
+"""What the printed C rests on, and the words of 128 bits that it computes with."""
+
+FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING, *PRINTED)
 """Every file, in the order in which Coq needs them; the name says what it proves."""
 
 AXIOMS = (
@@ -107,6 +114,8 @@ def demand_tools() -> None:
 
 def source(name: str) -> str:
     """The text of a Coq file."""
+    if name == HEADER_TEXT:
+        return printed_c.header_text()
     return (SOURCES / f"{name}.v").read_text(encoding="utf-8")
 
 
@@ -184,6 +193,25 @@ def demand_known_axioms(names: tuple[str, ...], built: Path = BUILT) -> set[str]
     if unknown:
         raise ProofError(f"the proofs assume {', '.join(sorted(unknown))}; that is not allowed")
     return found
+
+
+def refuse_changes(each: int, built: Path = BUILT) -> int:
+    """Have Coq refuse changes of the printed C, `each` of every kind in every part. Returns how many were refused.
+
+    Raises ProofError where Coq accepts one, or where it refuses the text without a change.
+    """
+    found = printed_c.changes(each, seed=45)
+    (built / "Changes.v").write_text(printed_c.question([printed_c.UNCHANGED, *found]), encoding="utf-8")
+    said = _run(["coqc", "-q", "-R", ".", "Hypcheck", "Changes.v"], built)
+    verdicts = re.findall(r"\b(true|false)\b", said.stdout)
+    if said.returncode or len(verdicts) != len(found) + 1:
+        raise ProofError(f"Coq does not say whether it accepts changes of the printed C: {said.stderr.strip()}")
+    if verdicts[0] == "false":
+        raise ProofError("Coq refuses the printed C without a change")
+    for change, verdict in zip(found, verdicts[1:], strict=True):
+        if verdict == "true":
+            raise ProofError(f"Coq accepts the printed C with {change[2]!r} in line {change[1]} of part {change[0]}")
+    return len(found)
 
 
 def check_kernel(path: Path, built: Path = BUILT) -> float:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 
 import pytest
 from click.testing import CliRunner
 
 from hypcheck.errors import InputError
-from hypcheck.proofs import build
+from hypcheck.proofs import build, printed_c
 from hypcheck.proofs.__main__ import main
 from hypcheck.proofs.build import CONTROL, Weakened
 
@@ -37,7 +38,11 @@ check_cases) cp FOLDER/checker check_cases ;;
 Emitted.v) ls *.vo ;;
 *.v)
     if [ "$PWD" != FOLDER/built ] && [ -e FOLDER/strict -o -e "${last}o" ]; then exit 1; fi
-    [ -f FOLDER/careless ] || cmp "$last" "SOURCES/$last" >&2 || exit 1
+    case "$last" in
+    Changes.v) cat FOLDER/verdicts ;;
+    HeaderText.v) ;;
+    *) [ -f FOLDER/careless ] || cmp "$last" "SOURCES/$last" >&2 || exit 1 ;;
+    esac
     : > "${last}o" ;;
 esac
 """
@@ -58,6 +63,7 @@ class Tools:
         for name in ("coqc", "ocamlfind", "ocamlopt"):
             self.program(f"bin/{name}", text)
         self.program("checker", "#!/bin/sh\necho $#\n")
+        self.judge("true", *("false" for _ in printed_c.changes(2, seed=45)))
         self.assume(REAL_NUMBERS, f"Axioms:\n{build.OF_FLOCQ} : forall P : Prop, P\n")
 
     def program(self, name, text):
@@ -68,6 +74,10 @@ class Tools:
     def say(self, word, text):
         """Fail with this text where a command has the word."""
         (self.folder / "says" / word).write_text(text, encoding="utf-8")
+
+    def judge(self, *verdicts):
+        """What Coq prints about the printed C without a change, and with each change."""
+        (self.folder / "verdicts").write_text(" ".join(verdicts), encoding="utf-8")
 
     def assume(self, others, floats):
         """What Coq prints about the axioms of Floats.v, and of other files."""
@@ -109,15 +119,54 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
     assert [line.split()[0] for line in lines[: len(build.FILES)]] == [f"{name}.v" for name in build.FILES]
     total = sum(len(build.statements(name)) for name in build.FILES)
     assert lines[len(build.FILES)].startswith(f"{total} statements in ")
-    assert lines[-4:] == [
+    assert lines[-5:-2] == [
         "    ClassicalDedekindReals.sig_not_dec",
         f"    {build.OF_FLOCQ} (Flocq alone)",
         "    FunctionalExtensionality.functional_extensionality_dep",
+    ]
+    assert lines[-2:] == [
+        f"{len(printed_c.changes(2, seed=45))} changes of the printed C are refused",
         "2 weakened statements are refused",
     ]
     everything = (tools.built / "Assumptions.v").read_text(encoding="utf-8")
     assert all(f"@Floats.{each}" in everything for each in build.statements("Floats"))
     assert (tools.built / "check_cases.ml").read_bytes() == (build.SOURCES / "check_cases.ml").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("place", "verdict", "message"),
+    [
+        (0, "", "Coq does not say whether it accepts changes"),
+        (0, "false", "Coq refuses the printed C without a change"),
+        (7, "true", "Coq accepts the printed C with"),
+    ],
+)
+def test_prove_ends_with_1_where_coq_accepts_a_change_of_the_printed_c_or_does_not_judge(
+    place, verdict, message, tools
+):
+    verdicts = ["true", *("false" for _ in printed_c.changes(2, seed=45))]
+    verdicts[place] = verdict
+    tools.judge(*verdicts)
+    code, output = tools.prove("--weakened", "0")
+    assert code == 1
+    assert message in output
+
+
+def test_changes_of_the_printed_c_reach_every_part_and_change_one_line_each():
+    parts = printed_c.parts(printed_c.HEADER.read_text(encoding="utf-8"))
+    found = printed_c.changes(2, seed=45)
+    assert {part for part, _, _ in found} == set(range(len(parts)))
+    assert len(parts) >= 27
+    for part, line, new in found:
+        old = parts[part][1].splitlines()[line]
+        assert new != old
+        assert (
+            sum(
+                left != right
+                for left, right in zip(re.findall(r"\w+|\S", old), re.findall(r"\w+|\S", new), strict=True)
+            )
+            == 1
+        )
 
 
 def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):

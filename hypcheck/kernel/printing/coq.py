@@ -1,4 +1,4 @@
-"""Programs printed for Coq: StageTwo.v of the kernel's own programs, and the proof that goes with an emitted kernel.
+"""Programs printed for Coq: StageTwo.v and Programs.v of the kernel's own, and the proof of an emitted kernel.
 
 A program becomes definitions of type `expr` (hypcheck/proofs/Rounding.v), one a step, in the program's order. The proof
 of an emitted kernel states its steps, constants and bound, and proves by hypcheck/proofs/Region.v that beyond the bound
@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from textwrap import fill
 
-from hypcheck.derivation.program import Argument, Program, Step, cut, needed
+from hypcheck.derivation.program import Argument, Program, Step, cut, line_of, needed
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Sizes
+from hypcheck.kernel.programs import fixed, integers, lines, tilted
 from hypcheck.kernel.programs.certified import CERTIFIED, SINGLE
 from hypcheck.kernel.specialise.last_stages import Discriminant, exact_constants
 from hypcheck.kernel.specialise.plan import ScenePlan
@@ -166,8 +168,50 @@ _KNOWN = (
 )
 """The numbers from which the bound is computed, in this order the inputs of the module Bound."""
 
+PROGRAMS = "hypcheck/proofs/Programs.v"
+"""The file that holds the listings of all programs that the header is printed from."""
+
+_PRINTED = {
+    "single": SINGLE,
+    "certified": CERTIFIED,
+    "fixed_terms": fixed.TERMS,
+    "fixed_discriminant": fixed.DISCRIMINANT,
+    "fixed_poles": fixed.POLES,
+    "integers": integers.INTEGERS,
+    "one_line": lines.ONE_LINE,
+    "two_lines": lines.TWO_LINES,
+    "tangent_beyond": lines.TANGENT_BEYOND,
+    "tangent_within": lines.TANGENT_WITHIN,
+    "tangent_high": lines.TANGENT_HIGH,
+    "chord": lines.CHORD,
+    "piece": lines.PIECE,
+    "tilted_quartic": integers.QUARTIC,
+    "tilted_invariants": integers.INVARIANTS,
+    "tilted_discriminant": integers.DISCRIMINANT,
+    "tilted": tilted.TILTED,
+    "one_plane": lines.ONE_PLANE,
+    "two_planes": lines.TWO_PLANES,
+}
+
+_PROGRAMS_HEAD = """(** The programs from which the C is printed, as listings that Steps.v reads. Printed itself, by
+
+        python -m hypcheck.kernel.printing.coq *)
+
+Require Import String.
+From Hypcheck Require Import Steps.
+Open Scope string_scope.
+"""
+
+
+def programs() -> str:
+    """The text of PROGRAMS: every program as its listing, a semicolon behind each step."""
+    listings = {name: " ".join(f"{line_of(step)};" for step in program.steps) for name, program in _PRINTED.items()}
+    definitions = (f'Definition {name} := steps_of "\n{fill(text, 118)}".\n' for name, text in listings.items())
+    return "\n".join((_PROGRAMS_HEAD, *definitions))
+
 
 if __name__ == "__main__":
     from pathlib import Path
 
     Path(STAGE_TWO).write_text(stage_two(), encoding="utf-8")
+    Path(PROGRAMS).write_text(programs(), encoding="utf-8")

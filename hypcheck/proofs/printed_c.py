@@ -1,0 +1,122 @@
+"""The printed C of hypcheck.h as Coq's own text, and changes of it that Coq must refuse.
+
+Steps.v reads the text between two marks of the header into steps, and Printed.v compares them with the programs. A
+change is one word of one line: a constant, an operation or a name. Those that mean the same, a product with its factors
+in the other order, are not made.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+HEADER = Path(__file__).parents[1] / "kernel" / "core" / "hypcheck.h"
+
+_PART = re.compile(
+    r'^ */\* printed from the program "([^"]+)"(?:, the bits counted from it|(, [^*]*?))? \*/\n'
+    r"(.*?)^ */\* end of the program",
+    re.MULTILINE | re.DOTALL,
+)
+_BOUND = re.compile(r"^#define HC_(?:fixed_)?(coefficient|pole|delta|middle|MOST_GROWN) (\d+)$", re.MULTILINE)
+_HEAD = "Require Import List String ZArith.\nImport ListNotations.\nOpen Scope string_scope.\n"
+_OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", ">": "<", "<": ">", ">=": "<=", "<=": ">="}
+_CALLS = {
+    **{f"HC_{left}": f"HC_{right}" for left, right in (("GT", "GE"), ("LT", "GT"), ("LE", "LT"), ("GE", "GT"))},
+    "HC_AND": "HC_OR",
+    "HC_OR": "HC_AND",
+    "hc_add": "hc_subtract",
+    "hc_subtract": "hc_add",
+    "hc_multiply": "hc_add",
+    "hc_fixed_plus": "hc_fixed_minus",
+    "hc_fixed_minus": "hc_fixed_plus",
+    "hc_fixed_product": "hc_fixed_plus",
+    "hc_fixed_square": "hc_fixed_negative",
+    "hc_product": "hc_multiple",
+    "hc_fixed_signed_product": "hc_fixed_plus",
+    "hc_fixed_both_signed_product": "hc_fixed_minus",
+    "hc_multiple": "hc_product",
+    "hc_scale": "hc_multiply",
+    "by_t": "by_q",
+    "by_q": "by_t",
+}
+_DEFINED = re.compile(r"^(?:const \w+ |HC_INTEGER\()(\w+)", re.MULTILINE)
+_STATEMENT = re.compile(r"const \w+ \w+ = |HC_INTEGER\(\w+, \d+\); ")
+
+Change = tuple[int, int, str]
+"""The number of a part, the number of a line in it, and the line that is put in its place."""
+
+UNCHANGED: Change = (1, 10**3, "")
+"""No change: there is no such line. Coq must accept it, or its refusals would mean nothing."""
+
+
+def parts(header: str) -> list[tuple[str, str]]:
+    """The printed parts of the header, in its order: the program's name, and its lines without indentation."""
+    found = [(name + (further or ""), text) for name, further, text in _PART.findall(header)]
+    return [(name, "".join(f"{line.strip()}\n" for line in text.splitlines())) for name, text in found]
+
+
+def header_text() -> str:
+    """HeaderText.v: the printed parts as strings of Coq."""
+    text = HEADER.read_text(encoding="utf-8")
+    rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)})" for name, part in parts(text))
+    bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
+    return (
+        f"{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
+        f"Definition parts : list (string * string) := [\n{rows}].\n"
+    )
+
+
+def _quoted(text: str) -> str:
+    return '"' + text.replace('"', '""') + '"'
+
+
+def changes(each: int, seed: int) -> list[Change]:
+    """Up to `each` changes of a constant, of an operation and of a name in every part, drawn by the seed."""
+    draw = random.Random(seed)  # noqa: S311 - no secret
+    found = []
+    for number, (_, text) in enumerate(parts(HEADER.read_text(encoding="utf-8"))):
+        lines = text.splitlines()
+        names = sorted(set(_DEFINED.findall(text)))
+        for kind in (_constants, _operations, _names):
+            all_of_kind = [(number, at, new) for at, line in enumerate(lines) for new in kind(line, names)]
+            found += draw.sample(all_of_kind, min(each, len(all_of_kind)))
+    return found
+
+
+def _value(line: str) -> tuple[str, str] | None:
+    start = _STATEMENT.match(line)
+    return (line[: start.end()], line[start.end() :]) if start else None
+
+
+def _constants(line: str, _names: list[str]) -> Iterator[str]:
+    before, value = _value(line) or ("", "")
+    for number in re.finditer(r"(?<![\w.])\d+(?=\b)", value):
+        yield before + value[: number.start()] + str(int(number[0]) + 1) + value[number.end() :]
+
+
+def _operations(line: str, _names: list[str]) -> Iterator[str]:
+    before, value = _value(line) or ("", "")
+    for word in re.finditer(r"(?<= )(?:[-+*/]|[<>]=?)(?= )|\b\w+\b", value):
+        new = _OPERATORS.get(word[0]) or _CALLS.get(word[0])
+        if new:
+            yield before + value[: word.start()] + new + value[word.end() :]
+
+
+def _names(line: str, names: list[str]) -> Iterator[str]:
+    before, value = _value(line) or ("", "")
+    for word in re.finditer(r"\b\w+\b", value):
+        if word[0] in names:
+            other = names[(names.index(word[0]) + 1) % len(names)]
+            new = value[: word.start()] + other + value[word.end() :]
+            if other != word[0] and sorted(re.findall(r"\w+", new)) != sorted(re.findall(r"\w+", value)):
+                yield before + new
+
+
+def question(found: list[Change]) -> str:
+    """A Coq file that prints for each change whether Printed.v accepts it."""
+    texts = "; ".join(f"({part}, {line}, {_quoted(new)})" for part, line, new in found)
+    return f"""From Hypcheck Require Import Printed.
+{_HEAD}Eval vm_compute in map accepted_with [{texts}].
+"""
