@@ -19,6 +19,8 @@ from hypcheck.kernel.scene_gaps import gaps
 from hypcheck.truth import ended_clearance, exact, least
 from hypcheck.truth.rationals import rounded_toward
 
+_ROUNDED = 2.0**-47
+
 
 def ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
     """What clearance() says of valid rows (n, 13): of those without ends as there, of the others one by one.
@@ -54,7 +56,10 @@ def _measure_gaps(found: Clearance, rows: Rows, clear: Indices) -> None:
     measured = gaps(
         some[:, :4], some[:, 4:7], some[:, 7:10], some[:, 10:12], some[:, 12] != 0, found.distance_upper[clear]
     )
-    better = measured.upper < found.distance_upper[clear]
+    # Points and distances are right within 64u of the lengths that they are computed from.
+    lengths = np.abs(measured.point).sum(axis=1) + np.abs(some[:, 4:7]).sum(axis=1) + some[:, 2:4].sum(axis=1)
+    upper = measured.upper + _ROUNDED * lengths
+    better = upper < found.distance_upper[clear]
     found.distance_lower[clear] = np.fmax(found.distance_lower[clear], measured.lower)
-    found.distance_upper[clear[better]] = measured.upper[better]
+    found.distance_upper[clear[better]] = upper[better]
     found.nearest[clear[better]] = measured.point[better]

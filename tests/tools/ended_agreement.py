@@ -57,8 +57,8 @@ def random_rows(random, count, *, leaning):
     return _with_ends(random, sizes, centres, _axes(random, count, leaning), high)
 
 
-def hairs(random, count, *, leaning):
-    """The same, but within 2⁻³⁰ radii of contact with a rim, a flat end or the wall below an end."""
+def hairs(random, count, *, leaning, nearest=NEAREST):
+    """The same, but 2^nearest to 2⁻³⁰ radii from contact with a rim, a flat end or the wall below an end."""
     sizes = np.exp2(random.uniform(-3, 3, (count, 4)))
     alpha, gamma, b, d = sizes.T
     high, azimuth = random.uniform(-2, 2, count) * gamma, random.uniform(0, 2 * np.pi, count)
@@ -79,7 +79,7 @@ def hairs(random, count, *, leaning):
     unit = axis / np.linalg.norm(axis, axis=1)[:, None]
     along = (normal * unit).sum(axis=1)[:, None] * unit
     shift = (b * b)[:, None] * (normal - along) + (d * d)[:, None] * along
-    share = 1 + random.choice([-1, 1], count) * np.exp2(random.uniform(NEAREST, NEAR, count))
+    share = 1 + random.choice([-1, 1], count) * np.exp2(random.uniform(nearest, NEAR, count))
     centres = point + shift * (share / np.sqrt((normal * shift).sum(axis=1)))[:, None]
     return _with_ends(random, sizes, centres, axis, high)
 

@@ -88,6 +88,7 @@ PARTS = (
     "dispatch",
     "tilted",
     "ways",
+    "twins",
     "ended_integers",
     "ended",
     "ended_ways",

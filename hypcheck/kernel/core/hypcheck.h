@@ -1663,7 +1663,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_909da1863d127638
+#ifndef HC_EDITION_e6bc8695acbfd2e0
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3030,6 +3030,89 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
     return 1;
 }
 
+/* ---- numbers of two doubles ---- */
+
+/* high + low. Every operation below is right within 2^-100 of its result, a sum of the sizes of its operands, in each rounding
+   mode, where products of halves neither overflow nor lose more than a negligible part (the sizes of hc_make_sections).
+
+   A sum of two doubles, the larger first: their rounded sum minus the larger is a double in any mode that rounds to one of
+   the two neighbours, and what is left is rounded by 2u of itself. A product: each factor is cut behind 26 bits, towards 0.
+   In units where 1 <= a, b < 2 the parts are multiples of 2^-25 and 2^-52, and all but the last step below are exact: p
+   within 2^-51 of ab, top·top - p a multiple of 2^-52 below 2^-22, the next two multiples of 2^-77 below 2^-24; the last
+   product, of 27 bits twice, may lose one bit of 2^-104. Contraction into FMA changes no exact step. */
+typedef struct {
+    double high, low;
+} hc_twin;
+
+static hc_twin hc_twin_of(double value) {
+    hc_twin made;
+    made.high = value;
+    made.low = 0;
+    return made;
+}
+
+static hc_twin hc_two_sum(double one, double other) {
+    const int less = hc_size(one) < hc_size(other);
+    const double large = less ? other : one, small = less ? one : other, sum = large + small, kept = sum - large;
+    hc_twin made;
+    made.high = sum;
+    made.low = small - kept;
+    return made;
+}
+
+static double hc_top_half(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    bits &= ~(uint64_t)0x7ffffff;
+    memcpy(&value, &bits, sizeof bits);
+    return value;
+}
+
+static hc_twin hc_two_product(double one, double other) {
+    const double top = hc_top_half(one), rest = one - top, over = hc_top_half(other), under = other - over, p = one * other;
+    double error = top * over - p;
+    hc_twin made;
+    error += top * under;
+    error += rest * over;
+    error += rest * under;
+    made.high = p;
+    made.low = error;
+    return made;
+}
+
+static hc_twin hc_twin_sum(hc_twin one, hc_twin other) {
+    const hc_twin high = hc_two_sum(one.high, other.high);
+    return hc_two_sum(high.high, high.low + (one.low + other.low));
+}
+
+static hc_twin hc_twin_minus(hc_twin one) {
+    one.high = -one.high;
+    one.low = -one.low;
+    return one;
+}
+
+static hc_twin hc_twin_difference(hc_twin one, hc_twin other) { return hc_twin_sum(one, hc_twin_minus(other)); }
+
+static hc_twin hc_twin_product(hc_twin one, hc_twin other) {
+    const hc_twin high = hc_two_product(one.high, other.high);
+    return hc_two_sum(high.high, high.low + (one.high * other.low + one.low * other.high));
+}
+
+static hc_twin hc_twin_square(hc_twin value) { return hc_twin_product(value, value); }
+
+static hc_twin hc_twin_quotient(hc_twin one, hc_twin other) {
+    const double first = one.high / other.high;
+    const hc_twin left = hc_twin_difference(one, hc_twin_product(other, hc_twin_of(first)));
+    return hc_two_sum(first, left.high / other.high);
+}
+
+/* hc_fine_root is right within 2^-50, its error is halved and squared by one more step of Newton's method. */
+static hc_twin hc_twin_root(hc_twin square) {
+    const double root = hc_fine_root(square.high);
+    const hc_twin left = hc_twin_difference(square, hc_two_product(root, root));
+    return root > 0 ? hc_two_sum(root, left.high / (2 * root)) : hc_twin_of(0);
+}
+
 /* ---- hyperboloids that end: exact integers beside an end, upright ---- */
 
 #define HC_END_BITS 256 /* of a length in its unit, at most */
@@ -3097,6 +3180,9 @@ static hc_end hc_exact_end(const double row[13], double w) {
 #define HC_MOST_PIECES 48
 #define HC_ENDED_STEPS 14 /* of Newton's method for a multiplier; any result is safe */
 #define HC_ENDED_ERROR 1.4210854715202004e-14 /* 2^-46 = 128u */
+#define HC_FINE_ERROR 8.0779356694631609e-28 /* 2^-90: 128u of numbers of two doubles, u = 2^-100, and room */
+#define HC_MOST_ASKED 160 /* pieces that are looked at, of which HC_MOST_PIECES wait */
+#define HC_ENDED_AIMS 4
 #define HC_ENDED_NEAREST 9e-13 /* below 2^-40: how near lambda may come to -mu, in mu */
 #define HC_ENDED_LEAST 8.6361685550944446e-78 /* 2^-256 */
 #define HC_ENDED_GREATEST 1.157920892373162e+77 /* 2^256 */
@@ -3176,62 +3262,216 @@ static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) 
     return n - least;
 }
 
-/* Whether phi > 0 for this lambda at all heights w ± half. The parts of phi are right within 32u of the size of their
-   terms, f within 32u mu/(mu + lambda) of itself, since mu + lambda may cancel. */
-static int hc_piece_misses(const hc_sections *pair, double lambda_, double w, double half) {
+/* The same pair with numbers of two doubles, and without roots: eta = E/sqrt(F), xi = (X - kappa t)/sqrt(F), F the square of
+   the horizontal part of the axis. `alpha2` is alpha², `rise2` alpha²/gamma², b2 is 1/mu1, c2 is 1/mu2. */
+typedef struct {
+    hc_twin alpha2, rise2, z, T, b2, c2, E, X, kappa, F;
+} hc_fine_sections;
+
+static hc_fine_sections hc_make_fine(const double row[10]) {
+    const hc_twin x = hc_twin_of(row[4]), y = hc_twin_of(row[5]), d2 = hc_two_product(row[3], row[3]), one = hc_twin_of(1);
+    hc_fine_sections made;
+    double v[3];
+    hc_twin v0, v1, v2, flat, all;
+    memcpy(v, row + 7, sizeof v);
+    hc_scale_axis(v);
+    v0 = hc_twin_of(v[0]), v1 = hc_twin_of(v[1]), v2 = hc_twin_of(v[2]);
+    flat = hc_twin_sum(hc_twin_square(v0), hc_twin_square(v1));
+    made.alpha2 = hc_two_product(row[0], row[0]);
+    made.rise2 = hc_twin_quotient(made.alpha2, hc_two_product(row[1], row[1]));
+    made.z = hc_twin_of(row[6]);
+    made.b2 = hc_two_product(row[2], row[2]);
+    if (v[0] == 0 && v[1] == 0) {
+        made.T = d2;
+        made.c2 = made.b2;
+        made.kappa = hc_twin_of(0);
+        made.F = one;
+        v0 = one;
+    } else {
+        const hc_twin length = hc_twin_sum(flat, hc_twin_square(v2));
+        const hc_twin wide = hc_twin_product(hc_two_sum(row[2], -row[3]), hc_two_sum(row[2], row[3]));
+        all = hc_twin_sum(hc_twin_product(made.b2, flat), hc_twin_product(d2, hc_twin_square(v2)));
+        made.T = hc_twin_quotient(all, length);
+        made.c2 = hc_twin_quotient(hc_twin_product(made.b2, d2), made.T);
+        made.kappa = hc_twin_quotient(hc_twin_product(hc_twin_product(v2, flat), wide), all);
+        made.F = flat;
+    }
+    made.E = hc_twin_difference(hc_twin_product(x, v1), hc_twin_product(y, v0));
+    made.X = hc_twin_sum(hc_twin_product(x, v0), hc_twin_product(y, v1));
+    return made;
+}
+
+static hc_twin hc_fine_square_of_radius(const hc_fine_sections *fine, double w) {
+    return hc_twin_sum(fine->alpha2, hc_twin_product(fine->rise2, hc_two_product(w, w)));
+}
+
+/* t²/T - 1 at a height. */
+static hc_twin hc_fine_share(const hc_fine_sections *fine, hc_twin t) {
+    return hc_twin_difference(hc_twin_quotient(hc_twin_square(t), fine->T), hc_twin_of(1));
+}
+
+/* phi at a height, f being lambda/(1 + lambda/mu); the error is as in hc_phi_about, of doubles of 100 bits. */
+static double hc_fine_phi(const hc_fine_sections *fine, double lambda_, double w) {
+    const hc_twin t = hc_twin_difference(hc_twin_of(w), fine->z), l = hc_twin_of(lambda_), one = hc_twin_of(1);
+    const hc_twin aside = hc_twin_difference(fine->X, hc_twin_product(fine->kappa, t));
+    const hc_twin n1 = hc_twin_sum(one, hc_twin_product(l, fine->b2)), n2 = hc_twin_sum(one, hc_twin_product(l, fine->c2));
+    const hc_twin parts = hc_twin_sum(hc_twin_quotient(hc_twin_square(fine->E), n1), hc_twin_quotient(hc_twin_square(aside), n2));
+    const hc_twin off = hc_twin_difference(hc_twin_quotient(parts, fine->F), hc_fine_square_of_radius(fine, w));
+    return hc_twin_sum(hc_fine_share(fine, t), hc_twin_product(l, off)).high;
+}
+
+/* What hc_point_within compares, by numbers of two doubles. */
+static double hc_fine_point(const hc_fine_sections *fine, double w, double a, double c) {
+    const hc_twin t = hc_twin_difference(hc_twin_of(w), fine->z), length = hc_twin_sum(hc_two_product(a, a), hc_two_product(c, c));
+    const hc_twin scale = hc_twin_root(hc_twin_quotient(hc_twin_product(fine->F, hc_fine_square_of_radius(fine, w)), length));
+    const hc_twin off = hc_twin_difference(hc_twin_product(scale, hc_twin_of(a)), fine->E);
+    const hc_twin xi = hc_twin_difference(fine->X, hc_twin_product(fine->kappa, t));
+    const hc_twin aside = hc_twin_difference(hc_twin_product(scale, hc_twin_of(c)), xi);
+    const hc_twin sum = hc_twin_sum(hc_twin_quotient(hc_twin_square(off), fine->b2), hc_twin_quotient(hc_twin_square(aside), fine->c2));
+    return hc_twin_sum(hc_twin_quotient(sum, fine->F), hc_fine_share(fine, t)).high;
+}
+
+/* The least slope v + bend v² for 0 <= v <= reach. */
+static double hc_least_of(double slope, double bend, double reach) {
+    const double end = (slope + bend * reach) * reach;
+    if (bend > 0 && slope < 0 && -slope < 2 * bend * reach) return -slope * slope / (4 * bend);
+    return end < 0 ? end : 0;
+}
+
+static double hc_least_between(double slope, double bend, double pull, double below, double above) {
+    const double up = hc_least_of(slope - pull, bend, above), down = hc_least_of(-slope - pull, bend, below);
+    return up < down ? up : down;
+}
+
+static double hc_kept_within(double at, double low, double high) { return !(at > low) ? low : at < high ? at : high; }
+
+/* phi about a height w for one lambda, value + slope v + bend v². Over a piece its parts are right within 32u of `size`, f
+   within 32u mu/(mu + lambda) of itself, since mu + lambda may cancel; the slope and the bend, times what v is at most,
+   within 32u of `pull` times that. `safe`: lambda is not too near -mu. */
+typedef struct {
+    double value, slope, bend, size, pull;
+    int safe;
+} hc_phi;
+
+static hc_phi hc_phi_about(const hc_sections *pair, double lambda_, double w, double reach) {
     const double n1 = pair->mu1 + lambda_, n2 = pair->mu2 + lambda_;
     const double f1 = lambda_ * pair->mu1 / n1, f2 = lambda_ * pair->mu2 / n2, t = w - pair->z, xi = pair->xi0 - pair->k * t;
-    const double g = pair->ratio * pair->alpha, l2 = lambda_ * (g * g), top = hc_size(t) + half, wide = hc_size(w) + half;
-    const double reach = pair->across + hc_size(pair->k) * top;
-    const double value = t * t / pair->T - 1 - lambda_ * (pair->alpha * pair->alpha) - l2 * (w * w) + f1 * (pair->eta * pair->eta) + f2 * (xi * xi);
-    const double slope = 2 * (t / pair->T - l2 * w - f2 * (xi * pair->k)), bend = 1 / pair->T - l2 + f2 * (pair->k * pair->k);
-    const double size = 1 + top * top / pair->T + hc_size(lambda_) * (pair->alpha * pair->alpha) + hc_size(l2) * (wide * wide) +
-                        hc_size(f1) * (pair->across * pair->across) * (1 + pair->mu1 / n1) + hc_size(f2) * (reach * reach) * (1 + pair->mu2 / n2);
-    double lowest = value - hc_size(slope) * half;
-    if (!(n1 > pair->mu1 * HC_ENDED_NEAREST && n2 > pair->mu2 * HC_ENDED_NEAREST)) return 0;
-    if (bend < 0) lowest += bend * (half * half);
-    else if (hc_size(slope) < 2 * bend * half) lowest = value - slope * slope / (4 * bend);
-    else lowest += bend * (half * half);
-    return lowest > HC_ENDED_ERROR * size;
+    const double g = pair->ratio * pair->alpha, l2 = lambda_ * (g * g), top = hc_size(t) + reach, wide = hc_size(w) + reach;
+    const double along = pair->across + hc_size(pair->k) * top, loose = hc_size(f2) * (1 + pair->mu2 / n2);
+    hc_phi phi;
+    phi.value = t * t / pair->T - 1 - lambda_ * (pair->alpha * pair->alpha) - l2 * (w * w) + f1 * (pair->eta * pair->eta) + f2 * (xi * xi);
+    phi.slope = 2 * (t / pair->T - l2 * w - f2 * (xi * pair->k));
+    phi.bend = 1 / pair->T - l2 + f2 * (pair->k * pair->k);
+    phi.size = 1 + top * top / pair->T + hc_size(lambda_) * (pair->alpha * pair->alpha) + hc_size(l2) * (wide * wide) +
+               hc_size(f1) * (pair->across * pair->across) * (1 + pair->mu1 / n1) + loose * (along * along);
+    phi.pull = 4 * (top / pair->T + hc_size(l2) * wide + loose * (along * hc_size(pair->k)));
+    phi.safe = n1 > pair->mu1 * HC_ENDED_NEAREST && n2 > pair->mu2 * HC_ENDED_NEAREST;
+    return phi;
+}
+
+/* The size of the terms of a point of the circle. */
+static double hc_point_size(const hc_sections *pair, double r, double w) {
+    const double t = w - pair->z, across = r + pair->across, along = across + hc_size(pair->k * t);
+    return pair->mu1 * (across * across) + pair->mu2 * (along * along) + t * t / pair->T + 1;
 }
 
 /* Whether the point of the circle at height w in the direction (a, c) of eta and xi surely lies inside the spheroid. */
 static int hc_point_within(const hc_sections *pair, double r, double w, double xi, double a, double c) {
     const double length = hc_fine_root(a * a + c * c), t = w - pair->z;
-    const double across = r + pair->across, along = across + hc_size(pair->k * t);
     double off, aside;
     if (!(length > 0)) return 0;
     off = r * (a / length) - pair->eta;
     aside = r * (c / length) - xi;
-    return pair->mu1 * (off * off) + pair->mu2 * (aside * aside) + t * t / pair->T - 1 <
-           -HC_ENDED_ERROR * (pair->mu1 * (across * across) + pair->mu2 * (along * along) + t * t / pair->T + 1);
+    return pair->mu1 * (off * off) + pair->mu2 * (aside * aside) + t * t / pair->T - 1 < -HC_ENDED_ERROR * hc_point_size(pair, r, w);
 }
 
-/* 0 where the wall between two heights surely meets the spheroid, 1 where it surely misses it, 2 where neither is known. */
-static int hc_wall_misses(const hc_sections *pair, double low, double high) {
+/* The same by numbers of two doubles. */
+static int hc_point_surely_within(const hc_sections *pair, const hc_fine_sections *fine, double w, double a, double c) {
+    const double length = a * a + c * c;
+    if (!(length > HC_ENDED_LEAST && length < HC_ENDED_GREATEST)) return 0;
+    return hc_fine_point(fine, w, a, c) < -HC_FINE_ERROR * hc_point_size(pair, hc_radius(pair, w), w);
+}
+
+/* The direction of the point of the circle at which phi for this lambda is taken, scaled to r where lambda is as near to -mu
+   as it comes: there the share of that axis is what is left. */
+static void hc_direction_of(const hc_sections *pair, double lambda_, double r, double xi, double *a, double *c) {
+    double left;
+    *a = pair->eta * (pair->mu1 / (pair->mu1 + lambda_));
+    *c = xi * (pair->mu2 / (pair->mu2 + lambda_));
+    left = r * r - *a * *a - *c * *c;
+    if (!(left > 1e-6 * (r * r))) return;
+    if (pair->mu1 < pair->mu2) *a = (pair->eta < 0 ? -1 : 1) * hc_fine_root(*a * *a + left);
+    else *c = (xi < 0 ? -1 : 1) * hc_fine_root(*c * *c + left);
+}
+
+/* Moves a height of a piece to about where max phi over lambda is least, by Newton's method: its slope is that of phi, its
+   bend greater by what a lambda that follows adds. Any result is safe. Returns lambda there. */
+static double hc_aim_at_least(const hc_sections *pair, double low, double high, double *height) {
+    double w = *height;
+    int i;
+    for (i = 0;; i++) {
+        const double xi = pair->xi0 - pair->k * (w - pair->z), lambda_ = hc_ended_multiplier(pair, hc_radius(pair, w), xi);
+        const double n1 = pair->mu1 + lambda_, n2 = pair->mu2 + lambda_, s1 = pair->mu1 / n1, s2 = pair->mu2 / n2;
+        const double all = s1 * s1 * (pair->eta * pair->eta) / n1 + s2 * s2 * (xi * xi) / n2, g = pair->ratio * pair->alpha;
+        const double follow = g * g * w + s2 * s2 * (xi * pair->k);
+        const hc_phi phi = hc_phi_about(pair, lambda_, w, 0);
+        const double bend = all > 0 ? phi.bend + follow * follow / all : phi.bend;
+        double at;
+        *height = w;
+        if (i == HC_ENDED_AIMS) return lambda_;
+        at = hc_kept_within(bend > 0 ? w - phi.slope / (2 * bend) : phi.slope < 0 ? high : low, low, high);
+        if (at == w) return lambda_;
+        w = at;
+    }
+}
+
+/* 0 where the wall between two heights surely meets the spheroid, 1 where it surely misses it, 2 where neither is known.
+   Numbers of two doubles are asked where doubles leave the sign open of the least that is found in a piece. */
+static int hc_wall_misses(const hc_sections *pair, const double row[10], double low, double high) {
     double lows[HC_MOST_PIECES], highs[HC_MOST_PIECES];
-    int left = 1, asked = 0;
+    hc_fine_sections fine;
+    int left = 1, asked = 0, made = 0;
     lows[0] = low, highs[0] = high;
     while (left) {
-        double w, half, xi, r, lambda_, a, c;
+        double w, middle, reach, xi, r, lambda_, a, c, below, above, lowest;
+        hc_phi phi;
         left--;
         low = lows[left], high = highs[left];
-        w = low + 0.5 * (high - low);
-        if (w < low) w = low;
-        if (w > high) w = high;
-        half = (high - w > w - low ? high - w : w - low) * (1 + HC_u_8);
+        w = middle = hc_kept_within(low + 0.5 * (high - low), low, high);
+        reach = (high - low) * (1 + HC_u_8);
         r = hc_radius(pair, w);
         xi = pair->xi0 - pair->k * (w - pair->z);
         lambda_ = hc_ended_multiplier(pair, r, xi);
-        if (hc_piece_misses(pair, lambda_, w, half)) continue;
-        a = pair->eta * pair->mu1 / (pair->mu1 + lambda_);
-        c = xi * pair->mu2 / (pair->mu2 + lambda_);
+        below = (w - low) * (1 + HC_u_8), above = (high - w) * (1 + HC_u_8);
+        phi = hc_phi_about(pair, lambda_, w, below > above ? below : above);
+        if (phi.safe && phi.value + hc_least_between(phi.slope, phi.bend, 0, below, above) > HC_ENDED_ERROR * phi.size) continue;
+        hc_direction_of(pair, lambda_, r, xi, &a, &c);
         if (hc_point_within(pair, r, w, xi, a, c) || hc_point_within(pair, r, w, xi, 1, 0) || hc_point_within(pair, r, w, xi, -1, 0) ||
             hc_point_within(pair, r, w, xi, 0, 1) || hc_point_within(pair, r, w, xi, 0, -1))
             return 0;
-        if (++asked > HC_MOST_PIECES || left + 2 > HC_MOST_PIECES || !(w > low && w < high)) return 2;
-        lows[left] = low, highs[left++] = w;
-        lows[left] = w, highs[left++] = high;
+        lambda_ = hc_aim_at_least(pair, low, high, &w);
+        r = hc_radius(pair, w);
+        xi = pair->xi0 - pair->k * (w - pair->z);
+        below = (w - low) * (1 + HC_u_8), above = (high - w) * (1 + HC_u_8);
+        phi = hc_phi_about(pair, lambda_, w, reach);
+        lowest = phi.value + hc_least_between(phi.slope, phi.bend, 0, below, above);
+        if (phi.safe && lowest > HC_ENDED_ERROR * phi.size) continue;
+        hc_direction_of(pair, lambda_, r, xi, &a, &c);
+        if (hc_point_within(pair, r, w, xi, a, c)) return 0;
+        if (phi.value <= 2 * HC_ENDED_ERROR * phi.size && -phi.value <= 2 * HC_ENDED_ERROR * (phi.size + hc_point_size(pair, r, w))) {
+            if (!made) fine = hc_make_fine(row);
+            made = 1;
+            if (hc_point_surely_within(pair, &fine, w, a, c)) return 0;
+            if (phi.safe) {
+                const double value = hc_fine_phi(&fine, lambda_, w), error = HC_FINE_ERROR * phi.size;
+                if (value + hc_least_between(phi.slope, phi.bend, HC_ENDED_ERROR * phi.pull, below, above) > error) continue;
+                if (hc_size(value) <= error) return 2;
+            }
+        }
+        if (++asked > HC_MOST_ASKED || left + 2 > HC_MOST_PIECES || !(middle > low && middle < high)) return 2;
+        if (w - low > 0.125 * (high - low) && high - w > 0.125 * (high - low)) middle = w;
+        lows[left] = low, highs[left++] = middle;
+        lows[left] = middle, highs[left++] = high;
     }
     return 1;
 }
@@ -3243,6 +3483,18 @@ static int hc_disc_misses(const hc_sections *pair, double w) {
     const double size = along * along + pair->across * pair->across + r * r;
     if (share - 1 > HC_ENDED_ERROR * (share + 1) || off > HC_ENDED_ERROR * size) return 1;
     return 1 - share > HC_ENDED_ERROR * (share + 1) && off < -HC_ENDED_ERROR * size ? 0 : 2;
+}
+
+/* The same by numbers of two doubles. */
+static int hc_disc_surely_misses(const hc_sections *pair, const double row[10], double w) {
+    const hc_fine_sections fine = hc_make_fine(row);
+    const hc_twin t = hc_twin_difference(hc_twin_of(w), fine.z), xi = hc_twin_difference(fine.X, hc_twin_product(fine.kappa, t));
+    const hc_twin center = hc_twin_quotient(hc_twin_sum(hc_twin_square(fine.E), hc_twin_square(xi)), fine.F);
+    const double share = hc_fine_share(&fine, t).high, off = hc_twin_difference(center, hc_fine_square_of_radius(&fine, w)).high;
+    const double high = w - pair->z, r = hc_radius(pair, w), along = pair->across + hc_size(pair->k * high);
+    const double most = HC_FINE_ERROR * (along * along + pair->across * pair->across + r * r), error = HC_FINE_ERROR * (high * high / pair->T + 1);
+    if (share > error || off > most) return 1;
+    return share < -error && off < -most ? 0 : 2;
 }
 
 /* Whether the centre lies in the body, 2 where bounds do not tell: rounding leaves each side right within 8u. */
@@ -3298,7 +3550,7 @@ static int hc_upright_wall_misses(const hc_sections *pair, const double row[13],
         if (k) high = w - far;
         else low = w + far;
     }
-    return low < high ? hc_wall_misses(pair, low, high) : 2;
+    return low < high ? hc_wall_misses(pair, row, low, high) : 2;
 }
 
 /* 0 where the wall between the ends surely meets the spheroid, 1 where it surely misses it, 2 where neither is known; the
@@ -3306,19 +3558,20 @@ static int hc_upright_wall_misses(const hc_sections *pair, const double row[13],
 static int hc_ended_wall_misses(const hc_sections *pair, const double row[13], double more, int upright) {
     const double z = row[6], bottom = row[10] > z - more ? row[10] : z - more, top = row[11] < z + more ? row[11] : z + more;
     int misses;
-    if (!(bottom <= top)) return 2;
-    misses = hc_wall_misses(pair, bottom, top);
-    if (misses == 2 && (bottom > z - more ? hc_wall_misses(pair, z - more, bottom) == 1 : 1) &&
-        (top < z + more ? hc_wall_misses(pair, top, z + more) == 1 : 1))
+    if (bottom > top) return 1; /* z - more and z + more lie beyond the spheroid, though rounded */
+    misses = hc_wall_misses(pair, row, bottom, top);
+    if (misses == 2 && (bottom > z - more ? hc_wall_misses(pair, row, z - more, bottom) == 1 : 1) &&
+        (top < z + more ? hc_wall_misses(pair, row, top, z + more) == 1 : 1))
         return 0; /* it meets the surface, but not beyond the ends */
     return misses == 2 && upright ? hc_upright_wall_misses(pair, row, bottom, top) : misses;
 }
 
-/* hc_disc_misses, in integers where the spheroid is upright and bounds do not tell. */
+/* hc_disc_misses, where its bounds do not tell in integers of an upright spheroid, by numbers of two doubles of others. */
 static int hc_ended_disc_misses(const hc_sections *pair, const double row[13], double w, int upright) {
     const int misses = hc_disc_misses(pair, w);
     hc_end end;
-    if (misses != 2 || !upright) return misses;
+    if (misses != 2) return misses;
+    if (!upright) return hc_disc_surely_misses(pair, row, w);
     end = hc_exact_end(row, w);
     return !end.known ? 2 : end.misses && (end.reached < 0 || end.off > 0);
 }
@@ -3464,18 +3717,6 @@ static double hc_form_error(const hc_ended_way *made, const hc_sections *pair, d
     return 4 * HC_ENDED_ERROR * size;
 }
 
-/* The least slope v + bend v² for 0 <= v <= reach. */
-static double hc_least_of(double slope, double bend, double reach) {
-    const double end = (slope + bend * reach) * reach;
-    if (bend > 0 && slope < 0 && -slope < 2 * bend * reach) return -slope * slope / (4 * bend);
-    return end < 0 ? end : 0;
-}
-
-static double hc_least_between(double slope, double bend, double pull, double below, double above) {
-    const double up = hc_least_of(slope - pull, bend, above), down = hc_least_of(-slope - pull, bend, below);
-    return up < down ? up : down;
-}
-
 /* A number that the form is not below on a rectangle, but for its error. A form that bends upwards everywhere lies above
    its tangent plane; else the mixed term counts as a pull away from the height, or from the time. */
 static double hc_form_least(const hc_form *form, const hc_rectangle *in, double w, double time) {
@@ -3492,8 +3733,6 @@ static double hc_form_least(const hc_form *form, const hc_rectangle *in, double 
     }
     return form->value + least;
 }
-
-static double hc_kept_within(double at, double low, double high) { return !(at > low) ? low : at < high ? at : high; }
 
 /* Moves a height and a time in a rectangle to about where max phi over lambda is least: the form with the bends that a
    lambda that follows adds to it. Any result is safe. */
@@ -3945,7 +4184,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_909da1863d127638
+#define HC_EDITION_e6bc8695acbfd2e0
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -85,18 +85,6 @@ static double hc_form_error(const hc_ended_way *made, const hc_sections *pair, d
     return 4 * HC_ENDED_ERROR * size;
 }
 
-/* The least slope v + bend v² for 0 <= v <= reach. */
-static double hc_least_of(double slope, double bend, double reach) {
-    const double end = (slope + bend * reach) * reach;
-    if (bend > 0 && slope < 0 && -slope < 2 * bend * reach) return -slope * slope / (4 * bend);
-    return end < 0 ? end : 0;
-}
-
-static double hc_least_between(double slope, double bend, double pull, double below, double above) {
-    const double up = hc_least_of(slope - pull, bend, above), down = hc_least_of(-slope - pull, bend, below);
-    return up < down ? up : down;
-}
-
 /* A number that the form is not below on a rectangle, but for its error. A form that bends upwards everywhere lies above
    its tangent plane; else the mixed term counts as a pull away from the height, or from the time. */
 static double hc_form_least(const hc_form *form, const hc_rectangle *in, double w, double time) {
@@ -113,8 +101,6 @@ static double hc_form_least(const hc_form *form, const hc_rectangle *in, double 
     }
     return form->value + least;
 }
-
-static double hc_kept_within(double at, double low, double high) { return !(at > low) ? low : at < high ? at : high; }
 
 /* Moves a height and a time in a rectangle to about where max phi over lambda is least: the form with the bends that a
    lambda that follows adds to it. Any result is safe. */
