@@ -1,12 +1,13 @@
-"""The mesh oracle's search where roundings are not bounded by a proof: cells of a surface, cut until they decide.
+"""The mesh oracle's search where there is no meridian: cells of a surface, cut until they decide.
 
 A surface is given by cells; each piece of the surface lies in the convex hull of its cell's corners, seen from C in the
 space in which the spheroid is the unit ball about the origin. Some corners are points of the surface. Cells are cut
 until each is beyond the ball (the corners' least component along their middle is > 1), or a corner that is a point of
 the surface is within it. Then FCL is asked about meshes that show the answer.
 
-Nothing is claimed within `slack` of 1, which is ten times what roundings can be expected to add up to, and no proof.
-There, and where cells become too many, nothing is decided.
+Nothing is claimed within `slack` of 1, which is what roundings may add up to: counted in mesh_ends.py, and in
+mesh_lines.py ten times what can be expected, which is no proof. There, and where cells become too many, nothing is
+decided.
 """
 
 from __future__ import annotations

@@ -12,6 +12,14 @@ the sides of a cell, make a closed body of each cell. All of the wall is clear o
 There is contact if the ball reaches both meshes of one cell: what it holds of the slab between the heights is convex,
 so it holds a way from the one to the other, on which F vanishes.
 
+Roundings, in units u = 2⁻⁵³, where functions of the library are right within 4 places (8u), s is a cell's parameter and
+`size` the largest coordinate of its corners and of C: a corner is a quotient of two of them times a quotient of two
+others (36u), with middles of s and of θ that are rounded (7u + 2|s| u), and ends at asinh(z/γ), which moves them by
+9|s| u; less C it is off by (45 + 11|s|) u size in each coordinate, √3 times that in all. Upright, seven lengths over b
+or d add 6u, and the root is 1: 90 + 19|s| in all. Else the root, whose norm is ρ, is off by 42u ρ, its product by
+12u ρ, and the component along the middle by 21u: 184 + 19|s| times ρ, which is 3 times its largest entry at most.
+slack_of has 160u (1 + |s|/5), which is more than the first, and 4 times that is more than the second.
+
 An end disc is cut in the same way, z being the height of the end and r its own parameter. A pair that touches nothing
 has the side of its centre, which is in the body if it is between the heights too.
 """
@@ -29,6 +37,9 @@ from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.truth import mesh_cells
 from hypcheck.truth.mesh import Refinement
 from hypcheck.truth.mesh_cells import LEAST, REACH, Faces, scaled, side_of_center, slack_of, undecided
+
+_TILTED = 4
+"""So many times slack_of is what roundings may move the corners of a tilted pair."""
 
 _START = 8
 """Cells around the axis at the beginning."""
@@ -54,7 +65,7 @@ class _Scene:
         alpha, gamma, b, d, x, y, z = seven
         axis = np.array(scaled(pair.axis))
         axis /= math.sqrt(float(axis @ axis))
-        self.side, self.solid = side_of_center(pair), bool(pair.solid)
+        self.side, self.solid, self.upright = side_of_center(pair), bool(pair.solid), pair.is_upright
         self.alpha, self.gamma, self.centre, self.ends = alpha, gamma, np.array([x, y, z]), ends
         self.root = np.eye(3) / b + (1 / d - 1 / b) * np.outer(axis, axis)
         reach = math.sqrt(b * b + (d * d - b * b) * float(axis[2]) ** 2) * REACH
@@ -101,7 +112,8 @@ class _Scene:
         up = np.broadcast_to(z.T[:, :, None, None], (len(cells), 3, 3, 1))
         points = np.concatenate([across, up], axis=3).reshape(-1, 9, 3)
         size = np.abs(points).reshape(len(cells), 27).max(axis=1, initial=0.0) + np.abs(self.centre).max()
-        return (points - self.centre) @ self.root, slack_of(size * (1 + np.abs(s).max(axis=0) / 5), self.root)
+        slack = slack_of(size * (1 + np.abs(s).max(axis=0) / 5), self.root)
+        return (points - self.centre) @ self.root, slack if self.upright else _TILTED * slack
 
     def cut(self, cells: Floats, corners: Floats) -> Floats:
         """Each cell in halves, across its longer direction."""
