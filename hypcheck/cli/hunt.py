@@ -151,7 +151,8 @@ def hunt(
         if out is not None:
             from hypcheck.vectors.freezing import require_keepable
 
-            require_keepable(str(out), tilted=target.implementation.description.tilt, layout=target.layout)
+            used = target.implementation.description
+            require_keepable(str(out), tilted=used.tilt, ended=used.heights, layout=target.layout)
         run = Hunt(target, plan)
         try:
             _hunt_with_bar(run)
@@ -184,15 +185,17 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
         click.echo(printable(line))
     found = run.worst_first()
     if out is not None and found:
-        from hypcheck.geometry.pair import UPRIGHT
+        from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
         from hypcheck.vectors.freezing import keep_rows
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
         rows = [cluster.worst.case.row for cluster in found]
-        tilted, layout = run.target.implementation.description.tilt, run.target.layout
-        if tilted:
+        used, layout = run.target.implementation.description, run.target.layout
+        if used.tilt or used.heights:
             rows = [(*row, *UPRIGHT) if len(row) == len(layout.upright) else row for row in rows]
-        added = keep_rows(str(out), rows, made_by, tilted=tilted, layout=layout)
+        if used.heights:
+            rows = [(*row, *WITHOUT_ENDS) if len(row) == len(layout.tilted) else row for row in rows]
+        added = keep_rows(str(out), rows, made_by, tilted=used.tilt, ended=used.heights, layout=layout)
         there = "" if added == len(rows) else ", the others were there already"
         click.echo(f"\n{printable(out)}: {counted(added, 'row')} added{there}")
 
@@ -252,7 +255,8 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     row = run.last.case.row
     if run.target.layout is WAYS:
         click.echo("\nthe right answer")
-        click.echo("\n".join(way_answer_lines(*labelled(content_with(WAYS), [("", row)]))))
+        content = content_with(WAYS, ended=len(row) == len(WAYS.ended))
+        click.echo("\n".join(way_answer_lines(*labelled(content, [("", row)]))))
     else:
         click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(row)))}")
 

@@ -32,6 +32,7 @@ LONG = 2.0**17
 OPEN = "no special place"
 RING = "the ring"
 TILTED = "a tilted spheroid"
+ENDED = "a hyperboloid that ends"
 WAY = "an ordinary way"
 
 LONG_WAY, SHORT_WAY = 2.0**10, 2.0**-10
@@ -65,6 +66,8 @@ def place_of_row(row: Sequence[float], layout: Layout) -> RowPlace:
 
 def place_of(pair: Pair) -> RowPlace:
     """The place of a pair."""
+    if pair.has_ends:
+        return _ended_place(pair)
     if not pair.is_upright:
         return _tilted_place(pair)
     lengths = pair.upright.lengths
@@ -92,6 +95,28 @@ def _tilted_place(pair: Pair) -> RowPlace:
     named = [name for name, holds in signs.items() if holds]
     kind = named[0] if named else TILTED
     return RowPlace(kind, ", ".join([TILTED, *named]), kind)
+
+
+def _ended_place(pair: Pair) -> RowPlace:
+    """The place of a pair whose hyperboloid ends: what the ends change, and how the centre lies to them."""
+    decision, whole = exact.decide(pair.lengths), exact.position(pair.without_ends.lengths)
+    low, high = pair.z_min, pair.z_max
+    signs = {
+        "exactly tangent": decision.tangent,
+        "clear because it ends": whole is Position.CONTACT is not decision.position,
+        "contact with a flat end": whole is not Position.CONTACT is decision.position,
+        "outside because it ends": whole is Position.INTERIOR and decision.position is Position.EXTERIOR,
+        "the centre at an end": pair.z in (low, high),
+        "the centre beyond an end": not low <= pair.z <= high,
+        "a slab thinner than the spheroid": high - low < 2 * max(pair.b, pair.d),
+        "an end at the waist": 0 in (low, high),
+        "r = 0": not (pair.x or pair.y),
+        "a solid body": bool(pair.solid),
+        TILTED: not pair.is_upright,
+    }
+    named = [name for name, holds in signs.items() if holds]
+    kind = named[0] if named else ENDED
+    return RowPlace(kind, ", ".join([ENDED, *named]), kind)
 
 
 def _double_roots(lengths: Lengths, kind: Kind) -> Iterator[tuple[str, str]]:
@@ -193,7 +218,8 @@ def way_place(row: tuple[float, ...]) -> RowPlace:
         "a horizontal way": start[2] == end[2] and not still,
         "a long way": length > LONG_WAY,
         "a short way": 0 < length < SHORT_WAY,
-        TILTED: len(row) > len(WAY_COLUMNS) and (row[2] != row[3] and any(row[-3:-1])),
+        TILTED: row[2] != row[3] and any(row[len(WAY_COLUMNS) : len(WAY_COLUMNS) + 2]),
+        ENDED: len(row) == len(WAYS.ended),
     }
     named = [name for name, holds in signs.items() if holds] or [WAY]
     return RowPlace(named[0], ", ".join(named), named[0])

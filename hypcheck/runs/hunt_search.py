@@ -4,7 +4,7 @@ A stratum is a thin set of rows on which an argument about the pair changes its 
 tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the axis, the waist, the borders of the
 regimes, long ratios. The other strata are the crossings of four surfaces, z = 0, r = 0, a = 1 and c² = a, with each
 other and with the border of contact: rows exactly on them, and rows very close. An implementation with fixed sizes is
-asked only the families for these sizes.
+asked only the families for these sizes. One that takes heights is asked first where hyperboloids end.
 
 Rows are brought to the border of contact by bisection on exact positions. The position is monotone in every input
 (docs/mathematics.md, "Monotone in every input"), so it changes at most twice along a factor on one length, or on x and
@@ -32,7 +32,7 @@ from hypcheck.geometry.rows import PAIRS, WAYS, FixedSizes, Floats, Layout, Mask
 from hypcheck.runs.hunt import ClusterKey, Hunt
 from hypcheck.runs.judges import truth_of
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
-from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.fixed_sizes import families_for
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
@@ -46,6 +46,9 @@ MOVERS: dict[str, tuple[int, ...]] = {
     "d": (3,),
 }
 """The unknowns of a pair with their columns; multiplied by one factor, each can reach the border of contact."""
+
+END_MOVERS: dict[str, tuple[int, ...]] = {"lower end": (10,), "upper end": (11,)}
+"""The same of the heights between which a hyperboloid ends."""
 
 SIZE = (2, 3)
 """The columns of b and d, which are the size of the spheroid together."""
@@ -63,9 +66,14 @@ RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
 def columns_of(movers: NDArray[np.str_], numbers: int = len(COLUMNS)) -> Mask:
     """The columns that the named movers multiply, as a mask (n, 7), or of rows of so many numbers."""
     mask = np.zeros((len(movers), numbers), dtype=np.bool_)
-    for name, columns in MOVERS.items():
+    for name, columns in _movers_of(numbers).items():
         mask[np.ix_(movers == name, columns)] = True
     return mask
+
+
+def _movers_of(numbers: int) -> dict[str, tuple[int, ...]]:
+    """The unknowns of a pair of so many numbers."""
+    return MOVERS | END_MOVERS if numbers == len(PAIRS.ended) else MOVERS
 
 
 def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
@@ -149,16 +157,21 @@ class HuntStratum:
 
 
 def strata(
-    settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False, layout: Layout = PAIRS
+    settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False, heights: bool = False, layout: Layout = PAIRS
 ) -> tuple[HuntStratum, ...]:
-    """All strata, the families of vectors first; of fixed sizes, and of ways, the families for them alone."""
+    """All strata, the families of vectors first; of fixed sizes, and of ways, the families for them alone.
+
+    Those where the spheroid is tilted or the hyperboloid ends only if asked for.
+    """
     if layout is WAYS:
-        return tuple(_of_ways(family) for family in WAY_FAMILIES.values() if tilt or not family.tilted)
+        ways = (ENDED_WAY_FAMILIES | WAY_FAMILIES if heights else WAY_FAMILIES).values()
+        return tuple(_of_ways(family) for family in ways if tilt or not family.tilted)
     if settings:
         return tuple(map(_of_family, families_for(settings)))
     crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
+    ended = [family for family in ENDED_FAMILIES.values() if heights and (tilt or not family.tilted)]
     tilted = TILTED_FAMILIES.values() if tilt else ()
-    return (*map(_of_family, (*tilted, *FAMILIES.values())), *map(_of_crossing, crossings))
+    return (*map(_of_family, (*ended, *tilted, *FAMILIES.values())), *map(_of_crossing, crossings))
 
 
 def _of_family(family: Family) -> HuntStratum:
@@ -225,17 +238,19 @@ LAST_STEP = 2.0**-44
 
 _WAY_MOVES = [(0,), (1,), (2,), (3,), SIZE, (4, 5), (6,), (7, 8), (9,), (4, 5, 7, 8), (6, 9)]
 
-_MOVES: dict[Layout, tuple[list[tuple[int, ...]], list[tuple[int, ...]]]] = {
+_MOVES: dict[Layout, tuple[list[tuple[int, ...]], ...]] = {
     PAIRS: (
         [(0,), (1,), (2,), (3,), (4, 5), (6,), (0, 2, 4, 5), (1, 3, 6)],
         [*((column,) for column in range(10)), (0, 1, 2, 3, 4, 5, 6), (7, 8, 9)],
+        [*((column,) for column in range(12)), (0, 2, 4, 5), (1, 3, 6, 10, 11), (7, 8, 9), (6, 10), (6, 11)],
     ),
     WAYS: (
         [*_WAY_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9)],
         [*_WAY_MOVES, tuple(range(10)), (10,), (11,), (12,), (10, 11, 12)],
+        [*_WAY_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9, 13, 14), (10,), (11,), (12,), (13,), (14,)],
     ),
 }
-"""Columns that are multiplied together, of upright spheroids and of tilted ones.
+"""Columns that are multiplied together, of upright spheroids, of tilted ones, and where the hyperboloid ends.
 
 Where they are all of a unit of length, or an axis, only the rounding changes.
 """
@@ -257,7 +272,7 @@ class Climber:
 
 @dataclass(frozen=True, slots=True)
 class Neighbours:
-    """Rows (n, 7, 10 or 13) to ask; for each, (n,), the number of its climber and of its ladder.
+    """Rows (n, 7, 10, 13 or 16) to ask; for each, (n,), the number of its climber and of its ladder.
 
     A row on no ladder has a ladder of its own. The rungs of a ladder are ordered away from the border: the last with a
     wrong answer is the worst.
@@ -292,7 +307,8 @@ BROUGHT = 3
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
     """The columns of each row that one factor brings to the border of contact, and that factor; NaN where none does."""
     if layout is PAIRS:
-        mask = columns_of(np.asarray(list(MOVERS))[draw.integers(len(rows), 0, len(MOVERS) - 1)], rows.shape[1])
+        movers = list(_movers_of(rows.shape[1]))
+        mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], rows.shape[1])
         return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
     mask, factors = np.zeros(rows.shape, dtype=np.bool_), np.full(len(rows), np.nan)
     mask[:, SIZE] = True
@@ -304,12 +320,30 @@ def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
 def _around(climber: Climber, layout: Layout) -> Rows:
     """The row itself, its neighbours one step away, and special rows beside it."""
     row, step = climber.row, climber.step
-    moves = _MOVES[layout][len(row) != len(layout.upright)]
+    widths = (len(layout.upright), len(layout.tilted), len(layout.ended))
+    moves = _MOVES[layout][widths.index(len(row))]
     rows = np.repeat(np.array([row]), 1 + 2 * len(moves), axis=0)
     for number, columns in enumerate(moves):
         rows[1 + 2 * number, columns] *= 1 + step
         rows[2 + 2 * number, columns] /= 1 + step
-    return np.concatenate([rows, _special(row, layout)])
+    special = [_special(row, layout), *([_at_ends(row, layout)] if len(row) == widths[-1] else [])]
+    return np.concatenate([rows, *special])
+
+
+def _at_ends(row: Row, layout: Layout) -> Rows:
+    """Rows with the centre at each end and a half height beyond; with one end, or both, away; with other ends."""
+    width, d = len(row), row[3]
+    low, high = row[-3:-1]
+    images = np.repeat(np.array([row]), 8, axis=0)
+    for image, height in zip(images, (low, low - d, high, high + d), strict=False):
+        image[6] = height
+        if layout is WAYS:
+            image[9] = height + row[9] - row[6]
+    images[4, width - 3] = -np.inf
+    images[5, width - 2] = np.inf
+    images[6, width - 1] = 1 - row[-1]
+    images[7, [width - 3, width - 2]] = -np.inf, np.inf
+    return images
 
 
 def _special(row: Row, layout: Layout) -> Rows:
@@ -361,7 +395,8 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None, everywhere: Sequenc
 def strata_of(run: Hunt) -> tuple[HuntStratum, ...]:
     """All strata that the target of a hunt is about."""
     target = run.target
-    return strata(target.domain.settings, tilt=target.implementation.description.tilt, layout=target.layout)
+    used = target.implementation.description
+    return strata(target.domain.settings, tilt=used.tilt, heights=used.heights, layout=target.layout)
 
 
 def _look(run: Hunt, everywhere: Sequence[HuntStratum]) -> Iterator[None]:

@@ -165,10 +165,10 @@ def _bits(row: Row) -> bytes:
     return struct.pack(f"<{len(row)}d", *row)
 
 
-def require_keepable(path: str, *, tilted: bool = False, layout: Layout = PAIRS) -> None:
+def require_keepable(path: str, *, tilted: bool = False, ended: bool = False, layout: Layout = PAIRS) -> None:
     """Check before a long hunt that rows can be added to this file. Raises InputError as `keep_rows` would."""
     if Path(path).exists():
-        read_cases(path, content_with(layout, tilted=tilted))
+        read_cases(path, content_with(layout, tilted=tilted, ended=ended))
     folder = Path(path).resolve().parent
     if not folder.is_dir():
         raise InputError(f"cannot write {path}: there is no folder {folder}")
@@ -176,14 +176,23 @@ def require_keepable(path: str, *, tilted: bool = False, layout: Layout = PAIRS)
         raise InputError(f"cannot write {path}: permission denied")
 
 
-def keep_rows(path: str, rows: Sequence[Row], made_by: str, *, tilted: bool = False, layout: Layout = PAIRS) -> int:
+def keep_rows(
+    path: str,
+    rows: Sequence[Row],
+    made_by: str,
+    *,
+    tilted: bool = False,
+    ended: bool = False,
+    layout: Layout = PAIRS,
+) -> int:
     """Add those rows to a vector file that it lacks, labelled and proved, and return their number.
 
-    All rows have the numbers of the layout; with `tilted` those of an axis too, and the file is one of tilted
-    spheroids. A new file names `made_by` as the command that made it. Cases of an existing file stay as they are.
-    Raises InputError if the file is no such vector file, or cannot be written.
+    All rows have the numbers of the layout; with `tilted` those of an axis too, with `ended` those of an axis and of
+    heights, and the file is one of tilted spheroids, or of hyperboloids that end. A new file names `made_by` as the
+    command that made it. Cases of an existing file stay as they are. Raises InputError if the file is no such vector
+    file, or cannot be written.
     """
-    content = content_with(layout, tilted=tilted)
+    content = content_with(layout, tilted=tilted, ended=ended)
     there = Path(path).exists()
     before = read_cases(path, content) if there else CaseFile[Any](described("found", made_by), content, ())
     known = _named(before.cases)

@@ -1,0 +1,110 @@
+"""`hypcheck hunt` and `minimise` of implementations that take the heights between which a hyperboloid ends."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from hypcheck.cli.main import main
+from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.rows import PAIRS, WAYS, invalid
+from hypcheck.runs import hunt_search
+from hypcheck.runs.hunt_place import ENDED, place_of, place_of_row
+from hypcheck.runs.hunt_search import Climber, neighbours
+from hypcheck.vectors.cases import read_cases
+from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
+
+CENTRE_ALONE = """
+hypcheck = {"takes": ["axis", "heights"]}
+
+def side_of_centre(rows):
+    alpha, gamma, _, _, x, y, z, *_, low, high, _ = rows.T
+    inside = ((x / alpha) ** 2 + (y / alpha) ** 2 <= 1 + (z / gamma) ** 2) & (low <= z) & (z <= high)
+    return 1 - 2 * inside.astype(int)
+"""
+NEVER = """
+hypcheck = {"takes": ["end", "axis", "heights"], "question": "passage"}
+
+def never(rows):
+    return [0] * len(rows)
+"""
+PIERCED = (5.0, 5.0, 0.5, 0.5, 0.0, 0.0, 1.2, 0.0, 0.0, 1.0, -3.0, 1.0, 1.0)
+LANDING = (2.0, 17.8, 0.25, 0.15, 0.0, 0.0, 18.5, 2.8, 0.0, 17.9, 0.0, 0.0, 1.0, -17.8, 17.8, 0.0)
+"""It comes down on the rim."""
+
+
+def program(folder, text):
+    """A SPEC of the text's function."""
+    path = folder / "wrong.py"
+    path.write_text(text, encoding="utf-8")
+    return f"python:{path}:{re.findall('def (.*)[(]', text)[0]}"
+
+
+@pytest.mark.parametrize(("text", "width", "most"), [(CENTRE_ALONE, 13, 200), (NEVER, 16, 30)])
+def test_a_hunt_asks_about_ends_where_heights_are_taken_and_keeps_what_it_finds(text, width, most, capsys, tmp_path):
+    spec, out = program(tmp_path, text), tmp_path / "kept.json"
+    assert main(["hunt", spec, "--queries", str(most), "--show", "1", "--out", str(out)]) == 1
+    said = capsys.readouterr().out
+    assert ENDED in said
+    (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*z_min, z_max, solid\)$", said, flags=re.MULTILINE)
+    kept = read_cases(str(out)).cases
+    assert tuple(map(float, shown.split(","))) in {case.row for case in kept}
+    assert {len(case.row) for case in kept} == {width}
+    assert main(["cases", "check", str(out)]) == 0
+    assert main(["replay", shown, spec]) == 1
+
+
+@pytest.mark.parametrize(("text", "row"), [(CENTRE_ALONE, PIERCED), (NEVER, LANDING)])
+def test_minimise_takes_rows_with_ends_and_proves_the_right_answer(text, row, capsys, tmp_path):
+    assert main(["minimise", program(tmp_path, text), ",".join(map(repr, row))]) == 0
+    said = capsys.readouterr().out
+    (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*z_min, z_max, solid\)$", said, flags=re.MULTILINE)
+    assert len(shown) < 50
+    assert "contact" in said.split("the right answer")[1]
+
+
+def test_strata_have_the_families_with_ends_where_heights_are_taken():
+    for layout, families in ((PAIRS, ENDED_FAMILIES), (WAYS, ENDED_WAY_FAMILIES)):
+        without, all_of_them = (
+            {stratum.name for stratum in hunt_search.strata(tilt=True, heights=heights, layout=layout)}
+            for heights in (False, True)
+        )
+        assert all_of_them - without == {f"the family {name}" for name in families}
+    upright = {stratum.name for stratum in hunt_search.strata(heights=True)}
+    assert not any("tilted" in name for name in upright)
+
+
+@pytest.mark.parametrize(("row", "layout"), [(PIERCED, PAIRS), (LANDING, WAYS)])
+def test_neighbours_of_a_row_with_ends_are_valid_and_have_other_ends(row, layout):
+    around = neighbours(Draw("test"), [Climber(row, 1.0, 0.25)], layout)
+    assert around.rows.shape[1] == len(layout.ended)
+    assert not invalid(around.rows, layout).any()
+    low, high, solid = around.rows[:, -3:].T
+    assert len(set(low)) > 2
+    assert len(set(high)) > 2
+    assert set(solid) == {0, 1}
+
+
+@pytest.mark.parametrize(
+    ("row", "kind"),
+    [
+        ((1, 1, 1, 1, 1.5, 0, 2.2, 0, 0, 1, -1, 1, 0), "clear because it ends"),
+        (PIERCED, "contact with a flat end"),
+        ((5, 5, 0.5, 0.5, 0, 0, 3, 0, 0, 1, -3, 1, 0), "outside because it ends"),
+        ((1, 1, 1, 1, 1, 0, 2, 0, 0, 1, -4, 2, 0), "the centre at an end"),
+        ((3, 4, 1, 1, 3, 0, 5, 0, 0, 1, -9, 9, 1), "a solid body"),
+        ((3, 4, 1, 1, 3, 0, 5, 0, 0, 1, -9, 9, 0), ENDED),
+    ],
+)
+def test_place_of_a_row_with_ends_says_what_they_change(row, kind):
+    place = place_of(Pair.from_row(row))
+    assert place.kind == kind
+    assert place.words.startswith(ENDED)
+
+
+def test_place_of_a_way_beside_ends_says_so_and_whether_the_spheroid_is_tilted():
+    assert ENDED in place_of_row(LANDING, WAYS).words
+    assert "tilted" not in place_of_row(LANDING, WAYS).words
+    assert "tilted" in place_of_row((*LANDING[:10], 1.0, 0.0, 1.0, *LANDING[13:]), WAYS).words
