@@ -165,18 +165,14 @@ def _limit_of(case: TiltedVector | EndedVector) -> Position | None:
 TILTED_ROOTS = 10
 """As many upright rows as one tilted one takes as long as where roots are counted, which counts it so often."""
 
-ENDED_PROOFS = 20
-"""Cases of a family of hyperboloids that end for which proofs and nearest points are looked for, which takes long."""
-
 
 def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> dict[str, int]:
     """The number of a family's cases that each oracle of the plan is asked, if `families` are asked."""
     with_roots = sum(not other.ended for other in families)
     roots = 0 if family.ended else -(-plan.roots // (with_roots * (TILTED_ROOTS if family.tilted else 1)))
-    proofs = min(plan.count, ENDED_PROOFS) if family.ended else plan.count
     every = {
-        "exact": proofs,
-        "nearest": proofs,
+        "exact": plan.count,
+        "nearest": plan.count,
         "roots": roots,
         "heights": min(roots, plan.count) if family.tilted and not family.ended else plan.count,
         "mesh": -(-plan.meshes // len(families)),

@@ -62,7 +62,7 @@ from hypcheck.report.model import (
 _ORACLES = prose(
     "Each oracle answers on its own. `exact` agrees where an independent check accepts the certificate of its answer;"
     " the others agree where they say what `exact` says. An oracle that cannot decide says so and is counted as"
-    " undecided. Seconds are summed over all processes."
+    " undecided. Where the hyperboloid ends, `roots` is not asked. Seconds are summed over all processes."
 )
 
 
