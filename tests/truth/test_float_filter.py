@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair
+from tests.support.corpus import questions
 from tests.support.inside import exact, filtered, float_filter, positions
 
 
@@ -41,3 +42,11 @@ def test_the_float_filter_decides_ordinary_rows_of_every_position():
     expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
     for position in (-1, 0, 1):
         assert (proved[expected == position] == position).mean() > 0.999
+
+
+def test_rows_with_heights_whose_axis_has_equal_parts_are_tilted():
+    rows = np.array([[*row, 1.0, 1.0, 1.0, -3.0, np.inf, 0.0] for row in questions("axis").rows[:60, :7].tolist()])
+    assert positions(rows).tolist() == [exact.position(Pair.from_row(row).lengths) for row in rows.tolist()]
+    upright = rows.copy()
+    upright[:, 7:9] = 0
+    assert (positions(rows) != positions(upright)).any()
