@@ -21,6 +21,7 @@ BESIDE = (
     "CITATION.cff",
     "docs/site.css",
     "docs/**/*.svg",
+    "docs/**/*.png",
     "docs/**/*.txt",
     "docs/**/*.toml",
     "cases/LICENSE",

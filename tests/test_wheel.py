@@ -97,6 +97,8 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
         ("completion bash", 0, "complete -o"),
         ("explain ring", 0, "A < B²"),
         ("engines list", 0, "python-fcl"),
+        ("show tower --out view.html", 0, "wrote view.html"),
+        ("flight tower nowhere.csv", 2, "nowhere.csv"),
     ],
 }
 """Command lines in the order in which they are run in one empty folder, with the exit code and a part of the output."""

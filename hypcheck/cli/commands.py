@@ -120,6 +120,8 @@ GROUPS = {
         "classify": "hypcheck.cli.classify:classify",
         "plan": "hypcheck.cli.scene:plan",
         "emit": "hypcheck.cli.scene:emit",
+        "flight": "hypcheck.cli.flight:flight",
+        "show": "hypcheck.cli.flight:show",
     },
     "Test": {
         "init": "hypcheck.cli.setup:init",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,10 +44,16 @@ from hypcheck.kernel.scene_pairs import (
     positions_beside,
     positions_leaning,
 )
+from hypcheck.kernel.scene_pictures import shown_flight
 from hypcheck.kernel.scene_prepared import PreparedScene
 from hypcheck.kernel.scene_queries import directions, finite_columns, finite_numbers, points_or_columns, ways_of
 from hypcheck.kernel.scene_sweeps import Spheroid, Sweep, first_contact, hits_beside, is_clear
+from hypcheck.pictures.page import ScenePage, page_of
+from hypcheck.pictures.plot import plot_of
 from hypcheck.scene.model import FREE, UPRIGHT, Point, leans
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 CONTACT, EXTERIOR, INTERIOR = 0, 1, -1
 
@@ -188,12 +195,6 @@ class Scene(PreparedScene):
         `.distance_lower`, `.distance_upper`, `.segment`, `.time`, `.index`, `.center`. Times and `.least` are found
         when they are asked for. Raises InputError for numbers that are not finite and for a path without points.
 
-        >>> scene = Scene.from_arrays([2, 1], 17.8, [[0, 0, 0], [9, 0, 0]], mover=Mover(0.25, 0.25))
-        >>> found = scene.first_contact([[5, 9, 0], [5, 0, 0], [9, 0, 0]])
-        >>> found.hit, found.segment, found.index
-        (True, 1, 1)
-        >>> scene.first_contact([[5, 9, 0], [5, 0, 0]]).least.distance_upper.__round__(6)
-        2.75
         """
         paths = paths_of(path)
         require_for_each(paths, "heading", np.shape(heading))
@@ -208,6 +209,26 @@ class Scene(PreparedScene):
             bool(hit[0]) if single else hit, int(first[0]) if single else first, passages, paths,
             lambda: self._least(paths, swept),
         )  # fmt: skip
+
+    @in_default_environment
+    def show(
+        self, path: ArrayLike | None = None, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
+    ) -> ScenePage:
+        """The scene, and a flight (T, 3) through it, as a page in 3-D: `.save("view.html")`, or a notebook's last line.
+
+        It needs a browser and no network: three.js is in it. The flight is drawn with all that the mover sweeps, its
+        contacts, and the least distance on each of 240 pieces. Arguments are as in first_contact.
+        """
+        flight = None if path is None else shown_flight(self, path, heading, axis)
+        return ScenePage(page_of(self.model, flight))
+
+    @in_default_environment
+    def plot(self, path: ArrayLike | None = None, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None) -> Figure:
+        """Plan and elevation of the scene and a flight (T, 3), a figure of matplotlib: `.savefig("view.pdf")`.
+
+        Arguments are as in first_contact. Raises UnavailableError where matplotlib is missing.
+        """
+        return plot_of(self.model, None if path is None else shown_flight(self, path, heading, axis))
 
     def _least(self, paths: Paths, swept: Swept) -> Least:
         """The least distance of each path; segments are counted over all paths."""

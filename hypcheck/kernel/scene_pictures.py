@@ -1,0 +1,90 @@
+"""What a picture of a flight shows, asked of the scene: contacts, and the least distance on each piece of it."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import Floats, Indices
+from hypcheck.kernel.scene_flights import paths_of
+from hypcheck.kernel.scene_frames import places_of_parts
+from hypcheck.messages import counted
+from hypcheck.pictures.flight import ShownContact, ShownFlight
+from hypcheck.scene.model import FREE
+
+if TYPE_CHECKING:
+    from hypcheck.kernel.scene import Scene
+
+PIECES = 240
+"""Pieces of a flight, each with a least distance."""
+
+_MOST_CONTACTS = 100
+"""Segments whose first contact is found; each takes a millisecond."""
+
+
+def shown_flight(scene: Scene, path: ArrayLike, heading: ArrayLike = 0.0, axis: ArrayLike | None = None) -> ShownFlight:
+    """What a picture of one flight shows. Raises InputError as first_contact, and for more flights than one."""
+    paths = paths_of(path)
+    if not paths.single:
+        raise InputError("a picture shows one flight, and many are given; give points (T, 3)")
+    found = scene.first_contact(path, heading, axis=axis)
+    count = len(paths.starts)
+    headings = np.broadcast_to(np.asarray(heading, np.float64), count)
+    fixed = scene.model.mover.axis
+    own = np.asarray(axis if fixed == FREE else fixed, np.float64)
+    axes = np.ascontiguousarray(np.broadcast_to(own, (count, 3)))
+    free = axes if fixed == FREE else None
+    passages = scene.passage(paths.starts, paths.ends, headings, axis=free)
+    hits = np.atleast_1d(passages.hit)
+    contacts = []
+    for segment in np.flatnonzero(hits)[:_MOST_CONTACTS].tolist():
+        (low, high), index = passages.measure(segment)
+        here, there = paths.starts[segment], paths.ends[segment]
+        contacts.append(ShownContact(segment, (here + float((low + high) / 2) * (there - here)).tolist(), index))
+    pieces, segments, flown = _pieces(np.vstack([paths.starts[:1], paths.ends]))
+    owner = np.concatenate(segments)
+    least = scene.first_contact(pieces, headings[owner], axis=None if free is None else free[owner]).least
+    whole = found.least
+    least_flown = float(flown[whole.segment] + whole.time * (flown[whole.segment + 1] - flown[whole.segment]))
+    parts = scene.model.mover.parts
+    places = [places_of_parts(parts, (0, 0, 0), *each) for each in zip(headings.tolist(), axes.tolist(), strict=True)]
+    said = f"{counted(count, 'segment')}, {float(flown[-1]):.6g} long; " + (
+        f"{counted(int(hits.sum()), 'segment')} with contact, the first is segment {found.segment}"
+        if found.hit
+        else f"clear, its least distance is {float(whole.distance_lower):.6g}"
+    )
+    return ShownFlight(
+        np.vstack([paths.starts[:1], paths.ends]), axes, hits, contacts,
+        np.array(places, np.float64).reshape(count, len(parts), 3), least.distance_lower,
+        np.where(np.isfinite(least.distance_upper), least.distance_upper, 0.0),
+        np.maximum(least.index, 0), least.distance_upper == 0,
+        (least_flown, float(whole.distance_lower), float(whole.distance_upper)), said,
+    )  # fmt: skip
+
+
+def _pieces(points: Floats) -> tuple[list[Floats], list[Indices], Floats]:
+    """The flight cut into pieces of one length: their points, the segments that these lie on, and the length flown."""
+    steps = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
+    flown = np.append(0.0, np.cumsum(steps))
+    if flown[-1] == 0 or not np.isfinite(flown[-1]):
+        return [points], [np.arange(len(steps))], np.where(np.isfinite(flown), flown, 0.0)
+    cuts = np.linspace(0, flown[-1], PIECES + 1)
+    pieces: list[Floats] = []
+    segments: list[Indices] = []
+    for low, high in pairwise(cuts.tolist()):
+        first = min(int(np.searchsorted(flown, low, "right")) - 1, len(steps) - 1)
+        last = min(max(int(np.searchsorted(flown, high, "left")) - 1, first), len(steps) - 1)
+        ends = [_at(points, flown, first, low), *points[first + 1 : last + 1], _at(points, flown, last, high)]
+        pieces.append(np.array(ends))
+        segments.append(np.arange(first, last + 1))
+    return pieces, segments, flown
+
+
+def _at(points: Floats, flown: Floats, segment: int, length: float) -> Floats:
+    step = flown[segment + 1] - flown[segment]
+    share = min(max((length - flown[segment]) / step, 0.0), 1.0) if step > 0 else 0.0
+    return np.asarray(points[segment] + share * (points[segment + 1] - points[segment]))

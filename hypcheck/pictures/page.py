@@ -1,0 +1,150 @@
+"""A scene, and a flight through it, as one HTML page in three dimensions that needs nothing but a browser.
+
+three.js draws it (three/README.md), packed into the page. Numbers are float32 from the middle of the picture: enough
+for eyes, and what is said in words comes from float64.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import html
+import json
+import os
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.messages import counted, escaped
+from hypcheck.pictures.flight import Numbers, ShownFlight
+from hypcheck.scene.model import SceneModel
+
+_SEE_THROUGH = 12
+"""Scenes of so few hyperboloids are drawn so that what is inside can be seen."""
+
+_FILES = files("hypcheck.pictures")
+
+
+@dataclass(frozen=True)
+class ScenePage:
+    """A page; a notebook shows it where it is the last line of a cell."""
+
+    html: str
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the page to a file."""
+        Path(path).write_text(self.html, encoding="utf-8")
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: a frame with the page."""
+        return f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="640" style="border:0"></iframe>'
+
+
+def page_of(model: SceneModel, flight: ShownFlight | None = None) -> str:
+    """The page of a scene, and of a flight where there is one."""
+    bodies = drawn_bodies(model, flight)
+    view, middle = _view(bodies, flight)
+    bodies[:, 4:7] -= middle
+    mover = model.mover
+    data: dict[str, Any] = {
+        "bodies": _packed(bodies), "see_through": len(bodies) <= _SEE_THROUGH, "view": view, "path": None,
+        "mover": {"b": mover.b, "d": mover.d, "parts": []},
+    }  # fmt: skip
+    if flight is not None:
+        data |= _of_flight(model, flight, middle)
+    counted_bodies = counted(len(bodies), "hyperboloid")
+    summary = f"{counted_bodies}; no flight" if flight is None else f"{counted_bodies}; {flight.summary}"
+    return _filled(escaped(model.name), escaped(summary), data, with_flight=flight is not None)
+
+
+def drawn_bodies(model: SceneModel, flight: ShownFlight | None) -> Numbers:
+    """α, γ, heights, centres, axes, solid, touched: (n, 12). What has no end is drawn as far as the others reach."""
+    touched = set() if flight is None else {contact.index for contact in flight.contacts}
+    rows = []
+    for number, body in enumerate(model.hyperboloids):
+        low, high = (-np.inf, np.inf) if body.height is None else body.height.ends
+        axis = body.axis if body.axis[0] or body.axis[1] or body.axis[2] > 0 else tuple(-part for part in body.axis)
+        if axis is not body.axis:
+            low, high = -high, -low
+        rows.append((body.alpha, body.gamma, low, high, *body.center, *axis, body.solid, number in touched))
+    table = np.array(rows, np.float64)
+    table[:, 7:10] /= np.sqrt((table[:, 7:10] ** 2).sum(axis=1, keepdims=True))
+    tall = np.abs(table[:, 2:4][np.isfinite(table[:, 2:4])]).max(initial=0.0)
+    reach = tall or 2 * float(table[:, :2].max())
+    if flight is not None:
+        rise = np.abs(flight.points[:, 2, None] - table[None, :64, 6]).max(initial=0.0)
+        reach = max(tall, float(rise) + 2 * max(model.mover.b, model.mover.d))
+    table[:, 2:4] = np.clip(np.nan_to_num(table[:, 2:4], posinf=reach, neginf=-reach), -1e6, 1e6)
+    return table
+
+
+def _view(bodies: Numbers, flight: ShownFlight | None) -> tuple[dict[str, Any], Numbers]:
+    """Where the camera looks at first, in numbers from the middle of the picture, and that middle."""
+    tall = np.abs(bodies[:, 2:4]).max(axis=1)
+    wide = np.maximum(bodies[:, 0] * np.sqrt(1 + (tall / bodies[:, 1]) ** 2), tall)[:, None]
+    low, high = (bodies[:, 4:7] - wide).min(axis=0), (bodies[:, 4:7] + wide).max(axis=0)
+    extent = float(np.sqrt(((high - low) ** 2).sum())) + 1e-9
+    shown = (low, high) if flight is None else (flight.points.min(axis=0), flight.points.max(axis=0))
+    middle = (shown[0] + shown[1]) / 2
+    radius = float(np.sqrt(((shown[1] - shown[0]) ** 2).sum())) / 2
+    if flight is not None:
+        radius = min(max(1.15 * radius, float(np.median(wide))), max(extent, radius))
+    extent += radius + float(np.abs(middle - (low + high) / 2).max())
+    return {"centre": [0, 0, 0], "radius": max(radius, 1e-6), "from": [0.45, -0.8, 0.5], "extent": extent}, middle
+
+
+def _of_flight(model: SceneModel, flight: ShownFlight, middle: Numbers) -> dict[str, Any]:
+    names = [body.name for body in model.hyperboloids]
+    flown, lower, upper = flight.least
+    parts = [
+        {"b": part.b, "d": part.d, "places": np.round(flight.places[:, number], 7).tolist()}
+        for number, part in enumerate(model.mover.parts)
+    ]
+    return {
+        "path": _packed(flight.points - middle), "axes": _packed(flight.axes),
+        "hits": base64.b64encode(flight.hits.astype(np.uint8).tobytes()).decode(),
+        "contacts": [
+            {"at": (np.asarray(contact.center) - middle).tolist(), "segment": contact.segment}
+            for contact in flight.contacts
+        ],
+        "distances": {"lower": flight.lower.tolist(), "upper": flight.upper.tolist()},
+        "touched": flight.touched.astype(int).tolist(), "nearest": [names[index] for index in flight.near.tolist()],
+        "least": {"flown": flown, "lower": lower, "upper": upper},
+        "mover": {"b": model.mover.b, "d": model.mover.d, "parts": parts},
+    }  # fmt: skip
+
+
+def _packed(numbers: NDArray[Any]) -> str:
+    return base64.b64encode(np.ascontiguousarray(numbers, "<f4").tobytes()).decode()
+
+
+def _filled(name: str, summary: str, data: dict[str, Any], *, with_flight: bool) -> str:
+    legend = [("body", "hyperboloids")]
+    if with_flight:
+        legend += [("mover", "mover"), ("swept", "what it sweeps"), ("contact", "contact"), ("least", "least distance")]
+    items = "".join(f'<li><i style="background:var(--{colour})"></i>{text}</li>' for colour, text in legend)
+    values = {
+        "title": html.escape(name), "summary": html.escape(summary), "legend": items,
+        "panel": _text("panel.html") if with_flight else "", "style": _text("view.css"), "script": _text("view.js"),
+        "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        "core": _library("three.core.js"), "module": _library("three.module.js"),
+        "controls": _library("OrbitControls.js"),
+    }  # fmt: skip
+    before, *rest = _text("view.html").split("{{")
+    filled = [before]
+    for each in rest:
+        key, _, after = each.partition("}}")
+        filled += [values[key], after]
+    return "".join(filled)
+
+
+def _text(name: str) -> str:
+    return _FILES.joinpath("templates", name).read_text(encoding="utf-8")
+
+
+def _library(name: str) -> str:
+    return base64.b64encode(gzip.compress(_FILES.joinpath("three", name).read_bytes(), mtime=0)).decode()
