@@ -20,6 +20,7 @@ BESIDE = (
     "LICENSE",
     "CITATION.cff",
     "docs/site.css",
+    "examples/*",
     "docs/**/*.svg",
     "docs/**/*.png",
     "docs/**/*.txt",
