@@ -9,8 +9,10 @@ from __future__ import annotations
 import base64
 import gzip
 import html
+import io
 import json
 import os
+import tarfile
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -127,12 +129,13 @@ def _filled(name: str, summary: str, data: dict[str, Any], *, with_flight: bool)
     if with_flight:
         legend += [("mover", "mover"), ("swept", "what it sweeps"), ("contact", "contact"), ("least", "least distance")]
     items = "".join(f'<li><i style="background:var(--{colour})"></i>{text}</li>' for colour, text in legend)
+    library = _library()
     values = {
         "title": html.escape(name), "summary": html.escape(summary), "legend": items,
         "panel": _text("panel.html") if with_flight else "", "style": _text("view.css"), "script": _text("view.js"),
         "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        "core": _library("three.core.js"), "module": _library("three.module.js"),
-        "controls": _library("OrbitControls.js"),
+        "core": library["three.core.js"], "module": library["three.module.js"],
+        "controls": library["OrbitControls.js"],
     }  # fmt: skip
     before, *rest = _text("view.html").split("{{")
     filled = [before]
@@ -146,5 +149,13 @@ def _text(name: str) -> str:
     return _FILES.joinpath("templates", name).read_text(encoding="utf-8")
 
 
-def _library(name: str) -> str:
-    return base64.b64encode(gzip.compress(_FILES.joinpath("three", name).read_bytes(), mtime=0)).decode()
+def _library() -> dict[str, str]:
+    """The files of three.js by name, as a page holds them."""
+    packed = io.BytesIO(_FILES.joinpath("three", "three.tar.xz").read_bytes())
+    with tarfile.open(fileobj=packed, mode="r:xz") as archive:
+        contents = {member.name: archive.extractfile(member) for member in archive.getmembers()}
+        return {
+            name: base64.b64encode(gzip.compress(file.read(), mtime=0)).decode()
+            for name, file in contents.items()
+            if file
+        }
