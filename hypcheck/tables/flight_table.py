@@ -15,7 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.tables.numbers import number_of_text, shown
-from hypcheck.tables.streams import BYTE_ORDER_MARK, reading
+from hypcheck.tables.streams import BYTE_ORDER_MARK, open_input
 
 HEADING, FLIGHT = "heading", "flight"
 
@@ -35,7 +35,7 @@ class FlightTable:
 
 def read_flights(path: str) -> FlightTable:
     """The flights of a CSV file, or of standard input for "-". Raises InputError naming the line."""
-    with reading(path) as reader:
+    with open_input(path) as reader:
         content, name = reader.read(), reader.name
     try:
         lines = content.decode("utf-8").removeprefix(BYTE_ORDER_MARK).splitlines(keepends=True)
