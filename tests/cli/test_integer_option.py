@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.cli.options import integer_of
+from hypcheck.implementations.description import Description
 from hypcheck.runs.cases import family_chunks, searched_chunks
-from hypcheck.runs.plan import ConformancePlan, planned_size
+from hypcheck.runs.plan import ConformancePlan, planned_size, searches
 from hypcheck.vectors.families import select
 
 
@@ -49,7 +50,8 @@ def test_planned_size_is_the_number_of_rows_in_all_chunks_of_the_run(families):
     plan = ConformancePlan(("builtin:fast",), families=families, count=70_000)
     chosen = select(families, tilted=True, layout=None) if families else select()
     some = [chunk for family in chosen for chunk in family_chunks(family, plan.seed, plan.count * family.times)]
-    assert planned_size(plan) == sum(map(len, [*some, *(() if families else searched_chunks())]))
+    followed = () if families else searches(plan, Description("any"))
+    assert planned_size(plan) == sum(map(len, [*some, *(() if families else searched_chunks()), *followed]))
 
 
 def test_planned_size_of_a_huge_run_is_computed_without_its_chunks():
