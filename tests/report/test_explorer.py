@@ -175,3 +175,14 @@ def test_small_picture_has_finite_coordinates_and_draws_thin_bodies_wide_enough_
     thin = html.small_picture((0.052, 4.4, 0.17, 9.6, 0.03, 0.0, -10.5))
     assert 'rx="24" ry="16"' in thin
     assert 'rx="16" ry="16"' in html.small_picture(contents.ON_THE_RING)
+
+
+def test_small_picture_shows_the_wall_however_far_the_spheroid_is():
+    for row in [(1.0, 2.0, 0.1, 0.1, 50.0, 0.0, 0.0), (9.0, 2.0, 0.1, 0.3, 0.0, 0.0, 0.0), contents.ON_THE_RING]:
+        drawn = html.small_picture(row)
+        wall = re.search(r'<polyline class="wall" points="([^"]*)"', drawn)[1]
+        across = [float(place.split(",")[0]) for place in wall.split(" ")]
+        assert any(0 < place < html.WIDTH for place in across), row
+        centre, half = (float(re.search(rf'{name}="([^"]*)"', drawn)[1]) for name in ("cx", "rx"))
+        assert 0 < centre < html.WIDTH, row
+        assert half >= 1.5, row

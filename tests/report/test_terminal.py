@@ -8,6 +8,7 @@ import click
 import pytest
 from hypothesis import given, settings
 
+from hypcheck.record import read
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
 from tests.report import bench_lines, record_samples
@@ -89,3 +90,13 @@ def test_terminal_summary_escapes_control_characters_of_foreign_text(old, foreig
     changed = record_samples.rewritten([*record_samples.lines(), DISAGREEMENT, EXACT_WRONG], old, foreign)
     for line in summary_lines(record_samples.record(changed, 6), WRITTEN):
         assert line.isprintable()
+
+
+def test_a_benchmark_says_of_a_method_of_the_user_its_errors_its_time_and_the_fastest_that_is_as_reliable():
+    golden = Path(__file__).parent / "goldens" / "bench" / "record.jsonl"
+    lines = summary_lines(read(golden), ())
+    own = [line for line in lines if line.startswith("mine.py:position")]
+    assert own[0] == "mine.py:position: 458 of 3,000 answers wrong, errors end at 3.0e-8"
+    assert own[1].startswith("mine.py:position, uniform around the tower: 1,210 (1,100 to 1,710) ns a row in a batch, ")
+    assert lines[-1] == "mine.py:position: takes 1,150 times as long as fast, the fastest that is as reliable"
+    assert "never a wrong answer: fast, 13.6 times as fast as table-2-float64" in lines
