@@ -25,7 +25,7 @@ import pytest
 
 if TYPE_CHECKING:
     from hypcheck.record import Record
-    from hypcheck.report.verdict import Failure
+    from hypcheck.report.benchmark_failures import Failure
 
 MARKER = "hypcheck(SPEC, ..., **options): fail where `hypcheck verify SPEC` with these options does; then run the test."
 

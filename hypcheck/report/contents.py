@@ -17,6 +17,7 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import CauseLine, IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes
+from hypcheck.report.benchmark_failures import Failure
 from hypcheck.report.document import (
     Block,
     Bullets,
@@ -41,7 +42,7 @@ from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
 from hypcheck.report.square import squares
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
-from hypcheck.report.verdict import Failure, Verdict, failures, verdict
+from hypcheck.report.verdict import Verdict, failures, verdict
 from hypcheck.runs.judges import judge_of
 
 

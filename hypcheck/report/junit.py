@@ -24,6 +24,7 @@ from hypcheck.record.measurements import (
     SpeedLine,
     UnmeasuredLine,
 )
+from hypcheck.report.benchmark_failures import MEASUREMENT, Failure
 from hypcheck.report.measured import measured_methods
 from hypcheck.report.messages import (
     Replays,
@@ -44,7 +45,7 @@ from hypcheck.report.model import (
     under_test,
     worst_case,
 )
-from hypcheck.report.verdict import MEASUREMENT, Failure, ended_badly, failures, verdict
+from hypcheck.report.verdict import ended_badly, failures, verdict
 
 
 @dataclass(frozen=True, slots=True)
