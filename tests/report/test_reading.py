@@ -115,7 +115,7 @@ def test_later_minor_versions_are_read_and_other_major_versions_refused(tmp_path
     for version in ("0.9.0", "2.0.0"):
         with pytest.raises(InputError, match=r"reads 1\.x"):
             read(written(tmp_path, schema=version))
-    with pytest.raises(InputError, match=r"no header with a schema such as 1\.0\.0"):
+    with pytest.raises(InputError, match=r"not a header with a schema such as 1\.0\.0"):
         read(written(tmp_path, schema="1"))
 
 
