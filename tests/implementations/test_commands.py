@@ -277,7 +277,7 @@ def test_a_command_that_the_system_cannot_run_is_refused_with_the_reason(tmp_pat
         path.chmod(0o755)
     with pytest.raises(StartError, match=r"interpreter .* was not found"):
         open_implementation(f"command:'{script}'")
-    with pytest.raises(StartError, match="no program for this machine"):
+    with pytest.raises(StartError, match="not a program for this machine"):
         open_implementation(f"command:'{plain}'")
 
 
