@@ -17,7 +17,7 @@ COMPILED := $(BIN)/python -c 'from hypcheck.derivation import printed_equations,
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams evidence docs packages release format clean
+.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams surface evidence docs packages release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -77,6 +77,9 @@ schemas: $(VENV)/ready-dev ## the published schemas of what is written anew, fro
 
 seams: $(VENV)/ready-dev ## what takes which columns of a row anew; docs/rows.md
 	$(BIN)/python -m tests.tools.seams
+
+surface: $(VENV)/ready-dev ## what users depend on anew; docs/surface.txt, docs/stability.md
+	$(BIN)/python -m tests.tools.surface
 
 goldens: $(VENV)/ready-dev ## what each format of reports says of the recorded runs anew; its diff is to be read; tests/report/goldens/
 	$(BIN)/python -m tests.tools.goldens

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 import shutil
 import subprocess
@@ -18,6 +19,7 @@ HEADER = ROOT / "hypcheck" / "kernel" / "core" / "hypcheck.h"
 SYMBOLS = ROOT / "packages" / "c" / "symbols.map"
 CMAKE = shutil.which("cmake", path=str(Path(sys.executable).parent)) or shutil.which("cmake")
 CPP = shutil.which("c++")
+FIRST_OF_1980 = 315532800
 POSITIONS = "-1 0 1"
 """Of the example: within the tower's wall, across it, and more than a metre outside."""
 
@@ -101,6 +103,11 @@ def test_all_that_the_header_defines_besides_is_static_and_begins_with_hc():
 def test_two_archives_of_one_tree_have_the_same_bytes(tmp_path):
     first, second = (packed(tmp_path / name).read_bytes() for name in ("first", "second"))
     assert first == second
+    assert int.from_bytes(first[4:8], "little") == FIRST_OF_1980, "gzip keeps the time of its making"
+    with tarfile.open(fileobj=io.BytesIO(first)) as files:
+        entries = files.getmembers()
+    assert [entry.name for entry in entries] == sorted(entry.name for entry in entries)
+    assert {(entry.mtime, entry.mode, entry.uid, entry.uname) for entry in entries} == {(FIRST_OF_1980, 0o644, 0, "")}
 
 
 @needs_cmake
