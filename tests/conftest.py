@@ -20,7 +20,8 @@ settings.register_profile(
     "ci", max_examples=50, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.register_profile("developer", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("ci" if os.environ.get("CI") else "developer")
+IN_CI = bool(os.environ.get("CI"))
+settings.load_profile("ci" if IN_CI else "developer")
 
 # A shell's background job ignores Ctrl-C, and under nohup a closed terminal too; what is tested here is not that.
 for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
@@ -98,6 +99,19 @@ THOROUGH = {
     "vectors/frozen": "files tilted_files",
 }
 """Modules, by folder, that repeat with many rows or processes what others test with few: `make thorough` runs them."""
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node):
+    """Tell a worker whether this is CI: the variable that says so is gone when it starts."""
+    node.workerinput["in_ci"] = IN_CI
+
+
+def pytest_configure(config):
+    """Draw in a worker as it was told."""
+    told = getattr(config, "workerinput", {})
+    if "in_ci" in told:
+        settings.load_profile("ci" if told["in_ci"] else "developer")
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -57,6 +57,7 @@ NOT_TYPED = {
     "hypcheck verify library:./libcollide.so --count 1e9 --cluster tcp:": "it needs a cluster",
     "hypcheck simulate tower --pitch 20 --runs 200": "it takes a quarter of an hour",
     "pip ": "it needs the package index",
+    "python ompl_forest.py": "it is a file of examples/ and needs a planner; tests/examples runs it",
     "python3 -m venv": CLONE,
     "jq ": "it is not a program of ours, and not everywhere",
     **dict.fromkeys(("aarch64-", "arm-", "riscv64-", "s390x-", "i686-", "clang --target=wasm32"), OTHER_COMPILER),

@@ -70,7 +70,7 @@ STEPS: dict[str, list[tuple[str, int, str]]] = {
         (f"{GATED} --out run", 0, "HELD"),
         ("report run", 0, "HELD"),
         ("record check run", 0, "it is complete"),
-        ("replay tower-body/1/1/0 builtin:fast", 0, "the answer of "),
+        ("replay tower-body/1/1/0 builtin:fast --values", 0, "the answer of "),
     ],
     "bench": [(f"{COMPARED} --out quick", 0, "HELD")],
     "bench-scene": [("bench --scene tower --out scene", 0, "HELD: 1 scene")],

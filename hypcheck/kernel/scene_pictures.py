@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Floats, Indices
-from hypcheck.kernel.scene_flights import paths_of
+from hypcheck.kernel.passages import Passages
+from hypcheck.kernel.scene_flights import FirstContact, paths_of
 from hypcheck.kernel.scene_frames import places_of_parts
 from hypcheck.messages import counted
 from hypcheck.pictures.flight import ShownContact, ShownFlight
-from hypcheck.scene.model import FREE
-
-if TYPE_CHECKING:
-    from hypcheck.kernel.scene import Scene
+from hypcheck.scene.model import FREE, SceneModel
 
 PIECES = 240
 """Pieces of a flight, each with a least distance."""
@@ -26,7 +25,25 @@ _MOST_CONTACTS = 100
 """Segments whose first contact is found; each takes a millisecond."""
 
 
-def shown_flight(scene: Scene, path: ArrayLike, heading: ArrayLike = 0.0, axis: ArrayLike | None = None) -> ShownFlight:
+class Asked(Protocol):
+    """What is asked of a Scene."""
+
+    @property
+    def model(self) -> SceneModel:
+        """The scene's file."""
+
+    def passage(
+        self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
+    ) -> Passages:
+        """As Scene.passage."""
+
+    def first_contact(
+        self, path: ArrayLike | Sequence[ArrayLike], heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
+    ) -> FirstContact:
+        """As Scene.first_contact."""
+
+
+def shown_flight(scene: Asked, path: ArrayLike, heading: ArrayLike = 0.0, axis: ArrayLike | None = None) -> ShownFlight:
     """What a picture of one flight shows. Raises InputError as first_contact, and for more flights than one."""
     paths = paths_of(path)
     if not paths.single:

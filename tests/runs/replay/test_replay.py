@@ -159,7 +159,7 @@ def test_replay_finds_the_cases_of_a_record_by_their_number(tmp_path, capsys, te
     ],
 )
 def test_error_of_another_formula_is_not_reported_about_the_implementation(capsys, words, about, own):
-    main(["replay", "ring-0007", *words])
+    main(["replay", "ring-0007", *words, "--values"])
     text = capsys.readouterr().out
     found = text[text.index("\nfinding ") :].splitlines()[1:]
     assert any(f"the answer of {about} in float64" in line for line in found)
