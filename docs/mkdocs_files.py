@@ -25,6 +25,7 @@ BESIDE = (
     "docs/**/*.png",
     "docs/**/*.txt",
     "docs/**/*.toml",
+    "docs/**/*.csv",
     "cases/LICENSE",
     "cases/**/*.json",
     "hypcheck/report/schemas/*.json",
