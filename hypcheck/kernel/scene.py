@@ -228,7 +228,7 @@ class Scene(PreparedScene):
 
         Arguments are as in first_contact. Raises UnavailableError where matplotlib is missing.
         """
-        return plot_of(self.model, None if path is None else shown_flight(self, path, heading, axis))
+        return plot_of(self.model, None if path is None else shown_flight(self, path, heading, axis, count_of_pieces=1))
 
     def _least(self, paths: Paths, swept: Swept) -> Least:
         """The least distance of each path; segments are counted over all paths."""

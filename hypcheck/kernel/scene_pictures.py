@@ -43,8 +43,17 @@ class Asked(Protocol):
         """As Scene.first_contact."""
 
 
-def shown_flight(scene: Asked, path: ArrayLike, heading: ArrayLike = 0.0, axis: ArrayLike | None = None) -> ShownFlight:
-    """What a picture of one flight shows. Raises InputError as first_contact, and for more flights than one."""
+def shown_flight(
+    scene: Asked,
+    path: ArrayLike,
+    heading: ArrayLike = 0.0,
+    axis: ArrayLike | None = None,
+    count_of_pieces: int = PIECES,
+) -> ShownFlight:
+    """What a picture of one flight shows, with a least distance on each of so many pieces.
+
+    Raises InputError as first_contact, and for more flights than one.
+    """
     paths = paths_of(path)
     if not paths.single:
         raise InputError("a picture shows one flight, and many are given; give points (T, 3)")
@@ -62,7 +71,7 @@ def shown_flight(scene: Asked, path: ArrayLike, heading: ArrayLike = 0.0, axis: 
         (low, high), index = passages.measure(segment)
         here, there = paths.starts[segment], paths.ends[segment]
         contacts.append(ShownContact(segment, (here + float((low + high) / 2) * (there - here)).tolist(), index))
-    pieces, segments, flown = _pieces(np.vstack([paths.starts[:1], paths.ends]))
+    pieces, segments, flown = _pieces(np.vstack([paths.starts[:1], paths.ends]), count_of_pieces)
     owner = np.concatenate(segments)
     least = scene.first_contact(pieces, headings[owner], axis=None if free is None else free[owner]).least
     whole = found.least
@@ -83,13 +92,13 @@ def shown_flight(scene: Asked, path: ArrayLike, heading: ArrayLike = 0.0, axis: 
     )  # fmt: skip
 
 
-def _pieces(points: Floats) -> tuple[list[Floats], list[Indices], Floats]:
+def _pieces(points: Floats, count: int) -> tuple[list[Floats], list[Indices], Floats]:
     """The flight cut into pieces of one length: their points, the segments that these lie on, and the length flown."""
     steps = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
     flown = np.append(0.0, np.cumsum(steps))
     if flown[-1] == 0 or not np.isfinite(flown[-1]):
         return [points], [np.arange(len(steps))], np.where(np.isfinite(flown), flown, 0.0)
-    cuts = np.linspace(0, flown[-1], PIECES + 1)
+    cuts = np.linspace(0, flown[-1], count + 1)
     pieces: list[Floats] = []
     segments: list[Indices] = []
     for low, high in pairwise(cuts.tolist()):
