@@ -101,9 +101,10 @@ class Planned:
     seconds: list[float] = field(default_factory=list)
     states: int = 0
     motions: int = 0
-    touching: int = 0
     worst: float = np.inf
-    path: np.ndarray | None = None
+    paths: list[np.ndarray] = field(default_factory=list)
+    touches: list[tuple[float, float, float]] = field(default_factory=list)
+    """Where the drone is when an accepted path first touches a tree."""
 
 
 class Exact(base.MotionValidator):
@@ -174,12 +175,46 @@ def compared(scene: Scene, seeds: int, seconds: float) -> list[Planned]:
             if path is None:
                 continue
             planned.solved += 1
-            planned.path = path
+            planned.paths.append(path)
             judged = scene.first_contact(path)
-            planned.touching += judged.hit
+            if judged.hit:
+                planned.touches.append(tuple(map(float, judged.center)))
             planned.worst = min(planned.worst, judged.least.distance_upper)
         found.append(planned)
     return found
+
+
+def circles(axes, centers, radii, **style) -> None:
+    """Draw circles about places (n, 2), in the units of the axes."""
+    from matplotlib.collections import EllipseCollection  # noqa: PLC0415 - the picture alone needs it
+
+    wide, at = 2 * np.asarray(radii), {"offsets": centers, "transOffset": axes.transData}
+    axes.add_collection(EllipseCollection(wide, wide, np.zeros(len(wide)), units="xy", **at, **style))
+
+
+def draw(scene: Scene, results: list[Planned], file: str) -> None:
+    """The forest from above with the accepted paths, and the first place where one of them touches a tree."""
+    from matplotlib.figure import Figure  # noqa: PLC0415 - the picture alone needs it
+
+    trees = scene.model.hyperboloids
+    centers = np.array([tree.center[:2] for tree in trees])
+    figure = Figure(figsize=(11, 5.5), layout="constrained", dpi=110)
+    whole, close = figure.subplots(1, 2, subplot_kw={"aspect": "equal", "xlabel": "x, m", "ylabel": "y, m"})
+    touches = [(planned.name, place) for planned in results for place in planned.touches]
+    name, (x, y, z) = touches[0] if touches else ("nothing", (*centers[0], 2.5))
+    for axes in (whole, close):
+        circles(axes, centers, [tree.alpha * np.hypot(1, z / tree.gamma) for tree in trees], facecolor="#8a9a7b")
+        for planned, colour in zip(reversed(results), ("#d98200", "#1f5fa8", "#c2161d"), strict=True):
+            for number, path in enumerate(planned.paths):
+                axes.plot(*path[:, :2].T, color=colour, linewidth=1.2, label=planned.name if number == 0 else None)
+    low, high = centers.min() - 8, centers.max() + 8
+    whole.set(xlim=(low, high), ylim=(low, high), title="every accepted path")
+    whole.legend(loc="upper left")
+    if touches:
+        circles(close, [(x, y)], [DRONE.b], facecolor="#c2161d55", edgecolor="#c2161d")
+    title = f"{name}: an accepted path touches a tree" if touches else "no accepted path touches a tree"
+    close.set(xlim=(x - 4, x + 4), ylim=(y - 4, y + 4), title=title)
+    figure.savefig(file)
 
 
 def main() -> None:
@@ -188,17 +223,23 @@ def main() -> None:
     options.add_argument("--trees", type=int, default=10_000)
     options.add_argument("--seconds", type=float, default=5.0)
     options.add_argument("--seeds", type=int, default=5)
+    options.add_argument(
+        "--picture", metavar="FILE", help="draw the trees and a path of each checker (needs matplotlib)"
+    )
     asked = options.parse_args()
     util.noOutputHandler()
     scene = forest(asked.trees)
     print("| checker | solved | median s | states | motions | states/s | paths that touch | least distance |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
-    for each in compared(scene, asked.seeds, asked.seconds):
+    results = compared(scene, asked.seeds, asked.seconds)
+    for each in results:
         rate = each.states / sum(each.seconds)
         print(
             f"| {each.name} | {each.solved} of {asked.seeds} | {np.median(each.seconds):.3f} | {each.states:,} | "
-            f"{each.motions:,} | {rate:,.0f} | {each.touching} | {each.worst:.4f} |"
+            f"{each.motions:,} | {rate:,.0f} | {len(each.touches)} | {each.worst:.4f} |"
         )
+    if asked.picture:
+        draw(scene, results, asked.picture)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,6 +38,7 @@ from hypcheck.kernel.scene_index import (
     near_ways,
 )
 from hypcheck.kernel.scene_least import Flights, Least, least_distances
+from hypcheck.kernel.scene_motion import hit_at_once, point_at_once
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     position_beside,
@@ -176,6 +178,9 @@ class Scene(PreparedScene):
         the mover has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts
         as contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
+        hit = self._hit_at_once(start, end, heading) if axis is None else None
+        if hit is not None:
+            return Passages(hit, self._measure_of(start, end, heading))
         swept = self._swept(start, end, heading, axis)
         result = np.zeros(len(swept.starts), np.bool_)
         result[swept.query[swept.hits]] = True
@@ -257,6 +262,25 @@ class Scene(PreparedScene):
         for pair in np.flatnonzero(own).tolist() if mover.parts else ():
             swept.hits[pair] = not is_clear(bodies, int(body[pair]), *self._sweeps(swept, int(query[pair])))
         return swept
+
+    def _hit_at_once(self, start: object, end: object, heading: object) -> bool | None:
+        """Whether the mover has contact on one way, where everything is upright and bounds tell; else None."""
+        here, there = point_at_once(start), point_at_once(end)
+        if here is None or there is None or self._leaning or not (isinstance(heading, float) and isfinite(heading)):
+            return None
+        region, mover = self.model.region.z, self.model.mover
+        if region is not None and not (region.low <= min(here[2], there[2]) and max(here[2], there[2]) <= region.high):
+            return None  # of which the grid promises nothing
+        hit = hit_at_once(self._grid, self._near_motion, mover, here, there)
+        return None if hit and mover.parts else hit
+
+    def _measure_of(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike) -> Callable[[int], First]:
+        """The same as _measure of a way that is prepared when it is asked."""
+
+        def measure(way: int) -> First:
+            return self._measure(self._swept(start, end, heading, None))(way)
+
+        return measure
 
     def _measure(self, swept: Swept, *, parts: bool = True) -> Callable[[int], First]:
         """What finds the first contact of a way that has one: of the parts, or of the mover itself."""

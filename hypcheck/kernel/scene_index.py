@@ -29,7 +29,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from math import floor, inf
+from math import ceil, floor, inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -164,6 +164,28 @@ class PlaneGrid:
             np.concatenate([member, always]),
         )
 
+    def near_way(self, x: float, y: float, x_end: float, y_end: float) -> set[int] | None:
+        """Those that may be near a straight way; None where the way is too long, or too far out, to say at once."""
+        pad_x, pad_y = PAD * (abs(x) + abs(x_end)), PAD * (abs(y) + abs(y_end))
+        across, along = x_end - x, y_end - y
+        count = max(abs(across), abs(along)) / self.side
+        if not (count <= MOST_AT_ONCE and max(pad_x, pad_y) <= self.side):
+            return None
+        pieces, found = max(ceil(count), 1), set(self.everywhere)
+        for piece in range(pieces):
+            here, there = piece / pieces, (piece + 1) / pieces
+            (low_x, high_x), (low_y, high_y) = (
+                sorted((x + across * here, x + across * there)),
+                sorted((y + along * here, y + along * there)),
+            )
+            columns = range(floor((low_x - pad_x) / self.side), floor((high_x + pad_x) / self.side) + 1)
+            rows = range(floor((low_y - pad_y) / self.side), floor((high_y + pad_y) / self.side) + 1)
+            for column in columns:
+                for row in rows:
+                    place = (column * ACROSS ^ row * ALONG) & (len(self.starts) - 2)
+                    found.update(self.members[self.starts[place] : self.starts[place + 1]])
+        return found
+
     def near_boxes(self, low: Floats, high: Floats) -> tuple[Indices, Indices]:
         """The hyperboloids of all cells that boxes overlap, but those everywhere: pairs of a box' number and theirs.
 
@@ -247,6 +269,9 @@ def _packed(numbers: Indices) -> array[int]:
 PAD = 2.0**-45
 LEAST_OF_WAYS, LONGEST_SQUARE = 2.0**-200, 2.0**200
 """Squares of lengths from the one on do not underflow; ways whose square is above the other are near everything."""
+
+MOST_AT_ONCE = 16
+"""Pieces of a way that are looked up without arrays."""
 
 MOST_PIECES = 256
 """A way of more pieces is looked up alone, among all hyperboloids."""

@@ -21,6 +21,7 @@ from hypcheck.kernel import scene_changes
 from hypcheck.kernel.margins import enlarged
 from hypcheck.kernel.scene_ends import limits_of
 from hypcheck.kernel.scene_index import Bodies, PlaneGrid, bodies_of, grid_of, in_reach, reaches
+from hypcheck.kernel.scene_motion import Near, near_of
 from hypcheck.kernel.scene_pairs import Body
 from hypcheck.scene.arrays import checked_hyperboloid, hyperboloids_of, point_of, require_valid_mover
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, leans
@@ -180,6 +181,17 @@ class PreparedScene:
             low, high, inner_low, inner_high = limits
             found = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
         return found
+
+    def _near_motion(self, index: int) -> Near:
+        """The same for motions."""
+        found = self._asked_of_motions.get(index)
+        if found is None:
+            found = self._asked_of_motions[index] = near_of(self._bodies, self._reaches, self._limits, index)
+        return found
+
+    @cached_property
+    def _asked_of_motions(self) -> dict[int, Near]:
+        return {}
 
     @cached_property
     def _leaning(self) -> bool:

@@ -78,6 +78,10 @@ def test_scene_passage_answers_as_the_exact_decision_about_every_hyperboloid(sce
     starts, ends = ways(40, 5)
     found = Scene(scene).passage(starts, ends)
     assert found.tolist() == expected(scene, starts, ends)
+    alone = [Scene(scene).passage(*way) for way in zip(starts, ends, strict=True)]
+    assert [way.hit for way in alone] == found.hit.tolist()
+    assert [way.first for way in alone] == found.first
+    assert [way.index for way in alone] == found.index.tolist()
     assert found.hit.dtype == np.bool_
     assert np.asarray(found).tolist() == found.tolist()
     assert len({*found.tolist()}) > 1
@@ -108,7 +112,9 @@ TREE = Hyperboloid("tree", 2.0, 3.0)
 def test_scene_passage_is_exact_if_the_difference_of_centres_is_rounded():
     """3.1 − 0.1 is more than the float 3.0, at which the spheroid would touch."""
     scene = Scene(SceneModel("tree", "position", (replace(TREE, center=(0.0, 0.1, 0.0)),), Mover(1.0, 1.0), Region()))
-    assert scene.passage((0.0, 5.0, 0.0), [(0.0, 3.1, 0.0), (0.0, 3.0999999999999996, 0.0)]).tolist() == [0, 1]
+    ends = [(0.0, 3.1, 0.0), (0.0, 3.0999999999999996, 0.0)]
+    assert scene.passage((0.0, 5.0, 0.0), ends).tolist() == [0, 1]
+    assert [scene.passage((0.0, 5.0, 0.0), end).hit for end in ends] == [False, True]
 
 
 @pytest.mark.parametrize(

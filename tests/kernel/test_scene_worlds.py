@@ -108,7 +108,7 @@ def test_positions_in_a_scene_are_the_exact_ones(kind, seed):
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("kind", WORLDS)
-def test_passages_in_a_scene_hit_where_an_exact_passage_does(kind, seed):
+def test_passages_in_a_scene_one_or_many_hit_where_an_exact_passage_does(kind, seed):
     scene, centres, axes, free = world(seed + 100, 8, **kind)
     draw = np.random.default_rng(seed)
     size = np.array([1, 1, 1]) * (scene.model.mover.b + scene.model.mover.d)
@@ -124,6 +124,7 @@ def test_passages_in_a_scene_hit_where_an_exact_passage_does(kind, seed):
             sizes = (body.alpha, body.gamma, scene.model.mover.b, scene.model.mover.d)
             true.append(passage(sizes, *way, axis, body.axis, z_min=low, z_max=high, solid=body.solid).hit)
         assert hit == any(true)
+        assert scene.passage(start, end, **({"axis": axis} if free else {})).hit == any(true)
 
 
 def test_a_difference_of_centres_that_is_rounded_by_one_unit_is_not_taken_for_exact():
