@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, closing, contextmanager
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -16,6 +17,7 @@ from hypcheck.answer import ended_clearance_of, require_agreement
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
 from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid
+from hypcheck.kernel.classify import classify
 from hypcheck.kernel.in_use import kernel
 from hypcheck.processes import in_order, usable_processors
 from hypcheck.sweep_answer import passage_of_row
@@ -104,8 +106,11 @@ def classify_table(
     watch: Callable[[int | None], AbstractContextManager[Advance]] = _no_progress,
     workers: int | None = None,
     alone: int = CHUNKS_WITHOUT_WORKERS,
+    margin: float | None = None,
 ) -> None:
     """Write the answers about every row of the table at `route.source` to `route.target`.
+
+    `margin`, a length, asks for the position with it besides; of sweeps, InputError.
 
     `watch` is given the length of the source in bytes (None for a stream), and yields what takes note of progress. A
     row that is not a valid query raises InputError, or with `mark` is marked as refused (127). `workers` processes
@@ -118,13 +123,13 @@ def classify_table(
         raise InputError(f"--output {route.target} is the input itself; name another file")
     many = min(MOST_WORKERS, usable_processors()) if workers is None else workers
     with open_input(route.source, patient=True) as reader:
-        table = _READ[route.source_format](reader, mark=mark)
+        table = replace(_READ[route.source_format](reader, mark=mark), margin=margin is not None)
         with (
             replace_output(route.target) as writer,
             _WRITE[route.target_format](writer, table) as sink,
             watch(reader.size()) as advance,
             closing(
-                in_order(partial(_answer_chunk, sink.render), table.chunks, many, _alone(table, alone))
+                in_order(partial(_answer_chunk, sink.render, margin), table.chunks, many, _alone(table, alone))
             ) as rendered,
         ):
             noted = 0
@@ -140,11 +145,13 @@ def _alone(table: Table, alone: int) -> int:
 
 
 def _answer_chunk(
-    render: Callable[[TableChunk, TableAnswers | SweepAnswers], bytes], unread: UnreadChunk
+    render: Callable[[TableChunk, TableAnswers | SweepAnswers], bytes], margin: float | None, unread: UnreadChunk
 ) -> tuple[bytes, int]:
     """What is written about a chunk, and how many rows it has."""
     chunk = unread()
-    found = _answers_of_chunk(chunk) if chunk.layout == PAIRS else _sweeps_of_chunk(chunk)
+    if chunk.layout != PAIRS and margin is not None:
+        raise InputError("--margin is for positions; x1, y1, z1 make the rows sweeps, so leave one of them out")
+    found = _answers_of_chunk(chunk, margin) if chunk.layout == PAIRS else _sweeps_of_chunk(chunk)
     return render(chunk, found), len(chunk.rows)
 
 
@@ -159,8 +166,17 @@ def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
     return SweepAnswers(hits, lower, upper)
 
 
-def _answers_of_chunk(chunk: TableChunk) -> TableAnswers:
+def _answers_of_chunk(chunk: TableChunk, margin: float | None) -> TableAnswers:
     """The answers about a chunk of a table, 127 for its refused rows. Raises DisagreementError as answers()."""
+    found = _without_margin(chunk)
+    if margin is None:
+        return found
+    kept = np.full(len(chunk.rows), REFUSED, np.int8)
+    kept[~chunk.refused] = classify(chunk.rows[~chunk.refused], margin=margin)
+    return replace(found, with_margin=kept)
+
+
+def _without_margin(chunk: TableChunk) -> TableAnswers:
     if not chunk.refused.any():
         return answers(chunk.rows)
     valid = ~chunk.refused

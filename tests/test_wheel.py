@@ -58,8 +58,9 @@ def test_info_of_the_installed_wheel_names_the_kernel_that_was_built(installed, 
     assert Path(where).is_relative_to(installed.home)
 
 
-def test_the_python_sessions_of_the_page_on_python_run_with_the_installed_wheel(installed, tmp_path):
-    quietly(installed.python, "-m", "doctest", ROOT / "docs" / "api.md", cwd=tmp_path)
+def test_the_python_sessions_of_the_pages_on_python_run_with_the_installed_wheel(installed, tmp_path):
+    pages = [ROOT / "docs" / name for name in ("api.md", "calls.md")]
+    quietly(installed.python, "-m", "doctest", *pages, cwd=tmp_path)
 
 
 GATED = "verify builtin:fast --families tower-body --count 2"

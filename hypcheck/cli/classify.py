@@ -38,11 +38,12 @@ ends belong to it, as to a trunk.
 With --margin the position is said a second time, where all that is not proved to be at least so far away is contact.
 
 A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order, and axis_x, axis_y, axis_z where spheroids
-are tilted; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added. With x1,
-y1, z1, the end of a sweep, hit (1 or 0), label, first_lower and first_upper are. z_min, z_max and solid (0 or 1) say
-where the hyperboloid ends; one of them is enough. A .npy file is float64 (n, 7), (n, 10), the axis behind, or (n, 13),
-z_min, z_max and solid behind the axis, and int8 (n,) as output. A file appears when it is complete, or not at all;
-standard output is written as the rows come.
+are tilted; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added,
+with --margin position_with_margin too. With x1, y1, z1, the end of a sweep, hit (1 or 0), label, first_lower and
+first_upper are. z_min, z_max and solid (0 or 1) say where the hyperboloid ends; one of them is enough. A .npy file is
+float64 (n, 7), (n, 10), the axis behind, or (n, 13), z_min, z_max and solid behind the axis; as output it is int8 (n,),
+positions, with the margin if one is given. A file appears when it is complete, or not at all; standard output is
+written as the rows come.
 """
 
 
@@ -93,17 +94,15 @@ def classify(
     sizes = dict(zip(SIZES, (alpha, gamma, b, d), strict=True))
     vectors = {"--center": center is not None, "--axis": axis is not None, "--end": end is not None}
     heights = {"--z-min": z_min is not None, "--z-max": z_max is not None, "--solid": solid}
-    for_a_pair = {"--json": as_json, "--margin": margin is not None} | {
-        f"--{name}": text is not None for name, text in sizes.items()
-    }
+    length = None if margin is None else _margin(margin, end)
+    for_a_pair = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
     for_a_table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
     if source is not None:
         _refuse(for_a_pair | vectors | heights, "is for one pair, and --input for a table; use one of them")
-        _answer_table(source, target, said, mark=on_invalid == "flag")
+        _answer_table(source, target, said, length, mark=on_invalid == "flag")
         return
     _refuse(for_a_table, "is for tables; name one with --input")
     pair = _with_heights(_pair_of(sizes, center, axis), z_min, z_max, solid)
-    length = None if margin is None else _margin(margin, end)
     click.echo(_answered(pair, length, as_json=as_json) if end is None else _swept(pair, end, as_json=as_json))
 
 
@@ -141,13 +140,13 @@ def _refuse(options: dict[str, bool], reason: str) -> None:
         raise InputError(f"{given[0]} {reason}")
 
 
-def _answer_table(source: str, target: str | None, said: str | None, *, mark: bool) -> None:
+def _answer_table(source: str, target: str | None, said: str | None, margin: float | None, *, mark: bool) -> None:
     if target is None:
         raise InputError("--output is missing; name a file for the answers, or - for standard output")
     way = route(source, target, said)
     from hypcheck.answers import classify_table
 
-    classify_table(way, mark=mark, watch=_watch)
+    classify_table(way, mark=mark, watch=_watch, margin=margin)
 
 
 @contextmanager

@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,7 +21,7 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, HEIGHTS, SIZES, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, Rows, as_numbers, as_rows, names_of, require_valid
-from hypcheck.messages import counted
+from hypcheck.messages import counted, escaped
 
 Argument: TypeAlias = Any
 """A number, a column (n,), points, rows or a table, as said above."""
@@ -79,11 +80,9 @@ def pairs_of(
 ) -> Pairs:
     """The pairs of a call. Raises InputError for other numbers of arguments, and for what is given twice."""
     columns: dict[str, Argument] = {}
+    require_known(named, (*PAIRS.ended, "center"))
     _add(columns, _by_position(arguments))
-    others = dict(named)
-    if "center" in others:
-        _add(columns, named_points("center", others.pop("center")))
-    _add(columns, others)
+    _add(columns, spread(named, _POINTS))
     if axis is not None:
         _add(columns, named_points("axis", axis, AXIS))
     if len(heights) == len(HEIGHTS) and not _are_default(heights):
@@ -98,6 +97,26 @@ def pairs_of(
     whole = dict(zip(PAIRS.columns(rows.shape[1]), rows.T, strict=True))
     _add(whole, columns)
     return Pairs(whole)
+
+
+_POINTS: Mapping[str, Sequence[str]] = {"center": CENTER, "axis": AXIS}
+"""Names that stand for three columns, one point (3,) or points (n, 3)."""
+
+
+def require_known(named: Mapping[str, Argument], known: Sequence[str]) -> None:
+    """Raise InputError about a name that no argument has."""
+    for name in named:
+        if name not in known:
+            columns = f"what pairs are written with is {', '.join(known)}"
+            raise InputError(f"there is no argument {escaped(repr(name), 60)} here; {columns}")
+
+
+def spread(named: Mapping[str, Argument], points: Mapping[str, Sequence[str]]) -> dict[str, Argument]:
+    """Values by the names of columns, where some names stand for three. Raises InputError for what is given twice."""
+    columns: dict[str, Argument] = {}
+    for name, value in named.items():
+        _add(columns, named_points(name, value, points[name]) if name in points else {name: value})
+    return columns
 
 
 def _are_default(heights: Sequence[Argument]) -> bool:
@@ -119,7 +138,7 @@ def _by_position(arguments: Sequence[Argument]) -> dict[str, Argument]:
     if count == 1:
         return _whole(arguments[0])
     if count in (2, 4):
-        sizes, center = _sizes_of(arguments[0]), arguments[1:]
+        sizes, center = sizes_of(arguments[0]), arguments[1:]
     elif count in (5, 7):
         sizes, center = dict(zip(SIZES, arguments, strict=False)), arguments[len(SIZES) :]
     else:
@@ -132,7 +151,7 @@ def _whole(value: Argument) -> dict[str, Argument]:
     """A table by its columns; an array of rows, or one row."""
     names = names_of(value)
     if names is not None:
-        return {name: value[name] for name in names}
+        return spread({name: value[name] for name in names}, _POINTS)
     if not isinstance(value, np.ndarray) and not isinstance(value, str) and isinstance(value, Sequence):
         flat = value and not isinstance(value[0], (Sequence, np.ndarray))
     else:
@@ -146,13 +165,19 @@ def _whole(value: Argument) -> dict[str, Argument]:
     return {"rows": as_rows(value, tilted=True, heights=True)}
 
 
-def _sizes_of(sizes: Argument) -> dict[str, Argument]:
-    wanted = f"they must be four: {', '.join(SIZES)}"
+def sizes_of(sizes: Argument) -> dict[str, Argument]:
+    """Four numbers or columns, or an array (n, 4), whose rows are sizes."""
+    wanted = f"they must be four: {', '.join(SIZES)}, numbers or columns (n,), or an array (n, 4) of numbers"
     if isinstance(sizes, (str, bytes)) or not isinstance(sizes, (Sequence, np.ndarray)):
-        raise InputError(f"the sizes are {sizes!r}; {wanted}")
-    if len(sizes) != len(SIZES):
-        raise InputError(f"the sizes are {len(sizes)}; {wanted}")
-    return dict(zip(SIZES, sizes, strict=True))
+        raise InputError(f"the sizes are {escaped(reprlib.repr(sizes), 60)}; {wanted}")
+    columns: Argument = sizes
+    if isinstance(sizes, np.ndarray) and sizes.ndim > 1:  # rows, as points (n, 3) are
+        if sizes.ndim != 2 or sizes.shape[1] != len(SIZES):
+            raise InputError(f"the sizes are of shape {sizes.shape}; {wanted}")
+        columns = sizes.T
+    elif len(columns) != len(SIZES):
+        raise InputError(f"the sizes are {len(columns)}; {wanted}")
+    return dict(zip(SIZES, columns, strict=True))
 
 
 def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER) -> dict[str, Argument]:

@@ -114,7 +114,8 @@ class Clearance:
     @property
     def contact(self) -> Mask:
         """Whether the two are in contact."""
-        return np.equal(self.position, 0)
+        found: Mask = self.position == 0  # of one pair True or False
+        return found
 
     @cached_property
     @in_default_environment
@@ -128,7 +129,8 @@ class Clearance:
     def tie(self) -> Mask:
         """Whether another point is as near, by a symmetry of both bodies."""
         found = normals.ties(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
-        return found if np.ndim(self.position) else found[0]
+        one: Any = bool(found[0])
+        return found if np.ndim(self.position) else one
 
     @property
     def one(self) -> Clearance:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, overload
 
 from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.pair import SIZES
 from hypcheck.truth import swept
 
 if TYPE_CHECKING:  # it loads numpy, and one way does without
@@ -54,10 +55,11 @@ def passage(
     """Whether a spheroid that goes straight from one centre to another meets contact, its two ends included, and when.
 
     Ways are written (sizes, start, end) or (alpha, gamma, b, d, start, end): sizes are numbers or columns (n,), start
-    and end are points (3,) or (n, 3) from the hyperboloid's centre, in one unit; or rows (n, 10), (n, 13), (n, 16), or
-    a table of columns: alpha, gamma, b, d, x, y, z at the start, x1, y1, z1 at the end. `axis`, (3,) or (n, 3), is any
-    vector along the spheroid's axis of revolution, which keeps its direction on the way; it is vertical without. The
-    hyperboloid ends at the heights `z_min` and `z_max` along its axis; with `solid`, flat ends belong to it.
+    and end are points (3,) or (n, 3) from the hyperboloid's centre, in one unit, and each may be named; or rows (n,
+    10), (n, 13), (n, 16), or a table of columns: alpha, gamma, b, d, x, y, z at the start, x1, y1, z1 at the end.
+    `axis`, (3,) or (n, 3), is any vector along the spheroid's axis of revolution, which keeps its direction on the way;
+    it is vertical without. The hyperboloid ends at the heights `z_min` and `z_max` along its axis; with `solid`, flat
+    ends belong to it.
 
     The answer has `.hit`, `.first_lower` and `.first_upper`, floats between which the time of the first contact lies, 0
     at the start and 1 at the end, NaN where there is none, and `.first`, the same as exact fractions or None; for many
@@ -69,6 +71,8 @@ def passage(
     >>> passage((1, 2, 1, 1), (4, 0, 0), (0, 0, 0)).hit  # half of the way to the axis
     True
     """
+    if columns:
+        ways, columns = _by_position(ways, columns)
     sizes_and_points: tuple[Argument, ...] = (ways[:4], *ways[4:]) if len(ways) == 6 else ways
     single = 3 <= len(sizes_and_points) <= 5 and not columns
     if single and not any(map(_has_rows, (*sizes_and_points, axis, z_min, z_max, solid))):
@@ -84,6 +88,17 @@ def passage(
 
         raise InputError("upward is given, and the ways are many; a scene has hyperboloids that lean")
     return passages(ways, columns, axis, (z_min, z_max, solid))
+
+
+def _by_position(
+    ways: tuple[Argument, ...], columns: dict[str, Argument]
+) -> tuple[tuple[Argument, ...], dict[str, Argument]]:
+    """What is given by name in its place, where that is all sizes, a start and an end."""
+    places = ((), ("start", "end"), ("end",))  # what is missing behind no, one, or two arguments
+    names = (*SIZES, "start", "end")[len(ways) :] if len(ways) in (0, 4, 5) else places[min(len(ways), 2)]
+    if set(columns) != set(names):
+        return ways, columns
+    return (*ways, *(columns[name] for name in names)), {}
 
 
 def _has_rows(value: object) -> bool:

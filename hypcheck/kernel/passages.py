@@ -17,13 +17,14 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Argument, named_points
-from hypcheck.geometry.pair import AXIS, END, HEIGHTS, REFUSED, SIZES, START, WITHOUT_ENDS
+from hypcheck.geometry.forms import Argument, named_points, require_known, sizes_of, spread
+from hypcheck.geometry.pair import AXIS, CENTER, END, HEIGHTS, REFUSED, SIZES, START, WITHOUT_ENDS
 from hypcheck.geometry.rows import (
     CANNOT_SAY,
     WAYS,
     Floats,
     Indices,
+    Layout,
     Mask,
     Positions,
     Rows,
@@ -106,7 +107,7 @@ def passages(
     """What happens on ways, written as hypcheck.passage takes them. Raises InputError."""
     given, single = _rows_of(ways, columns, axis, heights)
     rows = np.ascontiguousarray(given)
-    require_valid(rows, layout=WAYS)
+    require_valid(rows, layout=_LAYOUT)
     hits = _hits(rows)
     return Passages(bool(hits[0]) if single else hits, lambda way: (_interval(rows[way].tolist()), 0))
 
@@ -116,35 +117,42 @@ def _rows_of(
 ) -> tuple[Rows, bool]:
     """Rows of ways, and whether they are one way of numbers."""
     values: dict[str, Argument] = {}
+    columns = {_NEW.get(name, name): value for name, value in columns.items()}
+    require_known(columns, (*_LAYOUT.ended, "start", "end"))
     if len(ways) == 1 and not columns and axis is None and names_of(ways[0]) is None:
-        rows = as_rows(ways[0], tilted=True, heights=True, layout=WAYS)
-        return rows, False
+        single = np.ndim(ways[0]) == 1
+        rows = as_rows([ways[0]] if single else ways[0], tilted=True, heights=True, layout=_LAYOUT)
+        return rows, single
     if len(ways) == 1:
         names = names_of(ways[0])
+        if names is None and not {"start", "end"}.isdisjoint(columns):
+            raise InputError(f"{_FORMS}; start or end is missing")
         if names is None:
             raise InputError("rows of ways have their own axis and heights; these cannot be given beside them")
-        values = {_NEW.get(name, name): ways[0][name] for name in names}
+        values = spread({_NEW.get(name, name): ways[0][name] for name in names}, _POINTS)
     elif len(ways) in (3, 6):
-        sizes = ways[0] if len(ways) == 3 else ways[:4]
-        if len(sizes) != len(SIZES):
-            raise InputError(f"the sizes are {len(sizes)}; they must be four: {', '.join(SIZES)}")
-        values = dict(zip(SIZES, sizes, strict=True))
-        values |= named_points("start", ways[-2], START) | named_points("end", ways[-1], END)
+        values = sizes_of(ways[0] if len(ways) == 3 else ways[:4])
+        values |= named_points("start", ways[-2]) | named_points("end", ways[-1], END)
     elif ways or not columns:
-        raise InputError(
-            f"passage takes (sizes, start, end), (alpha, gamma, b, d, start, end), rows or a table, not {len(ways)} "
-            "arguments"
-        )
-    values |= {_NEW.get(name, name): value for name, value in columns.items()}
+        raise InputError(f"{_FORMS}, not {len(ways)} arguments")
+    values |= spread(columns, _POINTS)
     if axis is not None:
         values |= named_points("axis", axis, AXIS)
     if any(np.ndim(height) or height != usual for height, usual in zip(heights, WITHOUT_ENDS, strict=True)):
         values |= dict(zip(HEIGHTS, heights, strict=True))
-    return as_rows(values, tilted=True, heights=True, layout=WAYS), all(not np.ndim(each) for each in values.values())
+    rows = as_rows(values, tilted=True, heights=True, layout=_LAYOUT)
+    return rows, all(not np.ndim(each) for each in values.values())
 
 
-_NEW = dict(zip(("x", "y", "z"), START, strict=True))
-"""A table of rows calls the centre at the start x, y, z; inside it is x0, y0, z0."""
+_FORMS = "passage takes (sizes, start, end), (alpha, gamma, b, d, start, end), rows or a table"
+
+_LAYOUT = Layout(SIZES + CENTER + END)
+"""The columns of ways as rows and tables have them."""
+
+_POINTS = {"start": CENTER, "end": END, "axis": AXIS}
+
+_NEW = dict(zip(START, CENTER, strict=True))
+"""The protocol calls the centre at the start x0, y0, z0; that is taken too."""
 
 
 def _hits(rows: Rows) -> Mask:

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.forms import Answers
 from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
 from hypcheck.kernel import scene_nearest
@@ -48,7 +49,14 @@ from hypcheck.kernel.scene_pairs import (
 )
 from hypcheck.kernel.scene_pictures import shown_flight
 from hypcheck.kernel.scene_prepared import PreparedScene
-from hypcheck.kernel.scene_queries import directions, finite_columns, finite_numbers, points_or_columns, ways_of
+from hypcheck.kernel.scene_queries import (
+    are_one,
+    directions,
+    finite_columns,
+    finite_numbers,
+    points_or_columns,
+    ways_of,
+)
 from hypcheck.kernel.scene_sweeps import Spheroid, Sweep, first_contact, hits_beside, is_clear
 from hypcheck.pictures.page import ScenePage, page_of
 from hypcheck.pictures.plot import plot_of
@@ -84,8 +92,8 @@ class Scene(PreparedScene):
         *,
         axis: ArrayLike | None = None,
         margin: float = 0.0,
-    ) -> Positions:
-        """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,) always.
+    ) -> Answers:
+        """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,), an int for one.
 
         `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); `heading` is the mover's
         direction in degrees, which places its parts. `axis`, (3,) or (n, 3), is the mover's where the scene says that
@@ -94,10 +102,12 @@ class Scene(PreparedScene):
         `margin`, a length: what is not proved to be at least so far from all hyperboloids is contact. Raises InputError
         for numbers that are not finite, and for an axis where the scene fixes it.
         """
-        positions = self._positions(points_or_columns(x, y, z), heading, axis)
+        center = points_or_columns(x, y, z)
+        positions = self._positions(center, heading, axis)
         if margin:
-            positions = self._kept_apart(positions, points_or_columns(x, y, z), heading, axis, margin)
-        return self._answers(positions)
+            positions = self._kept_apart(positions, center, heading, axis, margin)
+        answers = self._answers(positions)
+        return int(answers[0]) if are_one(center, heading, axis) else answers
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
         axes = self._axes(axis) if axis is not None or self._leaning else ()
@@ -144,7 +154,7 @@ class Scene(PreparedScene):
         if y is None or z is None or margin:
             x, y, z = points_or_columns(x, y, z)
         if margin:
-            return int(self.classify(x, y, z, heading, axis=axis, margin=margin)[0])
+            return int(np.atleast_1d(self.classify(x, y, z, heading, axis=axis, margin=margin))[0])
         x, y, z, heading = finite_numbers(x, y, z, heading)
         if axis is not None or self._leaning:
             return self._position_leaning((x, y, z), heading, axis)
@@ -310,19 +320,26 @@ class Scene(PreparedScene):
     def nearest(
         self, x: ArrayLike, y: ArrayLike | None = None, z: ArrayLike | None = None, *, axis: ArrayLike | None = None
     ) -> Nearest:
-        """Which hyperboloid is nearest to the mover, its distance between proved numbers, and the nearest point.
+        """Which hyperboloid is nearest to the mover, its distance between proved numbers, nearest point and normal.
 
-        `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points (n, 3). The distance
-        is Euclidean, from the mover itself, not its parts,
-        to what stands of the surface, and to flat ends where they belong to it, wherever the mover is, whatever the
-        scene's question is; it is 0 in contact, and only there. `axis` is as in classify. Raises InputError for numbers
-        that are not finite, and for an axis where the scene fixes it.
+        `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); one centre is answered
+        by numbers. The distance is Euclidean, from the mover itself, not its parts, to what stands of the surface, and
+        to flat ends where they belong to it, wherever the mover is, whatever the scene's question is; it is 0 in
+        contact, and only there. `axis` is as in classify. Raises InputError for numbers that are not finite, and for an
+        axis where the scene fixes it.
+
+        >>> scene = Scene.from_arrays([2, 1], 17.8, [[0, 0, 0], [9, 0, 0]], mover=(0.25, 0.25))
+        >>> near = scene.nearest((5, 0, 0))
+        >>> near.index, near.distance_lower <= 2.75 <= near.distance_upper, near.normal.round(6).tolist()
+        (0, True, [1.0, 0.0, 0.0])
         """
         mover = self.model.mover
         axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
-        columns = finite_columns((*CENTER, *AXIS[: len(axes)]), (*points_or_columns(x, y, z), *axes))
+        center = points_or_columns(x, y, z)
+        columns = finite_columns((*CENTER, *AXIS[: len(axes)]), (*center, *axes))
         movers = directions(columns[3:]) if axes else None
-        return scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
+        found = scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
+        return scene_nearest.first_of(found) if are_one(center, 0, axis) else found
 
     def _position_leaning(self, centre: Point, heading: float, axis: Sequence[float] | None) -> int:
         """The same where something leans."""

@@ -19,13 +19,14 @@ Pairs are left out by the cylinder about what stands: the mover is no nearer to 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, UPRIGHT, Position
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearances
+from hypcheck.kernel.normals import normals
 from hypcheck.kernel.scene_ends import positions_with_ends
 from hypcheck.kernel.scene_frames import frames_of, turned, turned_axes
 from hypcheck.kernel.scene_gaps import gaps
@@ -44,10 +45,13 @@ class Nearest:
     """What Scene.nearest says of n centres.
 
     `index` (n,): the number of the nearest hyperboloid in the scene's order, from 0. `tied` (n,): another one may be as
-    near, as their distances are equal, both are in contact, or the bounds do not tell them apart.
+    near, as their distances are equal, both are in contact, or the bounds do not tell them apart. `contact` (n,):
+    whether there is contact.
     `distance_lower` ≤ distance ≤ `distance_upper` (n,): the Euclidean distance from the mover to the nearest of all.
     `point` (n, 3): a point of that hyperboloid whose distance is `distance_upper` at most, but for its rounding; NaN
-    where the centres are so far apart that their difference overflows, of which only contact is known.
+    where the centres are so far apart that their difference overflows, of which only contact is known. `normal`
+    (n, 3): the unit vector from there to the mover, which is the gradient of the distance with respect to the centre;
+    NaN in contact; nothing is proved of its error. One centre alone has numbers, and vectors (3,).
     """
 
     index: Indices
@@ -55,6 +59,19 @@ class Nearest:
     distance_lower: Floats
     distance_upper: Floats
     point: Floats
+    normal: Floats
+
+    @property
+    def contact(self) -> Mask:
+        """Whether the mover is in contact."""
+        found: Mask = self.distance_upper == 0  # of one centre True or False
+        return found
+
+
+def first_of(found: Nearest) -> Nearest:
+    """What is said of the first centre alone, with numbers in the place of arrays (n,)."""
+    first = [getattr(found, part.name)[0] for part in fields(Nearest)]
+    return Nearest(*(value if np.ndim(value) else value.item() for value in first))
 
 
 def nearest(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None) -> Nearest:
@@ -62,11 +79,21 @@ def nearest(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None) 
     count, some = len(centres), max(1, PAIRS_AT_A_TIME // len(bodies.tall))
     found = Nearest(
         np.zeros(count, np.intp), np.zeros(count, np.bool_), np.full(count, np.inf), np.full(count, np.inf),
-        np.full((count, 3), np.nan),
+        np.full((count, 3), np.nan), np.full((count, 3), np.nan),
     )  # fmt: skip
     for start in range(0, count, some):
         _fill(found, bodies, mover, (centres, axes), np.arange(start, min(start + some, count)))
+    found.normal[:] = _normals(found, mover, centres, axes)
     return found
+
+
+def _normals(found: Nearest, mover: Mover, centres: Floats, axes: Floats | None) -> Floats:
+    """The unit vectors from the points to movers at these centres: in the scene, where only the mover matters."""
+    rows = np.zeros((len(centres), len(TILTED_COLUMNS)))
+    rows[:, 2:4], rows[:, 7:] = (mover.b, mover.d), UPRIGHT if axes is None else axes
+    with np.errstate(over="ignore", invalid="ignore"):
+        off = found.point - centres
+    return normals(rows, off, np.where(found.contact | np.isnan(off).any(axis=1), 0, 1).astype(np.int8))
 
 
 Movers = tuple[Floats, Floats | None]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -23,8 +24,9 @@ from hypcheck.kernel.scene_ends import limits_of
 from hypcheck.kernel.scene_index import Bodies, PlaneGrid, bodies_of, grid_of, in_reach, reaches
 from hypcheck.kernel.scene_motion import Near, near_of
 from hypcheck.kernel.scene_pairs import Body
-from hypcheck.scene.arrays import checked_hyperboloid, hyperboloids_of, point_of, require_valid_mover
-from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, leans
+from hypcheck.messages import escaped
+from hypcheck.scene.arrays import checked_hyperboloid, hyperboloids_of, mover_of, point_of, require_valid_mover
+from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, leans
 from hypcheck.scene.reading import parse_scene, read_scene
 
 if TYPE_CHECKING:
@@ -41,6 +43,9 @@ class PreparedScene:
     def __post_init__(self) -> None:
         if not self.model.hyperboloids:
             raise InputError("the scene has no hyperboloid; it must have one at least")
+        if self.model.question not in QUESTIONS:
+            asked = escaped(reprlib.repr(self.model.question), 60)
+            raise InputError(f"the question is {asked}; it must be {', '.join(QUESTIONS[:-1])} or {QUESTIONS[-1]}")
         require_valid_mover(self.model.mover)
 
     @classmethod
@@ -64,7 +69,7 @@ class PreparedScene:
         center: ArrayLike,
         axis: ArrayLike | None = None,
         *,
-        mover: Mover,
+        mover: Mover | Sequence[float],
         z_min: ArrayLike = -inf,
         z_max: ArrayLike = inf,
         solid: ArrayLike = False,
@@ -76,9 +81,10 @@ class PreparedScene:
         """The scene of hyperboloids in arrays: numbers and columns (n,) are broadcast.
 
         `alpha` and `gamma` are the semi-axes, `center` (n, 3) where they stand in the scene, `axis` (n, 3) or (3,)
-        their axes, upright without. They end at the heights `z_min` and `z_max` along these from their centres; where
-        `solid`, flat ends belong to them. `names` are "hyperboloid 1", … without. All lengths are in one unit. Raises
-        InputError naming the hyperboloid and the number that is not valid.
+        their axes, upright without. `mover` is a Mover, or its two semi-axes b, d. Hyperboloids end at the heights
+        `z_min` and `z_max` along their axes from their centres; where `solid`, flat ends belong to them. `names` are
+        "hyperboloid 1", … without. All lengths are in one unit. Raises InputError naming the hyperboloid and the number
+        that is not valid.
 
         >>> scene = Scene.from_arrays([2, 1], 17.8, [[0, 0, 0], [9, 0, 0]], mover=Mover(0.25, 0.15))
         >>> scene.classify([[0, 0, 5], [5, 0, 0], [8, 0, 0]])
@@ -86,10 +92,20 @@ class PreparedScene:
         """
         heights = z_min, z_max, solid
         bodies = hyperboloids_of(alpha, gamma, center, axis, heights, names)
-        return cls(SceneModel(name, question, bodies, mover, region))
+        return cls(SceneModel(name, question, bodies, mover_of(mover), region))
 
     def with_hyperboloid(self, hyperboloid: Hyperboloid) -> Self:
-        """The scene with one hyperboloid more, the last; a hundredth of the cost of a new scene of 10⁵ of them."""
+        """The scene with one hyperboloid more, the last; a hundredth of the cost of a new scene of 10⁵ of them.
+
+        Raises InputError where a number of it is not valid, or its name is taken.
+
+        >>> scene = Scene.from_arrays([2, 1], 17.8, [[0, 0, 0], [9, 0, 0]], mover=(0.25, 0.15))
+        >>> scene.with_hyperboloid(Hyperboloid("new", 1, 17.8, (5, 0, 0))).classify((5, 0, 5))
+        -1
+        """
+        if not isinstance(hyperboloid, Hyperboloid):
+            wanted = "it must be a hypcheck.Hyperboloid(name, alpha, gamma, center)"
+            raise InputError(f"a {type(hyperboloid).__name__} is added; {wanted}")
         model, body = self.model, checked_hyperboloid(hyperboloid)
         if any(hyperboloid.name == other.name for other in model.hyperboloids):
             raise InputError(f"there is a hyperboloid {hyperboloid.name!r} already; each must have another name")

@@ -26,6 +26,11 @@ def points_or_columns(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) ->
     return x, y, z
 
 
+def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> bool:
+    """Whether a query is about one centre, in numbers, which is answered by numbers."""
+    return not any(map(np.ndim, (*center, heading))) and np.ndim(() if axis is None else axis) == 1
+
+
 def ways_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
     """The ends of ways, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are none."""
     points = []

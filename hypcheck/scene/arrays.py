@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -12,8 +13,8 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.geometry.forms import named_points
 from hypcheck.geometry.pair import AXIS, CENTER, HEIGHTS, SIZES, trouble_with, trouble_with_axis, trouble_with_heights
-from hypcheck.geometry.rows import as_columns
-from hypcheck.messages import counted
+from hypcheck.geometry.rows import as_columns, as_numbers
+from hypcheck.messages import counted, escaped
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Point, Span
 
 
@@ -48,6 +49,13 @@ def hyperboloids_of(
 
 def checked_hyperboloid(body: Hyperboloid) -> Hyperboloid:
     """The hyperboloid with float64 for its numbers. Raises InputError where one is not valid."""
+    if not isinstance(body.name, str):
+        raise InputError(
+            f"a hyperboloid's name is {escaped(reprlib.repr(body.name), 60)}; it must be a text: "
+            "Hyperboloid(name, alpha, gamma, center)"
+        )
+    for name in SIZES[:2]:
+        _require_number(f"the hyperboloid {body.name!r}: {name} is", getattr(body, name))
     low, high = (-math.inf, math.inf) if body.height is None else (body.height.low, body.height.high)
     (checked,) = hyperboloids_of(
         body.alpha, body.gamma, [body.center], [body.axis], (low, high, float(body.solid)), [body.name]
@@ -62,6 +70,23 @@ def point_of(subject: str, point: ArrayLike) -> Point:
         raise InputError(f"{subject} is of shape {np.shape(point)}; it must be three numbers")
     x, y, z = values
     return x, y, z
+
+
+def _require_number(subject: str, value: object) -> None:
+    """Raise InputError unless the value is one real number."""
+    if as_numbers(subject, value, "it must be a number").ndim:
+        raise InputError(f"{subject} {escaped(reprlib.repr(value), 60)}; it must be a number")
+
+
+def mover_of(mover: Mover | Sequence[float]) -> Mover:
+    """A mover as it is, or one of two semi-axes b and d. Raises InputError for anything else."""
+    if isinstance(mover, Mover):
+        return mover
+    wanted = "it must be a hypcheck.Mover, or its two semi-axes b, d"
+    b, *others = as_numbers("the mover is", mover, wanted).ravel().tolist() or [math.nan]
+    if len(others) != 1:
+        raise InputError(f"the mover is {escaped(reprlib.repr(mover), 60)}; {wanted}")
+    return Mover(b, others[0])
 
 
 def require_valid_mover(mover: Mover) -> None:

@@ -32,6 +32,7 @@ from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Positions, Rows
 from hypcheck.tables.numbers import shown
 
 ADDED = ("position", "label", "tangent", "clearance")
+WITH_MARGIN = "position_with_margin"
 ADDED_TO_SWEEPS = ("hit", "label", "first_lower", "first_upper")
 """The names of what is added to a row, and to one with an end."""
 
@@ -89,8 +90,8 @@ def in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
 
 
 def added_to(columns: Sequence[str]) -> tuple[str, ...]:
-    """The names of what is added to rows of these columns."""
-    return ADDED_TO_SWEEPS if END[0] in columns else ADDED
+    """The names of all that may be added to rows of these columns: what a column of the table cannot be called."""
+    return ADDED_TO_SWEEPS if END[0] in columns else (*ADDED, WITH_MARGIN)
 
 
 def first_double(names: Sequence[str]) -> str | None:
@@ -154,12 +155,19 @@ class Table:
 
     header, line_end: of CSV, as it was written.
     columns: those that are read; of JSON lines, which may have others, seven.
+    margin: whether answers have a position with a margin.
     """
 
     chunks: Iterator[UnreadChunk]
     header: str | None = None
     line_end: str = "\n"
     columns: tuple[str, ...] = COLUMNS
+    margin: bool = False
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """The names of what is added to a row."""
+        return tuple(name for name in added_to(self.columns) if name != WITH_MARGIN or self.margin)
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,11 +177,13 @@ class TableAnswers:
     positions: exact, int8; 127 marks a refused row, in which the other two mean nothing.
     tangent: whether the surfaces touch without crossing.
     clearance: in spheroid radii.
+    with_margin: the positions where what is not proved to be at least a margin away is contact; None without one.
     """
 
     positions: Positions
     tangent: NDArray[np.bool_]
     clearance: NDArray[np.float64]
+    with_margin: Positions | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,7 +29,6 @@ from hypcheck.tables.chunk import (
     TableAnswers,
     TableChunk,
     UnreadChunk,
-    added_to,
     check_names,
     columns_of,
     in_layout,
@@ -124,10 +123,10 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
-    """Rows with four cells more: a row's own text where the table has text, else its numbers."""
+    """Rows with four cells more, or with five: a row's own text where the table has text, else its numbers."""
     end = table.line_end
     header = table.header if table.header is not None else ",".join(table.columns)
-    writer.write(f"{header},{','.join(added_to(table.columns))}{end}".encode())
+    writer.write(f"{header},{','.join(table.added)}{end}".encode())
     yield Sink(partial(_render, end), writer.write)
 
 
@@ -141,6 +140,9 @@ def _render(end: str, chunk: TableChunk, answers: TableAnswers | SweepAnswers) -
     lines = [f"{text}{cells}{clearance}{end}" for text, cells, clearance in rows]
     for index in np.flatnonzero(chunk.refused).tolist():
         lines[index] = f"{texts[index]},{REFUSED},{LABELS[REFUSED]},,{end}"
+    if answers.with_margin is not None:
+        kept = zip(lines, answers.with_margin.tolist(), strict=True)
+        lines = [f"{line.removesuffix(end)},{position}{end}" for line, position in kept]
     return "".join(lines).encode()
 
 

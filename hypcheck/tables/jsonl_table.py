@@ -26,6 +26,7 @@ from hypcheck.tables.chunk import (
     ADDED_TO_SWEEPS,
     CHUNK,
     LABELS,
+    WITH_MARGIN,
     RowPlaces,
     Sink,
     SweepAnswers,
@@ -54,7 +55,7 @@ def read_jsonl(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
-    """Objects with four keys more: a row's own object where the table has text, else one of its numbers."""
+    """Objects with four keys more, or with five: a row's own where the table has text, else one of its numbers."""
     yield Sink(_render, writer.write)
 
 
@@ -71,6 +72,9 @@ def _render(chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
     lines = [f"{text[:-1]}{keys}{clearance}}}\n" for text, keys, clearance in rows]
     for index in np.flatnonzero(chunk.refused).tolist():
         lines[index] = f"{texts[index][:-1]}{_REFUSED_KEYS}}}\n"
+    if answers.with_margin is not None:
+        kept = zip(lines, answers.with_margin.tolist(), strict=True)
+        lines = [f'{line[:-2]}, "{WITH_MARGIN}": {position}}}\n' for line, position in kept]
     return "".join(lines).encode()
 
 
@@ -95,7 +99,7 @@ def _json_number(name: str, value: float) -> float | str | None:
 _DECODER, _LITERAL_DECODER = strict_decoder(), strict_decoder(Literal)
 _PICK, _PICK_TILTED = itemgetter(*COLUMNS), itemgetter(*TILTED_COLUMNS)
 _BLANKS = " \t\r\n"
-_CLEAR_OF_ADDED, _CLEAR_OF_AXIS = frozenset(ADDED).isdisjoint, frozenset(AXIS).isdisjoint
+_CLEAR_OF_ADDED, _CLEAR_OF_AXIS = frozenset((*ADDED, WITH_MARGIN)).isdisjoint, frozenset(AXIS).isdisjoint
 _NAMES_OF_GROUPS = re.compile("|".join((*END, "axis_", *HEIGHTS)), re.IGNORECASE)
 _COLUMNS_OF = {True: COLUMNS, False: TILTED_COLUMNS}
 

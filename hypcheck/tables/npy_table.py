@@ -43,7 +43,10 @@ def read_npy(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
-    """Positions or hits alone, as one int8 array (n,), written when the block ends well. Raises InputError."""
+    """Positions, with a margin if one is given, or hits, as one int8 array (n,), written when the block ends well.
+
+    Raises InputError.
+    """
     # The header comes first and has the count, which is known at the end, and an output may be a pipe.
     with tempfile.TemporaryFile() as file:
         kept, count = Writer(file, "a temporary file"), 0
@@ -63,7 +66,9 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
 
 
 def _render(_chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
-    return (answers.hits if isinstance(answers, SweepAnswers) else answers.positions).tobytes()
+    if isinstance(answers, SweepAnswers):
+        return answers.hits.tobytes()
+    return (answers.positions if answers.with_margin is None else answers.with_margin).tobytes()
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,6 +36,10 @@ FORMS = {
     "sizes and columns": lambda ask, **more: ask(SIZES, *POINTS.T, **more),
     "numbers and points": lambda ask, **more: ask(*SIZES, POINTS.tolist(), **more),
     "numbers and columns": lambda ask, **more: ask(*SIZES, *POINTS.T, **more),
+    "an array of sizes": lambda ask, **more: ask(np.tile(SIZES, (4, 1)), POINTS, **more),
+    "a table of points": lambda ask, **more: ask(
+        {"alpha": 2, "gamma": 17.8, "b": 0.25, "d": 0.15, "center": POINTS}, **more
+    ),
     "names": lambda ask, **more: ask(alpha=2, gamma=17.8, b=0.25, d=0.15, center=POINTS, **more),
 }
 
@@ -64,6 +68,57 @@ def test_all_forms_have_the_same_answers_without_the_compiled_kernel():
     subprocess.run([sys.executable, "-c", code], check=True, env=environment, timeout=60)
 
 
+SWEPT = {
+    "sizes and points": lambda: hypcheck.passage(SIZES, POINTS, (0, 0, 5)),
+    "numbers and points": lambda: hypcheck.passage(*SIZES, POINTS, (0, 0, 5)),
+    "sizes and names": lambda: hypcheck.passage(SIZES, start=POINTS, end=(0, 0, 5)),
+    "the end by its name": lambda: hypcheck.passage(SIZES, POINTS, end=(0, 0, 5)),
+    "names": lambda: hypcheck.passage(alpha=2, gamma=17.8, b=0.25, d=0.15, start=POINTS, end=(0, 0, 5)),
+    "an array of sizes": lambda: hypcheck.passage(np.tile(SIZES, (4, 1)), POINTS, (0, 0, 5)),
+    "a table": lambda: hypcheck.passage({**TABLE, "x1": 0, "y1": 0, "z1": 5}),
+    "rows": lambda: hypcheck.passage([[*row, 0, 0, 5] for row in ROWS]),
+}
+
+
+@pytest.mark.parametrize("form", SWEPT.values(), ids=SWEPT)
+def test_all_forms_of_the_same_sweeps_have_the_same_answers(form):
+    """The first point and the way to itself are within the wall, and clear; all others cross the wall."""
+    found = form()
+    assert found.hit.tolist() == [False, True, True, True]
+    assert found.first_lower[1] == 0
+    assert found.index.tolist() == [-1, 0, 0, 0]
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        lambda: hypcheck.passage([*ROWS[2], 0, 0, 5]),
+        lambda: hypcheck.passage(SIZES, start=POINTS[2], end=(0, 0, 5)),
+        lambda: hypcheck.passage(alpha=2, gamma=17.8, b=0.25, d=0.15, start=(3, 0, 5), end=(0, 0, 5)),
+        lambda: hypcheck.passage({**TABLE, "x": 3, "y": 0, "z": 5, "x1": 0, "y1": 0, "z1": 5}),
+    ],
+)
+def test_one_sweep_is_answered_by_numbers(form):
+    found = form()
+    assert (found.hit, found.index) == (True, 0)
+    assert type(found.first_lower) is float or np.ndim(found.first_lower) == 0
+    assert 0.22 < found.first_lower <= found.first_upper < 0.23
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: hypcheck.passage(SIZES, start=POINTS), "passage takes .*; start or end is missing"),
+        (lambda: hypcheck.passage(SIZES, POINTS, (0, 0, 5), margin=1), "there is no argument 'margin' here"),
+        (lambda: hypcheck.clearance(SIZES, POINTS, margin=1), "there is no argument 'margin' here"),
+        (lambda: hypcheck.passage({"alpha": 1}), "columns gamma, b, d, x, y, z, x1, y1, z1 are missing"),
+    ],
+)
+def test_what_no_call_takes_is_refused_by_its_name(call, sentence):
+    with pytest.raises(InputError, match=sentence):
+        call()
+
+
 def test_heights_may_be_columns():
     tops = np.array([4.0, 6.0, 4.0, 6.0])
     rows = [(*row, 0.0, 0.0, 1.0, -np.inf, top, 0.0) for row, top in zip(ROWS, tops.tolist(), strict=True)]
@@ -77,6 +132,12 @@ def test_heights_may_be_columns():
         ((1, 2, 3), {}, r"3 arguments: it takes rows, .* or \(alpha, gamma, b, d, x, y, z\)"),
         ((SIZES[:3], POINTS), {}, "the sizes are 3; they must be four: alpha, gamma, b, d"),
         (("sizes", POINTS), {}, "the sizes are 'sizes'; they must be four"),
+        ((np.ones((4, 3)), POINTS), {}, r"the sizes are of shape \(4, 3\); they must be four: .* or an array \(n, 4\)"),
+        (
+            (SIZES, POINTS),
+            {"centre": POINTS},
+            "there is no argument 'centre' here; what pairs are written with is alpha",
+        ),
         ((SIZES, POINTS[:, :2]), {}, r"the centre is of shape \(4, 2\); it must be three numbers, x, y, z"),
         ((SIZES, POINTS), {"axis": [1, 2]}, r"axis is of shape \(2,\); it must be three numbers, axis_x"),
         ((SIZES, POINTS), {"axis": AXES[:3]}, "have shapes that do not fit together"),

@@ -72,7 +72,7 @@ def test_one_way_has_numbers():
         ((SIZES[:3], STARTS, ENDS), "the sizes are 3; they must be four"),
         ((SIZES, STARTS, ENDS[:2]), "have shapes that do not fit together"),
         ((SIZES, STARTS, ENDS * np.nan), "row 0: x1 is nan; it must be finite"),
-        ((SIZES, STARTS[:, :2], ENDS), r"start is of shape \(5, 2\); it must be three numbers, x0, y0, z0"),
+        ((SIZES, STARTS[:, :2], ENDS), r"start is of shape \(5, 2\); it must be three numbers, x, y, z"),
     ],
 )
 def test_ways_that_mean_nothing_are_refused(arguments, sentence):

@@ -148,10 +148,10 @@ def test_no_place_on_a_clear_flight_is_nearer_than_its_least_distance(seed):
         assert 0 < upper - lower < 1e-7 * (1 + upper)
         assert lower <= near.distance_upper.min()
         here = world.nearest(found.least.center[number])
-        assert here.distance_lower[0] <= upper
-        assert here.distance_upper[0] >= lower
+        assert here.distance_lower <= upper
+        assert here.distance_upper >= lower
         assert upper <= near.distance_upper.min() + 1e-7 * (1 + upper)
-        assert here.tied[0] or here.index[0] == found.least.index[number]
+        assert here.tied or here.index == found.least.index[number]
 
 
 def test_many_flights_answer_as_each_alone():
@@ -270,7 +270,7 @@ def test_a_flight_far_from_all_trees_finds_the_nearest(away):
     path = [[away, away, 0], [away + 1, away, 0]]
     least = world.first_contact(path).least
     near = world.nearest(path[0])
-    assert least.distance_lower <= near.distance_upper[0]
-    assert least.distance_upper >= near.distance_lower[0] - 1
+    assert least.distance_lower <= near.distance_upper
+    assert least.distance_upper >= near.distance_lower - 1
     assert least.distance_upper - least.distance_lower < 1e-6 * away
-    assert world.nearest(least.center).distance_upper[0] >= least.distance_lower
+    assert world.nearest(least.center).distance_upper >= least.distance_lower

@@ -22,8 +22,10 @@ HILLS = (
 
 def both(scene, centre):
     """What a batch and a step say, which is one."""
-    (answer,) = scene.classify(*centre).tolist()
+    answer = scene.classify(*centre)
+    assert type(answer) is int
     assert scene.position(*centre) == answer
+    assert scene.classify([centre]).tolist() == [answer]
     return answer
 
 

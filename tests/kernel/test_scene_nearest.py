@@ -67,9 +67,9 @@ def test_scene_nearest_measures_to_the_end_of_a_tree_above_its_end(number):
     radius = 0.5 * np.sqrt(1 + ((z - 0.5) / 2) ** 2)
     way = np.stack([1 + radius * np.cos(angle), 2 + radius * np.sin(angle), z], axis=-1) - centre
     least = np.sqrt((way**2).sum(axis=-1)).min()
-    assert found.distance_lower[0] <= least - 0.2 + 1e-9
-    assert found.distance_upper[0] >= least - 0.3 - 1e-3
-    assert 0 <= found.point[0, 2] <= 2 + 1e-12
+    assert found.distance_lower <= least - 0.2 + 1e-9
+    assert found.distance_upper >= least - 0.3 - 1e-3
+    assert 0 <= found.point[2] <= 2 + 1e-12
 
 
 def test_scene_nearest_finds_the_nearest_of_trees_with_limited_heights():
@@ -187,8 +187,8 @@ def test_distance_is_0_exactly_in_contact_and_its_interval_holds_the_truth_besid
     tree = scene(Hyperboloid("tree", alpha, 4 * alpha, (origin, 0.0, 0.0)), mover=mover)
     found = tree.nearest(x, 0.0, 0.0)
     assert tree.position(x, 0.0, 0.0) == (1 if gap > 0 else 0)
-    assert (found.distance_upper[0] == 0) == (gap <= 0)
-    assert Fraction(found.distance_lower[0]) <= max(gap, 0) <= Fraction(found.distance_upper[0])
+    assert (found.distance_upper == 0) == found.contact == (gap <= 0)
+    assert Fraction(found.distance_lower) <= max(gap, 0) <= Fraction(found.distance_upper)
 
 
 def sampled_distance(alpha, gamma, span, r, z):
@@ -214,7 +214,7 @@ def test_scene_nearest_bounds_the_distance_from_the_standing_part_at_any_exponen
         for axis in ((0.0, 0.0, 1.0), (1.0, 2.0, 3.0)):
             tree = Hyperboloid("tree", a, c, (0.0, 0.0, up), Span(bottom, top))
             found = scene(tree, mover=Mover(r, r, (), axis)).nearest(across, 0.0, height)
-            least, most = (np.ldexp(each[0], -exponent) for each in (found.distance_lower, found.distance_upper))
+            least, most = (np.ldexp(each, -exponent) for each in (found.distance_lower, found.distance_upper))
             true = max(sampled_distance(alpha, gamma, (low, low + above), x, z) - radius, 0)
             slack = 1e-3 * true + 1e-9 * (1 + alpha / gamma)
             assert least <= true + slack
@@ -258,3 +258,24 @@ def test_position_nearest_and_passage_agree_about_contact_a_hair_from_the_surfac
     assert ((found.distance_upper == 0) == (position == 0)).all()
     assert (found.distance_lower <= found.distance_upper).all()
     assert (tree.passage(centres, centres) == (position == 0)).all()
+
+
+@pytest.mark.parametrize("solid", [False, True])
+def test_the_normal_is_the_gradient_of_the_distance_wherever_bodies_lean_and_end(solid):
+    """By differences of distances, which know nothing of normals; a sum of proved bounds is good to 1e-8."""
+    bodies = (
+        Hyperboloid("a", 2.0, 5.0, (0, 0, 0), Span(-np.inf, 3.0), (0.2, 0.1, 1.0), solid),
+        Hyperboloid("b", 1.0, 3.0, (9, 0, 0), None, (0.0, 0.0, 1.0)),
+    )
+    asked = scene(*bodies, mover=Mover(0.25, 0.6, axis=(1.0, 0.3, 0.2)))
+    points, step = np.random.default_rng(7).normal(size=(60, 3)) * 6, 1e-4
+    found = asked.nearest(points)
+    sides = [[asked.nearest(points + sign * step * way).distance_upper for sign in (1, -1)] for way in np.eye(3)]
+    gradient = np.stack([(ahead - behind) / (2 * step) for ahead, behind in sides], axis=1)
+    clear = ~found.contact
+    assert 30 < clear.sum() < 60
+    assert np.isnan(found.normal[~clear]).all()
+    assert np.abs(found.normal - gradient)[clear].max() < 1e-5
+    one = asked.nearest(points[np.argmax(clear)])
+    assert (one.contact, one.index) == (False, found.index[np.argmax(clear)])
+    assert one.normal == pytest.approx(found.normal[np.argmax(clear)], abs=1e-12)

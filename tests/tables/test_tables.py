@@ -130,6 +130,33 @@ def test_npy_becomes_text_and_text_becomes_npy(tmp_path):
     assert np.load(tmp_path / "out.npy").tolist() == [1, 0, 0, -1, 1]
 
 
+def test_a_table_with_a_margin_has_a_column_for_it(tmp_path):
+    """Spheres outside a waist of radius 1, at distances that are differences; γ is so large that the waist is near."""
+    rows = [(1.0, 8.0, 0.5, 0.5, 1.5 + gap, 0.0, 0.0) for gap in (0.25, 0.5, 0.75, -0.5)] + [
+        (1.0, 8.0, -1.0, 1.0, 3.0, 0, 0)
+    ]
+    (tmp_path / "in.csv").write_text("\n".join([HEADER, *map(text_of, rows)]))
+    np.save(tmp_path / "in.npy", rows)
+    options = ["--margin", "0.4", "--on-invalid", "flag"]
+    kept = ["0", "1", "1", "0", "127"]
+    assert classify(tmp_path / "in.csv", tmp_path / "out.csv", *options) == 0
+    table = list(csv.DictReader((tmp_path / "out.csv").read_text().splitlines()))
+    assert [row["position_with_margin"] for row in table] == kept
+    assert [row["position"] for row in table] == ["1", "1", "1", "0", "127"]
+    assert classify(tmp_path / "in.npy", tmp_path / "out.jsonl", *options) == 0
+    objects = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
+    assert [str(one["position_with_margin"]) for one in objects] == kept
+    assert classify(tmp_path / "in.csv", tmp_path / "out.npy", *options) == 0
+    assert list(map(str, np.load(tmp_path / "out.npy").tolist())) == kept
+
+
+def test_a_margin_of_a_table_of_sweeps_is_refused(tmp_path, capsys):
+    (tmp_path / "in.csv").write_text(HEADER + ",x1,y1,z1\n1,2,1,1,3,0,0,0,0,0\n")
+    assert classify(tmp_path / "in.csv", tmp_path / "out.csv", "--margin", "1") == 2
+    assert "--margin is for positions; x1, y1, z1 make the rows sweeps" in capsys.readouterr().err
+    assert not (tmp_path / "out.csv").exists()
+
+
 def run(words: list[str], data: bytes) -> subprocess.CompletedProcess[bytes]:
     program = [sys.executable, "-m", "hypcheck", "classify"]
     return subprocess.run([*program, *words], input=data, capture_output=True, check=False)
