@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import InitVar, dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -74,6 +74,60 @@ class Prepared:
     def __reduce__(self) -> tuple[type[Prepared], tuple[Sizes, Axis | None]]:
         """Sizes and axis: what is kept means something to the build that made it alone, so a copy prepares anew."""
         return Prepared, (self.sizes, self.axis)
+
+
+@overload
+def classify(
+    *pairs: Argument,
+    axis: ArrayLike | None = None,
+    z_min: ArrayLike = -math.inf,
+    z_max: ArrayLike = math.inf,
+    solid: ArrayLike = False,
+    margin: float = 0.0,
+    out: Positions,
+    on_invalid: Literal["raise", "flag"] = "raise",
+    question: Question = "position",
+    threads: int | None = None,
+    **columns: ArrayLike,
+) -> Positions: ...
+
+
+@overload
+def classify(
+    alpha: float,
+    gamma: float,
+    b: float,
+    d: float,
+    x: float,
+    y: float,
+    z: float,
+    /,
+    *,
+    axis: Sequence[float] | None = None,
+    z_min: float = -math.inf,
+    z_max: float = math.inf,
+    solid: bool = False,
+    margin: float = 0.0,
+    on_invalid: Literal["raise", "flag"] = "raise",
+    question: Question = "position",
+    threads: int | None = None,
+) -> int: ...
+
+
+@overload
+def classify(
+    *pairs: Argument,
+    axis: ArrayLike | None = None,
+    z_min: ArrayLike = -math.inf,
+    z_max: ArrayLike = math.inf,
+    solid: ArrayLike = False,
+    margin: float = 0.0,
+    out: None = None,
+    on_invalid: Literal["raise", "flag"] = "raise",
+    question: Question = "position",
+    threads: int | None = None,
+    **columns: ArrayLike,
+) -> Answers: ...
 
 
 @in_default_environment

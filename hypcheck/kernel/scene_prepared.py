@@ -104,8 +104,9 @@ class PreparedScene:
         -1
         """
         if not isinstance(hyperboloid, Hyperboloid):
-            wanted = "it must be a hypcheck.Hyperboloid(name, alpha, gamma, center)"
-            raise InputError(f"a {type(hyperboloid).__name__} is added; {wanted}")
+            raise InputError(
+                f"a {type(hyperboloid).__name__} is added; it must be a Hyperboloid(name, alpha, gamma, center)"
+            )
         model, body = self.model, checked_hyperboloid(hyperboloid)
         if any(hyperboloid.name == other.name for other in model.hyperboloids):
             raise InputError(f"there is a hyperboloid {hyperboloid.name!r} already; each must have another name")
