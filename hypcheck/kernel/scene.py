@@ -57,7 +57,7 @@ from hypcheck.kernel.scene_queries import (
     points_or_columns,
     ways_of,
 )
-from hypcheck.kernel.scene_sweeps import Spheroid, Sweep, first_contact, hits_beside, is_clear
+from hypcheck.kernel.scene_sweeps import Spheroid, Sweep, enters, first_contact, hits_beside, is_clear
 from hypcheck.pictures.page import ScenePage, page_of
 from hypcheck.pictures.plot import plot_of
 from hypcheck.scene.model import FREE, UPRIGHT, Point, leans
@@ -301,7 +301,12 @@ class Scene(PreparedScene):
             touched = swept.body[here][hits[here]].tolist()
             mover, others = self._sweeps(swept, way)
             sweeps = (mover, others if parts else [])
-            return min((first_contact(self._bodies, index, *sweeps), index) for index in touched)
+            earliest = enters(self._bodies, self._reaches, swept.starts[way], swept.ends[way], touched)
+            found: list[First] = []
+            for time, index in sorted(zip(earliest, touched, strict=True)):
+                if not found or time <= min(found)[0][1]:  # what comes later is not the first
+                    found.append((first_contact(self._bodies, index, *sweeps), index))
+            return min(found)
 
         return measure
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Floats, Indices
+from hypcheck.geometry.rows import Floats, Indices, Mask
 from hypcheck.kernel.passages import Passages
 from hypcheck.kernel.scene_flights import FirstContact, paths_of
 from hypcheck.kernel.scene_frames import places_of_parts
@@ -72,8 +72,7 @@ def shown_flight(
         here, there = paths.starts[segment], paths.ends[segment]
         contacts.append(ShownContact(segment, (here + float((low + high) / 2) * (there - here)).tolist(), index))
     pieces, segments, flown = _pieces(np.vstack([paths.starts[:1], paths.ends]), count_of_pieces)
-    owner = np.concatenate(segments)
-    least = scene.first_contact(pieces, headings[owner], axis=None if free is None else free[owner]).least
+    near = _least_on(scene, pieces, segments, headings, free)
     whole = found.least
     least_flown = float(flown[whole.segment] + whole.time * (flown[whole.segment + 1] - flown[whole.segment]))
     parts = scene.model.mover.parts
@@ -85,11 +84,34 @@ def shown_flight(
     )
     return ShownFlight(
         np.vstack([paths.starts[:1], paths.ends]), axes, hits, contacts,
-        np.array(places, np.float64).reshape(count, len(parts), 3), least.distance_lower,
-        np.where(np.isfinite(least.distance_upper), least.distance_upper, 0.0),
-        np.maximum(least.index, 0), least.distance_upper == 0,
+        np.array(places, np.float64).reshape(count, len(parts), 3), *near,
         (least_flown, float(whole.distance_lower), float(whole.distance_upper)), said,
     )  # fmt: skip
+
+
+def _least_on(
+    scene: Asked, pieces: Sequence[Floats], segments: Sequence[Indices], headings: Floats, axes: Floats | None
+) -> tuple[Floats, Floats, Indices, Mask]:
+    """Both bounds of the least distance on each piece, the hyperboloid that it is from, and whether there is contact.
+
+    Where the mover meets contact, the distance is 0, and which hyperboloid it meets is not asked.
+    """
+
+    def asked(chosen: list[int]) -> FirstContact:
+        owner = np.concatenate([segments[piece] for piece in chosen])
+        these = [pieces[piece] for piece in chosen]
+        return scene.first_contact(these, headings[owner], axis=None if axes is None else axes[owner])
+
+    lower, upper, index = np.zeros(len(pieces)), np.zeros(len(pieces)), np.zeros(len(pieces), np.intp)
+    clear = np.flatnonzero(~np.asarray(asked(list(range(len(pieces)))).hit))
+    if len(clear):
+        least = asked(clear.tolist()).least
+        lower[clear], index[clear] = least.distance_lower, np.maximum(least.index, 0)
+        upper[clear] = np.where(np.isfinite(least.distance_upper), least.distance_upper, 0.0)
+        clear = clear[least.distance_upper != 0]
+    touched = np.ones(len(pieces), np.bool_)
+    touched[clear] = False
+    return lower, upper, index, touched
 
 
 def _pieces(points: Floats, count: int) -> tuple[list[Floats], list[Indices], Floats]:

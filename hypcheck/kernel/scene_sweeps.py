@@ -20,14 +20,13 @@ from fractions import Fraction
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS, Position
+from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.kernel.classify import classify
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.scene_ends import meets_for_sure
 from hypcheck.kernel.scene_frames import TURNING, frames_of, turned, turned_axes
-from hypcheck.kernel.scene_index import Bodies
-from hypcheck.kernel.scene_pairs import LEAST, MARGIN, height_and_distance, larger_and_smaller
+from hypcheck.kernel.scene_index import OUTWARD, PAD, Bodies
+from hypcheck.kernel.scene_pairs import GREATEST, LEAST, MARGIN, height_and_distance, larger_and_smaller
 from hypcheck.truth import ended_sweeps, swept
 from hypcheck.truth.ended_sweeps import EndedSweep
 
@@ -57,7 +56,8 @@ def bounded_hits(
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
         lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
-        own_axes, longest = axes, semi_axes.max(axis=1)
+        longest = semi_axes.max(axis=1)
+        own_axes = np.broadcast_to(UPRIGHT, (len(body), 3)) if axes is None else axes
         if bodies.leaning[body].any():
             start, end, own_axes, turning = _in_frames(bodies.axes[body], longest, start, end, axes)
             lost = lost + turning
@@ -66,23 +66,19 @@ def bounded_hits(
         leaves = ~((low - reach > spans[:, 0]) & (high + reach < spans[:, 1])) & np.isfinite(spans).any(axis=1)
         beyond = (high + reach < spans[:, 0]) | (low - reach > spans[:, 1])
     larger, smaller, fits = larger_and_smaller(semi_axes, lost)
-    place = [start, end] if own_axes is None else [start, end, own_axes]
-    hits = np.zeros(len(body), np.bool_)
-    open_ways = ~fits & ~beyond
+    heights = [spans, bodies.solid[body][:, None]] if leaves.any() else []
+    hits, left = np.zeros(len(body), np.bool_), ~fits & ~beyond
     asked = np.flatnonzero(fits & ~beyond)
-    said = kernel().answer_ways(np.concatenate([shapes, larger, *place], axis=1)[asked])[0]
-    clear = asked[said == 0]
-    some = clear[leaves[clear] & bodies.solid[body[clear]]]
-    begin = np.concatenate([shapes, larger, *place[:1], *place[2:]], axis=1)[some]
-    open_ways[some] = classify(begin) != Position.EXTERIOR
-    asked = asked[said != 0]
-    said = kernel().answer_ways(np.concatenate([shapes, smaller, *place], axis=1)[asked])[0]
-    hits[asked] = said == 1
-    open_ways[asked] = (said != 1) | leaves[asked]
-    some = asked[leaves[asked]]
+    for size, surely in ((larger, 0), (smaller, 1)):
+        said = kernel().answer_ways(np.concatenate([shapes, size, start, end, own_axes, *heights], axis=1)[asked])[0]
+        hits[asked[said == surely]] = surely == 1
+        asked = asked[said != surely]
+    left[asked] = True
+    some = np.flatnonzero(left & fits & leaves)
     places = shapes[some], spans[some], start[some], end[some], lost[some]
-    open_ways[some] &= ~_meet_on_the_way(semi_axes[some].min(axis=1), *places)
-    return hits, open_ways
+    met = some[_meet_on_the_way(semi_axes[some].min(axis=1), *places)]
+    hits[met], left[met] = True, False
+    return hits, left
 
 
 def _meet_on_the_way(least: Floats, shapes: Rows, spans: Rows, start: Floats, end: Floats, lost: Floats) -> Mask:
@@ -158,6 +154,28 @@ def _between(
         for point in (sweep.start, sweep.end)
     )
     return (*bodies.shapes[index].tolist(), b, d), start, end, sweep.axis, bodies.axes[index].tolist()
+
+
+def enters(bodies: Bodies, reaches: Floats, start: Floats, end: Floats, body: Sequence[int]) -> list[float]:
+    """Times before which a mover, on its way in the scene, is farther from the axes of hyperboloids than these reach.
+
+    PAD of all coordinates is more than the rounding of a place, of the least distance from an axis and of the chord
+    (scene_index.py); where a number is not finite the time is 0.
+    """
+    chosen = np.asarray(body, np.intp)
+    origins, far = bodies.origins[chosen, :2], reaches[chosen]
+    with np.errstate(all="ignore"):
+        place, way = origins - start[:2], end[:2] - start[:2]
+        pad = PAD * (np.abs(start[:2]) + np.abs(end[:2]) + np.abs(origins)).sum(axis=1)
+        square = (way * way).sum()
+        time = (place * way).sum(axis=1) / square
+        off = place - time[:, None] * way
+        most = far * OUTWARD + 2 * pad
+        chord = np.sqrt(np.maximum(most * most - (off * off).sum(axis=1), 0)) * OUTWARD + pad
+        first = time - chord / np.sqrt(square)
+    ordinary = np.isfinite(first) & (LEAST < square) & (square < GREATEST)
+    times: list[float] = np.where(ordinary, np.maximum(first, 0), 0.0).tolist()
+    return times
 
 
 _HALVINGS = 60

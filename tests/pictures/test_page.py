@@ -98,7 +98,7 @@ def pages(tmp_path_factory):
     return folder
 
 
-def test_the_page_draws_plays_and_answers_keys_in_a_browser_without_a_network(pages, monkeypatch):
+def test_the_page_draws_plays_and_answers_keys_and_fingers_in_a_browser_without_a_network(pages, monkeypatch):
     monkeypatch.setattr(browser, "FLAGS", (*browser.FLAGS, *FLAGS))
     with browser.opened() as window:
         page = window.page
@@ -119,6 +119,15 @@ def test_the_page_draws_plays_and_answers_keys_in_a_browser_without_a_network(pa
             assert page.inner_text("#said").startswith("0 of")
             page.keyboard.press(".")
             assert not page.inner_text("#said").startswith("0 of")
+            touch = page.context.new_cdp_session(page)
+            for fingers in ([(150, 200)], [(150, 200), (250, 300)]):  # one turns the view, two bring it nearer
+                page.wait_for_timeout(500)  # nothing is drawn while nothing moves
+                drawn = page.evaluate("document.body.dataset.frames")
+                moved = [(x + 40 - number * 60, y + 30) for number, (x, y) in enumerate(fingers)]
+                for kind, points in (("touchStart", fingers), ("touchMove", moved), ("touchEnd", [])):
+                    places = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
+                    touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+                page.wait_for_function(f"document.body.dataset.frames > {drawn}")
             page.click("#play")
             assert page.inner_text("#play") == "Pause"
             assert page.locator("#curve .line").count() == 1
