@@ -3,16 +3,21 @@
 Its parts are steps of programs, calls and loops, in the order of evaluation, and nothing branches: a decision is a
 `select`. The steps of its bodies are those of derivation/program.py, so what is proved of a program is proved of every
 round of a loop over it. Kernels are printed from routines (kernel/emission/routines.py); `run` evaluates one.
+
+A name is a number, a truth value, a pair of numbers (whose sum a double-double is), or an answer, a whole number.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from hypcheck.derivation.evaluation import Arithmetic
 from hypcheck.derivation.program import BOOLEAN, NUMBER, Argument, Step, kind_of
+
+PAIR, ANSWER = "pair", "answer"
+"""Kinds of names beside NUMBER and BOOLEAN."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +30,7 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """`name` becomes the result of the routine for these arguments, numbers in the order of its inputs."""
+    """`name` becomes the result of the routine for these arguments, in the order of its inputs."""
 
     name: str
     routine: Routine
@@ -35,6 +40,37 @@ class Call:
     def reads(self) -> tuple[str, ...]:
         """The names among the arguments."""
         return tuple(argument for argument in self.arguments if isinstance(argument, str))
+
+
+@dataclass(frozen=True, slots=True)
+class Half:
+    """`name` becomes one number of a pair: the first, or with `low` the second."""
+
+    name: str
+    pair: str
+    low: bool = False
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """The pair."""
+        return (self.pair,)
+
+
+@dataclass(frozen=True, slots=True)
+class Stored:
+    """`name` becomes the number as memory holds it: rounded, where a compiler fuses what makes it with what follows.
+
+    With `opaque` a compiler must not know the number either: it is not computed before the program runs.
+    """
+
+    name: str
+    value: str
+    opaque: bool = False
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """The number."""
+        return (self.value,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,42 +87,70 @@ class Loop:
     body: tuple[Part, ...]
 
 
-Part = Step | Call | Loop
+Part = Step | Call | Half | Stored | Loop
+
+Result = str | Answer | tuple[Argument, Argument]
+"""A name, an answer by conditions, or a pair of two numbers."""
 
 
 @dataclass(frozen=True)
 class Routine:
-    """Parts that turn named inputs into one value: `result` is a name, or an answer by conditions.
+    """Parts that turn named inputs into one value.
 
-    `meaning` is a sentence about the result. All inputs are numbers; those of `record` are given as one, a setting's
-    constants. Raises ValueError on construction as Program does, and where a loop has no rounds, keeps what is no
-    number, or a call gives another number of arguments than the routine takes.
+    `meaning` is a sentence about the result. Inputs are numbers, or `pairs`; those of `record` are given as one, a
+    setting's constants, whose type is called `record_name`. `constants` are numbers that parts may read. Raises
+    ValueError on construction as Program does, and where a loop has no rounds, keeps what is no number, or a call
+    gives another number of arguments than the routine takes.
     """
 
     name: str
     meaning: str
     inputs: tuple[str, ...]
     parts: tuple[Part, ...]
-    result: str | Answer
+    result: Result
     record: tuple[str, ...] = ()
+    pairs: frozenset[str] = frozenset()
+    constants: Mapping[str, float] = field(default_factory=dict)
+    record_name: str = "setting"
 
     def __post_init__(self) -> None:
         kinds: dict[str, str] = {}
-        for name in (*self.inputs, *self.record):
-            self._define(name, NUMBER, kinds)
+        for name, kind in self.given.items():
+            self._define(name, kind, kinds)
+        if len(kinds) != len((*self.inputs, *self.record, *self.constants)):
+            twice = next(name for name in kinds if (*self.inputs, *self.record, *self.constants).count(name) > 1)
+            raise ValueError(f"routine {self.name}: {twice} is defined twice")
         self._check(self.parts, kinds)
         for name in result_names(self.result):
             if name not in kinds:
                 raise ValueError(f"routine {self.name}: there is no {name}")
             if isinstance(self.result, Answer) and kinds[name] != BOOLEAN:
                 raise ValueError(f"routine {self.name}: {name} is no condition")
+            if isinstance(self.result, tuple) and kinds[name] != NUMBER:
+                raise ValueError(f"routine {self.name}: {name} is no number")
+
+    @property
+    def given(self) -> dict[str, str]:
+        """The kinds of what is there before the parts: inputs, the record, constants."""
+        names = (*self.inputs, *self.record, *self.constants)
+        return {name: PAIR if name in self.pairs else NUMBER for name in names}
+
+    @property
+    def takes(self) -> tuple[str, ...]:
+        """The kinds of the arguments of a call."""
+        return tuple(PAIR if name in self.pairs else NUMBER for name in (*self.inputs, *self.record))
 
     @property
     def gives(self) -> str:
-        """NUMBER or BOOLEAN: the kind of the result; of an answer NUMBER, a whole one."""
+        """The kind of the result."""
         if isinstance(self.result, Answer):
-            return NUMBER
-        return kinds_in(self.parts, dict.fromkeys((*self.inputs, *self.record), NUMBER))[self.result]
+            return ANSWER
+        return PAIR if isinstance(self.result, tuple) else kinds_in(self.parts, self.given)[self.result]
+
+    @property
+    def needed(self) -> tuple[Part, ...]:
+        """The parts that the result depends on."""
+        return needed_parts(self.parts, result_names(self.result))
 
     def _check(self, parts: Iterable[Part], kinds: dict[str, str]) -> None:
         for part in parts:
@@ -94,7 +158,7 @@ class Routine:
                 self._check_loop(part, kinds)
                 continue
             try:
-                kind = kind_of(part, kinds) if isinstance(part, Step) else _kind_of_call(part, kinds)
+                kind = kind_of_part(part, kinds)
             except ValueError as error:
                 raise ValueError(f"routine {self.name}: {part.name}: {error}") from None
             self._define(part.name, kind, kinds)
@@ -125,13 +189,26 @@ class Routine:
             raise ValueError(f"routine {self.name}: a loop keeps {name}, which is no number")
 
 
+def kind_of_part(part: Step | Call | Half | Stored, kinds: Mapping[str, str]) -> str:
+    """The kind of what a part makes, given the kinds of the names before it. Raises ValueError as Routine does."""
+    if isinstance(part, Call):
+        return _kind_of_call(part, kinds)
+    if isinstance(part, Step):
+        chosen = [kinds.get(each) for each in part.arguments if isinstance(each, str)]
+        return PAIR if part.operation == "select" and chosen == [BOOLEAN, PAIR, PAIR] else kind_of(part, dict(kinds))
+    wanted = PAIR if isinstance(part, Half) else NUMBER
+    if kinds.get(part.reads[0]) != wanted:
+        raise ValueError(f"{part.reads[0]} is no {wanted}")
+    return NUMBER
+
+
 def _kind_of_call(call: Call, kinds: Mapping[str, str]) -> str:
-    takes = call.routine.inputs + call.routine.record
+    takes = call.routine.takes
     if len(call.arguments) != len(takes):
         raise ValueError(f"{call.routine.name} takes {len(takes)} arguments, not {len(call.arguments)}")
-    for name in call.reads:
-        if kinds.get(name) != NUMBER:
-            raise ValueError(f"{name} is no number that is defined before it is used")
+    for argument, kind in zip(call.arguments, takes, strict=True):
+        if (kinds.get(argument) if isinstance(argument, str) else NUMBER) != kind:
+            raise ValueError(f"{argument} is no {kind} that is defined before it is used")
     return call.routine.gives
 
 
@@ -142,13 +219,15 @@ def kinds_in(parts: Iterable[Part], before: Mapping[str, str]) -> dict[str, str]
         if isinstance(part, Loop):
             kinds.update({name: NUMBER for name, _, _ in part.kept})
         else:
-            kinds[part.name] = kind_of(part, kinds) if isinstance(part, Step) else part.routine.gives
+            kinds[part.name] = kind_of_part(part, kinds)
     return kinds
 
 
-def result_names(result: str | Answer) -> tuple[str, ...]:
+def result_names(result: Result) -> tuple[str, ...]:
     """The names that a result reads."""
-    return (result,) if isinstance(result, str) else tuple(name for name, _ in result.choices)
+    if isinstance(result, Answer):
+        return tuple(name for name, _ in result.choices)
+    return tuple(name for name in ((result,) if isinstance(result, str) else result) if isinstance(name, str))
 
 
 def needed_parts(parts: tuple[Part, ...], wanted: Iterable[str]) -> tuple[Part, ...]:
@@ -177,10 +256,21 @@ def _read(parts: Iterable[Part]) -> Iterator[str]:
             yield from part.reads
 
 
+def renamed(parts: Iterable[Part], names: Mapping[str, str]) -> Iterator[Part]:
+    """Steps, calls and halves of arguments that are called otherwise."""
+    for part in parts:
+        if isinstance(part, Half):
+            yield replace(part, pair=names.get(part.pair, part.pair))
+        elif isinstance(part, Step | Call):
+            yield replace(part, arguments=tuple(names.get(str(each), each) for each in part.arguments))
+        else:
+            raise TypeError(f"{type(part).__name__} has no arguments to rename")
+
+
 def called(routine: Routine) -> tuple[Routine, ...]:
     """The routines that it calls, directly or not, each once and before what calls it."""
     found: dict[str, Routine] = {}
-    for call in _calls(routine.parts):
+    for call in _calls(routine.needed):
         for each in (*called(call.routine), call.routine):
             found.setdefault(each.name, each)
     return tuple(found.values())
@@ -197,15 +287,21 @@ def _calls(parts: Iterable[Part]) -> Iterator[Call]:
 def run(routine: Routine, arithmetic: Arithmetic, inputs: Mapping[str, Any]) -> Any:
     """The result for these inputs, converted into the arithmetic first, those of the record too.
 
-    Raises KeyError where an input is missing or the arithmetic lacks an operation.
+    A pair is a tuple of two numbers. Raises KeyError where an input is missing or the arithmetic lacks an operation.
     """
-    values = {name: arithmetic.convert(inputs[name]) for name in (*routine.inputs, *routine.record)}
-    parts = needed_parts(routine.parts, result_names(routine.result))
-    _run(parts, values, arithmetic)
+    values = {name: _converted(inputs[name], arithmetic) for name in (*routine.inputs, *routine.record)}
+    values |= {name: arithmetic.convert(value) for name, value in routine.constants.items()}
+    _run(routine.needed, values, arithmetic)
     if isinstance(routine.result, str):
         return values[routine.result]
+    if isinstance(routine.result, tuple):
+        return tuple(values[each] if isinstance(each, str) else arithmetic.convert(each) for each in routine.result)
     held = (value for name, value in routine.result.choices if values[name])
     return next(held, routine.result.otherwise)
+
+
+def _converted(value: Any, arithmetic: Arithmetic) -> Any:
+    return tuple(map(arithmetic.convert, value)) if isinstance(value, tuple) else arithmetic.convert(value)
 
 
 def _run(parts: tuple[Part, ...], values: dict[str, Any], arithmetic: Arithmetic) -> None:
@@ -213,8 +309,13 @@ def _run(parts: tuple[Part, ...], values: dict[str, Any], arithmetic: Arithmetic
         if isinstance(part, Loop):
             _run_loop(part, values, arithmetic)
             continue
+        if isinstance(part, Half | Stored):
+            values[part.name] = values[part.pair][part.low] if isinstance(part, Half) else values[part.value]
+            continue
         given = [values[each] if isinstance(each, str) else arithmetic.convert(each) for each in part.arguments]
-        if isinstance(part, Step):
+        if isinstance(part, Step) and part.operation == "select" and isinstance(given[1], tuple):
+            values[part.name] = given[1] if given[0] else given[2]
+        elif isinstance(part, Step):
             values[part.name] = arithmetic.operations[part.operation](*given)
         else:
             names = (*part.routine.inputs, *part.routine.record)

@@ -8,7 +8,7 @@ import pytest
 
 from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.program import Step, steps_of
-from hypcheck.derivation.routines import Answer, Call, Loop, Routine, called, needed_parts, run
+from hypcheck.derivation.routines import Answer, Call, Half, Loop, Routine, Stored, called, needed_parts, run
 
 TWICE = Routine("twice", "Twice a number.", ("x",), steps_of("y = x + x"), "y")
 IS_ABOVE = Routine("is_above", "Whether it is above 9.", ("x",), steps_of("above = x > 9"), "above")
@@ -25,6 +25,16 @@ FIBONACCI = Routine(
         Call("above", IS_ABOVE, ("one",)),
     ),
     Answer((("above", 0),), 1),
+)
+
+SWAPPED = Routine(
+    "swapped",
+    "The halves in the other order, the second of them half as large.",
+    ("p",),
+    (Half("high", "p"), Half("low", "p", low=True), Stored("kept", "high"), *steps_of("half = kept * share")),
+    ("low", "half"),
+    pairs=frozenset({"p"}),
+    constants={"share": 0.5},
 )
 
 
@@ -48,6 +58,11 @@ def looping(times=2, kept=(("k", "x", "y"),), body="y = k + 1", result="k"):
         (lambda: looping(body="y = k > 1"), "keeps y, which is no number"),
         (lambda: looping(kept=(("k", "x", "k"),)), "a round ends with k, which its body does not make"),
         (lambda: looping(result="y"), "there is no y"),
+        (lambda: Routine("r", "", ("x",), (Half("h", "x"),), "h"), "h: x is no pair"),
+        (lambda: Routine("r", "", ("x",), (Stored("s", "x"),), "s", pairs=frozenset("x")), "s: x is no number"),
+        (lambda: Routine("r", "", ("x",), (Call("y", SWAPPED, ("x",)),), "y"), "x is no pair that is defined before"),
+        (lambda: Routine("r", "", ("x",), (), ("x", 0), pairs=frozenset("x")), "x is no number"),
+        (lambda: Routine("r", "", ("x",), (), "x", constants={"x": 2.0}), "x is defined twice"),
     ],
 )
 def test_a_malformed_routine_is_refused(malformed, complaint):
@@ -68,6 +83,20 @@ def test_an_answer_is_that_of_the_first_condition_that_holds(first, second, answ
 def test_a_routine_is_run_in_the_arithmetic_it_is_given():
     halves = looping(times=3, body="y = k / 2")
     assert run(halves, EXACT, {"x": 1}) == Fraction(1, 8)
+
+
+def test_pairs_are_taken_apart_chosen_and_made():
+    assert run(SWAPPED, EXACT, {"p": (3, 4)}) == (4, Fraction(3, 2))
+    either = Routine(
+        "either",
+        "The pair, swapped where x is above 0.",
+        ("x", "p"),
+        (Call("q", SWAPPED, ("p",)), *steps_of("above = x > 0"), Step("r", "select", ("above", "q", "p"))),
+        "r",
+        pairs=frozenset({"p"}),
+    )
+    assert either.gives == "pair"
+    assert [run(either, EXACT, {"x": x, "p": (3, 4)}) for x in (1, 0)] == [(4, Fraction(3, 2)), (3, 4)]
 
 
 def test_parts_that_nothing_needs_are_left_out():

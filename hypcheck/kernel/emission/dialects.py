@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from importlib import resources
 
 from hypcheck.derivation.program import Program
+from hypcheck.derivation.routines import ANSWER, PAIR
 from hypcheck.errors import InputError
 from hypcheck.kernel.printing.languages import statements_in
 
@@ -26,7 +27,8 @@ class Dialect:
     {value}, {condition}, {left} and {right}; the keys are those of _C_LIKE. `suffixes` end literals of a format.
     `axis` has what a kernel's text says besides where it takes an axis: how one is declared, given on, read from a row.
     `exports`: its kernels have functions that a linker sees; the others' names are their module's. `by_block`: they
-    have loops over many centres that compilers make vectors of.
+    have loops over many centres that compilers make vectors of. `types` are those of pairs and of answers, `capitals`
+    whether types are CalledSo.
     """
 
     name: str
@@ -38,6 +40,8 @@ class Dialect:
     suffixes: Mapping[str, str] = field(default_factory=dict)
     exports: bool = False
     by_block: bool = False
+    types: Mapping[str, str] = field(default_factory=lambda: {PAIR: "", ANSWER: ""})
+    capitals: bool = False
 
     def number_of(self, precision: str) -> str:
         """The type of numbers for a format; raises InputError where the language has none."""
@@ -77,11 +81,11 @@ _CHOOSE = (
     "if (has_sizes(sizes, {sizes}){also}) {{\n    *one = position_{place}, *many = many_{place};\n    return TRUE;\n}}"
 )
 
-_C_FUNCTION = "/* {meaning} */\nstatic TYPE {name}({inputs})\n{{"
-_CPP_FUNCTION = "// {meaning}\nTYPE {name}({inputs})\n{{"
-_RUST_FUNCTION = "/// {meaning}\nfn {name}({inputs}) -> TYPE {{"
-_JAVASCRIPT_FUNCTION = "/** {meaning} */\nfunction {name}({inputs}) {{"
-_PYTHON_FUNCTION = 'def {name}({inputs}) -> TYPE:\n    """{meaning}"""'
+_SUM = "Double-double: the sum of two doubles, the second at most half a unit in the last place of the first."
+_DOUBLES_ALONE = """#if FLT_EVAL_METHOD != 0
+#error "compile for doubles that are computed as doubles, as with -msse2: double-double rests on it"
+#endif
+"""
 
 _C_LIKE = {
     "constant": "const {number} {name} = {value};",
@@ -101,20 +105,25 @@ _C_LIKE = {
     "sizes": "static const sizes_of_frame sizes_{place} = {{{values}}};",
     "fixed search": "leaning_search(x, y, z, &frame_{place})",
     "found": "const int found = {value};",
-    "free search": "leaning_search_free(x, y, z, axis, &sizes_{place})",
+    "free search": "leaning_search_free(x, y, z, axis[0], axis[1], axis[2], &sizes_{place})",
     "has axis": " && axis[0] == {axis[0]} && axis[1] == {axis[1]} && axis[2] == {axis[2]}",
     "field": ".{name} = {value}",
     "choose": _CHOOSE.replace("TRUE", "1"),
     "note": "/* {text} */",
     "unused": "(void){name};",
-    "function of number": _C_FUNCTION.replace("TYPE", "{number}"),
-    "function of boolean": _C_FUNCTION.replace("TYPE", "int"),
-    "function of answer": _C_FUNCTION.replace("TYPE", "int"),
-    "input": "{number} {name}",
-    "record": "typedef struct {{\n{fields}\n}} setting;",
-    "record field": "{number} {name};",
-    "given record": ", const setting *of",
-    "unpack": "const {number} {name} = of->{name};",
+    "function": "/* {meaning} */\nstatic {type} {name}({inputs})\n{{",
+    "input": "{type} {name}",
+    "record": "typedef struct {{\n{fields}\n}} {record};",
+    "record field": "{type} {name};",
+    "given record": ", const {record} *of",
+    "unpack": "const {type} {name} = of->{name};",
+    "pair type": f"{_DOUBLES_ALONE}\n/* {_SUM} */\ntypedef struct {{{{\n    double hi, lo;\n}}}} dd;",
+    "pair": "(dd){{{high}, {low}}}",
+    "high": "{pair}.hi",
+    "low": "{pair}.lo",
+    "both": "",
+    "stored": "const volatile {type} {name} = {value};",
+    "opaque": "const volatile {type} {name} = {value};",
     "keep": "{number} {name} = {value};",
     "keep on": "{name} = {value};",
     "loop": "for (int round = 0; round < {times}; round++) {{",
@@ -129,16 +138,16 @@ _CPP = {
     "frame": "constexpr Frame frame_{place} = {{{values}}};",
     "sizes": "constexpr SizesOfFrame sizes_{place} = {{{values}}};",
     "fixed search": "leaning_search(x, y, z, frame_{place})",
-    "free search": "leaning_search_free(x, y, z, axis, sizes_{place})",
+    "free search": "leaning_search_free(x, y, z, axis[0], axis[1], axis[2], sizes_{place})",
     "field": "{value}",
     "choose": _CHOOSE.replace("TRUE", "true"),
     "note": "// {text}",
-    "function of number": _CPP_FUNCTION.replace("TYPE", "{number}"),
-    "function of boolean": _CPP_FUNCTION.replace("TYPE", "bool"),
-    "function of answer": _CPP_FUNCTION.replace("TYPE", "int"),
-    "record": "struct Setting {{\n{fields}\n}};",
-    "given record": ", const Setting &of",
-    "unpack": "const {number} {name} = of.{name};",
+    "function": "// {meaning}\n{type} {name}({inputs})\n{{",
+    "record": "struct {record} {{\n{fields}\n}};",
+    "given record": ", const {record} &of",
+    "unpack": "const {type} {name} = of.{name};",
+    "pair type": f"{_DOUBLES_ALONE}\n// {_SUM}\nstruct dd {{{{\n    double hi, lo;\n}}}};",
+    "pair": "{{{high}, {low}}}",
 }
 
 _RUST = {
@@ -155,20 +164,22 @@ _RUST = {
     "sizes": "const SIZES_{place}: SizesOfFrame = SizesOfFrame {{{values}}};",
     "fixed search": "leaning_search(x, y, z, &FRAME_{place})",
     "found": "let found = {value};",
-    "free search": "leaning_search_free(x, y, z, axis, &SIZES_{place})",
+    "free search": "leaning_search_free(x, y, z, axis[0], axis[1], axis[2], &SIZES_{place})",
     "has axis": " && axis == &[{axis[0]}, {axis[1]}, {axis[2]}]",
     "field": "{name}: {value}",
     "unused": "let _ = {name};",
     "choose": "if has_sizes(sizes, [{sizes}]){also} {{\n    return Some(position_{place});\n}}",
     "note": "// {text}",
-    "function of number": _RUST_FUNCTION.replace("TYPE", "{number}"),
-    "function of boolean": _RUST_FUNCTION.replace("TYPE", "bool"),
-    "function of answer": _RUST_FUNCTION.replace("TYPE", "i8"),
-    "input": "{name}: {number}",
-    "record": "struct Setting {{\n{fields}\n}}",
-    "record field": "{name}: {number},",
-    "given record": ", of: &Setting",
+    "function": "/// {meaning}\nfn {name}({inputs}) -> {type} {{",
+    "input": "{name}: {type}",
+    "record": "struct {record} {{\n{fields}\n}}",
+    "record field": "{name}: {type},",
+    "given record": ", of: &{record}",
     "unpack": "let {name} = of.{name};",
+    "pair type": f"/// {_SUM}\n#[derive(Clone, Copy)]\nstruct Dd {{{{\n    hi: f64,\n    lo: f64,\n}}}}",
+    "pair": "Dd {{ hi: {high}, lo: {low} }}",
+    "stored": "let {name} = {value};",
+    "opaque": "let {name} = std::hint::black_box({value});",
     "keep": "let mut {name} = {value};",
     "loop": "for _ in 0..{times} {{",
 }
@@ -184,15 +195,21 @@ _JAVASCRIPT = {
     "sizes": "const sizes_{place} = {{{values}}};",
     "fixed search": "leaning_search(x, y, z, frame_{place})",
     "found": "const found = {value};",
-    "free search": "leaning_search_free(x, y, z, axis, sizes_{place})",
+    "free search": "leaning_search_free(x, y, z, axis[0], axis[1], axis[2], sizes_{place})",
     "has axis": " && axisX === {axis[0]} && axisY === {axis[1]} && axisZ === {axis[2]}",
     "field": "{name}: {value}",
     "unused": "",
     "choose": "if (alpha === {of[0]} && gamma === {of[1]} && b === {of[2]} && d === {of[3]}{also}) "
     "return position_{place};",
     "note": "// {text}",
-    **dict.fromkeys(("function of number", "function of boolean", "function of answer"), _JAVASCRIPT_FUNCTION),
+    "function": "/** {meaning} */\nfunction {name}({inputs}) {{",
     "input": "{name}",
+    "pair type": f"// {_SUM}",
+    "pair": "[{high}, {low}]",
+    "high": "{pair}[0]",
+    "low": "{pair}[1]",
+    "stored": "const {name} = {value};",
+    "opaque": "const {name} = new Float64Array([{value}])[0];",
     "record": "",
     "record field": "",
     "given record": ", {{ {inputs} }}",
@@ -217,18 +234,23 @@ _PYTHON = {
     "setting": "SETTING_{place} = ({values})",
     "frame": "FRAME_{place} = ({values})",
     "sizes": "SIZES_{place} = ({values})",
-    "fixed search": "leaning_search(x, y, z, FRAME_{place})",
+    "fixed search": "leaning_search(x, y, z, *FRAME_{place})",
     "found": "found = {value}",
-    "free search": "leaning_search_free(x, y, z, axis, SIZES_{place})",
+    "free search": "leaning_search_free(x, y, z, axis[0], axis[1], axis[2], *SIZES_{place})",
     "has axis": ", {axis[0]}, {axis[1]}, {axis[2]}",
     "field": "{value}",
     "choose": "({sizes}{also}): position_{place},",
     "note": "# {text}",
     "unused": "",
-    "function of number": _PYTHON_FUNCTION.replace("TYPE", "float"),
-    "function of boolean": _PYTHON_FUNCTION.replace("TYPE", "bool"),
-    "function of answer": _PYTHON_FUNCTION.replace("TYPE", "int"),
-    "input": "{name}: float",
+    "function": 'def {name}({inputs}) -> {type}:\n    """{meaning}"""',
+    "input": "{name}: {type}",
+    "pair type": f'DoubleDouble = tuple[float, float]\n"""{_SUM}"""',
+    "pair": "{high}, {low}",
+    "high": "{pair}[0]",
+    "low": "{pair}[1]",
+    "both": "{high}, {low} = {pair}",
+    "stored": "{name} = {value}",
+    "opaque": "{name} = {value}",
     "record": "",
     "record field": "",
     "given record": ", {inputs}",
@@ -240,15 +262,15 @@ _PYTHON = {
 
 
 _C_AXIS = {
-    "checked": " && has_direction(axis)",
-    "checked_row": " && has_direction(row + 7)",
+    "checked": " && has_direction(axis[0], axis[1], axis[2])",
+    "checked_row": " && has_direction(row[7], row[8], row[9])",
     "axis": ", const double axis[3]",
     "given": ", axis",
     "row": ", row + 7",
     "header": "#include <float.h>\n",
 }
 _RUST_AXIS = {
-    "checked": ".filter(|_| has_direction(axis))",
+    "checked": ".filter(|_| has_direction(axis[0], axis[1], axis[2]))",
     "axis": ", axis: &[f64; 3]",
     "given": ", axis",
     "row": ", &[row[7], row[8], row[9]]",
@@ -259,14 +281,14 @@ _RUST_AXIS = {
     "read": "let axis = &*axis.cast::<[f64; 3]>();\n    ",
 }
 _JAVASCRIPT_AXIS = {
-    "checked": " && has_direction([axisX, axisY, axisZ])",
+    "checked": " && has_direction(axisX, axisY, axisZ)",
     "axis": ", axis",
     "given": ", axis",
     "row": ", [axisX, axisY, axisZ]",
     "names": ", axisX, axisY, axisZ",
 }
 _PYTHON_AXIS = {
-    "checked": " or not has_direction((axis_x, axis_y, axis_z))",
+    "checked": " or not has_direction(axis_x, axis_y, axis_z)",
     "axis": ", axis: tuple[float, float, float]",
     "given": ", axis",
     "row": ", (axis_x, axis_y, axis_z)",
@@ -276,6 +298,8 @@ _PYTHON_AXIS = {
 }
 
 
+_C_TYPES, _RUST_TYPES = {PAIR: "dd", ANSWER: "int"}, {PAIR: "Dd", ANSWER: "i8"}
+_PYTHON_TYPES = {PAIR: "DoubleDouble", ANSWER: "int"}
 _C_NUMBERS = {"float64": "double", "float32": "float"}
 _C_SUFFIXES = {"float32": "F"}
 _RUST_NUMBERS = {"float64": "f64", "float32": "f32"}
@@ -284,11 +308,11 @@ _JAVASCRIPT_NUMBERS = {"float64": "number", "float32": "float32"}
 DIALECTS = {
     dialect.name: dialect
     for dialect in (
-        Dialect("c", "c", " * ", _C_NUMBERS, _C_LIKE, _C_AXIS, _C_SUFFIXES, exports=True, by_block=True),
-        Dialect("cpp", "cpp", "// ", _C_NUMBERS, _CPP, _C_AXIS, _C_SUFFIXES, exports=True, by_block=True),
-        Dialect("rust", "rs", "//! ", _RUST_NUMBERS, _RUST, _RUST_AXIS, exports=True),
+        Dialect("c", "c", " * ", _C_NUMBERS, _C_LIKE, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES),
+        Dialect("cpp", "cpp", "// ", _C_NUMBERS, _CPP, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES, capitals=True),
+        Dialect("rust", "rs", "//! ", _RUST_NUMBERS, _RUST, _RUST_AXIS, {}, True, False, _RUST_TYPES, capitals=True),
         Dialect("javascript", "mjs", "// ", _JAVASCRIPT_NUMBERS, _JAVASCRIPT, _JAVASCRIPT_AXIS),
-        Dialect("python", "py", "", {"float64": "float"}, _PYTHON, _PYTHON_AXIS),
+        Dialect("python", "py", "", {"float64": "float"}, _PYTHON, _PYTHON_AXIS, types=_PYTHON_TYPES),
     )
 }
 """By name: what `emit --language` takes."""

@@ -1,8 +1,7 @@
 """A kernel from a plan, in one of the languages: a template, its constants, its description, and printed statements.
 
 The description is what a kernel says of itself: a text of JSON, or an object of its language, a line for each setting.
-The search for a spheroid that leans is in double-double: its programs are printed as calls of functions that its
-template has.
+Searches, and what they call, are printed from routines.
 """
 
 from __future__ import annotations
@@ -10,19 +9,16 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_function
 from hypcheck.kernel.emission.plan_text import comment_text, header
 from hypcheck.kernel.emission.routines import routines_text
-from hypcheck.kernel.printing.languages import Spelling, statements
-from hypcheck.kernel.specialise import last_stages, leaning
 from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, LeaningSearch
+from hypcheck.kernel.specialise.leaning_search import FREE_SEARCH, HAS_DIRECTION, SEARCH
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages
 from hypcheck.kernel.specialise.searching import SETTING, search_of
 from hypcheck.kernel.specialise.settings import Setting
@@ -109,7 +105,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "prefix": prefix,
         "number": number,
         "arithmetic": asked_of_compiler(dialect),
-        "search": _searches_text(plan, dialect) + (dialect.filled("direction", {}) + "\n" if plan.free else ""),
+        "search": _searches_text(plan, dialect),
         **_axis_parts(plan, dialect),
         "imports": "\n".join(
             ["import math"] * bool(_searched(plan) or plan.free) + ["from collections.abc import Iterable"]
@@ -201,55 +197,20 @@ def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:
 
 
 def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
-    """The search that all settings share."""
+    """The search that all settings share, and whether a free axis is one."""
     searches = [search for _, search in _searched(plan)]
-    if not searches:
-        return ""
-    if not isinstance(searches[0], LeaningSearch):
-        return search_text(plan, dialect)
-    names = ["leaning", "free"] if searches[0].free else ["leaning"]
-    parts = _leaning_parts(dialect)
-    return "".join(dialect.filled(name, parts) for name in names) + "\n"
+    routines = [HAS_DIRECTION] if plan.free else []
+    if searches and isinstance(searches[0], LeaningSearch):
+        routines.append(FREE_SEARCH if searches[0].free else SEARCH)
+    elif searches:
+        routines.append(search_of(GEOMETRIC_STEPS + plan.format.bits + 3))
+    return f"\n{routines_text(routines, dialect, plan.format.name)}\n" if routines else ""
 
 
 def search_text(plan: ScenePlan, dialect: Dialect) -> str:
     """The search for an upright spheroid, with the record of its constants."""
-    return "\n" + routines_text(search_of(GEOMETRIC_STEPS + plan.format.bits + 3), dialect, plan.format.name) + "\n"
+    return "\n" + routines_text([search_of(GEOMETRIC_STEPS + plan.format.bits + 3)], dialect, plan.format.name) + "\n"
 
-
-_CALLS = {
-    "add": "dd_add({0}, {1})",
-    "sub": "dd_sub({0}, {1})",
-    "mul": "dd_mul({0}, {1})",
-    "div": "dd_div({0}, {1})",
-    "neg": "dd_neg({0})",
-    "abs": "dd_abs({0})",
-    "sqrt": "dd_sqrt({0})",
-    "gt": "{0}.hi > {1}.hi",
-    "lt": "{0}.hi < {1}.hi",
-    "select": "{0} ? {1} : {2}",
-}
-
-
-_C = Spelling(_CALLS, "dd", "int", "const {type} {name} = {value};", "whole({}.0)".format)
-_PARTS = {"gt": "{0}[0] > {1}[0]", "lt": "{0}[0] < {1}[0]"}
-
-_DOUBLE_DOUBLE = {
-    "c": _C,
-    "cpp": replace(_C, boolean="bool"),
-    "rust": replace(
-        _C,
-        operations={**_CALLS, "select": "if {0} {{ {1} }} else {{ {2} }}"},
-        number="Dd",
-        boolean="bool",
-        declaration="let {name}: {type} = {value};",
-    ),
-    "javascript": replace(_C, operations={**_CALLS, **_PARTS}, declaration="const {name} = {value};"),
-    "python": replace(
-        _C, operations={**_CALLS, **_PARTS, "select": "{1} if {0} else {2}"}, declaration="{name} = {value}"
-    ),
-}
-"""How each language writes a program in double-double: calls of functions that its template has."""
 
 _PAIRS = {"c": "{{{0}, {1}}}", "cpp": "{{{0}, {1}}}", "rust": "Dd {{ hi: {0}, lo: {1} }}", "python": "({0}, {1})"}
 
@@ -265,35 +226,3 @@ def _frame(of: LeaningSearch, place: int, dialect: Dialect) -> str:
 def _pair(value: DoubleDouble, dialect: Dialect) -> str:
     high, low = (dialect.literal(part, "float64") for part in value)
     return _PAIRS.get(dialect.name, "[{0}, {1}]").format(high, low)
-
-
-def _leaning_parts(dialect: Dialect) -> dict[str, str]:
-    """What the marks of the templates leaning.* and free.* stand for."""
-
-    def doubles(program: Program, *wanted: str) -> str:
-        return "\n".join(dialect.statements(program, wanted, "float64"))
-
-    def double_doubles(program: Program, *wanted: str) -> str:
-        return "\n".join(statements(program, wanted, _DOUBLE_DOUBLE[dialect.name]))
-
-    return {
-        "components": double_doubles(leaning.COMPONENTS, "c1", "c2", "c3"),
-        "lambda": double_doubles(last_stages.PLACE, "lambda_"),
-        "phi": double_doubles(leaning.PHI, "phi", "to_a1", "to_a2", "to_b"),
-        "place": doubles(leaning.PLACE, "to_a1", "to_a2", "to_b"),
-        "falls": doubles(leaning.falls(), "past"),
-        "decision": doubles(leaning.DECISION, "clear", "contact"),
-        "frame": double_doubles(leaning.FRAME, *leaning.FRAME_NAMES),
-        "constants": "\n".join(
-            dialect.say("constant", number=dialect.number_of("float64"), name=name, value=repr(value))
-            for name, value in leaning.DECISION_CONSTANTS.items()
-        ),
-        "start": repr(leaning.START),
-        "steps": str(leaning.GEOMETRIC_STEPS + leaning.ARITHMETIC_STEPS),
-        "geometric_steps": str(leaning.GEOMETRIC_STEPS),
-        "rows": ", ".join(leaning.ROWS),
-        "frame_names": ", ".join(leaning.FRAME_NAMES),
-        "size_names": ", ".join(leaning.SIZE_NAMES),
-        "frame_fields": "\n".join(f"{name}: Dd," for name in leaning.FRAME_NAMES),
-        "size_fields": "\n".join(f"{name}: Dd," for name in leaning.SIZE_NAMES),
-    }

@@ -6,29 +6,40 @@ and what a loop and a call are; nothing here knows a language. Steps are printed
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from hypcheck.derivation.program import NUMBER, Step, kind_of
-from hypcheck.derivation.routines import Answer, Loop, Part, Routine, called, needed_parts, result_names
+from hypcheck.derivation.program import NUMBER, Step
+from hypcheck.derivation.routines import (
+    PAIR,
+    Call,
+    Half,
+    Loop,
+    Part,
+    Result,
+    Routine,
+    Stored,
+    called,
+    kind_of_part,
+)
 from hypcheck.kernel.emission.dialects import Dialect
-from hypcheck.kernel.printing.languages import Spelling, argument_of, declared, spelling_of, value_of
+from hypcheck.kernel.printing.languages import Spelling, argument_of, spelling_of, value_of
 
 INDENT = "    "
 WIDTH = 120
 
 
-def routines_text(routine: Routine, dialect: Dialect, precision: str) -> str:
-    """The record of the routine, the routines that it calls, and itself.
+def routines_text(routines: Sequence[Routine], dialect: Dialect, precision: str) -> str:
+    """The records of the routines, all that they call, and themselves, each once and before what calls it.
 
     Raises ValueError for a name that the language reserves.
     """
     printer = _Printer(dialect, precision)
-    texts = [printer.text(each) for each in (*called(routine), routine)]
-    between = "\n\n\n" if dialect.name == "python" else "\n\n"
-    fields = "\n".join(f"{INDENT}{printer.say('record field', name=name)}" for name in routine.record)
-    record = printer.say("record", fields=fields) if routine.record else ""
-    return between.join(filter(None, [record, *texts])) + "\n"
+    every = {each.name: each for routine in routines for each in (*called(routine), routine)}
+    pairs = any(PAIR in (*each.takes, each.gives) for each in every.values())
+    texts = [dialect.say("pair type")] if pairs else []
+    texts += [text for each in every.values() for text in (printer.record(each), printer.text(each)) if text]
+    return ("\n\n\n" if dialect.name == "python" else "\n\n").join(texts) + "\n"
 
 
 @dataclass(frozen=True)
@@ -45,34 +56,70 @@ class _Printer:
         """A phrase of the language."""
         return self.dialect.say(phrase, number=self.dialect.number_of(self.precision), **words)
 
+    def type_of(self, kind: str) -> str:
+        """The type of what is of this kind."""
+        if kind in self.dialect.types:
+            return self.dialect.types[kind]
+        return self.spelling.number if kind == NUMBER else self.spelling.boolean
+
+    def record(self, routine: Routine) -> str:
+        """The type of its record; nothing where it has none, or the language needs none."""
+        if not routine.record:
+            return ""
+        lines = (self._named("record field", name, routine) for name in routine.record)
+        return self.say("record", record=self._type_of_record(routine), fields="\n".join(INDENT + one for one in lines))
+
     def text(self, routine: Routine) -> str:
         """The function."""
-        parts = needed_parts(routine.parts, result_names(routine.result))
-        inputs = ", ".join(self.say("input", name=name) for name in routine.inputs)
-        unpacked = [self.say("unpack", name=name) for name in routine.record]
+        inputs = ", ".join(self._named("input", name, routine) for name in routine.inputs)
         if routine.record:
-            inputs += self.say(
-                "given record", inputs=", ".join(self.say("input", name=name) for name in routine.record)
-            )
-        gives = "answer" if isinstance(routine.result, Answer) else routine.gives
-        head = self.say(f"function of {gives}", name=routine.name, inputs=inputs, meaning=routine.meaning)
-        kinds = dict.fromkeys((*routine.inputs, *routine.record), NUMBER)
-        body = [*filter(None, unpacked), *self._parts(parts, kinds), *self._result(routine.result)]
+            of = ", ".join(self._named("input", name, routine) for name in routine.record)
+            inputs += self.say("given record", inputs=of, record=self._type_of_record(routine))
+        unpacked = [self._named("unpack", name, routine) for name in routine.record]
+        constants = [self.say("constant", name=name, value=repr(value)) for name, value in routine.constants.items()]
+        head = self.say(
+            "function", type=self.type_of(routine.gives), name=routine.name, inputs=inputs, meaning=routine.meaning
+        )
+        parts = self._parts(routine.needed, dict(routine.given))
+        body = [*filter(None, unpacked), *constants, *parts, *self._result(routine.result)]
         return "\n".join([*_broken(head), *_indented(body), *filter(None, [self.say("end")])])
+
+    def _named(self, phrase: str, name: str, routine: Routine) -> str:
+        return self.say(phrase, name=name, type=self.type_of(routine.given[name]))
+
+    def _type_of_record(self, routine: Routine) -> str:
+        words = routine.record_name.split("_")
+        return "".join(map(str.capitalize, words)) if self.dialect.capitals else routine.record_name
 
     def _parts(self, parts: Iterable[Part], kinds: dict[str, str]) -> Iterator[str]:
         """The statements; `kinds`, of the names before, gets those of the names that they make."""
-        for part in parts:
+        several = list(parts)
+        for part, next_part in zip(several, (*several[1:], None), strict=False):
             if isinstance(part, Loop):
                 yield from self._loop(part, kinds)
                 continue
-            if isinstance(part, Step):
-                kinds[part.name], value = kind_of(part, kinds), value_of(part, self.spelling)
-            else:
-                given = ", ".join(argument_of(argument, self.spelling) for argument in part.arguments)
-                kinds[part.name], value = part.routine.gives, f"{part.routine.name}({given})"
             self._require_free(part.name)
-            yield declared(part.name, kinds[part.name], value, self.spelling)
+            if part.name in kinds:  # it came with the half before
+                continue
+            kinds[part.name] = kind_of_part(part, kinds)
+            low = _low_half(part, next_part) if self.dialect.phrases["both"] else None
+            if low is not None:
+                kinds[low.name] = NUMBER
+                yield self.say("both", high=part.name, low=low.name, pair=low.pair)
+            elif isinstance(part, Stored):
+                phrase = "opaque" if part.opaque else "stored"
+                yield self.say(phrase, name=part.name, value=part.value, type=self.type_of(NUMBER))
+            else:
+                words = {"type": self.type_of(kinds[part.name]), "name": part.name, "value": self._value(part)}
+                yield self.spelling.declaration.format(**words)
+
+    def _value(self, part: Step | Call | Half) -> str:
+        if isinstance(part, Step):
+            return value_of(part, self.spelling)
+        if isinstance(part, Half):
+            return self.say("low" if part.low else "high", pair=part.pair)
+        given = ", ".join(argument_of(argument, self.spelling) for argument in part.arguments)
+        return f"{part.routine.name}({given})"
 
     def _loop(self, loop: Loop, kinds: dict[str, str]) -> Iterator[str]:
         for name, start, _ in loop.kept:
@@ -88,13 +135,23 @@ class _Printer:
         if name in self.spelling.reserved:
             raise ValueError(f"{name} is no name in {self.dialect.name}")
 
-    def _result(self, result: str | Answer) -> Iterator[str]:
+    def _result(self, result: Result) -> Iterator[str]:
         if isinstance(result, str):
             yield self.say("return", value=result)
-            return
-        for name, value in result.choices:
-            yield from self.say("return if", condition=name, value=value).splitlines()
-        yield self.say("return", value=result.otherwise)
+        elif isinstance(result, tuple):
+            high, low = (argument_of(each, self.spelling) for each in result)
+            yield self.say("return", value=self.say("pair", high=high, low=low))
+        else:
+            for name, value in result.choices:
+                yield from self.say("return if", condition=name, value=value).splitlines()
+            yield self.say("return", value=result.otherwise)
+
+
+def _low_half(part: Part, next_part: Part | None) -> Half | None:
+    """The next part, where the two are the halves of one pair, the first number first."""
+    if isinstance(part, Half) and isinstance(next_part, Half) and part.pair == next_part.pair:
+        return next_part if next_part.low and not part.low else None
+    return None
 
 
 def _broken(head: str) -> Iterator[str]:

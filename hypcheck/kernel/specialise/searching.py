@@ -6,8 +6,8 @@ in itself.
 
 from __future__ import annotations
 
-from hypcheck.derivation.program import steps_of
-from hypcheck.derivation.routines import Answer, Call, Loop, Part, Routine
+from hypcheck.derivation.program import Program, steps_of
+from hypcheck.derivation.routines import Answer, Call, Loop, Part, Routine, renamed
 from hypcheck.kernel.specialise.last_stages import (
     ARITHMETIC,
     GEOMETRIC,
@@ -42,21 +42,23 @@ PAST_MAXIMUM = Routine(
     "beyond",
 )
 
-GEOMETRIC_MEAN = Routine("geometric_mean", "The middle of the exponents.", GEOMETRIC.inputs, GEOMETRIC.steps, "middle")
-
-ARITHMETIC_MEAN = Routine("arithmetic_mean", "The middle.", ARITHMETIC.inputs, ARITHMETIC.steps, "middle")
-
 ABOVE_ZERO = Routine(
     "above_zero", "Whether the dual function is above zero there: the spheroid is clear.", PHI.inputs, PHI.steps,
     "above_zero",
 )  # fmt: skip
 
 
-def _halving(times: int, mean: Routine, low: tuple[str, str], high: tuple[str, str]) -> Loop:
-    """So many halvings between `low` and `high`, each the name of an end and of what it is at first."""
+_IS_PAST = Call("beyond", PAST_MAXIMUM, ("ar", "cz", "pole", "other", "middle", "near_zero", "inside"))
+
+
+def halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, str], is_past: Call = _IS_PAST) -> Loop:
+    """So many halvings between `low` and `high`, each the name of an end and of what it is at first.
+
+    `mean` makes `middle` of them, `is_past` makes `beyond` of that, which is compared with `beyond_half`.
+    """
     body: tuple[Part, ...] = (
-        Call("middle", mean, (low[0], high[0])),
-        Call("beyond", PAST_MAXIMUM, ("ar", "cz", "pole", "other", "middle", "near_zero", "inside")),
+        *renamed(mean.steps, {"low": low[0], "high": high[0]}),
+        is_past,
         *steps_of(
             f"""
             rises = beyond != beyond_half
@@ -84,8 +86,8 @@ def search_of(steps: int) -> Routine:
         *HALF.steps,
         Call("beyond_half", PAST_MAXIMUM, ("ar", "cz", "pole", "other", "half", 1, "inside")),
         *steps_of("near_zero = beyond_half ? 1 : 0"),
-        _halving(GEOMETRIC_STEPS, GEOMETRIC_MEAN, ("low", "first"), ("high", "half")),
-        _halving(steps - GEOMETRIC_STEPS, ARITHMETIC_MEAN, ("near", "low"), ("distance", "high")),
+        halving(GEOMETRIC_STEPS, GEOMETRIC, ("low", "first"), ("high", "half")),
+        halving(steps - GEOMETRIC_STEPS, ARITHMETIC, ("near", "low"), ("distance", "high")),
         *PLACE.steps,
         Call("clear", ABOVE_ZERO, ("P", "Q", "lambda_", "to_a", "to_b")),
         *steps_of("clear_inside = clear and is_interior"),

@@ -1,0 +1,216 @@
+"""The search for a spheroid that leans as routines: the frame of a free axis, the maximum by halving, what it proves.
+
+Its steps are the programs of leaning.py, those of the frame and of the value at the maximum in double-double.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypcheck.derivation.program import Program, steps_of
+from hypcheck.derivation.routines import Answer, Call, Half, Loop, Part, Routine, Stored, renamed
+from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.kernel.specialise import last_stages, leaning
+from hypcheck.kernel.specialise.double_double import WHOLE, in_double_double
+from hypcheck.kernel.specialise.searching import halving
+
+CENTRE = ("centre_x", "centre_y", "centre_z")
+AXIS = ("axis_x", "axis_y", "axis_z")
+BOUNDS = ("most", "omega")
+_COMPONENTS, _POLES, _GAPS = ("c1", "c2", "c3"), ("A1", "A2", "B"), ("gap1", "gap2")
+_PLACES = ("to_a1", "to_a2", "to_b")
+
+FALLING = Routine(
+    "falling",
+    "Whether the slope of the dual function is not positive at these distances to its poles.",
+    (*_COMPONENTS, *_POLES, *_PLACES),
+    leaning.falls().steps,
+    "past",
+)
+
+PAST_PEAK = Routine(
+    "past_peak",
+    "Whether the maximum of the dual function lies beyond the multiplier at this distance from 0, or from the pole.",
+    (*_COMPONENTS, *_POLES, *_GAPS, "pole", "distance", "near_zero", "inside"),
+    (*leaning.PLACE.steps, *leaning.falls().steps, *steps_of("beyond = past != is_inside")),
+    "beyond",
+)
+
+PROVED = Routine(
+    "proved",
+    "+1 exterior, 0 contact, -1 interior, or CANNOT_SAY: what the dual function at lambda_ proves.",
+    ("x", "y", "z", *BOUNDS, *_COMPONENTS, *_POLES, "lambda_", *_PLACES, "phi", "inside"),
+    (*leaning.DECISION.steps, *steps_of("is_inside = inside > 0\n clear_inside = clear and is_inside")),
+    Answer((("clear_inside", -1), ("clear", 1), ("contact", 0)), CANNOT_SAY),
+    constants=leaning.DECISION_CONSTANTS,
+)
+
+
+def _highs(*pairs: str) -> tuple[str, ...]:
+    return tuple(f"nearly_{pair}" for pair in pairs)
+
+
+def _nearly(*pairs: str) -> tuple[Half, ...]:
+    """The first numbers of pairs: what doubles know of them."""
+    return tuple(Half(high, pair) for high, pair in zip(_highs(*pairs), pairs, strict=True))
+
+
+def _halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, str]) -> Loop:
+    known = (*_highs(*_COMPONENTS, *_POLES, *_GAPS), "nearly_pole")
+    return halving(times, mean, low, high, Call("beyond", PAST_PEAK, (*known, "middle", "near_zero", "inside")))
+
+
+def _search() -> tuple[Part, ...]:
+    nearly = _highs(*_COMPONENTS, *_POLES)
+    return (
+        *(Call(name, WHOLE, (given,)) for name, given in zip("xyz", CENTRE, strict=True)),
+        *in_double_double(leaning.COMPONENTS, _COMPONENTS),
+        *_nearly(*_COMPONENTS, *_POLES, *_GAPS),
+        Call("is_interior", FALLING, (*nearly, *_highs(*_POLES))),
+        *steps_of("inside = is_interior ? 1 : 0\n pole = is_interior ? least : B"),
+        *_nearly("pole"),
+        *steps_of("half = nearly_pole / 2\n first = start * nearly_pole"),
+        Call("beyond_half", PAST_PEAK, (*nearly, *_highs(*_GAPS), "nearly_pole", "half", 1, "inside")),
+        *steps_of("near_zero = beyond_half ? 1 : 0"),
+        _halving(leaning.GEOMETRIC_STEPS, last_stages.GEOMETRIC, ("low", "first"), ("high", "half")),
+        _halving(leaning.ARITHMETIC_STEPS, last_stages.ARITHMETIC, ("near", "low"), ("far", "high")),
+        *_parts_at_the_maximum(),
+    )
+
+
+def _parts_at_the_maximum() -> tuple[Part, ...]:
+    """The dual function where the search ends, as wide as a double-double, and what it proves."""
+    at = {"distance": "far", "near_zero": "near_zero", "inside": "inside"}
+    values = ("lambda_", *_PLACES, "phi")
+    return (
+        *(Call(f"{name}_there", WHOLE, (given,)) for name, given in at.items()),
+        *renamed(in_double_double(last_stages.PLACE, ("lambda_",)), {name: f"{name}_there" for name in at}),
+        *in_double_double(leaning.PHI, ("phi", *_PLACES)),
+        *_nearly(*values),
+        Call("found", PROVED, (*CENTRE, *BOUNDS, *_highs(*_COMPONENTS, *_POLES, *values), "inside")),
+    )
+
+
+SEARCH = Routine(
+    "leaning_search",
+    "+1 exterior, 0 contact, -1 interior, or CANNOT_SAY: by the dual function where a search finds it largest.",
+    CENTRE,
+    _search(),
+    "found",
+    (*leaning.FRAME_NAMES, *BOUNDS),
+    frozenset(leaning.FRAME_NAMES),
+    {"start": leaning.START},
+    "frame",
+)
+"""Of one axis, whose frame is a record of constants."""
+
+_ANY = replace(SEARCH, inputs=(*CENTRE, *SEARCH.record), record=())
+
+POWER_FOR = Routine(
+    "power_for",
+    "A power of two that brings a number > 0 between 2^-100 and 2^100.",
+    ("number",),
+    (
+        Loop(
+            5,
+            (("power", "first", "changed"),),
+            steps_of(
+                """
+                product = number * power
+                is_small = product < small
+                is_large = product > large
+                raised = power * up
+                lowered = power * down
+                unless_small = is_large ? lowered : power
+                changed = is_small ? raised : unless_small
+                """
+            ),
+        ),
+    ),
+    "power",
+    constants={"first": 1.0, "small": 2.0**-100, "large": 2.0**100, "up": 2.0**200, "down": 2.0**-200},
+)
+"""Five times 200 octaves are all that float64 has on a side."""
+
+FREE_SEARCH = Routine(
+    "leaning_search_free",
+    "The same of any axis, whose frame is made of it.",
+    (*CENTRE, *AXIS),
+    (
+        *steps_of(
+            """
+            size_x = abs axis_x
+            size_y = abs axis_y
+            size_z = abs axis_z
+            y_is_longer = size_y > size_x
+            flat_size = y_is_longer ? size_y : size_x
+            z_is_longer = size_z > flat_size
+            largest = z_is_longer ? size_z : flat_size
+            is_flat = flat_size > 0
+            some_size = is_flat ? flat_size : 1
+            """
+        ),
+        Call("flat_power", POWER_FOR, ("some_size",)),
+        Call("power", POWER_FOR, ("largest",)),
+        *steps_of(
+            """
+            flat_x = flat_power * axis_x
+            across_x = is_flat ? flat_x : 1
+            across_y = flat_power * axis_y
+            along_x = power * axis_x
+            along_y = power * axis_y
+            along_z = power * axis_z
+            """
+        ),
+        *(
+            Call(name, WHOLE, (given,))
+            for name, given in zip(
+                ("hx", "hy", "vx", "vy", "vz"),
+                ("across_x", "across_y", "along_x", "along_y", "along_z"),
+                strict=True,
+            )
+        ),
+        *in_double_double(leaning.FRAME, leaning.FRAME_NAMES),
+        Call("found", _ANY, (*CENTRE, *leaning.FRAME_NAMES, *BOUNDS)),
+    ),
+    "found",
+    (*leaning.SIZE_NAMES, *BOUNDS),
+    frozenset(leaning.SIZE_NAMES),
+    record_name="sizes_of_frame",
+)
+
+HAS_DIRECTION = Routine(
+    "has_direction",
+    "Whether an axis is one: finite, not 0, 0, 0, and longer than 2^-500 where subnormal numbers are flushed to 0.",
+    AXIS,
+    (
+        Stored("normal", "least", opaque=True),
+        *steps_of("halved = normal / 2"),
+        Stored("half", "halved", opaque=True),  # 0 where subnormal numbers are flushed to zero
+        *steps_of(
+            """
+            both = half + half
+            lost = normal - both
+            shortest = lost * scale
+            size_x = abs axis_x
+            size_y = abs axis_y
+            size_z = abs axis_z
+            y_is_longer = size_y > size_x
+            flat_size = y_is_longer ? size_y : size_x
+            z_is_longer = size_z > flat_size
+            largest = z_is_longer ? size_z : flat_size
+            is_long = largest > shortest
+            nothing_x = axis_x - axis_x
+            nothing_y = axis_y - axis_y
+            nothing_z = axis_z - axis_z
+            nothing_xy = nothing_x + nothing_y
+            nothing = nothing_xy + nothing_z
+            is_finite = nothing == 0
+            has_direction = is_long and is_finite
+            """
+        ),
+    ),
+    "has_direction",
+    constants={"least": 2.0**-1022, "scale": 2.0**522},
+)
+"""What is lost of an axis so long, where subnormal numbers are 0, is nothing."""
