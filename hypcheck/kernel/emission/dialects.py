@@ -22,17 +22,18 @@ _MARK = re.compile(r"^( *)\$\{(\w+)\}$|\$\{(\w+)\}", re.MULTILINE)
 class Dialect:
     """A language: its types of numbers, and its phrases.
 
-    `extension` is that of its source files and templates, `comment` begins a line of the head. `numbers` has the type
-    for each format that the language computes in, as printing/languages.py has it. `phrases` are templates with {name},
-    {value}, {condition}, {left} and {right}; the keys are those of _C_LIKE. `suffixes` end literals of a format.
-    `axis` has what a kernel's text says besides where it takes an axis: how one is declared, given on, read from a row.
-    `exports`: its kernels have functions that a linker sees; the others' names are their module's. `by_block`: they
-    have loops over many centres that compilers make vectors of. `types` are those of pairs and of answers, `capitals`
-    whether types are CalledSo.
+    `extension` is that of its source files, `templates` that of its templates, which C and C++ share. `comment` begins
+    a line of the head. `numbers` has the type for each format that the language computes in, as printing/languages.py
+    has it. `phrases` are templates with {name}, {value}, {condition}, {left} and {right}; the keys are those of
+    _C_LIKE. `suffixes` end literals of a format. `axis` has what a kernel's text says besides where it takes an axis:
+    how one is declared, given on, read from a row. `exports`: its kernels have functions that a linker sees; the
+    others' names are their module's. `by_block`: they have loops over many centres that compilers make vectors of.
+    `types` are those of pairs and of answers, `capitals` whether types are CalledSo.
     """
 
     name: str
     extension: str
+    templates: str
     comment: str
     numbers: Mapping[str, str]
     phrases: Mapping[str, str]
@@ -62,7 +63,7 @@ class Dialect:
 
         Raises KeyError for a mark that has no part.
         """
-        path = resources.files("hypcheck.kernel.emission").joinpath("templates", f"{name}.{self.extension}.tmpl")
+        path = resources.files("hypcheck.kernel.emission").joinpath("templates", f"{name}.{self.templates}.tmpl")
 
         def part(match: re.Match[str]) -> str:
             indent, alone, within = match.groups()
@@ -124,6 +125,9 @@ _C_LIKE = {
     "both": "",
     "stored": "const volatile {type} {name} = {value};",
     "opaque": "const volatile {type} {name} = {value};",
+    "includes": "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>",
+    "linkage": "",
+    "end linkage": "",
     "keep": "{number} {name} = {value};",
     "keep on": "{name} = {value};",
     "loop": "for (int round = 0; round < {times}; round++) {{",
@@ -132,7 +136,6 @@ _C_LIKE = {
 _CPP = {
     **_C_LIKE,
     "constant": "constexpr {number} {name} = {value};",
-    "begin": "int position_{place}({number} x, {number} y, {number} z{axis})\n{{",
     "search": "search(R, zz, height, setting_{place})",
     "setting": "constexpr Setting setting_{place} = {{{values}}};",
     "frame": "constexpr Frame frame_{place} = {{{values}}};",
@@ -142,7 +145,10 @@ _CPP = {
     "field": "{value}",
     "choose": _CHOOSE.replace("TRUE", "true"),
     "note": "// {text}",
-    "function": "// {meaning}\n{type} {name}({inputs})\n{{",
+    "function": "// {meaning}\nstatic {type} {name}({inputs})\n{{",
+    "includes": "#include <cmath>\n#include <math.h>\n#include <stddef.h>\n#include <stdint.h>",
+    "linkage": 'extern "C" {{',
+    "end linkage": "}}",
     "record": "struct {record} {{\n{fields}\n}};",
     "given record": ", const {record} &of",
     "unpack": "const {type} {name} = of.{name};",
@@ -308,11 +314,13 @@ _JAVASCRIPT_NUMBERS = {"float64": "number", "float32": "float32"}
 DIALECTS = {
     dialect.name: dialect
     for dialect in (
-        Dialect("c", "c", " * ", _C_NUMBERS, _C_LIKE, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES),
-        Dialect("cpp", "cpp", "// ", _C_NUMBERS, _CPP, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES, capitals=True),
-        Dialect("rust", "rs", "//! ", _RUST_NUMBERS, _RUST, _RUST_AXIS, {}, True, False, _RUST_TYPES, capitals=True),
-        Dialect("javascript", "mjs", "// ", _JAVASCRIPT_NUMBERS, _JAVASCRIPT, _JAVASCRIPT_AXIS),
-        Dialect("python", "py", "", {"float64": "float"}, _PYTHON, _PYTHON_AXIS, types=_PYTHON_TYPES),
+        Dialect("c", "c", "c", " * ", _C_NUMBERS, _C_LIKE, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES),
+        Dialect("cpp", "cpp", "c", " * ", _C_NUMBERS, _CPP, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES, capitals=True),
+        Dialect(
+            "rust", "rs", "rs", "//! ", _RUST_NUMBERS, _RUST, _RUST_AXIS, {}, True, False, _RUST_TYPES, capitals=True
+        ),
+        Dialect("javascript", "mjs", "mjs", "// ", _JAVASCRIPT_NUMBERS, _JAVASCRIPT, _JAVASCRIPT_AXIS),
+        Dialect("python", "py", "py", "", {"float64": "float"}, _PYTHON, _PYTHON_AXIS, types=_PYTHON_TYPES),
     )
 }
 """By name: what `emit --language` takes."""

@@ -104,7 +104,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "header": header(plan, command, dialect.comment),
         "prefix": prefix,
         "number": number,
-        "arithmetic": asked_of_compiler(dialect),
+        **prologue(dialect),
         "search": _searches_text(plan, dialect),
         **_axis_parts(plan, dialect),
         "imports": "\n".join(
@@ -120,6 +120,13 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
         "description": description_in_language(description(plan, language), language, prefix),
     }
     return dialect.filled("kernel", parts).strip("\n") + "\n"
+
+
+def prologue(dialect: Dialect) -> dict[str, str]:
+    """What C and C++ begin with: headers, options that a compiler must not be given, how functions are exported."""
+    phrases = ("includes", "linkage", "end linkage") if dialect.by_block else ()
+    said = {phrase.replace(" ", "_"): dialect.say(phrase) for phrase in phrases}
+    return {"arithmetic": asked_of_compiler(dialect), **said}
 
 
 def asked_of_compiler(dialect: Dialect) -> str:

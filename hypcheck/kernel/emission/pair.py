@@ -62,7 +62,6 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
     require_method(method)
     require_prefix(prefix, language)
     dialect, whole = DIALECTS[language], method == EXACT
-    source = DIALECTS["c"] if language == "cpp" else dialect  # one text is C and C++
     number, (program, values) = dialect.number_of("float64"), _FLOATS[method]
     steps = dialect.statements(program, ("exterior", "interior", "decided"), "float64")
     constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
@@ -79,8 +78,8 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
         "integers": "",
     }
     if whole:
-        parts["integers"] = source.filled("integers", {"steps": "\n".join(_whole(INTEGERS, language))})
-    return source.filled("pair", parts)
+        parts["integers"] = dialect.filled("integers", {"steps": "\n".join(_whole(INTEGERS, language))})
+    return dialect.filled("pair", parts)
 
 
 def _last(method: str, language: str) -> str:

@@ -28,9 +28,9 @@ from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import setting_function
 from hypcheck.kernel.emission.kernel import (
     PREFIX,
-    asked_of_compiler,
     description,
     description_in_language,
+    prologue,
     require_prefix,
     search_text,
 )
@@ -56,7 +56,7 @@ _SHAPE = {
         "search": "search(R, zz, height, &searches[s])",
     },
     "cpp": {
-        "begin": "int shape_{place}({number} x, {number} y, {number} z, const {number} *c, int s)\n{{",
+        "begin": "static int shape_{place}({number} x, {number} y, {number} z, const {number} *c, int s)\n{{",
         "constant": "const {number} {name} = {value};",
         "search": "search(R, zz, height, searches[s])",
     },
@@ -170,7 +170,7 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
     parts = {
         "header": whole_header(plan, scene, command, dialect.comment),
         "prefix": prefix,
-        "arithmetic": asked_of_compiler(dialect),
+        **prologue(dialect),
         "number": dialect.number_of(plan.format.name),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
         "search": search_text(plan, dialect) if searched else "",
