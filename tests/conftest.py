@@ -94,7 +94,7 @@ THOROUGH = {
     "tools/evidence": "faults",
     "tools/fuzz": "fuzz",
     "tools/soak": "soak",
-    "truth": "float_boxes mesh nearest nearest_bounds passage_tilted roots_table swept",
+    "truth": "float_boxes nearest nearest_bounds roots_table",
     "vectors": "razor",
     "vectors/frozen": "files tilted_files",
 }

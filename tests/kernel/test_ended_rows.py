@@ -113,7 +113,7 @@ def test_a_run_of_agreement_that_ended_early_goes_on_from_its_log(tmp_path, monk
 @pytest.mark.parametrize("leaning", [False, True])
 def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_one_is_0_in_contact_alone(leaning):
     """The spheroid grown by the upper bound in its shorter radius has contact, by the exact decision."""
-    rows = ended_agreement.hairs(np.random.default_rng(4), 30, leaning=leaning, nearest=-75)
+    rows = ended_agreement.hairs(np.random.default_rng(4), 12, leaning=leaning, nearest=-75)
     found = clearance(rows)
     truth = np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
     assert (found.distance_lower <= found.distance_upper).all()

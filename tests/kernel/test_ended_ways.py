@@ -76,11 +76,11 @@ def test_ways_by_hand_are_answered_by_the_kernel_and_exactly(way, ends, opened, 
 @pytest.mark.parametrize(
     ("rows", "most_open"),
     [
-        (past_a_tower(1, 300), 0),
-        (near_a_rim(2, 300), 0),
-        (near_a_rim(3, 150, hair=-48), 15),
-        (past_a_tower(4, 60, leaning=True), 0),
-        (near_a_rim(5, 60, leaning=True), 0),
+        (past_a_tower(1, 100), 0),
+        (near_a_rim(2, 100), 0),
+        (near_a_rim(3, 50, hair=-48), 5),
+        (past_a_tower(4, 20, leaning=True), 0),
+        (near_a_rim(5, 20, leaning=True), 0),
     ],
     ids=["tower", "rim", "hairs", "tilted tower", "tilted rim"],
 )

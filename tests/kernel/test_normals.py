@@ -11,11 +11,14 @@ SIZES = (2.0, 17.8, 0.25, 0.15)
 
 
 def nearest_on_the_wall(alpha, gamma, centre):
-    """By the least over a dense curve in the plane of the axis and the centre: good to 1e-6."""
-    height = np.linspace(-12 * gamma, 12 * gamma, 4_000_001)
-    wall, turn = alpha * np.sqrt(1 + (height / gamma) ** 2), np.arctan2(centre[1], centre[0])
-    place = int(np.hypot(wall - np.hypot(*centre[:2]), height - centre[2]).argmin())
-    return np.array([wall[place] * np.cos(turn), wall[place] * np.sin(turn), height[place]])
+    """By the least over a dense curve in the plane of the axis and the centre, and over a denser one about it."""
+    near, turn = 0.0, np.arctan2(centre[1], centre[0])
+    for width in (12 * gamma, gamma / 100, gamma / 10_000):
+        height = near + np.linspace(-width, width, 20_001)
+        wall = alpha * np.sqrt(1 + (height / gamma) ** 2)
+        place = int(np.hypot(wall - np.hypot(*centre[:2]), height - centre[2]).argmin())
+        near = height[place]
+    return np.array([wall[place] * np.cos(turn), wall[place] * np.sin(turn), near])
 
 
 @pytest.mark.parametrize("centre", [(3.0, 4.0, 5.0), (0.5, -0.4, -3.0), (2.9, 0.0, 9.0)])

@@ -117,7 +117,7 @@ def random_rows(seed, count, *, tilted_bodies, tilted_mover):
 def test_position_nearest_and_passage_never_contradict_each_other_or_the_exact_position(
     seed, tilted_mover, tilted_bodies
 ):
-    asked, centres, axes = random_rows(seed, 24, tilted_bodies=tilted_bodies, tilted_mover=tilted_mover)
+    asked, centres, axes = random_rows(seed, 16, tilted_bodies=tilted_bodies, tilted_mover=tilted_mover)
     named = {"axis": axes} if tilted_mover else {}
     true = [truth_in(asked.model, centre, axis) for centre, axis in zip(centres.tolist(), axes.tolist(), strict=True)]
     found = asked.classify(*centres.T, **named)
@@ -125,7 +125,7 @@ def test_position_nearest_and_passage_never_contradict_each_other_or_the_exact_p
     for centre, axis, position in zip(centres.tolist(), axes.tolist(), true, strict=True):
         assert asked.position(*centre, **({"axis": axis} if tilted_mover else {})) == position
     touching = found == Position.CONTACT
-    assert 2 < touching.sum() < 22
+    assert 0 < touching.sum() < 16
     assert (asked.passage(centres, centres, **named).hit == touching).all()
     nearest = asked.nearest(*centres.T, **named)
     assert ((nearest.distance_upper == 0) == touching).all()
@@ -171,7 +171,7 @@ def test_nearest_distance_is_the_least_over_points_of_what_stands(seed):
 def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before_the_first(seed):
     """Exact positions at 33 times of each sweep; the first contact is enclosed within 2^-58 of the whole."""
     draw, hits = np.random.default_rng(seed), set()
-    for number in range(9):
+    for number in range(7):
         body = random_body(draw, 0, tilted=number % 2 == 1)
         axis = draw.normal(size=3).tolist() if seed % 4 > 1 else list(UPRIGHT)
         mover = Mover(*draw.uniform(0.05, 0.8, 2).tolist(), axis=tuple(axis))

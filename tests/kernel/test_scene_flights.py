@@ -131,7 +131,7 @@ def test_the_least_distance_inside_a_tower_is_that_to_its_wall():
     assert (found.least.segment, found.least.time) in ((0, pytest.approx(1, abs=1e-3)), (1, pytest.approx(0, abs=1e-3)))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_no_place_on_a_clear_flight_is_nearer_than_its_least_distance(seed):
     """Scene.nearest at 20 places of each segment, and at the place that was found."""
     tilted = seed % 2 == 1

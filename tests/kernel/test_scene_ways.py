@@ -209,8 +209,8 @@ def test_way_beside_tilted_hyperboloids_hits_where_its_distance_comes_to_0(seed)
     draw = np.random.default_rng(seed)
     bodies = [replace(body, axis=tuple(draw.normal(size=3).tolist())) for body in scene.hyperboloids]
     scene = Scene(replace(scene, hyperboloids=tuple(bodies)))
-    starts, ends = ways(20, seed, step=3.0)
-    axes = draw.normal(size=(20, 3))
+    starts, ends = ways(8, seed, step=3.0)
+    axes = draw.normal(size=(8, 3))
     said = scene.passage(starts, ends, axis=axes).hit.astype(int)
     assert set(said.tolist()) == {0, 1}
     times = np.linspace(0, 1, 100)[:, None]

@@ -120,14 +120,14 @@ def attains(row, change, answer):
 
 def test_some_change_of_the_upper_end_makes_the_answer_right():
     asked = 0
-    for _, row in rows(["uniform", "near", "stiff", "slight"], 16, seed=8):
+    for _, row in rows(["uniform", "near", "stiff", "slight"], 8, seed=8):
         truth = decided(row)
         answer = CONTACT if truth.position is not CONTACT else EXTERIOR
         upper = bracket(Pair.from_row(row), truth, answer).upper
         if upper < 0.25:
             asked += 1
             assert attains(row, Fraction(upper), answer), row
-    assert asked >= 8
+    assert asked >= 4
 
 
 def test_derivatives_by_the_axis_are_those_of_another_algebra():

@@ -107,3 +107,10 @@ def test_a_crossing_on_a_plane_of_symmetry_is_proved_by_points_beyond_a_pole_in_
             assert check_certificate(pair, certificate)
             proved += 1
     assert proved > 10
+
+
+def test_a_centre_on_the_surface_is_proof_enough_of_contact():
+    pair = Pair.from_row((1.0, 2.0, 0.5, 0.25, 0.0, 1.0, 0.0, 1.0, 2.0, 3.0))
+    certificate = prove(pair)
+    assert certificate.points == ((0, 1, 0),)
+    assert check_certificate(pair, certificate)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -111,8 +112,8 @@ def test_the_bound_of_a_small_cell_is_near_its_value():
 def test_roundings_of_a_value_are_within_their_bound_far_from_the_axis():
     draw = np.random.default_rng(7)
     for far in (1.0, 1e4, 1e8):
-        for pair in drawn(6, seed=8, scale=far):
-            pair = Pair.from_row((*pair.row[:2], pair.b / far, pair.d / far, *pair.row[4:]))
+        for large in drawn(6, seed=8, scale=far):
+            pair = replace(large, b=large.b / far, d=large.d / far)
             w, t = pair.z + pair.gamma * draw.normal(size=20), draw.uniform(-3, 3, 20)
             q, _, _, error, _, _ = least._values(pair, w, t, least._SLACK)
             with mp.workprec(200):

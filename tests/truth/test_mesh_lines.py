@@ -57,7 +57,8 @@ def test_tilted_mesh_oracle_leaves_extreme_ratios_of_lengths_undecided():
 
 
 def test_tilted_mesh_oracle_says_contact_at_once_where_the_centre_is_on_the_surface():
-    assert verdict(Pair.from_row((1.0, 4.0, 0.125, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0))).position is Position.CONTACT
+    found = verdict(Pair.from_row((1.0, 4.0, 0.125, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0)))
+    assert (found.position, found.levels) == (Position.CONTACT, 1)
 
 
 def test_corners_of_cells_are_within_their_slack_of_the_exact_ones():

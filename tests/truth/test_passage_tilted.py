@@ -224,3 +224,23 @@ def test_ring_is_seen_only_at_a_time_between_the_two(low, high, ring):
     """F(ℓ) = (3 t − 1)², F′(ℓ) = 3 t − 1 and F″(ℓ) = 1 > 0: the ring at 1/3."""
     at_pole, slope, curvature = rationals(9, -6, 1), rationals(0, 3, -1), rationals(0, 0, 1)
     assert _ring_between(at_pole, slope, curvature, Fraction(low), Fraction(high)) is ring
+
+
+def test_a_way_without_length_grazes_where_it_touches_and_a_way_that_leaves_a_touch_does_too():
+    touching, away = (2.0, 0.0, 0.0), (5.0, 0.0, 0.0)
+    for end in (touching, away):
+        found = passage((1, 1, 1, 1), touching, end)
+        assert (found.first, found.grazes) == ((0, 0), True)
+    assert not passage((1, 1, 1, 1), (1.5, 0.0, 0.0), (1.5, 0.0, 0.0)).grazes
+    late = by_roots(journey_of((1, 1, 1, 1), (11.0, 0.0, 0.0), (1.0, 0.0, 0.0)))
+    assert late.first[0] <= Fraction(9, 10) <= late.first[1]
+    assert not late.grazes
+
+
+@pytest.mark.parametrize("axis", [None, (1.0, 0.0, 2.0)])
+def test_the_positions_at_both_ends_of_a_way_beside_an_end_are_told(axis):
+    """From above the mouth into the body, and back."""
+    above, within = (0.5, 0.0, 9.0), (0.5, 0.0, 1.0)
+    for start, end in ((above, within), (within, above)):
+        found = passage((3, 4, 0.25, 0.5), start, end, axis, z_min=-3, z_max=5)
+        assert (found.start, found.end) == tuple(1 if place is above else -1 for place in (start, end))
