@@ -11,7 +11,7 @@ import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.scene.model import QUESTIONS
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
-from tests.support.inside import choice, exact_position, kernel, numpy_kernel, positions
+from tests.support.inside import choice, exact_position, kernel, kernel_classify, numpy_kernel, positions
 
 KERNELS = [numpy_kernel, kernel()] if choice().kernel == "compiled" else [numpy_kernel]
 SIZES = (2.0, 3.0, 0.5, 1.5)
@@ -104,7 +104,7 @@ def test_classify_scene_takes_one_axis_or_one_for_each_centre(centres):
 def test_classify_scene_with_an_axis_for_each_centre_works_in_several_parts(centres, monkeypatch):
     axes = np.random.default_rng(25).normal(size=(centres.shape[1], 3))
     whole = hypcheck.classify_scene(SIZES, *centres, axis=axes)
-    monkeypatch.setattr("hypcheck.kernel.classify.ROWS_AT_A_TIME", 64)
+    monkeypatch.setattr(kernel_classify, "ROWS_AT_A_TIME", 64)
     assert (hypcheck.classify_scene(SIZES, *centres, axis=axes) == whole).all()
     axes[300] = 0
     with pytest.raises(
@@ -176,7 +176,9 @@ def test_classify_scene_refuses_another_number_of_axes_than_centres():
 
 
 def test_position_refuses_columns_that_are_unknown_or_given_twice():
-    with pytest.raises(InputError, match="there is no column 'tilt'; the columns are alpha, gamma"):
+    with pytest.raises(
+        InputError, match="there is no argument 'tilt' here; what pairs are written with is alpha, gamma"
+    ):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, tilt=(1.0, 0.0, 0.0))
     with pytest.raises(InputError, match="z is given twice; it must be given once"):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, axis=(1.0, 0.0, 0.0), z=3.0)

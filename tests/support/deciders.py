@@ -174,7 +174,7 @@ def scene_of(sizes, axis=None) -> hypcheck.Scene:
 
 
 def of_scene(sizes, center, axis=None) -> int:
-    return int(scene_of(sizes, axis).classify(*center)[0])
+    return int(scene_of(sizes, axis).classify(*center))
 
 
 def of_scene_step(sizes, center, axis=None) -> int:
@@ -361,8 +361,8 @@ DECIDERS = (
     Decider("whole numbers in Python", partial(by_row, of_integers), refuses=False),
     Decider("hypcheck.classify_scene", partial(by_row, of_scene_call)),
     Decider("hypcheck.Prepared", partial(by_row, of_prepared)),
-    Decider("hypcheck.Scene.classify", partial(by_row, of_scene), every=3),
-    Decider("hypcheck.Scene.position", partial(by_row, of_scene_step), every=2),
+    Decider("hypcheck.Scene.classify", partial(by_row, of_scene), every=6),
+    Decider("hypcheck.Scene.position", partial(by_row, of_scene_step), every=6),
     Decider("hypcheck.clearance", of_clearance, takes_any_array=True),
     Decider("hypcheck classify, the command", of_command, every=2, examples=3),
     Decider(
@@ -379,7 +379,7 @@ DECIDERS = (
     ),
     Decider("the C header", of_header, lacks=lacks_compiler),
     Decider("the C header, ends", of_header, takes=ENDED, abstains=0.3, lacks=lacks_compiler),
-    Decider("the least value", of_least_value, takes=ENDED, abstains=0.3, every=4, refuses=False),
+    Decider("the least value", of_least_value, takes=ENDED, abstains=0.3, every=8, refuses=False),
     Decider("the rule in the height", of_rule, takes=ENDED, refuses=False),
     *(
         Decider(
@@ -405,29 +405,29 @@ DECIDERS = (
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),
     Decider("the float filter", of_float_filter, takes=POSITIONS + ENDED),
-    Decider("oracle: exact", partial(of_oracle, "exact"), every=4, examples=3, refuses=False),
+    Decider("oracle: exact", partial(of_oracle, "exact"), every=8, examples=3, refuses=False),
     Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=3, refuses=False),
-    Decider("oracle: roots", partial(of_oracle, "roots"), every=4, examples=3, refuses=False),
-    Decider("oracle: heights", partial(of_oracle, "heights"), every=4, examples=3, refuses=False),
+    Decider("oracle: roots", partial(of_oracle, "roots"), every=8, examples=3, refuses=False),
+    Decider("oracle: heights", partial(of_oracle, "heights"), every=8, examples=3, refuses=False),
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),
         takes=POSITIONS + ENDED,
-        every=6,
+        every=12,
         examples=3,
         abstains=0.4,
         refuses=False,
         lacks=ORACLES["mesh"].available,
     ),
-    Decider("fractions", of_fractions, every=4, refuses=False, drawn=False),
-    Decider("certificates", checkers.check_positions, every=2, refuses=False, drawn=False),
+    Decider("fractions", of_fractions, every=8, refuses=False, drawn=False),
+    Decider("certificates", checkers.check_positions, every=4, refuses=False, drawn=False),
     Decider("hypcheck.passage", of_passage, takes=WAYS, every=3),
     Decider("passage by the discriminant", of_discriminant, takes=WAYS, every=36, refuses=False, drawn=False),
-    Decider("hypcheck.Scene.passage", partial(by_row, of_scene_passage), takes=WAYS),
+    Decider("hypcheck.Scene.passage", partial(by_row, of_scene_passage), takes=WAYS, every=5),
     Decider("builtin:passage-certified", partial(of_method, "passage-certified"), takes=("end",), refuses=False),
     Decider("the C header, ways", of_header, takes=WAYS, abstains=0.1, lacks=lacks_compiler),
     Decider("the numpy kernel, ways", of_ways_in_numpy, takes=WAYS, abstains=0.7),
-    Decider("hypcheck.passage, ends", of_passage, takes=ENDED_WAYS, refuses=False, drawn=False),
+    Decider("hypcheck.passage, ends", of_passage, takes=ENDED_WAYS, every=4, refuses=False, drawn=False),
     Decider("the kernel, ways and ends", of_ways_in_c, takes=ENDED_WAYS, abstains=0.2, refuses=False, drawn=False),
     Decider("the numpy kernel, ways and ends", of_ways_in_numpy, ENDED_WAYS, 1.0, refuses=False, drawn=False),
     Decider("certificates of ways", checkers.check_ways, takes=WAYS, every=3, refuses=False, drawn=False),

@@ -24,7 +24,7 @@ RIGHT, WRONG = STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG]
 HALF = RUNGS_ON_A_SIDE
 
 NARROW = """import numpy as np
-from hypcheck.kernel.classify import classify as exact
+from hypcheck import classify as exact
 def classify(rows):
     rows = np.array(rows)
     alpha, gamma, b, d = rows[:, :4].T
