@@ -69,7 +69,7 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
 
     A pair whose heights never meet the region is left out: nothing there is ever asked of it. Raises InputError where
-    a hyperboloid leans, or a mover that has parts.
+    a hyperboloid leans or has flat ends.
     """
     _require_printable(scene)
     found: dict[Sizes, Setting] = {}
@@ -80,17 +80,13 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
 
 
 def _require_printable(scene: SceneModel) -> None:
-    """Raise InputError about a mover that leans and has parts, or the first hyperboloid that leans or has flat ends."""
-    if scene.mover.parts and leans(scene.mover.axis):
-        raise InputError(
-            "no kernel is made: the mover leans and has parts, and kernels are made for parts of upright movers alone "
-            "(hypcheck.Scene answers exactly)"
-        )
+    """Raise InputError about the first hyperboloid that leans or has flat ends."""
     for body in scene.hyperboloids:
         if leans(body.axis):
             raise InputError(
-                f"no kernel is made: the hyperboloid {body.name!r} has the axis {list(body.axis)}, and kernels are "
-                "made for upright hyperboloids alone, with a mover that may lean (hypcheck.Scene answers exactly)"
+                f"no kernel is made: the hyperboloid {body.name!r} has the axis {list(body.axis)}, and a kernel counts "
+                "centres and the mover's axis in a frame in which the hyperboloid is upright; make one for that frame "
+                "and turn what you ask it into it, or ask hypcheck.Scene, which is exact in any frame"
             )
         if body.solid and body.height is not None:
             raise InputError(
@@ -100,8 +96,9 @@ def _require_printable(scene: SceneModel) -> None:
 
 
 def axis_of(mover: Mover) -> Point | Literal["free"] | None:
-    """The axis that a kernel has to know: None where the mover is upright, or is a ball, the same along every axis."""
-    return mover.axis if leans(mover.axis) and mover.b != mover.d else None
+    """The axis that a kernel has to know: None where all is upright, or all are balls, the same along every axis."""
+    balls = all(body.b == body.d for body in (mover, *mover.parts))
+    return mover.axis if leans(mover.axis) and not balls else None
 
 
 def position_of_box(setting: Setting) -> Position | None:
@@ -150,7 +147,7 @@ def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box |
     region, centre = scene.region, hyperboloid.center
     x = _moved(region.x, centre[0], arm)
     y = _moved(region.y, centre[1], arm)
-    z = _moved(region.z, centre[2], 0.0)
+    z = _moved(region.z, centre[2], arm if leans(scene.mover.axis) else 0.0)  # an arm of what leans points up or down
     height = hyperboloid.height
     if height is None:
         return Box(x, y, z), None

@@ -17,7 +17,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description, described_by_json, domain_of
 from hypcheck.kernel.specialise.leaning import FRAME_NAMES
 from hypcheck.runs import judge
-from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
+from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.vectors import families, fixed_sizes
 from tests.kernel.emission.building import (
     COMMAND,
@@ -53,6 +53,7 @@ SCENES = {
     "two trees, one axis": SceneModel("trees", "exterior", TREES, Mover(0.3, 0.9, axis=(1.0, -2.0, 0.5))),
     "two trees, any axis": SceneModel("trees", "position", TREES, Mover(0.3, 0.9, axis=FREE)),
 }
+ROTORS = (MoverPart(0.1, 0.05, 0.135, 45.0), MoverPart(0.08, 0.08, 0.2, 180.0))
 
 
 @pytest.mark.parametrize("language", DIALECTS)
@@ -69,6 +70,23 @@ def test_a_kernel_for_a_leaning_mover_is_within_its_error_bound_and_always_answe
 
     worst, asked = worst_error(answered, plan, 32)
     assert asked > 100
+    assert worst <= plan.bound_u
+
+
+@pytest.mark.parametrize("mover", [Mover(0.25, 0.15, ROTORS, PITCHED), Mover(0.2, 0.2, ROTORS, FREE)])
+@needs("c")
+def test_a_kernel_for_a_leaning_mover_knows_its_parts_which_have_its_axis(mover, tmp_path):
+    """A ball has no axis of its own, but its parts may lean. An arm points up or down as far as it is long."""
+    scene = replace(tower(PITCHED), mover=mover, region=Region(z=Span(-1.0, 2.0)))
+    plan = plan_of(scene)
+    assert [stages.setting.sizes[2:] for stages in plan.settings] == [(mover.b, mover.d), (0.1, 0.05), (0.08, 0.08)]
+    assert all(stages.setting.axis == mover.axis for stages in plan.settings)
+    for stages, arm in zip(plan.settings, (0, 0.135, 0.2), strict=True):
+        low, high = stages.setting.box.z.ends
+        assert -1 - arm - 1e-9 < low <= -1 - arm
+        assert 2 + arm <= high < 2 + arm + 1e-9
+    worst, asked = worst_error(asking(built(tmp_path, scene, "c"), "c"), plan, 64)
+    assert asked > 300
     assert worst <= plan.bound_u
 
 
