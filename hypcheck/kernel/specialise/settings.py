@@ -97,7 +97,7 @@ def _require_printable(scene: SceneModel) -> None:
 
 def axis_of(mover: Mover) -> Point | Literal["free"] | None:
     """The axis that a kernel has to know: None where all is upright, or all are balls, the same along every axis."""
-    balls = all(body.b == body.d for body in (mover, *mover.parts))
+    balls = mover.b == mover.d and all(part.b == part.d for part in mover.parts)
     return mover.axis if leans(mover.axis) and not balls else None
 
 
