@@ -179,34 +179,15 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
         "cases": "\n".join(_TABLES[language]["case"].format(place=place) for place in range(len(shapes.texts))),
         "settings": str(len(plan.settings)),
         "hyperboloids": str(len(_used(scene, plan))),
-        "parts": str(len(scene.mover.parts)),
         "columns": str(1 + len(scene.mover.parts)),
         "region": _region(scene, language),
         "question": str(NUMBER_OF[scene.question]),
         "yes": str(POSITION_OF.get(scene.question, NO_POSITION)),
-        "of_parts": _of_parts(scene, plan, dialect),
+        "radian": repr(radians(1.0)),
         "constants": ", ".join(f"constants_{place}" for place in range(len(shapes.texts))) + ",",
         "description": description_in_language(description(plan, language), language, prefix),
     }
     return dialect.filled("whole", parts).strip("\n") + "\n"
-
-
-_NO_PARTS = {
-    "c": "(void)m; (void)x; (void)y; (void)z; (void)heading;",
-    "javascript": "",
-    "python": "",
-    "rust": "fn of_parts(_: usize, _: f64, _: f64, _: f64, _: f64) -> i8 {\n    0\n}",
-}
-_NO_PARTS["cpp"] = _NO_PARTS["c"]
-
-
-def _of_parts(scene: SceneModel, plan: ScenePlan, dialect: Dialect) -> str:
-    """What a kernel does where the mover has contact."""
-    if not scene.mover.parts:
-        return _NO_PARTS[dialect.name]
-    number = dialect.number_of(plan.format.name)
-    words = {"parts": str(len(scene.mover.parts)), "radian": repr(radians(1.0)), "number": number}
-    return dialect.filled("parts", words)
 
 
 def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
@@ -269,9 +250,8 @@ def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, searched: bool,
         *(table(f"constants_{place}", rows, number, own=True) for place, rows in enumerate(shapes.rows)),
         table("places", limits.tolist(), wide),
         table("settings_of", [places for _, places in used], index),
+        table("arms", [[0.0, 0.0], *([part.arm, radians(part.angle)] for part in scene.mover.parts)], wide),
     ]
-    if scene.mover.parts:
-        found.append(table("arms", [[part.arm, radians(part.angle)] for part in scene.mover.parts], wide))
     return [*found, _searches(plan, dialect)] if searched else found
 
 
