@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import re
 import shutil
-import subprocess
 import sys
 import tarfile
 from pathlib import Path
@@ -13,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.version import VERSION
+from tests.packages.archives import packed, quietly, unpacked_archive
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADER = ROOT / "hypcheck" / "kernel" / "core" / "hypcheck.h"
@@ -26,26 +26,10 @@ POSITIONS = "-1 0 1"
 needs_cmake = pytest.mark.skipif(None in (CMAKE, CPP), reason="there is no cmake or no C++ compiler")
 
 
-def quietly(*command, **options):
-    """What a command that must succeed prints."""
-    done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, **options)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
-def packed(folder, name="c"):
-    """The archive of a language, built into the folder."""
-    quietly(sys.executable, "-m", "packages", name, "--out", folder, cwd=ROOT)
-    return folder / f"hypcheck-{name}-{VERSION}.tar.gz"
-
-
 @pytest.fixture(scope="module")
 def unpacked(tmp_path_factory):
     folder = tmp_path_factory.mktemp("c")
-    archive = packed(folder)
-    with tarfile.open(archive) as files:
-        files.extractall(folder)  # noqa: S202
-    return folder / f"hypcheck-c-{VERSION}"
+    return unpacked_archive(packed(folder, "c"))
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +85,7 @@ def test_all_that_the_header_defines_besides_is_static_and_begins_with_hc():
 
 
 def test_two_archives_of_one_tree_have_the_same_bytes(tmp_path):
-    first, second = (packed(tmp_path / name).read_bytes() for name in ("first", "second"))
+    first, second = (packed(tmp_path / name, "c").read_bytes() for name in ("first", "second"))
     assert first == second
     assert int.from_bytes(first[4:8], "little") == FIRST_OF_1980, "gzip keeps the time of its making"
     with tarfile.open(fileobj=io.BytesIO(first)) as files:
