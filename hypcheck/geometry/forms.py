@@ -181,9 +181,11 @@ def sizes_of(sizes: Argument) -> dict[str, Argument]:
 
 
 def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER) -> dict[str, Argument]:
-    """One point (3,), or points (n, 3), as values of three columns."""
+    """One point (3,), or points (n, 3), as values of three columns; an empty list is no points."""
     wanted = f"it must be three numbers, {', '.join(names)}, or an array (n, 3) of them"
     numbers = as_numbers(f"{subject} is", points, wanted)
+    if numbers.shape == (0,) and names == CENTER:
+        numbers = numbers.reshape(0, len(names))
     if numbers.ndim not in (1, 2) or numbers.shape[-1] != len(names):
         raise InputError(f"{subject} is of shape {numbers.shape}; {wanted}")
     values = numbers.tolist() if numbers.ndim == 1 else list(numbers.T)

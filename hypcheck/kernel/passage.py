@@ -108,5 +108,5 @@ def _has_rows(value: object) -> bool:
         return bool(dimensions > 1)
     return hasattr(value, "keys") or (
         isinstance(value, (list, tuple))
-        and any(isinstance(part, (list, tuple)) or getattr(part, "ndim", 0) for part in value)
+        and (not value or any(isinstance(part, (list, tuple)) or getattr(part, "ndim", 0) for part in value))
     )

@@ -138,23 +138,24 @@ class Scene(PreparedScene):
     @in_default_environment
     def position(
         self,
-        x: float,
-        y: float | None = None,
-        z: float | None = None,
-        heading: float = 0.0,
+        x: ArrayLike,
+        y: ArrayLike | None = None,
+        z: ArrayLike | None = None,
+        heading: ArrayLike = 0.0,
         *,
-        axis: Sequence[float] | None = None,
+        axis: ArrayLike | None = None,
         margin: float = 0.0,
-    ) -> int:
+    ) -> Answers:
         """The exact answer to the scene's question for one centre, as classify, at the price of a step.
 
-        The centre is three numbers, or a point (3,). Raises InputError for numbers that are not finite, and for an axis
-        where the scene fixes it.
+        The centre is three numbers, or a point (3,); many are answered by classify. Raises InputError for numbers that
+        are not finite, and for an axis where the scene fixes it.
         """
         if y is None or z is None or margin:
             x, y, z = points_or_columns(x, y, z)
-        if margin:
-            return int(np.atleast_1d(self.classify(x, y, z, heading, axis=axis, margin=margin))[0])
+        ordinary = axis is None and float is type(x) is type(y) is type(z)
+        if margin or not (ordinary or are_one((x, y, z), heading, axis)):
+            return self.classify(x, y, z, heading, axis=axis, margin=margin)
         x, y, z, heading = finite_numbers(x, y, z, heading)
         if axis is not None or self._leaning:
             return self._position_leaning((x, y, z), heading, axis)
@@ -346,14 +347,9 @@ class Scene(PreparedScene):
         found = scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
         return scene_nearest.first_of(found) if are_one(center, 0, axis) else found
 
-    def _position_leaning(self, centre: Point, heading: float, axis: Sequence[float] | None) -> int:
+    def _position_leaning(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
         """The same where something leans."""
-        given = self._axes(axis)
-        if np.ndim(given[0]):
-            raise InputError(
-                f"axis is of shape {(*np.shape(given[0]), 3)}; it must be three numbers (classify takes arrays)"
-            )
-        mover_axis = [float(each) for each in given]
+        mover_axis = [float(each) for each in self._axes(axis)]
         trouble = trouble_with_axis(mover_axis)
         if trouble is not None:
             raise InputError(trouble)

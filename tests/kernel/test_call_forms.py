@@ -119,6 +119,13 @@ def test_what_no_call_takes_is_refused_by_its_name(call, sentence):
         call()
 
 
+def test_an_empty_list_is_no_points_and_no_axis():
+    assert hypcheck.classify(SIZES, []).tolist() == []
+    assert hypcheck.passage(SIZES, [], (0, 0, 5)).hit.tolist() == []
+    with pytest.raises(InputError, match=r"axis is of shape \(0,\); it must be three numbers"):
+        hypcheck.classify(SIZES, POINTS, axis=[])
+
+
 def test_heights_may_be_columns():
     tops = np.array([4.0, 6.0, 4.0, 6.0])
     rows = [(*row, 0.0, 0.0, 1.0, -np.inf, top, 0.0) for row, top in zip(ROWS, tops.tolist(), strict=True)]

@@ -89,12 +89,15 @@ def test_scene_position_refuses_an_invalid_centre_in_one_sentence(centre, senten
             scene.position(*centre)
 
 
-def test_scene_position_takes_every_type_of_number_and_refuses_arrays_of_several():
+def test_scene_position_takes_every_type_of_number_and_arrays():
     scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
     for one in (0, 0.0, np.float32(0), np.int64(0), np.array(0.0), np.array([0.0])):
         assert scene.position(one, 0, 0) == -1  # the mover is narrower than the waist
-    with pytest.raises(InputError, match=r"x is of shape \(2,\); it must be a number \(classify takes arrays\)"):
-        scene.position(np.array([1.0, 2.0]), 0, 0)
+    points = np.array([[0.0, 0.0, 0.0], [0.0, 9.0, 0.0]])
+    assert scene.position(points).tolist() == scene.position(*points.T).tolist() == [-1, 1]
+    assert scene.position(0.0, [0.0, 9.0], 0.0).tolist() == [-1, 1]
+    with pytest.raises(InputError, match=r"heading is of shape \(2,\); it must be a number \(classify takes arrays\)"):
+        scene.position(1.0, 2.0, 0.0, [1.0, 2.0])
 
 
 def test_scene_classify_takes_empty_arrays_and_arrays_of_any_layout():

@@ -215,11 +215,10 @@ def test_scene_classify_takes_one_axis_for_all_centres_or_one_for_each():
     assert len(set(each)) > 1
 
 
-def test_scene_position_refuses_an_array_of_axes():
-    with pytest.raises(
-        InputError, match=r"axis is of shape \(1, 3\); it must be three numbers \(classify takes arrays\)"
-    ):
-        Scene(FREELY).position(1.0, 2.0, 3.0, axis=[(0.0, 0.0, 1.0)])
+def test_scene_position_answers_an_array_of_axes_by_an_array():
+    axes = [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
+    found = Scene(FREELY).position(1.4, 0.0, 0.0, axis=axes)
+    assert found.tolist() == [Scene(FREELY).position(1.4, 0.0, 0.0, axis=axis) for axis in axes]
 
 
 def test_scene_classify_names_the_row_of_an_invalid_axis():
