@@ -155,8 +155,8 @@ def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
     Those with heights have an axis, so that an implementation has to take both.
     """
     names = INVALID_NAMES[used.asked.layout][: 1 + used.tilt]
-    if used.asked.layout is PAIRS and used.heights and used.tilt:
-        names = (*names, ENDED_INVALID)
+    if used.heights and used.tilt:
+        names = (*names, ENDED_INVALID[used.asked.layout])
     return tuple(map(InvalidRows, names)) if used.refuses else ()
 
 

@@ -37,7 +37,7 @@ ENDED_SCHEMA = "1.3.0"
 """The version of the schemas of files about hyperboloids that end."""
 
 ENDED_WAY_SCHEMA = "1.4.0"
-"""The version of the schema of files about ways beside these; a reader refuses any other than these five."""
+"""The version of the schemas of files about ways beside these; a reader refuses any other than these five."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +82,7 @@ CONTENTS = {
         Content("ended-positions", ENDED_SCHEMA, tilted=True, ended=True),
         Content("ended-refusals", ENDED_SCHEMA, tilted=True, refused=True, ended=True),
         Content("ended-ways", ENDED_WAY_SCHEMA, WAYS, tilted=True, ended=True),
+        Content("ended-way-refusals", ENDED_WAY_SCHEMA, WAYS, tilted=True, refused=True, ended=True),
     )
 }
 """All contents by name."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import WAYS
+from hypcheck.geometry.rows import PAIRS, WAYS
 from hypcheck.messages import suggestion
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import read_cases
@@ -47,8 +47,8 @@ ALL_NAMES = (
     *(*NAMES, "invalid"),
     *(*TILTED_NAMES, "tilted-invalid"),
     *(*WAY_NAMES, *INVALID_NAMES[WAYS]),
-    *(*ENDED_NAMES, ENDED_INVALID),
-    *ENDED_WAY_NAMES,
+    *(*ENDED_NAMES, ENDED_INVALID[PAIRS]),
+    *(*ENDED_WAY_NAMES, ENDED_INVALID[WAYS]),
 )
 """All files, in the order in which they are listed."""
 

@@ -36,11 +36,12 @@ INVALID_CONTENTS = {
     "way-invalid": content_with(WAYS, refused=True),
     "tilted-way-invalid": content_with(WAYS, tilted=True, refused=True),
     "ended-invalid": content_with(refused=True, ended=True),
+    "ended-way-invalid": content_with(WAYS, refused=True, ended=True),
 }
 """The files of rows without an answer by name, and the content of each."""
 
-ENDED_INVALID = "ended-invalid"
-"""That of hyperboloids that end."""
+ENDED_INVALID = {content.layout: name for name, content in INVALID_CONTENTS.items() if content.ended}
+"""The names of those about hyperboloids that end, by layout."""
 
 INVALID_NAMES = {
     layout: tuple(name for name, content in INVALID_CONTENTS.items() if content.layout is layout and not content.ended)
@@ -104,7 +105,7 @@ class InvalidRowFile(CaseFile[InvalidRow]):
 
 
 def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
-    """Rows (n, 7, 10 or 13) of these 64-bit words."""
+    """Rows (n, as many as a file's columns) of these 64-bit words."""
     return np.asarray(bits, dtype=np.uint64).reshape(len(bits), -1).view(np.float64)
 
 
@@ -126,8 +127,8 @@ def invalid_rows(name: str) -> InvalidRowFile:
     """The file of that name, made anew."""
     content = INVALID_CONTENTS[name]
     cases = []
-    made = _bad_ended_rows() if content.ended else (_bad_tilted_rows if content.tilted else _bad_rows)(content.layout)
-    for number, bits in enumerate(dict.fromkeys(made)):
+    bad = _bad_ended_rows if content.ended else _bad_tilted_rows if content.tilted else _bad_rows
+    for number, bits in enumerate(dict.fromkeys(bad(content.layout))):
         row = tuple(rows_from_bits([bits])[0].tolist())
         cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row, content.columns)))
     return InvalidRowFile(described(name, f"hypcheck cases freeze {name}"), content, tuple(cases))
@@ -194,26 +195,28 @@ def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
     yield (infinite,) * len(row)
 
 
-def _bad_ended_rows() -> Iterator[tuple[int, ...]]:
+def _bad_ended_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
     """Ends in the wrong order or equal, NaN for an end, numbers for `solid` that are neither, then others."""
     sound = [
         (*_bits(row), *_bits(axis), *_bits(heights))
-        for row, axis, heights in zip(_SOUND[PAIRS], _AXES, _HEIGHTS, strict=True)
+        for row, axis, heights in zip(_SOUND[layout], _AXES, _HEIGHTS, strict=True)
     ]
     infinite, minus = _word(math.inf), _word(-math.inf)
+    axis, ends, solid = ([layout.ended.index(name) for name in group] for group in (AXIS, ENDS, HEIGHTS[2:]))
+    last = layout.ended.index(AXIS[0]) - 1
     for row in sound:
-        low, high = row[10], row[11]
+        low, high = (row[place] for place in ends)
         for words in ((high, low), (high, high), (0, _SIGN), (infinite, infinite), (minus, minus), (infinite, minus)):
-            yield _replaced(row, dict(zip((10, 11), words, strict=True)))
-        for place in (10, 11, 12):
+            yield _replaced(row, dict(zip(ends, words, strict=True)))
+        for place in (*ends, *solid):
             for word in _NANS.values():
                 yield _replaced(row, {place: word})
         for value in (0.5, 2.0, -1.0, 5e-324, math.inf, -math.inf):
-            yield _replaced(row, {12: _word(value)})
-        yield _replaced(row, {10: _NANS["nan"], 11: _NANS["nan"]})
-        yield _replaced(row, {7: 0, 8: 0, 9: 0})
+            yield _replaced(row, dict.fromkeys(solid, _word(value)))
+        yield _replaced(row, dict.fromkeys(ends, _NANS["nan"]))
+        yield _replaced(row, dict.fromkeys(axis, 0))
         yield _replaced(row, {0: 0})
-        yield _replaced(row, {6: infinite, 11: infinite})
+        yield _replaced(row, {last: infinite, ends[1]: infinite})
     yield (0,) * len(sound[0])
     yield (_NANS["nan"],) * len(sound[0])
 

@@ -22,7 +22,7 @@ GROUPS = {"positions": "", "tilted-positions": "axis", "ways": "end", "tilted-wa
 GROUPS |= {"ended-positions": "axis heights", "ended-ways": "end axis heights"}
 """The content of a file, and the groups of columns that its rows have behind the sizes and the centre."""
 REFUSED = {"refusals": "", "tilted-refusals": "axis", "way-refusals": "end", "tilted-way-refusals": "end axis"}
-REFUSED["ended-refusals"] = "axis heights"
+REFUSED |= {"ended-refusals": "axis heights", "ended-way-refusals": "end axis heights"}
 """The same of files whose rows must be refused."""
 
 

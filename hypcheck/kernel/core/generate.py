@@ -89,6 +89,7 @@ PARTS = (
     "tilted",
     "ways",
     "twins",
+    "fine_sections",
     "ended_integers",
     "ended",
     "ended_ways",

@@ -1663,7 +1663,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_e6bc8695acbfd2e0
+#ifndef HC_EDITION_e6925468055d35ae
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3113,6 +3113,85 @@ static hc_twin hc_twin_root(hc_twin square) {
     return root > 0 ? hc_two_sum(root, left.high / (2 * root)) : hc_twin_of(0);
 }
 
+/* ---- a pair's sections by numbers of two doubles ---- */
+
+#define HC_FINE_ERROR 8.0779356694631609e-28 /* 2^-90: 128u of numbers of two doubles, u = 2^-100, and room */
+
+/* hc_sections of ended.h without roots: eta = E/sqrt(F), xi = (X - kappa t)/sqrt(F), F the square of
+   the horizontal part of the axis. `alpha2` is alpha², `rise2` alpha²/gamma², b2 is 1/mu1, c2 is 1/mu2. */
+typedef struct {
+    hc_twin alpha2, rise2, z, T, b2, c2, E, X, kappa, F;
+    double v[2]; /* the horizontal part of the axis */
+} hc_fine_sections;
+
+static void hc_place_fine(hc_fine_sections *made, hc_twin x, hc_twin y, hc_twin z) {
+    const hc_twin v0 = hc_twin_of(made->v[0]), v1 = hc_twin_of(made->v[1]);
+    made->E = hc_twin_difference(hc_twin_product(x, v1), hc_twin_product(y, v0));
+    made->X = hc_twin_sum(hc_twin_product(x, v0), hc_twin_product(y, v1));
+    made->z = z;
+}
+
+/* b² and d² are multiplied by 1 + more. */
+static hc_fine_sections hc_make_fine(const double row[10], double more) {
+    const hc_twin one = hc_twin_of(1), share = hc_two_sum(1, more), d2 = hc_twin_product(hc_two_product(row[3], row[3]), share);
+    hc_fine_sections made;
+    double v[3];
+    memcpy(v, row + 7, sizeof v);
+    hc_scale_axis(v);
+    made.alpha2 = hc_two_product(row[0], row[0]);
+    made.rise2 = hc_twin_quotient(made.alpha2, hc_two_product(row[1], row[1]));
+    made.b2 = hc_twin_product(hc_two_product(row[2], row[2]), share);
+    made.v[0] = v[0], made.v[1] = v[1];
+    if (v[0] == 0 && v[1] == 0) {
+        made.T = d2;
+        made.c2 = made.b2;
+        made.kappa = hc_twin_of(0);
+        made.F = one;
+        made.v[0] = 1;
+    } else {
+        const hc_twin flat = hc_twin_sum(hc_two_product(v[0], v[0]), hc_two_product(v[1], v[1])), up = hc_twin_of(v[2]);
+        const hc_twin length = hc_twin_sum(flat, hc_twin_square(up)), sum = hc_two_sum(row[2], row[3]);
+        const hc_twin wide = hc_twin_product(hc_twin_product(hc_two_sum(row[2], -row[3]), sum), share);
+        const hc_twin all = hc_twin_sum(hc_twin_product(made.b2, flat), hc_twin_product(d2, hc_twin_square(up)));
+        made.T = hc_twin_quotient(all, length);
+        made.c2 = hc_twin_quotient(hc_twin_product(made.b2, d2), made.T);
+        made.kappa = hc_twin_quotient(hc_twin_product(hc_twin_product(up, flat), wide), all);
+        made.F = flat;
+    }
+    hc_place_fine(&made, hc_twin_of(row[4]), hc_twin_of(row[5]), hc_twin_of(row[6]));
+    return made;
+}
+
+static hc_twin hc_fine_square_of_radius(const hc_fine_sections *fine, double w) {
+    return hc_twin_sum(fine->alpha2, hc_twin_product(fine->rise2, hc_two_product(w, w)));
+}
+
+/* t²/T - 1 at a height. */
+static hc_twin hc_fine_share(const hc_fine_sections *fine, hc_twin t) {
+    return hc_twin_difference(hc_twin_quotient(hc_twin_square(t), fine->T), hc_twin_of(1));
+}
+
+/* phi at a height, f being lambda/(1 + lambda/mu); the error is as in hc_phi_about, of doubles of 100 bits. */
+static double hc_fine_phi(const hc_fine_sections *fine, double lambda_, double w) {
+    const hc_twin t = hc_twin_difference(hc_twin_of(w), fine->z), l = hc_twin_of(lambda_), one = hc_twin_of(1);
+    const hc_twin aside = hc_twin_difference(fine->X, hc_twin_product(fine->kappa, t));
+    const hc_twin n1 = hc_twin_sum(one, hc_twin_product(l, fine->b2)), n2 = hc_twin_sum(one, hc_twin_product(l, fine->c2));
+    const hc_twin parts = hc_twin_sum(hc_twin_quotient(hc_twin_square(fine->E), n1), hc_twin_quotient(hc_twin_square(aside), n2));
+    const hc_twin off = hc_twin_difference(hc_twin_quotient(parts, fine->F), hc_fine_square_of_radius(fine, w));
+    return hc_twin_sum(hc_fine_share(fine, t), hc_twin_product(l, off)).high;
+}
+
+/* What hc_point_within compares, by numbers of two doubles. */
+static double hc_fine_point(const hc_fine_sections *fine, double w, double a, double c) {
+    const hc_twin t = hc_twin_difference(hc_twin_of(w), fine->z), length = hc_twin_sum(hc_two_product(a, a), hc_two_product(c, c));
+    const hc_twin scale = hc_twin_root(hc_twin_quotient(hc_twin_product(fine->F, hc_fine_square_of_radius(fine, w)), length));
+    const hc_twin off = hc_twin_difference(hc_twin_product(scale, hc_twin_of(a)), fine->E);
+    const hc_twin xi = hc_twin_difference(fine->X, hc_twin_product(fine->kappa, t));
+    const hc_twin aside = hc_twin_difference(hc_twin_product(scale, hc_twin_of(c)), xi);
+    const hc_twin sum = hc_twin_sum(hc_twin_quotient(hc_twin_square(off), fine->b2), hc_twin_quotient(hc_twin_square(aside), fine->c2));
+    return hc_twin_sum(hc_twin_quotient(sum, fine->F), hc_fine_share(fine, t)).high;
+}
+
 /* ---- hyperboloids that end: exact integers beside an end, upright ---- */
 
 #define HC_END_BITS 256 /* of a length in its unit, at most */
@@ -3180,7 +3259,6 @@ static hc_end hc_exact_end(const double row[13], double w) {
 #define HC_MOST_PIECES 48
 #define HC_ENDED_STEPS 14 /* of Newton's method for a multiplier; any result is safe */
 #define HC_ENDED_ERROR 1.4210854715202004e-14 /* 2^-46 = 128u */
-#define HC_FINE_ERROR 8.0779356694631609e-28 /* 2^-90: 128u of numbers of two doubles, u = 2^-100, and room */
 #define HC_MOST_ASKED 160 /* pieces that are looked at, of which HC_MOST_PIECES wait */
 #define HC_ENDED_AIMS 4
 #define HC_ENDED_NEAREST 9e-13 /* below 2^-40: how near lambda may come to -mu, in mu */
@@ -3260,75 +3338,6 @@ static double hc_ended_multiplier(const hc_sections *pair, double r, double xi) 
         n = moved;
     }
     return n - least;
-}
-
-/* The same pair with numbers of two doubles, and without roots: eta = E/sqrt(F), xi = (X - kappa t)/sqrt(F), F the square of
-   the horizontal part of the axis. `alpha2` is alpha², `rise2` alpha²/gamma², b2 is 1/mu1, c2 is 1/mu2. */
-typedef struct {
-    hc_twin alpha2, rise2, z, T, b2, c2, E, X, kappa, F;
-} hc_fine_sections;
-
-static hc_fine_sections hc_make_fine(const double row[10]) {
-    const hc_twin x = hc_twin_of(row[4]), y = hc_twin_of(row[5]), d2 = hc_two_product(row[3], row[3]), one = hc_twin_of(1);
-    hc_fine_sections made;
-    double v[3];
-    hc_twin v0, v1, v2, flat, all;
-    memcpy(v, row + 7, sizeof v);
-    hc_scale_axis(v);
-    v0 = hc_twin_of(v[0]), v1 = hc_twin_of(v[1]), v2 = hc_twin_of(v[2]);
-    flat = hc_twin_sum(hc_twin_square(v0), hc_twin_square(v1));
-    made.alpha2 = hc_two_product(row[0], row[0]);
-    made.rise2 = hc_twin_quotient(made.alpha2, hc_two_product(row[1], row[1]));
-    made.z = hc_twin_of(row[6]);
-    made.b2 = hc_two_product(row[2], row[2]);
-    if (v[0] == 0 && v[1] == 0) {
-        made.T = d2;
-        made.c2 = made.b2;
-        made.kappa = hc_twin_of(0);
-        made.F = one;
-        v0 = one;
-    } else {
-        const hc_twin length = hc_twin_sum(flat, hc_twin_square(v2));
-        const hc_twin wide = hc_twin_product(hc_two_sum(row[2], -row[3]), hc_two_sum(row[2], row[3]));
-        all = hc_twin_sum(hc_twin_product(made.b2, flat), hc_twin_product(d2, hc_twin_square(v2)));
-        made.T = hc_twin_quotient(all, length);
-        made.c2 = hc_twin_quotient(hc_twin_product(made.b2, d2), made.T);
-        made.kappa = hc_twin_quotient(hc_twin_product(hc_twin_product(v2, flat), wide), all);
-        made.F = flat;
-    }
-    made.E = hc_twin_difference(hc_twin_product(x, v1), hc_twin_product(y, v0));
-    made.X = hc_twin_sum(hc_twin_product(x, v0), hc_twin_product(y, v1));
-    return made;
-}
-
-static hc_twin hc_fine_square_of_radius(const hc_fine_sections *fine, double w) {
-    return hc_twin_sum(fine->alpha2, hc_twin_product(fine->rise2, hc_two_product(w, w)));
-}
-
-/* t²/T - 1 at a height. */
-static hc_twin hc_fine_share(const hc_fine_sections *fine, hc_twin t) {
-    return hc_twin_difference(hc_twin_quotient(hc_twin_square(t), fine->T), hc_twin_of(1));
-}
-
-/* phi at a height, f being lambda/(1 + lambda/mu); the error is as in hc_phi_about, of doubles of 100 bits. */
-static double hc_fine_phi(const hc_fine_sections *fine, double lambda_, double w) {
-    const hc_twin t = hc_twin_difference(hc_twin_of(w), fine->z), l = hc_twin_of(lambda_), one = hc_twin_of(1);
-    const hc_twin aside = hc_twin_difference(fine->X, hc_twin_product(fine->kappa, t));
-    const hc_twin n1 = hc_twin_sum(one, hc_twin_product(l, fine->b2)), n2 = hc_twin_sum(one, hc_twin_product(l, fine->c2));
-    const hc_twin parts = hc_twin_sum(hc_twin_quotient(hc_twin_square(fine->E), n1), hc_twin_quotient(hc_twin_square(aside), n2));
-    const hc_twin off = hc_twin_difference(hc_twin_quotient(parts, fine->F), hc_fine_square_of_radius(fine, w));
-    return hc_twin_sum(hc_fine_share(fine, t), hc_twin_product(l, off)).high;
-}
-
-/* What hc_point_within compares, by numbers of two doubles. */
-static double hc_fine_point(const hc_fine_sections *fine, double w, double a, double c) {
-    const hc_twin t = hc_twin_difference(hc_twin_of(w), fine->z), length = hc_twin_sum(hc_two_product(a, a), hc_two_product(c, c));
-    const hc_twin scale = hc_twin_root(hc_twin_quotient(hc_twin_product(fine->F, hc_fine_square_of_radius(fine, w)), length));
-    const hc_twin off = hc_twin_difference(hc_twin_product(scale, hc_twin_of(a)), fine->E);
-    const hc_twin xi = hc_twin_difference(fine->X, hc_twin_product(fine->kappa, t));
-    const hc_twin aside = hc_twin_difference(hc_twin_product(scale, hc_twin_of(c)), xi);
-    const hc_twin sum = hc_twin_sum(hc_twin_quotient(hc_twin_square(off), fine->b2), hc_twin_quotient(hc_twin_square(aside), fine->c2));
-    return hc_twin_sum(hc_twin_quotient(sum, fine->F), hc_fine_share(fine, t)).high;
 }
 
 /* The least slope v + bend v² for 0 <= v <= reach. */
@@ -3459,7 +3468,7 @@ static int hc_wall_misses(const hc_sections *pair, const double row[10], double 
         hc_direction_of(pair, lambda_, r, xi, &a, &c);
         if (hc_point_within(pair, r, w, xi, a, c)) return 0;
         if (phi.value <= 2 * HC_ENDED_ERROR * phi.size && -phi.value <= 2 * HC_ENDED_ERROR * (phi.size + hc_point_size(pair, r, w))) {
-            if (!made) fine = hc_make_fine(row);
+            if (!made) fine = hc_make_fine(row, 0);
             made = 1;
             if (hc_point_surely_within(pair, &fine, w, a, c)) return 0;
             if (phi.safe) {
@@ -3487,7 +3496,7 @@ static int hc_disc_misses(const hc_sections *pair, double w) {
 
 /* The same by numbers of two doubles. */
 static int hc_disc_surely_misses(const hc_sections *pair, const double row[10], double w) {
-    const hc_fine_sections fine = hc_make_fine(row);
+    const hc_fine_sections fine = hc_make_fine(row, 0);
     const hc_twin t = hc_twin_difference(hc_twin_of(w), fine.z), xi = hc_twin_difference(fine.X, hc_twin_product(fine.kappa, t));
     const hc_twin center = hc_twin_quotient(hc_twin_sum(hc_twin_square(fine.E), hc_twin_square(xi)), fine.F);
     const double share = hc_fine_share(&fine, t).high, off = hc_twin_difference(center, hc_fine_square_of_radius(&fine, w)).high;
@@ -3635,19 +3644,28 @@ void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) 
 #define HC_MOST_RECTANGLES 128 /* that are looked at before a stretch is given up */
 #define HC_RECTANGLES_KEPT 64
 #define HC_AIMS 3
-#define HC_SMALL 9.5367431640625e-07 /* 2^-20, and 2^-8: rectangles on which a form changes less are given up */
-#define HC_HOPELESS 0.00390625
+#define HC_SMALL 9.5367431640625e-07 /* 2^-20 */
 #define HC_SEEN_ENDED 4096 /* as HC_SEEN */
 #define HC_TIMES 60 /* halvings of the time before a contact, of which so many may tell nothing */
 #define HC_MOST_UNKNOWN 8
+#define HC_FINE_SLACK 2.8421709430404007e-14 /* 2^-45, of the way's slack: 2^-96 (1 + the sum in radii) */
+#define HC_NEAR_CONTACT 8 /* errors of a form, within which numbers of two doubles are asked */
+#define HC_SIMPLE_TIMES 1048576.0 /* 2^20: times that are asked exactly are whole numbers over this */
 
 /* A way, and the sections of the spheroid larger by its slack, which holds the exact one at all times, and of the one
-   smaller by it, which the exact one holds. `rise`, `off` and `aside` are what z, eta and xi0 change in a unit of time. */
+   smaller by it, which the exact one holds. `rise`, `off` and `aside` are what z, eta and xi0 change in a unit of time.
+
+   `outer` and `inner` are the same by numbers of two doubles: from + t (to - from) is right within 2^-98 (|from| + |to|),
+   which makes a slack of 2^-96 (1 + the sum in radii), and squares are multiplied by 1 + 4 slack and 1 - 4 slack. `between`
+   are the sections of the spheroid as it is, for slopes. `wide` is |x| + |y| of both ends, `tall` |z| of both. */
 typedef struct {
     hc_way way;
-    hc_sections larger, smaller;
-    double rise, off, aside, swift, reach, low, high;
-    int solid, wall;
+    hc_sections larger, smaller, between;
+    hc_fine_sections outer, inner;
+    hc_twin moved[3];
+    double rise, off, aside, swift, reach, low, high, wide, tall;
+    const double *row, *axis;
+    int solid, wall, fine, clear[2]; /* `clear`: that there is no contact at the start, at the end */
 } hc_ended_way;
 
 /* Heights and times. */
@@ -3681,7 +3699,28 @@ static int hc_make_ended_way(hc_ended_way *made, const double row[16], const dou
     made->high = row[14];
     made->solid = row[15] != 0;
     made->wall = 1;
+    made->row = row;
+    made->axis = axis;
+    made->fine = 0;
     return 1;
+}
+
+/* What only numbers of two doubles need. */
+static void hc_make_finer(hc_ended_way *made) {
+    const double more = 4 * HC_FINE_SLACK * made->way.slack;
+    double shape[10] = {0};
+    int k;
+    if (made->fine) return;
+    memcpy(shape, made->row, 4 * sizeof *shape);
+    if (made->axis) memcpy(shape + 7, made->axis, 3 * sizeof *shape);
+    else shape[9] = 1;
+    (void)hc_make_sections(&made->between, shape); /* it is made: so is the larger one */
+    made->outer = hc_make_fine(shape, more);
+    made->inner = hc_make_fine(shape, -more);
+    for (k = 0; k < 3; k++) made->moved[k] = hc_two_sum(made->row[7 + k], -made->row[4 + k]);
+    made->wide = hc_size(made->row[4]) + hc_size(made->row[5]) + hc_size(made->row[7]) + hc_size(made->row[8]);
+    made->tall = hc_size(made->row[6]) + hc_size(made->row[9]);
+    made->fine = 1;
 }
 
 static void hc_center_at(const hc_ended_way *made, double time, double center[3]) {
@@ -3797,6 +3836,112 @@ static int hc_surely_met(hc_ended_way *made, double lambda_, double w, double ti
     return 0;
 }
 
+/* hc_form_least less what the slopes and bends are off by, `height` and `time` of what each distance is at most. A form that
+   bends upwards everywhere is not below the sum of two squares, each less a share |xy|/sqrt(xx yy) of its own. */
+static double hc_form_least_surely(const hc_form *form, const hc_rectangle *in, double w, double time, const double pulls[2]) {
+    const double below = w - in->low, above = in->high - w, before = time - in->first, after = in->last - time;
+    const double x = below > above ? below : above, y = before > after ? before : after, mixed = 2 * hc_size(form->xy);
+    const double first = hc_least_between(form->by_height, form->xx, mixed * y + pulls[0], below, above) +
+                         hc_least_between(form->by_time, form->yy, pulls[1], before, after);
+    const double second = hc_least_between(form->by_height, form->xx, pulls[0], below, above) +
+                          hc_least_between(form->by_time, form->yy, mixed * x + pulls[1], before, after);
+    double least = first > second ? first : second;
+    if (form->xx > 0 && form->yy > 0) {
+        const double root = hc_fine_root(form->xx) * hc_fine_root(form->yy), share = hc_size(form->xy) * (1 + HC_SMALL) / root;
+        if (root > 0 && share < 1) {
+            const double both = hc_least_between(form->by_height, form->xx * (1 - share), pulls[0], below, above) +
+                                hc_least_between(form->by_time, form->yy * (1 - share), pulls[1], before, after);
+            if (both > least) least = both;
+        }
+    }
+    return least;
+}
+
+/* Whether there is contact at a time that is a whole number over HC_SIMPLE_TIMES, and at which the centre is three doubles:
+   an exact position shows it. The time comes first in the product, so that what is left of it is 0 where it is exact. */
+static int hc_touched_at(const hc_ended_way *made, double at, double *contact) {
+    double row[13] = {0};
+    int k;
+    memcpy(row, made->row, 4 * sizeof *row);
+    for (k = 0; k < 3; k++) {
+        const hc_twin part = hc_two_product(at, made->moved[k].high), center = hc_two_sum(made->row[4 + k], part.high);
+        if (made->moved[k].low != 0 || part.low != 0 || center.low != 0) return 0;
+        if (at != 0 && made->moved[k].high != 0 && hc_size(part.high) < HC_ENDED_LEAST) return 0; /* it may lose bits */
+        row[4 + k] = center.high;
+    }
+    if (made->axis) memcpy(row + 7, made->axis, 3 * sizeof *row);
+    else row[9] = 1;
+    row[10] = made->low, row[11] = made->high, row[12] = made->solid;
+    if (hc_ended_position(row, hc_position_with(row, made->axis)) != 0) return 0;
+    *contact = at;
+    return 1;
+}
+
+/* The time from one to another that has the fewest bits behind the point; where it would have more than those of
+   HC_SIMPLE_TIMES, the next that has so many. */
+static double hc_simplest_time(double first, double last) {
+    double unit = 1, at = 1;
+    for (; unit <= HC_SIMPLE_TIMES; unit *= 2) {
+        at = (double)(int64_t)(first * unit) / unit;
+        if (at < first) at += 1 / unit;
+        if (at <= last) break;
+    }
+    return at;
+}
+
+/* The same at the simplest time of a rectangle and at the one next to a time; `asked` is the one that was asked last. */
+static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, double time, double *asked, double *contact) {
+    const double simplest = hc_simplest_time(in->first, in->last);
+    const double next = (double)(int64_t)(time * HC_SIMPLE_TIMES + 0.5) / HC_SIMPLE_TIMES;
+    const double before = *asked;
+    *asked = simplest;
+    return (simplest != before && hc_touched_at(made, simplest, contact)) || (next != simplest && hc_touched_at(made, next, contact));
+}
+
+/* A rectangle by numbers of two doubles, about a height, a time and a lambda: 1 where it is surely clear, 0 where there is
+   contact at *contact, 2 where neither is known, 3 where smaller rectangles may tell. */
+static int hc_finely_missed(hc_ended_way *made, double lambda_, double w, double time, const hc_rectangle *in, double *contact) {
+    const double x = in->high - in->low, y = in->last - in->first;
+    hc_sections *const pair = &made->between;
+    double center[3], a, c, r, xi, value, error, pulls[2];
+    hc_form form;
+    int k;
+    hc_make_finer(made);
+    hc_center_at(made, time, center);
+    hc_place_sections(pair, center);
+    {
+        hc_twin at[3];
+        for (k = 0; k < 3; k++) at[k] = hc_twin_sum(hc_twin_of(made->row[4 + k]), hc_twin_product(hc_twin_of(time), made->moved[k]));
+        hc_place_fine(&made->outer, at[0], at[1], at[2]);
+        hc_place_fine(&made->inner, at[0], at[1], at[2]);
+    }
+    r = hc_radius(pair, w);
+    xi = pair->xi0 - pair->k * (w - pair->z);
+    {
+        const double n1 = pair->mu1 + lambda_, n2 = pair->mu2 + lambda_, g = pair->ratio * pair->alpha, g2 = g * g;
+        const double top = hc_size(w) + x + made->tall, high = hc_size(w) + x, drift = made->swift + hc_size(pair->k * made->rise);
+        const double along = made->wide + hc_size(pair->k) * top, one = hc_size(lambda_ * pair->mu1 / n1) * (1 + pair->mu1 / n1);
+        const double two = hc_size(lambda_ * pair->mu2 / n2) * (1 + pair->mu2 / n2), across = r + along, l2 = hc_size(lambda_);
+        const double size = 1 + top * top / pair->T + l2 * (pair->alpha * pair->alpha + g2 * (high * high)) +
+                            one * (made->wide * made->wide) + two * (along * along);
+        const double point = (pair->mu1 + pair->mu2) * (across * across) + top * top / pair->T + 1;
+        if (!(n1 > pair->mu1 * HC_ENDED_NEAREST && n2 > pair->mu2 * HC_ENDED_NEAREST && size < HC_cap && point < HC_cap)) return 3;
+        pulls[0] = 8 * HC_ENDED_ERROR * (top / pair->T + l2 * (g2 * high) + two * (along * hc_size(pair->k)));
+        pulls[1] = 8 * HC_ENDED_ERROR * (one * (made->wide * made->swift) + two * (along * drift) + top * hc_size(made->rise) / pair->T);
+        form = hc_form_about(made, pair, lambda_, w);
+        value = hc_fine_phi(&made->outer, lambda_, w);
+        error = HC_FINE_ERROR * size;
+        if (value + hc_form_least_surely(&form, in, w, time, pulls) > error) return 1;
+        hc_direction_of(pair, lambda_, r, xi, &a, &c);
+        if (a * a + c * c > HC_ENDED_LEAST && a * a + c * c < HC_ENDED_GREATEST &&
+            hc_fine_point(&made->inner, w, a, c) < -HC_FINE_ERROR * point) {
+            *contact = time;
+            return 0;
+        }
+        return hc_size(value) > 4 * (error + 4 * HC_FINE_SLACK * made->way.slack * size) ? 3 : 2;
+    }
+}
+
 /* Cuts off the heights of a rectangle that the larger spheroid never reaches. Returns 0 where none is left. */
 static int hc_cut_to_reach(const hc_ended_way *made, hc_rectangle *of) {
     double center[3], bottom, top;
@@ -3815,6 +3960,7 @@ static int hc_cut_to_reach(const hc_ended_way *made, hc_rectangle *of) {
 /* Whether the wall is surely missed from a time to another: 1; 0 where there is contact at *contact; else 2. */
 static int hc_wall_missed_between(hc_ended_way *made, double first, double last, double *contact) {
     hc_rectangle kept[HC_RECTANGLES_KEPT];
+    double asked = -1;
     int left = 1, seen = 0, unknown = 0;
     kept[0].low = made->low, kept[0].high = made->high, kept[0].first = first, kept[0].last = last;
     while (left) {
@@ -3832,13 +3978,15 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
             *contact = time;
             return 0;
         }
+        if (hc_size(form.value) <= HC_NEAR_CONTACT * error * (1 + made->way.slack / HC_ENDED_ERROR)) {
+            const int finely = hc_finely_missed(made, lambda_, w, time, &in, contact);
+            if (finely == 0 || (finely > 1 && hc_touched_about(made, &in, time, &asked, contact))) return 0;
+            if (finely == 2) unknown = 1;
+            if (finely < 3) continue;
+        }
         by_height = (hc_size(form.by_height) + hc_size(form.xx) * (in.high - in.low)) * (in.high - in.low);
         by_time = (hc_size(form.by_time) + hc_size(form.yy) * (in.last - in.first)) * (in.last - in.first);
         half = by_height > by_time ? in.low + 0.5 * (in.high - in.low) : in.first + 0.5 * (in.last - in.first);
-        if (!(form.value > error) && !(by_height + by_time > (form.value < -error ? HC_SMALL : HC_HOPELESS))) {
-            unknown = 1;
-            continue;
-        }
         if (++seen > HC_MOST_RECTANGLES || left + 2 > HC_RECTANGLES_KEPT) return 2;
         kept[left] = kept[left + 1] = in;
         if (by_height > by_time) kept[left].low = kept[left + 1].high = half;
@@ -3850,11 +3998,13 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
 }
 
 /* The same of the disc at a height, whose rim the spheroid misses all the time. While it meets the plane, which is from one
-   time to another, it stays within the rim or outside: one time tells, and of that time one point in the plane. */
+   time to another, it stays within the rim or outside: one time tells, and of that time one point in the plane. Where its
+   centre is nearest to the plane at an end of the way, at which there is no contact, there is none at any time. */
 static int hc_disc_missed_between(hc_ended_way *made, double w, double first, double last, double *contact) {
     const double time = hc_kept_within(made->rise == 0 ? first : (w - made->way.from[2]) / made->rise, first, last);
     double center[3], under[2], share;
     int misses;
+    if ((time == 0 && made->clear[0]) || (time == 1 && made->clear[1])) return 1;
     hc_center_at(made, first, center);
     under[0] = (w - center[2]) * (1 - HC_ENDED_ERROR);
     hc_center_at(made, last, center);
@@ -3898,7 +4048,7 @@ static double hc_first_time(hc_ended_way *made, const double *axis, double conta
         if (!(middle > clear && middle < contact)) break;
         missed = hc_missed_between(made, clear, middle, &met);
         if (missed == 1) clear = middle;
-        else contact = met; /* or no more is known before it */
+        else contact = met < middle ? met : middle; /* or no more is known before it */
         unknown += missed == 2;
     }
     return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN_ENDED * made->way.slack) == 0 ? clear : hc_nothing_known();
@@ -3933,6 +4083,7 @@ static int hc_ended_passage(const double row[16], const double *axis, double *ti
     if (endless == 0 && (!solid || whole[0] == 1)) return 0;
     if (!hc_make_ended_way(&made, row, axis)) return known ? 1 : 2;
     made.wall = endless != 0;
+    for (k = 0; k < 2; k++) made.clear[k] = positions[k] == 1 || positions[k] == -1;
     k = hc_missed_between(&made, 0, 1, &contact);
     if (k && !known) return k == 1 ? 0 : 2;
     if (time) *time = hc_first_time(&made, axis, contact);
@@ -4184,7 +4335,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_e6bc8695acbfd2e0
+#define HC_EDITION_e6925468055d35ae
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -65,10 +65,10 @@ def frozen(names: Sequence[str] = FROZEN) -> Iterator[Job]:
     for name in names:
         cases = load(name)
         rows, right = cases.rows, cases.positions
-        if name in (*WAY_NAMES, *INVALID_NAMES[WAYS]):
+        if name in (*WAY_NAMES, *INVALID_NAMES[WAYS], ENDED_INVALID[WAYS]):
             yield _ways("frozen ways", rows, right)
             continue
-        if name in (*ENDED_NAMES, ENDED_INVALID):
+        if name in (*ENDED_NAMES, ENDED_INVALID[PAIRS]):
             yield Job("frozen towers that end", "ended rows", rows, len(rows), _told_or_open(right), MODES[:4])
             continue
         yield from _positions("frozen", rows, right, modes=MODES)

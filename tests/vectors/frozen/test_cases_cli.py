@@ -17,6 +17,7 @@ from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 try:
     from numpy._core import _multiarray_umath as numpy_core
@@ -42,7 +43,7 @@ def test_cases_list_names_every_family_with_its_count(capsys):
     lines = printed(capsys, "list").splitlines()
     counts = {line.split()[0]: int(line.split()[1]) for line in lines}
     assert counts.pop("together") == sum(counts.values())
-    for name in ("invalid", "tilted-invalid", "way-invalid", "tilted-way-invalid", "ended-invalid"):
+    for name in INVALID_CONTENTS:
         assert counts.pop(name) == len(vectors.load(name).cases)
     files = [*map(vectors.load, vectors.NAMES), *map(vectors.load, vectors.TILTED_NAMES)]
     files += map(vectors.load, (*vectors.WAY_NAMES, *vectors.ENDED_NAMES, *vectors.ENDED_WAY_NAMES))

@@ -60,7 +60,7 @@ def test_cases_folder_has_one_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
     pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
     ways = {*WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
-    ended = {*ENDED_FAMILIES, "ended-invalid", *ENDED_WAY_FAMILIES}
+    ended = {*ENDED_FAMILIES, "ended-invalid", *ENDED_WAY_FAMILIES, "ended-way-invalid"}
     assert found == set(vectors.ALL_NAMES) == pairs | ways | ended
 
 
