@@ -1,10 +1,9 @@
 /* ---- straight ways beside hyperboloids that end ---- */
 
-#define HC_MOST_RECTANGLES 128 /* that are looked at before a stretch is given up */
+#define HC_MOST_RECTANGLES 1024 /* that are looked at before a stretch is given up */
 #define HC_RECTANGLES_KEPT 64
 #define HC_AIMS 3
 #define HC_SMALL 9.5367431640625e-07 /* 2^-20 */
-#define HC_SEEN_ENDED 4096 /* as HC_SEEN */
 #define HC_TIMES 60 /* halvings of the time before a contact, of which so many may tell nothing */
 #define HC_MOST_UNKNOWN 8
 #define HC_FINE_SLACK 2.8421709430404007e-14 /* 2^-45, of the way's slack: 2^-96 (1 + the sum in radii) */
@@ -358,7 +357,8 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
 
 /* The same of the disc at a height, whose rim the spheroid misses all the time. While it meets the plane, which is from one
    time to another, it stays within the rim or outside: one time tells, and of that time one point in the plane. Where its
-   centre is nearest to the plane at an end of the way, at which there is no contact, there is none at any time. */
+   centre is nearest to the plane at an end of the way, at which there is no contact, there is none at any time: the computed
+   time is off by 4u, in which the centre moves by less than a quarter of the radius, as the slack is below 1/4. */
 static int hc_disc_missed_between(hc_ended_way *made, double w, double first, double last, double *contact) {
     const double time = hc_kept_within(made->rise == 0 ? first : (w - made->way.from[2]) / made->rise, first, last);
     double center[3], under[2], share;
@@ -410,7 +410,7 @@ static double hc_first_time(hc_ended_way *made, const double *axis, double conta
         else contact = met < middle ? met : middle; /* or no more is known before it */
         unknown += missed == 2;
     }
-    return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN_ENDED * made->way.slack) == 0 ? clear : hc_nothing_known();
+    return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN * made->way.slack) == 0 ? clear : hc_nothing_known();
 }
 
 /* As hc_passage_of, for a valid row with heights behind the axis. */
