@@ -127,7 +127,7 @@ def touching_rows():
 
 
 def test_a_sphere_that_touches_in_passing_has_contact_and_one_a_hair_away_has_none():
-    """The hair of 2⁻⁴⁵ radii is shorter than what roundings may move a centre on its way; one way goes on into the wall."""
+    """The hair of 2⁻⁴⁵ radii is shorter than what roundings may move a centre on its way."""
     for way, ends, solid, place, across in touching_rows():
         row = row_of(way, ends, solid)
         hits, _ = compiled_kernel.answer_ways(np.array([row]))
