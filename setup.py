@@ -39,6 +39,9 @@ class BuildWithCases(build_py):
         return [Path(self.build_lib, "hypcheck", path) for path in CASES]
 
 
+STRIPPED = ["-s"] if sys.platform == "linux" else []
+"""Of a linker: no symbols that only a debugger reads, a third of the launcher."""
+
 CORE = "hypcheck/kernel/core"
 KERNEL = Extension(
     "hypcheck.kernel._compiled",
@@ -47,12 +50,14 @@ KERNEL = Extension(
     include_dirs=[CORE],
     # FMA may replace a product and a sum: the bounds hold with and without. Never -ffast-math: hypcheck.h refuses it.
     extra_compile_args=[] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=fast"],
+    extra_link_args=STRIPPED,
     optional=True,  # without a compiler numpy gives the same answers; `hypcheck info` says which it is
 )
 
 CALLS = Extension(
     "hypcheck.implementations._calls",
     sources=["hypcheck/implementations/calls.c"],
+    extra_link_args=STRIPPED,
     optional=True,  # without it ctypes makes the calls, and fewer of their leftovers are seen
 )
 
@@ -81,10 +86,10 @@ class BuildWithLauncher(build_ext):
             return
         target = Path(self.get_ext_fullpath(ext.name))
         objects = self.compiler.compile(
-            ext.sources, output_dir=self.build_temp, depends=ext.depends, extra_postargs=["-std=gnu11", "-O2"]
+            ext.sources, output_dir=self.build_temp, depends=ext.depends, extra_postargs=["-std=gnu11", "-O2", "-g0"]
         )
         self.mkpath(str(target.parent))
-        self.compiler.link_executable(objects, target.name, output_dir=str(target.parent))
+        self.compiler.link_executable(objects, target.name, output_dir=str(target.parent), extra_postargs=STRIPPED)
 
 
 setup(
