@@ -1,7 +1,7 @@
 """Causes of wrong answers: each is a rule that is known to be wrong, and says at which rows it gives which answer.
 
 A cause is never guessed. It explains a wrong answer only where its rule, evaluated at that row, gives that very answer
-(docs/judging.md, "Causes"). Whether the rule is the implementation's own is judged over a run, in diagnosis.py: a rule
+(docs/causes.md). Whether the rule is the implementation's own is judged over a run, in diagnosis.py: a rule
 that errs where the implementation is right is not.
 
 This file has what a cause is, and the causes that are about places: on the ring, outside a regime, where rounding
