@@ -1,4 +1,4 @@
-"""The lines of a record as structs, their fields in the order in which they are written. docs/record-lines.md explains them.
+"""The lines of a record as structs, their fields in the order in which they are written (docs/record-lines.md).
 
 Reading a record gives these structs, and the published schema is made from them. Fields that a later version adds to a
 line are left out. A field that is UNSET is missing: other runs have it, or the record is older than the field.
