@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import hypcheck
-from hypcheck.bench import call_targets, cliff_targets, compiled_targets
+from hypcheck.bench import call_targets, cliff_targets, compiled_targets, ended_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
 from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
 from hypcheck.bench.timing import (
@@ -261,5 +261,7 @@ def _groups(folder: Path, *, quick: bool) -> list[Group]:
         partial(cliff_targets.forms_of_ten_rows, rounds),
         partial(cliff_targets.forms_of_many, rounds),
         partial(cliff_targets.forms_of_an_axis_each, rounds),
+        partial(ended_targets.paces, rounds),
+        partial(ended_targets.left_open, rounds),
         *anywhere,
     ]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import call_targets, cliff_targets, compiled_targets, targets
+from hypcheck.bench import call_targets, cliff_targets, compiled_targets, ended_targets, targets
 from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
 from hypcheck.bench.c_source import WORDS
 from hypcheck.bench.compiled_targets import touching_columns, tower_rows, uniform_columns
@@ -50,6 +50,7 @@ def small(monkeypatch):
         (compiled_targets, {"PART": 1024, "PARTS": 2, "LEAST_PARTS": 2, "EACH": 4, "TURNS": 1, "NEIGHBOURS": 1}),
         (targets, {"MANY": 20_000, "FEW": 3, "TRIANGLES": 60, "AGAIN": 0}),
         (cliff_targets, {"MANY": 4096, "CACHED": 256}),
+        (ended_targets, {"PACED": 200, "ORDINARY": 40, "NEAR": 20}),
         (call_targets, {"MANY": 20_000, "CALLS": 20, "BATCHES": (1000,)}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
     ):
@@ -65,7 +66,7 @@ def test_every_kernel_target_has_a_line_that_fits_the_record_schema(small):
     assert sum(advanced) == targets.steps()
     found = [line for line in recorder.lines if isinstance(line, KernelLine)]
     names = [line.name for line in found]
-    assert len(set(names)) == len(names) == 59
+    assert len(set(names)) == len(names) == 65
     definition = json.loads(PUBLISHED.read_text(encoding="utf-8"))
     for line in found:
         assert not violations(as_json(line), definition, closed=True)
@@ -105,6 +106,20 @@ def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
     rows = compiled_targets.touching_rows(40)
     clearance = [nearest(Pair.from_row(row)).clearance for row in rows.tolist()]
     assert 0 < max(map(abs, clearance)) < 4e-14
+
+
+def test_rows_left_open_beside_ends_are_counted_by_family(monkeypatch):
+    """One row in two of one family is open: its share is the target's, and the sentence names it."""
+    pytest.importorskip("hypcheck.kernel._compiled")
+    monkeypatch.setattr(ended_targets, "ORDINARY", 10)
+    monkeypatch.setattr(ended_targets, "NEAR", 10)
+    asked = ended_targets.answer_ways
+    monkeypatch.setattr(ended_targets, "answer_ways", lambda rows: (np.resize([2, 0], len(rows)), asked(rows)[1]))
+    ordinary, near = ended_targets.left_open(1)
+    assert (ordinary.measured, near.measured, ordinary.met, near.met) == (0.5, 0.5, False, False)
+    assert "ended-way-uniform 5" in ordinary.says
+    assert "ended-way-touch 5" in near.says
+    assert "ended-rim" not in near.says
 
 
 def test_a_kernel_target_is_missed_only_if_the_whole_interval_misses_it():

@@ -126,13 +126,15 @@ def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(tmp_path
     assert all(fault.reason.startswith("answered 0; a row with an invalid ") for fault in group.faults)
 
 
-def test_invalid_ways_are_chosen_by_declared_refuses_and_tilt():
+def test_invalid_ways_are_chosen_by_declared_refuses_tilt_and_heights():
     def chosen(**said):
         return [each.family for each in invalid_rows(Description("any", question="passage", **said))]
 
     assert chosen(refuses=True, tilt=True) == ["way-invalid", "tilted-way-invalid"]
     assert chosen(refuses=True, tilt=False) == ["way-invalid"]
-    assert chosen(refuses=False, tilt=True) == []
+    assert chosen(refuses=False, tilt=True, heights=True) == []
+    assert chosen(refuses=True, tilt=True, heights=True)[2:] == ["ended-way-invalid"]
+    assert chosen(refuses=True, tilt=False, heights=True) == ["way-invalid"]
 
 
 def test_saved_progress_keeps_ends_and_times_of_ways():

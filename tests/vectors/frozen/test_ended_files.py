@@ -40,11 +40,15 @@ def test_ended_cases_are_of_every_position_open_and_solid_and_some_touch():
     assert len(by_rule) < len(cases) / 8
 
 
-def test_frozen_invalid_rows_with_heights_fit_their_schema_and_equal_those_that_freezing_makes():
-    text = text_of("ended-invalid")
-    assert list(violations(json.loads(text), schema("ended-refusals", ENDED_SCHEMA))) == []
-    made = freezing.frozen_invalid_rows("ended-invalid")
-    assert made.cases == frozen.load("ended-invalid").cases
+@pytest.mark.parametrize(
+    ("name", "content", "version"),
+    [("ended-invalid", "ended-refusals", ENDED_SCHEMA), ("ended-way-invalid", "ended-way-refusals", ENDED_WAY_SCHEMA)],
+)
+def test_frozen_invalid_rows_with_heights_fit_their_schema_and_equal_those_that_freezing_makes(name, content, version):
+    text = text_of(name)
+    assert list(violations(json.loads(text), schema(content, version))) == []
+    made = freezing.frozen_invalid_rows(name)
+    assert made.cases == frozen.load(name).cases
     at_fault = {columns for case in made.cases for columns in [case.columns]}
     assert {("z_min", "z_max"), ("z_min",), ("z_max",), ("solid",), TILTED_COLUMNS[-3:]} <= at_fault
     assert set(HEIGHTS) <= {name for columns in at_fault for name in columns}
