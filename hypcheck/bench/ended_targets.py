@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from hypcheck.bench.c_library import TOWER_SIZES
 from hypcheck.bench.timing import KernelTarget, TimingEntry, measured_samples, rate_text, thread_clocked, times_as_long
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
 from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_ways
 from hypcheck.record.measurements import KernelLine
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
@@ -46,9 +47,9 @@ def paces(rounds: int) -> Iterator[KernelLine]:
         whole = np.ascontiguousarray(_rows(around, axes, FAR_AWAY)[:, :width])
         far, near = _rows(around, axes, FAR_AWAY), _rows(rim, axes, END)
         entries = [
-            TimingEntry("whole", PACED, thread_clocked(lambda rows=whole: answer_rows(rows, "position", 1)[0])),
-            TimingEntry("far", PACED, thread_clocked(lambda rows=far: answer_ended(rows, 1))),
-            TimingEntry("near", PACED, thread_clocked(lambda rows=near: answer_ended(rows, 1))),
+            TimingEntry("whole", PACED, thread_clocked(partial(_answered, whole))),
+            TimingEntry("far", PACED, thread_clocked(partial(answer_ended, far, 1))),
+            TimingEntry("near", PACED, thread_clocked(partial(answer_ended, near, 1))),
         ]
         found = measured_samples(entries, rounds)
         for name, text, wanted in (("far", "ends far away", 1.3), ("near", "ends near the rim", 6.0)):
@@ -57,6 +58,10 @@ def paces(rounds: int) -> Iterator[KernelLine]:
             )
             says = f"{rate_text(found[name])}; without ends {rate_text(found['whole'])}"
             yield target.line(times_as_long(found[name], found["whole"]), says)
+
+
+def _answered(rows: Rows) -> Positions:
+    return answer_rows(rows, "position", 1)[0]
 
 
 def _rows(centres: Floats, axes: Floats, end: float) -> Rows:
