@@ -52,18 +52,18 @@ class State:
 
     def __init__(self, sizes: Row, rest: Row, goal: Goal) -> None:
         self.sizes, self.side = sizes, int(goal.side)
-        self.form = Form([_number(plain, each) for each in sizes], plain.sqrt)
+        self.form = Form([_number(plain, size) for size in sizes], plain.sqrt)
         self.C, self.v = _centre_and_axis(plain, rest)
-        hint, found = multiplier((*sizes, *rest)), None
+        hint, nearest = multiplier((*sizes, *rest)), None
         for share in _SHARES if hint * self.side > 0 else ():
             self.at = _number(plain, hint * share)
-            found = self.form.nearest(self.at, self.C, self.v)
-            if found is not None:
+            nearest = self.form.nearest(self.at, self.C, self.v)
+            if nearest is not None:
                 break
-        self.at = plain.mpf(0) if found is None else self.at
-        self.X = self.C if found is None else found[0]
+        self.at = plain.mpf(0) if nearest is None else self.at
+        self.X = self.C if nearest is None else nearest[0]
         self.n = self.form.gradient(self.X)
-        self.factor = 2 * (self.side if found is None else self.at)
+        self.factor = 2 * (self.side if nearest is None else self.at)
 
     def value(self) -> mpf:
         """The margin: λ² nᵀ Σ n − 1 + λ h(X)."""
@@ -72,7 +72,7 @@ class State:
     def derivatives(self) -> list[mpf]:
         """The margin's derivatives by the centre and the axis."""
         by_axis = self.form.by_axis(self.v, self.n, self.n)
-        return [*(self.factor * each for each in self.n), *(-(self.at**2) * each for each in by_axis)]
+        return [*(self.factor * part for part in self.n), *(-(self.at**2) * part for part in by_axis)]
 
     def size_derivatives(self) -> list[mpf]:
         """The margin's derivatives by the logarithms of the sizes."""
@@ -86,14 +86,14 @@ class State:
 def certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
     """Whether the goal is shown not to be attained with these sizes, centres and axes."""
     middle, radii = tuple((low + high) / 2 for low, high in box), [(high - low) / 2 for low, high in box]
-    pull = [goal.sign * each for each in State(sizes, middle, goal).derivatives()]
-    corner = tuple(high if each > 0 else low for each, (low, high) in zip(pull, box, strict=True))
+    pull = [goal.sign * slope for slope in State(sizes, middle, goal).derivatives()]
+    corner = tuple(high if slope > 0 else low for slope, (low, high) in zip(pull, box, strict=True))
     worst = State(sizes, corner, goal)
     if _held(worst, goal, middle, radii):
         return True
     if not cuts:
         return False
-    cost = [abs(each) * float(radius) for each, radius in zip(pull, radii, strict=True)]
+    cost = [abs(slope) * float(radius) for slope, radius in zip(pull, radii, strict=True)]
     cut = max(range(6), key=lambda index: cost[index])
     low, high = box[cut]
     halves = [(low, middle[cut]), (middle[cut], high)]
@@ -115,13 +115,13 @@ def _held(worst: State, goal: Goal, middle: Row, radii: list[Fraction]) -> bool:
 
 def _shares_of_radius(worst: State) -> Iterator[mpf]:
     """How far to go along Σq: to the end, half way there from the hyperboloid, or to where h turns before the end."""
-    form, one, q = worst.form, plain.mpf(1), [-worst.side * each for each in worst.n]
+    form, one, q = worst.form, plain.mpf(1), [-worst.side * part for part in worst.n]
     width = form.width(worst.v, q)
     if not width:  # at the hyperboloid's centre h falls or rises in no direction
         return
     yield one
     yield (1 + min(abs(worst.at * width), one)) / 2
-    way = [each / width for each in form.sigma_times(worst.v, q)]
+    way = [part / width for part in form.sigma_times(worst.v, q)]
     bend = form.gradient(way)
     turn = -dot(bend, worst.C) / (dot(bend, way) or one)
     if 0 < turn < 1:
@@ -129,7 +129,7 @@ def _shares_of_radius(worst: State) -> Iterator[mpf]:
 
 
 def _centre_and_axis(context: MPContext | MPIntervalContext, row: Row) -> tuple[Intervals, Intervals]:
-    numbers = [_number(context, each) for each in row]
+    numbers = [_number(context, number) for number in row]
     return numbers[:3], numbers[3:]
 
 

@@ -194,7 +194,9 @@ def proves(S: Matrix, H: Matrix, certificate: Certificate) -> bool:
 
     M, the upper 3×3 part of S, must be positive definite. Raises ValueError as check_certificate does.
     """
-    at, m = (None if each is None else Fraction(each) for each in (certificate.multiplier, certificate.double_root))
+    at, m = (
+        None if number is None else Fraction(number) for number in (certificate.multiplier, certificate.double_root)
+    )
     claim = Position(certificate.position)
     if claim is not Position.CONTACT:
         return at is not None and at * claim > 0 and all(pivot > 0 for pivot in pivots(pencil(S, H, at)))
@@ -230,17 +232,17 @@ def pivots(matrix: Matrix) -> list[Fraction]:
     All are > 0 if and only if the matrix is positive definite, all ≥ 0 if and only if it is semidefinite: a pivot of 0
     with anything else than zeros beside it counts as −1.
     """
-    rows, found = [row[:] for row in matrix], []
+    rows, result = [row[:] for row in matrix], []
     for i, row in enumerate(rows):
         pivot = row[i] if row[i] or not any(row[i:]) else Fraction(-1)
-        found.append(pivot)
+        result.append(pivot)
         if pivot < 0:
             break
         for other in rows[i + 1 :] if pivot else ():
             if other[i]:
                 factor = other[i] / pivot
                 other[:] = [a - factor * b if b else a for a, b in zip(other, row, strict=True)]
-    return found
+    return result
 
 
 def _derivatives(both: Matrix, H: Matrix) -> list[int]:

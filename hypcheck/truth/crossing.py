@@ -178,7 +178,7 @@ class _Forms:
     def __init__(self, pair: Query) -> None:
         lengths, self.unit = over_one_denominator(pair.row[:7])
         v, _ = over_one_denominator(pair.axis)
-        p, s, q, t = (each * each for each in lengths[:4])
+        p, s, q, t = (length * length for length in lengths[:4])
         self.center = lengths[4:]
         self.V = dot(v, v)
         self.M = [[(i == j) * t * self.V + (q - t) * v[i] * v[j] for j in range(3)] for i in range(3)]
@@ -230,7 +230,7 @@ def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
         adjoint = adjugate(matrix)
         scaled = times(adjoint, times(forms.M, forms.center))
         whole = scale // forms.under_M
-        point = ([each * whole for each in scaled], dot(matrix[0], adjoint[0]))
+        point = ([part * whole for part in scaled], dot(matrix[0], adjoint[0]))
         yield point
         yield from _across_the_pole(forms, F, (adjoint, scale), point, 40 + steps)
 
@@ -254,7 +254,7 @@ def _across_the_pole(
     root = slope**2 - Fraction(height * square * square, w * w * length * length * curvature)
     way = floor_root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
     for sign in (1, -1):
-        yield _plus(point, ([length * each for each in direction], square), sign * way - slope)
+        yield _plus(point, ([length * part for part in direction], square), sign * way - slope)
 
 
 def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homogeneous:

@@ -93,7 +93,7 @@ class _Pairs:
         """The columns of rows (n, 10)."""
         alpha, gamma, b, d, x, y, z, *axis = np.ascontiguousarray(rows.T)
         exponents = np.frexp(np.max(np.abs(axis), axis=0))[1]
-        v_x, v_y, v_z = (np.ldexp(each, -exponents) for each in axis)
+        v_x, v_y, v_z = (np.ldexp(part, -exponents) for part in axis)
         across, up = 1 / (alpha * alpha), 1 / (gamma * gamma)
         sizes = np.stack([alpha, gamma, b, d])
         return cls(sizes, (x, y, z), (v_x, v_y, v_z), 1 / (b * b), 1 / (d * d), (across, across, -up))
@@ -160,7 +160,7 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
     _, _, b, d = pairs.sizes
     height, terms = _height(pairs, X)
     w = tuple(_subtracted(x, c) for x, c in zip(X, pairs.centre, strict=True))
-    v = tuple((each, np.zeros_like(each)) for each in pairs.axis)
+    v = tuple((component, np.zeros_like(component)) for component in pairs.axis)
     across = _sum_of_squares([_cross(v, w, k) for k in range(3)])
     along = double_double.square(_sum([double_double.multiply(p, q) for p, q in zip(v, w, strict=True)]))
     axis_square = _sum_of_squares(v)
@@ -172,7 +172,7 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
     L = double_double.add(double_double.add_float(_sum(parts), -1.0), by_height)
 
     residual, n = _residual(pairs, X, at)
-    way = np.sqrt(sum(each[0] * each[0] for each in w))
+    way = np.sqrt(sum(component[0] * component[0] for component in w))
     stretch, tilt = pairs.thick + pairs.long, np.abs(at)
     length = np.sqrt(dot(n, n))
     rounded = _ROUNDED * (way * way * stretch + 1 + tilt * terms)
@@ -193,7 +193,7 @@ def _least_eigenvalue(pairs: _Pairs, at: Floats) -> Floats:
     adjugate, determinant = _adjugate(matrix)
     guess = determinant / (adjugate[0] + adjugate[3] + adjugate[5])  # at most the least, at least a third of it
     g00, g01, g02, g11, g12, g22 = matrix
-    g00, g11, g22 = (each - guess / 2 for each in (g00, g11, g22))
+    g00, g11, g22 = (entry - guess / 2 for entry in (g00, g11, g22))
     minor, minor_terms = g00 * g11 - g01 * g01, np.abs(g00 * g11) + g01 * g01
     _, determinant = _adjugate((g00, g01, g02, g11, g12, g22))
     terms = (
@@ -237,8 +237,8 @@ def _height(pairs: _Pairs, X: Triple) -> tuple[DoubleDouble, Floats]:
     """h(X), and the sum of the magnitudes of its terms."""
     alpha, gamma = pairs.sizes[0], pairs.sizes[1]
     x, y, z = (
-        double_double.square(double_double.quotient_of_floats(each, size))
-        for each, size in zip(X, (alpha, alpha, gamma), strict=True)
+        double_double.square(double_double.quotient_of_floats(coordinate, size))
+        for coordinate, size in zip(X, (alpha, alpha, gamma), strict=True)
     )
     value = double_double.add_float(double_double.subtract(double_double.add(x, y), z), -1.0)
     return value, x[0] + y[0] + z[0] + 1.0
@@ -257,11 +257,11 @@ def _cross(v: tuple[DoubleDouble, ...], w: tuple[DoubleDouble, ...], k: int) -> 
 
 
 def _sum_of_squares(numbers: list[DoubleDouble] | tuple[DoubleDouble, ...]) -> DoubleDouble:
-    return _sum([double_double.square(each) for each in numbers])
+    return _sum([double_double.square(number) for number in numbers])
 
 
 def _sum(numbers: list[DoubleDouble]) -> DoubleDouble:
     total = numbers[0]
-    for each in numbers[1:]:
-        total = double_double.add(total, each)
+    for number in numbers[1:]:
+        total = double_double.add(total, number)
     return total

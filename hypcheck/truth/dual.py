@@ -114,7 +114,7 @@ def _quotient(
     value = (*_difference((0, *over), _scaled(m, under)), 0)
     under = _scaled(n, under)
     content = math.gcd(*value, *under)
-    value, under = (tuple(part // content for part in each) for each in (value, under))
+    value, under = (tuple(part // content for part in polynomial) for polynomial in (value, under))
     slope = _difference(_product(derived(value), under), _product(value, derived(under)))
     return Dual(value, under, slope, first, second, Fraction(m, n))
 

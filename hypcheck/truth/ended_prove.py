@@ -59,11 +59,11 @@ def _pieces(pair: Pair) -> Iterator[Piece]:
         low, high = pending.pop()
         middle = (low + high) / 2
         tried = _tried(S, H, (low, high), sections.multiplier(middle * unit), solid=bool(pair.solid))
-        found = next(tried, None)
-        if found is None:
+        piece = next(tried, None)
+        if piece is None:
             pending += [(middle, high), (low, middle)]
         else:
-            yield found
+            yield piece
     if pair.z_max > top:
         yield _outside(pair, top, None)
 
@@ -124,10 +124,10 @@ def _crossings(pair: Pair) -> Iterator[tuple[Point, Point]]:
     """Pairs of points that may prove a contact."""
     center = (Fraction(pair.x), Fraction(pair.y), Fraction(pair.z))
     low, high = (Fraction(end) if math.isfinite(end) else None for end in (pair.z_min, pair.z_max))
-    found = least.to_border(pair).point
-    if not all(map(math.isfinite, found)):
+    nearest = least.to_border(pair).point
+    if not all(map(math.isfinite, nearest)):
         return
-    place = tuple(map(Fraction, found))
+    place = tuple(map(Fraction, nearest))
     for shrink in (Fraction(0), Fraction(1, 1 << 30), Fraction(1, 1 << 10), Fraction(1, 16)):
         x, y, w = (p + shrink * (c - p) for p, c in zip(place, center, strict=True))
         w = w if low is None else max(w, low)

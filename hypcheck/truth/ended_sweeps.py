@@ -71,13 +71,13 @@ class EndedSweep:
     @cached_property
     def critical(self) -> list[Polynomial] | None:
         """Polynomials in t, one of which is 0 wherever contact begins or ends; None where one would be 0 all along."""
-        found: list[Polynomial] = []
+        polynomials: list[Polynomial] = []
         for journey in (self.whole, *self.parts):
             tangent = journey.discriminant()
             if not tangent:
                 return None
-            found += [tangent, *_at_ends(journey, sides=bool(self.parts))]
-        return found
+            polynomials += [tangent, *_at_ends(journey, sides=bool(self.parts))]
+        return polynomials
 
 
 def _clear_on_one_side(positions: Iterator[Position]) -> bool:
@@ -125,12 +125,12 @@ def first_contact(sweep: EndedSweep) -> Interval | None:
         return None
     if sweep.critical is None:
         return _by_halving(sweep, START, END, _HALVINGS)
-    found: Interval | None = None
+    first: Interval | None = None
     for bits in _BITS:
-        found, certain = _first_of(sweep, _clusters(sweep.critical, bits))
+        first, certain = _first_of(sweep, _clusters(sweep.critical, bits))
         if certain:
             break
-    return found
+    return first
 
 
 def meets(sweep: EndedSweep) -> bool:
@@ -163,13 +163,13 @@ def _by_halving(sweep: EndedSweep, first: Fraction, last: Fraction, left: int) -
 
 def _clusters(critical: Sequence[Polynomial], bits: int) -> list[Interval]:
     """Disjoint intervals in order that hold all roots in [0, 1]: enclosures that overlap, or meet, are one."""
-    found: list[Interval] = []
+    clusters: list[Interval] = []
     for low, high in sorted(time for f in critical for time in enclosures(f, bits)):
-        if found and low <= found[-1][1]:
-            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        if clusters and low <= clusters[-1][1]:
+            clusters[-1] = (clusters[-1][0], max(high, clusters[-1][1]))
         else:
-            found.append((low, high))
-    return found
+            clusters.append((low, high))
+    return clusters
 
 
 def _gaps(clusters: Sequence[Interval]) -> list[Fraction | None]:

@@ -166,7 +166,7 @@ def _lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
         tried = low[active, None] + between * (high - low)[active, None] // (between[-1] + 1)
         tried = np.clip(tried, low[active, None] + 1, high[active, None] - 1)
         owners = np.repeat(active, len(between))
-        held = excluded(rows[owners], [goals[each] for each in owners.tolist()], _LADDER[tried.ravel()])
+        held = excluded(rows[owners], [goals[owner] for owner in owners.tolist()], _LADDER[tried.ravel()])
         held = held.reshape(tried.shape)
         low[active] = np.where(held, tried, low[active, None]).max(axis=1)
         above = (tried > low[active, None]) & ~held
@@ -198,7 +198,7 @@ def _boxes(rows: Rows, goals: Sequence[Goal], change: Floats) -> Boxes:
     moved = np.where(signs > 0, _up(sizes * grown), _down(sizes * shrunk))
     rest = rows[:, len(SIZES) :].T
     way = np.where(rest == 0, 0.0, _up(np.abs(rest) * change))
-    low, high = (np.where(way == 0, rest, each) for each in (_down(rest - way), _up(rest + way)))
+    low, high = (np.where(way == 0, rest, end) for end in (_down(rest - way), _up(rest + way)))
     side = np.array([int(goal.side) for goal in goals], dtype=np.float64)
     return Boxes(moved, low, high, side, np.array([goal.leave for goal in goals], dtype=np.bool_))
 
@@ -256,15 +256,15 @@ class _Margin:
         hint, self.at, self.X = _multiplier(sizes, rest), np.zeros(len(side)), self.C
         for share in _SHARES:
             M, adjugate, minors = self.form.pencil(hint * share, self.v)
-            found = (self.at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
-            X = [dot(row, [dot(each, list(self.C)) for each in M]) / minors[2] for row in adjugate]
-            self.at, self.X = np.where(found, hint * share, self.at), np.where(found, np.stack(X), self.X)
+            definite = (self.at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
+            X = [dot(row, [dot(line, list(self.C)) for line in M]) / minors[2] for row in adjugate]
+            self.at, self.X = np.where(definite, hint * share, self.at), np.where(definite, np.stack(X), self.X)
 
     def derivatives(self) -> Vectors:
         """The margin's derivatives by the centre and the axis."""
         n, factor = self.form.gradient(list(self.X)), 2 * np.where(self.at == 0, self.side, self.at)
         by_axis = self.form.by_axis(self.v, n, n)
-        return [*(factor * each for each in n), *(-(self.at**2) * each for each in by_axis)]
+        return [*(factor * part for part in n), *(-(self.at**2) * part for part in by_axis)]
 
 
 def _multiplier(sizes: Floats, rest: Floats) -> Floats:

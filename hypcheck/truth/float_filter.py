@@ -225,9 +225,9 @@ def _proved(columns: Floats) -> Positions:
         for witness in (_level, _maximum, _upright, _slanted, _along_the_normal):
             if not len(rest):
                 break
-            result[rest] = found = witness(*left)
-            still = np.flatnonzero(found == UNDECIDED)
-            rest, left = rest[still], tuple(each[still] for each in left)
+            result[rest] = answers = witness(*left)
+            still = np.flatnonzero(answers == UNDECIDED)
+            rest, left = rest[still], tuple(column[still] for column in left)
     return result
 
 

@@ -39,6 +39,7 @@ from hypcheck.truth.polynomial_roots import Interval, Polynomial, polynomial_pro
 from hypcheck.truth.rationals import shortened
 from hypcheck.truth.surds import Quadratic, Surd, sign_at_root
 from hypcheck.truth.surds import value as value_of
+from hypcheck.truth.vectors import dot
 
 
 def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:
@@ -155,8 +156,8 @@ class Journey:
         if not self.is_upright:
             return not _ring_between(*self._at_pole(int(side)), low, high)
         here = self.start
-        height, rise = _dot(here.upward, (here.x, here.y, here.z)), _dot(here.upward, self.way)
-        nearest = Fraction(-_dot(self.way, (here.x, here.y, here.z)), _dot(self.way, self.way))
+        height, rise = dot(here.upward, (here.x, here.y, here.z)), dot(here.upward, self.way)
+        nearest = Fraction(-dot(self.way, (here.x, here.y, here.z)), dot(self.way, self.way))
         special = Fraction(-height, rise) if rise else nearest
         if low <= special <= high and value(critical, special) == 0:
             return self.position(special) is Position.CONTACT
@@ -198,10 +199,6 @@ class Journey:
                         total[-place] = total[-place] + factor * number
             derivatives.append(total)
         return derivatives[0], derivatives[1], derivatives[2]
-
-
-def _dot(a: Vector, b: Vector) -> int:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def _at_local_maximum(lengths: Lengths) -> Iterator[Fraction]:

@@ -84,14 +84,14 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
     lengths = [abs(number) for number in (*pair.row[:7], pair.z_min, pair.z_max) if number and math.isfinite(number)]
     if not (min(lengths) > _RANGE[0] and max(lengths) < _RANGE[1]):
         return NOTHING
-    found = _to_wall(pair, side_alone=side_alone, width=width)
+    nearest = _to_wall(pair, side_alone=side_alone, width=width)
     for end in (pair.z_min, pair.z_max) if pair.solid else ():
         disc = _to_disc(pair, end)
         if disc is None:
-            return Least(0.0, found.upper, found.point)
-        nearer = disc if disc.upper < found.upper else found
-        found = Least(min(found.lower, disc.lower), nearer.upper, nearer.point)
-    return found
+            return Least(0.0, nearest.upper, nearest.point)
+        nearer = disc if disc.upper < nearest.upper else nearest
+        nearest = Least(min(nearest.lower, disc.lower), nearer.upper, nearer.point)
+    return nearest
 
 
 def _unit(pair: Pair, number: type[np.floating[Any]] = np.float64) -> Floats:

@@ -268,7 +268,7 @@ def _facets(cells: Iterable[MeridianCell], *, chords: bool) -> tuple[Segment, ..
 
 
 def _least(bounds: Iterable[Bounds]) -> float:
-    return min((each.lower for each in bounds), default=float("inf"))
+    return min((bound.lower for bound in bounds), default=float("inf"))
 
 
 def _why_open(levels: int, lower: float, upper: float) -> str:

@@ -71,7 +71,7 @@ def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:
             batch.clearance[chunk], batch.position[chunk] = decided.clearance, decided.position
             certain = decided.clearance_certain if clearances_wanted else decided.position_certain
             for index in chunk[~certain].tolist():
-                found = nearest(Pair.from_row(rows[index].tolist()))
-                batch.clearance[index], batch.position[index] = found.clearance, found.position
-                batch.stage[index] = found.stage
+                result = nearest(Pair.from_row(rows[index].tolist()))
+                batch.clearance[index], batch.position[index] = result.clearance, result.position
+                batch.stage[index] = result.stage
     return batch

@@ -52,7 +52,7 @@ class PassageCertificate:
 
 def place(row: Sequence[float], time: Fraction) -> PairAtTime:
     """The pair of a row of ten or thirteen numbers at a time."""
-    numbers = [Fraction(each) for each in row]
+    numbers = [Fraction(number) for number in row]
     start, end = numbers[len(SIZES) : len(COLUMNS)], numbers[len(COLUMNS) : len(WAY_COLUMNS)]
     centre = [a + time * (b - a) for a, b in zip(start, end, strict=True)]
     axis = numbers[len(WAY_COLUMNS) :] or list(map(Fraction, UPRIGHT))
@@ -63,13 +63,13 @@ def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fracti
     """The time up to which the pieces prove the spheroid clear; None where there is none, or a piece fails."""
     last = Fraction(0)
     S, H = surfaces(place(row, last))
-    unit, numbers = _whole([each for matrix in (S, H) for line in matrix[:3] for each in line[:3]])
+    unit, numbers = _whole([number for matrix in (S, H) for line in matrix[:3] for number in line[:3]])
     M, D = [numbers[3 * i : 3 * i + 3] for i in range(3)], [numbers[9 + 4 * i] for i in range(3)]
     for multiplier, end in certificate.pieces:
         if not last < end <= 1:
             return None
         first, middle, final = _bernstein(
-            M, D, unit, multiplier, [place(row, each).row[len(SIZES) :] for each in (last, end)]
+            M, D, unit, multiplier, [place(row, time).row[len(SIZES) :] for time in (last, end)]
         )
         if min(first, final) <= 0 or (middle < 0 and middle * middle >= first * final):
             return None
@@ -92,7 +92,7 @@ def _bernstein(
     determinant = sum(a * line[0] for a, line in zip(F[0], adjugate, strict=True))
     if min(F[0][0], adjugate[2][2], determinant) <= 0:
         return 0, 0, 0
-    k, whole = _whole([each for center in centers for each in center])
+    k, whole = _whole([coordinate for center in centers for coordinate in center])
     ends = whole[:3], whole[3:]
     left = [[sum(c * M[i][j] for i, c in enumerate(end)) for j in range(3)] for end in ends]
     right = [[sum(line[j] * D[j] * c for j, c in enumerate(end)) for line in adjugate] for end in ends]
@@ -105,8 +105,8 @@ def _bernstein(
 
 def _whole(numbers: Sequence[Fraction]) -> tuple[int, list[int]]:
     """The least number that makes all of them whole, and them times it."""
-    unit = math.lcm(*(each.denominator for each in numbers))
-    return unit, [each.numerator * (unit // each.denominator) for each in numbers]
+    unit = math.lcm(*(number.denominator for number in numbers))
+    return unit, [number.numerator * (unit // number.denominator) for number in numbers]
 
 
 def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
@@ -122,7 +122,7 @@ def check_passage(row: Sequence[float], certificate: PassageCertificate, first: 
     """Whether the certificate proves the answer: clear all along, or the first contact from first[0] to first[1]."""
     if first is None:
         return certificate.time is None and clear_until(row, certificate) == 1
-    lower, upper = (Fraction(each) for each in first)
+    lower, upper = (Fraction(bound) for bound in first)
     time = contact_at(row, certificate)
     if time is None or not lower <= time <= upper:
         return False

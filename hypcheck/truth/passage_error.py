@@ -1,7 +1,8 @@
 """How wrong an answer about a way is: by the spheroid's size, and by the time of first contact.
 
-A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, with axis_x, axis_y, axis_z behind it where the spheroid leans, and
-z_min, z_max, solid behind these where the hyperboloid ends. The answer is True for contact somewhere on the way.
+A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, with axis_x, axis_y, axis_z behind it where the spheroid is
+tilted, and z_min, z_max, solid behind these where the hyperboloid ends. The answer is True for contact somewhere on
+the way.
 
 **Contact is monotone in the size.** At each time the spheroid with b and d multiplied by k, a solid with a fixed
 centre, is part of the one with a larger k; contact says that the solid and the hyperboloid have a point in common. So
@@ -111,11 +112,11 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
 
         K = 1 + ρ + ζ + (1+δ)/(1−δ) (ρ + ζ + 2);
 
-    docs/motion.md derives it, the one of a spheroid that leans, and what ends add. Infinite changes are not meant: δ
+    docs/motion.md derives it, the one of a tilted spheroid, and what ends add. Infinite changes are not meant: δ
     counts as 1/2 at most in K.
     """
     change = Fraction(units) * Fraction(roundoff)
-    alpha, gamma, b, d, *ends = (Fraction(each) for each in row[: len(WAY_COLUMNS)])
+    alpha, gamma, b, d, *ends = (Fraction(number) for number in row[: len(WAY_COLUMNS)])
     bounded = min(change, Fraction(1, 2))
     stretch = (1 + bounded) / (1 - bounded)
     across = max(abs(x) + abs(y) for x, y in (ends[:2], ends[3:5]))

@@ -34,24 +34,24 @@ def prove(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertific
     Raises ValueError where the only contact is at an irrational time.
     """
     journey = journey_of(row[:4], row[4:7], row[7:10], row[len(WAY_COLUMNS) :] or None)
-    found = by_steps(journey) or by_roots(journey)
-    if found.first is None:
-        return found, None, PassageCertificate(_pieces(journey, Fraction(1)))
-    time = _time_of_contact(journey, found)
-    low, high = (time, time) if found.grazes else found.first
+    passage = by_steps(journey) or by_roots(journey)
+    if passage.first is None:
+        return passage, None, PassageCertificate(_pieces(journey, Fraction(1)))
+    time = _time_of_contact(journey, passage)
+    low, high = (time, time) if passage.grazes else passage.first
     bounds = rounded_toward(low, -math.inf), rounded_toward(high, math.inf)
     if bounds[0] and Fraction(bounds[0]) >= low:
         bounds = math.nextafter(bounds[0], 0.0), bounds[1]
     pieces = _pieces(journey, Fraction(bounds[0])) if bounds[0] else ()
     if journey.tangent(time):
-        return found, bounds, PassageCertificate(pieces, time, double_root=double_root(journey.at(time)))
-    return found, bounds, PassageCertificate(pieces, time, points=_points(row, journey, time))
+        return passage, bounds, PassageCertificate(pieces, time, double_root=double_root(journey.at(time)))
+    return passage, bounds, PassageCertificate(pieces, time, points=_points(row, journey, time))
 
 
-def _time_of_contact(journey: Journey, found: Passage) -> Fraction:
+def _time_of_contact(journey: Journey, passage: Passage) -> Fraction:
     """A rational time of contact up to first_upper; of a way that only touches, the simplest number it can be."""
-    low, high = found.first or (Fraction(0), Fraction(0))
-    upper = Fraction(found.first_upper)
+    low, high = passage.first or (Fraction(0), Fraction(0))
+    upper = Fraction(passage.first_upper)
     for time in (upper, high, low, simplest(low, high)):
         if time <= 1 and not journey.position(time):
             return time

@@ -184,10 +184,10 @@ def _products(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, 
         across = x * b - y * a
         return across * across, (x * a + y * b) * z * c
     u, v, w = sizes.upward
-    unit, lean = u * u + v * v + w * w, a * u + b * v + c * w
+    unit, product = u * u + v * v + w * w, a * u + b * v + c * w
     height, along = x * u + y * v + z * w, x * a + y * b + z * c
     volume = x * (b * w - c * v) + y * (c * u - a * w) + z * (a * v - b * u)
-    return volume * volume * unit, (along * unit - height * lean) * height * lean
+    return volume * volume * unit, (along * unit - height * product) * height * product
 
 
 def sign_at(coefficients: tuple[int, ...], at: Fraction) -> int:
@@ -218,7 +218,7 @@ def slope_of_quotient(F: Quartic) -> tuple[int, ...]:
 def toward_maximum(F: Quartic) -> Iterator[Fraction]:
     """Numbers μ > 0 that tend to where φ has its maximum on (0, ℓ], by bisection; not all of them are < ℓ."""
     slope = slope_of_quotient(F)
-    largest = max(abs(each) for each in (*F.coefficients, *slope)).bit_length()
+    largest = max(abs(coefficient) for coefficient in (*F.coefficients, *slope)).bit_length()
     low, high = Fraction(1, 2 << largest), Fraction(2 << largest)
     while True:
         middle = power_near(low, high) if high > 4 * low else (low + high) / 2
@@ -237,7 +237,7 @@ def inside(F: Quartic, at: Fraction) -> bool:
 
 
 def _derived(f: tuple[int, ...]) -> tuple[int, ...]:
-    return tuple(each * (len(f) - 1 - i) for i, each in enumerate(f[:-1]))
+    return tuple(coefficient * (len(f) - 1 - i) for i, coefficient in enumerate(f[:-1]))
 
 
 def _difference(f: tuple[int, ...], g: tuple[int, ...]) -> tuple[int, ...]:

@@ -119,17 +119,17 @@ def isolate(f: Polynomial) -> list[Interval]:
     points = [-far, -near, near, far]
     counts = [variations(chain, point) for point in points]
     pending = list(zip(points, counts, points[1:], counts[1:], strict=False))
-    found = []
+    intervals = []
     while pending:
         lower, left, upper, right = pending.pop()
         if left - right == 1:
-            found.append((lower, upper))
+            intervals.append((lower, upper))
         elif left > right:
             # Eight candidates, seven roots at most: one of them is no root.
             middle = next(x for x in _between(lower, upper) if value(f, x))
             count = variations(chain, middle)
             pending += [(lower, left, middle, count), (middle, count, upper, right)]
-    return sorted(found)
+    return sorted(intervals)
 
 
 def root_exponents(f: Polynomial) -> tuple[int, int]:
@@ -217,7 +217,7 @@ def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
     ends = [Fraction(time) for time in (0, 1) if value(f, Fraction(time)) == 0]
     for end in ends:
         f = divided_by_root(f, end)
-    return sorted([*((end, end) for end in ends), *(_away(f, *found, ends) for found in _isolated(f))])
+    return sorted([*((end, end) for end in ends), *(_away(f, *interval, ends) for interval in _isolated(f))])
 
 
 def _isolated(f: Polynomial) -> Iterator[Interval]:

@@ -53,9 +53,9 @@ def _cubic_multiplier(g: Cubic) -> Fraction:
 
 def _quartic_multiplier(F: Quartic) -> Fraction:
     """A λ at which F is positive between 0 and ℓ, rounded to the fewest bits (a power of two of them) that will do."""
-    found = next(at for at in toward_maximum(F) if inside(F, at) and sign_at(F.coefficients, at) > 0)
+    multiplier = next(at for at in toward_maximum(F) if inside(F, at) and sign_at(F.coefficients, at) > 0)
     for bits in precisions():
-        at = rounded(found, bits)
+        at = rounded(multiplier, bits)
         if inside(F, at) and sign_at(F.coefficients, at) > 0:
             return at * F.side
     raise AssertionError("unreachable: the precisions do not end")

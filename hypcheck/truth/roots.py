@@ -93,7 +93,7 @@ def admissible() -> frozenset[str]:
     roots above B too, if B is none; that of roots below −A is even, if −A is none. Nothing else is needed: −A is a root
     only if P = 0 and B only if Q = 0, and what is left of g is then a quadratic with the same signs elsewhere.
     """
-    found: set[str] = set()
+    patterns: set[str] = set()
     for number in (1, 3):
         for places in combinations_with_replacement(RootPlace, number):
             positive = sum(place in (RootPlace.OUTER, RootPlace.AT_B, RootPlace.ABOVE) for place in places)
@@ -102,8 +102,8 @@ def admissible() -> frozenset[str]:
                 and (RootPlace.AT_B in places or places.count(RootPlace.ABOVE) % 2 == 1)
                 and (RootPlace.AT_MINUS_A in places or places.count(RootPlace.BELOW) % 2 == 0)
             ):
-                found.update(_multiplicities(places))
-    return frozenset(found)
+                patterns.update(_multiplicities(places))
+    return frozenset(patterns)
 
 
 _COMPOSITIONS = {1: ((1,),), 2: ((1, 1), (2,)), 3: ((1, 1, 1), (1, 2), (2, 1), (3,))}

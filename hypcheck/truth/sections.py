@@ -36,6 +36,7 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, to_integers
 from hypcheck.truth.rationals import root_of, sign_with_root
+from hypcheck.truth.vectors import dot
 
 Polynomial = tuple[int, ...]
 """In w √U, the highest power first."""
@@ -69,8 +70,8 @@ class Sections:
         """
         q, t = lengths.b**2, lengths.d**2
         u, v, C = lengths.upward, lengths.axis, (lengths.x, lengths.y, lengths.z)
-        U, V, lean, height, along = _dot(u, u), _dot(v, v), _dot(v, u), _dot(C, u), _dot(C, v)
-        W = V * U - lean * lean
+        U, V, product, height, along = dot(u, u), dot(v, v), dot(v, u), dot(C, u), dot(C, v)
+        W = V * U - product * product
         m1 = t * U * V
         m2 = m1 + (q - t) * W
         p, s = lengths.alpha**2, lengths.gamma**2 * U
@@ -78,10 +79,10 @@ class Sections:
         k = _sum((m2,), _scaled(-V, _product(above, above)))
         r2 = (p, 0, p * s)
         if W:
-            line = _sum(((U * along - lean * height) * m2,), _scaled(-(q - t) * W * lean, above))
+            line = _sum(((U * along - product * height) * m2,), _scaled(-(q - t) * W * product, above))
             eta, xi = (m2 * s * m1 * _volume(C, u, v) ** 2,), _scaled(lengths.gamma**2, _product(line, line))
         else:
-            W, eta, xi = 1, (m2 * lengths.gamma**2 * m1 * (U * _dot(C, C) - height * height),), ()
+            W, eta, xi = 1, (m2 * lengths.gamma**2 * m1 * (U * dot(C, C) - height * height),), ()
         A0, A1 = _scaled(s * W * q * m1, k), _scaled(m2 * W, r2)
         cubic = _shifted(A0, A1, eta, xi, m1, m2)
         if over_content:
@@ -386,10 +387,6 @@ def _shifted_by_one(f: Sequence[int]) -> list[int]:
 def _changes_of_sign(numbers: Sequence[int]) -> int:
     signs = [number > 0 for number in numbers if number]
     return sum(one != other for one, other in itertools.pairwise(signs))
-
-
-def _dot(one: Sequence[int], other: Sequence[int]) -> int:
-    return sum(a * b for a, b in zip(one, other, strict=True))
 
 
 def _volume(C: Sequence[int], u: Sequence[int], v: Sequence[int]) -> int:

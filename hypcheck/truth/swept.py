@@ -3,13 +3,13 @@
 The centre is C(t) = C0 + t (C1 − C0), 0 ≤ t ≤ 1; the axis keeps its direction. Steps (`steps`) decide most ways: each
 is a piece that one multiplier proves clear, and a contact behind the last piece is asked for by the exact decision. The
 roots of a critical polynomial in t decide every way (docs/motion.md). Of an upright spheroid it is the discriminant Δ
-of the cubic, of degree 8 at most; of one that leans that of the quartic, of degree 12:
+of the cubic, of degree 8 at most; of a tilted one that of the quartic, of degree 12:
 
 - the position changes only through a tangency, and a tangency has Δ = 0. So between two neighbouring roots of Δ the
   position is constant, and one exact decision between them finds it;
 - at a root with the same clear position on both sides there is a tangency (the spheroid grazes the surface), unless the
   multiple root is the ring's. Where the ring can be is known exactly (`touches` of a journey);
-- Δ of an upright way is not 0 for every t unless nothing moves; of one that leans another polynomial takes its place.
+- Δ of an upright way is not 0 for every t unless nothing moves; of a tilted one another polynomial takes its place.
 
 Roots are counted by Sturm's theorem in integers; nothing is rounded.
 """
@@ -218,10 +218,10 @@ def by_steps(journey: Journey) -> Passage | None:
         return None
     if here is Position.CONTACT:
         return None if journey.tangent(Fraction(0)) else Passage(here, there, (Fraction(0), Fraction(0)))
-    found = steps(journey)
-    if found is None:
+    result = steps(journey)
+    if result is None:
         return None
-    return Passage(here, there, None if found.contact is None else (found.until, found.contact))
+    return Passage(here, there, None if result.contact is None else (result.until, result.contact))
 
 
 def by_roots(journey: Journey) -> Passage:
@@ -303,10 +303,10 @@ def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Frac
 
 def checked_axis(axis: Sequence[Rational]) -> tuple[Fraction, ...]:
     """axis_x, axis_y, axis_z as fractions. Raises InputError where they cannot be, or are all 0."""
-    found = tuple(map(_exact, AXIS, checked_sequence("the axis", AXIS, axis)))
-    if not any(found):
+    numbers = tuple(map(_exact, AXIS, checked_sequence("the axis", AXIS, axis)))
+    if not any(numbers):
         raise InputError(NO_DIRECTION)
-    return found
+    return numbers
 
 
 def checked_sequence(subject: str, names: Sequence[str], values: object) -> tuple[Rational, ...]:
@@ -314,10 +314,12 @@ def checked_sequence(subject: str, names: Sequence[str], values: object) -> tupl
     wanted = f"there must be {len(names)}: {', '.join(names)}"
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"{subject}: {escaped(reprlib.repr(values), 60)} is no sequence of numbers; {wanted}")
-    found = tuple(values)
-    if len(found) != len(names):
-        raise InputError(f"{subject}: {counted(len(found), 'number')} in {escaped(reprlib.repr(found), 60)}; {wanted}")
-    return found
+    numbers = tuple(values)
+    if len(numbers) != len(names):
+        raise InputError(
+            f"{subject}: {counted(len(numbers), 'number')} in {escaped(reprlib.repr(numbers), 60)}; {wanted}"
+        )
+    return numbers
 
 
 def _exact(name: str, number: Rational) -> Fraction:

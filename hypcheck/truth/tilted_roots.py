@@ -87,24 +87,24 @@ def classify_tilted_by_roots(pair: Pair, table: Mapping[str, Side] = MEANING) ->
     lengths = pair.lengths
     f, g = characteristic(lengths), poles(lengths)
     below, above = side_pattern(_mirrored(f), _mirrored(g)), side_pattern(f, g)
-    found = table.get(below), table.get(above)
-    if None in found or found.count(Side.NEITHER) == 0:
+    sides = table.get(below), table.get(above)
+    if None in sides or sides.count(Side.NEITHER) == 0:
         raise AssertionError(f"the roots form a pattern that is not possible: {below} | {above}, for {pair}")
-    tangent = Side.TANGENT in found
-    if Side.CLEAR not in found:
+    tangent = Side.TANGENT in sides
+    if Side.CLEAR not in sides:
         return TiltedRoots(Position.CONTACT, tangent, below, above)
-    clear = Position.EXTERIOR if found[1] is Side.CLEAR else Position.INTERIOR
+    clear = Position.EXTERIOR if sides[1] is Side.CLEAR else Position.INTERIOR
     return TiltedRoots(clear, tangent, below, above)
 
 
 def admissible() -> frozenset[str]:
     """Every pattern of one side that the signs of f allow: by exact reasoning, and without the table."""
-    found: set[str] = set()
+    patterns: set[str] = set()
     for number in (1, 3):
         for places in combinations_with_replacement(_PLACES, number):
             if END in places or places.count(BEYOND) % 2 == 1:
-                found.update(_multiplicities(places))
-    return frozenset(found)
+                patterns.update(_multiplicities(places))
+    return frozenset(patterns)
 
 
 def _multiplicities(places: Sequence[str]) -> Iterator[str]:
@@ -138,7 +138,7 @@ def _matrices(lengths: Lengths) -> tuple[list[list[int]], list[int]]:
     """S times b² d² v·v, and the diagonal of H times α² γ²: the quotient of both factors is the unit of λ."""
     p, s, q, t = lengths.alpha**2, lengths.gamma**2, lengths.b**2, lengths.d**2
     v, C = lengths.axis, (lengths.x, lengths.y, lengths.z)
-    V = sum(each * each for each in v)
+    V = sum(part * part for part in v)
     M = [[(i == j) * t * V + (q - t) * v[i] * v[j] for j in range(3)] for i in range(3)]
     shift = [-sum(M[i][j] * C[j] for j in range(3)) for i in range(3)]
     last = -sum(shift[i] * C[i] for i in range(3)) - q * t * V
@@ -182,18 +182,18 @@ def side_pattern(f: Polynomial, g: Polynomial) -> str:
         poles, [quotient(factor, common) for (factor, _), common in zip(factors, shared, strict=True)]
     )
     multiple = next((Fraction(-factor[1], factor[0]) for factor, times in factors if times > 1), None)
-    found: list[tuple[str, int]] = []
+    places: list[tuple[str, int]] = []
     for place, start, end in ((INNER, Fraction(0), low), (BEYOND, high, None)):
         if place is BEYOND:
             at = [times for (_, times), both in zip(factors, shared, strict=True) if roots_between(both, low, high)]
-            found += [(END, times) for times in at]
+            places += [(END, times) for times in at]
         if multiple is not None and start < multiple and (end is None or multiple < end):
             (simple, _), (_, times) = factors[0], factors[-1]
-            found += [(place, 1)] * roots_between(simple, start, multiple)
-            found += [(place, times), *[(place, 1)] * roots_between(simple, multiple, end)]
+            places += [(place, 1)] * roots_between(simple, start, multiple)
+            places += [(place, times), *[(place, 1)] * roots_between(simple, multiple, end)]
         else:
-            found += [(place, times) for factor, times in factors for _ in range(roots_between(factor, start, end))]
-    return _word(found)
+            places += [(place, times) for factor, times in factors for _ in range(roots_between(factor, start, end))]
+    return _word(places)
 
 
 def _factors(f: Polynomial) -> Iterator[tuple[Polynomial, int]]:
