@@ -121,7 +121,7 @@ def spread(named: Mapping[str, Argument], points: Mapping[str, Sequence[str]]) -
 
 def _are_default(heights: Sequence[Argument]) -> bool:
     low, high, solid = heights
-    return all(np.ndim(each) == 0 for each in heights) and low == -math.inf and high == math.inf and not solid
+    return all(np.ndim(height) == 0 for height in heights) and low == -math.inf and high == math.inf and not solid
 
 
 def _add(columns: dict[str, Argument], others: Mapping[str, Argument]) -> None:

@@ -245,8 +245,8 @@ def trouble_with(name: str, value: object) -> str | None:
 
 def trouble_with_axis(axis: Sequence[object]) -> str | None:
     """Why three values are no axis, as the end of a sentence, or None when they are one."""
-    troubles = (trouble_with(*each) for each in zip(AXIS, axis, strict=True))
-    return next((each for each in troubles if each), None if any(axis) else NO_DIRECTION)
+    troubles = (trouble_with(name, part) for name, part in zip(AXIS, axis, strict=True))
+    return next((trouble for trouble in troubles if trouble), None if any(axis) else NO_DIRECTION)
 
 
 def trouble_with_heights(heights: Sequence[object]) -> str | None:

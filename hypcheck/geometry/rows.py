@@ -74,7 +74,7 @@ class Layout:
         """The names of the columns of a row with that many numbers."""
         return self.ended[:width]
 
-    def lean(self, rows: Rows) -> bool:
+    def has_axis(self, rows: Rows) -> bool:
         """Whether the rows have the columns of an axis."""
         return bool(rows.shape[1] > len(self.upright))
 
@@ -158,13 +158,13 @@ def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats
         np.atleast_1d(as_numbers(f"{name} is", value, wanted)) for name, value in zip(names, values, strict=True)
     ]
     try:
-        shape = np.broadcast_shapes(*(each.shape for each in columns))
+        shape = np.broadcast_shapes(*(column.shape for column in columns))
     except ValueError:
         shape = ()
     if len(shape) != 1:
-        shapes = ", ".join(f"{name} {each.shape}" for name, each in zip(names, columns, strict=True))
+        shapes = ", ".join(f"{name} {column.shape}" for name, column in zip(names, columns, strict=True))
         raise InputError(f"{shapes} have shapes that do not fit together; each must be (n,) or a number")
-    return tuple(np.broadcast_to(each, shape) for each in columns)
+    return tuple(np.broadcast_to(column, shape) for column in columns)
 
 
 def tilted_rows(sizes: Sizes, center: Columns, axis: Sequence[float | Floats]) -> Rows:
@@ -186,8 +186,10 @@ def as_numbers(subject: str, values: object, wanted: str) -> Floats:
     except (TypeError, ValueError):  # of several lengths
         array = np.empty(0, dtype=np.object_)
     if array.dtype.kind not in "iuf":
-        found = f"an array of {values.dtype}" if isinstance(values, np.ndarray) else escaped(reprlib.repr(values), 60)
-        raise InputError(f"{subject} {found}; {wanted}")
+        description = (
+            f"an array of {values.dtype}" if isinstance(values, np.ndarray) else escaped(reprlib.repr(values), 60)
+        )
+        raise InputError(f"{subject} {description}; {wanted}")
     with np.errstate(over="ignore"):
         return array.astype(np.float64, copy=False)
 
@@ -210,7 +212,7 @@ def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
     """A mask (n,) of the rows that are no valid query: see pair.Pair."""
     others, axis, heights = parts_of(rows, layout)
     valid = np.isfinite(rows[:, : len(layout.tilted)]).all(axis=1) & (others[:, : len(SIZES)] > 0).all(axis=1)
-    if layout.lean(rows):
+    if layout.has_axis(rows):
         valid &= (axis != 0).any(axis=1)
     if layout.end(rows):
         low, high, solid = heights.T
@@ -226,7 +228,7 @@ def parts_of(rows: Rows, layout: Layout = PAIRS) -> tuple[Rows, Rows, Rows]:
 
 def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
     """The same queries with an axis: rows without one get the axis 0, 0, 1, others are returned as they are."""
-    if layout.lean(rows):
+    if layout.has_axis(rows):
         return rows
     wide = np.empty((len(rows), len(layout.tilted)))
     wide[:, : len(layout.upright)], wide[:, len(layout.upright) :] = rows, UPRIGHT
@@ -244,7 +246,7 @@ def as_wide(parts: Sequence[Rows], layout: Layout = PAIRS) -> list[Rows]:
     """The same queries with an axis, and heights, each where one of the parts has them."""
     if any(layout.end(part) for part in parts):
         return [with_heights(part, layout) for part in parts]
-    return [with_axis(part, layout) for part in parts] if any(layout.lean(part) for part in parts) else list(parts)
+    return [with_axis(part, layout) for part in parts] if any(layout.has_axis(part) for part in parts) else list(parts)
 
 
 def first_trouble(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> str | None:

@@ -104,7 +104,7 @@ class Library:
         return (rows.shape[1],) if call.columns else ()
 
     def _entry(self, rows: Rows, call: Call) -> Any:  # noqa: ANN401 - ctypes' own is private
-        return self._entries[call.entry_name(tilt=call.layout.lean(rows))]
+        return self._entries[call.entry_name(tilt=call.layout.has_axis(rows))]
 
 
 _PAGE = mmap.PAGESIZE
@@ -192,7 +192,7 @@ class _Memory:
         """The addresses of sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
         x, y, z = rows[:, 4:7].T
         given = {"the sizes": rows[0, :4], "the axis": rows[0, 7:], "the x": x, "the y": y, "the z": z}
-        if not PAIRS.lean(rows):
+        if not PAIRS.has_axis(rows):
             del given["the axis"]
         return [self._placed(self._parts[name], part) for name, part in given.items()]
 

@@ -79,8 +79,8 @@ def searches() -> tuple[CancellationSearch, ...]:
 
 def worst_rows() -> Rows:
     """What all the searches find, float64 (n, 7)."""
-    found = (worst_row(search) for search in searches())
-    return rows_of([each.row for each in found if each is not None])
+    candidates = (worst_row(search) for search in searches())
+    return rows_of([candidate.row for candidate in candidates if candidate is not None])
 
 
 def worst_row(search: CancellationSearch) -> Found | None:
@@ -88,7 +88,7 @@ def worst_row(search: CancellationSearch) -> Found | None:
     draw = Draw(NAME, VERSION, SEED, *astuple(search))
     best = _worst(FAMILIES[search.stratum].block(SEED, search.beginning), search, [])
     for _ in range(ROUNDS if best else 0):
-        parents = np.repeat(rows_of([each.row for each in best]), CHILDREN, axis=0)
+        parents = np.repeat(rows_of([candidate.row for candidate in best]), CHILDREN, axis=0)
         best = _worst(_changed(draw, parents), search, best)
     least = TOLERANCE_U * unit_roundoff(search.precision)
     return best[0] if best and best[0].error > least else None
@@ -102,15 +102,15 @@ def _worst(rows: Rows, search: CancellationSearch, before: Sequence[Found]) -> l
     wanted = (positions == Position.CONTACT) == search.contact
     rows, truths = rows[wanted], [Position(position) for position in positions[wanted].tolist()]
     listed: list[Row] = [tuple(row) for row in rows.tolist()]
-    known = {each.row for each in before}
+    known = {candidate.row for candidate in before}
     wrong = wrong_answers(search.formula, search.precision, rows, truths)
     measured = [
         Found(listed[place], _error(listed[place], wrong[place]))
         for place in _highest_exponent_first({place: (listed[place], excuse) for place, excuse in wrong.items()})
         if listed[place] not in known and exactly_right(search.formula, listed[place], truths[place])
     ]
-    unlike = {each.row: each for each in (*before, *measured) if 0 < each.error < float("inf")}
-    return sorted(unlike.values(), key=lambda each: -each.error)[:BEAM]
+    unlike = {candidate.row: candidate for candidate in (*before, *measured) if 0 < candidate.error < float("inf")}
+    return sorted(unlike.values(), key=lambda candidate: -candidate.error)[:BEAM]
 
 
 def _highest_exponent_first(wrong: Mapping[int, tuple[Row, Position]]) -> list[int]:

@@ -221,15 +221,15 @@ def read_cases(path: str, content: Content | None = None) -> CaseFile[Any]:
 
 def cases_of(document: JsonDocument, path: str, content: Content | None = None) -> CaseFile[Any]:
     """The vector file that a document is, as read_cases reads it. Raises InputError."""
-    found = content_of(document, path)
-    if content is not None and content is not found:
-        said = document.members["content"][0]
+    actual = content_of(document, path)
+    if content is not None and content is not actual:
+        location = document.members["content"][0]
         wanted = f"{content.name!r}, rows of {len(content.columns)} numbers"
-        raise InputError(f"{said}: content is {found.name!r}; here it must be {wanted}")
-    if found.refused:
+        raise InputError(f"{location}: content is {actual.name!r}; here it must be {wanted}")
+    if actual.refused:
         return invalid_rows_of(document, path)
-    read = _way if found.layout is WAYS else _ended if found.ended else _vector
-    return file_of(document, path, case_fields(found), read)
+    read = _way if actual.layout is WAYS else _ended if actual.ended else _vector
+    return file_of(document, path, case_fields(actual), read)
 
 
 def _vector(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> Vector[Any]:
@@ -299,8 +299,8 @@ def _flips(
 ) -> Mapping[Position, Flip]:
     others = [other for other in Position if other is not position]
     names = tuple(other.label for other in others)
-    found = zip(others, fields_of(value, names, at, "flips"), strict=True)
-    return {other: read(at, f"the flip to {other.label}", each) for other, each in found}
+    distances = zip(others, fields_of(value, names, at, "flips"), strict=True)
+    return {other: read(at, f"the flip to {other.label}", distance) for other, distance in distances}
 
 
 def _distance(at: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
@@ -368,15 +368,15 @@ def _first(at: JsonPlace, value: Any, hexes: Any) -> Bounds | None:  # noqa: ANN
 
 
 def _passage(at: JsonPlace, value: Any) -> StoredPassage:  # noqa: ANN401 - JSON
-    found = dict(zip(_PASSAGE_FIELDS, fields_of(value, _PASSAGE_FIELDS, at, "certificate"), strict=True))
+    values = dict(zip(_PASSAGE_FIELDS, fields_of(value, _PASSAGE_FIELDS, at, "certificate"), strict=True))
     pieces = []
-    for piece in listed(at, "pieces", found["pieces"]):
+    for piece in listed(at, "pieces", values["pieces"]):
         multiplier, end = (rational_at(at, "a piece", part) for part in listed(at, "a piece", piece, 2))
         pieces.append((multiplier, end))
     time, root = (
-        None if found[name] is None else rational_at(at, name, found[name]) for name in ("time", "double_root")
+        None if values[name] is None else rational_at(at, name, values[name]) for name in ("time", "double_root")
     )
-    points = tuple(_offset(at, point) for point in listed(at, "points", found["points"]))
+    points = tuple(_offset(at, point) for point in listed(at, "points", values["points"]))
     if len(points) > 2:
         raise InputError(f"{at}: points has {len(points)} points; it may have two at most")
     if (time is None) != (not points and root is None) or (points and root is not None):

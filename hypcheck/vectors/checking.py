@@ -61,30 +61,32 @@ class LabelFault:
 
 def faults_of(file: CaseFile[Any]) -> list[LabelFault]:
     """Every wrong label of a file of cases, in order; of rows that must be refused, whether they must, and what for."""
-    found: Iterable[Iterator[str]]
+    sentences_of_cases: Iterable[Iterator[str]]
     if file.content.refused:
-        found = (_wrong_columns(case, file.content.columns) for case in file.cases)
+        sentences_of_cases = (_wrong_columns(case, file.content.columns) for case in file.cases)
     elif file.content.layout is WAYS:
-        found = map(_ended_way_sentences if file.content.ended else _way_sentences, file.cases)
+        sentences_of_cases = map(_ended_way_sentences if file.content.ended else _way_sentences, file.cases)
     elif file.content.ended:
-        found = map(_ended_sentences, file.cases)
+        sentences_of_cases = map(_ended_sentences, file.cases)
     elif file.content.tilted:
-        found = map(_tilted_sentences, file.cases, _proved_lower_ends(file.cases))
+        sentences_of_cases = map(_tilted_sentences, file.cases, _proved_lower_ends(file.cases))
     else:
         decisions = [exact.decide(Pair.from_row(case.row).lengths) for case in file.cases]
-        found = map(_sentences, file.cases, decisions, flags_of([case.row for case in file.cases], decisions))
+        sentences_of_cases = map(
+            _sentences, file.cases, decisions, flags_of([case.row for case in file.cases], decisions)
+        )
     return [
         LabelFault(line, case.id, sentence)
-        for (line, case), sentences in zip(file.numbered_cases(), found, strict=True)
+        for (line, case), sentences in zip(file.numbered_cases(), sentences_of_cases, strict=True)
         for sentence in sentences
     ]
 
 
 def _wrong_columns(case: InvalidRow, columns: tuple[str, ...]) -> Iterator[str]:
-    found = columns_at_fault(case.row, columns)
-    if found != case.columns:
-        said = f"columns {', '.join(case.columns)} are said to be at fault"
-        yield f"{said}, but {', '.join(found) or 'none'} is"
+    actual = columns_at_fault(case.row, columns)
+    if actual != case.columns:
+        claim = f"columns {', '.join(case.columns)} are said to be at fault"
+        yield f"{claim}, but {', '.join(actual) or 'none'} is"
 
 
 def _sentences(case: UprightVector, truth: Decision, flags: Sequence[str]) -> Iterator[str]:
@@ -111,8 +113,8 @@ def _tilted_sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str
         return  # its flips are to other positions
     for other, ends in case.flips.items():
         if not is_bracket(pair, truth, other, ends, cuts=0, lower_holds=other in proved):
-            said = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
-            yield f"the flip to {other.label} is {said}; no proof of both ends is found"
+            bracket_text = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
+            yield f"the flip to {other.label} is {bracket_text}; no proof of both ends is found"
     yield from _wrong_flags(case, tilted_flags(pair, truth))
 
 
@@ -133,15 +135,17 @@ def _ended_sentences(case: EndedVector) -> Iterator[str]:
 def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:
     """For each case the other positions whose lower end float64 proves, all cases at once: most, in little time."""
     proved: list[set[Position]] = [set() for _ in cases]
-    asked = [
+    brackets = [
         (index, other, ends.lower)
         for index, case in enumerate(cases)
         for other, ends in case.flips.items()
         if other is not case.position and 0 < ends.lower < 1
     ]
-    goals = [goal_of(cases[index].position, other) for index, other, _ in asked]
-    pairs = [Pair.from_row(cases[index].row) for index, *_ in asked]
-    for (index, other, _), holds in zip(asked, excluded_at_once(pairs, goals, [low for *_, low in asked]), strict=True):
+    goals = [goal_of(cases[index].position, other) for index, other, _ in brackets]
+    pairs = [Pair.from_row(cases[index].row) for index, *_ in brackets]
+    for (index, other, _), holds in zip(
+        brackets, excluded_at_once(pairs, goals, [low for *_, low in brackets]), strict=True
+    ):
         if holds:
             proved[index].add(other)
     return proved
@@ -154,8 +158,8 @@ def _way_sentences(case: WayVector) -> Iterator[str]:
         elif contact_at(case.row, case.certificate) is None:
             yield "the certificate does not prove contact at its time"
         else:
-            said = f"{decimal_of(case.first[0])} … {decimal_of(case.first[1])}"
-            yield f"the certificate does not prove that the first contact is at {said}"
+            times_text = f"{decimal_of(case.first[0])} … {decimal_of(case.first[1])}"
+            yield f"the certificate does not prove that the first contact is at {times_text}"
     yield from _wrong_flags(case, way_flags(case.row, case.first, case.certificate))
 
 
@@ -218,23 +222,23 @@ def wrong_description(head: Metadata) -> Iterator[str]:
     known = frozen.head_of(head.name) if head.name in frozen.ALL_NAMES else None
     if known is None or head.version < known.version:
         return
-    for name, said, right in _differences(head, replace(known, made_by=head.made_by)):
-        yield f"family.{name} is {said}; of {head.name} it is {right}"
+    for name, stated, right in _differences(head, replace(known, made_by=head.made_by)):
+        yield f"family.{name} is {stated}; of {head.name} it is {right}"
 
 
 def wrong_meanings(flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts]) -> Iterator[str]:
     """A sentence for each flag whose description in a file is not the meaning that is checked."""
     for flag, facts in flags.items():
-        for name, said, right in _differences(facts, known[flag]):
-            yield f"the {name} of the flag {flag} is {said}; it is {right}"
+        for name, stated, right in _differences(facts, known[flag]):
+            yield f"the {name} of the flag {flag} is {stated}; it is {right}"
 
 
 def _differences(there: Metadata | FlagFacts, known: Metadata | FlagFacts) -> Iterator[tuple[str, str, str]]:
     """Names of fields that differ, with what is said there, cut where it is long, and what is right, whole."""
-    for each in fields(known):
-        said, right = getattr(there, each.name), getattr(known, each.name)
-        if said != right:
-            yield each.name, shown_json(said), json.dumps(right, ensure_ascii=False)
+    for field in fields(known):
+        stated, right = getattr(there, field.name), getattr(known, field.name)
+        if stated != right:
+            yield field.name, shown_json(stated), json.dumps(right, ensure_ascii=False)
 
 
 @dataclass(frozen=True, slots=True)

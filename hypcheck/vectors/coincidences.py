@@ -60,9 +60,9 @@ def _touching(
     """The generator of those double roots that are wanted, their lengths with a `reach` of `farthest` at most."""
 
     def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
-        found = construction(draw, n)
-        usable = found.usable & (found.outer == outer) & (found.tangent == tangent)
-        rows = np.where(usable[:, None], found.rows, 1.0)
+        tangencies = construction(draw, n)
+        usable = tangencies.usable & (tangencies.outer == outer) & (tangencies.tangent == tangent)
+        rows = np.where(usable[:, None], tangencies.rows, 1.0)
         return rows, usable & (reach(rows) <= farthest)
 
     return exact_maker(attempt)
@@ -103,10 +103,10 @@ def near_tangent(*, outer: bool) -> Maker:
 
     def beside(construction: Callable[[Draw, int], DoubleRoots]) -> Maker:
         def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
-            found = construction(draw, n)
-            usable = found.usable & (found.outer == outer) & found.tangent
-            rows = np.where(usable[:, None], found.rows, 1.0)
-            along = _along_the_normal(rows, found.sine, _small(draw, n), outer=outer)
+            tangencies = construction(draw, n)
+            usable = tangencies.usable & (tangencies.outer == outer) & tangencies.tangent
+            rows = np.where(usable[:, None], tangencies.rows, 1.0)
+            along = _along_the_normal(rows, tangencies.sine, _small(draw, n), outer=outer)
             by_ulps = draw.signs(n) < 0
             return np.where(by_ulps[:, None], ulps_away(draw, rows), along), usable
 

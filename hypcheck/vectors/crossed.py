@@ -247,9 +247,9 @@ def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], way: lis
         u, v, w = way
         axes["along the way"] = (u, v, w)
         axes["at right angles to the way"] = (v - w, w - u, u - v)
-    found = _selected(kind, axes, (i, j, k))
-    nowhere = (found[0] == 0) & (found[1] == 0) & (found[2] == 0)
-    return [np.where(nowhere, one, found[0]), *found[1:]]
+    vector = _selected(kind, axes, (i, j, k))
+    nowhere = (vector[0] == 0) & (vector[1] == 0) & (vector[2] == 0)
+    return [np.where(nowhere, one, vector[0]), *vector[1:]]
 
 
 def _selected(kind: NDArray[Any], known: Mapping[str, Any], otherwise: tuple[Floats, Floats, Floats]) -> list[Floats]:

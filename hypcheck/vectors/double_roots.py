@@ -89,14 +89,14 @@ def to_rows(radial: Sequence[BigIntegers], axial: Sequence[BigIntegers]) -> tupl
 
 def gather(draw: Draw, n: int, attempt: Callable[[Draw, int], tuple[Rows, Mask]]) -> Rows:
     """n rows out of as many attempts as it takes; each attempt says which of its rows are wanted."""
-    found: list[Rows] = []
+    parts: list[Rows] = []
     missing = n
     for _ in range(ATTEMPTS):
         rows, wanted = attempt(draw, max(2 * missing, 256))
-        found.append(rows[wanted][:missing])
-        missing -= len(found[-1])
+        parts.append(rows[wanted][:missing])
+        missing -= len(parts[-1])
         if missing == 0:
-            return np.concatenate(found)
+            return np.concatenate(parts)
     raise AssertionError(f"{ATTEMPTS} attempts of a construction left {missing} of {n} rows to be found")
 
 

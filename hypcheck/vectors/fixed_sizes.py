@@ -44,18 +44,18 @@ def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
 
 
 def _traps(setting: FixedSizes) -> dict[str, Trap]:
-    return TRAPS if setting.axis is None else LEANING_TRAPS
+    return TRAPS if setting.axis is None else TILTED_TRAPS
 
 
 def family_at(name: str) -> Family:
     """The family that such a name names; raises InputError saying what is wrong with it."""
     trap, _, text = name.partition(MARK)
-    known = (*TRAPS, *LEANING_TRAPS)
+    known = (*TRAPS, *TILTED_TRAPS)
     if trap not in known:
         raise InputError(f"there is no family {trap!r} for fixed sizes; there are {', '.join(known)}")
     setting = _parsed_sizes(text, name)
     if trap not in _traps(setting):
-        with_axis = "an axis" if trap in LEANING_TRAPS else "no axis"
+        with_axis = "an axis" if trap in TILTED_TRAPS else "no axis"
         raise InputError(f"{name!r} names no family: {trap} takes {with_axis}")
     return _family(trap, setting)
 
@@ -262,7 +262,7 @@ def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted.Vectors:
     return x, y, z
 
 
-def _leaning_rows(setting: FixedSizes, draw: Draw, n: int, offset: Floats) -> Rows:
+def _tilted_rows(setting: FixedSizes, draw: Draw, n: int, offset: Floats) -> Rows:
     """Centres `offset` radii off the surface."""
     size = Sizes(*(np.full(n, value) for value in setting.sizes))
     heights = _heights(setting, draw, n) / setting.sizes[1]
@@ -277,31 +277,31 @@ def _held(setting: FixedSizes, rows: Rows) -> Rows:
     return rows + 0.0
 
 
-def _leaning_box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+def _tilted_box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     rows = with_axis(_box(setting, draw, n))
     rows[:, 7:] = np.stack(_axes_of(setting, draw, n), axis=1)
     return rows + 0.0
 
 
-def _leaning_beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+def _tilted_beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     offset = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -53, 0))
-    return _held(setting, _leaning_rows(setting, draw, n, offset))
+    return _held(setting, _tilted_rows(setting, draw, n, offset))
 
 
-def _leaning_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+def _tilted_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """The last floats before contact and the first in it, at sixteen places a block, a few ulps to each side of x."""
-    touching = _held(setting, _leaning_rows(setting, draw, 16, np.zeros(16)))
+    touching = _held(setting, _tilted_rows(setting, draw, 16, np.zeros(16)))
     spread = draw.signs(16) * max(setting.sizes[2:]) * 4.0
-    edges = np.array([_leaning_edge(row, way) for row, way in zip(touching, spread.tolist(), strict=True)])
+    edges = np.array([_tilted_edge(row, way) for row, way in zip(touching, spread.tolist(), strict=True)])
     rows = np.resize(edges, (n, 10))
     rows[:, 4] = stepped(np.ascontiguousarray(rows[:, 4]), draw.integers(n, -6, 6))
     return rows + 0.0
 
 
-def _leaning_edge(row: Rows, way: float) -> Rows:
+def _tilted_edge(row: Rows, way: float) -> Rows:
     """The row of a centre on the surface, moved outward or inward across z until it is clear; far, if it never is."""
     start, far = float(row[4]), float(row[4]) + way
-    found = row.copy()
+    result = row.copy()
 
     def is_contact(x: float) -> bool:
         lengths = Pair.from_row((*row[:4].tolist(), x, *row[5:].tolist())).lengths
@@ -312,13 +312,13 @@ def _leaning_edge(row: Rows, way: float) -> Rows:
         if middle in (start, far):
             break
         start, far = (middle, far) if is_contact(middle) else (start, middle)
-    found[4] = far
-    return found
+    result[4] = far
+    return result
 
 
-def _leaning_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+def _tilted_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """Coordinates that are 0: on the axis, in the plane of the waist, in a plane of symmetry; and far out."""
-    rows = _leaning_box(setting, draw, n)
+    rows = _tilted_box(setting, draw, n)
     far = ldexp(1, draw.integers(n, 0, 12))
     rows[:, 4] *= turns(n, 1.0, 0.0, 0.0, 1.0, 1.0)
     rows[:, 5] *= turns(n, 0.0, 1.0, 0.0, 1.0, 1.0)
@@ -327,10 +327,10 @@ def _leaning_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     return _held(setting, rows)
 
 
-LEANING_TRAPS: dict[str, Trap] = {
-    "leaning-box": _leaning_box,
-    "leaning-beside": _leaning_beside,
-    "leaning-razor": _leaning_razor,
-    "leaning-zeros": _leaning_zeros,
+TILTED_TRAPS: dict[str, Trap] = {
+    "leaning-box": _tilted_box,
+    "leaning-beside": _tilted_beside,
+    "leaning-razor": _tilted_razor,
+    "leaning-zeros": _tilted_zeros,
 }
-"""What a spheroid that leans is asked."""
+"""The traps of a tilted spheroid."""

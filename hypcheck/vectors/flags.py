@@ -236,7 +236,7 @@ def _of_pair(pair: Pair, decision: Decision) -> set[str]:
 
 def _of_numbers(rows: Rows) -> dict[str, Mask]:
     """The flags that the seven numbers show by themselves."""
-    found = {
+    masks = {
         "extreme": ~within(rows),
         "negative-zero": np.asarray(((rows == 0) & np.signbit(rows)).any(axis=1)),
     }
@@ -244,27 +244,29 @@ def _of_numbers(rows: Rows) -> dict[str, Mask]:
         with np.errstate(over="ignore", under="ignore"):
             held = (rows.astype(name).astype(np.float64) == rows).all(axis=1)
         normal = in_range(rows, name)
-        found[f"{name}-exact"] = held & normal
-        found[f"subnormal-{name}"] = held & ~normal
-    return found
+        masks[f"{name}-exact"] = held & normal
+        masks[f"subnormal-{name}"] = held & ~normal
+    return masks
 
 
 def _of_table_2(rows: Rows) -> dict[str, Mask]:
     """Where an intermediate of Table 2 leaves the range of a format that holds the row itself."""
-    found = {}
+    masks = {}
     for name in FORMATS:
         overflow, underflow = leaves_range("table-2", name, rows)
-        asked = in_range(rows, name)
-        found[f"overflow-{name}"], found[f"underflow-{name}"] = asked & overflow, asked & underflow
-    return found
+        counted = in_range(rows, name)
+        masks[f"overflow-{name}"], masks[f"underflow-{name}"] = counted & overflow, counted & underflow
+    return masks
 
 
 def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
     """Where a formula is wrong in exact arithmetic, and where it is right in that and wrong in floats."""
     listed: list[Row] = rows.tolist()
     truths = [decision.position for decision in decisions]
-    found = {
-        flag: np.asarray([not exactly_right(formula, *each) for each in zip(listed, truths, strict=True)], np.bool_)
+    masks = {
+        flag: np.asarray(
+            [not exactly_right(formula, *arguments) for arguments in zip(listed, truths, strict=True)], np.bool_
+        )
         for flag, formula in PRINTED.items()
     }
     for formula, precision in DEFEATED:
@@ -272,8 +274,8 @@ def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
         for place, excuse in wrong_answers(formula, precision, rows, truths).items():
             row, truth = listed[place], decisions[place]
             beyond[place] = _beyond(row, truth, excuse, precision) and exactly_right(formula, row, truth.position)
-        found[f"{formula}-{precision}"] = beyond
-    return found
+        masks[f"{formula}-{precision}"] = beyond
+    return masks
 
 
 def _beyond(row: Row, truth: Decision, excuse: Position, precision: str) -> bool:
@@ -294,7 +296,7 @@ def tilted_flags(pair: Pair, decision: Decision) -> tuple[str, ...]:
     v_x, v_y, v_z = to_integers(pair.axis)
     across = x * v_y - y * v_x
     largest = max(map(abs, pair.axis))
-    found = {
+    conditions = {
         "tangent": decision.tangent,
         "quartic-ring": double and decision.position is not Position.CONTACT,
         "quartic-delta=0": double,
@@ -309,14 +311,14 @@ def tilted_flags(pair: Pair, decision: Decision) -> tuple[str, ...]:
         "long-axis": not _SHORTEST <= largest <= _LONGEST,
         "extreme": not within(np.asarray([sizes]))[0],
     }
-    return tuple(name for name, holds in found.items() if holds)
+    return tuple(name for name, holds in conditions.items() if holds)
 
 
 def way_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
     """What is special about a case; positions at its ends are decided exactly."""
     start, end, axis = row[4:7], row[7:10], row[len(WAY_COLUMNS) :]
     ends = [_position(row, Fraction(time)) for time in (0, 1)]
-    found = {
+    conditions = {
         "tunnelling": first is not None and ends[0] is ends[1] is not Position.CONTACT,
         "tangent": proof.double_root is not None,
         "contact-at-start": ends[0] is Position.CONTACT,
@@ -326,7 +328,7 @@ def way_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertifi
         "horizontal-way": start[2] == end[2] and start[:2] != end[:2],
         "upright": bool(axis) and (not any(axis[:2]) or row[2] == row[3]),
     }
-    return tuple(name for name, holds in found.items() if holds)
+    return tuple(name for name, holds in conditions.items() if holds)
 
 
 def _position(row: Row, time: Fraction) -> Position:

@@ -93,12 +93,12 @@ def content_with(
 ) -> Content:
     """The content of files with such rows; where hyperboloids end, rows have an axis."""
     wanted = (layout, tilted or ended, refused, ended)
-    (found,) = (
+    (match,) = (
         content
         for content in CONTENTS.values()
         if (content.layout, content.tilted, content.refused, content.ended) == wanted
     )
-    return found
+    return match
 
 
 class AnyCase(Protocol):

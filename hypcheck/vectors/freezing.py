@@ -129,8 +129,8 @@ def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> l
 
 def _next_number(ids: Iterable[str]) -> int:
     """The number after the greatest of these ids; generated ones, which have slashes, do not count."""
-    found = (_NUMBER.fullmatch(name) for name in ids if "/" not in name)
-    return 1 + max((int(match.group(1)) for match in found if match), default=-1)
+    matches = (_NUMBER.fullmatch(name) for name in ids if "/" not in name)
+    return 1 + max((int(match.group(1)) for match in matches if match), default=-1)
 
 
 def generated_case(name: str) -> tuple[AnyVector, Content]:
@@ -138,8 +138,8 @@ def generated_case(name: str) -> tuple[AnyVector, Content]:
     case = parse_case_id(name)
     content = content_of_family(case.family)
     row = case.family.row(case.seed, case.index)
-    (found,) = labelled(content, [(case_id(case.family, case.seed, case.index), row)])
-    return found, content
+    (result,) = labelled(content, [(case_id(case.family, case.seed, case.index), row)])
+    return result, content
 
 
 def generated_text(family: Family, seed: int, count: int) -> str:

@@ -85,10 +85,10 @@ def count_of(name: str) -> int:
     """
     try:
         with path_of(name).open("rb") as file:
-            said = re.search(rb'^"count": (\d+),$', file.read(_HEAD), re.MULTILINE)
+            match = re.search(rb'^"count": (\d+),$', file.read(_HEAD), re.MULTILINE)
     except OSError:
-        said = None
-    return int(said[1]) if said else len(load(name).cases)
+        match = None
+    return int(match[1]) if match else len(load(name).cases)
 
 
 @cache

@@ -112,15 +112,15 @@ def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
 def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
     """The columns of these names whose values are not allowed; all three of an axis without a direction."""
     values = dict(zip(names, row, strict=True))
-    found = [name for name, value in values.items() if name not in HEIGHTS and trouble_with(name, value) is not None]
+    faults = [name for name, value in values.items() if name not in HEIGHTS and trouble_with(name, value) is not None]
     if AXIS[0] in values and not any(values[name] for name in AXIS):
-        found += AXIS
+        faults += AXIS
     if ENDS[0] in values:
         low, high = (values[name] for name in ENDS)
         numbers = [name for name in ENDS if math.isnan(values[name])]
-        found += numbers or ENDS[: 2 * (not low < high)]
-        found += HEIGHTS[2:] if values["solid"] not in (0, 1) else ()
-    return tuple(found)
+        faults += numbers or ENDS[: 2 * (not low < high)]
+        faults += HEIGHTS[2:] if values["solid"] not in (0, 1) else ()
+    return tuple(faults)
 
 
 def invalid_rows(name: str) -> InvalidRowFile:
@@ -273,7 +273,7 @@ def _invalid_row(
         raise InputError(f"{place}: columns is {shown_json(columns)}; it must name one or more of {', '.join(names)}")
     numbers = listed(place, "row", fields["row"], len(names))
     words = listed(place, "bits", fields["bits"], len(names))
-    bits = tuple(_checked_bits(place, *each) for each in zip(names, numbers, words, strict=True))
+    bits = tuple(_checked_bits(place, *number) for number in zip(names, numbers, words, strict=True))
     return InvalidRow(fields["id"], bits, tuple(columns))
 
 

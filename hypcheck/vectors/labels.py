@@ -22,6 +22,7 @@ from hypcheck.truth.passage_certificate import place
 from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.passage_prove import prove as prove_passage
 from hypcheck.truth.prove import prove
+from hypcheck.truth.vectors import dot
 from hypcheck.vectors.cases import (
     EndedVector,
     Offset,
@@ -50,8 +51,8 @@ def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
         labelled_one = _labelled_ended_way if content.layout is WAYS else _labelled_ended
         return [labelled_one(*case) for case in cases]
     if content.layout is WAYS:
-        return [_labelled_way(*each) for each in cases]
-    return [_labelled_tilted(*each) for each in cases] if content.tilted else _labelled_upright(list(cases))
+        return [_labelled_way(*named_row) for named_row in cases]
+    return [_labelled_tilted(*named_row) for named_row in cases] if content.tilted else _labelled_upright(list(cases))
 
 
 def _labelled_upright(cases: Sequence[tuple[str, Row]]) -> list[UprightVector]:
@@ -139,7 +140,9 @@ def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
         shorter = _rounded(far)
     else:
         shorter = _cut_off(next(offset for offset in _slid(row, far) if shows_crossing(row, (center, offset))))
-    return StoredCertificate(offsets=(center, next(each for each in shorter if shows_crossing(row, (center, each)))))
+    return StoredCertificate(
+        offsets=(center, next(shortened for shortened in shorter if shows_crossing(row, (center, shortened))))
+    )
 
 
 def _slid(row: Row, offset: Offset) -> Iterator[Offset]:
@@ -202,9 +205,9 @@ def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
     alpha, gamma, b, d, _, _, _, *axis = map(Fraction, row)
     sides = set()
     for offset in offsets:
-        reach = _dot(offset, offset)
+        reach = dot(offset, offset)
         if axis:
-            reach += (b * b / (d * d) - 1) * _dot(offset, axis) ** 2 / _dot(axis, axis)
+            reach += (b * b / (d * d) - 1) * dot(offset, axis) ** 2 / dot(axis, axis)
         if reach > 1:
             return False
         u, v, height = point_at(row, offset)
@@ -213,7 +216,3 @@ def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
             return True
         sides.add((level > 0) - (level < 0))
     return {-1, 1} <= sides
-
-
-def _dot(one: Sequence[Fraction], other: Sequence[Fraction]) -> Fraction:
-    return sum((a * b for a, b in zip(one, other, strict=True)), Fraction(0))

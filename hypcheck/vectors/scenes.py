@@ -96,7 +96,7 @@ def flight(draw: Draw, n: int) -> Rows:
     cosine, sine = draw.circle(flights)
     x, y = radius * cosine, radius * sine
     step = draw.between(flights, 5, 10) * draw.between(flights, 0.1, 0.3)
-    asked = np.empty((3, flights, FLIGHT_STEPS))
+    places = np.empty((3, flights, FLIGHT_STEPS))
     for move in range(FLIGHT_STEPS):
         chance, sense = draw.unit(flights), draw.signs(flights)
         turn_cosine, turn_sine = circle_at(np.where(chance < 0.5, draw.between(flights, -0.414, 0.414), 0.0))
@@ -108,8 +108,8 @@ def flight(draw: Draw, n: int) -> Rows:
             np.where(vertical, y, y + step * aside),
             np.where(vertical, z + sense * step, z),
         )
-        asked[:, :, move] = to
+        places[:, :, move] = to
         valid = np.sqrt(to[0] * to[0] + to[1] * to[1]) < _radius(to[2]) - 0.26
         x, y, z = (np.where(valid, after, before) for after, before in zip(to, (x, y, z), strict=True))
         ahead, aside = np.where(valid, ahead, -sense * aside), np.where(valid, aside, sense * ahead)
-    return _in_tower(n, BODY, *asked.reshape(3, -1)[:, :n])
+    return _in_tower(n, BODY, *places.reshape(3, -1)[:, :n])

@@ -21,6 +21,7 @@ from functools import reduce
 import numpy as np
 
 from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.truth.vectors import dot
 from hypcheck.vectors.double_roots import (
     ULPS,
     BigIntegers,
@@ -64,17 +65,13 @@ def beside_at(size: Sizes, direction: tuple[Floats, Floats], height: Floats, axi
     radius = np.sqrt(1 + height * height)
     point = (size.alpha * radius * cosine, size.alpha * radius * sine, size.gamma * height)
     normal = (radius * cosine / size.alpha, radius * sine / size.alpha, -height / size.gamma)
-    length = np.sqrt(_dot(axis, axis))
+    length = np.sqrt(dot(axis, axis))
     unit = (axis[0] / length, axis[1] / length, axis[2] / length)
-    along = _dot(normal, unit)
+    along = dot(normal, unit)
     across = [n - along * v for n, v in zip(normal, unit, strict=True)]
     way = [size.b * size.b * q + size.d * size.d * along * v for q, v in zip(across, unit, strict=True)]
-    half = np.sqrt(_dot(normal, (way[0], way[1], way[2])))
+    half = np.sqrt(dot(normal, (way[0], way[1], way[2])))
     return stack(size, [p + offset * w / half for p, w in zip(point, way, strict=True)], axis)
-
-
-def _dot(one: Vectors, other: Vectors) -> Floats:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
 def stack(size: Sizes, centre: list[Floats], axis: Vectors) -> Rows:
@@ -100,7 +97,7 @@ def uniform(draw: Draw, n: int) -> Rows:
 
 
 def tower(draw: Draw, n: int) -> Rows:
-    """The paper's body beside the wall of its tower, leaning up to 45° from the vertical to any side."""
+    """The paper's body beside the wall of its tower, tilted up to 45° from the vertical to any side."""
     size = Sizes(*(np.full(n, value) for value in TOWER + BODY))
     cosine, sine = draw.circle(n)
     lean = draw.unit(n)
@@ -281,10 +278,10 @@ def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
 
 def _definite(sizes: tuple[BigIntegers, ...], axis: tuple[BigIntegers, ...], at: Floats) -> tuple[Mask, Mask]:
     """Where b² (M + λD) is surely positive definite, and where surely indefinite."""
-    alpha, gamma, b, d = (each.astype(np.float64) for each in sizes)
-    v = [each.astype(np.float64) for each in axis]
+    alpha, gamma, b, d = (column.astype(np.float64) for column in sizes)
+    v = [column.astype(np.float64) for column in axis]
     length = np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-    v = [each / length for each in v]
+    v = [column / length for column in v]
     extra = (b / d) * (b / d) - 1
     D = (at * (b / alpha) * (b / alpha), at * (b / alpha) * (b / alpha), -at * (b / gamma) * (b / gamma))
     G = [[(i == j) * (1 + D[i]) + extra * v[i] * v[j] for j in range(3)] for i in range(3)]
@@ -310,25 +307,25 @@ def _turned(
     """The rows, turned by a rational angle about the hyperboloid's axis, in lowest terms; and which are exact."""
     cosine, sine, radius = turned(draw, len(upward))
     lengths = [
-        *(radius * each for each in sizes),
+        *(radius * number for number in sizes),
         cosine * centre[0] - sine * centre[1],
         sine * centre[0] + cosine * centre[1],
         radius * centre[2] * upward,
     ]
-    leaning = [
+    axis_parts = [
         cosine * axis[0] - sine * axis[1],
         sine * axis[0] + cosine * axis[1],
         radius * axis[2] * upward,
     ]
-    reduced = [*_in_lowest_terms(lengths), *_in_lowest_terms(leaning)]
-    exact = np.all([np.abs(each) <= 2**53 for each in reduced], axis=0).astype(np.bool_)
-    rows = np.stack([each.astype(np.float64) for each in reduced], axis=1)
+    reduced = [*_in_lowest_terms(lengths), *_in_lowest_terms(axis_parts)]
+    exact = np.all([np.abs(number) <= 2**53 for number in reduced], axis=0).astype(np.bool_)
+    rows = np.stack([number.astype(np.float64) for number in reduced], axis=1)
     return _anywhere(draw, rows), exact
 
 
 def _in_lowest_terms(numbers: list[BigIntegers]) -> list[BigIntegers]:
     shared = np.maximum(reduce(np.gcd, numbers), 1)
-    return [each // shared for each in numbers]
+    return [number // shared for number in numbers]
 
 
 def _anywhere(draw: Draw, rows: Rows) -> Rows:

@@ -39,12 +39,12 @@ def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
 
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """Through an outer tangency along the surface's horizontal section, which bends away."""
-    found = double_roots.by_ratios(draw, n)
-    rows = in_metres(draw, np.where(found.usable[:, None], found.rows, 1.0))
+    tangencies = double_roots.by_ratios(draw, n)
+    rows = in_metres(draw, np.where(tangencies.usable[:, None], tangencies.rows, 1.0))
     share = ldexp(draw.signs(n), draw.integers(n, -6, 2))
     steps = np.stack([-rows[:, 5] * share, rows[:, 4] * share, np.zeros(n)], axis=1)
     ways, exact = through(rows, steps, turns(n, 1.0, 3.0, 0.5))
-    return ways, exact & found.usable & found.outer & found.tangent
+    return ways, exact & tangencies.usable & tangencies.outer & tangencies.tangent
 
 
 def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
@@ -85,7 +85,7 @@ def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
     zero = np.zeros(n)
     x, y = rows[:, 4], rows[:, 5]
     steps = np.select(
-        [(pick == each)[:, None] for each in range(4)],
+        [(pick == choice)[:, None] for choice in range(4)],
         [
             np.stack([x * share, y * share, zero], axis=1),
             np.stack([zero, zero, rows[:, 3] * share], axis=1),
@@ -156,7 +156,7 @@ def tilted_end(draw: Draw, n: int) -> Rows:
 
 
 def tilted_ring(draw: Draw, n: int) -> Rows:
-    """Across the ring of a spheroid that leans, or through a neighbour of it."""
+    """Across the ring of a tilted spheroid, or through a neighbour of it."""
     rows = tilted.ring(draw, n)
     steps = rows[:, 2:3] * ldexp(draw.signs(n), draw.integers(n, -30, -9))[:, None] * _directions(draw, n)
     return through(rows, steps, np.ones(n))[0]
