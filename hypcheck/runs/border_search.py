@@ -84,17 +84,17 @@ class _Side:
 
     def told(self, status: int) -> None:
         """Choose what to ask after the row with `next` has ended so."""
-        asked = self.next
+        rung = self.next
         self.next = None
-        if asked is None or status not in (_RIGHT, _WRONG):
+        if rung is None or status not in (_RIGHT, _WRONG):
             return
         if status == _RIGHT:
-            self.right = asked
+            self.right = rung
         else:
-            self.wrong = asked
+            self.wrong = rung
         if self.right is None:
-            further = min(2 * asked - self.begun, RUNGS_ON_A_SIDE - 1)
-            self.next = further if further > asked else None
+            further = min(2 * rung - self.begun, RUNGS_ON_A_SIDE - 1)
+            self.next = further if further > rung else None
         elif self.right - self.wrong > 1:
             self.next = (self.wrong + self.right) // 2
 

@@ -47,13 +47,15 @@ _LOADED: dict[str, FrozenVectors] = {}
 def frozen_vectors(name: str) -> FrozenVectors:
     """The vectors of a family. Raises InputError if it has none."""
     if name not in _LOADED:
-        found = vectors.load(name)
-        exponents = np.full(len(found.rows), math.nan)
+        vectors_of_family = vectors.load(name)
+        exponents = np.full(len(vectors_of_family.rows), math.nan)
         if name in vectors.NAMES:
-            exponents = np.array([_exponent(vector.position, vector.flips) for vector in found.cases])
+            exponents = np.array([_exponent(vector.position, vector.flips) for vector in vectors_of_family.cases])
         elif name in vectors.TILTED_NAMES:
-            exponents = np.array([_tilted_exponent(vector) for vector in found.cases])
-        _LOADED[name] = FrozenVectors(found.ids, found.rows, found.positions, exponents)
+            exponents = np.array([_tilted_exponent(vector) for vector in vectors_of_family.cases])
+        _LOADED[name] = FrozenVectors(
+            vectors_of_family.ids, vectors_of_family.rows, vectors_of_family.positions, exponents
+        )
     return _LOADED[name]
 
 

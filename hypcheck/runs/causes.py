@@ -51,7 +51,7 @@ class Scope(IntEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
+class AnsweredRows:
     """Rows (n, 7), (n, 10) or (n, 13) with the truth (n,), the answers given (n,), and the times of hits, if any."""
 
     rows: Rows
@@ -65,13 +65,13 @@ class Asked:
         """What the rows are about."""
         return subject_of(self.rows.shape[1], self.criterion)
 
-    def part(self, places: Sequence[int] | Indices) -> Asked:
+    def part(self, places: Sequence[int] | Indices) -> AnsweredRows:
         """The rows at these indices, as if they alone had been asked."""
         times = None if self.times is None else self.times[places]
         rows = np.ascontiguousarray(self.rows[places])
-        return Asked(rows, self.truth[places], self.given[places], self.criterion, times)
+        return AnsweredRows(rows, self.truth[places], self.given[places], self.criterion, times)
 
-    def said(self, positions: NDArray[np.int8]) -> Answers:
+    def answers_at(self, positions: NDArray[np.int8]) -> Answers:
         """The answers to the question at these positions; SILENT stays."""
         answers = judge.expected(positions, self.criterion.question)
         return np.where(positions == SILENT, SILENT, answers).astype(np.int8)
@@ -102,7 +102,7 @@ def subject_of(numbers: int, criterion: Criterion) -> str:
     return "upright" if numbers == len(COLUMNS) else "tilted"
 
 
-Rule = Callable[[Asked], Answers]
+Rule = Callable[[AnsweredRows], Answers]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,7 +126,7 @@ class Cause:
     subject: str = "upright"
     claim: str = ""
     slack: float = 0.02
-    certain: Callable[[Asked], Mask] | None = None
+    certain: Callable[[AnsweredRows], Mask] | None = None
 
     def remedy_in(self, language: str) -> str:
         """The remedy for an implementation in that language: a command in it can be typed as it stands."""
@@ -153,7 +153,7 @@ def cause(
     *,
     subject: str = "upright",
     slack: float = 0.02,
-    certain: Callable[[Asked], Mask] | None = None,
+    certain: Callable[[AnsweredRows], Mask] | None = None,
 ) -> Cause:
     """The cause with the texts of that name in causes.toml."""
     texts = _texts()[name]
@@ -251,101 +251,101 @@ class Numbers:
             return np.asarray(small & (np.abs(self.slope_at_B) <= share * size) & (self.A < self.B**2))
 
 
-def silent(asked: Asked) -> Answers:
+def silent(answered: AnsweredRows) -> Answers:
     """An answer to no row."""
-    return np.full(len(asked.rows), SILENT, dtype=np.int8)
+    return np.full(len(answered.rows), SILENT, dtype=np.int8)
 
 
-def where_kind(candidates: Mask, asked: Asked, kind: Kind, position: Position) -> Answers:
+def where_kind(candidates: Mask, answered: AnsweredRows, kind: Kind, position: Position) -> Answers:
     """The answer of a position at those candidates that are of this kind, in exact arithmetic."""
-    positions = silent(asked)
+    positions = silent(answered)
     for place in np.flatnonzero(candidates).tolist():
-        if asked.kind(place) is kind:
+        if answered.kind(place) is kind:
             positions[place] = position
-    return asked.said(positions)
+    return answered.answers_at(positions)
 
 
-def _ring(asked: Asked) -> Answers:
+def _ring(answered: AnsweredRows) -> Answers:
     """Proposition 3 on the ring: Δ = 0 is contact."""
-    at = (asked.truth == Position.EXTERIOR) & (asked.rows[:, 6] == 0) & asked.numbers.near_the_ring(2.0**-30)
-    return where_kind(at, asked, Kind.EXTERIOR_RING, Position.CONTACT)
+    at = (answered.truth == Position.EXTERIOR) & (answered.rows[:, 6] == 0) & answered.numbers.near_the_ring(2.0**-30)
+    return where_kind(at, answered, Kind.EXTERIOR_RING, Position.CONTACT)
 
 
-def _unless_rounded(asked: Asked, answers: Answers) -> Answers:
+def _unless_rounded(answered: AnsweredRows, answers: Answers) -> Answers:
     """The answers, but nothing where the answer given is right, and rounding may be what made it so."""
-    luck = asked.numbers.possible(2 * max(unit_of(asked), FLOAT64), printed=True)[:, 1]
-    right = asked.given == asked.said(asked.truth)
+    luck = answered.numbers.possible(2 * max(unit_of(answered), FLOAT64), printed=True)[:, 1]
+    right = answered.given == answered.answers_at(answered.truth)
     return np.where(right & luck, SILENT, answers).astype(np.int8)
 
 
-def _groove(asked: Asked) -> Answers:
+def _groove(answered: AnsweredRows) -> Answers:
     """Proposition 3 where c² < a: three positive roots are exterior, though all are at B or beyond."""
-    n = asked.numbers
+    n = answered.numbers
     with np.errstate(all="ignore"):
-        at = (asked.truth == Position.CONTACT) & (n.B**2 <= n.A * (1 + 2.0**-40)) & (n.c2 <= 0) & (n.c1 >= 0)
-    return _unless_rounded(asked, where_kind(at, asked, Kind.CROSSING_GROOVE_TWO_CURVES, Position.EXTERIOR))
+        at = (answered.truth == Position.CONTACT) & (n.B**2 <= n.A * (1 + 2.0**-40)) & (n.c2 <= 0) & (n.c1 >= 0)
+    return _unless_rounded(answered, where_kind(at, answered, Kind.CROSSING_GROOVE_TWO_CURVES, Position.EXTERIOR))
 
 
-def _throat(asked: Asked) -> Answers:
+def _throat(answered: AnsweredRows) -> Answers:
     """Proposition 5 where a < 1: two negative roots are interior, though both are at −A or below."""
-    at = (asked.truth == Position.CONTACT) & (asked.numbers.A < 1)
-    return _unless_rounded(asked, where_kind(at, asked, Kind.CROSSING_THROAT_TWO_CURVES, Position.INTERIOR))
+    at = (answered.truth == Position.CONTACT) & (answered.numbers.A < 1)
+    return _unless_rounded(answered, where_kind(at, answered, Kind.CROSSING_THROAT_TWO_CURVES, Position.INTERIOR))
 
 
-def _zero_coefficient(asked: Asked) -> Answers:
+def _zero_coefficient(answered: AnsweredRows) -> Answers:
     """Proposition 5 where c1 or c2 is 0: not interior."""
-    n = asked.numbers
+    n = answered.numbers
     with np.errstate(all="ignore"):
         small = (np.abs(n.c1) <= 2.0**-40 * (1 + n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q)) | (
             np.abs(n.c2) <= 2.0**-40 * (1 + n.A + n.B + n.P + n.Q)
         )
 
-    positions = silent(asked)
-    for place in np.flatnonzero((asked.truth == Position.INTERIOR) & small).tolist():
-        g = cubic(Pair.from_row(asked.rows[place].tolist()).lengths)
+    positions = silent(answered)
+    for place in np.flatnonzero((answered.truth == Position.INTERIOR) & small).tolist():
+        g = cubic(Pair.from_row(answered.rows[place].tolist()).lengths)
         if g.n1 == 0 or g.n2 == 0:
             positions[place] = Position.CONTACT
-    return asked.said(positions)
+    return answered.answers_at(positions)
 
 
-def _coefficients_are_exact(asked: Asked) -> Mask:
+def _coefficients_are_exact(answered: AnsweredRows) -> Mask:
     """Where every order of the operations gives c1 and c2 without a rounding (_on_a_grid)."""
-    n = asked.numbers
+    n = answered.numbers
     with np.errstate(all="ignore"):
         size = n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q
-        return _on_a_grid(asked, 16 * (1 + size), 4)
+        return _on_a_grid(answered, 16 * (1 + size), 4)
 
 
-def _delta_is_exact(asked: Asked) -> Mask:
+def _delta_is_exact(answered: AnsweredRows) -> Mask:
     """Where every order of the operations, and every form of the discriminant, gives Δ without a rounding."""
-    n = asked.numbers
+    n = answered.numbers
     with np.errstate(all="ignore"):
         m0, m1, m2 = n.A * n.B, n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q, 1 + n.A + n.B + n.P + n.Q
-        return _on_a_grid(asked, 128 * (m2**3 * m0 + m2**2 * m1**2 + m1**3 + m0**2), 12)
+        return _on_a_grid(answered, 128 * (m2**3 * m0 + m2**2 * m1**2 + m1**3 + m0**2), 12)
 
 
-def _on_a_grid(asked: Asked, size: Floats, power: int) -> Mask:
+def _on_a_grid(answered: AnsweredRows, size: Floats, power: int) -> Mask:
     """Where numbers up to this size have all their digits in the declared precision.
 
     They are polynomials of this degree in the lengths, which are divided by powers of two and are multiples of 1, ½, ¼
     or 1/64 then.
     """
-    alpha, gamma, b, d, x, y, z = asked.rows[:, : len(COLUMNS)].T
+    alpha, gamma, b, d, x, y, z = answered.rows[:, : len(COLUMNS)].T
     lengths = np.column_stack([alpha / b, gamma / d, x / b, y / b, z / d])
     halved = (np.frexp(b)[0] == 0.5) & (np.frexp(d)[0] == 0.5)
-    exactly = np.zeros(len(asked.rows), dtype=bool)
+    exactly = np.zeros(len(answered.rows), dtype=bool)
     for digits in (0, 1, 2, 6):
         on_grid = (np.ldexp(lengths, digits) % 1 == 0).all(axis=1)
-        exactly |= halved & on_grid & (np.ldexp(size, power * digits) < 1 / max(unit_of(asked), FLOAT64))
+        exactly |= halved & on_grid & (np.ldexp(size, power * digits) < 1 / max(unit_of(answered), FLOAT64))
     return exactly
 
 
 def _tangency(kind: Kind, clear: Position) -> Rule:
     """A tangency of this kind, taken for the clear position of which it is the limit."""
 
-    def rule(asked: Asked) -> Answers:
-        at = (asked.truth == Position.CONTACT) & asked.numbers.possible(2.0**-50)[:, 1]
-        return where_kind(at, asked, kind, clear)
+    def rule(answered: AnsweredRows) -> Answers:
+        at = (answered.truth == Position.CONTACT) & answered.numbers.possible(2.0**-50)[:, 1]
+        return where_kind(at, answered, kind, clear)
 
     return rule
 
@@ -354,69 +354,71 @@ FLOAT64 = 2.0**-53
 """The unit of float64."""
 
 
-def unit_of(asked: Asked) -> float:
+def unit_of(answered: AnsweredRows) -> float:
     """The unit of the declared precision; 0 where none is tolerated."""
-    return float(UNIT_ROUNDOFF[asked.criterion.precision])
+    return float(UNIT_ROUNDOFF[answered.criterion.precision])
 
 
 def rounded(
-    asked: Asked, unit: float, at: Mask | bool = True, *, printed: bool = False, roots: bool = False
+    answered: AnsweredRows, unit: float, at: Mask | bool = True, *, printed: bool = False, roots: bool = False
 ) -> Answers:
     """The answers given where roundings of this unit may turn them into these, at these rows (Numbers.possible)."""
-    answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), asked.criterion.question)
-    possible = asked.numbers.possible(unit, printed=printed, roots=roots)
-    agrees = (possible & (answers[None, :] == asked.given[:, None])).any(axis=1)
-    return np.where(agrees & at, asked.given, SILENT).astype(np.int8)
+    answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), answered.criterion.question)
+    possible = answered.numbers.possible(unit, printed=printed, roots=roots)
+    agrees = (possible & (answers[None, :] == answered.given[:, None])).any(axis=1)
+    return np.where(agrees & at, answered.given, SILENT).astype(np.int8)
 
 
-def _lost_beside_the_ring(asked: Asked) -> Answers:
+def _lost_beside_the_ring(answered: AnsweredRows) -> Answers:
     """Δ has no sign in floats beside the ring, and is taken for 0 or less."""
-    at = (asked.truth == Position.EXTERIOR) & asked.numbers.near_the_ring(2.0**-12)
-    return rounded(asked, 2 * max(unit_of(asked), FLOAT64), at)
+    at = (answered.truth == Position.EXTERIOR) & answered.numbers.near_the_ring(2.0**-12)
+    return rounded(answered, 2 * max(unit_of(answered), FLOAT64), at)
 
 
-def _lost(asked: Asked) -> Answers:
+def _lost(answered: AnsweredRows) -> Answers:
     """A sign that the rounding errors of a plain evaluation may turn."""
-    unit = unit_of(asked)
-    return rounded(asked, 2 * unit) if unit >= FLOAT64 else silent(asked)
+    unit = unit_of(answered)
+    return rounded(answered, 2 * unit) if unit >= FLOAT64 else silent(answered)
 
 
-def _lost_outside(asked: Asked) -> Answers:
+def _lost_outside(answered: AnsweredRows) -> Answers:
     """The same for the rules as printed, at contacts outside the regimes in which they are right."""
-    n = asked.numbers
+    n = answered.numbers
     with np.errstate(all="ignore"):
-        outside = (asked.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
-    return rounded(asked, 2 * max(unit_of(asked), FLOAT64), outside, printed=True)
+        outside = (answered.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
+    return rounded(answered, 2 * max(unit_of(answered), FLOAT64), outside, printed=True)
 
 
-def _lost_in_float64(asked: Asked) -> Answers:
+def _lost_in_float64(answered: AnsweredRows) -> Answers:
     """A sign that float64 does not tell, where more is declared."""
-    return rounded(asked, 2 * FLOAT64) if unit_of(asked) < FLOAT64 else silent(asked)
+    return rounded(answered, 2 * FLOAT64) if unit_of(answered) < FLOAT64 else silent(answered)
 
 
-def _half_lost(asked: Asked) -> Answers:
+def _half_lost(answered: AnsweredRows) -> Answers:
     """A sign that half the digits of the precision do not tell."""
-    return rounded(asked, 2 * max(unit_of(asked), FLOAT64) ** 0.5)
+    return rounded(answered, 2 * max(unit_of(answered), FLOAT64) ** 0.5)
 
 
 _RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128), "float64": (-1022, 1024)}
 """The binary exponents of the least normal number and of the greatest, plus one."""
 
 
-def _out_of_range(asked: Asked) -> Answers:
+def _out_of_range(answered: AnsweredRows) -> Answers:
     """A square or a product of the plain formula is not in the range of the format, so that Δ has no sign."""
-    if asked.criterion.precision not in _RANGES:
-        return silent(asked)
-    least, greatest = _RANGES[asked.criterion.precision]
+    if answered.criterion.precision not in _RANGES:
+        return silent(answered)
+    least, greatest = _RANGES[answered.criterion.precision]
     with np.errstate(all="ignore"):
-        alpha, gamma, b, d, x, y, z = np.log2(np.abs(asked.rows[:, : len(COLUMNS)].T))
+        alpha, gamma, b, d, x, y, z = np.log2(np.abs(answered.rows[:, : len(COLUMNS)].T))
         r = np.maximum(x, y)
         A, B, P, Q = 2 * (alpha - b), 2 * (gamma - d), 2 * (r - b), 2 * (z - d)
         M2, M1 = _greatest(A, B, P, Q, 0 * A), _greatest(A + B, A, B, B + P, A + Q)
         squares = [2 * b, A, B, 2 * (A + B), P, Q, 2 * x, 2 * y]
-        too_small = np.any([(each < least) & np.isfinite(each) for each in squares], axis=0)
-        too_large = np.any([each >= greatest for each in (*squares, 3 * M1, 3 * M2 + A + B, 2 * (M1 + M2))], axis=0)
-    return np.where(too_small | too_large, asked.given, SILENT).astype(np.int8)
+        too_small = np.any([(exponent < least) & np.isfinite(exponent) for exponent in squares], axis=0)
+        too_large = np.any(
+            [exponent >= greatest for exponent in (*squares, 3 * M1, 3 * M2 + A + B, 2 * (M1 + M2))], axis=0
+        )
+    return np.where(too_small | too_large, answered.given, SILENT).astype(np.int8)
 
 
 def _greatest(*values: Floats) -> Floats:

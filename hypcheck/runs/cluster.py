@@ -176,11 +176,14 @@ def _require_workers(client: Client, address: str) -> None:
         ) from None
 
 
-def _require_versions(found: Mapping[str, Any], address: str) -> None:
+def _require_versions(report: Mapping[str, Any], address: str) -> None:
     """Raise InputError naming the first difference between this machine and the scheduler or a worker."""
-    nodes = {"the scheduler": found["scheduler"], **{f"worker {name}": each for name, each in found["workers"].items()}}
-    for node, each in nodes.items():
-        _require_same_versions(node, each, found["client"], address)
+    nodes = {
+        "the scheduler": report["scheduler"],
+        **{f"worker {name}": versions for name, versions in report["workers"].items()},
+    }
+    for node, versions in nodes.items():
+        _require_same_versions(node, versions, report["client"], address)
 
 
 def _require_same_versions(node: str, there: Mapping[str, Any], here: Mapping[str, Any], address: str) -> None:

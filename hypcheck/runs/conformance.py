@@ -158,7 +158,7 @@ def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
             judged += line.judged
             skipped += line.skipped
             undecided = Status.UNDECIDED.value
-            outcome.codes |= {Exit.INCONCLUSIVE if each == undecided else Exit.WRONG for each in line.failing or ()}
+            outcome.codes |= {Exit.INCONCLUSIVE if status == undecided else Exit.WRONG for status in line.failing or ()}
         elif isinstance(line, DriftLine):
             outcome.codes.add(Exit.WRONG)
         elif isinstance(line, NotStartedLine):
@@ -222,7 +222,7 @@ class ImplementationLines:
     def _subjects(self) -> set[str]:
         """What all families that were asked are about, as causes have it; none if only some families were asked."""
         widths = [family.columns for family in chosen_families(self.plan, self.used)]
-        return set() if self.plan.filtered else {subject_of(len(each), self.rules.criterion) for each in widths}
+        return set() if self.plan.filtered else {subject_of(len(width), self.rules.criterion) for width in widths}
 
     def _group(self, family: str, tallied: Tally) -> GroupLine:
         wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in INVALID_CONTENTS

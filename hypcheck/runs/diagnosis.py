@@ -25,7 +25,7 @@ from hypcheck.geometry.rows import WAYS, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.runs import judge
-from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, Answers, Asked, Cause, Scope, subject_of
+from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, AnsweredRows, Answers, Cause, Scope, subject_of
 from hypcheck.runs.formula_errors import TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS, WAY_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.root_causes import ROOT_CAUSES
@@ -90,8 +90,8 @@ class Explained:
 def together(parts: Iterable[Explained]) -> Explained:
     """All of these, of which there must be one at least."""
     some = tuple(parts)
-    worst = min(some, key=lambda each: each.rank)
-    return Explained(sum(each.cases for each in some), worst.place, worst.name, worst.worst)
+    worst = min(some, key=lambda explained: explained.rank)
+    return Explained(sum(explained.cases for explained in some), worst.place, worst.name, worst.worst)
 
 
 @dataclass(frozen=True)
@@ -105,8 +105,8 @@ class Diagnosis:
     def of(cls, explained: Iterable[tuple[int, Explained]], denied: Mapping[str, int]) -> Diagnosis:
         """The diagnosis with all of these, of which some may have the same set of causes."""
         by_set: dict[int, list[Explained]] = {}
-        for causes, each in explained:
-            by_set.setdefault(causes, []).append(each)
+        for causes, explanation in explained:
+            by_set.setdefault(causes, []).append(explanation)
         return cls({causes: together(by_set[causes]) for causes in sorted(by_set)}, dict(sorted(denied.items())))
 
 
@@ -120,7 +120,7 @@ def merged(parts: Iterable[Diagnosis]) -> Diagnosis:
 
 
 def diagnose(
-    asked: Asked, wrong: Sequence[WrongCase], right: Sequence[int], named: Sequence[tuple[CasePlace, str]]
+    answered: AnsweredRows, wrong: Sequence[WrongCase], right: Sequence[int], named: Sequence[tuple[CasePlace, str]]
 ) -> Diagnosis:
     """The diagnosis of answers to rows: the wrong cases, their places and ids, and the indices of the right answers."""
     failing = [(case, told) for case, told in zip(wrong, named, strict=True) if case.status in FAILING]
@@ -129,16 +129,16 @@ def diagnose(
     witnesses = list(right[:: max(1, -(-len(right) // WITNESSES))])
     share = len(right) / len(witnesses) if witnesses else 0.0
     places = [case.index for case, _ in failing]
-    part = asked.part(places + witnesses)
+    part = answered.part(places + witnesses)
     sets, denied = [0] * len(failing), {RIGHT: len(right)}
     for bit, cause in enumerate(CAUSES):
-        if cause.subject != asked.subject:
+        if cause.subject != answered.subject:
             continue
         answers = cause.rule(part)
         for place in np.flatnonzero(answers[: len(failing)] == part.given[: len(failing)]).tolist():
             sets[place] |= 1 << bit
         against = (
-            _exposed(cause, asked.part(witnesses)) if cause.rounds else _against(cause, part, answers, len(failing))
+            _exposed(cause, answered.part(witnesses)) if cause.rounds else _against(cause, part, answers, len(failing))
         )
         if against:
             denied[cause.name] = round(against * share)
@@ -146,20 +146,20 @@ def diagnose(
     return Diagnosis.of(zip(sets, explained, strict=True), denied)
 
 
-def _against(cause: Cause, asked: Asked, answers: Answers, first: int = 0) -> int:
+def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int = 0) -> int:
     """How much the answers given, from this place on, deny a rule with these answers."""
-    other = (answers != SILENT) & (answers != asked.given)
+    other = (answers != SILENT) & (answers != answered.given)
     other[:first] = False
-    certain = 0 if cause.certain is None or not other.any() else int((other & cause.certain(asked)).sum())
+    certain = 0 if cause.certain is None or not other.any() else int((other & cause.certain(answered)).sum())
     return int(other.sum()) + CERTAIN * certain
 
 
-def _exposed(cause: Cause, asked: Asked) -> int:
+def _exposed(cause: Cause, answered: AnsweredRows) -> int:
     """At how many of these rows, which were answered rightly, a cause about rounding would explain another answer."""
-    exposed = np.zeros(len(asked.rows), dtype=bool)
+    exposed = np.zeros(len(answered.rows), dtype=bool)
     for answer in (-1, 0, 1):
-        other = replace(asked, given=np.full(len(asked.rows), answer, dtype=np.int8))
-        exposed |= (cause.rule(other) == answer) & (asked.given != answer)
+        other = replace(answered, given=np.full(len(answered.rows), answer, dtype=np.int8))
+        exposed |= (cause.rule(other) == answer) & (answered.given != answer)
     return int(exposed.sum())
 
 
@@ -187,12 +187,12 @@ class _Left:
     @property
     def total(self) -> int:
         """How many there are."""
-        return sum(each.cases for each in self.explained.values())
+        return sum(explained.cases for explained in self.explained.values())
 
     def number(self, *some: Cause) -> int:
         """How many one of these causes explains at least."""
         bits = _bits(some)
-        return sum(each.cases for (_, causes), each in self.explained.items() if causes & bits)
+        return sum(explained.cases for (_, causes), explained in self.explained.items() if causes & bits)
 
     def take_each(self, some: Sequence[Cause], *, least: float = 0.0, in_order: bool = False) -> None:
         """Take what these explain, what explains most of the rest first, while that is this share of it at least."""
@@ -207,13 +207,13 @@ class _Left:
     def take(self, cause: Cause | None) -> None:
         """Take what a cause explains, all without one."""
         bits = None if cause is None else _bits([cause])
-        found = {key: each for key, each in self.explained.items() if bits is None or key[1] & bits}
+        taken = {key: explained for key, explained in self.explained.items() if bits is None or key[1] & bits}
         families: Counter[str] = Counter()
-        for key, each in found.items():
-            families[key[0]] += each.cases
+        for key, explained in taken.items():
+            families[key[0]] += explained.cases
             del self.explained[key]
-        if found:
-            self.taken.append(CountedCause(cause, families, together(found.values())))
+        if taken:
+            self.taken.append(CountedCause(cause, families, together(taken.values())))
 
 
 def _bits(some: Iterable[Cause]) -> int:
@@ -233,40 +233,40 @@ def causes_of(
     `clean` families were asked and have no wrong answer.
     """
     by_subject: dict[str, dict[str, Diagnosis]] = {}
-    for family, each in diagnoses.items():
-        if each.explained:
-            worst = next(iter(each.explained.values())).worst
-            by_subject.setdefault(subject_of(len(worst.row), criterion), {})[family] = each
+    for family, diagnosis in diagnoses.items():
+        if diagnosis.explained:
+            worst = next(iter(diagnosis.explained.values())).worst
+            by_subject.setdefault(subject_of(len(worst.row), criterion), {})[family] = diagnosis
     if not by_subject:
         return []
-    explaining = {causes for each in diagnoses.values() for causes in each.explained}
+    explaining = {causes for diagnosis in diagnoses.values() for causes in diagnosis.explained}
     suspects = [cause for cause in CAUSES if any(causes & _bits([cause]) for causes in explaining)]
     denied: Counter[str] = Counter()
-    for asked in _right_answers(clean, criterion, domain):
+    for answered in _right_answers(clean, criterion, domain):
         for cause in suspects:
-            if cause.subject == asked.subject and not cause.rounds:
-                denied[cause.name] += _against(cause, asked, cause.rule(asked))
+            if cause.subject == answered.subject and not cause.rounds:
+                denied[cause.name] += _against(cause, answered, cause.rule(answered))
     named: dict[str, list[CountedCause]] = {}
     for part in by_subject.values():
         for one in _standing(part, denied):
             named.setdefault(one.cause.name if one.cause else "", []).append(one)
     return sorted(
         map(_joined, named.values()),
-        key=lambda each: (each.cause is None, -each.cases, _BITS[each.cause.name] if each.cause else 0),
+        key=lambda counted: (counted.cause is None, -counted.cases, _BITS[counted.cause.name] if counted.cause else 0),
     )
 
 
-def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -> Iterator[Asked]:
+def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -> Iterator[AnsweredRows]:
     """Frozen vectors of these families in the domain with the right answers to them."""
     layout = QUESTIONS[criterion.question].layout
     widths: dict[int, list[tuple[Rows, Positions]]] = {}
     for family in clean:
         if family in INVALID_CONTENTS or family not in frozen.ALL_NAMES:
             continue
-        found = frozen.load(family)
-        inside = claimed(found.rows, domain, criterion.precision, extreme=is_extreme(family), layout=layout)
-        rows = found.rows[inside][:: max(1, len(inside) // CLEAN)]
-        truth = found.positions[inside][:: max(1, len(inside) // CLEAN)]
+        family_vectors = frozen.load(family)
+        inside = claimed(family_vectors.rows, domain, criterion.precision, extreme=is_extreme(family), layout=layout)
+        rows = family_vectors.rows[inside][:: max(1, len(inside) // CLEAN)]
+        truth = family_vectors.positions[inside][:: max(1, len(inside) // CLEAN)]
         widths.setdefault(rows.shape[1], []).append((rows, truth))
     for some in widths.values():
         rows, truth = (
@@ -274,14 +274,14 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
             np.concatenate([one for _, one in some]),
         )
         given = truth if layout is WAYS else judge.expected(truth, criterion.question)
-        yield Asked(rows, truth, given, criterion)
+        yield AnsweredRows(rows, truth, given, criterion)
 
 
 def _joined(some: list[CountedCause]) -> CountedCause:
     families: Counter[str] = Counter()
-    for each in some:
-        families.update(each.families)
-    return CountedCause(some[0].cause, dict(sorted(families.items())), together(each.worst for each in some))
+    for counted in some:
+        families.update(counted.families)
+    return CountedCause(some[0].cause, dict(sorted(families.items())), together(counted.worst for counted in some))
 
 
 def _standing(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) -> list[CountedCause]:

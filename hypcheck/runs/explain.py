@@ -17,7 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import WAYS, Floats, Mask
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.messages import suggestion
-from hypcheck.runs.causes import Asked, Cause, Scope
+from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.judges import passage_of
@@ -88,9 +88,9 @@ def witness_of(cause: Cause) -> Witness:
     first = (_SHOWN_BY[cause.name],) if cause.name in _SHOWN_BY else first
     others = [name for name in _NAMES[cause.subject] if name not in first]
     for name in (*first, *(name for name in others if not is_extreme(name)), *filter(is_extreme, others)):
-        found = _witness_in(cause, name)
-        if found is not None:
-            return found
+        witness = _witness_in(cause, name)
+        if witness is not None:
+            return witness
     raise AssertionError(f"no frozen vector shows the cause {cause.name}")  # tests look at every cause
 
 
@@ -100,34 +100,34 @@ def _witness_in(cause: Cause, name: str) -> Witness | None:
     rows, truth = vectors.rows[:count], vectors.positions[:count]
     criterion = Criterion("passage" if ways else "position", _PRECISIONS.get(cause.name, "float64"))
     ids = {tuple((row + 0.0).tolist()): name for row, name in zip(rows, vectors.ids, strict=False)}
-    found: list[Witness] = []
-    for asked in _possible_answers(rows, truth, criterion):
-        answers = cause.rule(asked)
-        for place in np.flatnonzero((answers == asked.given) & _is_wrong(asked)).tolist():
-            time = None if asked.times is None or asked.given[place] != 1 else float(asked.times[place])
-            row = tuple((asked.rows[place] + 0.0).tolist())  # no −0
-            found.append(Witness(ids[row], row, int(asked.truth[place]), int(answers[place]), time))
-    return min(found, key=lambda each: len(_numbers(each.row)), default=None)
+    witnesses: list[Witness] = []
+    for answered in _possible_answers(rows, truth, criterion):
+        answers = cause.rule(answered)
+        for place in np.flatnonzero((answers == answered.given) & _is_wrong(answered)).tolist():
+            time = None if answered.times is None or answered.given[place] != 1 else float(answered.times[place])
+            row = tuple((answered.rows[place] + 0.0).tolist())  # no −0
+            witnesses.append(Witness(ids[row], row, int(answered.truth[place]), int(answers[place]), time))
+    return min(witnesses, key=lambda witness: len(_numbers(witness.row)), default=None)
 
 
-def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterator[Asked]:  # noqa: ANN401 - Positions
+def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterator[AnsweredRows]:  # noqa: ANN401 - Positions
     """The rows with each answer of the question given to all of them; of ways, with times that are wrong as well."""
-    asked = Asked(np.ascontiguousarray(rows), truth, truth, criterion)
+    answered = AnsweredRows(np.ascontiguousarray(rows), truth, truth, criterion)
     for answer in (0, 1, -1) if criterion.question == "position" else (0, 1):
-        yield replace(asked, given=np.full(len(rows), answer, dtype=np.int8))
+        yield replace(answered, given=np.full(len(rows), answer, dtype=np.int8))
     if criterion.layout is WAYS:
         first = np.array([passage_of(tuple(row)).first_lower for row in rows.tolist()], dtype=np.float64)
         for times in (1 - first, first + 2.0**-13, first - 2.0**-13):
             within = np.flatnonzero((first > 2.0**-10) & (first < 1 - 2.0**-10))
             given = np.ones(len(within), dtype=np.int8)
-            yield replace(asked.part(within), given=given, times=np.ascontiguousarray(times[within]))
+            yield replace(answered.part(within), given=given, times=np.ascontiguousarray(times[within]))
 
 
-def _is_wrong(asked: Asked) -> Mask:
+def _is_wrong(answered: AnsweredRows) -> Mask:
     """Whether the answers given are wrong; a hit that is right is wrong by its time, where one is given."""
-    ways = asked.criterion.layout is WAYS
-    wrong = np.asarray(asked.given != (asked.truth if ways else asked.said(asked.truth)))
-    return wrong if asked.times is None else ~wrong & (asked.given == 1)
+    ways = answered.criterion.layout is WAYS
+    wrong = np.asarray(answered.given != (answered.truth if ways else answered.answers_at(answered.truth)))
+    return wrong if answered.times is None else ~wrong & (answered.given == 1)
 
 
 def listed() -> Iterator[str]:
@@ -189,8 +189,8 @@ def _recognise(cause: Cause) -> str:
 
 
 def _answer_text(answer: int, time: float | None) -> str:
-    said = f"{answer:+d}" if answer else "0"
-    return said if time is None else f"{said}, first at {time!r}"
+    text = f"{answer:+d}" if answer else "0"
+    return text if time is None else f"{text}, first at {time!r}"
 
 
 def _columns(row: Row, cause: Cause) -> tuple[str, ...]:

@@ -190,7 +190,7 @@ def known_findings() -> tuple[KnownFinding, ...]:
     text = resources.files("hypcheck.runs").joinpath(KNOWN_FINDINGS_FILE).read_text(encoding="utf-8")
     entries = toml.parsed(text, KNOWN_FINDINGS_FILE)["finding"]
     return tuple(
-        KnownFinding(each["formula"], each["cause"], tuple(each["families"]), each["reason"]) for each in entries
+        KnownFinding(entry["formula"], entry["cause"], tuple(entry["families"]), entry["reason"]) for entry in entries
     )
 
 
@@ -198,7 +198,7 @@ def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | Non
     """The reason of a known finding; None if it is unknown, or outside the regimes of the formula."""
     if not finding.inside:
         return None
-    matching = (each.reason for each in known if (each.formula, each.cause) == (finding.formula, finding.cause))
+    matching = (entry.reason for entry in known if (entry.formula, entry.cause) == (finding.formula, finding.cause))
     return next(matching, None)
 
 

@@ -70,9 +70,9 @@ def files_of(text: str) -> Iterator[NamedFile]:
     for word, name in enumerate(spec.words if spec.kind == "command" else spec.words[:1]):
         module = spec.kind == "python" and not is_file(name)
         program = spec.kind == "command" and word == 0 and os.sep not in name
-        found = _module_file(name) if module else shutil.which(name) if program else name
-        if found is not None and os.path.isfile(found):
-            yield NamedFile(word, Path(found), module or program)
+        path = _module_file(name) if module else shutil.which(name) if program else name
+        if path is not None and os.path.isfile(path):
+            yield NamedFile(word, Path(path), module or program)
 
 
 def sha256(path: Path) -> str:
@@ -119,16 +119,16 @@ class ShippedFile:
 
 def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
     """The files that a SPEC names by their paths. Raises InputError if one cannot be read."""
-    found = []
+    files = []
     for named in files_of(text):
         if named.searched:
             continue
         path = named.path.absolute()
         try:
-            found.append(ShippedFile(named.word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
+            files.append(ShippedFile(named.word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
         except OSError as error:
             raise InputError(f"{path} cannot be sent to a cluster: {system_reason(error)}") from None
-    return tuple(found)
+    return tuple(files)
 
 
 def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folder: Path) -> str:
@@ -182,11 +182,11 @@ _HEADER = 16
 @lru_cache
 def code_fingerprint() -> str:
     """The fingerprint of hypcheck's modules and frozen vectors, with their names, at the first call."""
-    told = hashlib.sha256()
+    digest = hashlib.sha256()
     for place, pattern in ((_PACKAGE, "**/*.py"), (folder(), "*.json")):
         for path in sorted(place.glob(pattern)):
-            told.update(f"{path.relative_to(place).as_posix()} {_sha256_of_bytes(_content_of(str(path)))}\n".encode())
-    return told.hexdigest()
+            digest.update(f"{path.relative_to(place).as_posix()} {_sha256_of_bytes(_content_of(str(path)))}\n".encode())
+    return digest.hexdigest()
 
 
 class FileSnapshot:
@@ -202,12 +202,12 @@ class FileSnapshot:
 
     def record_changes(self, recorder: Recorder) -> list[str]:
         """Sentences about files that changed, hypcheck's own first; the record gets them as lines that fail the run."""
-        found = list(self._changes())
-        if len(found) > MAX_FILES_NAMED:
-            found[MAX_FILES_NAMED:] = [f"{len(found) - MAX_FILES_NAMED} more files were changed"]
-        for sentence in found:
+        changes = list(self._changes())
+        if len(changes) > MAX_FILES_NAMED:
+            changes[MAX_FILES_NAMED:] = [f"{len(changes) - MAX_FILES_NAMED} more files were changed"]
+        for sentence in changes:
             recorder.add(DriftLine(sentence=sentence))
-        return found
+        return changes
 
     def _changes(self) -> Iterator[str]:
         now = _own_files()
@@ -235,17 +235,17 @@ def _own_files() -> dict[str, str]:
 
     Compiled Python counts only if Python would load it without checking its source.
     """
-    found = {}
+    hashes = {}
     for top, folders, names in os.walk(_PACKAGE):
         folders[:] = [name for name in folders if name != "__pycache__"]
         for path in (os.path.join(top, name) for name in names):
-            found[path] = _sha256_of_bytes(_content_of(path))
+            hashes[path] = _sha256_of_bytes(_content_of(path))
             compiled = cache_from_source(path) if path.endswith(".py") else ""
             if compiled and os.path.exists(compiled):
                 content, state = _content_of(compiled), os.stat(path)
                 if content[4:_HEADER] == struct.pack("<3I", 0, int(state.st_mtime) % 2**32, state.st_size % 2**32):
-                    found[compiled] = _sha256_of_bytes(content)
-    return found | {str(path): _sha256_of_bytes(_content_of(str(path))) for path in folder().glob("*.json")}
+                    hashes[compiled] = _sha256_of_bytes(content)
+    return hashes | {str(path): _sha256_of_bytes(_content_of(str(path))) for path in folder().glob("*.json")}
 
 
 def _content_of(path: str) -> bytes:

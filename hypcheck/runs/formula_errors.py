@@ -17,7 +17,7 @@ from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS
 from hypcheck.geometry.rows import WAYS, Floats, Rows
 from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
-from hypcheck.runs.causes import SILENT, Answers, Asked, Cause, Rule, Scope, cause, silent
+from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause, silent
 from hypcheck.runs.judges import passage_of, time_is_right
 
 _MOSTLY = 0.5
@@ -113,15 +113,15 @@ class SlippedRule:
             interior = distinct & ~positive & (c2 < 3 * t.A) & (3 * t.A * t.A - 2 * c2 * t.A + c1 > 0)
             return np.where(exterior, 1, np.where(interior, -1, 0)).astype(np.int8)
 
-    def __call__(self, asked: Asked) -> Answers:
+    def __call__(self, answered: AnsweredRows) -> Answers:
         """The rule's answers: in float64, or exactly where that gives the answer given and float64 does not."""
-        answers = asked.said(self.positions(_in_floats(asked.rows)))
-        others, wrong = np.flatnonzero(answers != asked.given), asked.given != asked.said(asked.truth)
-        if (answers == asked.given)[wrong].sum() < _MOSTLY * wrong.sum():
+        answers = answered.answers_at(self.positions(_in_floats(answered.rows)))
+        others, wrong = np.flatnonzero(answers != answered.given), answered.given != answered.answers_at(answered.truth)
+        if (answers == answered.given)[wrong].sum() < _MOSTLY * wrong.sum():
             return answers
         if len(others):
-            part = asked.part(others)
-            answers[others] = part.said(self.positions(_in_whole_numbers(part.rows)))
+            part = answered.part(others)
+            answers[others] = part.answers_at(self.positions(_in_whole_numbers(part.rows)))
         return answers
 
 
@@ -163,11 +163,11 @@ def _terms(**changed: Callable[[Lengths], Number]) -> Rule:
 def _changed(change: Callable[[Rows], Rows]) -> Rule:
     """The exact answers to other rows than those asked; SILENT where the changed row is none."""
 
-    def rule(asked: Asked) -> Answers:
+    def rule(answered: AnsweredRows) -> Answers:
         with np.errstate(all="ignore"):
-            rows = change(asked.rows.copy())
+            rows = change(answered.rows.copy())
         positions = classify(np.ascontiguousarray(rows), on_invalid="flag")
-        return asked.said(np.where(positions == REFUSED, SILENT, positions).astype(np.int8))
+        return answered.answers_at(np.where(positions == REFUSED, SILENT, positions).astype(np.int8))
 
     return rule
 
@@ -202,18 +202,18 @@ def _smaller(c: dict[str, Floats]) -> Floats:
 
 
 def _always(answer: int) -> Rule:
-    return lambda asked: np.full(len(asked.rows), answer, dtype=np.int8)
+    return lambda answered: np.full(len(answered.rows), answer, dtype=np.int8)
 
 
-def _gap(asked: Asked) -> Floats:
+def _gap(answered: AnsweredRows) -> Floats:
     """The horizontal distance of the centre from the surface at its height, negative inside."""
-    alpha, gamma, _, _, x, y, z = asked.rows.T
+    alpha, gamma, _, _, x, y, z = answered.rows.T
     return np.asarray(np.hypot(x, y) - alpha * np.hypot(1, z / gamma))
 
 
-def _horizontally(asked: Asked) -> Answers:
-    gap, b = _gap(asked), asked.rows[:, 2]
-    return asked.said(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
+def _horizontally(answered: AnsweredRows) -> Answers:
+    gap, b = _gap(answered), answered.rows[:, 2]
+    return answered.answers_at(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
 
 
 def _errors(subject: str, rules: Mapping[str, Rule], scope: Scope = Scope.EVERYWHERE) -> tuple[Cause, ...]:
@@ -228,8 +228,8 @@ UPRIGHT_FORMULA_ERRORS = (
             "always-1": _always(1),
             "always-minus-1": _always(-1),
             "horizontal-gap": _horizontally,
-            "centre-alone": lambda asked: asked.said(np.sign(_gap(asked)).astype(np.int8)),
-            "sides-exchanged": lambda asked: asked.said((-asked.truth).astype(np.int8)),
+            "centre-alone": lambda answered: answered.answers_at(np.sign(_gap(answered)).astype(np.int8)),
+            "sides-exchanged": lambda answered: answered.answers_at((-answered.truth).astype(np.int8)),
             "alpha-gamma": _swapped("alpha", "gamma"),
             "b-d": _swapped("b", "d"),
             "alpha-b": _swapped("alpha", "b"),
@@ -353,70 +353,70 @@ _MOST_WAYS = 512
 """Deciding a way exactly costs a millisecond, so only so many ways of a chunk are asked again."""
 
 
-def _touches(asked: Asked, place: int) -> Answers:
+def _touches(answered: AnsweredRows, place: int) -> Answers:
     """Whether the spheroid is in contact at the start (place 4) or the end (7) of each way, with its axis if any."""
-    rows = asked.rows
+    rows = answered.rows
     ends = np.hstack([rows[:, :4], rows[:, place : place + 3], rows[:, 10:]])
     return np.asarray(classify(np.ascontiguousarray(ends)) == 0, dtype=np.int8)
 
 
-def _timed(asked: Asked, hits: Answers, times: Floats | float) -> Answers:
+def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answers:
     """The hits; nothing where a hit is given at another time than these, which explains no time that is wrong."""
-    if asked.times is None:
+    if answered.times is None:
         return hits
     with np.errstate(invalid="ignore"):
-        other = (hits == 1) & (asked.given == 1) & ~(np.abs(asked.times - times) <= SAME_TIME)
+        other = (hits == 1) & (answered.given == 1) & ~(np.abs(answered.times - times) <= SAME_TIME)
     return np.where(other, SILENT, hits).astype(np.int8)
 
 
-def _at_both_ends(asked: Asked) -> Answers:
-    first = _touches(asked, 4)
-    return _timed(asked, np.maximum(first, _touches(asked, 7)), np.where(first == 1, 0.0, 1.0))
+def _at_both_ends(answered: AnsweredRows) -> Answers:
+    first = _touches(answered, 4)
+    return _timed(answered, np.maximum(first, _touches(answered, 7)), np.where(first == 1, 0.0, 1.0))
 
 
-def _between(asked: Asked) -> Answers:
+def _between(answered: AnsweredRows) -> Answers:
     """Clear where both ends are clear and the way between them is not."""
-    first, last = _touches(asked, 4), _touches(asked, 7)
-    missed = (asked.truth == 1) & (asked.given == 0) & (first == 0) & (last == 0)
+    first, last = _touches(answered, 4), _touches(answered, 7)
+    missed = (answered.truth == 1) & (answered.given == 0) & (first == 0) & (last == 0)
     return np.where(missed, 0, SILENT).astype(np.int8)
 
 
 def _other_ways(*order: int) -> Rule:
     """The exact hits on ways with their columns in this order; nothing about tilted spheroids."""
 
-    def rule(asked: Asked) -> Answers:
-        answers, times = silent(asked), np.zeros(len(asked.rows))
-        if asked.rows.shape[1] != len(WAYS.upright):
+    def rule(answered: AnsweredRows) -> Answers:
+        answers, times = silent(answered), np.zeros(len(answered.rows))
+        if answered.rows.shape[1] != len(WAYS.upright):
             return answers
-        answers[:_MOST_WAYS], times[:_MOST_WAYS] = ways.exact(np.ascontiguousarray(asked.rows[:_MOST_WAYS, order]))
-        return _timed(asked, answers, times)
+        answers[:_MOST_WAYS], times[:_MOST_WAYS] = ways.exact(np.ascontiguousarray(answered.rows[:_MOST_WAYS, order]))
+        return _timed(answered, answers, times)
 
     return rule
 
 
-def _where_time(asked: Asked, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
+def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
     """The answer given where it is a hit, and right, and this holds of the way and the time of the answer."""
-    answers = silent(asked)
-    if asked.times is not None:
-        for place in np.flatnonzero((asked.given == 1) & (asked.truth == 1)).tolist():
-            if holds(tuple(asked.rows[place].tolist()), float(asked.times[place])):
+    answers = silent(answered)
+    if answered.times is not None:
+        for place in np.flatnonzero((answered.given == 1) & (answered.truth == 1)).tolist():
+            if holds(tuple(answered.rows[place].tolist()), float(answered.times[place])):
                 answers[place] = 1
     return answers
 
 
-def _times_from_the_end(asked: Asked) -> Answers:
+def _times_from_the_end(answered: AnsweredRows) -> Answers:
     """The answer given where its time, counted from the end, is right."""
-    return _where_time(asked, lambda row, time: time_is_right(row, 1 - time, asked.criterion))
+    return _where_time(answered, lambda row, time: time_is_right(row, 1 - time, answered.criterion))
 
 
-def _times_off(asked: Asked, *, late: bool) -> Answers:
+def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
     """The answer given where only its time is wrong, in this direction, by less than a thousandth of the way."""
 
     def is_off(row: tuple[float, ...], time: float) -> bool:
         off = time - passage_of(row).first_lower
-        return 0 < abs(off) < 1e-3 and (off > 0) is late and not time_is_right(row, time, asked.criterion)
+        return 0 < abs(off) < 1e-3 and (off > 0) is late and not time_is_right(row, time, answered.criterion)
 
-    return _where_time(asked, is_off)
+    return _where_time(answered, is_off)
 
 
 WAY_FORMULA_ERRORS = (
@@ -424,22 +424,22 @@ WAY_FORMULA_ERRORS = (
     *_errors(
         "way",
         {
-            "late-times": lambda asked: _times_off(asked, late=True),
-            "early-times": lambda asked: _times_off(asked, late=False),
+            "late-times": lambda answered: _times_off(answered, late=True),
+            "early-times": lambda answered: _times_off(answered, late=False),
         },
         Scope.ROUNDING,
     ),
     *_errors(
         "way",
         {
-            "only-the-start": lambda asked: _timed(asked, _touches(asked, 4), 0.0),
-            "only-the-end": lambda asked: _timed(asked, _touches(asked, 7), 1.0),
+            "only-the-start": lambda answered: _timed(answered, _touches(answered, 4), 0.0),
+            "only-the-end": lambda answered: _timed(answered, _touches(answered, 7), 1.0),
             "only-the-ends": _at_both_ends,
             "way-x-z": _other_ways(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
             "way-b-d": _other_ways(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
             "way-level": _other_ways(0, 1, 2, 3, 4, 5, 6, 7, 8, 6),
             "way-always-0": _always(0),
-            "way-always-1": lambda asked: _timed(asked, _always(1)(asked), 0.0),
+            "way-always-1": lambda answered: _timed(answered, _always(1)(answered), 0.0),
             "times-from-the-end": _times_from_the_end,
         },
     ),

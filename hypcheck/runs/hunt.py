@@ -247,13 +247,13 @@ def _may_be_worse(case: WrongCase, worst: WrongCase) -> bool:
 
 def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
     """The report of a hunt: at most `most` kinds of wrong answers in full, the worst first."""
-    found = run.worst_first()
-    beyond = sum(cluster.beyond for cluster in found)
+    clusters = run.worst_first()
+    beyond = sum(cluster.beyond for cluster in clusters)
     tolerated = sum(cluster.tolerated for cluster in run.clusters.values())
     tolerance = float(run.target.criterion.tolerance)
     wrong, abstained = run.counts[Status.WRONG.value], run.counts[Status.ABSTAINED.value]
-    asked = f"{counted(run.asked, 'row')} asked in {run.seconds:.1f} s, seed {run.plan.seed}"
-    yield f"{name_of_target(run.target)}: {asked}"
+    count_text = f"{counted(run.asked, 'row')} asked in {run.seconds:.1f} s, seed {run.plan.seed}"
+    yield f"{name_of_target(run.target)}: {count_text}"
     judged = f"; of those that were judged, {beyond:,} by more than {tolerance:g} u and {tolerated:,} by less"
     if run.answered:
         yield f"{_answers(wrong)} wrong{judged if wrong else ''}"
@@ -261,15 +261,15 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
         yield "no row was answered, so no answer was judged"
     if abstained:
         yield f'{_answers(abstained)} "cannot say"'
-    if found:
-        yield f"kinds of wrong answers: {len(found)}, the worst first"
-    for number, cluster in enumerate(found[:most], start=1):
+    if clusters:
+        yield f"kinds of wrong answers: {len(clusters)}, the worst first"
+    for number, cluster in enumerate(clusters[:most], start=1):
         yield ""
         yield from _cluster_lines(number, cluster, run.target)
-    if len(found) > most:
+    if len(clusters) > most:
         yield ""
-        more = counted(len(found) - most, "more kind")
-        yield f"and {more}, the worst of them {how_wrong(found[most].worst)}; --show shows more"
+        more = counted(len(clusters) - most, "more kind")
+        yield f"and {more}, the worst of them {how_wrong(clusters[most].worst)}; --show shows more"
     for status, fault in run.unanswered.items():
         yield ""
         yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"

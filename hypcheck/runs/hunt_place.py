@@ -204,16 +204,16 @@ def _ratio(top: int, bottom: int) -> float:
 def way_place(row: tuple[float, ...]) -> RowPlace:
     """The place of a way: what happens on it, and how it lies; findings are grouped by what is named first."""
     start, end = row[len(SIZES) : len(COLUMNS)], row[len(COLUMNS) : len(WAY_COLUMNS)]
-    found, length = passage_of(row), way_in_radii(row)
-    still, sides = start == end, (found.start, found.end)
+    passage, length = passage_of(row), way_in_radii(row)
+    still, sides = start == end, (passage.start, passage.end)
     signs = {
         "nothing moves": still,
-        "begun in contact": found.start is Position.CONTACT,
-        "contact for an instant": found.grazes,
-        "contact between two clear ends": found.hit and Position.CONTACT not in sides,
-        "contact towards the end": found.hit and found.start is not Position.CONTACT is found.end,
-        f"across {RING}": not found.hit and len(row) == len(WAY_COLUMNS) and _crosses_the_ring(row),
-        "clear inside": not found.hit and found.start is Position.INTERIOR,
+        "begun in contact": passage.start is Position.CONTACT,
+        "contact for an instant": passage.grazes,
+        "contact between two clear ends": passage.hit and Position.CONTACT not in sides,
+        "contact towards the end": passage.hit and passage.start is not Position.CONTACT is passage.end,
+        f"across {RING}": not passage.hit and len(row) == len(WAY_COLUMNS) and _crosses_the_ring(row),
+        "clear inside": not passage.hit and passage.start is Position.INTERIOR,
         "a vertical way": start[:2] == end[:2] and not still,
         "a horizontal way": start[2] == end[2] and not still,
         "a long way": length > LONG_WAY,

@@ -110,9 +110,9 @@ UNUSABLE = 3
 def _truths(rows: Rows, layout: Layout) -> Positions:
     """Exact positions, or hits of ways, and UNUSABLE if a length left the range of float64."""
     usable = ~invalid(rows, layout)
-    found = np.full(len(rows), UNUSABLE, dtype=np.int8)
-    found[usable] = truth_of(rows[usable], layout)
-    return found
+    truths = np.full(len(rows), UNUSABLE, dtype=np.int8)
+    truths[usable] = truth_of(rows[usable], layout)
+    return truths
 
 
 def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
@@ -120,8 +120,8 @@ def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
     mask = columns_of(movers)
     factors = border_factors(rows, mask, draw.signs(len(rows)) > 0)
     rungs = ldexp(draw.signs(len(rows)), draw.integers(len(rows), 0, EXPONENTS - 1)).astype(np.int64)
-    found = np.isfinite(factors)
-    return moved(rows[found], mask[found], stepped(factors[found], rungs[found]))
+    finite = np.isfinite(factors)
+    return moved(rows[finite], mask[finite], stepped(factors[finite], rungs[finite]))
 
 
 def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
@@ -443,9 +443,9 @@ def _climbers(run: Hunt, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey
 
     A climber is at the worst answer of its cluster. It starts again with the first step when that has become worse.
     """
-    found = sorted(run.clusters.items(), key=lambda item: item[1].worst.rank, reverse=True)
-    for key, cluster in found:
+    worst_first = sorted(run.clusters.items(), key=lambda item: item[1].worst.rank, reverse=True)
+    for key, cluster in worst_first:
         if key not in climbers or cluster.worst.error > climbers[key].error:
             climbers[key] = Climber(cluster.worst.case.row, cluster.worst.error)
-    awake = [key for key, _ in found if not climbers[key].resting]
+    awake = [key for key, _ in worst_first if not climbers[key].resting]
     return sorted(awake, key=lambda key: -climbers[key].step)[:CLIMBERS_TOGETHER]

@@ -158,11 +158,13 @@ def compare_formula(formula: Formula, format_name: str, row: Row) -> FormulaComp
     machine = evaluate(program, float_arithmetic(format_name), machine_inputs)
     exact = evaluate(program, EXACT, exact_inputs)
     unit = unit_roundoff(format_name)
-    said = {name: f"read as {format_name}" if name in COLUMNS else "from the search for λ" for name in program.inputs}
-    said |= {step.name: line_of(step).partition(" = ")[2] for step in program.steps}
+    meanings = {
+        name: f"read as {format_name}" if name in COLUMNS else "from the search for λ" for name in program.inputs
+    }
+    meanings |= {step.name: line_of(step).partition(" = ")[2] for step in program.steps}
     decisions = _decisions(program)
     values = {
-        name: _intermediate(name, said[name], machine[name], exact[name], None if name in decisions else unit)
+        name: _intermediate(name, meanings[name], machine[name], exact[name], None if name in decisions else unit)
         for name in machine
     }
     answer = "position" if formula.name == "dual" else formula.answer
@@ -201,13 +203,13 @@ def _dual(format_name: str, row: Row) -> Prepared:
 
 def _decisions(program: Program) -> set[str]:
     """The names of truth values, and of constants that are selected by truth values."""
-    found: set[str] = set()
+    names: set[str] = set()
     for step in program.steps:
         chosen = step.arguments[1:] if step.operation == "select" else ()
-        of_constants = bool(chosen) and all(isinstance(each, int) or each in found for each in chosen)
+        of_constants = bool(chosen) and all(isinstance(each, int) or each in names for each in chosen)
         if OPERATIONS[step.operation].gives == BOOLEAN or of_constants:
-            found.add(step.name)
-    return found
+            names.add(step.name)
+    return names
 
 
 def _intermediate(name: str, said: str, machine: Any, exact: object, unit: float | None) -> Intermediate:  # noqa: ANN401

@@ -217,9 +217,9 @@ def right_positions(truth: Position, answer: int, question: str) -> tuple[Positi
     """
     if question == "position":
         return (Position(answer),)
-    asked = Position[question.upper()]
+    position = Position[question.upper()]
     if answer:
-        return (asked,)
+        return (position,)
     if truth is Position.CONTACT:
         return (Position.EXTERIOR, Position.INTERIOR)
     return (Position.CONTACT,)
@@ -234,7 +234,7 @@ def in_units(error: float, unit: Fraction) -> float:
 
 def in_words(answer: int, question: str) -> str:
     """An answer in words: the position, or yes or no to the question; any other answer as its number."""
-    meanings = {each.value: each.label for each in Position}
+    meanings = {position.value: position.label for position in Position}
     if question != "position":
         meanings = {1: f"{question}: yes", 0: f"{question}: no"}
     return meanings.get(answer, str(answer))

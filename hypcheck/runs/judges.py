@@ -125,8 +125,8 @@ class PassageJudge(Judge):
         for start in range(0, len(wrong), _TOGETHER):
             part = wrong[start : start + _TOGETHER]
             some = np.ascontiguousarray(rows[part])
-            for index, each, near in zip(part.tolist(), some.tolist(), rough_exponents(some).tolist(), strict=True):
-                row, answer = tuple(each), int(answers[index])
+            for index, numbers, near in zip(part.tolist(), some.tolist(), rough_exponents(some).tolist(), strict=True):
+                row, answer = tuple(numbers), int(answers[index])
                 if passage_of(row).hit == bool(answer) and times is not None:
                     yield _wrong_time(index, row, float(times[index]))
                 else:
@@ -154,8 +154,8 @@ class PassageJudge(Judge):
 
 def time_is_right(row: Row, time: float, criterion: Criterion) -> bool:
     """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a way with contact."""
-    found = passage_of(row)
-    if found.first_lower <= time <= found.first_upper:
+    passage = passage_of(row)
+    if passage.first_lower <= time <= passage.first_upper:
         return True
     change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
     if not change:
@@ -167,8 +167,8 @@ def time_is_right(row: Row, time: float, criterion: Criterion) -> bool:
 
 def first_contact(row: Row) -> tuple[float, float]:
     """Bounds of the time of the first contact."""
-    found = passage_of(row)
-    return found.first_lower, found.first_upper
+    passage = passage_of(row)
+    return passage.first_lower, passage.first_upper
 
 
 def radii_off(row: Row, time: float) -> float:
@@ -183,10 +183,10 @@ def way_in_radii(row: Row) -> float:
     step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
     given = row[len(WAYS.upright) : len(WAYS.tilted)]
     largest = max(map(abs, given), default=0.0)
-    axis = [each / largest for each in given] or UPRIGHT
+    axis = [component / largest for component in given] or UPRIGHT
     length = math.hypot(*axis)
-    along = sum(each / length * part for each, part in zip(axis, step, strict=True))
-    across = [part - along * each / length for each, part in zip(axis, step, strict=True)]
+    along = sum(component / length * part for component, part in zip(axis, step, strict=True))
+    across = [part - along * component / length for component, part in zip(axis, step, strict=True)]
     return math.hypot(*(part / b for part in across), along / d)
 
 

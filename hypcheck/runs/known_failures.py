@@ -33,7 +33,7 @@ from hypcheck.messages import suggestion
 from hypcheck.record import Record
 from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine
 from hypcheck.runs.cases import frozen_vectors
-from hypcheck.runs.causes import Asked, Cause, Scope
+from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.tables.streams import replace_output
 from hypcheck.vectors import frozen
@@ -73,7 +73,7 @@ def excusable_causes() -> Mapping[str, tuple[Cause, ...]]:
 
 
 def entries_about(
-    known: Sequence[KnownFailure], cases: Sequence[tuple[int, str]], family: str, asked: Asked, *, fresh: bool
+    known: Sequence[KnownFailure], cases: Sequence[tuple[int, str]], family: str, answered: AnsweredRows, *, fresh: bool
 ) -> list[list[int]]:
     """For each case of a family, given by its index among the rows asked and its id, the numbers of its entries."""
     found = [
@@ -81,10 +81,10 @@ def entries_about(
     ]
     if not cases:
         return found
-    part = asked.part([index for index, _ in cases])
+    part = answered.part([index for index, _ in cases])
     for number, entry in enumerate(known):
         for cause in excusable_causes().get(entry.cause or "", ()):
-            if cause.subject == asked.subject:
+            if cause.subject == answered.subject:
                 for place in np.flatnonzero(cause.rule(part) == part.given).tolist():
                     found[place].append(number)
     return found

@@ -35,7 +35,7 @@ from hypcheck.record import read
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.reader import file_of, recorded_cases
 from hypcheck.runs import judge
-from hypcheck.runs.causes import PLACES, WIDER_ROUNDINGS, Asked, Cause, Scope
+from hypcheck.runs.causes import PLACES, WIDER_ROUNDINGS, AnsweredRows, Cause, Scope
 from hypcheck.runs.intermediates import FormulaChoice, choose_formula
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.judges import HIT, judge_of, passage_of, radii_off
@@ -252,8 +252,8 @@ def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion
     if judgement.answer is None or judgement.mistake is None:
         return ()
     truths, given = (np.array([each], dtype=np.int8) for each in (truth.decision.position, judgement.answer))
-    asked = Asked(np.array([truth.pair.row]), truths, given, criterion)
-    found = [cause for cause in (*PLACES, *WIDER_ROUNDINGS) if cause.rule(asked)[0] == judgement.answer]
+    answered = AnsweredRows(np.array([truth.pair.row]), truths, given, criterion)
+    found = [cause for cause in (*PLACES, *WIDER_ROUNDINGS) if cause.rule(answered)[0] == judgement.answer]
     exactly = [cause for cause in found if cause.scope is Scope.PLACE]
     return tuple(exactly or found[:1])
 

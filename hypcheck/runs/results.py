@@ -23,7 +23,7 @@ from hypcheck.implementations.session import Outcome
 from hypcheck.record.lines import Retest
 from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_exponents_of
-from hypcheck.runs.causes import Asked
+from hypcheck.runs.causes import AnsweredRows
 from hypcheck.runs.diagnosis import CasePlace, Diagnosis, diagnose
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.judges import judge_of
@@ -206,7 +206,7 @@ def result_of_final(
 
     `left_out` counts rows of the chunk that were not asked, by reason.
     """
-    asked = Asked(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
+    asked = AnsweredRows(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
     wrong, excusing = _excused(list(scored.judged()), made.chunk, indices, asked, rules)
     tally = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), left_out=left_out, wrong=wrong)
     fresh = len(indices) if rules.are_fresh(made.chunk) else 0
@@ -219,14 +219,14 @@ def result_of_final(
 
 
 def _diagnosed(
-    chunk: CaseChunk, indices: Indices, scored: Score, asked: Asked, wrong: Sequence[WrongCase]
+    chunk: CaseChunk, indices: Indices, scored: Score, answered: AnsweredRows, wrong: Sequence[WrongCase]
 ) -> Diagnosis:
     """Which causes explain the wrong answers to the cases `indices` (n,) of a chunk."""
     if not wrong:
         return Diagnosis()
     right = np.flatnonzero(scored.status == STATUS_CODES[Status.RIGHT]).tolist()
     cases = [int(indices[case.index]) for case in wrong]
-    return diagnose(asked, wrong, right, [(chunk.place(case), chunk.name(case)) for case in cases])
+    return diagnose(answered, wrong, right, [(chunk.place(case), chunk.name(case)) for case in cases])
 
 
 def _first_pending(chunk: CaseChunk, indices: Indices) -> int:
@@ -249,13 +249,13 @@ def _pending(chunk: CaseChunk, indices: Indices, scored: Score) -> tuple[Pending
 
 
 def _excused(
-    wrong: list[WrongCase], chunk: CaseChunk, indices: Indices, asked: Asked, rules: JudgingRules
+    wrong: list[WrongCase], chunk: CaseChunk, indices: Indices, answered: AnsweredRows, rules: JudgingRules
 ) -> tuple[list[WrongCase], set[int]]:
     """These cases, those that known failures cover EXCUSED, and the numbers of these failures."""
     places = [place for place, case in enumerate(wrong) if case.status is Status.WRONG and rules.known]
     cases = [(wrong[place].index, chunk.name(int(indices[wrong[place].index]))) for place in places]
     found, excusing = list(wrong), set[int]()
-    about = entries_about(rules.known, cases, chunk.family, asked, fresh=rules.are_fresh(chunk))
+    about = entries_about(rules.known, cases, chunk.family, answered, fresh=rules.are_fresh(chunk))
     for place, numbers in zip(places, about, strict=True):
         case, error_u = wrong[place], 0.0
         if any(rules.known[each].max_u < math.inf for each in numbers):  # to measure takes a thousand times as long

@@ -17,8 +17,8 @@ from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.runs.causes import (
     FLOAT64,
     SILENT,
+    AnsweredRows,
     Answers,
-    Asked,
     Cause,
     Numbers,
     Scope,
@@ -37,17 +37,17 @@ LARGEST_TOLERANCE = 1e-2
 """A larger distance between roots is no tolerance."""
 
 
-def _complex_pair_ignored(asked: Asked) -> Answers:
+def _complex_pair_ignored(answered: AnsweredRows) -> Answers:
     """A complex pair is left out, and the one real root, which is positive, is taken for all of them.
 
     A double root, or two that are close together, may be a complex pair when it is computed.
     """
-    n = asked.numbers
+    n = answered.numbers
     with np.errstate(all="ignore"):
         error = n.delta_error(FLOAT64, roots=True)
         pair, close = n.delta < -error, np.abs(n.delta) <= error
-    exterior = asked.said(np.full(len(asked.rows), Position.EXTERIOR, dtype=np.int8))
-    return np.where(pair | (close & (asked.given == exterior)), exterior, SILENT).astype(np.int8)
+    exterior = answered.answers_at(np.full(len(answered.rows), Position.EXTERIOR, dtype=np.int8))
+    return np.where(pair | (close & (answered.given == exterior)), exterior, SILENT).astype(np.int8)
 
 
 _BEYOND = {
@@ -59,39 +59,39 @@ _BEYOND = {
 """Contacts with a double root beyond a pole, and what the signs of the roots alone say."""
 
 
-def _repeated_beyond_a_pole(asked: Asked) -> Answers:
+def _repeated_beyond_a_pole(answered: AnsweredRows) -> Answers:
     """A double root below −A or above B counts as two roots on the side of its sign."""
-    at = (asked.truth == Position.CONTACT) & asked.numbers.possible(2.0**-50, printed=True)[:, (0, 2)].any(axis=1)
-    answers = silent(asked)
+    at = (answered.truth == Position.CONTACT) & answered.numbers.possible(2.0**-50, printed=True)[:, (0, 2)].any(axis=1)
+    answers = silent(answered)
     for kind, position in _BEYOND.items():
-        answers = np.minimum(answers, where_kind(at, asked, kind, position))
+        answers = np.minimum(answers, where_kind(at, answered, kind, position))
     return answers
 
 
-def _at_upper_pole(asked: Asked) -> Answers:
+def _at_upper_pole(answered: AnsweredRows) -> Answers:
     """Where z = 0, B itself is a root: an open interval (0, B) does not contain it, and one root is left.
 
     Not beside the ring, where a root close to B is a reason of its own.
     """
-    at = (asked.truth == Position.EXTERIOR) & (asked.rows[:, 6] == 0)
-    return _contact(asked, at & ~asked.numbers.near_the_ring(2.0**-12))
+    at = (answered.truth == Position.EXTERIOR) & (answered.rows[:, 6] == 0)
+    return _contact(answered, at & ~answered.numbers.near_the_ring(2.0**-12))
 
 
-def _at_lower_pole(asked: Asked) -> Answers:
+def _at_lower_pole(answered: AnsweredRows) -> Answers:
     """Where x = y = 0, −A itself is a root: an open interval (−A, 0) does not contain it, and one root is left."""
-    at = (asked.truth == Position.INTERIOR) & (asked.rows[:, 4:6] == 0).all(axis=1)
-    return _contact(asked, at)
+    at = (answered.truth == Position.INTERIOR) & (answered.rows[:, 4:6] == 0).all(axis=1)
+    return _contact(answered, at)
 
 
-def _contact(asked: Asked, at: Mask) -> Answers:
-    positions = silent(asked)
+def _contact(answered: AnsweredRows, at: Mask) -> Answers:
+    positions = silent(answered)
     positions[at] = Position.CONTACT
-    return asked.said(positions)
+    return answered.answers_at(positions)
 
 
-def _computed_roots(asked: Asked) -> Answers:
+def _computed_roots(answered: AnsweredRows) -> Answers:
     """What the rounding errors of computed roots may make of the answer."""
-    return rounded(asked, max(unit_of(asked), FLOAT64), roots=True)
+    return rounded(answered, max(unit_of(answered), FLOAT64), roots=True)
 
 
 def _roots(n: Numbers) -> NDArray[np.complex128]:
@@ -108,11 +108,11 @@ def _roots(n: Numbers) -> NDArray[np.complex128]:
     return found
 
 
-def _within(asked: Asked, sizes: Floats, answers: Answers) -> Answers:
+def _within(answered: AnsweredRows, sizes: Floats, answers: Answers) -> Answers:
     """These answers where a size is within the tolerance; the tolerance is the largest size of an answer so given."""
     with np.errstate(invalid="ignore"):
         candidates = (answers != SILENT) & (sizes <= LARGEST_TOLERANCE)
-    agree = candidates & (answers == asked.given)
+    agree = candidates & (answers == answered.given)
     if not agree.any():
         return np.full(len(sizes), SILENT, dtype=np.int8)
     inside = candidates & (sizes <= sizes[agree].max())
@@ -121,31 +121,31 @@ def _within(asked: Asked, sizes: Floats, answers: Answers) -> Answers:
     return np.where(inside, answers, SILENT).astype(np.int8)
 
 
-def _imaginary_part(asked: Asked) -> Answers:
+def _imaginary_part(answered: AnsweredRows) -> Answers:
     """A complex pair with a small imaginary part is taken for two real roots on the side of their real part."""
-    roots = _roots(asked.numbers)
+    roots = _roots(answered.numbers)
     apart = np.abs(roots.imag).max(axis=1)
     pair = np.take_along_axis(roots, np.abs(roots.imag).argmax(axis=1)[:, None], axis=1)[:, 0].real
     positions = np.where(pair > 0, Position.EXTERIOR, Position.INTERIOR).astype(np.int8)
-    at = (asked.truth == Position.CONTACT) & (apart > 0)
-    return _of_either_size(asked, apart, pair, np.where(at, asked.said(positions), SILENT).astype(np.int8))
+    at = (answered.truth == Position.CONTACT) & (apart > 0)
+    return _of_either_size(answered, apart, pair, np.where(at, answered.answers_at(positions), SILENT).astype(np.int8))
 
 
-def _separation(asked: Asked) -> Answers:
+def _separation(answered: AnsweredRows) -> Answers:
     """Two real roots that are close together are taken for one double root."""
-    roots = _roots(asked.numbers)
+    roots = _roots(answered.numbers)
     gaps = np.abs(np.diff(roots, axis=1))
     nearest = gaps.argmin(axis=1)[:, None]
     gap = np.take_along_axis(gaps, nearest, axis=1)[:, 0]
     place = np.take_along_axis(roots, nearest, axis=1)[:, 0].real
-    return _of_either_size(asked, gap, place, _contact(asked, asked.truth != Position.CONTACT))
+    return _of_either_size(answered, gap, place, _contact(answered, answered.truth != Position.CONTACT))
 
 
-def _of_either_size(asked: Asked, sizes: Floats, roots: Floats, answers: Answers) -> Answers:
+def _of_either_size(answered: AnsweredRows, sizes: Floats, roots: Floats, answers: Answers) -> Answers:
     """What an absolute tolerance explains, or one relative to the root, whichever explains more."""
     with np.errstate(all="ignore"):
-        either = [_within(asked, some, answers) for some in (sizes, sizes / np.abs(roots))]
-    return max(either, key=lambda some: int((some == asked.given).sum()))
+        either = [_within(answered, some, answers) for some in (sizes, sizes / np.abs(roots))]
+    return max(either, key=lambda some: int((some == answered.given).sum()))
 
 
 ROOT_CAUSES: tuple[Cause, ...] = (

@@ -11,7 +11,7 @@ from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.session import Answered
-from hypcheck.runs.causes import SILENT, Asked, Scope
+from hypcheck.runs.causes import SILENT, AnsweredRows, Scope
 from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import score
@@ -31,7 +31,7 @@ def diagnosed(implementation, families=FAMILIES, criterion=ORDINARY):
         cases = [case for case in scored.judged() if case.status == "wrong"]
         right = np.flatnonzero(given == found.positions).tolist()
         named = [((0, case.index), found.ids[case.index]) for case in cases]
-        diagnoses[family] = diagnose(Asked(found.rows, found.positions, given, criterion), cases, right, named)
+        diagnoses[family] = diagnose(AnsweredRows(found.rows, found.positions, given, criterion), cases, right, named)
         wrong += len(cases)
         if not cases:
             clean.append(family)
@@ -124,10 +124,10 @@ def test_diagnosis_names_an_ignored_axis():
 def test_rounding_causes_agree_with_every_right_clear_answer():
     found = load("uniform")
     sure = found.positions != 0
-    asked = Asked(found.rows[sure], found.positions[sure], found.positions[sure], ORDINARY)
+    answered = AnsweredRows(found.rows[sure], found.positions[sure], found.positions[sure], ORDINARY)
     for cause in PLACE_CAUSES:
-        said = cause.rule(asked)
-        assert ((said == SILENT) | (said == asked.given)).all(), cause.name
+        said = cause.rule(answered)
+        assert ((said == SILENT) | (said == answered.given)).all(), cause.name
 
 
 def test_diagnoses_can_be_merged_in_any_order():
@@ -135,9 +135,9 @@ def test_diagnoses_can_be_merged_in_any_order():
     given = np.zeros(len(found.rows), dtype=np.int8)
     scored = score(found.rows, found.positions, Answered.of(given), ORDINARY)
     cases = list(scored.judged())
-    asked = Asked(found.rows, found.positions, given, ORDINARY)
+    answered = AnsweredRows(found.rows, found.positions, given, ORDINARY)
     parts = [
-        diagnose(asked, some, [], [((0, case.index), found.ids[case.index]) for case in some])
+        diagnose(answered, some, [], [((0, case.index), found.ids[case.index]) for case in some])
         for some in (cases[:50], cases[50:90], cases[90:])
     ]
     assert merged(parts) == merged(parts[::-1]) == merged([merged(parts[:2]), parts[2]])
@@ -148,9 +148,9 @@ def test_diagnoses_can_be_merged_in_any_order():
 def test_wrong_answers_that_no_rule_gives_at_all_are_counted_as_unexplained():
     found = load("uniform")
     clear = np.flatnonzero(found.positions == 1)[:1]
-    asked = Asked(found.rows[clear], found.positions[clear], np.array([7], dtype=np.int8), ORDINARY)
-    case = WrongCase(0, tuple(asked.rows[0].tolist()), 1, 7, Mistake.FALSE_CONTACT, Status.WRONG, -1.0)
-    diagnoses = {"uniform": diagnose(asked, [case], [], [((0, 0), "uniform-0000")])}
+    answered = AnsweredRows(found.rows[clear], found.positions[clear], np.array([7], dtype=np.int8), ORDINARY)
+    case = WrongCase(0, tuple(answered.rows[0].tolist()), 1, 7, Mistake.FALSE_CONTACT, Status.WRONG, -1.0)
+    diagnoses = {"uniform": diagnose(answered, [case], [], [((0, 0), "uniform-0000")])}
     (counted,) = causes_of(diagnoses, [], ORDINARY, EVERYWHERE)
     assert (counted.cause, counted.families, counted.worst.worst) == (None, {"uniform": 1}, case)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.runs.causes import SILENT, Asked
+from hypcheck.runs.causes import SILENT, AnsweredRows
 from hypcheck.runs.formula_errors import WAY_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion
 from tests.support.fractions_truth import exact_position
@@ -31,8 +31,8 @@ STARTS, ENDS = (
 )
 
 
-def asked(given, times=None, rows=ROWS, truth=HITS):
-    return Asked(rows, truth, np.asarray(given, dtype=np.int8), Criterion("passage"), times)
+def answered(given, times=None, rows=ROWS, truth=HITS):
+    return AnsweredRows(rows, truth, np.asarray(given, dtype=np.int8), Criterion("passage"), times)
 
 
 def hits_of(change):
@@ -59,12 +59,12 @@ def test_ways_of_these_tests_have_contacts_at_the_start_in_between_and_none():
     ],
 )
 def test_rule_of_a_slip_gives_the_answers_of_an_implementation_with_that_slip(name, given):
-    assert RULES[name](asked(given)).tolist() == np.asarray(given, dtype=np.int8).tolist()
+    assert RULES[name](answered(given)).tolist() == np.asarray(given, dtype=np.int8).tolist()
 
 
 def test_slip_of_testing_only_the_ends_explains_only_missed_contacts():
     given = STARTS | ENDS
-    said = RULES["between-positions"](asked(given))
+    said = RULES["between-positions"](answered(given))
     missed = (HITS == 1) & (given == 0)
     assert missed.any()
     assert (said[missed] == 0).all()
@@ -73,14 +73,14 @@ def test_slip_of_testing_only_the_ends_explains_only_missed_contacts():
 
 def test_formula_errors_of_swapped_columns_do_not_apply_to_tilted_spheroids():
     leaning = np.hstack([ROWS, np.tile([0.0, 0.0, 1.0], (COUNT, 1))])
-    assert (RULES["way-x-z"](asked(HITS, rows=leaning)) == SILENT).all()
-    assert RULES["only-the-start"](asked(HITS, rows=leaning)).tolist() == STARTS.tolist()
+    assert (RULES["way-x-z"](answered(HITS, rows=leaning)) == SILENT).all()
+    assert RULES["only-the-start"](answered(HITS, rows=leaning)).tolist() == STARTS.tolist()
 
 
 def test_slip_does_not_explain_a_contact_at_another_time_than_its_own():
     times = np.where(STARTS == 1, 0.0, np.nan)
-    assert RULES["only-the-start"](asked(STARTS, times)).tolist() == STARTS.tolist()
-    later = RULES["only-the-start"](asked(STARTS, times + 0.5))
+    assert RULES["only-the-start"](answered(STARTS, times)).tolist() == STARTS.tolist()
+    later = RULES["only-the-start"](answered(STARTS, times + 0.5))
     assert (later[STARTS == 1] == SILENT).all()
 
 
@@ -88,7 +88,7 @@ ON_THE_WAY = (HITS == 1) & (FIRST > 0.01) & (FIRST < 0.45)
 
 
 def explained(name, times):
-    return RULES[name](asked(HITS, times)) == 1
+    return RULES[name](answered(HITS, times)) == 1
 
 
 @pytest.mark.slow
@@ -107,4 +107,4 @@ def test_formula_errors_of_slightly_wrong_times_are_distinguished_by_direction(n
 
 @pytest.mark.parametrize("name", ["times-from-the-end", "late-times"])
 def test_formula_errors_about_times_do_not_apply_to_answers_without_times(name):
-    assert (RULES[name](asked(HITS)) == SILENT).all()
+    assert (RULES[name](answered(HITS)) == SILENT).all()
