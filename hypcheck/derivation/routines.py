@@ -21,7 +21,7 @@ PAIR, ANSWER = "pair", "answer"
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class Return:
     """A whole number by conditions: that of the first one that holds, else the last one."""
 
     choices: tuple[tuple[str, int], ...]
@@ -89,7 +89,7 @@ class Loop:
 
 Part = Step | Call | Half | Stored | Loop
 
-Result = str | Answer | tuple[Argument, Argument]
+Result = str | Return | tuple[Argument, Argument]
 """A name, an answer by conditions, or a pair of two numbers."""
 
 
@@ -124,7 +124,7 @@ class Routine:
         for name in result_names(self.result):
             if name not in kinds:
                 raise ValueError(f"routine {self.name}: there is no {name}")
-            if isinstance(self.result, Answer) and kinds[name] != BOOLEAN:
+            if isinstance(self.result, Return) and kinds[name] != BOOLEAN:
                 raise ValueError(f"routine {self.name}: {name} is no condition")
             if isinstance(self.result, tuple) and kinds[name] != NUMBER:
                 raise ValueError(f"routine {self.name}: {name} is no number")
@@ -143,7 +143,7 @@ class Routine:
     @property
     def gives(self) -> str:
         """The kind of the result."""
-        if isinstance(self.result, Answer):
+        if isinstance(self.result, Return):
             return ANSWER
         return PAIR if isinstance(self.result, tuple) else kinds_in(self.parts, self.given)[self.result]
 
@@ -225,7 +225,7 @@ def kinds_in(parts: Iterable[Part], before: Mapping[str, str]) -> dict[str, str]
 
 def result_names(result: Result) -> tuple[str, ...]:
     """The names that a result reads."""
-    if isinstance(result, Answer):
+    if isinstance(result, Return):
         return tuple(name for name, _ in result.choices)
     return tuple(name for name in ((result,) if isinstance(result, str) else result) if isinstance(name, str))
 

@@ -47,7 +47,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from hypcheck.geometry.rows import Floats, Rows
-from hypcheck.implementations.frames import Call, GivenAnswers, IntegerAnswers
+from hypcheck.implementations.frames import CallForm, GivenAnswers, IntegerAnswers
 from hypcheck.implementations.spec import is_file
 
 
@@ -68,15 +68,15 @@ class ForeignCode(Protocol):
     entries: tuple[str, ...]
     """Those of frames.ENTRIES that a library exports."""
 
-    def classify(self, rows: Rows, call: Call) -> GivenAnswers:
+    def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
         """Answers to rows, by that call."""
         ...
 
-    def seconds(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         ...
 
-    def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
+    def seconds_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
         For a library, no rows mean a call that does nothing.
@@ -124,11 +124,11 @@ class PythonFunction:
         found = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
         self.description = "" if found is None or isinstance(found, ModuleType) else description_as_json(found)
 
-    def classify(self, rows: Rows, call: Call) -> GivenAnswers:
+    def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
         """Answers to rows; raises ContractError if the function returns no array of n integers, or no times beside."""
         return _given(self._function(rows), len(rows), call)
 
-    def seconds(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         function, result = self._function, None
         start = time.perf_counter_ns()
@@ -137,7 +137,7 @@ class PythonFunction:
         took = time.perf_counter_ns() - start
         return took, int(_given(result, len(rows), call).integers.sum(dtype=np.int64))
 
-    def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
+    def seconds_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers."""
         function, parts = self._function, [rows[place : place + 1] for place in range(len(rows))]
         results: list[Any] = []
@@ -200,7 +200,7 @@ def _of_file(path: str) -> ModuleType:
     return module
 
 
-def _given(result: object, n: int, call: Call) -> GivenAnswers:
+def _given(result: object, n: int, call: CallForm) -> GivenAnswers:
     if not call.times:
         return GivenAnswers(_integers(result, n))
     if not isinstance(result, (tuple, list)) or len(result) != 2:

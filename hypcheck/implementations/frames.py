@@ -32,7 +32,7 @@ class GivenAnswers(NamedTuple):
     times: Floats | None = None
 
 
-class Call(NamedTuple):
+class CallForm(NamedTuple):
     """The function of foreign code that is called, and the columns of its rows.
 
     `times` says that it gives times, `scene` that the entry for many centres is called, whose rows have the same sizes
@@ -53,13 +53,13 @@ class Call(NamedTuple):
 
 
 CALLS = (
-    Call("classify", PAIRS),
-    Call("classify", PAIRS, scene=True),
-    Call("classify", PAIRS, columns=True),
-    Call("passage", WAYS),
-    Call("passage", WAYS, times=True),
-    Call("passage", WAYS, columns=True),
-    Call("passage", WAYS, times=True, columns=True),
+    CallForm("classify", PAIRS),
+    CallForm("classify", PAIRS, scene=True),
+    CallForm("classify", PAIRS, columns=True),
+    CallForm("passage", WAYS),
+    CallForm("passage", WAYS, times=True),
+    CallForm("passage", WAYS, columns=True),
+    CallForm("passage", WAYS, times=True, columns=True),
 )
 
 REQUEST = struct.Struct("=4sIIIQQ")

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.implementations.foreign import ContractError, LoadError
-from hypcheck.implementations.frames import ENTRIES, UNWRITTEN, Call, GivenAnswers
+from hypcheck.implementations.frames import ENTRIES, UNWRITTEN, CallForm, GivenAnswers
 from hypcheck.messages import counted
 
 try:
@@ -47,13 +47,13 @@ class Library:
         self.description = _description(library, path)
         self._memory = _Memory()
 
-    def classify(self, rows: Rows, call: Call) -> GivenAnswers:
+    def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
         """Answers to rows; raises ContractError if it writes outside the memory for answers and times."""
         room = _AnswerRoom(self._memory, rows, call)
         self._entry(rows, call)(*self._words(rows, call, room))
         return room.written()
 
-    def seconds(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
+    def seconds(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
         """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
         room = _AnswerRoom(self._memory, rows, call)
         function, words = self._entry(rows, call), self._words(rows, call, room)
@@ -63,14 +63,14 @@ class Library:
         took = time.perf_counter_ns() - start
         return took, room.total()
 
-    def _words(self, rows: Rows, call: Call, room: _AnswerRoom) -> tuple[int | None, ...]:
+    def _words(self, rows: Rows, call: CallForm, room: _AnswerRoom) -> tuple[int | None, ...]:
         """The arguments of a call."""
         if not call.scene:
             return len(rows), *self._width(rows, call), rows.ctypes.data, *room.words
         *fixed, x, y, z = self._memory.scene(rows)
         return *fixed, len(rows), x, y, z, *room.words
 
-    def seconds_each(self, rows: Rows, repeat: int, call: Call) -> tuple[int, int]:
+    def seconds_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
         A compiled loop makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of
@@ -86,7 +86,7 @@ class Library:
         took = time.perf_counter_ns() - start
         return took, room.total()
 
-    def _seconds_by_ctypes(self, rows: Rows, repeat: int, call: Call, room: _AnswerRoom) -> tuple[int, int]:
+    def _seconds_by_ctypes(self, rows: Rows, repeat: int, call: CallForm, room: _AnswerRoom) -> tuple[int, int]:
         function, begin, n = self._entry(rows, call), rows.ctypes.data, len(rows)
         width = self._width(rows, call)
         calls = [(1, *width, begin + 8 * rows.shape[1] * place, *room.words_at(place)) for place in range(n)]
@@ -99,11 +99,11 @@ class Library:
         return took, room.total()
 
     @staticmethod
-    def _width(rows: Rows, call: Call) -> tuple[int, ...]:
+    def _width(rows: Rows, call: CallForm) -> tuple[int, ...]:
         """The argument that says how many numbers a row has, of an entry for rows of any width."""
         return (rows.shape[1],) if call.columns else ()
 
-    def _entry(self, rows: Rows, call: Call) -> Any:  # noqa: ANN401 - ctypes' own is private
+    def _entry(self, rows: Rows, call: CallForm) -> Any:  # noqa: ANN401 - ctypes' own is private
         return self._entries[call.entry_name(tilt=call.layout.has_axis(rows))]
 
 
@@ -211,7 +211,7 @@ class _AnswerRoom:
     `words` are the arguments of the call behind the rows.
     """
 
-    def __init__(self, memory: _Memory, rows: Rows, call: Call) -> None:
+    def __init__(self, memory: _Memory, rows: Rows, call: CallForm) -> None:
         self._call = call
         self._answers = _Fenced(memory.answers, len(rows), np.dtype(np.int8))
         self._times = _Fenced(memory.times, len(rows), np.dtype(np.float64)) if call.times else None

@@ -28,7 +28,7 @@ import numpy as np
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.foreign import ContractError, ForeignCode, LoadError, PythonFunction, error_text
-from hypcheck.implementations.frames import WIDTH, Call
+from hypcheck.implementations.frames import WIDTH, CallForm
 from hypcheck.implementations.library import GuardedMemory, Library
 from hypcheck.messages import escaped
 
@@ -54,7 +54,7 @@ class WorkerChannel:
         self._mark = 0
         self._rows = GuardedMemory("the rows", count)
 
-    def request(self, *, read_only: bool) -> tuple[bytes, Call, int, Rows] | None:
+    def request(self, *, read_only: bool) -> tuple[bytes, CallForm, int, Rows] | None:
         """The next question: its kind, the call, the repetitions, and the rows; None at the end of input."""
         head = bytearray(frames.REQUEST.size)
         if not self._fill(memoryview(head)):
@@ -115,7 +115,7 @@ def serve(line: WorkerChannel, subject: ForeignCode) -> None:
 Reply = tuple[bytes, bytes | memoryview, int]
 
 
-def _reply(subject: ForeignCode, asked: bytes, call: Call, repeat: int, rows: Rows) -> Reply:
+def _reply(subject: ForeignCode, asked: bytes, call: CallForm, repeat: int, rows: Rows) -> Reply:
     try:
         if asked != frames.CLASSIFY:
             seconds = subject.seconds_each if asked == frames.TIME_EACH else subject.seconds

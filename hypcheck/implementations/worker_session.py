@@ -15,7 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
-from hypcheck.implementations.frames import Call, GivenAnswers
+from hypcheck.implementations.frames import CallForm, GivenAnswers
 from hypcheck.implementations.output import foreign_text, quoted, stderr_excerpt
 from hypcheck.implementations.process import ProcessSession
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
@@ -98,7 +98,7 @@ class WorkerSession(ProcessSession):
         except InputError as error:
             raise StartError(str(error)) from None
         tilt, asked = description.tilt, description.asked
-        self._call = Call(asked.entry, asked.layout, description.times)
+        self._call = CallForm(asked.entry, asked.layout, description.times)
         self.scene = not description.heights and self._call._replace(scene=True).entry_name(tilt=tilt) in entries
         if spec.kind == "library":
             wide = self._call._replace(columns=True)
@@ -127,7 +127,7 @@ class WorkerSession(ProcessSession):
         nanoseconds, total = frames.TIMES.unpack(body)
         return nanoseconds, total
 
-    def _ask(self, asked: bytes, call: Call, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
+    def _ask(self, asked: bytes, call: CallForm, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
         self._process.mark()
         rows, mark = self._columns(rows), secrets.randbits(64)
         head = frames.REQUEST.pack(asked, frames.CALLS.index(call), rows.shape[1], len(rows), repeat, mark)
@@ -164,7 +164,7 @@ class WorkerSession(ProcessSession):
         return stderr_excerpt([line for line in self._process.stderr if not any(part in line for part in _OURS)])
 
 
-def _lacking(path: str, described: Description, call: Call) -> str:
+def _lacking(path: str, described: Description, call: CallForm) -> str:
     """That a library lacks the function that is to be called."""
     asked, name = described.asked, call.entry_name(tilt=described.tilt)
     rows = f"rows{len(described.columns)}" if described.tilt and not call.columns else "rows"

@@ -320,7 +320,7 @@ def _usual(rows: Rows) -> Mask:
     return np.asarray((size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1))
 
 
-def _measured(rows: Rows, gaps: points.Gaps) -> Floats:
+def _measured(rows: Rows, gaps: points.PointGaps) -> Floats:
     """The length of each gap, and more than the error of its ends."""
     b, d = rows[:, 2], rows[:, 3]
     largest = np.maximum(b, d)
@@ -332,7 +332,9 @@ def _measured(rows: Rows, gaps: points.Gaps) -> Floats:
     return np.asarray(length + _POINTS * (length + terms))
 
 
-def _separated(rows: Rows, gaps: points.Gaps, usual: Mask, least: Floats, most: Floats, threads: int | None) -> Floats:
+def _separated(
+    rows: Rows, gaps: points.PointGaps, usual: Mask, least: Floats, most: Floats, threads: int | None
+) -> Floats:
     """The distances that a spheroid which contains all points so near proves, or `least` where that is more."""
     v = gaps.support
 

@@ -80,7 +80,7 @@ class Touches:
 
 
 @dataclass(frozen=True, slots=True)
-class Gaps:
+class PointGaps:
     """Near the shortest gap: its length and the spheroid's half width across it (n,), its two ends (n, 3) each."""
 
     length: Floats
@@ -155,7 +155,7 @@ def _placed(rows: Rows, radius: Floats, height: Floats) -> Floats:
     return np.stack([radius * cos, radius * sin, np.where(z < 0, -height, height)], axis=1)
 
 
-def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
+def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
     """Hints for valid rows (n, 7) that are clear, from the places where they first touch, (n, 3)."""
     alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
     r, level, side = np.hypot(x, y), np.abs(z), position.astype(np.float64)
@@ -179,7 +179,7 @@ def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
         height = np.where(inside, moved, np.minimum((lowest + highest) / 2, 2 * height + level))
     there = _placed(rows, alpha * cone, share * gamma)
     here = _placed(rows, r - side * b * (b / v), level + side * slope * (d * d / v))
-    return Gaps(gap, v / n, there, here)
+    return PointGaps(gap, v / n, there, here)
 
 
 def leaning_touches(rows: Rows, at: Floats | None = None) -> Touches:
@@ -274,7 +274,7 @@ def _factor(rows: Rows, unit: Floats, point: Floats) -> Floats:
     return np.asarray(np.sqrt((across * across).sum(axis=1) / rows[:, 2] ** 2 + (along / rows[:, 3]) ** 2))
 
 
-def leaning_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
+def leaning_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
     """Hints for valid rows (n, 10) that are clear, from the places where they first touch, (n, 3).
 
     A spheroid that contains all points within some length of the given one, and no more of them in the direction of the
@@ -293,4 +293,4 @@ def leaning_gaps(rows: Rows, position: Positions, touch: Floats) -> Gaps:
         if turn < GAP_TURNS - 1:
             grown[:, 2], grown[:, 3] = np.sqrt((v + gap) * (b * b / v + gap)), np.sqrt((v + gap) * (d * d / v + gap))
             touch = leaning_touches(grown).point  # its error is made in vain, for short arrays
-    return Gaps(gap, v, touch, here)
+    return PointGaps(gap, v, touch, here)

@@ -13,7 +13,7 @@ from mpmath import MPContext, MPIntervalContext, mpf
 from mpmath.ctx_iv import ivmpf
 
 from hypcheck.truth.box_form import Form, Goal, squares
-from hypcheck.truth.box_proofs import Kind, Place, stays_clear, stays_off
+from hypcheck.truth.box_proofs import BoxKind, Place, stays_clear, stays_off
 from hypcheck.truth.nearest import multiplier
 from hypcheck.truth.vectors import cross, dot
 
@@ -23,7 +23,7 @@ Intervals = list[ivmpf]
 iv, plain = MPIntervalContext(), MPContext()
 iv.prec = plain.prec = 256
 
-KIND = Kind(
+KIND = BoxKind(
     between=lambda low, high: iv.mpf([low, high]),
     root=iv.sqrt,
     low=lambda enclosure: plain.mpf(enclosure.a),

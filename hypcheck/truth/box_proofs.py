@@ -23,7 +23,7 @@ from hypcheck.truth.vectors import dot
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class BoxKind:
     """How enclosures of a kind are made and read.
 
     `between` makes one of its ends, `root` is its square root; `low`, `high` and `size`, the largest absolute value,
@@ -49,7 +49,7 @@ class Kind:
 class Place:
     """A box: the form of its sizes, its middle and the whole of it, both centre and axis; `radii` reach to its ends."""
 
-    kind: Kind
+    kind: BoxKind
     form: Form
     middle: tuple[Vector, Vector]
     whole: tuple[Vector, Vector]

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.box_form import Form, Goal
-from hypcheck.truth.box_proofs import Kind, Place, stays_clear, stays_off
+from hypcheck.truth.box_proofs import BoxKind, Place, stays_clear, stays_off
 from hypcheck.truth.vectors import dot
 
 LEAST = -46
@@ -105,7 +105,7 @@ def _up(values: Floats) -> Floats:
 Vectors = list[Any]
 """Three numbers of n rows each, floats or enclosures."""
 
-KIND = Kind(
+KIND = BoxKind(
     between=Enclosures,
     root=Enclosures.root,
     low=lambda enclosure: enclosure.low,

@@ -42,7 +42,7 @@ _WIDTH = 2.0**-40
 
 
 @dataclass(frozen=True, slots=True)
-class Least:
+class LeastValue:
     """The least n: `lower` ≤ n ≤ `upper`, and a point (3,) near which it is; (0, inf) where bounds tell nothing."""
 
     lower: float
@@ -55,7 +55,7 @@ class Least:
         return True if self.upper < 1 else False if self.lower > 1 else None
 
 
-NOTHING = Least(0.0, math.inf, (math.nan, math.nan, math.nan))
+NOTHING = LeastValue(0.0, math.inf, (math.nan, math.nan, math.nan))
 
 
 def position(pair: Pair) -> Position | None:
@@ -79,7 +79,7 @@ def _sign_of_center(pair: Pair) -> int | None:
     return 1 if outward > along else -1
 
 
-def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) -> Least:
+def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) -> LeastValue:
     """The least n on the wall and, of a solid, on the discs, to `width` of n²; or until its side of 1 is known."""
     lengths = [abs(number) for number in (*pair.row[:7], pair.z_min, pair.z_max) if number and math.isfinite(number)]
     if not (min(lengths) > _RANGE[0] and max(lengths) < _RANGE[1]):
@@ -88,9 +88,9 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
     for end in (pair.z_min, pair.z_max) if pair.solid else ():
         disc = _to_disc(pair, end)
         if disc is None:
-            return Least(0.0, nearest.upper, nearest.point)
+            return LeastValue(0.0, nearest.upper, nearest.point)
         nearer = disc if disc.upper < nearest.upper else nearest
-        nearest = Least(min(nearest.lower, disc.lower), nearer.upper, nearer.point)
+        nearest = LeastValue(min(nearest.lower, disc.lower), nearer.upper, nearer.point)
     return nearest
 
 
@@ -100,10 +100,10 @@ def _unit(pair: Pair, number: type[np.floating[Any]] = np.float64) -> Floats:
     return np.asarray(v / np.sqrt(v @ v))
 
 
-def _to_disc(pair: Pair, end: float) -> Least | None:
+def _to_disc(pair: Pair, end: float) -> LeastValue | None:
     """The least n in an end disc, infinite where it is at the rim; None where bounds do not tell which."""
     if not math.isfinite(end):
-        return Least(math.inf, math.inf, NOTHING.point)
+        return LeastValue(math.inf, math.inf, NOTHING.point)
     v = _unit(pair, _FINE)
     alpha, gamma, b, d, x, y, z = map(_FINE, pair.row[:7])
     b2, d2, height = b * b, d * d, _FINE(end)
@@ -115,20 +115,20 @@ def _to_disc(pair: Pair, end: float) -> Least | None:
     size = abs(rise) + abs(height) + abs(z)
     loose = _FINE_SLACK * (radius + abs(x) + abs(y) + size * max(b2, d2) / half)
     if off > loose:
-        return Least(math.inf, math.inf, NOTHING.point)
+        return LeastValue(math.inf, math.inf, NOTHING.point)
     least, error = abs(rise) / np.sqrt(half), _FINE_SLACK * size / np.sqrt(half)
     if off > -loose:
         return None
     return _least(least - error, least + error, (*across, height))
 
 
-def _least(lower: np.floating[Any], upper: np.floating[Any], point: Iterable[np.floating[Any]]) -> Least:
+def _least(lower: np.floating[Any], upper: np.floating[Any], point: Iterable[np.floating[Any]]) -> LeastValue:
     """Bounds of any width in float64, rounded outwards."""
     first, second, third = map(float, point)
-    return Least(math.nextafter(float(lower), 0), math.nextafter(float(upper), math.inf), (first, second, third))
+    return LeastValue(math.nextafter(float(lower), 0), math.nextafter(float(upper), math.inf), (first, second, third))
 
 
-def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> Least:
+def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> LeastValue:
     """Branch and bound over the wall, in long double from where the roundings of float64 matter."""
     cells = _first_cells(pair)
     slack = _SLACK

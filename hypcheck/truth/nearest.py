@@ -53,7 +53,7 @@ STAGES = ("double-double", "precise", "exact")
 
 
 @dataclass(frozen=True, slots=True)
-class Nearest:
+class NearestPoint:
     """How near the hyperboloid is to the spheroid's centre, in the metric in which the spheroid is a unit ball.
 
     `clearance` is the factor by which the spheroid, grown about its centre, first touches the hyperboloid, less 1:
@@ -97,7 +97,7 @@ class Enclosure:
         return low or (math.ulp(0.0) if self.low > 0 else -math.ulp(0.0))
 
 
-def nearest(pair: Pair) -> Nearest:
+def nearest(pair: Pair) -> NearestPoint:
     """The position and the clearance of any valid pair."""
     return _in_closed_form(pair.lengths) or _enclosed(Dual.of(pair.lengths))
 
@@ -116,7 +116,7 @@ def multiplier(row: Sequence[float | Fraction]) -> Fraction:
     return _fraction(L, shift) * dual.unit
 
 
-def _in_closed_form(lengths: Lengths) -> Nearest | None:
+def _in_closed_form(lengths: Lengths) -> NearestPoint | None:
     """The hard cases of an upright pair, where D is largest at an end: a centre on the axis, or in the waist plane."""
     if not lengths.is_upright or (lengths.z and (lengths.x or lengths.y)):
         return None
@@ -128,14 +128,14 @@ def _in_closed_form(lengths: Lengths) -> Nearest | None:
         clearance, side, at = _clearance_of_square(s * (R * t - W), t * W), 1, Fraction(s, t)
     else:
         return None
-    return Nearest(_position(clearance, side), clearance, at, NearestStage.EXACT)
+    return NearestPoint(_position(clearance, side), clearance, at, NearestStage.EXACT)
 
 
-def _enclosed(dual: Dual) -> Nearest:
+def _enclosed(dual: Dual) -> NearestPoint:
     """The clearance in a precision that doubles until it suffices."""
     side = dual.direction(0, 0)
     if not side:  # the centre is on the hyperboloid
-        return Nearest(Position.CONTACT, -1.0, Fraction(0), NearestStage.EXACT)
+        return NearestPoint(Position.CONTACT, -1.0, Fraction(0), NearestStage.EXACT)
     bits = _FIRST_BITS
     L, shift, at_end = _start(dual, side, bits)
     while True:
@@ -146,12 +146,12 @@ def _enclosed(dual: Dual) -> Nearest:
         if enclosure.low <= 0 <= enclosure.high:
             touch = at.limit_denominator(1 << max(8, (shift - _exponent(dual.unit)) // 2 - 16))
             if dual.touches(touch / dual.unit):
-                return Nearest(Position.CONTACT, 0.0, touch, NearestStage.EXACT)
+                return NearestPoint(Position.CONTACT, 0.0, touch, NearestStage.EXACT)
         if at_end or doubt << _HINT_BITS <= _room(dual, L, shift):
             clearance = enclosure.rounded
             if clearance is not None:
                 # Above 0 it means D > 1: by weak duality the sign of that λ is the side.
-                return Nearest(_position(clearance, side), clearance, at, NearestStage.PRECISE)
+                return NearestPoint(_position(clearance, side), clearance, at, NearestStage.PRECISE)
         L, shift, bits = L << bits, shift + bits, 2 * bits
 
 

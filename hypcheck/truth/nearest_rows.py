@@ -22,7 +22,7 @@ _CHUNK = 4096
 
 @dataclass(frozen=True, slots=True)
 class NearestBatch:
-    """For n rows: clearances as in nearest.Nearest (n,), positions (n,), and the NearestStage of each, uint8 (n,)."""
+    """For n rows: clearances as in NearestPoint (n,), positions (n,), and the NearestStage of each, uint8 (n,)."""
 
     clearance: Floats
     position: Positions

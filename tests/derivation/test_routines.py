@@ -8,7 +8,7 @@ import pytest
 
 from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.program import Step, steps_of
-from hypcheck.derivation.routines import Answer, Call, Half, Loop, Routine, Stored, called, needed_parts, run
+from hypcheck.derivation.routines import Call, Half, Loop, Return, Routine, Stored, called, needed_parts, run
 
 TWICE = Routine("twice", "Twice a number.", ("x",), steps_of("y = x + x"), "y")
 IS_ABOVE = Routine("is_above", "Whether it is above 9.", ("x",), steps_of("above = x > 9"), "above")
@@ -24,7 +24,7 @@ FIBONACCI = Routine(
         ),
         Call("above", IS_ABOVE, ("one",)),
     ),
-    Answer((("above", 0),), 1),
+    Return((("above", 0),), 1),
 )
 
 SWAPPED = Routine(
@@ -48,7 +48,7 @@ def looping(times=2, kept=(("k", "x", "y"),), body="y = k + 1", result="k"):
         (lambda: Routine("r", "", ("x", "x"), (), "x"), "x is defined twice"),
         (lambda: Routine("r", "", ("x-1",), (), "x"), "'x-1' is not a name"),
         (lambda: Routine("r", "", ("x",), (), "y"), "there is no y"),
-        (lambda: Routine("r", "", ("x",), (), Answer((("x", 1),), 0)), "x is no condition"),
+        (lambda: Routine("r", "", ("x",), (), Return((("x", 1),), 0)), "x is no condition"),
         (lambda: Routine("r", "", ("x",), (Step("y", "add", ("x",)),), "y"), "y: add takes 2 arguments, not 1"),
         (lambda: Routine("r", "", ("x",), (Call("y", TWICE, ("x", "x")),), "y"), "y: twice takes 1 arguments, not 2"),
         (lambda: Routine("r", "", ("x",), (Call("y", TWICE, ("z",)),), "y"), "z is no number"),

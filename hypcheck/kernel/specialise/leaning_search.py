@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hypcheck.derivation.program import Program, steps_of
-from hypcheck.derivation.routines import Answer, Call, Half, Loop, Part, Routine, Stored, renamed
+from hypcheck.derivation.routines import Call, Half, Loop, Part, Return, Routine, Stored, renamed
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel.specialise import last_stages, leaning
 from hypcheck.kernel.specialise.double_double import WHOLE, in_double_double
@@ -41,7 +41,7 @@ PROVED = Routine(
     "+1 exterior, 0 contact, -1 interior, or CANNOT_SAY: what the dual function at lambda_ proves.",
     ("x", "y", "z", *BOUNDS, *_COMPONENTS, *_POLES, "lambda_", *_PLACES, "phi", "inside"),
     (*leaning.DECISION.steps, *steps_of("is_inside = inside > 0\n clear_inside = clear and is_inside")),
-    Answer((("clear_inside", -1), ("clear", 1), ("contact", 0)), CANNOT_SAY),
+    Return((("clear_inside", -1), ("clear", 1), ("contact", 0)), CANNOT_SAY),
     constants=leaning.DECISION_CONSTANTS,
 )
 

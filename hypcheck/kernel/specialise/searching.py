@@ -7,7 +7,7 @@ in itself.
 from __future__ import annotations
 
 from hypcheck.derivation.program import Program, steps_of
-from hypcheck.derivation.routines import Answer, Call, Loop, Part, Routine, renamed
+from hypcheck.derivation.routines import Call, Loop, Part, Return, Routine, renamed
 from hypcheck.kernel.specialise.last_stages import (
     ARITHMETIC,
     GEOMETRIC,
@@ -97,6 +97,6 @@ def search_of(steps: int) -> Routine:
         "+1 exterior, 0 contact, -1 interior: the sign of the dual function at its maximum, found by halving.",
         ("R", "zz", "height"),
         parts,
-        Answer((("clear_inside", -1), ("clear", 1)), 0),
+        Return((("clear_inside", -1), ("clear", 1)), 0),
         SETTING,
     )
