@@ -138,6 +138,24 @@ def test_position_nearest_and_passage_never_contradict_each_other_or_the_exact_p
         assert (moved[np.roll(touching, 1)] == 1).all()
 
 
+@pytest.mark.parametrize("semi_axes", [(0.5, 0.25), (0.25, 0.5), (0.5, 0.5)])
+def test_a_tilted_mover_above_or_below_a_flat_end_is_as_far_as_its_lowest_or_highest_point(semi_axes):
+    """With Σ = b² + (d² − b²) v vᵀ that point is Σ e_z / √(e_zᵀ Σ e_z) from the centre."""
+    b, d = semi_axes
+    axis = np.array([3.0, 0.0, 4.0]) / 5
+    pole = b * b * np.array([0, 0, 1]) + (d * d - b * b) * axis[2] * axis
+    pole /= np.sqrt(pole[2])
+    tower = Hyperboloid("tower", 9.0, 40.0, (0.0, 0.0, 0.0), Span(-2.0, 3.0), solid=True)
+    for solid, sign, end in ((True, 1, 3.0), (True, -1, -2.0), (False, 1, 3.0)):
+        asked = scene(replace(tower, solid=solid), mover=Mover(b, d, axis=tuple(axis)))
+        near = asked.nearest([0.5], [0.25], [end + sign * 2.0])
+        if not solid:
+            assert near.distance_lower[0] > 7
+            continue
+        assert near.distance_lower[0] <= 2 - pole[2] <= near.distance_upper[0] < 2 - pole[2] + 1e-9
+        assert near.point[0] == pytest.approx((0.5 - sign * pole[0], 0.25, end), abs=1e-9)
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_nearest_distance_is_the_least_over_points_of_what_stands(seed):
     """Balls, so that the distance to a point is known: that of the centre, less the radius."""
