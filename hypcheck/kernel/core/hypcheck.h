@@ -1663,7 +1663,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_1db7f8c0b0831662
+#ifndef HC_EDITION_391c23d784a2e622
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -3900,7 +3900,7 @@ static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, do
 /* A rectangle by numbers of two doubles, about a height, a time and a lambda: 1 where it is surely clear, 0 where there is
    contact at *contact, 2 where neither is known, 3 where smaller rectangles may tell. */
 static int hc_finely_missed(hc_ended_way *made, double lambda_, double w, double time, const hc_rectangle *in, double *contact) {
-    const double x = in->high - in->low, y = in->last - in->first;
+    const double x = in->high - in->low;
     hc_sections *const pair = &made->between;
     double center[3], a, c, r, xi, value, error, pulls[2];
     hc_form form;
@@ -4335,7 +4335,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_1db7f8c0b0831662
+#define HC_EDITION_391c23d784a2e622
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

@@ -259,7 +259,7 @@ static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, do
 /* A rectangle by numbers of two doubles, about a height, a time and a lambda: 1 where it is surely clear, 0 where there is
    contact at *contact, 2 where neither is known, 3 where smaller rectangles may tell. */
 static int hc_finely_missed(hc_ended_way *made, double lambda_, double w, double time, const hc_rectangle *in, double *contact) {
-    const double x = in->high - in->low, y = in->last - in->first;
+    const double x = in->high - in->low;
     hc_sections *const pair = &made->between;
     double center[3], a, c, r, xi, value, error, pulls[2];
     hc_form form;
