@@ -105,6 +105,7 @@ def test_a_browser_loads_the_package_as_a_module(installed):
         assert [line for line in window.said if "favicon" not in line] == []
 
 
+@pytest.mark.thorough
 def test_the_package_is_held_by_the_gate_about_upright_and_tilted_rows(installed):
     quietly(sys.executable, "-m", "hypcheck", "init", "--language", "javascript", "--name", "package", cwd=installed)
     (installed / "hypcheck-javascript" / "predicate.mjs").write_text(PREDICATE, encoding="utf-8")

@@ -61,6 +61,7 @@ def test_cargo_packages_the_crate_and_its_pages_are_made_without_a_warning(crate
     assert "warning" not in done.stderr
 
 
+@pytest.mark.thorough
 def test_the_crate_is_held_by_the_gate_about_upright_and_tilted_rows(crate, tmp_path):
     quietly(sys.executable, "-m", "hypcheck", "init", "--language", "rust", "--name", "crate", cwd=tmp_path)
     adapter = tmp_path / "hypcheck-rust"

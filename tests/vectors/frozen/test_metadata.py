@@ -79,7 +79,7 @@ def test_messages_quote_the_beginning_of_a_long_value(tmp_path, capsys):
 
 
 def test_every_family_and_file_has_a_description_and_every_description_is_used():
-    traps = (*fixed_sizes.TRAPS, *fixed_sizes.LEANING_TRAPS)
+    traps = (*fixed_sizes.TRAPS, *fixed_sizes.TILTED_TRAPS)
     assert sorted(family.descriptions()) == sorted([*frozen.ALL_NAMES, *traps, "found"])
     for name in family.descriptions():
         assert all(vars(family.described(name, "a command", extreme=True)).values())
