@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -191,7 +192,7 @@ class Scene(PreparedScene):
         """
         hit = self._hit_at_once(start, end, heading) if axis is None else None
         if hit is not None:
-            return Passages(hit, self._measure_of(start, end, heading))
+            return Passages(hit, partial(self._first_on, start, end, heading))
         swept = self._swept(start, end, heading, axis)
         result = np.zeros(len(swept.starts), np.bool_)
         result[swept.query[swept.hits]] = True
@@ -279,19 +280,15 @@ class Scene(PreparedScene):
         here, there = point_at_once(start), point_at_once(end)
         if here is None or there is None or self._leaning or not (isinstance(heading, float) and isfinite(heading)):
             return None
-        region, mover = self.model.region.z, self.model.mover
-        if region is not None and not (region.low <= min(here[2], there[2]) and max(here[2], there[2]) <= region.high):
-            return None  # of which the grid promises nothing
+        if not self._grid_holds(here[2], there[2]):
+            return None
+        mover = self.model.mover
         hit = hit_at_once(self._grid, self._near_motion, mover, here, there)
         return None if hit and mover.parts else hit
 
-    def _measure_of(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike) -> Callable[[int], First]:
-        """The same as _measure of a way that is prepared when it is asked."""
-
-        def measure(way: int) -> First:
-            return self._measure(self._swept(start, end, heading, None))(way)
-
-        return measure
+    def _first_on(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, way: int) -> First:
+        """The first contact of one way that has one, which is prepared now."""
+        return self._measure(self._swept(start, end, heading, None))(way)
 
     def _measure(self, swept: Swept, *, parts: bool = True) -> Callable[[int], First]:
         """What finds the first contact of a way that has one: of the parts, or of the mover itself."""
@@ -302,7 +299,9 @@ class Scene(PreparedScene):
             touched = swept.body[here][hits[here]].tolist()
             mover, others = self._sweeps(swept, way)
             sweeps = (mover, others if parts else [])
-            earliest = enters(self._bodies, self._reaches, swept.starts[way], swept.ends[way], touched)
+            start, end = swept.starts[way], swept.ends[way]
+            far = self._reaches[touched] if self._grid_holds(start[2], end[2]) else np.full(len(touched), np.inf)
+            earliest = enters(self._bodies.origins[touched], far, start, end)
             found: list[First] = []
             for time, index in sorted(zip(earliest, touched, strict=True)):
                 if not found or time <= min(found)[0][1]:  # what comes later is not the first

@@ -43,11 +43,9 @@ def point_at_once(given: object) -> Place | None:
     values = given.tolist() if type(given) is np.ndarray and given.shape == (3,) else given
     if not isinstance(values, (list, tuple)) or len(values) != 3:
         return None
-    x, y, z = values
-    if not (type(x) is type(y) is type(z) is float):
-        if not all(type(value) in (int, float) for value in values):
-            return None
-        x, y, z = (float(value) if abs(value) < GREATEST else inf for value in values)
+    if not all(isinstance(value, float) or type(value) is int for value in values):
+        return None
+    x, y, z = (float(value) if abs(value) < GREATEST else inf for value in values)
     return (x, y, z) if isfinite(x) and isfinite(y) and isfinite(z) else None
 
 

@@ -199,6 +199,11 @@ class PreparedScene:
             found = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
         return found
 
+    def _grid_holds(self, *heights: float) -> bool:
+        """Whether what the grid and the reaches promise holds at these heights of the scene: they are in its region."""
+        region = self.model.region.z
+        return region is None or all(region.low <= height <= region.high for height in heights)
+
     def _near_motion(self, index: int) -> Near:
         """The same for motions."""
         found = self._asked_of_motions.get(index)

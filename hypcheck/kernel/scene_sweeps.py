@@ -156,21 +156,20 @@ def _between(
     return (*bodies.shapes[index].tolist(), b, d), start, end, sweep.axis, bodies.axes[index].tolist()
 
 
-def enters(bodies: Bodies, reaches: Floats, start: Floats, end: Floats, body: Sequence[int]) -> list[float]:
-    """Times before which a mover, on its way in the scene, is farther from the axes of hyperboloids than these reach.
+def enters(origins: Rows, reaches: Floats, start: Floats, end: Floats) -> list[float]:
+    """Times before which a mover, on its way in the scene, is farther from axes at (k, 3) than these reach, (k,).
 
     PAD of all coordinates is more than the rounding of a place, of the least distance from an axis and of the chord
-    (scene_index.py); where a number is not finite the time is 0.
+    (scene_index.py); where a number is not finite, or a reach is infinite, the time is 0.
     """
-    chosen = np.asarray(body, np.intp)
-    origins, far = bodies.origins[chosen, :2], reaches[chosen]
+    origins = origins[:, :2]
     with np.errstate(all="ignore"):
         place, way = origins - start[:2], end[:2] - start[:2]
         pad = PAD * (np.abs(start[:2]) + np.abs(end[:2]) + np.abs(origins)).sum(axis=1)
         square = (way * way).sum()
         time = (place * way).sum(axis=1) / square
         off = place - time[:, None] * way
-        most = far * OUTWARD + 2 * pad
+        most = reaches * OUTWARD + 2 * pad
         chord = np.sqrt(np.maximum(most * most - (off * off).sum(axis=1), 0)) * OUTWARD + pad
         first = time - chord / np.sqrt(square)
     ordinary = np.isfinite(first) & (LEAST < square) & (square < GREATEST)

@@ -80,10 +80,13 @@ def test_scene_passage_answers_as_the_exact_decision_about_every_hyperboloid(sce
     assert found.tolist() == expected(scene, starts, ends)
     alone = [Scene(scene).passage(*way) for way in zip(starts, ends, strict=True)]
     assert [way.hit for way in alone] == found.hit.tolist()
-    some = [place for place, way in enumerate(alone) if way.hit][:3]  # a time takes milliseconds
-    assert [alone[place].first for place in some] == [
-        Scene(scene).passage(starts[[place]], ends[[place]]).first[0] for place in some
-    ]
+    for place in [place for place, way in enumerate(alone) if way.hit][:4]:  # a time takes milliseconds
+        way = starts[place].tolist(), ends[place].tolist()
+        firsts = [passage_beside(tree, (scene.mover.b, scene.mover.d), *way).first for tree in scene.hyperboloids]
+        first, index = min((first, index) for index, first in enumerate(firsts) if first is not None)
+        assert (alone[place].first, alone[place].index) == (first, index)
+        many = Scene(scene).passage(starts[[place]], ends[[place]])
+        assert (many.first, many.index.tolist()) == ([first], [index])
     assert found.hit.dtype == np.bool_
     assert np.asarray(found).tolist() == found.tolist()
     assert len({*found.tolist()}) > 1
@@ -106,6 +109,18 @@ def test_scene_passage_of_a_leaning_mover_is_exact_with_its_fixed_axis():
     scene = forest(5, 8, mover=Mover(0.3, 0.9, axis=axis))
     starts, ends = ways(16, 9)
     assert Scene(scene).passage(starts, ends).tolist() == expected(scene, starts, ends, axis)
+
+
+def test_scene_passage_finds_the_first_contact_above_the_region_where_a_tree_reaches_farther():
+    """At the height 9 the second tree is 4.5 wide, and within the region, up to 1, it is 0.7 wide at most."""
+    trees = (Hyperboloid("thin", 0.2, 50.0, (6.0, 0.0, 0.0)), Hyperboloid("wide", 0.5, 1.0, (7.0, 4.0, 0.0)))
+    scene = SceneModel("two", "position", trees, Mover(0.1, 0.1), Region(z=Span(-1.0, 1.0)))
+    way = (0.0, 0.0, 9.0), (10.0, 0.0, 9.0)
+    thin, wide = (passage_beside(tree, (0.1, 0.1), *way) for tree in trees)
+    assert wide.first_upper < thin.first_lower
+    for found in (Scene(scene).passage(*way), Scene(scene).first_contact(way)):
+        assert found.index == 1
+    assert Scene(scene).passage(*way).first == wide.first
 
 
 TREE = Hyperboloid("tree", 2.0, 3.0)
