@@ -120,17 +120,11 @@ def _with_margin(pair: Pair, decision: Decision, margin: float) -> Position:
 
 def proved(pair: Pair, decision: Decision) -> Certificate:
     """The checked proof of an exact decision. Raises DisagreementError if it does not hold."""
-    certificate = _prove_beside_ends(pair, decision) if pair.has_ends else prove(pair, decision)
+    certificate = prove(pair, decision)
     unproved = not check_certificate(pair, certificate) and not is_rule(certificate)
     if certificate.position is not decision.position or unproved:
         raise _unproved(pair)
     return certificate
-
-
-def _prove_beside_ends(pair: Pair, decision: Decision) -> Certificate:
-    from hypcheck.truth import ended_prove  # noqa: PLC0415 - it loads numpy, which other answers do without
-
-    return ended_prove.prove(pair, decision)
 
 
 def is_rule(certificate: Certificate) -> bool:

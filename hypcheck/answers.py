@@ -36,7 +36,7 @@ def answers(rows: Rows) -> TableAnswers:
 
     Raises InputError about the first invalid row, DisagreementError if two oracles disagree about a row.
     """
-    if PAIRS.end(rows):
+    if PAIRS.has_heights(rows):
         return _answers_between_ends(rows)
     measured = nearest_rows.clearances(rows)
     positions, tangent = _decided(rows, measured.stage == NearestStage.DOUBLE_DOUBLE)

@@ -74,13 +74,17 @@ class Layout:
         """The names of the columns of a row with that many numbers."""
         return self.ended[:width]
 
-    def has_axis(self, rows: Rows) -> bool:
-        """Whether the rows have the columns of an axis."""
-        return bool(rows.shape[1] > len(self.upright))
+    def has_axis(self, rows: Rows | Sequence[float]) -> bool:
+        """Whether the rows, or one row, have the columns of an axis."""
+        return _width_of(rows) > len(self.upright)
 
-    def end(self, rows: Rows) -> bool:
-        """Whether the rows have the columns of heights."""
-        return bool(rows.shape[1] > len(self.tilted))
+    def has_heights(self, rows: Rows | Sequence[float]) -> bool:
+        """Whether the rows, or one row, have the columns of heights."""
+        return _width_of(rows) > len(self.tilted)
+
+
+def _width_of(rows: Rows | Sequence[float]) -> int:
+    return rows.shape[-1] if isinstance(rows, np.ndarray) else len(rows)
 
 
 PAIRS = Layout(COLUMNS)
@@ -214,7 +218,7 @@ def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
     valid = np.isfinite(rows[:, : len(layout.tilted)]).all(axis=1) & (others[:, : len(SIZES)] > 0).all(axis=1)
     if layout.has_axis(rows):
         valid &= (axis != 0).any(axis=1)
-    if layout.end(rows):
+    if layout.has_heights(rows):
         low, high, solid = heights.T
         valid &= (low < high) & ((solid == 0) | (solid == 1))
     return np.asarray(~valid)
@@ -237,14 +241,14 @@ def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
 
 def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
     """The same queries with an axis and heights: rows without them get those that mean upright and without ends."""
-    if layout.end(rows):
+    if layout.has_heights(rows):
         return rows
     return np.hstack([with_axis(rows, layout), np.broadcast_to(WITHOUT_ENDS, (len(rows), len(HEIGHTS)))])
 
 
 def as_wide(parts: Sequence[Rows], layout: Layout = PAIRS) -> list[Rows]:
     """The same queries with an axis, and heights, each where one of the parts has them."""
-    if any(layout.end(part) for part in parts):
+    if any(layout.has_heights(part) for part in parts):
         return [with_heights(part, layout) for part in parts]
     return [with_axis(part, layout) for part in parts] if any(layout.has_axis(part) for part in parts) else list(parts)
 

@@ -193,7 +193,7 @@ class Implementation:
         """The rows as it is asked them; raises InputError where they are none, or have what it does not take."""
         tilt, layout = self.description.tilt, self.description.asked.layout
         rows = as_rows(rows, tilted=tilt, heights=self.description.heights, layout=layout)
-        if not tilt and layout.end(rows) and (parts_of(rows, layout)[1] != UPRIGHT).any():
+        if not tilt and layout.has_heights(rows) and (parts_of(rows, layout)[1] != UPRIGHT).any():
             raise InputError(f"{self.spec} takes no axis, and not all of the rows are upright")
         return with_axis(rows, layout) if tilt else rows
 

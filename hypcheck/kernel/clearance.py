@@ -54,7 +54,7 @@ def clearance(
 
 def clearances(queries: Rows, threads: int | None = None) -> Clearance:
     """The same of rows of any width; invalid ones have the position 127 and NaN everywhere."""
-    if not PAIRS.end(queries):
+    if not PAIRS.has_heights(queries):
         return clearances_without_ends(queries, threads)
     from hypcheck.kernel.clearance_ends import ended_clearances  # noqa: PLC0415 - rows with heights alone need it
 

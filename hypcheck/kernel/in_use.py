@@ -68,7 +68,7 @@ def _kernel_named(name: str) -> Kernel:
 
 def positions_of_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
     """Answers for C-contiguous rows of any width, 127 for invalid ones, and how many these are."""
-    if not PAIRS.end(rows):
+    if not PAIRS.has_heights(rows):
         return kernel().answer_rows(rows, question, threads)
     positions = kernel().answer_ended(rows, threads)
     left = np.flatnonzero(positions == CANNOT_SAY)

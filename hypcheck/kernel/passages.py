@@ -160,7 +160,7 @@ def _hits(rows: Rows) -> Mask:
     width = len(WAYS.tilted)
     whole = np.ascontiguousarray(rows[:, :width])
     said = kernel().answer_ways(whole)[0]
-    if WAYS.end(rows):
+    if WAYS.has_heights(rows):
         ended = np.isfinite(rows[:, width : width + 2]).any(axis=1)
         sure = ~ended | ((said == 0) & (rows[:, width + 2] == 0))
         said = np.where(sure, said, CANNOT_SAY)

@@ -20,7 +20,7 @@ from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judges import truth_of
 from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors import frozen as vectors
-from hypcheck.vectors.cases import TiltedVector
+from hypcheck.vectors.cases import Vector
 from hypcheck.vectors.families import FAMILIES, case_id, family_of
 from hypcheck.vectors.family import BLOCK, Family
 
@@ -50,7 +50,7 @@ def frozen_vectors(name: str) -> FrozenVectors:
         vectors_of_family = vectors.load(name)
         exponents = np.full(len(vectors_of_family.rows), math.nan)
         if name in vectors.NAMES:
-            exponents = np.array([_exponent(vector.position, vector.flips) for vector in vectors_of_family.cases])
+            exponents = np.array([_exponent(vector) for vector in vectors_of_family.cases])
         elif name in vectors.TILTED_NAMES:
             exponents = np.array([_tilted_exponent(vector) for vector in vectors_of_family.cases])
         _LOADED[name] = FrozenVectors(
@@ -69,7 +69,7 @@ def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
     _LOADED.update(some)
 
 
-def _tilted_exponent(vector: TiltedVector) -> float:
+def _tilted_exponent(vector: Vector) -> float:
     """That of the lower end, which is proved; of the upper one where the lower is 0; −inf for a tangency."""
     clear = vector.position is not Position.CONTACT
     ends = [vector.flips[Position.CONTACT]] if clear else list(vector.flips.values())
@@ -79,9 +79,10 @@ def _tilted_exponent(vector: TiltedVector) -> float:
     return math.frexp(least)[1] - 1 if math.isfinite(least) else least
 
 
-def _exponent(position: Position, flips: Mapping[Position, float]) -> float:
+def _exponent(vector: Vector) -> float:
     """The exponent k of distances that are rounded up: above 2^k, and at most 2^(k+1). NaN below _SMALLEST."""
-    nearest = min(flips.values()) if position is Position.CONTACT else flips[Position.CONTACT]
+    clear = vector.position is not Position.CONTACT
+    nearest = vector.flips[Position.CONTACT].upper if clear else min(flip.upper for flip in vector.flips.values())
     if nearest == 0:
         return -math.inf
     if nearest < _SMALLEST:

@@ -274,7 +274,7 @@ def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
 
 def _start(run: Minimised, row: Row) -> HuntFinding:
     rows, layout = np.array([row]), run.target.layout
-    if layout.has_axis(rows) and not layout.end(rows) and not run.target.implementation.description.tilt:
+    if layout.has_axis(rows) and not layout.has_heights(rows) and not run.target.implementation.description.tilt:
         raise InputError('the row has an axis, and the implementation does not declare "tilt": true')
     if not len(run.target.claimed(rows)):
         raise InputError("the implementation does not claim to answer this row; --regimes any asks it anyway")

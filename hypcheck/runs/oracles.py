@@ -23,13 +23,13 @@ from hypcheck.geometry.rows import Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import Batch, SelfCheckPlan
-from hypcheck.truth import ended_prove, exact, heights, least, mesh, mesh_oracle, nearest_rows, roots, tilted_roots
+from hypcheck.truth import exact, heights, least, mesh, mesh_oracle, nearest_rows, roots, tilted_roots
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import STAGES
 from hypcheck.truth.prove import prove
 from hypcheck.vectors import frozen
-from hypcheck.vectors.cases import EndedVector, TiltedVector
+from hypcheck.vectors.cases import Vector
 from hypcheck.vectors.families import ENDED_FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.family import Family
 
@@ -67,12 +67,9 @@ def _exact(row: list[float]) -> Opinion:
     """The exact decision with a checked certificate; a decision without a valid proof counts as undecided."""
     pair = Pair.from_row(row)
     decision = exact.decide(pair.lengths)
-    if pair.has_ends:
-        found = ended_prove.prove(pair, decision)
-        if found == Certificate(Position.CONTACT):
-            return Opinion(decision.position, decision.tangent, stage="by the exact rule")
-    else:
-        found = prove(pair, decision)
+    found = prove(pair, decision)
+    if found == Certificate(Position.CONTACT):
+        return Opinion(decision.position, decision.tangent, stage="by the exact rule")
     proved = found.position is decision.position and check_certificate(pair, found)
     return Opinion(decision.position, decision.tangent, _name_of_kind(decision), "proved") if proved else _REFUSED
 
@@ -154,7 +151,7 @@ def frozen_batch(family: Family, count: int) -> Batch:
     return Batch(family, tuple(case.id for case in cases), np.asarray([case.row for case in cases]), decisions)
 
 
-def _limit_of(case: TiltedVector | EndedVector) -> Position | None:
+def _limit_of(case: Vector) -> Position | None:
     """The clear position that a tangency touches from: by the sign of its double root, or as the exact rule says."""
     root = case.witness.double_root
     if root is None:

@@ -3,7 +3,8 @@
 A witness always exists (docs/mathematics.md, "A certificate for every answer"), and every search below doubles its
 precision until the claim holds exactly, so each one ends. λ of a clear pair is near the maximum of the cubic g of an
 upright pair, and of φ(λ) of a tilted one, which is concave between −ℓ′ and ℓ (exact.py) and whose maximum is found by
-bisection with exact signs. Points of a crossing are looked for in crossing.py.
+bisection with exact signs. Points of a crossing are looked for in crossing.py. Where the hyperboloid ends,
+ended_prove.py takes this search for the whole one, and cuts the heights into pieces where that is not enough.
 """
 
 from __future__ import annotations
@@ -22,6 +23,10 @@ def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
     """A certificate for the exact answer about a pair (`decision`, where the caller has it already)."""
     lengths = pair.lengths
     decision = decision or exact.decide(lengths)
+    if pair.has_ends:
+        from hypcheck.truth import ended_prove  # noqa: PLC0415 - it loads numpy, which other proofs do without
+
+        return ended_prove.prove(pair, decision)
     if decision.tangent:
         return Certificate(decision.position, double_root=double_root(lengths))
     if decision.position is Position.CONTACT:

@@ -1,19 +1,19 @@
 """Vector files: what the cases with answers hold, and how whole files are read strictly and written.
 
-Cases are about positions, of upright spheroids or of tilted ones, or about ways. What else stands in a file is in
+Cases are about positions, of upright spheroids or of tilted ones, or about sweeps. What else stands in a file is in
 format.py, and rows that must be refused are in invalid_rows.py.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Generic, TypeVar
+from typing import Any, cast
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Position
-from hypcheck.geometry.rows import WAYS
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import PAIRS
 from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
 from hypcheck.truth.backward_error import Bracket
@@ -44,65 +44,45 @@ from hypcheck.vectors.invalid_rows import InvalidRow, invalid_row_text, invalid_
 
 Offset = tuple[Fraction, Fraction, Fraction]
 Bounds = tuple[float, float]
-Flip = TypeVar("Flip", float, Bracket)
 
 
 @dataclass(frozen=True, slots=True)
 class StoredCertificate:
     """A certificate as files hold it: one of a multiplier λ, a double root m, and points.
 
-    Points are offsets (s, t, w) from the spheroid's centre, so that short numbers do. Of an upright spheroid the point
-    is (x + b s, y + b t, z + d w), and belongs to it if s² + t² + w² ≤ 1.
-    Of a tilted one, and where the hyperboloid ends, it is (x, y, z) + b (s, t, w). `pieces` are those of a hyperboloid
-    that ends; without any of these a contact rests on the exact rule in the height.
+    Points are offsets (s, t, w) from the spheroid's centre, so that short numbers do. In rows of seven numbers a
+    point is (x + b s, y + b t, z + d w), and belongs to the spheroid if s² + t² + w² ≤ 1; in all others it is
+    (x, y, z) + b (s, t, w), on a sweep with the centre at the `time` of the proof. `pieces` are those of a hyperboloid
+    that ends; without any of these a contact rests on the exact rule in the height. `steps` are the pieces (λ, end) of
+    a sweep, see truth/passage_certificate.py.
     """
 
     multiplier: Fraction | None = None
     offsets: tuple[Offset, ...] = ()
     double_root: Fraction | None = None
     pieces: tuple[Piece, ...] = ()
+    steps: tuple[tuple[Fraction, Fraction], ...] = ()
+    time: Fraction | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Vector(Generic[Flip]):
-    """A case: a valid row (−0.0 included, as it was given), its labels, and what proves them.
+class Vector:
+    """A case about a position: a valid row (−0.0 included, as it was given), its labels, and what proves them.
 
     `kind` is None of a tilted spheroid. `clearance` is in spheroid radii, to within an ulp, inf beyond float64. `flips`
-    has the distance to each other position: of upright spheroids as truth/backward_error.py measures it, of tilted ones
-    a bracket of it. `flags` are names out of flags.FLAGS or flags.TILTED_FLAGS.
+    has the distance to each other position: of upright spheroids as truth/backward_error.py measures it, both ends of
+    the bracket alike, of tilted ones a bracket of it. Where the hyperboloid ends, all three are missing. `flags` are
+    names out of flags.FLAGS or flags.TILTED_FLAGS.
     """
 
     id: str
     row: Row
     position: Position
     tangent: bool
-    kind: Kind | None
-    clearance: float
-    flips: Mapping[Position, Flip]
     witness: StoredCertificate
-    flags: tuple[str, ...] = ()
-
-    @property
-    def answer(self) -> int:
-        """The position as a number."""
-        return int(self.position)
-
-    @property
-    def certificate(self) -> Certificate:
-        """What proves the position, its points in the caller's coordinates."""
-        points = tuple(point_at(self.row, offset) for offset in self.witness.offsets)
-        return Certificate(self.position, self.witness.multiplier, points, self.witness.double_root)
-
-
-@dataclass(frozen=True, slots=True)
-class EndedVector:
-    """A case: a valid row of thirteen numbers, its position, whether that is a touch, and what proves it."""
-
-    id: str
-    row: Row
-    position: Position
-    tangent: bool
-    witness: StoredCertificate
+    kind: Kind | None = None
+    clearance: float | None = None
+    flips: Mapping[Position, Bracket] = field(default_factory=dict)
     flags: tuple[str, ...] = ()
 
     @property
@@ -118,14 +98,10 @@ class EndedVector:
         return Certificate(self.position, witness.multiplier, points, witness.double_root, witness.pieces)
 
 
-UprightVector = Vector[float]
-TiltedVector = Vector[Bracket]
-
-
 def units_of(row: Row) -> tuple[Fraction, Fraction, Fraction]:
-    """What the three parts of an offset are multiples of: b, b, d of an upright spheroid, else b."""
+    """What the three parts of an offset are multiples of: b, b, d in a row of seven numbers, else b."""
     b, d = Fraction(row[2]), Fraction(row[3])
-    return b, b, d if len(row) == len(COLUMNS) else b
+    return b, b, b if PAIRS.has_axis(row) else d
 
 
 def point_at(row: Row, offset: Offset) -> Offset:
@@ -143,60 +119,43 @@ def offset_to(row: Row, point: Offset) -> Offset:
 
 
 @dataclass(frozen=True, slots=True)
-class StoredPassage:
-    """A proof as files hold it: see truth/passage_certificate.py. Points are (X − C)/b at the time of the proof."""
-
-    pieces: tuple[tuple[Fraction, Fraction], ...] = ()
-    time: Fraction | None = None
-    offsets: tuple[Offset, ...] = ()
-    double_root: Fraction | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class WayVector:
-    """A case: a valid row of ten, thirteen or sixteen numbers, its answer, and what proves it.
+    """A case about a sweep: a valid row of ten, thirteen or sixteen numbers, its answer, and what proves it.
 
-    `first` are bounds of the first contact: two neighbouring float64 numbers, or 0 twice; None where the way is clear.
+    `first` are bounds of the first contact: two neighbouring float64 numbers, or 0 twice; None where it is clear.
     Beside a hyperboloid that ends they need not be neighbours, and nothing but the exact decision proves the answer.
     """
 
     id: str
     row: Row
     first: Bounds | None
-    witness: StoredPassage
+    witness: StoredCertificate
     flags: tuple[str, ...] = ()
 
     @property
     def hit(self) -> bool:
-        """Whether there is contact somewhere on the way, its ends included."""
+        """Whether there is contact somewhere on the sweep, its ends included."""
         return self.first is not None
 
     @property
     def answer(self) -> int:
-        """1 for contact on the way, 0 for none."""
+        """1 for contact on the sweep, 0 for none."""
         return int(self.hit)
 
     @property
     def certificate(self) -> PassageCertificate:
         """What proves the answer, its points in the caller's coordinates."""
-        time, b = self.witness.time, Fraction(self.row[2])
-        if time is None:
-            return PassageCertificate(self.witness.pieces)
-        x, y, z = place(self.row, time).row[4:]
-        points = tuple((x + b * s, y + b * t, z + b * w) for s, t, w in self.witness.offsets)
-        return PassageCertificate(self.witness.pieces, time, points, self.witness.double_root)
+        witness, b = self.witness, Fraction(self.row[2])
+        if witness.time is None:
+            return PassageCertificate(witness.steps)
+        x, y, z = place(self.row, witness.time).row[4:]
+        points = tuple((x + b * s, y + b * t, z + b * w) for s, t, w in witness.offsets)
+        return PassageCertificate(witness.steps, witness.time, points, witness.double_root)
 
 
-AnyVector = UprightVector | TiltedVector | WayVector | EndedVector
+AnyVector = Vector | WayVector
 """A case with an answer."""
 
-_POSITION_FIELDS = (
-    *("id", "row", "hex", "position", "tangent", "kind", "clearance", "clearance_hex"),
-    *("flips", "certificate", "flags"),
-)
-_WAY_FIELDS = ("id", "row", "hex", "hit", "first", "first_hex", "certificate", "flags")
-_ENDED_WAY_FIELDS = ("id", "row", "hex", "hit", "first", "first_hex")
-_ENDED_FIELDS = ("id", "row", "hex", "position", "tangent", "certificate")
 _CERTIFICATES = ("multiplier", "points", "double_root")
 _PASSAGE_FIELDS = ("pieces", "time", "points", "double_root")
 _KINDS = {kind.value: kind for kind in Kind}
@@ -204,11 +163,13 @@ _KINDS = {kind.value: kind for kind in Kind}
 
 def case_fields(content: Content) -> tuple[str, ...]:
     """The fields of a case in a file with that content, in order."""
+    head = ("id", "row", "hex")
+    if content.about_sweeps:
+        return (*head, "hit", "first", "first_hex", *(() if content.ended else ("certificate", "flags")))
     if content.ended:
-        return _ENDED_WAY_FIELDS if content.layout is WAYS else _ENDED_FIELDS
-    if content.layout is WAYS:
-        return _WAY_FIELDS
-    return tuple(name for name in _POSITION_FIELDS if name != "kind" or not content.tilted)
+        return (*head, "position", "tangent", "certificate")
+    measures = (*(() if content.tilted else ("kind",)), "clearance", "clearance_hex", "flips")
+    return (*head, "position", "tangent", *measures, "certificate", "flags")
 
 
 def read_cases(path: str, content: Content | None = None) -> CaseFile[Any]:
@@ -228,24 +189,27 @@ def cases_of(document: JsonDocument, path: str, content: Content | None = None) 
         raise InputError(f"{location}: content is {actual.name!r}; here it must be {wanted}")
     if actual.refused:
         return invalid_rows_of(document, path)
-    read = _way if actual.layout is WAYS else _ended if actual.ended else _vector
-    return file_of(document, path, case_fields(actual), read)
+    return file_of(document, path, case_fields(actual), _sweep_case if actual.about_sweeps else _position_case)
 
 
-def _vector(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> Vector[Any]:
+def _position_case(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> Vector:
     position, tangent = _position(at, fields)
-    clearance = _measure(at, "clearance", fields["clearance"])
-    check_hex(at, "clearance_hex", fields["clearance_hex"], clearance)
+    clearance = None
+    if "clearance" in fields:
+        clearance = _measure(at, "clearance", fields["clearance"])
+        check_hex(at, "clearance_hex", fields["clearance_hex"], clearance)
     return Vector(
         id=fields["id"],
         row=row_of(at, fields["row"], fields["hex"], content),
         position=position,
         tangent=tangent,
-        kind=None if content.tilted else _kind(at, fields["kind"]),
+        kind=_kind(at, fields["kind"]) if "kind" in fields else None,
         clearance=clearance,
-        flips=_flips(at, fields["flips"], position, _bracket if content.tilted else _distance),
-        witness=_certificate(at, fields["certificate"]),
-        flags=flags_of_case(at, fields["flags"], flags),
+        flips=_flips(at, fields["flips"], position, _bracket if content.tilted else _distance)
+        if "flips" in fields
+        else {},
+        witness=(_ended_certificate if content.ended else _certificate)(at, fields["certificate"]),
+        flags=flags_of_case(at, fields["flags"], flags) if "flags" in fields else (),
     )
 
 
@@ -256,11 +220,6 @@ def _position(at: JsonPlace, fields: dict[str, Any]) -> tuple[Position, bool]:
     if not isinstance(tangent, bool):
         raise InputError(f"{at}: tangent is {shown_json(tangent)}; it must be true or false")
     return Position(position), tangent
-
-
-def _ended(at: JsonPlace, fields: dict[str, Any], content: Content, _flags: Mapping[str, FlagFacts]) -> EndedVector:
-    row = row_of(at, fields["row"], fields["hex"], content)
-    return EndedVector(fields["id"], row, *_position(at, fields), _ended_certificate(at, fields["certificate"]))
 
 
 def _ended_certificate(at: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
@@ -295,19 +254,19 @@ def _flips(
     at: JsonPlace,
     value: Any,  # noqa: ANN401 - JSON
     position: Position,
-    read: Callable[[JsonPlace, str, Any], Flip],
-) -> Mapping[Position, Flip]:
+    read: Callable[[JsonPlace, str, Any], Bracket],
+) -> Mapping[Position, Bracket]:
     others = [other for other in Position if other is not position]
     names = tuple(other.label for other in others)
     distances = zip(others, fields_of(value, names, at, "flips"), strict=True)
     return {other: read(at, f"the flip to {other.label}", distance) for other, distance in distances}
 
 
-def _distance(at: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
+def _distance(at: JsonPlace, what: str, value: Any) -> Bracket:  # noqa: ANN401 - JSON
     distance = _measure(at, what, value)
     if not (0 <= distance <= 1 or distance == float("inf")):
         raise InputError(f'{at}: {what} is {distance!r}; it must be from 0 to 1, or "inf"')
-    return distance
+    return Bracket(distance, distance)
 
 
 def _bracket(at: JsonPlace, what: str, value: Any) -> Bracket:  # noqa: ANN401 - JSON
@@ -340,7 +299,7 @@ def _offset(at: JsonPlace, value: Any) -> Offset:  # noqa: ANN401 - JSON
     return (s, t, w)
 
 
-def _way(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> WayVector:
+def _sweep_case(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> WayVector:
     row = row_of(at, fields["row"], fields["hex"], content)
     first = _first(at, fields["first"], fields["first_hex"])
     if fields["hit"] is not (first is not None):
@@ -348,8 +307,8 @@ def _way(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping
             f"{at}: hit is {shown_json(fields['hit'])}; with first {shown_json(fields['first'])} it must be "
             f"{json_text(first is not None)}"
         )
-    if content.ended:
-        return WayVector(fields["id"], row, first, StoredPassage())
+    if "certificate" not in fields:
+        return WayVector(fields["id"], row, first, StoredCertificate())
     witness = _passage(at, fields["certificate"])
     return WayVector(fields["id"], row, first, witness, flags_of_case(at, fields["flags"], flags))
 
@@ -367,7 +326,7 @@ def _first(at: JsonPlace, value: Any, hexes: Any) -> Bounds | None:  # noqa: ANN
     return lower, upper
 
 
-def _passage(at: JsonPlace, value: Any) -> StoredPassage:  # noqa: ANN401 - JSON
+def _passage(at: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
     values = dict(zip(_PASSAGE_FIELDS, fields_of(value, _PASSAGE_FIELDS, at, "certificate"), strict=True))
     pieces = []
     for piece in listed(at, "pieces", values["pieces"]):
@@ -381,52 +340,44 @@ def _passage(at: JsonPlace, value: Any) -> StoredPassage:  # noqa: ANN401 - JSON
         raise InputError(f"{at}: points has {len(points)} points; it may have two at most")
     if (time is None) != (not points and root is None) or (points and root is not None):
         raise InputError(f"{at}: a certificate has a time with points or a double_root, or none of the three")
-    return StoredPassage(tuple(pieces), time, points, root)
+    return StoredCertificate(offsets=points, double_root=root, steps=tuple(pieces), time=time)
 
 
 def cases_text(file: CaseFile[Any]) -> str:
     """The whole document."""
-    return document_text(file, map(case_text, file.cases))
+    return document_text(file, (case_text(case, file.content) for case in file.cases))
 
 
-def case_text(case: AnyVector | InvalidRow) -> str:
-    """One case, an object on one line."""
-    if isinstance(case, InvalidRow):
-        return invalid_row_text(case)
-    return object_text(
-        {
-            "id": json_text(case.id),
-            "row": numbers_text(case.row),
-            "hex": json_text([hex_of(value) for value in case.row]),
-            **_members(case),
-        }
-    )
+def case_text(case: AnyVector | InvalidRow, content: Content) -> str:
+    """One case of a file with that content, an object on one line."""
+    if content.refused:
+        return invalid_row_text(cast("InvalidRow", case))
+    members = _sweep_members if content.about_sweeps else _position_members
+    held = {
+        "id": json_text(case.id),
+        "row": numbers_text(case.row),
+        "hex": json_text([hex_of(value) for value in case.row]),
+        **members(cast("Any", case), content),
+    }
+    return object_text({name: held[name] for name in case_fields(content)})
 
 
-def _members(case: AnyVector) -> dict[str, str]:
-    if isinstance(case, EndedVector):
-        certificate = json_text(_certificate_members(case.witness))
-        return {"position": str(case.answer), "tangent": json_text(case.tangent), "certificate": certificate}
-    if isinstance(case, WayVector):
-        answer = _way_answer_members(case)
-        return answer if len(case.row) == len(WAYS.ended) else answer | _way_proof_members(case)
-    return _position_members(case) | {"flags": json_text(case.flags)}
-
-
-def _position_members(case: UprightVector | TiltedVector) -> dict[str, str]:
-    return {
+def _position_members(case: Vector, content: Content) -> dict[str, str]:
+    members = {
         "position": str(case.answer),
         "tangent": json_text(case.tangent),
-        **({} if case.kind is None else {"kind": json_text(case.kind.value)}),
-        "clearance": decimal_of(case.clearance),
-        "clearance_hex": json_text(hex_of(case.clearance)),
-        "flips": object_text({other.label: _flip_text(flip) for other, flip in case.flips.items()}),
         "certificate": json_text(_certificate_members(case.witness)),
+        "flags": json_text(case.flags),
     }
-
-
-def _flip_text(flip: float | Bracket) -> str:
-    return numbers_text((flip.lower, flip.upper)) if isinstance(flip, Bracket) else decimal_of(flip)
+    if case.kind is not None:
+        members["kind"] = json_text(case.kind.value)
+    if case.clearance is not None:
+        members |= {"clearance": decimal_of(case.clearance), "clearance_hex": json_text(hex_of(case.clearance))}
+    flips = {
+        other.label: numbers_text((flip.lower, flip.upper)) if content.tilted else decimal_of(flip.upper)
+        for other, flip in case.flips.items()
+    }
+    return members | {"flips": object_text(flips)}
 
 
 def _certificate_members(witness: StoredCertificate) -> dict[str, Any]:
@@ -447,21 +398,18 @@ def _piece_members(piece: Piece) -> list[str]:
     return [low, high, exact_text(piece.multiplier), exact_text(piece.plane)]
 
 
-def _way_answer_members(case: WayVector) -> dict[str, str]:
-    first = case.first
-    return {
-        "hit": json_text(case.hit),
-        "first": "null" if first is None else numbers_text(first),
-        "first_hex": json_text(None if first is None else list(map(hex_of, first))),
-    }
-
-
-def _way_proof_members(case: WayVector) -> dict[str, str]:
-    witness = case.witness
+def _sweep_members(case: WayVector, _content: Content) -> dict[str, str]:
+    first, witness = case.first, case.witness
     proof = {
-        "pieces": [list(map(exact_text, piece)) for piece in witness.pieces],
+        "pieces": [list(map(exact_text, step)) for step in witness.steps],
         "time": None if witness.time is None else exact_text(witness.time),
         "points": [list(map(exact_text, point)) for point in witness.offsets],
         "double_root": None if witness.double_root is None else exact_text(witness.double_root),
     }
-    return {"certificate": json_text(proof), "flags": json_text(case.flags)}
+    return {
+        "hit": json_text(case.hit),
+        "first": "null" if first is None else numbers_text(first),
+        "first_hex": json_text(None if first is None else list(map(hex_of, first))),
+        "certificate": json_text(proof),
+        "flags": json_text(case.flags),
+    }

@@ -17,11 +17,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from itertools import chain
 from typing import Any
 
 from hypcheck.errors import NothingJudgedError
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.geometry.rows import WAYS
 from hypcheck.tables.numbers import decimal_of, shown_json
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth import exact, least
@@ -36,16 +36,14 @@ from hypcheck.truth.roots import classify_by_roots
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
     AnyVector,
-    EndedVector,
     StoredCertificate,
-    TiltedVector,
-    UprightVector,
+    Vector,
     WayVector,
     cases_of,
 )
 from hypcheck.vectors.family import Metadata, Row
-from hypcheck.vectors.flags import FlagFacts, flags_of, tilted_flags, way_flags
-from hypcheck.vectors.format import CaseFile
+from hypcheck.vectors.flags import FlagFacts, flags_of, way_flags
+from hypcheck.vectors.format import CaseFile, Content
 from hypcheck.vectors.invalid_rows import InvalidRow, columns_at_fault
 from hypcheck.vectors.labels import flips, shows_crossing
 
@@ -64,17 +62,8 @@ def faults_of(file: CaseFile[Any]) -> list[LabelFault]:
     sentences_of_cases: Iterable[Iterator[str]]
     if file.content.refused:
         sentences_of_cases = (_wrong_columns(case, file.content.columns) for case in file.cases)
-    elif file.content.layout is WAYS:
-        sentences_of_cases = map(_ended_way_sentences if file.content.ended else _way_sentences, file.cases)
-    elif file.content.ended:
-        sentences_of_cases = map(_ended_sentences, file.cases)
-    elif file.content.tilted:
-        sentences_of_cases = map(_tilted_sentences, file.cases, _proved_lower_ends(file.cases))
     else:
-        decisions = [exact.decide(Pair.from_row(case.row).lengths) for case in file.cases]
-        sentences_of_cases = map(
-            _sentences, file.cases, decisions, flags_of([case.row for case in file.cases], decisions)
-        )
+        sentences_of_cases = (_of_sweeps if file.content.about_sweeps else _of_positions)(file)
     return [
         LabelFault(line, case.id, sentence)
         for (line, case), sentences in zip(file.numbered_cases(), sentences_of_cases, strict=True)
@@ -89,39 +78,32 @@ def _wrong_columns(case: InvalidRow, columns: tuple[str, ...]) -> Iterator[str]:
         yield f"{claim}, but {', '.join(actual) or 'none'} is"
 
 
-def _sentences(case: UprightVector, truth: Decision, flags: Sequence[str]) -> Iterator[str]:
-    pair = Pair.from_row(case.row)
-    yield from _unproved(case, check_certificate(pair, case.certificate))
-    kind = classify_by_roots(pair).kind
-    if case.kind is not kind:
-        yield f"kind is {case.kind.value if case.kind else None}; the roots say {kind.value}"
-    yield from _wrong_clearance(case, nearest(pair).clearance)
-    if (truth.position, truth.tangent) != (case.position, case.tangent):
-        return  # its flips are to other positions
-    for position, distance in flips(pair, truth).items():
-        if distance != case.flips[position]:
-            yield f"the flip to {position.label} is {decimal_of(case.flips[position])}; it is {decimal_of(distance)}"
-    yield from _wrong_flags(case, flags)
+def _of_positions(file: CaseFile[Any]) -> Iterator[Iterator[str]]:
+    content, cases = file.content, file.cases
+    pairs = [Pair.from_row(case.row) for case in cases]
+    truths = [exact.decide(pair.lengths) for pair in pairs]
+    flags = flags_of(content.flags, [case.row for case in cases], truths)
+    proved = _proved_lower_ends(cases if content.tilted else ()) or [set()] * len(cases)
+    unproved = _unproved_by_rule if content.ended else _unproved
+    for case, pair, truth, held, ends in zip(cases, pairs, truths, flags, proved, strict=True):
+        yield chain(unproved(case, pair, truth), _wrong_measures(case, content, pair, truth, ends, held))
 
 
-def _tilted_sentences(case: TiltedVector, proved: set[Position]) -> Iterator[str]:
-    pair = Pair.from_row(case.row)
-    yield from _unproved(case, check_certificate(pair, case.certificate))
-    yield from _wrong_clearance(case, nearest(pair).clearance)
-    truth = exact.decide(pair.lengths)
-    if (truth.position, truth.tangent) != (case.position, case.tangent):
-        return  # its flips are to other positions
-    for other, ends in case.flips.items():
-        if not is_bracket(pair, truth, other, ends, cuts=0, lower_holds=other in proved):
-            bracket_text = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
-            yield f"the flip to {other.label} is {bracket_text}; no proof of both ends is found"
-    yield from _wrong_flags(case, tilted_flags(pair, truth))
+def _unproved(case: Vector, pair: Pair, _truth: Decision) -> Iterator[str]:
+    """What the certificate does not prove of position and tangency."""
+    contact = case.position is Position.CONTACT
+    claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
+    if not check_certificate(pair, case.certificate):
+        yield f"the certificate does not prove {claim}"
+    elif case.tangent != (contact and case.witness.double_root is not None):
+        yield f"the certificate is not one of a pair that is {claim}"
+    elif contact and not case.tangent and not shows_crossing(case.row, case.witness.offsets):
+        yield "the certificate proves contact, but does not rule tangency out"
 
 
-def _ended_sentences(case: EndedVector) -> Iterator[str]:
-    """Of a case whose hyperboloid ends; a touch rests on the exact rule, which the least value must not contradict."""
-    pair = Pair.from_row(case.row)
-    truth, other = exact.decide(pair.lengths), least.position(pair)
+def _unproved_by_rule(case: Vector, pair: Pair, truth: Decision) -> Iterator[str]:
+    """The same where the hyperboloid ends: a touch rests on the exact rule; the least value must not contradict it."""
+    other = least.position(pair)
     claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
     by_rule = case.witness == StoredCertificate() and case.position is Position.CONTACT
     if not by_rule and not check_certificate(pair, case.certificate):
@@ -132,7 +114,36 @@ def _ended_sentences(case: EndedVector) -> Iterator[str]:
         yield f"position is {case.position.label}; the least value says {other.label}"
 
 
-def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:
+def _wrong_measures(
+    case: Vector, content: Content, pair: Pair, truth: Decision, proved: set[Position], flags: Sequence[str]
+) -> Iterator[str]:
+    """What is wrong of the kind, the clearance, the flips and the flags, of those that the case has."""
+    if not content.tilted and (kind := classify_by_roots(pair).kind) is not case.kind:
+        yield f"kind is {case.kind.value if case.kind else None}; the roots say {kind.value}"
+    if case.clearance is not None and (measured := nearest(pair).clearance) != case.clearance:
+        yield f"clearance is {decimal_of(case.clearance)}; the nearest point says {decimal_of(measured)}"
+    if (truth.position, truth.tangent) != (case.position, case.tangent):
+        return  # its flips are to other positions
+    wrong = _wrong_brackets(case, pair, truth, proved) if content.tilted else _wrong_flips(case, content, pair, truth)
+    yield from wrong
+    yield from _wrong_flags(case, flags)
+
+
+def _wrong_flips(case: Vector, content: Content, pair: Pair, truth: Decision) -> Iterator[str]:
+    for position, distance in flips(content, pair, truth).items():
+        stated, right = case.flips[position].upper, distance.upper
+        if stated != right:
+            yield f"the flip to {position.label} is {decimal_of(stated)}; it is {decimal_of(right)}"
+
+
+def _wrong_brackets(case: Vector, pair: Pair, truth: Decision, proved: set[Position]) -> Iterator[str]:
+    for other, ends in case.flips.items():
+        if not is_bracket(pair, truth, other, ends, cuts=0, lower_holds=other in proved):
+            bracket_text = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
+            yield f"the flip to {other.label} is {bracket_text}; no proof of both ends is found"
+
+
+def _proved_lower_ends(cases: Sequence[Vector]) -> list[set[Position]]:
     """For each case the other positions whose lower end float64 proves, all cases at once: most, in little time."""
     proved: list[set[Position]] = [set() for _ in cases]
     brackets = [
@@ -149,6 +160,10 @@ def _proved_lower_ends(cases: Sequence[TiltedVector]) -> list[set[Position]]:
         if holds:
             proved[index].add(other)
     return proved
+
+
+def _of_sweeps(file: CaseFile[Any]) -> Iterator[Iterator[str]]:
+    return map(_ended_way_sentences if file.content.ended else _way_sentences, file.cases)
 
 
 def _way_sentences(case: WayVector) -> Iterator[str]:
@@ -193,23 +208,6 @@ def _least_at(row: Row, time: float, scale: float) -> Position | None:
     alpha, gamma, b, d, *others = row
     centre = [start + time * (end - start) for start, end in zip(others[:3], others[3:6], strict=True)]
     return least.position(Pair.from_row((alpha, gamma, b * scale, d * scale, *centre, *others[6:])))
-
-
-def _unproved(case: UprightVector | TiltedVector, proved: bool) -> Iterator[str]:
-    """What the certificate, which proves the position or does not, does not prove of position and tangency."""
-    contact = case.position is Position.CONTACT
-    claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
-    if not proved:
-        yield f"the certificate does not prove {claim}"
-    elif case.tangent != (contact and case.witness.double_root is not None):
-        yield f"the certificate is not one of a pair that is {claim}"
-    elif contact and not case.tangent and not shows_crossing(case.row, case.witness.offsets):
-        yield "the certificate proves contact, but does not rule tangency out"
-
-
-def _wrong_clearance(case: UprightVector | TiltedVector, measured: float) -> Iterator[str]:
-    if measured != case.clearance:
-        yield f"clearance is {decimal_of(case.clearance)}; the nearest point says {decimal_of(measured)}"
 
 
 def _wrong_flags(case: AnyVector, flags: Sequence[str]) -> Iterator[str]:

@@ -6,7 +6,7 @@ every operation of a formula's program is rounded once, in the order in which it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -200,8 +200,17 @@ TILTED_FLAGS: dict[str, FlagFacts] = {
 """Every flag of tilted spheroids, in the order in which a case has them."""
 
 
-def flags_of(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
-    """The flags of each row, valid ones, whose exact decisions are given."""
+def flags_of(
+    known: Mapping[str, FlagFacts], rows: Sequence[Row], decisions: Sequence[Decision]
+) -> list[tuple[str, ...]]:
+    """The flags, out of those of a file's content, of each row, valid ones, whose exact decisions are given."""
+    if not known:
+        return [()] * len(rows)
+    flags = _tilted_flags if known is TILTED_FLAGS else _upright_flags
+    return flags(rows, decisions)
+
+
+def _upright_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
     array = rows_of(list(rows))
     masks = _of_numbers(array) | _of_table_2(array) | _of_formulas(array, decisions)
     exactly = [_of_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]
@@ -288,8 +297,12 @@ _SHORTEST, _LONGEST = 2.0**-511, 2.0**511
 """Between these a length's square neither underflows nor overflows."""
 
 
-def tilted_flags(pair: Pair, decision: Decision) -> tuple[str, ...]:
-    """What is special about a case, each decided exactly."""
+def _tilted_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
+    """What is special about each row, each decided exactly."""
+    return [_of_tilted_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]
+
+
+def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
     sizes = pair.row[:7]
     double = not pair.is_upright and discriminant(quartic(pair.lengths)) == 0
     alpha, gamma, _, _, x, y, z = to_integers(sizes)

@@ -56,6 +56,11 @@ class Content:
     ended: bool = False
 
     @property
+    def about_sweeps(self) -> bool:
+        """Whether the rows are asked about the motion between two positions."""
+        return self.layout is WAYS
+
+    @property
     def columns(self) -> tuple[str, ...]:
         """The names of the numbers of a row."""
         layout = self.layout
@@ -64,7 +69,7 @@ class Content:
     @property
     def flags(self) -> Mapping[str, FlagFacts]:
         """The flags that a case may have; none where it has no answer."""
-        known = WAY_FLAGS if self.layout is WAYS else TILTED_FLAGS if self.tilted else FLAGS
+        known = WAY_FLAGS if self.about_sweeps else TILTED_FLAGS if self.tilted else FLAGS
         return {} if self.refused or self.ended else known
 
 

@@ -12,8 +12,8 @@ from itertools import count
 from typing import Any
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.geometry.rows import WAYS
-from hypcheck.truth import ended_prove, exact
+from hypcheck.geometry.rows import PAIRS
+from hypcheck.truth import exact
 from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
@@ -24,19 +24,16 @@ from hypcheck.truth.passage_prove import prove as prove_passage
 from hypcheck.truth.prove import prove
 from hypcheck.truth.vectors import dot
 from hypcheck.vectors.cases import (
-    EndedVector,
     Offset,
     StoredCertificate,
-    StoredPassage,
-    TiltedVector,
-    UprightVector,
     Vector,
     WayVector,
+    case_fields,
     offset_to,
     point_at,
 )
 from hypcheck.vectors.family import Row
-from hypcheck.vectors.flags import flags_of, tilted_flags, way_flags
+from hypcheck.vectors.flags import flags_of, way_flags
 from hypcheck.vectors.format import Content
 
 _MOST_BITS = 1 << 14
@@ -47,96 +44,68 @@ def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
 
     Raises ValueError as passage_prove.prove does.
     """
-    if content.ended:
-        labelled_one = _labelled_ended_way if content.layout is WAYS else _labelled_ended
-        return [labelled_one(*case) for case in cases]
-    if content.layout is WAYS:
-        return [_labelled_way(*named_row) for named_row in cases]
-    return [_labelled_tilted(*named_row) for named_row in cases] if content.tilted else _labelled_upright(list(cases))
+    return (_sweeps if content.about_sweeps else _positions)(content, list(cases))
 
 
-def _labelled_upright(cases: Sequence[tuple[str, Row]]) -> list[UprightVector]:
-    decisions = [exact.decide(Pair.from_row(row).lengths) for _, row in cases]
-    flags = flags_of([row for _, row in cases], decisions)
-    return [_labelled(*case, truth, held) for case, truth, held in zip(cases, decisions, flags, strict=True)]
+def _positions(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vector]:
+    fields = case_fields(content)
+    pairs = [Pair.from_row(row) for _, row in cases]
+    decisions = [exact.decide(pair.lengths) for pair in pairs]
+    flags = flags_of(content.flags, [row for _, row in cases], decisions)
+    return [
+        Vector(
+            id=name,
+            row=row,
+            position=decision.position,
+            tangent=decision.tangent,
+            kind=decision.kind if "kind" in fields else None,
+            clearance=nearest(pair).clearance if "clearance" in fields else None,
+            flips=flips(content, pair, decision) if "flips" in fields else {},
+            witness=stored_certificate(row, prove(pair, decision)),
+            flags=held,
+        )
+        for (name, row), pair, decision, held in zip(cases, pairs, decisions, flags, strict=True)
+    ]
 
 
-def _labelled(name: str, row: Row, decision: Decision, flags: tuple[str, ...]) -> UprightVector:
-    pair = Pair.from_row(row)
-    return Vector(
-        id=name,
-        row=row,
-        position=decision.position,
-        tangent=decision.tangent,
-        kind=decision.kind,
-        clearance=nearest(pair).clearance,
-        flips=flips(pair, decision),
-        witness=stored_certificate(row, prove(pair, decision)),
-        flags=flags,
-    )
+def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[WayVector]:
+    return [(_without_proof if content.ended else _with_proof)(*case) for case in cases]
 
 
-def _labelled_tilted(name: str, row: Row) -> TiltedVector:
-    pair = Pair.from_row(row)
-    decision = exact.decide(pair.lengths)
-    return Vector(
-        id=name,
-        row=row,
-        position=decision.position,
-        tangent=decision.tangent,
-        kind=None,
-        clearance=nearest(pair).clearance,
-        flips=_tilted_flips(pair, decision),
-        witness=stored_certificate(row, prove(pair, decision)),
-        flags=tilted_flags(pair, decision),
-    )
-
-
-def _labelled_ended(name: str, row: Row) -> EndedVector:
-    pair = Pair.from_row(row)
-    decision = exact.decide(pair.lengths)
-    proof = ended_prove.prove(pair, decision) if pair.has_ends else prove(pair, decision)
-    witness = StoredCertificate(
-        proof.multiplier, tuple(offset_to(row, point) for point in proof.points), proof.double_root, proof.pieces
-    )
-    return EndedVector(name, row, decision.position, decision.tangent, witness)
-
-
-def _labelled_way(name: str, row: Row) -> WayVector:
+def _with_proof(name: str, row: Row) -> WayVector:
     _, first, proof = prove_passage(row)
     offsets: tuple[Offset, ...] = ()
     if proof.time is not None:
         b, (x, y, z) = Fraction(row[2]), place(row, proof.time).row[4:]
         offsets = tuple(((u - x) / b, (v - y) / b, (w - z) / b) for u, v, w in proof.points)
-    witness = StoredPassage(proof.pieces, proof.time, offsets, proof.double_root)
+    witness = StoredCertificate(offsets=offsets, double_root=proof.double_root, steps=proof.pieces, time=proof.time)
     return WayVector(name, row, first, witness, way_flags(row, first, proof))
 
 
-def _labelled_ended_way(name: str, row: Row) -> WayVector:
+def _without_proof(name: str, row: Row) -> WayVector:
     truth = scaled_passage(row)
-    return WayVector(name, row, (truth.first_lower, truth.first_upper) if truth.hit else None, StoredPassage())
+    return WayVector(name, row, (truth.first_lower, truth.first_upper) if truth.hit else None, StoredCertificate())
 
 
-def flips(pair: Pair, truth: Decision) -> Mapping[Position, float]:
-    """An upright pair's distance to each other position, in the order exterior, contact, interior."""
+def flips(content: Content, pair: Pair, truth: Decision) -> Mapping[Position, Bracket]:
+    """A pair's distance to each other position, in the order exterior, contact, interior; see cases.Vector."""
     others = (other for other in Position if other is not truth.position)
-    return {other: quick_bracket(pair, truth, other).upper for other in others}
-
-
-def _tilted_flips(pair: Pair, decision: Decision) -> Mapping[Position, Bracket]:
-    others = (other for other in Position if other is not decision.position)
-    return {other: bracket(pair, decision, other, cuts=0, steps=2) for other in others}
+    if content.tilted:
+        return {other: bracket(pair, truth, other, cuts=0, steps=2) for other in others}
+    uppers = {other: quick_bracket(pair, truth, other).upper for other in others}
+    return {other: Bracket(upper, upper) for other, upper in uppers.items()}
 
 
 def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
-    """The certificate in a file's terms; of two points of a crossing the second is rounded as far as it can be."""
-    if not certificate.points:
-        return StoredCertificate(multiplier=certificate.multiplier, double_root=certificate.double_root)
+    """The certificate in a file's terms; of two points of a crossing the second is rounded as far as it can be.
+
+    Where the hyperboloid ends, points stay as they are.
+    """
     offsets = tuple(offset_to(row, point) for point in certificate.points)
-    if len(offsets) == 1:
-        return StoredCertificate(offsets=offsets)
+    if len(offsets) < 2 or PAIRS.has_heights(row):
+        return StoredCertificate(certificate.multiplier, offsets, certificate.double_root, certificate.pieces)
     center, far = offsets
-    if len(row) > 7:
+    if PAIRS.has_axis(row):
         shorter = _rounded(far)
     else:
         shorter = _cut_off(next(offset for offset in _slid(row, far) if shows_crossing(row, (center, offset))))

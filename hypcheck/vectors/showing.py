@@ -6,19 +6,19 @@ import io
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from typing import cast
 
 import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import WAYS
 from hypcheck.messages import counted, suggestion
 from hypcheck.tables.numbers import equals_text, hex_of, readable_text
 from hypcheck.tables.streams import replace_output
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
-from hypcheck.vectors.cases import AnyVector, EndedVector, TiltedVector, UprightVector, WayVector, case_text
+from hypcheck.vectors.cases import AnyVector, Vector, WayVector, case_text
 from hypcheck.vectors.families import EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata
 from hypcheck.vectors.format import Content, read_metadata
@@ -52,7 +52,7 @@ def family_lines(name: str) -> Iterator[str]:
     yield from _titled("cases", f"{len(file.cases)}, {file.cases[0].id} to {file.cases[-1].id}{refused}")
     if file.content.refused:
         return
-    if file.content.layout is WAYS:
+    if file.content.about_sweeps:
         yield from _titled("answers", _counted("contact" if case.hit else "clear" for case in file.cases))
     else:
         yield from _titled("positions", _counted(case.position.label for case in file.cases))
@@ -66,13 +66,16 @@ def family_lines(name: str) -> Iterator[str]:
 def case_lines(case: AnyVector | InvalidRow, content: Content) -> Iterator[str]:
     """A case of a file with that content, with its labels and its proof."""
     yield case.id
-    if isinstance(case, InvalidRow):
-        yield from _invalid_row_lines(case, content)
+    if content.refused:
+        yield from _invalid_row_lines(cast("InvalidRow", case), content)
         return
     for name, value in zip(content.columns, case.row, strict=True):
         yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
-    yield from way_answer_lines(case) if isinstance(case, WayVector) else _position_lines(case)
-    for flag in case.flags:
+    if content.about_sweeps:
+        yield from way_answer_lines(cast("WayVector", case))
+    else:
+        yield from _position_lines(cast("Vector", case), content)
+    for flag in cast("AnyVector", case).flags:
         yield from _titled("flag", f"{flag}: {content.flags[flag].meaning}")
 
 
@@ -82,17 +85,15 @@ def _invalid_row_lines(case: InvalidRow, content: Content) -> Iterator[str]:
     yield from _titled("expected", EXPECTED)
 
 
-def _position_lines(case: UprightVector | TiltedVector | EndedVector) -> Iterator[str]:
+def _position_lines(case: Vector, content: Content) -> Iterator[str]:
     yield from _titled("position", f"{case.position.label}, tangent" if case.tangent else case.position.label)
-    if isinstance(case, EndedVector):
-        yield from _titled("proof", _ended_proof(case))
-        return
     if case.kind is not None:
         yield from _titled("kind", f"{case.kind.value}: {case.kind.description}")
-    yield from _titled("clearance", f"{case.clearance!r} spheroid radii ({hex_of(case.clearance)})")
+    if case.clearance is not None:
+        yield from _titled("clearance", f"{case.clearance!r} spheroid radii ({hex_of(case.clearance)})")
     for position, distance in case.flips.items():
         yield from _titled("flip", f"{position.label} if each number may change by a relative {_distance(distance)}")
-    yield from _titled("proof", _proof(case))
+    yield from _titled("proof", (_ended_proof if content.ended else _proof)(case))
 
 
 def way_answer_lines(case: WayVector) -> Iterator[str]:
@@ -100,7 +101,7 @@ def way_answer_lines(case: WayVector) -> Iterator[str]:
     yield from _titled("answer", "contact on the way" if case.hit else "clear all along")
     if case.first is not None:
         yield from _titled("first", f"contact at t from {case.first[0]!r} to {case.first[1]!r}")
-    pieces = case.witness.pieces
+    pieces = case.witness.steps
     if pieces:
         until = equals_text(pieces[-1][1])
         yield from _titled("proof", f"clear up to t {until}, by {counted(len(pieces), 'multiplier')}")
@@ -109,9 +110,7 @@ def way_answer_lines(case: WayVector) -> Iterator[str]:
         yield from _titled("proof", f"contact at t {equals_text(case.witness.time)}, by {proof}")
 
 
-def _distance(distance: float | Bracket) -> str:
-    if isinstance(distance, float):
-        return repr(distance)
+def _distance(distance: Bracket) -> str:
     return repr(distance.upper) if distance.lower == distance.upper else f"{distance.lower!r} … {distance.upper!r}"
 
 
@@ -135,7 +134,7 @@ def show(name: str, *, as_json: bool) -> Iterator[str]:
     """The lines about a family or a case; a case as it stands in a file where JSON is asked for. Raises InputError."""
     if name not in ALL_NAMES:
         case, content = case_named(name)
-        yield from (case_text(case),) if as_json else case_lines(case, content)
+        yield from (case_text(case, content),) if as_json else case_lines(case, content)
     elif as_json:
         yield from frozen.path_of(name).read_text(encoding="utf-8").splitlines()
     else:
@@ -155,7 +154,7 @@ def _metadata_lines(head: Metadata) -> Iterator[str]:
         yield from _titled(label, text)
 
 
-def _proof(case: UprightVector | TiltedVector) -> str:
+def _proof(case: Vector) -> str:
     witness, tilted = case.witness, case.kind is None
     if witness.multiplier is not None:
         at = f"at λ {equals_text(witness.multiplier)}"
@@ -175,7 +174,7 @@ def _proof(case: UprightVector | TiltedVector) -> str:
     return f"in the spheroid and {where}: the centre + {step} for (s, t, w) = {points}"
 
 
-def _ended_proof(case: EndedVector) -> str:
+def _ended_proof(case: Vector) -> str:
     witness = case.witness
     if witness.multiplier is not None:
         return f"S + λH is positive definite at λ {equals_text(witness.multiplier)}, with or without ends"

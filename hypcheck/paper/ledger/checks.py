@@ -56,9 +56,10 @@ from hypcheck.paper.ledger.statements import (
     wider,
 )
 from hypcheck.proofs.build import pattern_table
-from hypcheck.truth import ended_prove, exact
+from hypcheck.truth import exact
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.prove import prove
 from hypcheck.truth.roots import PATTERNS, RootPlace, admissible, pattern_of
 
 
@@ -308,7 +309,7 @@ def missed_by_the_centres_height() -> Evidence:
     found = (_above_the_end(), _below_the_end())
     shows = ("above it, in contact with the wall", "not above it, interior; in contact without the end")
     text = "; ".join(f"{_with_end(pair)} {what}" for pair, what in zip(found, shows, strict=True))
-    proofs = (ended_prove.prove(pair, exact.decide(pair.lengths)) for pair in found)
+    proofs = (prove(pair, exact.decide(pair.lengths)) for pair in found)
     proved = all(check_certificate(pair, proof) for pair, proof in zip(found, proofs, strict=True))
     return Evidence("search", text, proved)
 

@@ -14,6 +14,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.tables.strict_json import read_document
+from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import StoredCertificate, cases_text
 from hypcheck.vectors.checking import faults_of
@@ -149,8 +150,8 @@ def test_case_with_a_clearance_one_ulp_off_is_a_fault(case):
 
 @every_sample
 def test_case_with_a_flip_distance_one_ulp_off_is_a_fault(case):
-    for position, distance in case.flips.items():
-        changed = {**case.flips, position: math.nextafter(distance, math.inf)}
+    for position, flip in case.flips.items():
+        changed = {**case.flips, position: Bracket(flip.lower, math.nextafter(flip.upper, math.inf))}
         assert [f"the flip to {position.label} is" in sentence for sentence in sentences(case, flips=changed)] == [True]
 
 

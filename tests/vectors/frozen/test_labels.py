@@ -80,7 +80,7 @@ BY_HAND = {
 
 
 def flags_at(*rows):
-    return flags_of(rows, [inside.decide(Pair.from_row(row).lengths) for row in rows])
+    return flags_of(FLAGS, rows, [inside.decide(Pair.from_row(row).lengths) for row in rows])
 
 
 @pytest.mark.parametrize("flag", BY_HAND)

@@ -122,7 +122,7 @@ def test_wrong_labels_of_a_way_are_found():
     assert changed("way-grazing", 0, witness=later)[0] == "the certificate does not prove contact at its time"
     early = (case.first[0] / 2, case.first[0])
     assert changed("way-grazing", 0, first=early)[0].startswith("the certificate does not prove that the first contact")
-    short = replace(case.witness, pieces=case.witness.pieces[:-1])
+    short = replace(case.witness, steps=case.witness.steps[:-1])
     assert changed("way-grazing", 0, witness=short)[0].startswith("the certificate does not prove that the first")
     assert changed("way-grazing", 0, flags=())[0].startswith("flags are none; they are ")
 
