@@ -69,7 +69,7 @@ def generate(family: str, seed: int, count: int, said: str | None, target: str) 
     type=click.Choice(("python", "coq")),
     default="python",
     show_default=True,
-    help="coq: position and tangency of upright spheroids only, by the checker that `make prove` proves and builds.",
+    help="coq: positions, tangency and first contact, without ends, by the checker that `make prove` proves and builds.",
 )
 @click.pass_context
 def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:
@@ -80,11 +80,11 @@ def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:
     Ends with 0 if all is right, 1 if a label or a head is wrong, 2 if a file does not have the form of its schema.
     """
     from hypcheck.errors import Exit
-    from hypcheck.proofs.build import run_checker
+    from hypcheck.proofs.build import frozen_files, run_checker
     from hypcheck.vectors.checking import examine, shipped_files
 
     if checker == "coq":
-        context.exit(run_checker(list(files) or shipped_files(tilted=False)))
+        context.exit(run_checker(list(files) or frozen_files()))
     checked, faulty, heads = 0, 0, 0
     for report in examine(files or shipped_files()):
         for wrong in report.head:

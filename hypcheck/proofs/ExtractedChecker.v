@@ -1,6 +1,6 @@
 (** The proved checker as OCaml. Whole numbers become Zarith's (GMP); booleans, lists and pairs become OCaml's own. *)
 
-From Hypcheck Require Import Checker.
+From Hypcheck Require Import Checker LeaningChecker RowChecker.
 Require Import Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
 
-Extraction "checker.ml" dyadic check check_vector.
+Extraction "checker.ml" dyadic check check_vector valid_sizes check_leaning check_passage.

@@ -34,7 +34,7 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int | None, built: P
             click.echo(f"{build.refuse_changes(2, built)} changes of the printed C are refused")
         _refuse([change for change in weakened() if change.file in names][:count], built)
         build.build_checker(built)
-        sys.exit(build.run_checker(build.upright_files(), built))
+        sys.exit(build.run_checker(build.frozen_files(), built))
     except HypcheckError as error:
         click.echo(f"proofs: error: {error}", err=True)
         sys.exit(error.exit_code)

@@ -119,13 +119,16 @@ let position = function
   | "1" -> Checker.Exterior | "0" -> Checker.Contact | "-1" -> Checker.Interior
   | p -> unreadable "position %s is none of 1, 0, -1" p
 
-(* The row of a case: the hexadecimal numbers, and the decimal ones must be the same. *)
-let row_of_case case =
+(* The numbers of a case: the hexadecimal ones, and the decimal ones must be the same. *)
+let numbers_of_case case =
   let hex = List.map (fun s -> float_of (text s)) (list (field "hex" case)) in
   let decimal = List.map (function Number s -> float_of s | _ -> unreadable "a row has numbers") (list (field "row" case)) in
   if List.map Int64.bits_of_float hex <> List.map Int64.bits_of_float decimal then
     unreadable "row and hex are not the same numbers";
-  row_of (List.map exact hex)
+  List.map exact hex
+
+let numbers_of_refusal case =
+  List.map (function Number s | String s -> float_of s | _ -> unreadable "a row has numbers") (list (field "row" case))
 
 let proof_of certificate : Checker.certificate =
   if has "multiplier" certificate then Multiplier (rational (text (field "multiplier" certificate)))
@@ -136,16 +139,140 @@ let number = function Number s -> s | _ -> unreadable "a number is expected"
 let truth = function Bool b -> b | _ -> unreadable "true or false is expected"
 
 let accepted case =
-  let row = row_of_case case in
+  let row = row_of (numbers_of_case case) in
   let claim = position (number (field "position" case)) in
   let tangent = truth (field "tangent" case) in
   Checker.check_vector row claim tangent (proof_of (field "certificate" case))
 
 (* A row that must be refused: a number that is not finite, or a semi-axis that is not positive. *)
 let refused case =
-  let numbers = List.map (function Number s | String s -> float_of s | _ -> unreadable "a row has numbers")
-      (list (field "row" case)) in
+  let numbers = numbers_of_refusal case in
   not (List.for_all Float.is_finite numbers && Checker.valid_row (row_of (List.map exact numbers)))
+
+(* ---- Rows with an axis, and ways: what the certificate leaves to be found is found here. None of it is trusted: the checker
+   asks that a unit of length be positive, and of a touch that the point be one. *)
+
+(* The least denominator that makes numbers whole: a unit in which the checker computes faster. *)
+let unit_of numbers = List.fold_left (fun d { Checker.qden; _ } -> Z.lcm d qden) Z.one numbers
+
+(* A solution of linear equations, rows with the right side last, and vectors that span those of the right side 0. *)
+let solutions rows n =
+  let rows = Array.map Array.copy rows in
+  let pivots = ref [] and at = ref 0 in
+  for column = 0 to n - 1 do
+    let found = ref (-1) in
+    for i = Array.length rows - 1 downto !at do if Q.sign rows.(i).(column) <> 0 then found := i done;
+    if !found >= 0 then begin
+      let row = rows.(!found) in
+      rows.(!found) <- rows.(!at);
+      rows.(!at) <- Array.map (fun x -> Q.div x row.(column)) row;
+      Array.iteri (fun i other -> if i <> !at then
+          rows.(i) <- Array.mapi (fun k x -> Q.sub x (Q.mul other.(column) rows.(!at).(k))) other) rows;
+      pivots := (column, !at) :: !pivots;
+      incr at
+    end
+  done;
+  let value of_row = Array.init n (fun c -> match List.assoc_opt c !pivots with Some i -> of_row c i | None -> Q.zero) in
+  let free = List.filter (fun c -> not (List.mem_assoc c !pivots)) (List.init n Fun.id) in
+  let direction f =
+    let v = value (fun _ i -> Q.neg rows.(i).(f)) in
+    v.(f) <- Q.one; v in
+  (value (fun _ i -> rows.(i).(n)), List.map direction free)
+
+let sum f = Q.(List.fold_left (fun s i -> s + f i) zero [ 0; 1; 2 ])
+
+(* Where S + mH is least, as an offset in multiples of b, nearest to the centre if there are many; and a direction of them. *)
+let touching sizes axis centre m =
+  let alpha, gamma, b, d = match sizes with [ a; g; b; d ] -> (a, g, b, d) | _ -> assert false in
+  let square x = Q.mul x x in
+  let v2 = sum (fun i -> square axis.(i)) in
+  let across = Q.inv (square b) in
+  let more = Q.div (Q.sub (Q.inv (square d)) across) v2 in
+  let ball i j = Q.add (if i = j then across else Q.zero) (Q.mul more (Q.mul axis.(i) axis.(j))) in
+  let level i = if i = 2 then Q.neg (Q.inv (square gamma)) else Q.inv (square alpha) in
+  let rows = Array.init 3 (fun i -> Array.init 4 (fun j ->
+      if j = 3 then Q.neg (Q.mul m (Q.mul (level i) centre.(i)))
+      else Q.mul b (Q.add (ball i j) (if i = j then Q.mul m (level i) else Q.zero)))) in
+  let found, ways = solutions rows 3 in
+  let product u v = sum (fun i -> sum (fun j -> Q.mul u.(i) (Q.mul (ball i j) v.(j)))) in
+  let ways = Array.of_list ways in
+  let n = Array.length ways in
+  let shares, _ = solutions (Array.init n (fun i -> Array.init (n + 1) (fun j ->
+      if j = n then Q.neg (product ways.(i) found) else product ways.(i) ways.(j)))) n in
+  let nearest = Array.init 3 (fun i -> Array.fold_left Q.add found.(i) (Array.init n (fun k -> Q.mul shares.(k) ways.(k).(i)))) in
+  (nearest, if n = 0 then Array.make 3 Q.zero else ways.(0))
+
+let in_q { Checker.qnum; qden } = Q.make qnum qden
+let of_q q = { Checker.qnum = Q.num q; qden = Q.den q }
+let spot_of a = ((of_q a.(0), of_q a.(1)), of_q a.(2))
+let triple = function [ x; y; z ] -> ((x, y), z) | _ -> unreadable "three numbers are expected"
+let vector ((x, y), z) = [| in_q x; in_q y; in_q z |]
+
+(* The parts of a row by its layout: sizes, places, axis. *)
+let rec split n l = if n = 0 then ([], l) else match l with
+  | [] -> unreadable "a row is too short" | x :: rest -> let a, b = split (n - 1) rest in (x :: a, b)
+
+type place = { sizes : Checker.sizes; all : Checker.q list; spots : Checker.spot list; numbers : Q.t list }
+
+let upright = [ Checker.dyadic Z.zero Z.zero; Checker.dyadic Z.zero Z.zero; Checker.dyadic Z.one Z.zero ]
+
+let placed ~tilted ~way numbers =
+  let sizes, rest = split 4 numbers in
+  let start, rest = split 3 rest in
+  let finish, rest = if way then split 3 rest else (start, rest) in
+  let axis, rest = if tilted then split 3 rest else (upright, rest) in
+  if rest <> [] then unreadable "a row is too long";
+  match sizes with
+  | [ s_alpha; s_gamma; s_b; s_d ] -> { sizes = { Checker.s_alpha; s_gamma; s_b; s_d; s_axis = triple axis };
+      all = sizes @ start @ finish; spots = [ triple start; triple finish ]; numbers = List.map in_q sizes }
+  | _ -> assert false
+
+let witness place centre certificate : Checker.witness =
+  let given name = has name certificate && field name certificate <> Null in
+  if given "multiplier" then Clear (rational (text (field "multiplier" certificate)))
+  else if given "double_root" then begin
+    let m = rational (text (field "double_root" certificate)) in
+    let at, along = touching place.numbers (vector place.sizes.s_axis) (vector centre) (in_q m) in
+    Touch (m, spot_of at, spot_of along)
+  end
+  else Among (List.map (fun p -> spot (List.map (fun s -> rational (text s)) (list p))) (list (field "points" certificate)))
+
+let axis_unit place = let (x, y), z = place.sizes.s_axis in unit_of [ x; y; z ]
+
+let leaning_accepted case =
+  let place = placed ~tilted:true ~way:false (numbers_of_case case) in
+  let centre = List.hd place.spots in
+  Checker.check_leaning place.sizes centre (unit_of place.all) (axis_unit place) (position (number (field "position" case)))
+    (truth (field "tangent" case)) (witness place centre (field "certificate" case))
+
+let at_time (a, b) time = Q.add a (Q.mul time (Q.sub b a))
+
+let way_accepted ~tilted case =
+  let place = placed ~tilted ~way:true (numbers_of_case case) in
+  let start, finish = match place.spots with [ s; e ] -> (s, e) | _ -> assert false in
+  let certificate = field "certificate" case in
+  let pieces = List.map (fun piece -> match list piece with
+      | [ l; till ] -> (rational (text l), rational (text till)) | _ -> unreadable "a piece has two numbers")
+      (list (field "pieces" certificate)) in
+  let times = List.map (fun (_, till) -> till) pieces in
+  let exact_hex s = exact (float_of (text s)) in
+  let claim, times = match field "first" case with
+    | Null -> if truth (field "hit" case) then unreadable "a hit has a first contact"; (Checker.NoContact, times)
+    | _ when not (truth (field "hit" case)) -> unreadable "a clear way has no first contact"
+    | _ -> match List.map exact_hex (list (field "first_hex" case)) with
+      | [ lower; upper ] ->
+        let time = rational (text (field "time" certificate)) in
+        let s = vector start and e = vector finish in
+        let centre = spot_of (Array.init 3 (fun i -> at_time (s.(i), e.(i)) (in_q time))) in
+        (Checker.FirstBetween (lower, upper, time, witness place centre certificate), time :: times)
+      | _ -> unreadable "a first contact has two bounds" in
+  let unit = Z.mul (unit_of place.all) (unit_of times) in
+  Checker.check_passage place.sizes start finish unit (axis_unit place) pieces claim
+
+(* A row that must be refused: a number that is not finite, a semi-axis that is not positive, an axis that is none. *)
+let leaning_refused ~tilted ~way case =
+  let numbers = numbers_of_refusal case in
+  not (List.for_all Float.is_finite numbers && Checker.valid_sizes (placed ~tilted ~way (List.map exact numbers)).sizes)
 
 let read path =
   let channel = try open_in_bin path with Sys_error reason -> unreadable "%s" reason in
@@ -153,8 +280,17 @@ let read path =
 
 let check_file (cases, wrong) path =
   let file = json_of (read path) in
-  let right, claim = if text (field "content" file) = "refusals" then (refused, "is a valid row")
-    else (accepted, "the certificate does not prove the label") in
+  let valid = "is a valid row" and unproved = "the certificate does not prove the label" in
+  let right, claim = match text (field "content" file) with
+    | "positions" -> (accepted, unproved)
+    | "tilted-positions" -> (leaning_accepted, unproved)
+    | "ways" -> (way_accepted ~tilted:false, unproved)
+    | "tilted-ways" -> (way_accepted ~tilted:true, unproved)
+    | "refusals" -> (refused, valid)
+    | "tilted-refusals" -> (leaning_refused ~tilted:true ~way:false, valid)
+    | "way-refusals" -> (leaning_refused ~tilted:false ~way:true, valid)
+    | "tilted-way-refusals" -> (leaning_refused ~tilted:true ~way:true, valid)
+    | content -> unreadable "the checker reads no content %S" content in
   List.fold_left (fun (cases, wrong) case ->
       let id = text (field "id" case) in
       match right case with

@@ -257,10 +257,9 @@ class MetadataFault:
     sentence: str
 
 
-def shipped_files(*, tilted: bool = True) -> list[str]:
-    """The paths of the frozen files, all of which must be there; without `tilted`, those about single upright pairs."""
-    names = frozen.ALL_NAMES if tilted else (*frozen.NAMES, "invalid")
-    return [str(frozen.path_of(name)) for name in names]
+def shipped_files() -> list[str]:
+    """The paths of the frozen files, all of which must be there."""
+    return [str(frozen.path_of(name)) for name in frozen.ALL_NAMES]
 
 
 def examine(paths: Iterable[str]) -> Iterator[FileReport]:

@@ -237,7 +237,7 @@ def test_prove_ends_as_the_checker_says_about_the_frozen_vectors(tools, script, 
     found, output = tools.prove("--soundness", "--weakened", "0")
     assert found == code
     assert output.endswith(f"0 weakened statements are refused\n{message}" if code < 2 else message)
-    assert (tools.folder / "files").read_text(encoding="utf-8").split() == build.upright_files()
+    assert (tools.folder / "files").read_text(encoding="utf-8").split() == build.frozen_files()
 
 
 def test_a_missing_checker_is_an_error_that_says_how_to_build_it(tmp_path):
