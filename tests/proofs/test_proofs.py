@@ -223,7 +223,7 @@ def _point_left_out(case):
         ("tilted-tangent", 7, _tangency_called_crossing),
         ("tilted-tangent", 7, _root_moved),
         ("tilted-tangent", 7, _axis_turned),
-        ("tilted-uniform", 0, _axis_turned),
+        ("tilted-uniform", 1, _interior_called_exterior),
         ("way-across", 0, _first_contact_later),
         ("way-across", 0, _piece_left_out),
         ("way-across", 0, _piece_to_the_other_side),
