@@ -201,7 +201,7 @@ def _first_contact_later(case):
 
 
 def _piece_left_out(case):
-    del case["certificate"]["pieces"][0]
+    del case["certificate"]["pieces"][-1]
 
 
 def _piece_to_the_other_side(case):
