@@ -10,10 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths
+from hypcheck.truth.polynomials import Polynomial, derivative, difference, polynomial_product, scaled, value
 from hypcheck.truth.vectors import dot, times
-
-Polynomial = tuple[int, ...]
-"""Coefficients, the highest power first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,14 +64,14 @@ class Dual:
         There value − under has a root, of a higher order than under, and is negative before it. Inside the interval,
         where under > 0, that is a root of order 2.
         """
-        if at == 0 or min(_at_fraction(self.first, at), _at_fraction(self.second, at)) < 0:
+        if at == 0 or min(value(self.first, at), value(self.second, at)) < 0:
             return False
-        under, gap = self.under, _difference(self.value, (0, *self.under))
+        under, gap = self.under, difference(self.value, (0, *self.under))
         pole = root = 0
-        while not _at_fraction(under, at):
-            under, pole = derived(under), pole + 1
-        while not (rest := _at_fraction(gap, at)):
-            gap, root = derived(gap), root + 1
+        while not value(under, at):
+            under, pole = derivative(under), pole + 1
+        while not (rest := value(gap, at)):
+            gap, root = derivative(gap), root + 1
         return root > max(pole, 1) and rest * (-1 if root % 2 and at > 0 else 1) < 0
 
 
@@ -111,11 +109,11 @@ def _quotient(
 ) -> Dual:
     """D = ν (over/under − m)/n, where the unit is m/n."""
     m, n = unit
-    value = (*_difference((0, *over), _scaled(m, under)), 0)
-    under = _scaled(n, under)
+    value = (*difference((0, *over), scaled(m, under)), 0)
+    under = scaled(n, under)
     content = math.gcd(*value, *under)
     value, under = (tuple(part // content for part in polynomial) for polynomial in (value, under))
-    slope = _difference(_product(derived(value), under), _product(value, derived(under)))
+    slope = difference(polynomial_product(derivative(value), under), polynomial_product(value, derivative(under)))
     return Dual(value, under, slope, first, second, Fraction(m, n))
 
 
@@ -128,38 +126,8 @@ def value_at(f: Polynomial, L: int, shift: int) -> int:
     return total
 
 
-def _at_fraction(f: Polynomial, at: Fraction) -> int:
-    """f(at) times a positive number."""
-    total, scale = 0, 1
-    for coefficient in f:
-        total = total * at.numerator + coefficient * scale
-        scale *= at.denominator
-    return total
-
-
 def _sign(number: int) -> int:
     return (number > 0) - (number < 0)
-
-
-def derived(f: Polynomial) -> Polynomial:
-    """The derivative."""
-    return tuple(part * power for part, power in zip(f, range(len(f) - 1, 0, -1), strict=False))
-
-
-def _product(f: Polynomial, g: Polynomial) -> Polynomial:
-    total = [0] * (len(f) + len(g) - 1)
-    for i, a in enumerate(f):
-        for j, b in enumerate(g):
-            total[i + j] += a * b
-    return tuple(total)
-
-
-def _difference(f: Polynomial, g: Polynomial) -> Polynomial:
-    return tuple(a - b for a, b in zip(f, g, strict=True))
-
-
-def _scaled(factor: int, f: Polynomial) -> Polynomial:
-    return tuple(factor * part for part in f)
 
 
 def _reduced(*numbers: int) -> tuple[int, ...]:

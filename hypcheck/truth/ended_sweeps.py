@@ -26,14 +26,8 @@ from math import isqrt
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import exact
 from hypcheck.truth.journey import Journey
-from hypcheck.truth.polynomial_roots import (
-    Interval,
-    Polynomial,
-    enclosures,
-    polynomial_product,
-    polynomial_sum,
-    primitive,
-)
+from hypcheck.truth.polynomial_roots import Interval, enclosures
+from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive
 from hypcheck.truth.sections import Sections
 
 _BITS = (60, 120, 240)

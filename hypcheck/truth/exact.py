@@ -36,6 +36,7 @@ from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import ends
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.pencil import Cubic, Number, Quartic, cubic, quartic, sign_at, sign_at_ratio
+from hypcheck.truth.polynomials import changes_of_sign, common_divisor
 from hypcheck.truth.rationals import sign_with_root
 
 
@@ -150,7 +151,7 @@ def _outer_tangency(g: Cubic, top: int, bottom: int) -> Kind:
 
 def _tilted(F: Quartic) -> Decision:
     contact = Decision(Position.CONTACT)
-    if F.side == 0 or _variations(F.coefficients) < 3:
+    if F.side == 0 or changes_of_sign(F.coefficients) < 3:
         return contact  # the centre on the hyperboloid, or one positive root alone
     sign = discriminant(F)
     if sign < 0:
@@ -158,17 +159,6 @@ def _tilted(F: Quartic) -> Decision:
     if sign == 0:
         return _with_multiple_root(F)
     return contact if _three_beyond(F) else Decision(Position(F.side))
-
-
-def _variations(signs: tuple[int, ...]) -> int:
-    """How often the sign changes in a sequence, zeros left out."""
-    count, last = 0, 0
-    for value in signs:
-        if value:
-            positive = 1 if value > 0 else -1
-            count += last == -positive
-            last = positive
-    return count
 
 
 def discriminant(F: Quartic) -> int:
@@ -191,7 +181,7 @@ def _three_beyond(F: Quartic) -> bool:
     for −: where it is 0, the sign of F′(ℓ) at a simple root tells by itself which of the roots ℓ is.
     """
     signs = _signs_at_first(F) if F.at_first else _signs_at_second(F)
-    return _variations((-1, *signs, 1)) == 3
+    return changes_of_sign((-1, *signs, 1)) == 3
 
 
 def _derivative(F: Quartic, order: int) -> tuple[int, ...]:
@@ -241,21 +231,6 @@ def _beyond(F: Quartic, m: Fraction) -> int:
 
 def double_root(F: Quartic) -> Fraction:
     """The multiple root of a quartic that has exactly one (double or triple), by Euclid's algorithm on F and F′."""
-    first: tuple[int, ...] = F.coefficients
-    second: tuple[int, ...] = _derivative(F, 1)
-    while second:
-        first, second = second, _remainder(first, second)
-    degree = len(first) - 1  # first is a multiple of (λ − m)^degree
-    return Fraction(-first[1], degree * first[0])
-
-
-def _remainder(first: tuple[int, ...], second: tuple[int, ...]) -> tuple[int, ...]:
-    """A multiple of the remainder of two polynomials, without leading zeros."""
-    rest = list(first)
-    while len(rest) >= len(second):
-        lead = rest[0]
-        tail = [*second[1:], *[0] * (len(rest) - len(second))]
-        rest = [second[0] * a - lead * b for a, b in zip(rest[1:], tail, strict=True)]
-    while rest and rest[0] == 0:
-        rest.pop(0)
-    return tuple(rest)
+    common = common_divisor(F.coefficients, _derivative(F, 1))
+    degree = len(common) - 1  # a multiple of (λ − m)^degree
+    return Fraction(-common[1], degree * common[0])

@@ -35,7 +35,8 @@ from hypcheck.truth.pencil import (
     sign_at,
     slope_of_quotient,
 )
-from hypcheck.truth.polynomial_roots import Interval, Polynomial, polynomial_product, polynomial_sum, primitive, value
+from hypcheck.truth.polynomial_roots import Interval
+from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive, value
 from hypcheck.truth.rationals import shortened
 from hypcheck.truth.surds import Quadratic, Surd, sign_at_root
 from hypcheck.truth.surds import value as value_of

@@ -28,7 +28,8 @@ from enum import IntEnum
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth.dual import Dual, Polynomial, derived, value_at
+from hypcheck.truth.dual import Dual, value_at
+from hypcheck.truth.polynomials import Polynomial, derivative
 
 _FIRST_BITS = 96
 _HINT_BITS = 64  # of λ, relative to the distance to the nearer pole
@@ -210,7 +211,7 @@ def _newton(dual: Dual, L: int, shift: int, bits: int) -> tuple[int, int]:
     low, high = -dual.end(-1, shift), dual.end(1, shift)
     whole = max(abs(L).bit_length(), 1)
     slope, under = (_cut(f, whole - shift, 2 * max(bits, whole) + 32) for f in (dual.slope, dual.under))
-    polynomials = (slope, under, derived(slope), derived(under))
+    polynomials = (slope, under, derivative(slope), derivative(under))
     room = step = 1
     for _ in range(_MOST_STEPS):
         room = max(1, min(high - L, L - low))

@@ -15,7 +15,7 @@ from hypcheck.truth import crossing
 from hypcheck.truth.certificate import Point
 from hypcheck.truth.journey import Journey, piece
 from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, place
-from hypcheck.truth.polynomial_roots import value
+from hypcheck.truth.polynomials import value
 from hypcheck.truth.prove import double_root
 from hypcheck.truth.rationals import rounded_toward, shortened
 from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, reach

@@ -31,7 +31,7 @@ from fractions import Fraction
 from typing import Any, TypeAlias
 
 from hypcheck.geometry.pair import Lengths
-from hypcheck.truth.polynomial_roots import polynomial_product
+from hypcheck.truth.polynomials import derivative, difference, polynomial_product
 from hypcheck.truth.rationals import power_near, sign_with_root
 
 Number: TypeAlias = Any
@@ -212,7 +212,8 @@ def slope_of_quotient(F: Quartic) -> tuple[int, ...]:
     """
     signed = F.side * F.q
     K = (-signed * F.e2, signed * F.e1 - F.p * F.e2, signed * F.e0 + F.p * F.e1, F.p * F.e0)
-    return _difference(polynomial_product(_derived(F.coefficients), K), polynomial_product(F.coefficients, _derived(K)))
+    f = F.coefficients
+    return difference(polynomial_product(derivative(f), K), polynomial_product(f, derivative(K)))
 
 
 def toward_maximum(F: Quartic) -> Iterator[Fraction]:
@@ -234,11 +235,3 @@ def inside(F: Quartic, at: Fraction) -> bool:
     n, k = at.numerator, at.denominator
     before_first = F.side > 0 or F.q * n < F.p * k
     return n > 0 and before_first and F.e2 * n * n - F.e1 * n * k < F.e0 * k * k
-
-
-def _derived(f: tuple[int, ...]) -> tuple[int, ...]:
-    return tuple(coefficient * (len(f) - 1 - i) for i, coefficient in enumerate(f[:-1]))
-
-
-def _difference(f: tuple[int, ...], g: tuple[int, ...]) -> tuple[int, ...]:
-    return tuple(a - b for a, b in zip(f, g, strict=True))

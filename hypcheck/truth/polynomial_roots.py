@@ -1,7 +1,7 @@
 """Real roots of integer polynomials, all of them or those between 0 and 1, enclosed by exact arithmetic alone.
 
-A polynomial is a tuple of integers, the highest power first, the first not 0. Nothing here is approximated: signs are
-signs of integers, roots are counted by Sturm's theorem, and intervals shrink by bisection.
+A polynomial is as in polynomials.py, its first coefficient not 0. Nothing here is approximated: signs are signs of
+integers, roots are counted by Sturm's theorem, and intervals shrink by bisection.
 
 For roots in [0, 1] Descartes' rule comes first: most polynomials that are asked about have no root there, and their
 coefficients show it. Sturm's theorem counts where that rule is not sharp.
@@ -10,88 +10,38 @@ coefficients show it. Sturm's theorem counts where that rule is not sharp.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
-from itertools import zip_longest
 
-Polynomial = tuple[int, ...]
+from hypcheck.truth.polynomials import (
+    Polynomial,
+    changes_of_sign,
+    derivative,
+    divided_by_root,
+    primitive,
+    quotient,
+    remainder,
+    scaled,
+    shifted_by_one,
+    value,
+)
+
 Interval = tuple[Fraction, Fraction]
-
-
-def value(f: Polynomial, x: Fraction) -> int:
-    """f(x) times a positive number (the denominator of x to the power of f's degree)."""
-    numerator, denominator = x.as_integer_ratio()
-    result, scale = 0, 1
-    for coefficient in f:
-        result = result * numerator + coefficient * scale
-        scale *= denominator
-    return result
-
-
-def primitive(f: Sequence[int]) -> Polynomial:
-    """The polynomial without leading zeros and over the gcd of its coefficients, signs kept; () for 0."""
-    content = math.gcd(*f)  # never negative
-    first = next((i for i, coefficient in enumerate(f) if coefficient), len(f))
-    return tuple(coefficient // content for coefficient in f[first:])
-
-
-def polynomial_product(f: Sequence[int], g: Sequence[int]) -> Polynomial:
-    """The product of two polynomials."""
-    result = [0] * (len(f) + len(g) - 1)
-    for i, a in enumerate(f):
-        for j, b in enumerate(g):
-            result[i + j] += a * b
-    return tuple(result)
-
-
-def linear_factor(root: Fraction) -> Polynomial:
-    """The primitive linear polynomial with this root."""
-    return (root.denominator, -root.numerator)
-
-
-def divided_by_root(f: Polynomial, root: Fraction) -> Polynomial:
-    """The quotient of a primitive f by the linear factor of one of its roots; in integers, by Gauss's lemma."""
-    return quotient(f, linear_factor(root))
-
-
-def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
-    """The greatest common divisor of two primitive polynomials, up to its sign."""
-    while g:
-        f, g = g, primitive(_remainder(f, g))
-    return f
 
 
 @lru_cache(maxsize=16)  # a polynomial is asked for its roots in one interval after another
 def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
     """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
-    degree = len(f) - 1
-    derivative = tuple(coefficient * (degree - i) for i, coefficient in enumerate(f[:-1]))
-    chain = [primitive(f), primitive(derivative)]
-    while len(chain[-1]) > 1:
-        rest = primitive([-coefficient for coefficient in _remainder(chain[-2], chain[-1])])
-        if not rest:
-            break
-        chain.append(rest)
+    chain = [primitive(f), primitive(derivative(f))]
+    while len(chain[-1]) > 1 and (rest := remainder(chain[-2], chain[-1])):
+        chain.append(scaled(-1, rest))
     return tuple(chain)
-
-
-def _remainder(f: Polynomial, g: Polynomial) -> Sequence[int]:
-    """The remainder of f by g, times a positive integer."""
-    lead, sign = abs(g[0]), 1 if g[0] > 0 else -1
-    rest = list(f)
-    while len(rest) >= len(g):
-        factor = sign * rest[0]
-        tail = [*g[1:], *[0] * (len(rest) - len(g))]
-        rest = [lead * a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
-    return rest
 
 
 def variations(chain: Sequence[Polynomial], x: Fraction) -> int:
     """The changes of sign in the values of a Sturm chain at x, which is no root of its first polynomial."""
-    signs = [number > 0 for number in (value(f, x) for f in chain) if number]
-    return sum(left != right for left, right in itertools.pairwise(signs))
+    return changes_of_sign(value(f, x) for f in chain)
 
 
 def roots_between(f: Polynomial, low: Fraction | None, high: Fraction | None) -> int:
@@ -175,33 +125,12 @@ UNIT_INTERVAL_WIDTH_BITS = 60
 """`narrowed` goes on until an enclosure is at most 2^−60 of its root: one float64, or two neighbours, hold it."""
 
 
-def polynomial_sum(*terms: Sequence[int]) -> Polynomial:
-    """The sum of polynomials, the highest power first; leading zeros are kept."""
-    columns = zip_longest(*(term[::-1] for term in terms), fillvalue=0)
-    return tuple(map(sum, columns))[::-1]
-
-
 def squarefree(f: Polynomial) -> Polynomial:
     """The primitive polynomial with the roots of a primitive f, each of them simple."""
     if len(f) == 1:
         return (1,)
     common = sturm_chain(f)[-1]
     return f if len(common) == 1 else quotient(f, common)
-
-
-def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
-    """f over one of its factors, both primitive; in integers, by Gauss's lemma."""
-    rest, quotient = list(f), []
-    while len(rest) >= len(g):
-        factor, remainder = divmod(rest[0], g[0])
-        if remainder:
-            break
-        quotient.append(factor)
-        tail = [*g[1:], *[0] * (len(rest) - len(g))]
-        rest = [a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
-    if any(rest):
-        raise AssertionError("a polynomial that is no factor was to be divided out")
-    return tuple(quotient)
 
 
 def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
@@ -255,19 +184,10 @@ def _none_by_descartes(f: Polynomial) -> bool:
     t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1): (1+s)^n f(1/(1+s)) has as coefficients, from the highest power of s,
     f(0) to f(1), and where no two of them differ in sign, and neither end is 0, there is no root.
     """
-    shifted = _shifted_by_one(f[::-1])
+    shifted = shifted_by_one(f[::-1])
     if not shifted[0] or not shifted[-1]:
         return False
     return min(shifted) >= 0 or max(shifted) <= 0
-
-
-def _shifted_by_one(f: Sequence[int]) -> list[int]:
-    """The coefficients of f(1 + s) as powers of s, by Horner's scheme."""
-    shifted = list(f)
-    for last in range(len(shifted) - 1, 0, -1):
-        for place in range(1, last + 1):
-            shifted[place] += shifted[place - 1]
-    return shifted
 
 
 def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
@@ -280,8 +200,7 @@ def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
     pending = [(0, 0, list(f))]  # the interval (place, place + 1)/2^depth, and f on it as a polynomial on (0, 1)
     while pending:
         place, depth, g = pending.pop()
-        signs = [number > 0 for number in _shifted_by_one(g[::-1]) if number]
-        changes = sum(left != right for left, right in itertools.pairwise(signs))
+        changes = changes_of_sign(shifted_by_one(g[::-1]))
         if not changes:
             continue
         low, high = Fraction(place, 1 << depth), Fraction(place + 1, 1 << depth)
@@ -293,7 +212,7 @@ def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
             yield low, high
         else:
             left = [number << power for power, number in enumerate(g)]
-            right = _shifted_by_one(left)
+            right = shifted_by_one(left)
             if not right[-1]:
                 yield (low + high) / 2, (low + high) / 2
             pending += [(2 * place, depth + 1, left), (2 * place + 1, depth + 1, right)]

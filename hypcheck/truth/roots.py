@@ -23,15 +23,8 @@ from types import MappingProxyType
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.polynomial_roots import (
-    Polynomial,
-    divided_by_root,
-    polynomial_product,
-    primitive,
-    roots_between,
-    sturm_chain,
-    value,
-)
+from hypcheck.truth.polynomial_roots import roots_between, sturm_chain
+from hypcheck.truth.polynomials import Polynomial, divided_by_root, polynomial_product, primitive, value
 
 COMPLEX = "complex"
 """The word of a pattern for a pair of complex roots."""

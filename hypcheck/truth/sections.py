@@ -34,12 +34,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.geometry.pair import Lengths, to_integers
+from hypcheck.geometry.pair import Lengths
+from hypcheck.truth.polynomials import (
+    Polynomial,
+    changes_of_sign,
+    common_divisor,
+    derivative,
+    polynomial_product,
+    polynomial_sum,
+    primitive,
+    quotient,
+    remainder,
+    scaled,
+    shifted_by_one,
+    trimmed,
+)
 from hypcheck.truth.rationals import root_of, sign_with_root
 from hypcheck.truth.vectors import dot
-
-Polynomial = tuple[int, ...]
-"""In w √U, the highest power first."""
 
 Height = int | None
 """A height over √U; None is infinite: −∞ at the lower end, ∞ at the upper."""
@@ -47,7 +58,7 @@ Height = int | None
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """What the horizontal planes cut out: polynomials in the height, each up to a positive factor.
+    """What the horizontal planes cut out: polynomials in the height w √U, each up to a positive factor.
 
     `cubic` is c3, c2, c1, c0. `above` is the height over the spheroid's centre. `inside` is k, ≥ 0 where the plane
     meets the spheroid. `off` is η² + ξ² − r², ≤ 0 where the ellipse's centre lies in the circle. `unit` is U.
@@ -76,14 +87,14 @@ class Sections:
         m2 = m1 + (q - t) * W
         p, s = lengths.alpha**2, lengths.gamma**2 * U
         above = (1, -height)
-        k = _sum((m2,), _scaled(-V, _product(above, above)))
+        k = _sum((m2,), scaled(-V, polynomial_product(above, above)))
         r2 = (p, 0, p * s)
         if W:
-            line = _sum(((U * along - product * height) * m2,), _scaled(-(q - t) * W * product, above))
-            eta, xi = (m2 * s * m1 * _volume(C, u, v) ** 2,), _scaled(lengths.gamma**2, _product(line, line))
+            line = _sum(((U * along - product * height) * m2,), scaled(-(q - t) * W * product, above))
+            eta, xi = (m2 * s * m1 * _volume(C, u, v) ** 2,), scaled(lengths.gamma**2, polynomial_product(line, line))
         else:
             W, eta, xi = 1, (m2 * lengths.gamma**2 * m1 * (U * dot(C, C) - height * height),), ()
-        A0, A1 = _scaled(s * W * q * m1, k), _scaled(m2 * W, r2)
+        A0, A1 = scaled(s * W * q * m1, k), scaled(m2 * W, r2)
         cubic = _shifted(A0, A1, eta, xi, m1, m2)
         if over_content:
             cubic = _over_content(*cubic)
@@ -158,11 +169,11 @@ class Sections:
             if some is not None and (self.unit == 1 or not some):
                 return not some
         f = self.critical
-        roots = self.roots(_chain(f, _derivative(f)), low, high)
+        roots = self.roots(_chain(f, derivative(f)), low, high)
         if len(apart) <= 1 or not roots:
             return roots == 0
         apart = _squarefree(apart)  # at its roots the circle misses where c2 > 0, though Δ = 0
-        chains = _chain(apart, _derivative(apart)), _chain(apart, _product(_derivative(apart), c2))
+        chains = _chain(apart, derivative(apart)), _chain(apart, polynomial_product(derivative(apart), c2))
         return 2 * roots == sum(self.roots(chain, low, high) for chain in chains)
 
     def wall_crosses(self, low: int, high: int) -> bool:
@@ -171,7 +182,7 @@ class Sections:
         Between two roots next to each other of the critical polynomial the least e of the circles keeps its sign.
         """
         f = self.critical
-        chain, pending = _chain(f, _derivative(f)), [(Fraction(low), Fraction(high))]
+        chain, pending = _chain(f, derivative(f)), [(Fraction(low), Fraction(high))]
         while pending:
             first, last = pending.pop()
             ends_at_roots = [self.sign(f, height) == 0 for height in (first, last)]
@@ -211,14 +222,16 @@ class Sections:
 def discriminant(cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]) -> Polynomial:
     """Δ of the cubic in ν, but for a constant factor > 0."""
     c3, c2, c1, c0 = cubic
-    square = _product(c2, c2)
-    rest = _sum(square, _scaled(-4, _product(c3, c1)))
+    outer, inner = polynomial_product(c3, c1), polynomial_product(c2, c2)
+    rest = _sum(inner, scaled(-4, outer))
     if not c0 and len(c1) == 1:
         return rest
+    cross = _sum(scaled(-4, polynomial_product(inner, c2)), scaled(18, polynomial_product(outer, c2)))
+    ends = polynomial_product(c3, c0)
     return _sum(
-        _product(_product(c1, c1), rest),
-        _product(c0, _sum(_scaled(-4, _product(square, c2)), _scaled(18, _product(_product(c3, c2), c1)))),
-        _scaled(-27, _product(_product(c3, c3), _product(c0, c0))),
+        polynomial_product(polynomial_product(c1, c1), rest),
+        polynomial_product(c0, cross),
+        scaled(-27, polynomial_product(ends, ends)),
     )
 
 
@@ -228,14 +241,14 @@ def _shifted(
     """The coefficients of −(A0 + κ A1)(m1 + κ)(m2 + κ) + κ eta (m2 + κ) + κ xi (m1 + κ) in ν = κ + min(m1, m2)."""
     m, gap = min(m1, m2), abs(m2 - m1)
     first, second = (eta, xi) if m1 <= m2 else (xi, eta)
-    at_least = _sum(A0, _scaled(-m, A1))
-    c2 = _sum(_scaled(-1, at_least), _scaled(-gap, A1), first, second)
-    c1 = _sum(_scaled(-gap, at_least), _scaled(gap - m, first), _scaled(-m, second))
-    return _scaled(-1, A1), c2, c1, _scaled(-m * gap, first)
+    at_least = _sum(A0, scaled(-m, A1))
+    c2 = _sum(scaled(-1, at_least), scaled(-gap, A1), first, second)
+    c1 = _sum(scaled(-gap, at_least), scaled(gap - m, first), scaled(-m, second))
+    return scaled(-1, A1), c2, c1, trimmed(scaled(-m * gap, first))
 
 
 def _off(A1: Polynomial, eta: Polynomial, xi: Polynomial, m1: int, m2: int) -> Polynomial:
-    return primitive(_sum(_scaled(m2, eta), _scaled(m1, xi), _scaled(-m1 * m2, A1)))
+    return primitive(_sum(scaled(m2, eta), scaled(m1, xi), scaled(-m1 * m2, A1)))
 
 
 def _over_content(*polynomials: Polynomial) -> tuple[Polynomial, Polynomial, Polynomial, Polynomial]:
@@ -250,54 +263,19 @@ def _chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
     chain = [f]
     while g:
         chain.append(primitive(g))
-        g = tuple(-number for number in _remainder(chain[-2], chain[-1]))
+        g = scaled(-1, remainder(chain[-2], chain[-1]))
     return chain
-
-
-def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
-    """The greatest common divisor, up to a constant factor; () of twice 0."""
-    while g:
-        f, g = g, _remainder(f, g)
-    return f
 
 
 def _squarefree(f: Polynomial) -> Polynomial:
     """A multiple of the polynomial that has its roots, each of them simple."""
-    common = common_divisor(f, _derivative(f))
-    rest, quotient = [Fraction(number) for number in f], []
-    while len(rest) >= len(common) > 1:
-        quotient.append(rest[0] / common[0])
-        tail = [*common[1:], *[0] * (len(rest) - len(common))]
-        rest = [a - quotient[-1] * b for a, b in zip(rest[1:], tail, strict=True)]
-    return primitive(to_integers(quotient) if quotient else f)
-
-
-def _remainder(f: Polynomial, g: Polynomial) -> Polynomial:
-    """A positive multiple of the remainder, without leading zeros and common factors; () for 0."""
-    rest = list(f)
-    while len(rest) >= len(g):
-        factor, lead = rest[0] if g[0] > 0 else -rest[0], abs(g[0])
-        tail = [*g[1:], *[0] * (len(rest) - len(g))]
-        rest = [lead * a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
-    return primitive(rest)
-
-
-def primitive(f: Sequence[int]) -> Polynomial:
-    """The polynomial without leading zeros and over the gcd of its coefficients, signs kept; () for 0."""
-    first, common = next((place for place, number in enumerate(f) if number), len(f)), math.gcd(*f)
-    return tuple(number // common for number in f[first:])
-
-
-def _derivative(f: Polynomial) -> Polynomial:
-    return tuple(coefficient * (len(f) - 1 - place) for place, coefficient in enumerate(f[:-1]))
+    f = primitive(f)
+    common = common_divisor(f, derivative(f))
+    return quotient(f, primitive(common)) if len(common) > 1 else f
 
 
 def _sum(*terms: Polynomial) -> Polynomial:
-    columns = itertools.zip_longest(*(term[::-1] for term in terms), fillvalue=0)
-    total = [sum(column) for column in columns]
-    while total and not total[-1]:
-        total.pop()
-    return tuple(total[::-1])
+    return trimmed(polynomial_sum(*terms))
 
 
 def _value(f: Polynomial, at: Fraction) -> Fraction:
@@ -305,20 +283,6 @@ def _value(f: Polynomial, at: Fraction) -> Fraction:
     for coefficient in f:
         total = total * at + coefficient
     return total
-
-
-def _scaled(factor: int, f: Polynomial) -> Polynomial:
-    return tuple(factor * coefficient for coefficient in f) if factor else ()
-
-
-def _product(f: Polynomial, g: Polynomial) -> Polynomial:
-    if not f or not g:
-        return ()
-    result = [0] * (len(f) + len(g) - 1)
-    for i, a in enumerate(f):
-        for j, b in enumerate(g):
-            result[i + j] += a * b
-    return tuple(result)
 
 
 def _floor_of_multiple(number: int, unit: int) -> int:
@@ -348,14 +312,14 @@ def has_root(f: Polynomial, low: int, high: int) -> bool | None:
     pending = [(0, _coefficients_between(f, low, high))]
     while pending:
         halvings, g = pending.pop()
-        changes = _changes_of_sign(_shifted_by_one(g[::-1]))
+        changes = changes_of_sign(shifted_by_one(g[::-1]))
         if changes == 1:
             return True
         if changes:
             if halvings == MOST_HALVINGS:
                 return None
             first = [coefficient << place for place, coefficient in enumerate(g)]
-            second = _shifted_by_one(first)
+            second = shifted_by_one(first)
             if not second[-1]:
                 return True  # the middle
             pending += [(halvings + 1, first), (halvings + 1, second)]
@@ -373,20 +337,6 @@ def _coefficients_between(f: Polynomial, low: int, high: int) -> list[int]:
         power *= width
         shifted[place] *= power
     return shifted
-
-
-def _shifted_by_one(f: Sequence[int]) -> list[int]:
-    """The coefficients of f(s + 1)."""
-    shifted = list(f)
-    for last in range(len(f) - 1, 0, -1):
-        for place in range(1, last + 1):
-            shifted[place] += shifted[place - 1]
-    return shifted
-
-
-def _changes_of_sign(numbers: Sequence[int]) -> int:
-    signs = [number > 0 for number in numbers if number]
-    return sum(one != other for one, other in itertools.pairwise(signs))
 
 
 def _volume(C: Sequence[int], u: Sequence[int], v: Sequence[int]) -> int:

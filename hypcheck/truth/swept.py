@@ -43,7 +43,8 @@ from hypcheck.geometry.pair import (
 from hypcheck.messages import counted, escaped
 from hypcheck.truth.ended_sweeps import EndedSweep, first_contact, grazes
 from hypcheck.truth.journey import Journey, piece
-from hypcheck.truth.polynomial_roots import Interval, Polynomial, narrowed, roots_from_0_to_1, value
+from hypcheck.truth.polynomial_roots import Interval, narrowed, roots_from_0_to_1
+from hypcheck.truth.polynomials import Polynomial, value
 from hypcheck.truth.rationals import rounded_toward, shortened
 
 WIDTH_BITS = 60

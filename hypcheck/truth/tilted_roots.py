@@ -30,17 +30,8 @@ from itertools import combinations, combinations_with_replacement, groupby, pair
 from types import MappingProxyType
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth.polynomial_roots import (
-    Polynomial,
-    common_divisor,
-    primitive,
-    quotient,
-    root_exponents,
-    roots_between,
-    squarefree,
-    sturm_chain,
-    value,
-)
+from hypcheck.truth.polynomial_roots import root_exponents, roots_between, squarefree, sturm_chain
+from hypcheck.truth.polynomials import Polynomial, common_divisor, primitive, quotient, value
 
 
 class Side(Enum):

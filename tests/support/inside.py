@@ -105,7 +105,8 @@ from hypcheck.truth.nearest_rows import clearances
 from hypcheck.truth.nearest_rows import positions as nearest_rows_positions
 from hypcheck.truth.passage_error import hits_at_size, is_tolerated, scaled_passage, size_error, time_window, tolerance
 from hypcheck.truth.pencil import cubic, quartic, sign_at
-from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate, linear_factor, polynomial_product, value
+from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate
+from hypcheck.truth.polynomials import linear_factor, polynomial_product, value
 from hypcheck.truth.prove import prove
 from hypcheck.truth.roots import (
     COMPLEX,

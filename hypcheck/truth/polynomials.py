@@ -1,0 +1,125 @@
+"""Polynomials with integer coefficients: their arithmetic, which decides nothing by itself.
+
+A polynomial is a tuple of integers, the highest power first; () is 0.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+Polynomial = tuple[int, ...]
+
+
+def value(f: Sequence[int], x: Fraction) -> int:
+    """f(x) times a positive number (the denominator of x to the power of f's degree)."""
+    numerator, denominator = x.as_integer_ratio()
+    result, scale = 0, 1
+    for coefficient in f:
+        result = result * numerator + coefficient * scale
+        scale *= denominator
+    return result
+
+
+def trimmed(f: Sequence[int]) -> Polynomial:
+    """The polynomial without leading zeros; () for 0."""
+    first = next((place for place, coefficient in enumerate(f) if coefficient), len(f))
+    return tuple(f[first:])
+
+
+def primitive(f: Sequence[int]) -> Polynomial:
+    """The polynomial without leading zeros and over the gcd of its coefficients, signs kept; () for 0."""
+    content = math.gcd(*f)  # never negative
+    return tuple([coefficient // content for coefficient in trimmed(f)])
+
+
+def polynomial_sum(*terms: Sequence[int]) -> Polynomial:
+    """The sum of polynomials; leading zeros are kept."""
+    columns = itertools.zip_longest(*(term[::-1] for term in terms), fillvalue=0)
+    return tuple(map(sum, columns))[::-1]
+
+
+def scaled(factor: int, f: Sequence[int]) -> Polynomial:
+    """The polynomial times a number."""
+    return tuple([factor * coefficient for coefficient in f])
+
+
+def difference(f: Sequence[int], g: Sequence[int]) -> Polynomial:
+    """f − g, both with as many coefficients."""
+    return tuple([a - b for a, b in zip(f, g, strict=True)])
+
+
+def polynomial_product(f: Sequence[int], g: Sequence[int]) -> Polynomial:
+    """The product of two polynomials."""
+    if not f or not g:
+        return ()
+    result = [0] * (len(f) + len(g) - 1)
+    for i, a in enumerate(f):
+        for j, b in enumerate(g):
+            result[i + j] += a * b
+    return tuple(result)
+
+
+def derivative(f: Sequence[int]) -> Polynomial:
+    """The derivative."""
+    return tuple([part * power for part, power in zip(f, range(len(f) - 1, 0, -1), strict=False)])
+
+
+def remainder(f: Sequence[int], g: Sequence[int]) -> Polynomial:
+    """The remainder of f by g ≠ 0, times a positive number that leaves the coefficients coprime; () for 0."""
+    lead, sign = abs(g[0]), 1 if g[0] > 0 else -1
+    rest = list(f)
+    while len(rest) >= len(g):
+        factor = sign * rest[0]
+        tail = [*g[1:], *[0] * (len(rest) - len(g))]
+        rest = [lead * a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
+    return primitive(rest)
+
+
+def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
+    """The greatest common divisor of two polynomials, up to a constant factor; () of twice 0."""
+    while g:
+        f, g = g, remainder(f, g)
+    return f
+
+
+def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
+    """f over one of its factors, both primitive; in integers, by Gauss's lemma."""
+    rest, quotient = list(f), []
+    while len(rest) >= len(g):
+        factor, left = divmod(rest[0], g[0])
+        if left:
+            break
+        quotient.append(factor)
+        tail = [*g[1:], *[0] * (len(rest) - len(g))]
+        rest = [a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
+    if any(rest):
+        raise AssertionError("a polynomial that is no factor was to be divided out")
+    return tuple(quotient)
+
+
+def linear_factor(root: Fraction) -> Polynomial:
+    """The primitive linear polynomial with this root."""
+    return (root.denominator, -root.numerator)
+
+
+def divided_by_root(f: Polynomial, root: Fraction) -> Polynomial:
+    """The quotient of a primitive f by the linear factor of one of its roots."""
+    return quotient(f, linear_factor(root))
+
+
+def shifted_by_one(f: Sequence[int]) -> list[int]:
+    """The coefficients of f(s + 1), by Horner's scheme."""
+    shifted = list(f)
+    for last in range(len(shifted) - 1, 0, -1):
+        for place in range(1, last + 1):
+            shifted[place] += shifted[place - 1]
+    return shifted
+
+
+def changes_of_sign(numbers: Iterable[int]) -> int:
+    """How often the sign changes in a sequence, zeros left out."""
+    signs = [number > 0 for number in numbers if number]
+    return sum(one != other for one, other in itertools.pairwise(signs))
