@@ -4,9 +4,8 @@ It says clear, contact or undecided, and never a wrong word: bounds found withou
 about the very mesh that shows it, must say the same. The one question to FCL (python-fcl) is how far C is from a mesh.
 FCL knows no sides; the side is the exact sign of the hyperboloid's equation at C.
 
-The bounds of an upright spheroid are proved (mesh_meridian.py), and so are those where the hyperboloid ends
-(mesh_ends.py), if the library's functions are right within 4 places; those of a tilted one without ends (mesh_lines.py)
-allow for roundings ten times over.
+The bounds of an upright spheroid are proved (mesh_meridian.py), and so are those of any other pair (mesh_wall.py), if
+the library's functions are right within 4 places.
 """
 
 from __future__ import annotations
@@ -14,8 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import mesh_ends, mesh_lines, mesh_meridian
-from hypcheck.truth.mesh import Measure, MeshOutcome, Refinement, distance_to_mesh, require_fcl
+from hypcheck.truth import mesh_meridian, mesh_wall
+from hypcheck.truth.mesh import Measure, MeshOutcome, distance_to_mesh, require_fcl
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +43,7 @@ def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
     Raises UnavailableError where FCL cannot be imported.
     """
     require_fcl()
-    search = _search(pair)
+    search = (mesh_meridian if pair.is_upright and not pair.has_ends else mesh_wall).refine(pair)
     outcome, reason = search.outcome, search.reason
     for mesh in search.meshes:
         distance = measure(*mesh)
@@ -57,12 +56,6 @@ def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
         position = Position.CONTACT if outcome is MeshOutcome.CONTACT else _side(pair, search.side)
     count = sum(len(triangles) for _, triangles in search.meshes)
     return MeshVerdict(outcome, position, search.levels, count, search.lower, search.upper, reason or None)
-
-
-def _search(pair: Pair) -> Refinement:
-    if pair.has_ends:
-        return mesh_ends.refine(pair)
-    return mesh_meridian.refine(pair) if pair.is_upright else mesh_lines.refine(pair)
 
 
 def _side(pair: Pair, sign: int) -> Position:

@@ -1,4 +1,4 @@
-"""The mesh oracle where the hyperboloid ends: its meshes hold the wall between them; it is right or undecided."""
+"""The mesh oracle for any axis and any ends: its meshes hold the wall between them; it is right or undecided."""
 
 from __future__ import annotations
 
@@ -6,16 +6,21 @@ import math
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth.mesh_ends import refine
+from hypcheck.truth import mesh_wall as wall
+from hypcheck.truth.mesh_wall import refine
 from tests.support.inside import MeshOutcome, availability, distance_to_mesh, verdict
+from tests.support.tilted_fractions import exact_position
 from tests.tools.oracle_agreement import main
+from tests.truth.tilted_cases import SYMMETRIC
 
 pytestmark = pytest.mark.skipif(availability() is not None, reason="python-fcl is not installed")
 TREE = (0.2, 1.0, 0.3, 0.2)
 """The trunk's and the drone's sizes in the two trees: the trunk ends at z = 2, its rim is at r = 0.2 √5."""
 RIM = 0.2 * math.sqrt(5)
+TILTED = (1.0, 4.0, 0.125, 0.25, 1.5, 0.0, 0.0, 0.0, 1.0, 1.0)
 
 
 def asked(x, z, *heights, axis=(0, 0, 1), sizes=TREE):
@@ -91,3 +96,51 @@ def test_mesh_oracle_leaves_extreme_ratios_of_lengths_beside_an_end_undecided():
 def test_mesh_oracle_is_never_wrong_about_random_rows_beside_ends(capsys):
     assert main(["mesh", "--rows", "400", "--families", "ended,rim,disc,slab"]) == 0
     assert "0 disagreements" in capsys.readouterr().out
+
+
+def test_tilted_mesh_oracle_leaves_tangencies_undecided_and_calls_rings_clear():
+    for row, position, limit_of in SYMMETRIC:
+        found = verdict(Pair.from_row(row)).position
+        assert found == (None if limit_of is not None else position)
+
+
+def test_tilted_mesh_oracle_is_undecided_where_fcl_does_not_confirm_it():
+    assert verdict(Pair.from_row(TILTED)).position is Position.EXTERIOR
+    assert verdict(Pair.from_row(TILTED), lambda *_: 1.0).position is None
+    touching = (*TILTED[:4], 1.0625, *TILTED[5:])
+    assert exact_position(touching) == 0
+    assert verdict(Pair.from_row(touching)).position is Position.CONTACT
+    assert verdict(Pair.from_row(touching), lambda *_: 1.0).position is None
+
+
+def test_tilted_mesh_oracle_leaves_extreme_ratios_of_lengths_undecided():
+    assert verdict(Pair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3))).position is None
+
+
+def test_tilted_mesh_oracle_says_contact_at_once_where_the_centre_is_on_the_surface():
+    found = verdict(Pair.from_row((1.0, 4.0, 0.125, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0)))
+    assert (found.position, found.levels) == (Position.CONTACT, 1)
+
+
+@pytest.mark.parametrize("row", [TILTED, (*TREE, RIM, 0, 2.2001, 0, 0, 1, -1, 2, 0)])
+def test_corners_of_cells_are_within_their_slack_of_the_exact_ones(row):
+    pair = Pair.from_row(row)
+    scene = wall.scene_of(pair)
+    cells = scene.whole()[:40]
+    with mp.workprec(200):
+        points, slack = scene.corners(cells)
+        for cell, corners, allowed in zip(cells.tolist(), points.tolist(), slack.tolist(), strict=True):
+            for place, corner in enumerate(corners):
+                way = [p - c for p, c in zip(exact_corner(scene, cell, place), scene.centre.tolist(), strict=True)]
+                exact = [sum(w * mpf(r) for w, r in zip(way, column, strict=True)) for column in scene.root.T.tolist()]
+                assert all(abs(mpf(x) - y) <= allowed for x, y in zip(corner, exact, strict=True))
+
+
+def exact_corner(scene, cell, place):
+    """Start, corner of the tangents or end of the meridian, in the direction of the start, the corner or the end."""
+    _, low, high, start, end = map(mpf, cell)
+    meridian, direction = divmod(place, 3)
+    s, shrink = [(low, 1), ((low + high) / 2, mp.cosh((high - low) / 2)), (high, 1)][meridian]
+    angle, wide = [(start, 1), ((start + end) / 2, mp.cos((end - start) / 2)), (end, 1)][direction]
+    r, z = scene.alpha * mp.cosh(s) / shrink, scene.gamma * mp.sinh(s) / shrink
+    return r * mp.cos(angle) / wide, r * mp.sin(angle) / wide, z
