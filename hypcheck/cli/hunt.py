@@ -192,9 +192,9 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
         rows = [cluster.worst.case.row for cluster in found]
         used, layout = run.target.implementation.description, run.target.layout
         if used.tilt or used.heights:
-            rows = [(*row, *UPRIGHT) if len(row) == len(layout.upright) else row for row in rows]
+            rows = [row if layout.has_axis(row) else (*row, *UPRIGHT) for row in rows]
         if used.heights:
-            rows = [(*row, *WITHOUT_ENDS) if len(row) == len(layout.tilted) else row for row in rows]
+            rows = [row if layout.has_heights(row) else (*row, *WITHOUT_ENDS) for row in rows]
         added = keep_rows(str(out), rows, made_by, tilted=used.tilt, ended=used.heights, layout=layout)
         there = "" if added == len(rows) else ", the others were there already"
         click.echo(f"\n{printable(out)}: {counted(added, 'row')} added{there}")
@@ -255,7 +255,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     row = run.last.case.row
     if run.target.layout is WAYS:
         click.echo("\nthe right answer")
-        content = content_with(WAYS, ended=len(row) == len(WAYS.ended))
+        content = content_with(WAYS, ended=WAYS.has_heights(row))
         click.echo("\n".join(way_answer_lines(*labelled(content, [("", row)]))))
     else:
         click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(row)))}")

@@ -55,10 +55,21 @@ CANNOT_SAY = 2
 class Layout:
     """The columns of rows: `upright` are the names of those of upright spheroids; for tilted ones, AXIS is behind.
 
-    Where hyperboloids end, HEIGHTS are behind AXIS, which is there for upright spheroids too.
+    Where hyperboloids end, HEIGHTS are behind AXIS, which is there for upright spheroids too. `subjects` say in a word
+    what rows of each width are about.
     """
 
     upright: tuple[str, ...]
+    subjects: tuple[str, str, str] = ("upright", "tilted", "ended")
+
+    @property
+    def widths(self) -> tuple[int, int, int]:
+        """How many numbers rows have: of upright spheroids, with an axis, with an axis and heights."""
+        return len(self.upright), len(self.tilted), len(self.ended)
+
+    def subject(self, width: int) -> str:
+        """What rows of so many numbers are about."""
+        return self.subjects[self.widths.index(width)]
 
     @property
     def tilted(self) -> tuple[str, ...]:
@@ -74,23 +85,23 @@ class Layout:
         """The names of the columns of a row with that many numbers."""
         return self.ended[:width]
 
-    def has_axis(self, rows: Rows | Sequence[float]) -> bool:
+    def has_axis(self, rows: Rows | Sequence[object]) -> bool:
         """Whether the rows, or one row, have the columns of an axis."""
         return _width_of(rows) > len(self.upright)
 
-    def has_heights(self, rows: Rows | Sequence[float]) -> bool:
+    def has_heights(self, rows: Rows | Sequence[object]) -> bool:
         """Whether the rows, or one row, have the columns of heights."""
         return _width_of(rows) > len(self.tilted)
 
 
-def _width_of(rows: Rows | Sequence[float]) -> int:
+def _width_of(rows: Rows | Sequence[object]) -> int:
     return rows.shape[-1] if isinstance(rows, np.ndarray) else len(rows)
 
 
 PAIRS = Layout(COLUMNS)
 """One position of a spheroid: (n, 7), or (n, 10) with its axis."""
 
-WAYS = Layout(WAY_COLUMNS)
+WAYS = Layout(WAY_COLUMNS, ("way", "way", "way"))
 """The way between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
 
 

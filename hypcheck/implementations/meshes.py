@@ -27,8 +27,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import COLUMNS, Sizes
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Floats, Positions, Rows
 from hypcheck.implementations.method import Answers
 from hypcheck.truth.mesh import Triangles, Vertices, availability, fcl_module, mesh_object, require_fcl
 
@@ -210,7 +210,7 @@ def grid_of(a: float, c: float, height: float, triangles: int) -> MeshGrid:
 def height_of(sizes: Sizes, rows: Rows) -> float:
     """The height of a scene's mesh, in the caller's unit: beyond γ, and beyond every body that is asked."""
     _, gamma, b, d = sizes
-    reach = d if rows.shape[1] == len(COLUMNS) else max(b, d)
+    reach = max(b, d) if PAIRS.has_axis(rows) else d
     return float(max(1.2 * gamma, np.abs(rows[:, 6]).max(initial=0.0)) + 1.1 * reach)
 
 
@@ -243,7 +243,7 @@ class SceneMesh:
             return np.full(len(rows), CANNOT_SAY, dtype=np.int8)
         alpha, gamma, _, _ = self.sizes
         across, aside, up = self.unit
-        turns = turns_of(rows[:, 7:]) if rows.shape[1] > len(COLUMNS) else [None] * len(rows)
+        turns = turns_of(rows[:, 7:]) if PAIRS.has_axis(rows) else [None] * len(rows)
         return np.array(
             [
                 0

@@ -30,7 +30,7 @@ import numpy as np
 
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS, REFUSED
-from hypcheck.geometry.rows import Floats, Indices, Integers, Mask, Positions, Rows, invalid
+from hypcheck.geometry.rows import PAIRS, Floats, Indices, Integers, Mask, Positions, Rows, invalid
 from hypcheck.kernel import clearance_points as points
 from hypcheck.kernel import normals
 from hypcheck.kernel.choice import choice
@@ -145,7 +145,7 @@ _MEASURED = tuple(part.name for part in fields(Clearance) if part.name != "rows"
 
 def clearances_without_ends(queries: Rows, threads: int | None = None) -> Clearance:
     """What clearance() says of rows (n, 7) or (n, 10); invalid ones have the position 127 and NaN everywhere."""
-    upright = queries.shape[1] == len(COLUMNS)
+    upright = not PAIRS.has_axis(queries)
     compiled = upright and choice().kernel == "compiled"
     found = _compiled(queries, threads) if compiled else Clearance.empty(queries)
     refused = found.position == REFUSED if compiled else invalid(queries)
@@ -197,7 +197,7 @@ def _compiled(rows: Rows, threads: int | None) -> Clearance:
 def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
     """The answers about some valid rows; those that lean, and those that do not, together."""
     some = queries[places]
-    lean = leaning(some) if some.shape[1] > len(COLUMNS) else np.zeros(len(some), np.bool_)
+    lean = leaning(some) if PAIRS.has_axis(some) else np.zeros(len(some), np.bool_)
     for chosen in (lean, ~lean):
         if chosen.any():
             rows = np.ascontiguousarray(some[chosen] if chosen is lean else some[chosen, : len(COLUMNS)])
@@ -209,7 +209,7 @@ def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None)
 def _answers(rows: Rows, threads: int | None) -> Clearance:
     """The answers about rows that all lean, (n, 10), or that are all upright, (n, 7)."""
     rows, shift = scaled(rows)
-    leans = rows.shape[1] > len(COLUMNS)
+    leans = PAIRS.has_axis(rows)
     position = _positions(rows, threads)
     touches = points.leaning_touches(rows) if leans else points.upright_touches(rows)
     low, high = _factors(rows, position, touches.factor, threads)
@@ -324,7 +324,7 @@ def _measured(rows: Rows, gaps: points.PointGaps) -> Floats:
     """The length of each gap, and more than the error of its ends."""
     b, d = rows[:, 2], rows[:, 3]
     largest = np.maximum(b, d)
-    if rows.shape[1] > len(COLUMNS):
+    if PAIRS.has_axis(rows):
         largest = largest * (largest / np.minimum(b, d)) ** 2
     way = gaps.there - gaps.here
     length = np.sqrt((way * way).sum(axis=1))

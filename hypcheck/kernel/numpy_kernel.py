@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Axis, Pair, Position, Sizes
 from hypcheck.geometry.rows import (
     CANNOT_SAY,
+    PAIRS,
     WAYS,
     Columns,
     Floats,
@@ -64,7 +65,7 @@ Number = TypeVar("Number", np.float32, np.float64)
 
 def positions(rows: Rows) -> Positions:
     """The exact position of every row, int8 (n,), 127 for invalid ones; float64 (n, 7) or (n, 10) as in rows.py."""
-    if rows.shape[1] == len(TILTED_COLUMNS):
+    if PAIRS.has_axis(rows):
         return _positions_of_ten(rows)
     result = np.empty(len(rows), dtype=np.int8)
     buffers = Buffers(chunks.CERTIFIED_BUFFERS, min(CHUNK, len(rows)), np.float64)

@@ -24,7 +24,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT, Position
-from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
+from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearances
 from hypcheck.kernel.normals import normals
 from hypcheck.kernel.scene_ends import positions_with_ends
@@ -204,7 +204,7 @@ class _Pairs:
     @property
     def own_axes(self) -> Floats | None:
         """The movers' axes in the frames; None where all are upright there."""
-        return self.rows[:, len(COLUMNS) :] if self.rows.shape[1] > len(COLUMNS) else None
+        return self.rows[:, len(COLUMNS) :] if PAIRS.has_axis(self.rows) else None
 
     def in_scene(self, point: Floats) -> Floats:
         """Points of the frames (n, 3) in the scene; NaN for those beyond."""

@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck import toml
-from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Pair, Position
-from hypcheck.geometry.rows import WAYS, Floats, Indices, Mask, Positions, Rows
+from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
 from hypcheck.implementations.domain import UNIT_ROUNDOFF
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.runs import judge
@@ -95,11 +95,7 @@ class AnsweredRows:
 
 def subject_of(numbers: int, criterion: Criterion) -> str:
     """What rows of so many numbers are about: "upright", "tilted", "ended" (of which no cause is known) or "way"."""
-    if criterion.layout is WAYS:
-        return "way"
-    if numbers > len(TILTED_COLUMNS):
-        return "ended"
-    return "upright" if numbers == len(COLUMNS) else "tilted"
+    return criterion.layout.subject(numbers)
 
 
 Rule = Callable[[AnsweredRows], Answers]

@@ -20,7 +20,7 @@ from hypcheck.messages import suggestion
 from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.runs.judge import Criterion
-from hypcheck.runs.judges import passage_of
+from hypcheck.runs.judges import judge_of, passage_of
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.frozen import NAMES, TILTED_NAMES, WAY_NAMES, load
 
@@ -125,8 +125,7 @@ def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterato
 
 def _is_wrong(answered: AnsweredRows) -> Mask:
     """Whether the answers given are wrong; a hit that is right is wrong by its time, where one is given."""
-    ways = answered.criterion.layout is WAYS
-    wrong = np.asarray(answered.given != (answered.truth if ways else answered.answers_at(answered.truth)))
+    wrong = np.asarray(answered.given != judge_of(answered.criterion.question).right(answered.truth))
     return wrong if answered.times is None else ~wrong & (answered.given == 1)
 
 

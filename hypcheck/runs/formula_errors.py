@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS
-from hypcheck.geometry.rows import WAYS, Floats, Rows
+from hypcheck.geometry.pair import COLUMNS, REFUSED
+from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Rows
 from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause, silent
@@ -176,7 +176,7 @@ def _put(**columns: Callable[[dict[str, Floats]], Floats]) -> Rule:
     """The rows with some columns computed from all columns."""
 
     def change(rows: Rows) -> Rows:
-        names = TILTED_COLUMNS[: rows.shape[1]]
+        names = PAIRS.columns(rows.shape[1])
         before = dict(zip(names, rows.copy().T, strict=True))
         for name, compute in columns.items():
             rows[:, names.index(name)] = compute(before)
@@ -386,7 +386,7 @@ def _other_ways(*order: int) -> Rule:
 
     def rule(answered: AnsweredRows) -> Answers:
         answers, times = silent(answered), np.zeros(len(answered.rows))
-        if answered.rows.shape[1] != len(WAYS.upright):
+        if WAYS.has_axis(answered.rows):
             return answers
         answers[:_MOST_WAYS], times[:_MOST_WAYS] = ways.exact(np.ascontiguousarray(answered.rows[:_MOST_WAYS, order]))
         return _timed(answered, answers, times)

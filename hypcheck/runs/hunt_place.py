@@ -8,12 +8,12 @@ c2 and Δ belong to the cubic g (docs/mathematics.md). Of a way, what happens on
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, WAY_COLUMNS, Lengths, Pair, Position
-from hypcheck.geometry.rows import WAYS, Layout
+from hypcheck.geometry.rows import PAIRS, WAYS, Layout
 from hypcheck.runs.judges import passage_of, way_in_radii
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
@@ -61,7 +61,7 @@ class RowPlace:
 
 def place_of_row(row: Sequence[float], layout: Layout) -> RowPlace:
     """The place of a valid row of this layout."""
-    return way_place(tuple(row)) if layout is WAYS else place_of(Pair.from_row(row))
+    return _PLACES[layout](tuple(row))
 
 
 def place_of(pair: Pair) -> RowPlace:
@@ -212,14 +212,14 @@ def way_place(row: tuple[float, ...]) -> RowPlace:
         "contact for an instant": passage.grazes,
         "contact between two clear ends": passage.hit and Position.CONTACT not in sides,
         "contact towards the end": passage.hit and passage.start is not Position.CONTACT is passage.end,
-        f"across {RING}": not passage.hit and len(row) == len(WAY_COLUMNS) and _crosses_the_ring(row),
+        f"across {RING}": not passage.hit and not WAYS.has_axis(row) and _crosses_the_ring(row),
         "clear inside": not passage.hit and passage.start is Position.INTERIOR,
         "a vertical way": start[:2] == end[:2] and not still,
         "a horizontal way": start[2] == end[2] and not still,
         "a long way": length > LONG_WAY,
         "a short way": 0 < length < SHORT_WAY,
         TILTED: row[2] != row[3] and any(row[len(WAY_COLUMNS) : len(WAY_COLUMNS) + 2]),
-        ENDED: len(row) == len(WAYS.ended),
+        ENDED: WAYS.has_heights(row),
     }
     named = [name for name, holds in signs.items() if holds] or [WAY]
     return RowPlace(named[0], ", ".join(named), named[0])
@@ -234,3 +234,9 @@ def _crosses_the_ring(row: tuple[float, ...]) -> bool:
     low, high = (0.0, 1.0) if z == end_z else (z / (z - end_z),) * 2
     first, last = (math.hypot(x + t * (end_x - x), y + t * (end_y - y)) / b - radius for t in (low, high))
     return first * last <= 0 or min(abs(first), abs(last)) <= RING_NEAR
+
+
+_PLACES: dict[Layout, Callable[[tuple[float, ...]], RowPlace]] = {
+    PAIRS: lambda row: place_of(Pair.from_row(row)),
+    WAYS: way_place,
+}

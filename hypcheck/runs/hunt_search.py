@@ -320,13 +320,12 @@ def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
 def _around(climber: Climber, layout: Layout) -> Rows:
     """The row itself, its neighbours one step away, and special rows beside it."""
     row, step = climber.row, climber.step
-    widths = (len(layout.upright), len(layout.tilted), len(layout.ended))
-    moves = _MOVES[layout][widths.index(len(row))]
+    moves = _MOVES[layout][layout.widths.index(len(row))]
     rows = np.repeat(np.array([row]), 1 + 2 * len(moves), axis=0)
     for number, columns in enumerate(moves):
         rows[1 + 2 * number, columns] *= 1 + step
         rows[2 + 2 * number, columns] /= 1 + step
-    special = [_special(row, layout), *([_at_ends(row, layout)] if len(row) == widths[-1] else [])]
+    special = [_special(row, layout), *([_at_ends(row, layout)] if layout.has_heights(row) else [])]
     return np.concatenate([rows, *special])
 
 

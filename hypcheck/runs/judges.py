@@ -62,6 +62,10 @@ class Judge:
         """The positions."""
         return judge.exact_positions(rows)
 
+    def right(self, truth: Positions) -> NDArray[np.int8]:
+        """The right answers (n,) where this is true."""
+        return judge.expected(truth, self._question)
+
     def is_wrong(
         self,
         rows: Rows,  # noqa: ARG002 - the truth is enough
@@ -107,6 +111,10 @@ class PassageJudge(Judge):
     def truth(self, rows: Rows) -> Positions:
         """1 for contact on the way, 0 for none: int8 (n,)."""
         return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)
+
+    def right(self, truth: Positions) -> NDArray[np.int8]:
+        """The same: 1 for contact on the way, 0 for none."""
+        return truth
 
     def is_wrong(
         self, rows: Rows, truth: Positions, answers: NDArray[np.int8], times: Floats | None, criterion: Criterion
@@ -205,12 +213,15 @@ def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion, near: fl
     return WrongCase(index, row, 1 - answer, answer, mistake, status, near)
 
 
+_JUDGES: dict[Layout, type[Judge]] = {PAIRS: Judge, WAYS: PassageJudge}
+
+
 @cache
 def judge_of(question: str) -> Judge:
     """The judge of a question, one of QUESTIONS."""
-    return PassageJudge(question) if QUESTIONS[question].layout is WAYS else Judge(question)
+    return _JUDGES[QUESTIONS[question].layout](question)
 
 
 def truth_of(rows: Rows, layout: Layout) -> Positions:
     """What is true about valid rows of that layout: positions, or hits on ways."""
-    return judge.exact_positions(rows) if layout is PAIRS else judge_of("passage").truth(rows)
+    return next(judge_of(name) for name, question in QUESTIONS.items() if question.layout == layout).truth(rows)

@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, SIZES, Pair, trouble_with_row
+from hypcheck.geometry.pair import SIZES, Pair, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
 from hypcheck.messages import counted
 from hypcheck.runs.hunt import (
@@ -129,7 +129,7 @@ def same_query(row: Row, layout: Layout) -> Iterator[Row]:
         vectors = [*points, *([_times([turn * sign for sign in signs], axis)] if axis else [])]
         for order in ((0, 1, 2), (1, 0, 2)):
             yield (*sizes, *(vector[place] for vector in vectors for place in order))
-    if len(row) == len(COLUMNS):
+    if not PAIRS.has_axis(row):
         yield (*sizes, math.hypot(row[4], row[5]), 0.0, row[6])
     for columns in (range(width), range(width, len(row))) if axis else GROUPS[layout][:2]:
         for unit in _units([row[column] for column in columns]):
@@ -255,8 +255,8 @@ def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
     run = Minimised(target)
     row = _row_of(target, case)
     run.steps.append(_start(run, row))
-    variants: tuple[Variants, ...] = _VARIANTS[target.layout][len(row) > len(target.layout.upright)]
-    if len(row) > len(target.layout.tilted):
+    variants: tuple[Variants, ...] = _VARIANTS[target.layout][target.layout.has_axis(row)]
+    if target.layout.has_heights(row):
         variants = (one_changed_between_ends,)
     while any(_improve(run, each) for each in variants):
         pass

@@ -18,8 +18,8 @@ import numpy as np
 
 from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answering
-from hypcheck.geometry.pair import COLUMNS, HEIGHTS, TILTED_COLUMNS, Pair, Position
-from hypcheck.geometry.rows import Rows
+from hypcheck.geometry.pair import COLUMNS, Pair, Position
+from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import Batch, SelfCheckPlan
@@ -83,7 +83,7 @@ def _nearest(rows: Rows) -> list[Opinion]:
 
     Where the hyperboloid ends, the least value by branch and bound.
     """
-    if rows.shape[1] == len(TILTED_COLUMNS + HEIGHTS):
+    if PAIRS.has_heights(rows):
         return [Opinion(least.position(Pair.from_row(row)), stage="least value") for row in rows.tolist()]
     found = nearest_rows.positions(np.ascontiguousarray(rows))
     values = zip(found.position.tolist(), found.tangent.tolist(), found.stage.tolist(), strict=True)

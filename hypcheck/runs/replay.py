@@ -20,8 +20,6 @@ from hypcheck.geometry.pair import (
     END,
     HEIGHTS,
     REFUSED,
-    TILTED_COLUMNS,
-    TILTED_WAY_COLUMNS,
     Pair,
     Position,
     trouble_with_row,
@@ -111,7 +109,7 @@ def _given_row(text: str) -> Row:
     of_question checks them together. Of thirteen that have an infinite one the last are heights.
     """
     parts = text.split(",")
-    if len(parts) not in (len(COLUMNS), len(TILTED_COLUMNS), len(TILTED_WAY_COLUMNS), len(WAYS.ended)):
+    if len(parts) not in (*PAIRS.widths, *WAYS.widths):
         wanted = (
             f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}; "
             f"or 13, with {', '.join(HEIGHTS)} behind these; "
@@ -119,7 +117,7 @@ def _given_row(text: str) -> Row:
         )
         raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have {wanted}")
     ended = any(part.strip().lower().lstrip("+-").startswith("inf") for part in parts)
-    layout = WAYS if len(parts) >= len(TILTED_WAY_COLUMNS) and (len(parts) == len(WAYS.ended) or not ended) else PAIRS
+    layout = WAYS if PAIRS.has_heights(parts) and (WAYS.has_heights(parts) or not ended) else PAIRS
     return tuple(_number(name, part) for name, part in zip(layout.columns(len(parts)), parts, strict=True))
 
 
@@ -207,12 +205,13 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     """
     declared, used = implementation.declared, implementation.description
     case = of_question(case, used)
-    if len(case.row) > len(used.asked.layout.tilted) and not used.heights:
+    asked = used.asked.layout
+    if asked.has_heights(case.row) and not used.heights:
         raise InputError(
             f"{case.name} has heights at which the hyperboloid ends, and {used.name} takes none; its description must "
             'have "takes": ["heights"]'
         )
-    if len(case.row) == len(used.asked.layout.tilted) and not used.tilt:
+    if asked.has_axis(case.row) and not asked.has_heights(case.row) and not used.tilt:
         raise InputError(
             f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
             "true"
@@ -237,9 +236,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
 def of_question(case: ReplayCase, used: Description) -> ReplayCase:
     """The case with the layout of the question. Raises InputError if it is of another, or a given row is invalid."""
     layout = used.asked.layout
-    if case.layout not in (None, layout) or len(case.row) not in map(
-        len, (layout.upright, layout.tilted, layout.ended)
-    ):
+    if case.layout not in (None, layout) or len(case.row) not in layout.widths:
         this = "a position" if layout is WAYS else "a way between two positions"
         raise InputError(f"{case.name} is {this}, and {used.name} answers {used.question!r}")
     if case.layout is None and (trouble := trouble_with_row(case.row, layout.upright)) is not None:

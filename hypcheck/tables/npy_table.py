@@ -89,7 +89,7 @@ def _layout(reader: Reader) -> _NpyLayout:
         raise InputError(f"{reader.name} holds {stored}; it must hold float64")
     if max(map(abs, shape), default=0) >= _TOO_LONG:  # which could have more digits than Python writes
         raise InputError(f"{reader.name} has a number of 2^63 or more in its shape; the shape must be {_SHAPES}")
-    if len(shape) != 2 or shape[1] not in (len(COLUMNS), len(TILTED_COLUMNS), len(PAIRS.ended)) or shape[0] < 0:
+    if len(shape) != 2 or shape[1] not in PAIRS.widths or shape[0] < 0:
         raise InputError(f"{reader.name} has shape {shape}; it must be {_SHAPES}")
     if shape[0] == 0:
         raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")

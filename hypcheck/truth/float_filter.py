@@ -45,7 +45,7 @@ from functools import lru_cache
 import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Lengths, Pair, Position
-from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
+from hypcheck.geometry.rows import PAIRS, Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import ends, exact
 
 LINE_MARGIN = 64 * 2.0**-53
@@ -150,10 +150,10 @@ def positions(rows: Rows) -> Positions:
     Rows of seven whose columns lie in memory one behind the other (the transpose of a (7, n) array) are decided
     fastest; each row of ten is decided on its own. Raises InputError about the first invalid row.
     """
-    if rows.shape[1] > len(TILTED_COLUMNS):
+    if PAIRS.has_heights(rows):
         require_valid(rows)
         return _between_ends(rows)
-    if rows.shape[1] != len(COLUMNS):
+    if PAIRS.has_axis(rows):
         require_valid(rows)
         return np.array([exact.position(Lengths.of(row)) for row in rows.tolist()], dtype=np.int8)
     result = np.empty(len(rows), dtype=np.int8)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, Pair
-from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid
+from hypcheck.geometry.rows import PAIRS, Floats, Mask, Positions, Rows, require_valid
 from hypcheck.truth import distances, upright_distances
 from hypcheck.truth.nearest import NearestStage, nearest
 
@@ -49,7 +49,7 @@ def clearances(rows: Rows) -> NearestBatch:
 
 def upright_mask(rows: Rows) -> Mask:
     """Which rows, (n, 7) or (n, 10), are about an upright spheroid, bool (n,): the axis is vertical, or b = d."""
-    if rows.shape[1] == len(COLUMNS):
+    if not PAIRS.has_axis(rows):
         return np.ones(len(rows), dtype=np.bool_)
     return np.asarray((rows[:, 7:9] == 0).all(axis=1) | (rows[:, 2] == rows[:, 3]))
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from hypcheck.geometry.pair import UPRIGHT
-from hypcheck.geometry.rows import Floats, Rows
+from hypcheck.geometry.rows import PAIRS, Floats, Rows
 from hypcheck.vectors import random_pairs, tilted
 from hypcheck.vectors.draw import Draw, Integers, Maker, ldexp, stepped, turns
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, sizes
@@ -24,7 +24,7 @@ _ALONG = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (0, 1, 1), (-
 def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers | None = None) -> Rows:
     """Rows with these ends, an axis where they have none, every other one solid and half of them mirrored."""
     n = len(rows)
-    axis = rows[:, 7:10] if rows.shape[1] > 7 else np.tile(np.asarray(UPRIGHT), (n, 1))
+    axis = rows[:, 7:10] if PAIRS.has_axis(rows) else np.tile(np.asarray(UPRIGHT), (n, 1))
     heights = np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)
     made = np.concatenate([rows[:, :7], axis, heights], axis=1)
     down = draw.signs(n) < 0
