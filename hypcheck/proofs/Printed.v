@@ -29,6 +29,13 @@ Definition moved (wanted : list string) :=
     | [s] => if is_in (fst m) read then [Step (name s) (snd m) (arguments s)] else [] | _ => [] end) moves.
 Definition at_pole wanted := moved wanted ++ needed wanted Programs.fixed_poles.
 
+(** A tangency: what M and e do not change, two equations, the third and where the root lies; and all for short lengths. *)
+Definition before := ["D_K"; "n2"; "inner"].
+Definition equations := ["r1"; "r2"].
+Definition last_of_tangency := ["r3"; "room_within"; "beyond"; "room_without"].
+Definition guessed_from := ["D"; "K"; "inner"].
+Definition of_waist := ["W"; "opposite"; "p_2"; "q_2"].
+
 Definition decided := ["exterior"; "interior"; "decided"].
 Definition kept := ["p"; "q"; "s"; "t"; "k0"; "k1"; "k2"; "minus_f0"; "f1"; "f2"; "f3"; "f4"].
 
@@ -54,6 +61,14 @@ Definition expected := [
   Constants "fixed-discriminant" (needed ["delta"; "middle"] Programs.fixed_discriminant);
   Constants "fixed-poles" (at_pole ["offset_at_B"; "slope_at_B"]);
   Constants "fixed-poles" (at_pole ["offset_at_A"; "slope_at_A"]);
+  Constants "tangency, what M and e do not change" (needed before Programs.tangency);
+  Constants "tangency, two equations" (further equations before Programs.tangency);
+  Constants "tangency, the third, and where the root lies" (further last_of_tangency (before ++ equations) Programs.tangency);
+  Constants "tangency, for short lengths" (needed guessed_from Programs.tangency);
+  Constants "tangency, the equations for short lengths" (further (equations ++ last_of_tangency) guessed_from Programs.tangency);
+  Constants "waist, W" (needed of_waist Programs.waist);
+  Constants "waist, the discriminant" (further ["excess"] of_waist Programs.waist);
+  Constants "waist, where the roots lie" (further ["W_p_2"; "room"] ("excess" :: of_waist) Programs.waist);
   Constants "tilted-quartic" (needed kept Programs.tilted_quartic);
   Constants "tilted-invariants" (needed ["I"; "J"] Programs.tilted_invariants);
   Constants "tilted-discriminant" (needed ["delta"] Programs.tilted_discriminant);

@@ -82,6 +82,21 @@ rise_at_B - axial_fall; slope_at_B = rise_less_axial - radial_fall; p_t_3 = 3 * 
 2 * p_t; p_t_2_q_s = p_t_2 + q_s; radial_rise = p_t_2_q_s * R; axial_rise = p_q * S; p_less_q = p - q; width_at_A =
 p_less_q * p_t_q_s; rise_at_A = radial_rise + axial_rise; slope_at_A = rise_at_A + width_at_A;".
 
+Definition tangency := steps_of "
+p = alpha * alpha; q = b * b; s = gamma * gamma; t = d * d; xx = x * x; yy = y * y; R = xx + yy; S = z * z; p_plus_q =
+p + q; p_q_R = p_plus_q - R; s_plus_S = s + S; radial_2 = p_q_R * t; axial_2 = s_plus_S * q; n2 = radial_2 - axial_2;
+t_minus_s = t - s; t_s_S = t_minus_s - S; R_minus_q = R - q; axial_1 = t_s_S * p; radial_1 = R_minus_q * s; n1 =
+axial_1 + radial_1; inner = about < 0; D = b * d; K = alpha * gamma; D_K = D * K; M_e = M * e; e_e = e * e; D_M = D *
+M; r1 = D_K - M_e; n2_e_e = n2 + e_e; D_M_2 = D_M + D_M; r2_outer = n2_e_e + D_M_2; r2_inner = n2_e_e - D_M_2; r2 =
+inner ? r2_inner : r2_outer; K_e = K * e; M_M = M * M; M_M_n1 = M_M - n1; K_e_2 = K_e + K_e; r3_outer = M_M_n1 +
+K_e_2; r3_inner = M_M_n1 - K_e_2; r3 = inner ? r3_inner : r3_outer; p_D = p * D; M_q = M * q; room_within = p_D - M_q;
+beyond = e_e - D_M; s_D = s * D; M_t = M * t; room_without = s_D - M_t;".
+
+Definition waist := steps_of "
+p = alpha * alpha; q = b * b; xx = x * x; yy = y * y; R = xx + yy; R_less_q = R - q; W = R_less_q - p; p_plus_q = p +
+q; opposite = p_plus_q - R; p_2 = p + p; q_2 = q + q; four_A = p_2 * q_2; square = size * size; excess = four_A -
+square; W_p_2 = W + p_2; s = gamma * gamma; t = d * d; q_2_s = q_2 * s; W_t = W * t; room = q_2_s - W_t;".
+
 Definition integers := steps_of "
 p = alpha * alpha; q = b * b; s = gamma * gamma; t = d * d; xx = x * x; yy = y * y; R = xx + yy; S = z * z; N = q * t;
 p_plus_q = p + q; p_q_R = p_plus_q - R; s_plus_S = s + S; radial_2 = p_q_R * t; axial_2 = s_plus_S * q; n2 = radial_2

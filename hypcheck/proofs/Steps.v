@@ -99,7 +99,8 @@ Definition calls := [("HC_GT", "gt"); ("HC_LT", "lt"); ("HC_GE", "ge"); ("HC_LE"
   ("HC_ABS", "abs"); ("hc_size", "abs"); ("hc_fixed_plus", "add"); ("hc_fixed_minus", "sub"); ("hc_fixed_times", "mul");
   ("hc_fixed_square", "mul"); ("hc_fixed_product", "mul"); ("hc_fixed_signed_product", "mul"); ("hc_fixed_both_signed_product", "mul");
   ("hc_fixed_product by_t", "mul by_t"); ("hc_fixed_product by_q", "mul by_q"); ("hc_product", "mul");
-  ("hc_multiple", "mul"); ("HC_SELECT", "select"); ("hc_add", "add"); ("hc_subtract", "sub"); ("hc_multiply", "mul"); ("hc_scale", "mul")].
+  ("hc_multiple", "mul"); ("hc_fixed_full", "mul"); ("hc_fixed_full_signed", "mul"); ("hc_long_product", "mul"); ("hc_long_signed_product", "mul");
+  ("hc_long_plus", "add"); ("hc_long_minus", "sub"); ("HC_SELECT", "select"); ("hc_add", "add"); ("hc_subtract", "sub"); ("hc_multiply", "mul"); ("hc_scale", "mul")].
 
 Fixpoint look {A} (key : string) (table : list (string * A)) : option A := match table with
   | [] => None | (k, v) :: rest => if String.eqb k key then Some v else look key rest end.
@@ -115,6 +116,8 @@ Definition valued (n : string) (value : list string) : option step := match valu
   | ["hc_multiple"; "("; _; ","; l; ","; r; ")"] => made n (Some "hc_multiple") (every [argument_of l; argument_of r])
   | ["hc_sum"; "("; _; ","; l; ","; r; ","; "1"; ")"] => made n (Some "add") (every [argument_of l; argument_of r])
   | ["hc_sum"; "("; _; ","; l; ","; r; ","; "minus"; ")"] => made n (Some "sub") (every [argument_of l; argument_of r])
+  | ["hc_long_sum"; "("; l; ","; r; ","; "0"; ")"] => made n (Some "hc_long_plus") (every [argument_of l; argument_of r])
+  | ["hc_long_sum"; "("; l; ","; r; ","; "1"; ")"] => made n (Some "hc_long_minus") (every [argument_of l; argument_of r])
   | ["hc_fixed_down"; "("; f; "("; l; ","; r; ")"; ","; "terms"; "->"; "by_t"; ")"] =>
     made n (if String.eqb f "hc_fixed_product" then Some "hc_fixed_product by_t" else None) (every [argument_of l; argument_of r])
   | ["hc_fixed_down"; "("; f; "("; l; ","; r; ")"; ","; "terms"; "->"; "by_q"; ")"] =>
@@ -157,6 +160,7 @@ Fixpoint same_list {A} (same : A -> A -> bool) (l k : list A) := match l, k with
 
 (** Factors that must be a number are no names, and the other way round. *)
 Definition fits_call (s : step) := match look (operation s) [("hc_scale", true); ("hc_multiple", true); ("hc_fixed_times", true);
+    ("hc_fixed_full", false); ("hc_fixed_full_signed", false); ("hc_long_product", false); ("hc_long_signed_product", false);
     ("hc_multiply", false); ("hc_product", false); ("hc_fixed_product", false); ("hc_fixed_signed_product", false);
     ("hc_fixed_both_signed_product", false); ("hc_fixed_square", false)], arguments s with
   | Some true, Number _ :: _ | Some false, Name _ :: _ | None, _ => true | _, _ => false end.

@@ -49,7 +49,7 @@ HEADER_TEXT = "HeaderText"
 PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns")
 """What the printed C rests on, and the words of 128 bits that it computes with."""
 
-COMPOSED = ("StageThree", "StageFive", "Stages")
+COMPOSED = ("StageThree", "StageFive", "Stages", "Long", "StageFour")
 """From the numbers of the last stages to the signs, and all stages in one theorem, Stages.whatever_stage_answers."""
 
 FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING, *PRINTED, *COMPOSED)

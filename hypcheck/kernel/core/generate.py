@@ -17,7 +17,7 @@ from hypcheck.derivation.program import Program, Step, needed
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
 from hypcheck.kernel import clearance_bounds
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
-from hypcheck.kernel.programs import certified, fixed, lines, tilted
+from hypcheck.kernel.programs import certified, fixed, lines, tangency, tilted
 from hypcheck.kernel.programs.integers import (
     COEFFICIENTS,
     DISCRIMINANT,
@@ -330,6 +330,24 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "FIXED_DISCRIMINANT": lambda: _fixed(fixed.DISCRIMINANT, fixed.RANGES["discriminant"], ("delta", "middle")),
     "FIXED_AT_B": lambda: _fixed_poles("B"),
     "FIXED_AT_A": lambda: _fixed_poles("A"),
+    "TANGENCY_BEFORE": lambda: tangency.statements_of(tangency.TANGENCY, tangency.BEFORE, short=False),
+    "TANGENCY_EQUATIONS": lambda: tangency.statements_of(
+        tangency.TANGENCY, tangency.EQUATIONS, tangency.BEFORE, short=False
+    ),
+    "TANGENCY_LAST": lambda: tangency.statements_of(
+        tangency.TANGENCY, tangency.LAST, (*tangency.BEFORE, *tangency.EQUATIONS), short=False
+    ),
+    "TANGENCY_SHORT_BEFORE": lambda: tangency.statements_of(tangency.TANGENCY, ("D", "K", "inner"), short=True),
+    "TANGENCY_SHORT": lambda: tangency.statements_of(
+        tangency.TANGENCY, (*tangency.EQUATIONS, *tangency.LAST), ("D", "K", "inner"), short=True
+    ),
+    "WAIST_BEFORE": lambda: tangency.statements_of(tangency.WAIST, ("W", "opposite", "p_2", "q_2"), short=False),
+    "WAIST_EXCESS": lambda: tangency.statements_of(
+        tangency.WAIST, ("excess",), ("W", "opposite", "p_2", "q_2"), short=False
+    ),
+    "WAIST_SIDES": lambda: tangency.statements_of(
+        tangency.WAIST, ("W_p_2", "room"), ("excess", "W", "opposite"), short=False
+    ),
     "INTEGER_INPUTS": lambda: [f"HC_INTEGER({name}, {FLOAT64_BITS});" for name in COLUMNS],
     "INTEGERS": lambda: _integers(_DELTA),
     "INTEGERS_AT_B": lambda: _integers(("offset_at_B", "slope_at_B"), _DELTA),

@@ -727,6 +727,13 @@ static inline hc_fixed hc_fixed_full(uint64_t left, uint64_t right) {
     return product;
 }
 
+/* The same of a number in two's complement and one >= 0. */
+static inline hc_fixed hc_fixed_full_signed(uint64_t left, uint64_t right) {
+    hc_fixed product = hc_fixed_full(left, right);
+    product.high -= right & (0 - (left >> 63));
+    return product;
+}
+
 static inline hc_fixed hc_fixed_plus(hc_fixed left, hc_fixed right) {
     hc_fixed sum;
     sum.low = left.low + right.low;
@@ -1150,6 +1157,9 @@ static int hc_short_lengths(const double row[7], uint64_t lengths[7]) {
     return 1 + hc_highest_bit(all);
 }
 
+#define HC_NAMED_LENGTHS(lengths)                                                                                                      \
+    const uint64_t alpha = lengths[0], gamma = lengths[1], b = lengths[2], d = lengths[3], x = lengths[4], y = lengths[5];
+
 /* 1 or -1 where the row touches from without or from within in a double root that is `about` this number, which is then
    proved: with D = b d and K = alpha gamma, N g is (D l - M)² (l - e²/D²) for whole numbers M and e of the same sign with
 
@@ -1157,15 +1167,28 @@ static int hc_short_lengths(const double row[7], uint64_t lengths[7]) {
 
    (docs/kernel.md of hypcheck). 2 where it is not so. */
 static int hc_touches_by(const uint64_t lengths[7], double about) {
-    const hc_fixed D = hc_fixed_full(lengths[2], lengths[3]), K = hc_fixed_full(lengths[0], lengths[1]);
-    const hc_fixed p = hc_fixed_full(lengths[0], lengths[0]), s = hc_fixed_full(lengths[1], lengths[1]),
-                   q = hc_fixed_full(lengths[2], lengths[2]), t = hc_fixed_full(lengths[3], lengths[3]),
-                   R = hc_fixed_plus(hc_fixed_full(lengths[4], lengths[4]), hc_fixed_full(lengths[5], lengths[5])),
-                   S = hc_fixed_full(lengths[6], lengths[6]);
-    const hc_long n2 = hc_long_sum(hc_long_signed_product(hc_fixed_minus(hc_fixed_plus(p, q), R), t),
-                                   hc_long_product(hc_fixed_plus(s, S), q), 1);
-    const hc_long D_K = hc_long_product(D, K);
+    HC_NAMED_LENGTHS(lengths)
+    const uint64_t z = lengths[6];
+    /* printed from the program "tangency", what M and e do not change */
+    const hc_fixed p = hc_fixed_full(alpha, alpha);
+    const hc_fixed q = hc_fixed_full(b, b);
+    const hc_fixed s = hc_fixed_full(gamma, gamma);
+    const hc_fixed t = hc_fixed_full(d, d);
+    const hc_fixed xx = hc_fixed_full(x, x);
+    const hc_fixed yy = hc_fixed_full(y, y);
+    const hc_fixed R = hc_fixed_plus(xx, yy);
+    const hc_fixed S = hc_fixed_full(z, z);
+    const hc_fixed p_plus_q = hc_fixed_plus(p, q);
+    const hc_fixed p_q_R = hc_fixed_minus(p_plus_q, R);
+    const hc_fixed s_plus_S = hc_fixed_plus(s, S);
+    const hc_long radial_2 = hc_long_signed_product(p_q_R, t);
+    const hc_long axial_2 = hc_long_product(s_plus_S, q);
+    const hc_long n2 = hc_long_sum(radial_2, axial_2, 1);
     const int inner = about < 0;
+    const hc_fixed D = hc_fixed_full(b, d);
+    const hc_fixed K = hc_fixed_full(alpha, gamma);
+    const hc_long D_K = hc_long_product(D, K);
+    /* end of the program "tangency" */
     const double d_ = hc_fixed_value(D), k_ = hc_fixed_value(K), size = inner ? -about : about, most = 4.2535295865117308e37; /* 2^125 */
     double m_ = size * d_, e_ = k_ / size;
     hc_fixed M, e;
@@ -1174,20 +1197,45 @@ static int hc_touches_by(const uint64_t lengths[7], double about) {
     M = hc_fixed_nearest(m_);
     e = hc_fixed_nearest(e_);
     for (turn = 0; turn < HC_TANGENCY_TURNS; turn++) { /* M and e are the sizes here */
-        const hc_long M_e = hc_long_product(M, e), e_e = hc_long_product(e, e), D_M = hc_long_product(D, M);
+        /* printed from the program "tangency", two equations */
+        const hc_long M_e = hc_long_product(M, e);
+        const hc_long e_e = hc_long_product(e, e);
+        const hc_long D_M = hc_long_product(D, M);
         const hc_long r1 = hc_long_sum(D_K, M_e, 1);
-        const hc_long r2 = hc_long_sum(hc_long_sum(hc_long_sum(n2, e_e, 0), D_M, inner), D_M, inner);
+        const hc_long n2_e_e = hc_long_sum(n2, e_e, 0);
+        const hc_long D_M_2 = hc_long_sum(D_M, D_M, 0);
+        const hc_long r2_outer = hc_long_sum(n2_e_e, D_M_2, 0);
+        const hc_long r2_inner = hc_long_sum(n2_e_e, D_M_2, 1);
+        const hc_long r2 = inner ? r2_inner : r2_outer;
+        /* end of the program "tangency" */
         double r1_, half, det, dM, de;
         if (hc_long_is_zero(r1) && hc_long_is_zero(r2)) {
-            const hc_long n1 = hc_long_sum(hc_long_signed_product(hc_fixed_minus(hc_fixed_minus(t, s), S), p),
-                                           hc_long_signed_product(hc_fixed_minus(R, q), s), 0);
-            const hc_long K_e = hc_long_product(K, e), M_M = hc_long_product(M, M);
-            const hc_long r3 = hc_long_sum(hc_long_sum(hc_long_sum(M_M, n1, 1), K_e, inner), K_e, inner);
+            /* printed from the program "tangency", the third, and where the root lies */
+            const hc_fixed t_minus_s = hc_fixed_minus(t, s);
+            const hc_fixed t_s_S = hc_fixed_minus(t_minus_s, S);
+            const hc_fixed R_minus_q = hc_fixed_minus(R, q);
+            const hc_long axial_1 = hc_long_signed_product(t_s_S, p);
+            const hc_long radial_1 = hc_long_signed_product(R_minus_q, s);
+            const hc_long n1 = hc_long_sum(axial_1, radial_1, 0);
+            const hc_long K_e = hc_long_product(K, e);
+            const hc_long M_M = hc_long_product(M, M);
+            const hc_long M_M_n1 = hc_long_sum(M_M, n1, 1);
+            const hc_long K_e_2 = hc_long_sum(K_e, K_e, 0);
+            const hc_long r3_outer = hc_long_sum(M_M_n1, K_e_2, 0);
+            const hc_long r3_inner = hc_long_sum(M_M_n1, K_e_2, 1);
+            const hc_long r3 = inner ? r3_inner : r3_outer;
+            const hc_long p_D = hc_long_product(p, D);
+            const hc_long M_q = hc_long_product(M, q);
+            const hc_long room_within = hc_long_sum(p_D, M_q, 1);
+            const hc_long beyond = hc_long_sum(e_e, D_M, 1);
+            const hc_long s_D = hc_long_product(s, D);
+            const hc_long M_t = hc_long_product(M, t);
+            const hc_long room_without = hc_long_sum(s_D, M_t, 1);
+            /* end of the program "tangency" */
             if (!hc_long_is_zero(r3)) return 2;
             /* within: -A <= M/D; without: M/D <= B, and the simple root is not below it */
-            if (inner) return hc_long_is_negative(hc_long_sum(hc_long_product(p, D), hc_long_product(M, q), 1)) ? 2 : -1;
-            if (hc_long_is_negative(hc_long_sum(e_e, D_M, 1))) return 2;
-            return hc_long_is_negative(hc_long_sum(hc_long_product(s, D), hc_long_product(M, t), 1)) ? 2 : 1;
+            if (inner) return hc_long_is_negative(room_within) ? 2 : -1;
+            return hc_long_is_negative(beyond) || hc_long_is_negative(room_without) ? 2 : 1;
         }
         r1_ = hc_long_value(r1), half = 0.5 * hc_long_value(r2);
         m_ = inner ? -hc_fixed_value(M) : hc_fixed_value(M), e_ = inner ? -hc_fixed_value(e) : hc_fixed_value(e);
@@ -1209,43 +1257,107 @@ static int hc_touches_by(const uint64_t lengths[7], double about) {
 
 /* The same where lengths have 23 bits at most, and M and e 46: those are guessed right, and 128 bits hold everything. */
 static int hc_touches_by_short(const uint64_t lengths[7], double about) {
-    const uint64_t p = lengths[0] * lengths[0], s = lengths[1] * lengths[1], q = lengths[2] * lengths[2], t = lengths[3] * lengths[3],
-                   R = lengths[4] * lengths[4] + lengths[5] * lengths[5], S = lengths[6] * lengths[6];
-    const uint64_t D = lengths[2] * lengths[3], K = lengths[0] * lengths[1];
+    HC_NAMED_LENGTHS(lengths)
+    const uint64_t z = lengths[6];
+    /* printed from the program "tangency", for short lengths */
     const int inner = about < 0;
+    const uint64_t D = b * d;
+    const uint64_t K = alpha * gamma;
+    /* end of the program "tangency" */
     const double size = inner ? -about : about, m_ = size * (double)(int64_t)D, e_ = (double)(int64_t)K / size, most = 70368744177664.0; /* 2^46 */
     uint64_t M, e;
-    hc_fixed first, second, third, twice_D_M, twice_K_e;
     if (!(size > 0 && m_ < most && e_ < most)) return 2;
     M = (uint64_t)(int64_t)(m_ + 0.5), e = (uint64_t)(int64_t)(e_ + 0.5);
-    first = hc_fixed_minus(hc_fixed_full(D, K), hc_fixed_full(M, e));
-    twice_D_M = hc_fixed_times(2, hc_fixed_full(D, M)), twice_K_e = hc_fixed_times(2, hc_fixed_full(K, e));
-    second = hc_fixed_plus(hc_fixed_minus(hc_fixed_full(p + q, t), hc_fixed_full(R, t)),
-                           hc_fixed_minus(hc_fixed_full(e, e), hc_fixed_full(s + S, q)));
-    second = inner ? hc_fixed_minus(second, twice_D_M) : hc_fixed_plus(second, twice_D_M);
-    third = hc_fixed_minus(hc_fixed_plus(hc_fixed_full(t, p), hc_fixed_full(R, s)),
-                           hc_fixed_plus(hc_fixed_plus(hc_fixed_full(s + S, p), hc_fixed_full(q, s)), hc_fixed_full(M, M)));
-    third = inner ? hc_fixed_plus(third, twice_K_e) : hc_fixed_minus(third, twice_K_e);
-    if (first.low | first.high | second.low | second.high | third.low | third.high) return 2;
-    if (inner) return hc_fixed_negative(hc_fixed_minus(hc_fixed_full(p, D), hc_fixed_full(M, q))) ? 2 : -1;
-    if (hc_fixed_negative(hc_fixed_minus(hc_fixed_full(e, e), hc_fixed_full(D, M)))) return 2;
-    return hc_fixed_negative(hc_fixed_minus(hc_fixed_full(s, D), hc_fixed_full(M, t))) ? 2 : 1;
+    {
+        /* printed from the program "tangency", the equations for short lengths */
+        const uint64_t p = alpha * alpha;
+        const uint64_t q = b * b;
+        const uint64_t s = gamma * gamma;
+        const uint64_t t = d * d;
+        const uint64_t xx = x * x;
+        const uint64_t yy = y * y;
+        const uint64_t R = xx + yy;
+        const uint64_t S = z * z;
+        const uint64_t p_plus_q = p + q;
+        const uint64_t p_q_R = p_plus_q - R;
+        const uint64_t s_plus_S = s + S;
+        const hc_fixed radial_2 = hc_fixed_full_signed(p_q_R, t);
+        const hc_fixed axial_2 = hc_fixed_full(s_plus_S, q);
+        const hc_fixed n2 = hc_fixed_minus(radial_2, axial_2);
+        const uint64_t t_minus_s = t - s;
+        const uint64_t t_s_S = t_minus_s - S;
+        const uint64_t R_minus_q = R - q;
+        const hc_fixed axial_1 = hc_fixed_full_signed(t_s_S, p);
+        const hc_fixed radial_1 = hc_fixed_full_signed(R_minus_q, s);
+        const hc_fixed n1 = hc_fixed_plus(axial_1, radial_1);
+        const hc_fixed D_K = hc_fixed_full(D, K);
+        const hc_fixed M_e = hc_fixed_full(M, e);
+        const hc_fixed e_e = hc_fixed_full(e, e);
+        const hc_fixed D_M = hc_fixed_full(D, M);
+        const hc_fixed r1 = hc_fixed_minus(D_K, M_e);
+        const hc_fixed n2_e_e = hc_fixed_plus(n2, e_e);
+        const hc_fixed D_M_2 = hc_fixed_plus(D_M, D_M);
+        const hc_fixed r2_outer = hc_fixed_plus(n2_e_e, D_M_2);
+        const hc_fixed r2_inner = hc_fixed_minus(n2_e_e, D_M_2);
+        const hc_fixed r2 = inner ? r2_inner : r2_outer;
+        const hc_fixed K_e = hc_fixed_full(K, e);
+        const hc_fixed M_M = hc_fixed_full(M, M);
+        const hc_fixed M_M_n1 = hc_fixed_minus(M_M, n1);
+        const hc_fixed K_e_2 = hc_fixed_plus(K_e, K_e);
+        const hc_fixed r3_outer = hc_fixed_plus(M_M_n1, K_e_2);
+        const hc_fixed r3_inner = hc_fixed_minus(M_M_n1, K_e_2);
+        const hc_fixed r3 = inner ? r3_inner : r3_outer;
+        const hc_fixed p_D = hc_fixed_full(p, D);
+        const hc_fixed M_q = hc_fixed_full(M, q);
+        const hc_fixed room_within = hc_fixed_minus(p_D, M_q);
+        const hc_fixed beyond = hc_fixed_minus(e_e, D_M);
+        const hc_fixed s_D = hc_fixed_full(s, D);
+        const hc_fixed M_t = hc_fixed_full(M, t);
+        const hc_fixed room_without = hc_fixed_minus(s_D, M_t);
+        /* end of the program "tangency" */
+        if (r1.low | r1.high | r2.low | r2.high | r3.low | r3.high) return 2;
+        if (inner) return hc_fixed_negative(room_within) ? 2 : -1;
+        return hc_fixed_negative(beyond) || hc_fixed_negative(room_without) ? 2 : 1;
+    }
 }
 
 /* The position of a row in the plane of the waist, z = 0, or 2. There g is B - l times -(l² - w l + A), w = P - 1 - A: contact
    where w² <= 4A, exterior where w > 0 and the lower root is below B, interior where w < 0 and the mean -w/2 is above -A. */
 static int hc_position_in_plane(const uint64_t lengths[7]) {
-    const hc_fixed p = hc_fixed_full(lengths[0], lengths[0]), q = hc_fixed_full(lengths[2], lengths[2]);
-    const hc_fixed R = hc_fixed_plus(hc_fixed_full(lengths[4], lengths[4]), hc_fixed_full(lengths[5], lengths[5]));
-    const hc_fixed W = hc_fixed_minus(hc_fixed_minus(R, q), p), opposite = hc_fixed_minus(hc_fixed_plus(p, q), R);
-    const hc_fixed twice_p = hc_fixed_plus(p, p), twice_q = hc_fixed_plus(q, q), size = hc_fixed_negative(W) ? opposite : W;
-    const hc_long four_A = hc_long_product(twice_p, twice_q), square = hc_long_product(size, size);
-    hc_fixed s, t;
-    if (!hc_long_is_negative(hc_long_sum(four_A, square, 1))) return 0;
-    /* W = -2p, where R = q - p >= 0, is not here: A <= 1 then, so that w² = 4A² is not above 4A. */
-    if (hc_fixed_negative(W)) return hc_fixed_negative(hc_fixed_plus(W, twice_p)) ? 0 : -1;
-    s = hc_fixed_full(lengths[1], lengths[1]), t = hc_fixed_full(lengths[3], lengths[3]);
-    return hc_long_is_negative(hc_long_sum(hc_long_product(twice_q, s), hc_long_product(W, t), 1)) ? 2 : 1;
+    HC_NAMED_LENGTHS(lengths)
+    /* printed from the program "waist", W */
+    const hc_fixed p = hc_fixed_full(alpha, alpha);
+    const hc_fixed q = hc_fixed_full(b, b);
+    const hc_fixed xx = hc_fixed_full(x, x);
+    const hc_fixed yy = hc_fixed_full(y, y);
+    const hc_fixed R = hc_fixed_plus(xx, yy);
+    const hc_fixed R_less_q = hc_fixed_minus(R, q);
+    const hc_fixed W = hc_fixed_minus(R_less_q, p);
+    const hc_fixed p_plus_q = hc_fixed_plus(p, q);
+    const hc_fixed opposite = hc_fixed_minus(p_plus_q, R);
+    const hc_fixed p_2 = hc_fixed_plus(p, p);
+    const hc_fixed q_2 = hc_fixed_plus(q, q);
+    /* end of the program "waist" */
+    const hc_fixed size = hc_fixed_negative(W) ? opposite : W;
+    /* printed from the program "waist", the discriminant */
+    const hc_long four_A = hc_long_product(p_2, q_2);
+    const hc_long square = hc_long_product(size, size);
+    const hc_long excess = hc_long_sum(four_A, square, 1);
+    /* end of the program "waist" */
+    if (!hc_long_is_negative(excess)) return 0;
+    {
+        /* printed from the program "waist", where the roots lie */
+        const hc_fixed W_p_2 = hc_fixed_plus(W, p_2);
+        const hc_fixed s = hc_fixed_full(gamma, gamma);
+        const hc_fixed t = hc_fixed_full(d, d);
+        const hc_long q_2_s = hc_long_product(q_2, s);
+        const hc_long W_t = hc_long_signed_product(W, t);
+        const hc_long room = hc_long_sum(q_2_s, W_t, 1);
+        /* end of the program "waist" */
+        /* W = -2p, where R = q - p >= 0, is not here: A <= 1 then, so that w² = 4A² is not above 4A. */
+        if (hc_fixed_negative(W)) return hc_fixed_negative(W_p_2) ? 0 : -1;
+        return hc_long_is_negative(room) ? 2 : 1;
+    }
 }
 
 /* The position of a row in the plane of the waist, or of one that touches, but for coordinates of a hair's breadth; else 2. Where
@@ -1663,7 +1775,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_391c23d784a2e622
+#ifndef HC_EDITION_627ba224eba668ec
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -4335,7 +4447,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_391c23d784a2e622
+#define HC_EDITION_627ba224eba668ec
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 

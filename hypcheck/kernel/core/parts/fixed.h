@@ -28,6 +28,13 @@ static inline hc_fixed hc_fixed_full(uint64_t left, uint64_t right) {
     return product;
 }
 
+/* The same of a number in two's complement and one >= 0. */
+static inline hc_fixed hc_fixed_full_signed(uint64_t left, uint64_t right) {
+    hc_fixed product = hc_fixed_full(left, right);
+    product.high -= right & (0 - (left >> 63));
+    return product;
+}
+
 static inline hc_fixed hc_fixed_plus(hc_fixed left, hc_fixed right) {
     hc_fixed sum;
     sum.low = left.low + right.low;

@@ -110,6 +110,9 @@ static int hc_short_lengths(const double row[7], uint64_t lengths[7]) {
     return 1 + hc_highest_bit(all);
 }
 
+#define HC_NAMED_LENGTHS(lengths)                                                                                                      \
+    const uint64_t alpha = lengths[0], gamma = lengths[1], b = lengths[2], d = lengths[3], x = lengths[4], y = lengths[5];
+
 /* 1 or -1 where the row touches from without or from within in a double root that is `about` this number, which is then
    proved: with D = b d and K = alpha gamma, N g is (D l - M)² (l - e²/D²) for whole numbers M and e of the same sign with
 
@@ -117,15 +120,11 @@ static int hc_short_lengths(const double row[7], uint64_t lengths[7]) {
 
    (docs/kernel.md of hypcheck). 2 where it is not so. */
 static int hc_touches_by(const uint64_t lengths[7], double about) {
-    const hc_fixed D = hc_fixed_full(lengths[2], lengths[3]), K = hc_fixed_full(lengths[0], lengths[1]);
-    const hc_fixed p = hc_fixed_full(lengths[0], lengths[0]), s = hc_fixed_full(lengths[1], lengths[1]),
-                   q = hc_fixed_full(lengths[2], lengths[2]), t = hc_fixed_full(lengths[3], lengths[3]),
-                   R = hc_fixed_plus(hc_fixed_full(lengths[4], lengths[4]), hc_fixed_full(lengths[5], lengths[5])),
-                   S = hc_fixed_full(lengths[6], lengths[6]);
-    const hc_long n2 = hc_long_sum(hc_long_signed_product(hc_fixed_minus(hc_fixed_plus(p, q), R), t),
-                                   hc_long_product(hc_fixed_plus(s, S), q), 1);
-    const hc_long D_K = hc_long_product(D, K);
-    const int inner = about < 0;
+    HC_NAMED_LENGTHS(lengths)
+    const uint64_t z = lengths[6];
+    /* printed from the program "tangency", what M and e do not change */
+    @TANGENCY_BEFORE@
+    /* end of the program "tangency" */
     const double d_ = hc_fixed_value(D), k_ = hc_fixed_value(K), size = inner ? -about : about, most = 4.2535295865117308e37; /* 2^125 */
     double m_ = size * d_, e_ = k_ / size;
     hc_fixed M, e;
@@ -134,20 +133,18 @@ static int hc_touches_by(const uint64_t lengths[7], double about) {
     M = hc_fixed_nearest(m_);
     e = hc_fixed_nearest(e_);
     for (turn = 0; turn < HC_TANGENCY_TURNS; turn++) { /* M and e are the sizes here */
-        const hc_long M_e = hc_long_product(M, e), e_e = hc_long_product(e, e), D_M = hc_long_product(D, M);
-        const hc_long r1 = hc_long_sum(D_K, M_e, 1);
-        const hc_long r2 = hc_long_sum(hc_long_sum(hc_long_sum(n2, e_e, 0), D_M, inner), D_M, inner);
+        /* printed from the program "tangency", two equations */
+        @TANGENCY_EQUATIONS@
+        /* end of the program "tangency" */
         double r1_, half, det, dM, de;
         if (hc_long_is_zero(r1) && hc_long_is_zero(r2)) {
-            const hc_long n1 = hc_long_sum(hc_long_signed_product(hc_fixed_minus(hc_fixed_minus(t, s), S), p),
-                                           hc_long_signed_product(hc_fixed_minus(R, q), s), 0);
-            const hc_long K_e = hc_long_product(K, e), M_M = hc_long_product(M, M);
-            const hc_long r3 = hc_long_sum(hc_long_sum(hc_long_sum(M_M, n1, 1), K_e, inner), K_e, inner);
+            /* printed from the program "tangency", the third, and where the root lies */
+            @TANGENCY_LAST@
+            /* end of the program "tangency" */
             if (!hc_long_is_zero(r3)) return 2;
             /* within: -A <= M/D; without: M/D <= B, and the simple root is not below it */
-            if (inner) return hc_long_is_negative(hc_long_sum(hc_long_product(p, D), hc_long_product(M, q), 1)) ? 2 : -1;
-            if (hc_long_is_negative(hc_long_sum(e_e, D_M, 1))) return 2;
-            return hc_long_is_negative(hc_long_sum(hc_long_product(s, D), hc_long_product(M, t), 1)) ? 2 : 1;
+            if (inner) return hc_long_is_negative(room_within) ? 2 : -1;
+            return hc_long_is_negative(beyond) || hc_long_is_negative(room_without) ? 2 : 1;
         }
         r1_ = hc_long_value(r1), half = 0.5 * hc_long_value(r2);
         m_ = inner ? -hc_fixed_value(M) : hc_fixed_value(M), e_ = inner ? -hc_fixed_value(e) : hc_fixed_value(e);
@@ -169,43 +166,45 @@ static int hc_touches_by(const uint64_t lengths[7], double about) {
 
 /* The same where lengths have 23 bits at most, and M and e 46: those are guessed right, and 128 bits hold everything. */
 static int hc_touches_by_short(const uint64_t lengths[7], double about) {
-    const uint64_t p = lengths[0] * lengths[0], s = lengths[1] * lengths[1], q = lengths[2] * lengths[2], t = lengths[3] * lengths[3],
-                   R = lengths[4] * lengths[4] + lengths[5] * lengths[5], S = lengths[6] * lengths[6];
-    const uint64_t D = lengths[2] * lengths[3], K = lengths[0] * lengths[1];
-    const int inner = about < 0;
+    HC_NAMED_LENGTHS(lengths)
+    const uint64_t z = lengths[6];
+    /* printed from the program "tangency", for short lengths */
+    @TANGENCY_SHORT_BEFORE@
+    /* end of the program "tangency" */
     const double size = inner ? -about : about, m_ = size * (double)(int64_t)D, e_ = (double)(int64_t)K / size, most = 70368744177664.0; /* 2^46 */
     uint64_t M, e;
-    hc_fixed first, second, third, twice_D_M, twice_K_e;
     if (!(size > 0 && m_ < most && e_ < most)) return 2;
     M = (uint64_t)(int64_t)(m_ + 0.5), e = (uint64_t)(int64_t)(e_ + 0.5);
-    first = hc_fixed_minus(hc_fixed_full(D, K), hc_fixed_full(M, e));
-    twice_D_M = hc_fixed_times(2, hc_fixed_full(D, M)), twice_K_e = hc_fixed_times(2, hc_fixed_full(K, e));
-    second = hc_fixed_plus(hc_fixed_minus(hc_fixed_full(p + q, t), hc_fixed_full(R, t)),
-                           hc_fixed_minus(hc_fixed_full(e, e), hc_fixed_full(s + S, q)));
-    second = inner ? hc_fixed_minus(second, twice_D_M) : hc_fixed_plus(second, twice_D_M);
-    third = hc_fixed_minus(hc_fixed_plus(hc_fixed_full(t, p), hc_fixed_full(R, s)),
-                           hc_fixed_plus(hc_fixed_plus(hc_fixed_full(s + S, p), hc_fixed_full(q, s)), hc_fixed_full(M, M)));
-    third = inner ? hc_fixed_plus(third, twice_K_e) : hc_fixed_minus(third, twice_K_e);
-    if (first.low | first.high | second.low | second.high | third.low | third.high) return 2;
-    if (inner) return hc_fixed_negative(hc_fixed_minus(hc_fixed_full(p, D), hc_fixed_full(M, q))) ? 2 : -1;
-    if (hc_fixed_negative(hc_fixed_minus(hc_fixed_full(e, e), hc_fixed_full(D, M)))) return 2;
-    return hc_fixed_negative(hc_fixed_minus(hc_fixed_full(s, D), hc_fixed_full(M, t))) ? 2 : 1;
+    {
+        /* printed from the program "tangency", the equations for short lengths */
+        @TANGENCY_SHORT@
+        /* end of the program "tangency" */
+        if (r1.low | r1.high | r2.low | r2.high | r3.low | r3.high) return 2;
+        if (inner) return hc_fixed_negative(room_within) ? 2 : -1;
+        return hc_fixed_negative(beyond) || hc_fixed_negative(room_without) ? 2 : 1;
+    }
 }
 
 /* The position of a row in the plane of the waist, z = 0, or 2. There g is B - l times -(l² - w l + A), w = P - 1 - A: contact
    where w² <= 4A, exterior where w > 0 and the lower root is below B, interior where w < 0 and the mean -w/2 is above -A. */
 static int hc_position_in_plane(const uint64_t lengths[7]) {
-    const hc_fixed p = hc_fixed_full(lengths[0], lengths[0]), q = hc_fixed_full(lengths[2], lengths[2]);
-    const hc_fixed R = hc_fixed_plus(hc_fixed_full(lengths[4], lengths[4]), hc_fixed_full(lengths[5], lengths[5]));
-    const hc_fixed W = hc_fixed_minus(hc_fixed_minus(R, q), p), opposite = hc_fixed_minus(hc_fixed_plus(p, q), R);
-    const hc_fixed twice_p = hc_fixed_plus(p, p), twice_q = hc_fixed_plus(q, q), size = hc_fixed_negative(W) ? opposite : W;
-    const hc_long four_A = hc_long_product(twice_p, twice_q), square = hc_long_product(size, size);
-    hc_fixed s, t;
-    if (!hc_long_is_negative(hc_long_sum(four_A, square, 1))) return 0;
-    /* W = -2p, where R = q - p >= 0, is not here: A <= 1 then, so that w² = 4A² is not above 4A. */
-    if (hc_fixed_negative(W)) return hc_fixed_negative(hc_fixed_plus(W, twice_p)) ? 0 : -1;
-    s = hc_fixed_full(lengths[1], lengths[1]), t = hc_fixed_full(lengths[3], lengths[3]);
-    return hc_long_is_negative(hc_long_sum(hc_long_product(twice_q, s), hc_long_product(W, t), 1)) ? 2 : 1;
+    HC_NAMED_LENGTHS(lengths)
+    /* printed from the program "waist", W */
+    @WAIST_BEFORE@
+    /* end of the program "waist" */
+    const hc_fixed size = hc_fixed_negative(W) ? opposite : W;
+    /* printed from the program "waist", the discriminant */
+    @WAIST_EXCESS@
+    /* end of the program "waist" */
+    if (!hc_long_is_negative(excess)) return 0;
+    {
+        /* printed from the program "waist", where the roots lie */
+        @WAIST_SIDES@
+        /* end of the program "waist" */
+        /* W = -2p, where R = q - p >= 0, is not here: A <= 1 then, so that w² = 4A² is not above 4A. */
+        if (hc_fixed_negative(W)) return hc_fixed_negative(W_p_2) ? 0 : -1;
+        return hc_long_is_negative(room) ? 2 : 1;
+    }
 }
 
 /* The position of a row in the plane of the waist, or of one that touches, but for coordinates of a hair's breadth; else 2. Where
