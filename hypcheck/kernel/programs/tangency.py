@@ -81,8 +81,9 @@ WAIST = program_of(
 )
 
 NARROW = frozenset(
-    ("D", "K", "M", "e", "size", "p", "q", "s", "t", "xx", "yy", "R", "S", "p_plus_q", "p_q_R", "s_plus_S")
-    + ("t_minus_s", "t_s_S", "R_minus_q", "R_less_q", "W", "opposite", "p_2", "q_2", "W_p_2")
+    """
+    D K M e size p q s t xx yy R S p_plus_q p_q_R s_plus_S t_minus_s t_s_S R_minus_q R_less_q W opposite p_2 q_2 W_p_2
+    """.split()
 )
 """Of degree 2 in the lengths."""
 
