@@ -80,11 +80,9 @@ WAIST = program_of(
 """,
 )
 
-NARROW = frozenset(
-    """
-    D K M e size p q s t xx yy R S p_plus_q p_q_R s_plus_S t_minus_s t_s_S R_minus_q R_less_q W opposite p_2 q_2 W_p_2
-    """.split()
-)
+_SQUARES = ("p", "q", "s", "t", "xx", "yy", "R", "S", "p_2", "q_2")
+_SUMS = ("p_plus_q", "p_q_R", "s_plus_S", "t_minus_s", "t_s_S", "R_minus_q", "R_less_q", "W", "opposite", "W_p_2")
+NARROW = frozenset((*_SQUARES, *_SUMS, "D", "K", "M", "e", "size"))
 """Of degree 2 in the lengths."""
 
 SIGNED = frozenset(("p_q_R", "t_s_S", "R_minus_q", "W"))
