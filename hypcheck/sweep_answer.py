@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hypcheck.answer import DisagreementError
-from hypcheck.geometry.pair import TILTED_WAY_COLUMNS, WITHOUT_ENDS
+from hypcheck.geometry.pair import TILTED_SWEEP_COLUMNS, WITHOUT_ENDS
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
 from hypcheck.truth.passage_certificate import PassageCertificate, check_passage
@@ -42,7 +42,7 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
 
     Raises InputError for a row that is not valid, DisagreementError if the proof does not hold.
     """
-    if len(row) > len(TILTED_WAY_COLUMNS):
+    if len(row) > len(TILTED_SWEEP_COLUMNS):
         found = passage_of_row(row)
         return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper) if found.hit else None, None)
     try:
@@ -59,7 +59,7 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
 
 def passage_of_row(row: Sequence[float]) -> Passage:
     """What happens on a sweep: sizes, two centres, and an axis and heights or not. Raises InputError."""
-    axis, heights = row[10 : len(TILTED_WAY_COLUMNS)], row[len(TILTED_WAY_COLUMNS) :]
+    axis, heights = row[10 : len(TILTED_SWEEP_COLUMNS)], row[len(TILTED_SWEEP_COLUMNS) :]
     z_min, z_max, solid = heights or WITHOUT_ENDS
     return passage(row[:4], row[4:7], row[7:10], axis or None, z_min=z_min, z_max=z_max, solid=solid)
 
@@ -101,7 +101,7 @@ def sweep_as_text(answer: SweepAnswer) -> str:
         lower, upper = answer.first
         lines.append(f"first      contact between the times {lower!r} and {upper!r}; 0 is the start, 1 the end")
     lines.append(f"ends       {found.start.label} at the start, {found.end.label} at the end")
-    ended = len(answer.row) > len(TILTED_WAY_COLUMNS)
+    ended = len(answer.row) > len(TILTED_SWEEP_COLUMNS)
     proof = [_BESIDE_ENDS] if ended else list(_proof_lines(answer.certificate))
     return "\n".join([*lines, f"proof      {proof[0]}", *(f"{'':11}{line}" for line in proof[1:])])
 

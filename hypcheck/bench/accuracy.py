@@ -25,7 +25,7 @@ from hypcheck.bench.contender import Contender, LoadedMethod
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
 from hypcheck.bench.workloads import WORKLOADS, Workload, workloads_of
-from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Positions, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.method import Answers
 from hypcheck.implementations.session import Answered
@@ -115,7 +115,7 @@ def _examined_ways(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
     with np.errstate(divide="ignore"):
         exponents = np.floor(np.log2(off))
     grazing = [passage_of(tuple(row)).grazes for row in rows.tolist()]
-    return truth_of(rows, WAYS), np.where(grazing, -np.inf, exponents)
+    return truth_of(rows, SWEEPS), np.where(grazing, -np.inf, exponents)
 
 
 def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:

@@ -22,7 +22,7 @@ from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars, o
 from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_names
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.geometry.pair import Pair
-from hypcheck.geometry.rows import WAYS, Rows
+from hypcheck.geometry.rows import SWEEPS, Rows
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.builtin import (
     SAMPLES,
@@ -321,7 +321,7 @@ def _in_engines() -> Iterable[Contender]:
             passage_mesh_methods()[name],
             "FCL",
             "mesh",
-            load=partial(InEngine, partial(way_mesh, solver), height_of_ways, WAYS),
+            load=partial(InEngine, partial(way_mesh, solver), height_of_ways, SWEEPS),
             judged=WAYS_JUDGED,
             quick_judged=WAYS_JUDGED_QUICK,
             timed=FEW_WAYS if name in SLOW_FOR_WAYS else WAYS_TIMED,

@@ -16,7 +16,7 @@ from hypcheck.bench.timing import KernelTarget, TimingEntry, measured_samples, r
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
 from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_ways
 from hypcheck.record.measurements import KernelLine
-from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
 
 SEED = 1
 PACED = 20_000
@@ -72,7 +72,7 @@ def _rows(centres: Floats, axes: Floats, end: float) -> Rows:
 
 def left_open(_rounds: int) -> Iterator[KernelLine]:
     """How many rows and ways of each family C answers with 2, which Python then decides exactly."""
-    counts = {name: _open_share(name) for name in (*ENDED_FAMILIES, *ENDED_WAY_FAMILIES)}
+    counts = {name: _open_share(name) for name in (*ENDED_FAMILIES, *ENDED_SWEEP_FAMILIES)}
     for target, ordinary in ((OPEN, True), (OPEN_NEAR, False)):
         some = {name: share for name, share in counts.items() if name.endswith("uniform") is ordinary}
         n = ORDINARY if ordinary else NEAR
@@ -81,8 +81,8 @@ def left_open(_rounds: int) -> Iterator[KernelLine]:
 
 
 def _open_share(name: str) -> float:
-    ways = name in ENDED_WAY_FAMILIES
-    family = ENDED_WAY_FAMILIES[name] if ways else ENDED_FAMILIES[name]
+    ways = name in ENDED_SWEEP_FAMILIES
+    family = ENDED_SWEEP_FAMILIES[name] if ways else ENDED_FAMILIES[name]
     rows = np.ascontiguousarray(family.rows(SEED, ORDINARY if name.endswith("uniform") else NEAR))
     answers = answer_ways(rows)[0] if ways else answer_ended(rows, 1)
     return float((answers == CANNOT_SAY).mean())

@@ -18,13 +18,13 @@ import numpy as np
 from hypcheck.bench.plan import PASSAGE, BenchPlan
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES
-from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Layout, Rows, tilted_rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Rows, tilted_rows
 from hypcheck.kernel.specialise.settings import REACH, Setting, settings_of
 from hypcheck.scene.model import FREE, SceneModel, leans
 from hypcheck.scene.reading import read_scene
 from hypcheck.vectors import frozen
 from hypcheck.vectors.draw import Draw, in_turn
-from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES, family_of
+from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES, family_of
 from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, centred
 from hypcheck.vectors.scenes import BODY, ROTOR, TOWER
@@ -184,13 +184,13 @@ def _frozen_ways(_seed: int, count: int) -> Rows:
 @cache
 def frozen_ways() -> Rows:
     """The frozen ways of upright spheroids, all families in turn."""
-    families = [frozen.load(name).rows for name, family in WAY_FAMILIES.items() if not family.tilted]
+    families = [frozen.load(name).rows for name, family in SWEEP_FAMILIES.items() if not family.tilted]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
 
 
 def _way_workload(name: str, title: str, text: str, rows: _Rows, *, timed: bool = False) -> Workload:
-    return Workload(name, title, text, rows, timed, WAY_SHARE, WAYS)
+    return Workload(name, title, text, rows, timed, WAY_SHARE, SWEEPS)
 
 
 WAY_WORKLOADS = _by_name(

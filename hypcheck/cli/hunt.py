@@ -238,14 +238,14 @@ Ends with 0 if the simplest row is shown, 2 if the answer to CASE is not wrong, 
 def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     """Simplify, and print the result."""
     from hypcheck.answer import answer, answer_as_text
-    from hypcheck.geometry.rows import WAYS
+    from hypcheck.geometry.rows import SWEEPS
     from hypcheck.runs.minimise import minimise as simplify
     from hypcheck.runs.minimise import minimised_lines
     from hypcheck.runs.replay import case_of
     from hypcheck.vectors.families import is_extreme
     from hypcheck.vectors.format import content_with
     from hypcheck.vectors.labels import labelled
-    from hypcheck.vectors.showing import way_answer_lines
+    from hypcheck.vectors.showing import sweep_answer_lines
 
     given = case_of(case)
     with _target(spec, **subject) as target:
@@ -253,10 +253,10 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     for line in minimised_lines(run):
         click.echo(printable(line))
     row = run.last.case.row
-    if run.target.layout is WAYS:
+    if run.target.layout is SWEEPS:
         click.echo("\nthe right answer")
-        content = content_with(WAYS, ended=WAYS.has_heights(row))
-        click.echo("\n".join(way_answer_lines(*labelled(content, [("", row)]))))
+        content = content_with(SWEEPS, ended=SWEEPS.has_heights(row))
+        click.echo("\n".join(sweep_answer_lines(*labelled(content, [("", row)]))))
     else:
         click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(row)))}")
 

@@ -27,10 +27,10 @@ TILTED_COLUMNS = COLUMNS + AXIS
 """The names of the ten numbers of a tilted spheroid beside a hyperboloid."""
 
 START, END = ("x0", "y0", "z0"), ("x1", "y1", "z1")
-WAY_COLUMNS = SIZES + START + END
+SWEEP_COLUMNS = SIZES + START + END
 """The names of the ten numbers of a straight way: the spheroid's centre goes from (x0, y0, z0) to (x1, y1, z1)."""
 
-TILTED_WAY_COLUMNS = WAY_COLUMNS + AXIS
+TILTED_SWEEP_COLUMNS = SWEEP_COLUMNS + AXIS
 """Those of the way of a tilted spheroid, whose axis stays as it is on the way."""
 
 ENDS = ("z_min", "z_max")

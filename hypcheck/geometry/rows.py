@@ -25,9 +25,9 @@ from hypcheck.geometry.pair import (
     COLUMNS,
     HEIGHTS,
     SIZES,
+    SWEEP_COLUMNS,
     TILTED_COLUMNS,
     UPRIGHT,
-    WAY_COLUMNS,
     WITHOUT_ENDS,
     Sizes,
     trouble_with_row,
@@ -101,7 +101,7 @@ def _width_of(rows: Rows | Sequence[object]) -> int:
 PAIRS = Layout(COLUMNS)
 """One position of a spheroid: (n, 7), or (n, 10) with its axis."""
 
-WAYS = Layout(WAY_COLUMNS, ("way", "way", "way"))
+SWEEPS = Layout(SWEEP_COLUMNS, ("way", "way", "way"))
 """The way between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
 
 

@@ -16,7 +16,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, GROUPS, HEIGHTS, SIZES, trouble_with
 from hypcheck.geometry.rows import (
     PAIRS,
-    WAYS,
+    SWEEPS,
     FixedSizes,
     Layout,
 )
@@ -50,7 +50,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             Question("exterior"),
             Question("interior"),
             Question("contact"),
-            Question("passage", layout=WAYS, entry="passage", forms=("passage-", "passage-"), times=True),
+            Question("passage", layout=SWEEPS, entry="passage", forms=("passage-", "passage-"), times=True),
         )
     }
 )
@@ -130,7 +130,7 @@ def described(raw: object, defaults: Description, required: tuple[str, ...] = ()
         raise InputError("the description takes an axis, but its tilt is false; leave tilt out, or make it true")
     values |= {name: True for name, group in (("tilt", "axis"), ("heights", "heights")) if group in taken}
     description = replace(defaults, **values)
-    if "end" in taken and description.asked.layout is not WAYS:
+    if "end" in taken and description.asked.layout is not SWEEPS:
         raise InputError(
             f"the description takes an end, but its question is {description.question!r}; the end of a straight motion "
             'belongs to the question "passage"'

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Layout, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Rows
 
 WIDTH = 400
 """Characters of a text."""
@@ -56,10 +56,10 @@ CALLS = (
     CallForm("classify", PAIRS),
     CallForm("classify", PAIRS, scene=True),
     CallForm("classify", PAIRS, columns=True),
-    CallForm("passage", WAYS),
-    CallForm("passage", WAYS, times=True),
-    CallForm("passage", WAYS, columns=True),
-    CallForm("passage", WAYS, times=True, columns=True),
+    CallForm("passage", SWEEPS),
+    CallForm("passage", SWEEPS, times=True),
+    CallForm("passage", SWEEPS, columns=True),
+    CallForm("passage", SWEEPS, times=True, columns=True),
 )
 
 REQUEST = struct.Struct("=4sIIIQQ")

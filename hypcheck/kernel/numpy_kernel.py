@@ -21,7 +21,7 @@ from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Axis, Pair,
 from hypcheck.geometry.rows import (
     CANNOT_SAY,
     PAIRS,
-    WAYS,
+    SWEEPS,
     Columns,
     Floats,
     Indices,
@@ -169,13 +169,13 @@ def answer_ways(rows: Rows) -> tuple[Positions, Floats]:
 
     Through an opening a sweep may change its side without contact.
     """
-    others = [*range(len(WAYS.upright), rows.shape[1])]
+    others = [*range(len(SWEEPS.upright), rows.shape[1])]
     both = (np.ascontiguousarray(rows[:, [0, 1, 2, 3, *centre, *others]]) for centre in ((4, 5, 6), (7, 8, 9)))
-    start, end = (answer_ended(each) if WAYS.has_heights(rows) else positions(each) for each in both)
+    start, end = (answer_ended(each) if SWEEPS.has_heights(rows) else positions(each) for each in both)
     hit = (start == 0) | (end == 0)
-    sure = (start != CANNOT_SAY) & (end != CANNOT_SAY) & ((rows[:, -1] != 0) if WAYS.has_heights(rows) else True)
+    sure = (start != CANNOT_SAY) & (end != CANNOT_SAY) & ((rows[:, -1] != 0) if SWEEPS.has_heights(rows) else True)
     hits = np.where(hit | (sure & (start != end)), 1, CANNOT_SAY).astype(np.int8)
-    hits[invalid(rows, WAYS)] = REFUSED
+    hits[invalid(rows, SWEEPS)] = REFUSED
     return hits, np.where((start == 0) & (hits == 1), 0.0, np.nan)
 
 

@@ -21,7 +21,7 @@ from hypcheck.geometry.forms import Argument, named_points, require_known, sizes
 from hypcheck.geometry.pair import AXIS, CENTER, END, HEIGHTS, REFUSED, SIZES, START, WITHOUT_ENDS
 from hypcheck.geometry.rows import (
     CANNOT_SAY,
-    WAYS,
+    SWEEPS,
     Floats,
     Indices,
     Layout,
@@ -157,10 +157,10 @@ _NEW = dict(zip(START, CENTER, strict=True))
 
 def _hits(rows: Rows) -> Mask:
     """By bounds, and what these leave exactly. What is clear of a whole hyperboloid is clear of an open wall of it."""
-    width = len(WAYS.tilted)
+    width = len(SWEEPS.tilted)
     whole = np.ascontiguousarray(rows[:, :width])
     said = kernel().answer_ways(whole)[0]
-    if WAYS.has_heights(rows):
+    if SWEEPS.has_heights(rows):
         ended = np.isfinite(rows[:, width : width + 2]).any(axis=1)
         sure = ~ended | ((said == 0) & (rows[:, width + 2] == 0))
         said = np.where(sure, said, CANNOT_SAY)

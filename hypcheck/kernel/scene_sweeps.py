@@ -125,7 +125,7 @@ def is_clear(
         return not any(sweep.hit for sweep in sweeps) and len({sweep.start for sweep in sweeps}) == 1
     low, high = bodies.spans[index].tolist()
     heights = (low, high, float(bodies.solid[index]))
-    whole, *others = (swept.journey_of(*_between(bodies, index, *spheroid), heights) for spheroid in spheroids)
+    whole, *others = (swept.sweep_of(*_between(bodies, index, *spheroid), heights) for spheroid in spheroids)
     return not ended_sweeps.meets(EndedSweep(whole, tuple(others)))
 
 

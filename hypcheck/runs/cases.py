@@ -263,7 +263,7 @@ def first_unfrozen(family: Family, seed: int) -> int:
 def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
     """floor(log2) of the distance to the nearest other position, for the (ascending) indices that record it.
 
-    Frozen vectors hold their distance. It is not recorded for ways, nor for generated rows of tilted spheroids, where
+    Frozen vectors hold their distance. It is not recorded for sweeps, nor for generated rows of tilted spheroids, where
     to prove it would take longer than all the rest.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]

@@ -25,7 +25,7 @@ from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, AnsweredRows, Answers, Cause, Scope, subject_of
-from hypcheck.runs.formula_errors import TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS, WAY_FORMULA_ERRORS
+from hypcheck.runs.formula_errors import SWEEP_FORMULA_ERRORS, TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.judges import judge_of
 from hypcheck.runs.root_causes import ROOT_CAUSES
@@ -36,7 +36,7 @@ from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 PLACE_CAUSES: tuple[Cause, ...] = (*PLACES, *ROOT_CAUSES, *WIDER_ROUNDINGS)
 """The causes about places of upright spheroids."""
 
-CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_FORMULA_ERRORS, *TILTED_FORMULA_ERRORS, *WAY_FORMULA_ERRORS)
+CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_FORMULA_ERRORS, *TILTED_FORMULA_ERRORS, *SWEEP_FORMULA_ERRORS)
 """All causes; a set of them is a number with a bit for each, in this order."""
 
 UNEXPLAINED = "unexplained"

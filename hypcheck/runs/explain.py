@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import WAYS, Floats, Mask
+from hypcheck.geometry.rows import SWEEPS, Floats, Mask
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.messages import suggestion
 from hypcheck.runs.causes import AnsweredRows, Cause, Scope
@@ -22,7 +22,7 @@ from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.judges import judge_of, passage_of
 from hypcheck.vectors.families import is_extreme
-from hypcheck.vectors.frozen import NAMES, TILTED_NAMES, WAY_NAMES, load
+from hypcheck.vectors.frozen import NAMES, SWEEP_NAMES, TILTED_NAMES, load
 
 Row = tuple[float, ...]
 
@@ -38,7 +38,7 @@ _FIRST = {
 _ROUNDING_FIRST = ("near-tangent-outside", "near-tangent-inside", "ring-neighbourhood", "near-axis")
 """Families looked at first for causes about rounding, which short rows seldom show: their floats are exact."""
 
-_NAMES = {"upright": NAMES, "tilted": TILTED_NAMES, "way": WAY_NAMES}
+_NAMES = {"upright": NAMES, "tilted": TILTED_NAMES, "way": SWEEP_NAMES}
 
 _PRECISIONS = {"float64-for-more": "binary128"}
 """Causes about other precisions than float64, with one of which an implementation may have them."""
@@ -46,8 +46,8 @@ _PRECISIONS = {"float64-for-more": "binary128"}
 _SHOWN_BY = {"out-of-range": "extreme-float64"}
 """Causes that a family is made for."""
 
-_WAYS = 40
-"""The number of ways of a family that are looked at: a time takes milliseconds to decide."""
+_SWEEPS = 40
+"""The number of sweeps of a family that are looked at: a time takes milliseconds to decide."""
 
 _ABOUT = {
     "upright": "upright spheroids",
@@ -64,7 +64,7 @@ _SHOWN = {
 
 @dataclass(frozen=True, slots=True)
 class Witness:
-    """A row with its case id and its truth, and the wrong answer that a cause gives there, of a way with a time."""
+    """A row with its case id and its truth, and the wrong answer that a cause gives there, of a sweep with a time."""
 
     case: str
     row: Row
@@ -95,10 +95,10 @@ def witness_of(cause: Cause) -> Witness:
 
 
 def _witness_in(cause: Cause, name: str) -> Witness | None:
-    vectors, ways = load(name), cause.subject == "way"
-    count = _WAYS if ways else len(vectors.rows)
+    vectors, sweeps = load(name), cause.subject == "way"
+    count = _SWEEPS if sweeps else len(vectors.rows)
     rows, truth = vectors.rows[:count], vectors.positions[:count]
-    criterion = Criterion("passage" if ways else "position", _PRECISIONS.get(cause.name, "float64"))
+    criterion = Criterion("passage" if sweeps else "position", _PRECISIONS.get(cause.name, "float64"))
     ids = {tuple((row + 0.0).tolist()): name for row, name in zip(rows, vectors.ids, strict=False)}
     witnesses: list[Witness] = []
     for answered in _possible_answers(rows, truth, criterion):
@@ -111,11 +111,11 @@ def _witness_in(cause: Cause, name: str) -> Witness | None:
 
 
 def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterator[AnsweredRows]:  # noqa: ANN401 - Positions
-    """The rows with each answer of the question given to all of them; of ways, with times that are wrong as well."""
+    """The rows with each answer of the question given to all of them; of sweeps, with times that are wrong as well."""
     answered = AnsweredRows(np.ascontiguousarray(rows), truth, truth, criterion)
     for answer in (0, 1, -1) if criterion.question == "position" else (0, 1):
         yield replace(answered, given=np.full(len(rows), answer, dtype=np.int8))
-    if criterion.layout is WAYS:
+    if criterion.layout is SWEEPS:
         first = np.array([passage_of(tuple(row)).first_lower for row in rows.tolist()], dtype=np.float64)
         for times in (1 - first, first + 2.0**-13, first - 2.0**-13):
             within = np.flatnonzero((first > 2.0**-10) & (first < 1 - 2.0**-10))

@@ -1,4 +1,4 @@
-"""Causes about every row: a sign or a term wrong in a formula, a column taken for another, positions in place of a way.
+"""Causes about every row: a sign or a term of a formula wrong, a column taken for another, positions for a sweep.
 
 Each is a whole rule. Rules about what is asked are answered exactly after what their sentence in causes.toml says was
 done to the row. Rules about a formula are evaluated in float64 and, where most of their answers agree with the ones
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, REFUSED
-from hypcheck.geometry.rows import PAIRS, WAYS, Floats, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Rows
 from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause, silent
@@ -347,14 +347,14 @@ TILTED_FORMULA_ERRORS = _errors(
 """The axis ignored, read, normalised or turned wrongly; other bodies. The simplest first."""
 
 SAME_TIME = 1e-9
-"""Two times of a way, from 0 to 1, that a rule and an implementation may compute differently."""
+"""Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
 
-_MOST_WAYS = 512
+_MOST_SWEEPS = 512
 """Deciding a way exactly costs a millisecond, so only so many ways of a chunk are asked again."""
 
 
 def _touches(answered: AnsweredRows, place: int) -> Answers:
-    """Whether the spheroid is in contact at the start (place 4) or the end (7) of each way, with its axis if any."""
+    """Whether the spheroid is in contact at the start (place 4) or the end (7) of each sweep, with its axis if any."""
     rows = answered.rows
     ends = np.hstack([rows[:, :4], rows[:, place : place + 3], rows[:, 10:]])
     return np.asarray(classify(np.ascontiguousarray(ends)) == 0, dtype=np.int8)
@@ -375,27 +375,29 @@ def _at_both_ends(answered: AnsweredRows) -> Answers:
 
 
 def _between(answered: AnsweredRows) -> Answers:
-    """Clear where both ends are clear and the way between them is not."""
+    """Clear where both ends are clear and the sweep between them is not."""
     first, last = _touches(answered, 4), _touches(answered, 7)
     missed = (answered.truth == 1) & (answered.given == 0) & (first == 0) & (last == 0)
     return np.where(missed, 0, SILENT).astype(np.int8)
 
 
-def _other_ways(*order: int) -> Rule:
-    """The exact hits on ways with their columns in this order; nothing about tilted spheroids."""
+def _other_sweeps(*order: int) -> Rule:
+    """The exact hits on sweeps with their columns in this order; nothing about tilted spheroids."""
 
     def rule(answered: AnsweredRows) -> Answers:
         answers, times = silent(answered), np.zeros(len(answered.rows))
-        if WAYS.has_axis(answered.rows):
+        if SWEEPS.has_axis(answered.rows):
             return answers
-        answers[:_MOST_WAYS], times[:_MOST_WAYS] = ways.exact(np.ascontiguousarray(answered.rows[:_MOST_WAYS, order]))
+        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = ways.exact(
+            np.ascontiguousarray(answered.rows[:_MOST_SWEEPS, order])
+        )
         return _timed(answered, answers, times)
 
     return rule
 
 
 def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
-    """The answer given where it is a hit, and right, and this holds of the way and the time of the answer."""
+    """The answer given where it is a hit, and right, and this holds of the sweep and the time of the answer."""
     answers = silent(answered)
     if answered.times is not None:
         for place in np.flatnonzero((answered.given == 1) & (answered.truth == 1)).tolist():
@@ -410,7 +412,7 @@ def _times_from_the_end(answered: AnsweredRows) -> Answers:
 
 
 def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
-    """The answer given where only its time is wrong, in this direction, by less than a thousandth of the way."""
+    """The answer given where only its time is wrong, in this direction, by less than a thousandth of the sweep."""
 
     def is_off(row: tuple[float, ...], time: float) -> bool:
         off = time - passage_of(row).first_lower
@@ -419,7 +421,7 @@ def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
     return _where_time(answered, is_off)
 
 
-WAY_FORMULA_ERRORS = (
+SWEEP_FORMULA_ERRORS = (
     *_errors("way", {"between-positions": _between}, Scope.PLACE),
     *_errors(
         "way",
@@ -435,13 +437,13 @@ WAY_FORMULA_ERRORS = (
             "only-the-start": lambda answered: _timed(answered, _touches(answered, 4), 0.0),
             "only-the-end": lambda answered: _timed(answered, _touches(answered, 7), 1.0),
             "only-the-ends": _at_both_ends,
-            "way-x-z": _other_ways(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
-            "way-b-d": _other_ways(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
-            "way-level": _other_ways(0, 1, 2, 3, 4, 5, 6, 7, 8, 6),
+            "way-x-z": _other_sweeps(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
+            "way-b-d": _other_sweeps(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
+            "way-level": _other_sweeps(0, 1, 2, 3, 4, 5, 6, 7, 8, 6),
             "way-always-0": _always(0),
             "way-always-1": lambda answered: _timed(answered, _always(1)(answered), 0.0),
             "times-from-the-end": _times_from_the_end,
         },
     ),
 )
-"""Positions tested in place of the way, columns and times mistaken. The simplest first."""
+"""Positions tested in place of the sweep, columns and times mistaken. The simplest first."""

@@ -322,7 +322,7 @@ def _row(row: Sequence[float], target: HuntTarget) -> str:
 
 
 def how_wrong(finding: HuntFinding) -> str:
-    """The error of a finding: in units u, of a time in spheroid radii of the way."""
+    """The error of a finding: in units u, of a time in spheroid radii of the sweep."""
     if finding.case.time is not None:
         return f"{finding.error:.3g} spheroid radii"
     if finding.error_u == math.inf:

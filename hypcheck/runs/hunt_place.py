@@ -2,7 +2,7 @@
 
 Wrong answers are likely on a few surfaces, where an argument about the pair changes its case. In their names a = α/b,
 c = γ/d; r and z are the centre's distances from the axis and from the plane of the waist, in radii of the spheroid; c1,
-c2 and Δ belong to the cubic g (docs/mathematics.md). Of a way, what happens on it stands in place of a surface.
+c2 and Δ belong to the cubic g (docs/mathematics.md). Of a sweep, what happens on it stands in place of a surface.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.geometry.pair import COLUMNS, SIZES, WAY_COLUMNS, Lengths, Pair, Position
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout
-from hypcheck.runs.judges import passage_of, way_in_radii
+from hypcheck.geometry.pair import COLUMNS, SIZES, SWEEP_COLUMNS, Lengths, Pair, Position
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
+from hypcheck.runs.judges import passage_of, sweep_in_radii
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.pencil import Cubic, cubic
@@ -33,10 +33,10 @@ OPEN = "no special place"
 RING = "the ring"
 TILTED = "a tilted spheroid"
 ENDED = "a hyperboloid that ends"
-WAY = "an ordinary way"
+WAY = "an ordinary sweep"
 
-LONG_WAY, SHORT_WAY = 2.0**10, 2.0**-10
-"""A way of more spheroid radii is long, one of less is short."""
+LONG_SWEEP, SHORT_SWEEP = 2.0**10, 2.0**-10
+"""A sweep of more spheroid radii is long, one of less is short."""
 
 _OTHER_DOUBLE_ROOTS = (
     Kind.CROSSING_THROAT_NODE,
@@ -201,10 +201,10 @@ def _ratio(top: int, bottom: int) -> float:
         return math.inf
 
 
-def way_place(row: tuple[float, ...]) -> RowPlace:
-    """The place of a way: what happens on it, and how it lies; findings are grouped by what is named first."""
-    start, end = row[len(SIZES) : len(COLUMNS)], row[len(COLUMNS) : len(WAY_COLUMNS)]
-    passage, length = passage_of(row), way_in_radii(row)
+def sweep_place(row: tuple[float, ...]) -> RowPlace:
+    """The place of a sweep: what happens on it, and how it lies; findings are grouped by what is named first."""
+    start, end = row[len(SIZES) : len(COLUMNS)], row[len(COLUMNS) : len(SWEEP_COLUMNS)]
+    passage, length = passage_of(row), sweep_in_radii(row)
     still, sides = start == end, (passage.start, passage.end)
     signs = {
         "nothing moves": still,
@@ -212,14 +212,14 @@ def way_place(row: tuple[float, ...]) -> RowPlace:
         "contact for an instant": passage.grazes,
         "contact between two clear ends": passage.hit and Position.CONTACT not in sides,
         "contact towards the end": passage.hit and passage.start is not Position.CONTACT is passage.end,
-        f"across {RING}": not passage.hit and not WAYS.has_axis(row) and _crosses_the_ring(row),
+        f"across {RING}": not passage.hit and not SWEEPS.has_axis(row) and _crosses_the_ring(row),
         "clear inside": not passage.hit and passage.start is Position.INTERIOR,
-        "a vertical way": start[:2] == end[:2] and not still,
-        "a horizontal way": start[2] == end[2] and not still,
-        "a long way": length > LONG_WAY,
-        "a short way": 0 < length < SHORT_WAY,
-        TILTED: row[2] != row[3] and any(row[len(WAY_COLUMNS) : len(WAY_COLUMNS) + 2]),
-        ENDED: WAYS.has_heights(row),
+        "a vertical sweep": start[:2] == end[:2] and not still,
+        "a horizontal sweep": start[2] == end[2] and not still,
+        "a long sweep": length > LONG_SWEEP,
+        "a short sweep": 0 < length < SHORT_SWEEP,
+        TILTED: row[2] != row[3] and any(row[len(SWEEP_COLUMNS) : len(SWEEP_COLUMNS) + 2]),
+        ENDED: SWEEPS.has_heights(row),
     }
     named = [name for name, holds in signs.items() if holds] or [WAY]
     return RowPlace(named[0], ", ".join(named), named[0])
@@ -238,5 +238,5 @@ def _crosses_the_ring(row: tuple[float, ...]) -> bool:
 
 _PLACES: dict[Layout, Callable[[tuple[float, ...]], RowPlace]] = {
     PAIRS: lambda row: place_of(Pair.from_row(row)),
-    WAYS: way_place,
+    SWEEPS: sweep_place,
 }

@@ -14,7 +14,7 @@ Local search goes from a wrong answer to worse ones, as a pattern search with ha
 have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
 Floats mostly fail in a thin layer at the border of contact, which a plain step would leave. Therefore each neighbour is
 asked, and also brought to the border, with a ladder of growing steps away from it: the farthest rung with a wrong
-answer counts. A way is brought there by the spheroid's size, in which contact is monotone (truth/passage_error.py).
+answer counts. A sweep is brought there by the spheroid's size, in which contact is monotone (truth/passage_error.py).
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.geometry.rows import PAIRS, WAYS, FixedSizes, Floats, Layout, Mask, Positions, Rows, as_wide, invalid
+from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Positions, Rows, as_wide, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt
 from hypcheck.runs.judges import truth_of
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
-from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES, FAMILIES, TILTED_FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES, FAMILIES, SWEEP_FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.family import Family
 from hypcheck.vectors.fixed_sizes import families_for
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
@@ -83,7 +83,7 @@ def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
 
 
 def border_factors(rows: Rows, mask: Mask, far: Mask, layout: Layout = PAIRS) -> Floats:
-    """The factor just before the position changes, or contact on a way begins, (n,); NaN if not within REACH.
+    """The factor just before the position changes, or contact on a sweep begins, (n,); NaN if not within REACH.
 
     Of two changes the one with the greater factor is taken for the rows in `far`.
     """
@@ -108,7 +108,7 @@ UNUSABLE = 3
 
 
 def _truths(rows: Rows, layout: Layout) -> Positions:
-    """Exact positions, or hits of ways, and UNUSABLE if a length left the range of float64."""
+    """Exact positions, or hits of sweeps, and UNUSABLE if a length left the range of float64."""
     usable = ~invalid(rows, layout)
     truths = np.full(len(rows), UNUSABLE, dtype=np.int8)
     truths[usable] = truth_of(rows[usable], layout)
@@ -141,7 +141,7 @@ SURFACES = {"z = 0": "height", "r = 0": "radius", "a = 1": "alpha", "c² = a": "
 CROSSING_BLOCK = 96
 """Rows of a crossing that are made at a time: to reach the border costs more than a question."""
 
-WAYS_TOGETHER = 24
+SWEEPS_TOGETHER = 24
 """Ways of a family that are asked at a time: what happens on one takes milliseconds to decide."""
 
 VERSION = 1
@@ -159,13 +159,13 @@ class HuntStratum:
 def strata(
     settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False, heights: bool = False, layout: Layout = PAIRS
 ) -> tuple[HuntStratum, ...]:
-    """All strata, the families of vectors first; of fixed sizes, and of ways, the families for them alone.
+    """All strata, the families of vectors first; of fixed sizes, and of sweeps, the families for them alone.
 
     Those where the spheroid is tilted or the hyperboloid ends only if asked for.
     """
-    if layout is WAYS:
-        ways = (ENDED_WAY_FAMILIES | WAY_FAMILIES if heights else WAY_FAMILIES).values()
-        return tuple(_of_ways(family) for family in ways if tilt or not family.tilted)
+    if layout is SWEEPS:
+        sweeps = (ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES if heights else SWEEP_FAMILIES).values()
+        return tuple(_of_sweeps(family) for family in sweeps if tilt or not family.tilted)
     if settings:
         return tuple(map(_of_family, families_for(settings)))
     crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
@@ -178,9 +178,9 @@ def _of_family(family: Family) -> HuntStratum:
     return HuntStratum(f"the family {family.name}", family.block)
 
 
-def _of_ways(family: Family) -> HuntStratum:
+def _of_sweeps(family: Family) -> HuntStratum:
     def rows(seed: int, number: int) -> Rows:
-        return family.columns_between(seed, number * WAYS_TOGETHER, (number + 1) * WAYS_TOGETHER).T
+        return family.columns_between(seed, number * SWEEPS_TOGETHER, (number + 1) * SWEEPS_TOGETHER).T
 
     return HuntStratum(f"the family {family.name}", rows)
 
@@ -244,7 +244,7 @@ _MOVES: dict[Layout, tuple[list[tuple[int, ...]], ...]] = {
         [*((column,) for column in range(10)), (0, 1, 2, 3, 4, 5, 6), (7, 8, 9)],
         [*((column,) for column in range(12)), (0, 2, 4, 5), (1, 3, 6, 10, 11), (7, 8, 9), (6, 10), (6, 11)],
     ),
-    WAYS: (
+    SWEEPS: (
         [*_WAY_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9)],
         [*_WAY_MOVES, tuple(range(10)), (10,), (11,), (12,), (10, 11, 12)],
         [*_WAY_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9, 13, 14), (10,), (11,), (12,), (13,), (14,)],
@@ -301,7 +301,7 @@ def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) 
 
 
 BROUGHT = 3
-"""Neighbours of a way that are brought to the border at a time: each takes about 60 decisions of a millisecond."""
+"""Neighbours of a sweep that are brought to the border at a time: each takes about 60 decisions of a millisecond."""
 
 
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
@@ -313,7 +313,7 @@ def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
     mask, factors = np.zeros(rows.shape, dtype=np.bool_), np.full(len(rows), np.nan)
     mask[:, SIZE] = True
     some = draw.integers(min(BROUGHT, len(rows)), 0, len(rows) - 1)
-    factors[some] = border_factors(rows[some], mask[some], np.zeros(len(some), dtype=np.bool_), WAYS)
+    factors[some] = border_factors(rows[some], mask[some], np.zeros(len(some), dtype=np.bool_), SWEEPS)
     return mask, factors
 
 
@@ -336,7 +336,7 @@ def _at_ends(row: Row, layout: Layout) -> Rows:
     images = np.repeat(np.array([row]), 8, axis=0)
     for image, height in zip(images, (low, low - d, high, high + d), strict=False):
         image[6] = height
-        if layout is WAYS:
+        if layout is SWEEPS:
             image[9] = height + row[9] - row[6]
     images[4, width - 3] = -np.inf
     images[5, width - 2] = np.inf
@@ -346,7 +346,7 @@ def _at_ends(row: Row, layout: Layout) -> Rows:
 
 
 def _special(row: Row, layout: Layout) -> Rows:
-    """The images of a row on the four surfaces; of a way those on three, and special ways beside it."""
+    """The images of a row on the four surfaces; of a sweep those on three, and special sweeps beside it."""
     images = np.repeat(np.array([row]), 4 if layout is PAIRS else 7, axis=0)
     *others, waist, throat, groove = images
     throat[0] = throat[2]

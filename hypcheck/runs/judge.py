@@ -107,7 +107,7 @@ class WrongCase:
 
     `exponent` is floor(log2) of the backward error (−inf: it is 0; inf: no change is enough). For a tilted spheroid it
     is log2 of `least`, a lower end that is proved, or of an estimate where `least` is 0. measured() gives the number.
-    `time` is that of a way's first contact, if it is what is wrong.
+    `time` is that of a sweep's first contact, if it is what is wrong.
     """
 
     index: int

@@ -2,11 +2,11 @@
 
 Scores, retests, hunts and reports ask it, and so need not know what a question is about.
 
-Answers about ways are judged by the spheroid's size and by the first contact. A wrong answer is measured by the least
+Answers about sweeps are judged by the spheroid's size and by the first contact. A wrong answer is measured by the least
 relative change of b and d together that makes it right (truth/passage_error.py). A time is right from the first contact
 of the spheroid grown by the tolerance to that of the spheroid shrunk by it; a wrong one is measured by the way between
 it and the first contact, in spheroid radii: of an upright spheroid, (Δx² + Δy²)/b² + Δz²/d² is the square of the whole
-way.
+sweep.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import UPRIGHT, Position
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Floats, Indices, Layout, Mask, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Floats, Indices, Layout, Mask, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.ways import rough_exponents
 from hypcheck.runs import judge
@@ -35,12 +35,12 @@ _TOGETHER = 256
 """Wrong answers whose size errors are estimated at a time."""
 
 CLEAR, HIT = 0, 1
-LABELS = {CLEAR: "clear on the way", HIT: "in contact on the way"}
+LABELS = {CLEAR: "clear on the sweep", HIT: "in contact on the sweep"}
 
 
 @lru_cache(_REMEMBERED)
 def passage_of(row: Row) -> Passage:
-    """What happens on a way; remembered, since the truth is asked for before and after the answers."""
+    """What happens on a sweep; remembered, since the truth is asked for before and after the answers."""
     return passage_error.scaled_passage(row)
 
 
@@ -50,7 +50,7 @@ def _window(row: Row, change: Fraction) -> tuple[Fraction | None, Fraction | Non
 
 
 class Judge:
-    """How the answers to a question about positions are judged; PassageJudge has the same methods about ways.
+    """How the answers to a question about positions are judged; PassageJudge has the same methods about sweeps.
 
     Answers are allowed ones or CANNOT_SAY, which is never wrong.
     """
@@ -109,11 +109,11 @@ class PassageJudge(Judge):
     """How answers to the question passage are judged."""
 
     def truth(self, rows: Rows) -> Positions:
-        """1 for contact on the way, 0 for none: int8 (n,)."""
+        """1 for contact on the sweep, 0 for none: int8 (n,)."""
         return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)
 
     def right(self, truth: Positions) -> NDArray[np.int8]:
-        """The same: 1 for contact on the way, 0 for none."""
+        """The same: 1 for contact on the sweep, 0 for none."""
         return truth
 
     def is_wrong(
@@ -161,7 +161,7 @@ class PassageJudge(Judge):
 
 
 def time_is_right(row: Row, time: float, criterion: Criterion) -> bool:
-    """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a way with contact."""
+    """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a sweep with contact."""
     passage = passage_of(row)
     if passage.first_lower <= time <= passage.first_upper:
         return True
@@ -180,16 +180,16 @@ def first_contact(row: Row) -> tuple[float, float]:
 
 
 def radii_off(row: Row, time: float) -> float:
-    """The way between a time and the first contact, in spheroid radii."""
+    """The sweep between a time and the first contact, in spheroid radii."""
     lower, upper = first_contact(row)
-    return max(lower - time, time - upper, 0.0) * way_in_radii(row)
+    return max(lower - time, time - upper, 0.0) * sweep_in_radii(row)
 
 
-def way_in_radii(row: Row) -> float:
-    """The length of the way in spheroid radii, those along the spheroid's axis and across it each in their own."""
+def sweep_in_radii(row: Row) -> float:
+    """The length of the sweep in spheroid radii, those along the spheroid's axis and across it each in their own."""
     b, d = row[2:4]
     step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
-    given = row[len(WAYS.upright) : len(WAYS.tilted)]
+    given = row[len(SWEEPS.upright) : len(SWEEPS.tilted)]
     largest = max(map(abs, given), default=0.0)
     axis = [component / largest for component in given] or UPRIGHT
     length = math.hypot(*axis)
@@ -213,7 +213,7 @@ def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion, near: fl
     return WrongCase(index, row, 1 - answer, answer, mistake, status, near)
 
 
-_JUDGES: dict[Layout, type[Judge]] = {PAIRS: Judge, WAYS: PassageJudge}
+_JUDGES: dict[Layout, type[Judge]] = {PAIRS: Judge, SWEEPS: PassageJudge}
 
 
 @cache
@@ -223,5 +223,5 @@ def judge_of(question: str) -> Judge:
 
 
 def truth_of(rows: Rows, layout: Layout) -> Positions:
-    """What is true about valid rows of that layout: positions, or hits on ways."""
+    """What is true about valid rows of that layout: positions, or hits on sweeps."""
     return next(judge_of(name) for name, question in QUESTIONS.items() if question.layout == layout).truth(rows)

@@ -14,7 +14,7 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Pair, trouble_with_row
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
 from hypcheck.messages import counted
 from hypcheck.runs.hunt import (
     HuntFinding,
@@ -92,7 +92,7 @@ def small_pairs() -> tuple[Row, ...]:
 
 
 @cache
-def small_ways() -> tuple[Row, ...]:
+def small_sweeps() -> tuple[Row, ...]:
     """Ways in the plane y = 0 in small whole numbers, upright."""
     sizes = [(alpha, gamma, 1.0, 1.0) for alpha in (1.0, 2.0, 3.0) for gamma in (1.0, 2.0, 3.0)]
     starts, ends = product((0.0, 1.0, 2.0, 3.0, 4.0), (0.0, 1.0, 2.0)), product(range(-4, 5), range(-2, 3))
@@ -108,7 +108,7 @@ def _valid(row: Row, layout: Layout) -> bool:
 
 GROUPS: dict[Layout, tuple[list[int], ...]] = {
     PAIRS: (RADIAL_COLUMNS, AXIAL_COLUMNS, [7, 8, 9]),
-    WAYS: ([*RADIAL_COLUMNS, 7, 8], [*AXIAL_COLUMNS, 9], [10, 11, 12]),
+    SWEEPS: ([*RADIAL_COLUMNS, 7, 8], [*AXIAL_COLUMNS, 9], [10, 11, 12]),
 }
 """Columns whose numbers share a unit; the last are those of an axis."""
 
@@ -206,8 +206,8 @@ def _with(row: Row, values: dict[int, float]) -> Row:
     return tuple(values.get(column, number) for column, number in enumerate(row))
 
 
-PIECE = {PAIRS: 2048, WAYS: 64}
-"""Rows of a question. What happens on a way takes milliseconds to decide."""
+PIECE = {PAIRS: 2048, SWEEPS: 64}
+"""Rows of a question. What happens on a sweep takes milliseconds to decide."""
 
 MAX_ROWS = 30_000
 """At most so many rows are asked for one step, the simplest ones."""
@@ -218,7 +218,7 @@ Variants = Callable[[Row, Layout], Iterable[Row]]
 
 _VARIANTS: dict[Layout, tuple[tuple[Variants, ...], tuple[Variants, ...]]] = {
     PAIRS: ((same_query, one_changed, lambda *_: small_pairs(), brought_back), (same_query, one_changed)),
-    WAYS: ((same_query, one_changed, lambda *_: small_ways()), (same_query, one_changed)),
+    SWEEPS: ((same_query, one_changed, lambda *_: small_sweeps()), (same_query, one_changed)),
 }
 """The variants of upright spheroids and of tilted ones, cheap ones first; those between ends have one of their own.
 
@@ -269,7 +269,7 @@ def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
     trouble = trouble_with_row(case.row, target.layout.upright)
     if trouble is not None:
         raise InputError(f"{case.name}: {trouble}")
-    return tuple(np.add(case.row, 0.0).tolist()) if case.layout is WAYS else Pair.from_row(case.row).row
+    return tuple(np.add(case.row, 0.0).tolist()) if case.layout is SWEEPS else Pair.from_row(case.row).row
 
 
 def _start(run: Minimised, row: Row) -> HuntFinding:

@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, WAYS
+from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.implementations import not_asked
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
@@ -137,7 +137,7 @@ def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
 def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]:
     """The directed searches of a run of all families, by the seed of its fresh rows if there are any.
 
-    None about ways, whose truth takes milliseconds a row, nor where only fixed sizes are claimed.
+    None about sweeps, whose truth takes milliseconds a row, nor where only fixed sizes are claimed.
     """
     if not _asks_everything(plan, used) or used.domain.settings or not plan.count:
         return ()
@@ -247,7 +247,7 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
             )
 
 
-_QUESTION_ABOUT = {PAIRS: "position", WAYS: "passage"}
+_QUESTION_ABOUT = {PAIRS: "position", SWEEPS: "passage"}
 
 
 def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> dict[str, int]:

@@ -1,6 +1,6 @@
 """A replay: one case and one implementation; the truth, the answer, how wrong it is, and where its formula errs.
 
-CASE on the command line is the id of a case, the numbers of a position or a way, or a case that a record has kept.
+CASE on the command line is the id of a case, the numbers of a position or a sweep, or a case that a record has kept.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from hypcheck.geometry.pair import (
     Position,
     trouble_with_row,
 )
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS, Layout
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Layout
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import representable
 from hypcheck.implementations.implementation import Implementation
@@ -100,24 +100,24 @@ def _from_record(path: Path, number: int) -> ReplayCase:
         row = tuple(map(float.fromhex, numbers_of(case)))
     except OverflowError:
         raise InputError(f"{path}: case {number} has a number that is too large for float64") from None
-    return ReplayCase(case.case, row, WAYS if case.end else PAIRS)
+    return ReplayCase(case.case, row, SWEEPS if case.end else PAIRS)
 
 
 def _given_row(text: str) -> Row:
-    """Seven, ten or thirteen numbers, decimal or hexadecimal; or ten, thirteen or sixteen of a way.
+    """Seven, ten or thirteen numbers, decimal or hexadecimal; or ten, thirteen or sixteen of a sweep.
 
     of_question checks them together. Of thirteen that have an infinite one the last are heights.
     """
     parts = text.split(",")
-    if len(parts) not in (*PAIRS.widths, *WAYS.widths):
+    if len(parts) not in (*PAIRS.widths, *SWEEPS.widths):
         wanted = (
             f"7: {', '.join(COLUMNS)}; or 10, with {', '.join(AXIS)}; "
             f"or 13, with {', '.join(HEIGHTS)} behind these; "
-            f"a way has {', '.join(END)} after z, so it has 10, 13 with an axis, or 16 with heights too"
+            f"a sweep has {', '.join(END)} after z, so it has 10, 13 with an axis, or 16 with heights too"
         )
         raise InputError(f"the row {text!r} has {len(parts)} numbers; it must have {wanted}")
     ended = any(part.strip().lower().lstrip("+-").startswith("inf") for part in parts)
-    layout = WAYS if PAIRS.has_heights(parts) and (WAYS.has_heights(parts) or not ended) else PAIRS
+    layout = SWEEPS if PAIRS.has_heights(parts) and (SWEEPS.has_heights(parts) or not ended) else PAIRS
     return tuple(_number(name, part) for name, part in zip(layout.columns(len(parts)), parts, strict=True))
 
 
@@ -158,8 +158,8 @@ class ReplayJudgement:
     """The status of the case. `answer` is None if there was none; `reason` then says why, or explains the status.
 
     `mistake`, `error` (the backward error) and `error_u` (the same in units u) describe a wrong answer, tolerated or
-    not; otherwise they are None, 0 and 0. `time` is that of a way's first contact, if the answer has one, and `radii`
-    how far off it is in spheroid radii of the way.
+    not; otherwise they are None, 0 and 0. `time` is that of a sweep's first contact, if the answer has one, and `radii`
+    how far off it is in spheroid radii of the sweep.
     """
 
     status: Status
@@ -219,7 +219,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     known = (case, str(implementation.spec), declared, used, criterion)
     if case.at_fault:
         return Replay(*known, None, _refused(case, implementation))
-    truth = passage_of(case.row) if case.layout is WAYS else truth_of(Pair.from_row(case.row))
+    truth = passage_of(case.row) if case.layout is SWEEPS else truth_of(Pair.from_row(case.row))
     judgement = _judged(implementation, case.row, truth, criterion)
     choice, causes = None, tuple[Cause, ...]()
     if isinstance(truth, ProvedTruth) and truth.pair.is_upright and not truth.pair.has_ends:
@@ -228,7 +228,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         choice = choose_formula(implementation, answered, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
         ended = isinstance(truth, ProvedTruth) and truth.pair.has_ends
-        about = "a way" if case.layout is WAYS else "a hyperboloid that ends" if ended else "a tilted spheroid"
+        about = "a sweep" if case.layout is SWEEPS else "a hyperboloid that ends" if ended else "a tilted spheroid"
         raise InputError(f"--formula is {formula!r}, but {case.name} is about {about}, which no formula takes")
     return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice, causes)
 
@@ -237,7 +237,7 @@ def of_question(case: ReplayCase, used: Description) -> ReplayCase:
     """The case with the layout of the question. Raises InputError if it is of another, or a given row is invalid."""
     layout = used.asked.layout
     if case.layout not in (None, layout) or len(case.row) not in layout.widths:
-        this = "a position" if layout is WAYS else "a way between two positions"
+        this = "a position" if layout is SWEEPS else "a sweep between two positions"
         raise InputError(f"{case.name} is {this}, and {used.name} answers {used.question!r}")
     if case.layout is None and (trouble := trouble_with_row(case.row, layout.upright)) is not None:
         raise InputError(trouble)

@@ -9,12 +9,12 @@ from typing import Any
 
 from hypcheck.answer import kind_as_text, proof_as_json, proof_lines
 from hypcheck.geometry.pair import REFUSED, Pair, Position
-from hypcheck.geometry.rows import CANNOT_SAY, WAYS
+from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS
 from hypcheck.implementations.description import Description
 from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
-from hypcheck.runs.judges import LABELS, way_in_radii
+from hypcheck.runs.judges import LABELS, sweep_in_radii
 from hypcheck.runs.replay import ProvedTruth, Replay, Row
 from hypcheck.tables.numbers import hex_of
 from hypcheck.truth import passage_error
@@ -27,11 +27,11 @@ DIGITS = 17
 def replay_as_json(done: Replay) -> str:
     """The object on one line; numbers that JSON cannot express are the strings "inf", "-inf" and "nan".
 
-    Of a way it has the time of the answer in place of causes and values of a formula.
+    Of a sweep it has the time of the answer in place of causes and values of a formula.
     """
     judgement = done.judgement
     more: dict[str, Any] = {"time": judgement.time, "radii_off": judgement.radii}
-    if done.case.layout is not WAYS:
+    if done.case.layout is not SWEEPS:
         causes = [_cause_json(cause, done.used.language) for cause in done.causes]
         more = {"causes": causes, "values": None if done.choice is None else _choice_json(done.choice)}
     return json.dumps(
@@ -130,7 +130,7 @@ def replay_lines(done: Replay, *, values: bool = True) -> Iterator[str]:
             "truth", f"invalid row ({' and '.join(case.at_fault)}), which must be refused with {REFUSED}"
         )
     elif isinstance(done.truth, Passage):
-        yield from _way_lines(done.truth, case.row)
+        yield from _sweep_lines(done.truth, case.row)
     else:
         yield from _truth_lines(done.truth)
     yield ""
@@ -147,8 +147,8 @@ def replay_lines(done: Replay, *, values: bool = True) -> Iterator[str]:
             )
 
 
-def _way_lines(truth: Passage, row: Row) -> Iterator[str]:
-    yield from _titled("length", f"{way_in_radii(row):.6g} spheroid radii")
+def _sweep_lines(truth: Passage, row: Row) -> Iterator[str]:
+    yield from _titled("length", f"{sweep_in_radii(row):.6g} spheroid radii")
     yield from _titled("truth", LABELS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else ""))
     yield from _titled("ends", f"{truth.start.label} at the start, {truth.end.label} at the end")
     if truth.hit:
@@ -212,7 +212,7 @@ def _mistake(done: Replay) -> str:
     if judgement.mistake is None:
         return ""
     if judgement.radii:
-        return f"{judgement.mistake.value} by {judgement.radii:.4g} spheroid radii of the way"
+        return f"{judgement.mistake.value} by {judgement.radii:.4g} spheroid radii of the sweep"
     if isinstance(done.truth, Passage):
         tolerated = passage_error.tolerance(done.case.row, criterion.tolerance, criterion.unit)
         return (

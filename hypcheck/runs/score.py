@@ -57,7 +57,7 @@ class CaseSource(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Rows (n, 7) with their true positions (n,), or ways with their true hits, and the answers of one implementation.
+    """Rows (n, 7) with their true positions (n,), or sweeps with their hits, and the answers of one implementation.
 
     `answers` (n,) are CANNOT_SAY for rows without a valid answer. `status` (n,) holds STATUS_CODES; it is WRONG for
     each wrong answer, which `judged` may find within the tolerance. `reasons` has a sentence for each row without a

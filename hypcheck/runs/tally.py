@@ -68,7 +68,7 @@ def by_size(rows: Rows, amiss: Mask) -> Histogram:
 
 
 def by_place(rows: Rows, amiss: Mask) -> Histogram:
-    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR; of ways, where they begin."""
+    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR; of sweeps, where they begin."""
     with np.errstate(all="ignore"):
         across, along = _eighths(_radius(rows), rows[:, 0]), _eighths(np.abs(rows[:, 6]), rows[:, 1])
     return _counted(across, along, amiss)

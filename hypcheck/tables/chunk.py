@@ -28,7 +28,7 @@ from hypcheck.geometry.pair import (
     Position,
     trouble_with_row,
 )
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Positions, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Positions, Rows
 from hypcheck.tables.numbers import shown
 
 ADDED = ("position", "label", "tangent", "clearance")
@@ -74,7 +74,7 @@ def columns_of(names: Iterable[str]) -> tuple[str, ...]:
 
 def layout_of(columns: Sequence[str]) -> Layout:
     """The layout of rows of these columns."""
-    return WAYS if END[0] in columns else PAIRS
+    return SWEEPS if END[0] in columns else PAIRS
 
 
 def in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
@@ -136,7 +136,7 @@ class TableChunk:
     rows: float64 of the layout, with an axis where a row has one; the numbers of a refused row mean nothing.
     refused: bool (n,), the rows that are no valid query; all False unless marking was asked for.
     texts: the text of each row without its line end; None if the table is not text.
-    layout: WAYS where rows have an end.
+    layout: SWEEPS where rows have an end.
     """
 
     rows: Rows

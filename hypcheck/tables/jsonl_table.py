@@ -19,7 +19,7 @@ import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.geometry.pair import AXIS, COLUMNS, END, ENDS, HEIGHTS, REFUSED, TILTED_COLUMNS
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows, invalid
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows, invalid
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import (
     ADDED,
@@ -155,8 +155,8 @@ def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -
     """The values of each line by column. Raises InputError about the first that has an end where others have none."""
     for index, text in enumerate(texts):
         values = _values(text, places.of(index))
-        if (END[0] in values) != (layout == WAYS):
-            end = f"{'no' if layout == WAYS else 'an'} end {', '.join(END)}"
+        if (END[0] in values) != (layout == SWEEPS):
+            end = f"{'no' if layout == SWEEPS else 'an'} end {', '.join(END)}"
             raise InputError(f"{places.of(index)}: {end}, unlike the first row; all rows have an end, or none has")
         yield values
 

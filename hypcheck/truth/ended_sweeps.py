@@ -2,7 +2,7 @@
 
 Contact begins and ends where the spheroid E touches the wall or a disc without crossing it. The point of touch is
 
-- on the wall between its ends: E is tangent to the whole hyperboloid, and the discriminant of F is 0 (journey.py);
+- on the wall between its ends: E is tangent to the whole hyperboloid, and the discriminant of F is 0 (sweep.py);
 - on a rim: the circle just touches the ellipse of its plane, and Δ of the cubic g at that height is 0 (sections.py);
 - within a disc: its plane is tangent to E, and k at that height is 0.
 
@@ -12,7 +12,7 @@ u² − U v² is taken. Between two neighbouring roots of them all nothing chang
 
 Roots are enclosed ever more narrowly. What is closer together than that counts as one cluster. A cluster between two
 clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for
-an instant, or comes nearer than 2^−_BITS[-1] of its way; both count as contact.
+an instant, or comes nearer than 2^−_BITS[-1] of its sweep; both count as contact.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from math import isqrt
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import exact
-from hypcheck.truth.journey import Journey
 from hypcheck.truth.polynomial_roots import Interval, enclosures
 from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive
 from hypcheck.truth.sections import Sections
+from hypcheck.truth.sweep import StraightSweep
 
 _BITS = (60, 120, 240)
 """How many bits of their times enclosures of roots have, one after the other, where the first do not tell."""
 
 _HALVINGS = 20
-"""So often the way is halved where the discriminant is 0 all along."""
+"""So often the sweep is halved where the discriminant is 0 all along."""
 
 START, END = Fraction(0), Fraction(1)
 
@@ -46,8 +46,8 @@ class EndedSweep:
     With `parts` there is contact where the spheroid is in contact and its parts are not all clear on one side.
     """
 
-    whole: Journey
-    parts: tuple[Journey, ...] = ()
+    whole: StraightSweep
+    parts: tuple[StraightSweep, ...] = ()
 
     def meets(self, time: Fraction) -> bool:
         """Whether there is contact at a rational time."""
@@ -66,11 +66,11 @@ class EndedSweep:
     def critical(self) -> list[Polynomial] | None:
         """Polynomials in t, one of which is 0 wherever contact begins or ends; None where one would be 0 all along."""
         polynomials: list[Polynomial] = []
-        for journey in (self.whole, *self.parts):
-            tangent = journey.discriminant()
+        for sweep in (self.whole, *self.parts):
+            tangent = sweep.discriminant()
             if not tangent:
                 return None
-            polynomials += [tangent, *_at_ends(journey, sides=bool(self.parts))]
+            polynomials += [tangent, *_at_ends(sweep, sides=bool(self.parts))]
         return polynomials
 
 
@@ -79,14 +79,14 @@ def _clear_on_one_side(positions: Iterator[Position]) -> bool:
     return len(sides) == 1 and Position.CONTACT not in sides
 
 
-def _larger(journey: Journey, middle: Fraction, half: Fraction) -> Position:
+def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
     """The position of a spheroid that contains the moving one at all times about one.
 
     Moved by a vector, a spheroid is contained in one that is larger by the vector's length in radii.
     """
-    lengths, way = journey.at(middle), journey.way
-    u, v, w = (abs(part) * half * middle.denominator for part in way)
-    if journey.is_upright and lengths.upward == (0, 0, 1):
+    lengths, step = sweep.at(middle), sweep.step
+    u, v, w = (abs(part) * half * middle.denominator for part in step)
+    if sweep.is_upright and lengths.upward == (0, 0, 1):
         radii = (u + v) / lengths.b + w / lengths.d
     else:
         radii = (u + v + w) / min(lengths.b, lengths.d)
@@ -132,13 +132,13 @@ def meets(sweep: EndedSweep) -> bool:
     return any(sweep.meets(Fraction(time, 4)) for time in (0, 4, 2, 1, 3)) or first_contact(sweep) is not None
 
 
-def grazes(journey: Journey) -> bool:
-    """Whether all contact on a way, which has some, is a touch."""
-    critical = EndedSweep(journey).critical
+def grazes(sweep: StraightSweep) -> bool:
+    """Whether all contact on a sweep, which has some, is a touch."""
+    critical = EndedSweep(sweep).critical
     if critical is None:
         return False
     times = [time for time in _gaps(_clusters(critical, _BITS[0])) if time is not None]
-    return all(journey.position(time) is not Position.CONTACT or journey.tangent(time) for time in times)
+    return all(sweep.position(time) is not Position.CONTACT or sweep.tangent(time) for time in times)
 
 
 def _clear_in_pieces(sweep: EndedSweep, pieces: int = 4) -> bool:
@@ -186,11 +186,11 @@ def _first_of(sweep: EndedSweep, clusters: Sequence[Interval]) -> tuple[Interval
     return None, True
 
 
-def _at_ends(journey: Journey, *, sides: bool) -> Iterator[Polynomial]:
+def _at_ends(sweep: StraightSweep, *, sides: bool) -> Iterator[Polynomial]:
     """Polynomials that are 0 where E touches a rim, or the plane of an end; with `sides`, where its centre is in it."""
-    sections = [Sections.of(journey.at(Fraction(time)), over_content=False) for time in range(3)]
+    sections = [Sections.of(sweep.at(Fraction(time)), over_content=False) for time in range(3)]
     unit = sections[0].unit
-    for height in (journey.start.low, journey.start.high):
+    for height in (sweep.start.low, sweep.start.high):
         if height is None:
             continue
         c3, c2, c1, c0 = ([of.value(of.cubic[k], height) for of in sections] for k in range(4))

@@ -1,7 +1,7 @@
-"""What proves an answer about a way, and the check of that proof, in rational arithmetic alone.
+"""What proves an answer about a sweep, and the check of that proof, in rational arithmetic alone.
 
 S(t) and H are the 4×4 matrices of the spheroid at time t and of the hyperboloid, M and D their upper 3×3 parts. M does
-not change on the way. With a λ for which M + λD is positive definite, S(t) + λH is so exactly where
+not change on the sweep. With a λ for which M + λD is positive definite, S(t) + λH is so exactly where
 
     φ(t) = λ C(t)ᵀ M (M + λD)⁻¹ D C(t) − 1 − λ > 0,
 
@@ -22,7 +22,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.geometry.pair import COLUMNS, SIZES, UPRIGHT, WAY_COLUMNS, WITHOUT_ENDS, Position
+from hypcheck.geometry.pair import COLUMNS, SIZES, SWEEP_COLUMNS, UPRIGHT, WITHOUT_ENDS, Position
 from hypcheck.truth.certificate import Certificate, Point, check_certificate, surfaces
 
 Rationals = tuple[Fraction, ...]
@@ -30,7 +30,7 @@ Rationals = tuple[Fraction, ...]
 
 @dataclass(frozen=True, slots=True)
 class PairAtTime:
-    """A pair at a rational time of a way: seven rational numbers, and the axis."""
+    """A pair at a rational time of a sweep: seven rational numbers, and the axis."""
 
     row: Rationals
     axis: Rationals
@@ -53,9 +53,9 @@ class PassageCertificate:
 def place(row: Sequence[float], time: Fraction) -> PairAtTime:
     """The pair of a row of ten or thirteen numbers at a time."""
     numbers = [Fraction(number) for number in row]
-    start, end = numbers[len(SIZES) : len(COLUMNS)], numbers[len(COLUMNS) : len(WAY_COLUMNS)]
+    start, end = numbers[len(SIZES) : len(COLUMNS)], numbers[len(COLUMNS) : len(SWEEP_COLUMNS)]
     centre = [a + time * (b - a) for a, b in zip(start, end, strict=True)]
-    axis = numbers[len(WAY_COLUMNS) :] or list(map(Fraction, UPRIGHT))
+    axis = numbers[len(SWEEP_COLUMNS) :] or list(map(Fraction, UPRIGHT))
     return PairAtTime((*numbers[: len(SIZES)], *centre), tuple(axis))
 
 

@@ -1,8 +1,8 @@
-"""How wrong an answer about a way is: by the spheroid's size, and by the time of first contact.
+"""How wrong an answer about a sweep is: by the spheroid's size, and by the time of first contact.
 
 A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, with axis_x, axis_y, axis_z behind it where the spheroid is
 tilted, and z_min, z_max, solid behind these where the hyperboloid ends. The answer is True for contact somewhere on
-the way.
+the sweep.
 
 **Contact is monotone in the size.** At each time the spheroid with b and d multiplied by k, a solid with a fixed
 centre, is part of the one with a larger k; contact says that the solid and the hyperboloid have a point in common. So
@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.geometry.pair import SIZES, TILTED_WAY_COLUMNS, WAY_COLUMNS, WITHOUT_ENDS
+from hypcheck.geometry.pair import SIZES, SWEEP_COLUMNS, TILTED_SWEEP_COLUMNS, WITHOUT_ENDS
 from hypcheck.truth.rationals import rounded_toward
 from hypcheck.truth.swept import Passage, Rational, passage
 
@@ -42,10 +42,10 @@ class SizeError:
 
 
 def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
-    """What happens on the row's way, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
+    """What happens on the row's sweep, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
     alpha, gamma, b, d = row[: len(SIZES)]
     start, end, axis = row[4:7], row[7:10], _axis_of(row)
-    low, high, solid = row[len(TILTED_WAY_COLUMNS) :] or WITHOUT_ENDS
+    low, high, solid = row[len(TILTED_SWEEP_COLUMNS) :] or WITHOUT_ENDS
     if scale != 1:
         b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
     sizes = (alpha, gamma, b, d)
@@ -53,11 +53,11 @@ def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
 
 
 def _axis_of(row: Sequence[Rational]) -> Sequence[Rational]:
-    return row[len(WAY_COLUMNS) : len(TILTED_WAY_COLUMNS)]
+    return row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)]
 
 
 def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
-    """Whether there is contact on the row's way, with b and d multiplied by `scale` > 0: exact, monotone in `scale`."""
+    """Whether the row's sweep has contact with b and d multiplied by `scale` > 0: exact, monotone in `scale`."""
     return scaled_passage(row, scale).hit
 
 
@@ -116,12 +116,12 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
     counts as 1/2 at most in K.
     """
     change = Fraction(units) * Fraction(roundoff)
-    alpha, gamma, b, d, *ends = (Fraction(number) for number in row[: len(WAY_COLUMNS)])
+    alpha, gamma, b, d, *ends = (Fraction(number) for number in row[: len(SWEEP_COLUMNS)])
     bounded = min(change, Fraction(1, 2))
     stretch = (1 + bounded) / (1 - bounded)
     across = max(abs(x) + abs(y) for x, y in (ends[:2], ends[3:5]))
     along = max(abs(ends[2]), abs(ends[5]))
-    axis, ended = _axis_of(row), any(math.isfinite(height) for height in row[len(TILTED_WAY_COLUMNS) :][:2])
+    axis, ended = _axis_of(row), any(math.isfinite(height) for height in row[len(TILTED_SWEEP_COLUMNS) :][:2])
     if not axis or b == d or not any(axis[:2]):
         way = across / b + along / d
         more = 2 * stretch * (along / d + 1) * (1 + alpha * d / (gamma * b)) if ended else 0

@@ -1,6 +1,6 @@
-"""The search for what passage_certificate.py checks: pieces of the way, and a time with its points, short ones.
+"""The search for what passage_certificate.py checks: pieces of the sweep, and a time with its points, short ones.
 
-Bounds of the first contact are neighbouring float64 numbers, or 0 twice where the way begins in contact. A way that
+Bounds of the first contact are neighbouring float64 numbers, or 0 twice where the sweep begins in contact. A sweep that
 only touches at an irrational time has no such proof: its contact has no rational time.
 """
 
@@ -10,15 +10,15 @@ import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from hypcheck.geometry.pair import WAY_COLUMNS
+from hypcheck.geometry.pair import SWEEP_COLUMNS
 from hypcheck.truth import crossing
 from hypcheck.truth.certificate import Point
-from hypcheck.truth.journey import Journey, piece
 from hypcheck.truth.passage_certificate import PairAtTime, PassageCertificate, place
 from hypcheck.truth.polynomials import value
 from hypcheck.truth.prove import double_root
 from hypcheck.truth.rationals import rounded_toward, shortened
-from hypcheck.truth.swept import Passage, by_roots, by_steps, journey_of, reach
+from hypcheck.truth.sweep import StraightSweep, piece
+from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of
 
 Bounds = tuple[float, float]
 
@@ -29,33 +29,33 @@ _MOST_BITS = 1 << 12
 
 
 def prove(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertificate]:
-    """What happens on the row's way, bounds of the first contact (None without), and the proof of both.
+    """What happens on the row's sweep, bounds of the first contact (None without), and the proof of both.
 
     Raises ValueError where the only contact is at an irrational time.
     """
-    journey = journey_of(row[:4], row[4:7], row[7:10], row[len(WAY_COLUMNS) :] or None)
-    passage = by_steps(journey) or by_roots(journey)
+    sweep = sweep_of(row[:4], row[4:7], row[7:10], row[len(SWEEP_COLUMNS) :] or None)
+    passage = by_steps(sweep) or by_roots(sweep)
     if passage.first is None:
-        return passage, None, PassageCertificate(_pieces(journey, Fraction(1)))
-    time = _time_of_contact(journey, passage)
+        return passage, None, PassageCertificate(_pieces(sweep, Fraction(1)))
+    time = _time_of_contact(sweep, passage)
     low, high = (time, time) if passage.grazes else passage.first
     bounds = rounded_toward(low, -math.inf), rounded_toward(high, math.inf)
     if bounds[0] and Fraction(bounds[0]) >= low:
         bounds = math.nextafter(bounds[0], 0.0), bounds[1]
-    pieces = _pieces(journey, Fraction(bounds[0])) if bounds[0] else ()
-    if journey.tangent(time):
-        return passage, bounds, PassageCertificate(pieces, time, double_root=double_root(journey.at(time)))
-    return passage, bounds, PassageCertificate(pieces, time, points=_points(row, journey, time))
+    pieces = _pieces(sweep, Fraction(bounds[0])) if bounds[0] else ()
+    if sweep.tangent(time):
+        return passage, bounds, PassageCertificate(pieces, time, double_root=double_root(sweep.at(time)))
+    return passage, bounds, PassageCertificate(pieces, time, points=_points(row, sweep, time))
 
 
-def _time_of_contact(journey: Journey, passage: Passage) -> Fraction:
-    """A rational time of contact up to first_upper; of a way that only touches, the simplest number it can be."""
+def _time_of_contact(sweep: StraightSweep, passage: Passage) -> Fraction:
+    """A rational time of contact up to first_upper; of a sweep that only touches, the simplest number it can be."""
     low, high = passage.first or (Fraction(0), Fraction(0))
     upper = Fraction(passage.first_upper)
     for time in (upper, high, low, simplest(low, high)):
-        if time <= 1 and not journey.position(time):
+        if time <= 1 and not sweep.position(time):
             return time
-    raise ValueError("the way touches the surface at an irrational time alone")
+    raise ValueError("the sweep touches the surface at an irrational time alone")
 
 
 def simplest(low: Fraction, high: Fraction) -> Fraction:
@@ -68,12 +68,12 @@ def simplest(low: Fraction, high: Fraction) -> Fraction:
     return whole + 1 / simplest(1 / (high - whole), 1 / (low - whole))
 
 
-def _pieces(journey: Journey, until: Fraction) -> tuple[tuple[Fraction, Fraction], ...]:
-    """Pieces of a way that is clear up to a time, that time included."""
+def _pieces(sweep: StraightSweep, until: Fraction) -> tuple[tuple[Fraction, Fraction], ...]:
+    """Pieces of a sweep that is clear up to a time, that time included."""
     time = Fraction(0)
     pieces: list[tuple[Fraction, Fraction]] = []
     while time < until:
-        multiplier, step = _multiplier(journey, time)
+        multiplier, step = _multiplier(sweep, time)
         end = until
         if step is not None and time + step <= until:
             end = time + shortened(step.numerator, step.denominator, _STEP_BITS)
@@ -82,13 +82,13 @@ def _pieces(journey: Journey, until: Fraction) -> tuple[tuple[Fraction, Fraction
     return tuple(pieces)
 
 
-def _multiplier(journey: Journey, time: Fraction) -> tuple[Fraction, Fraction | None]:
+def _multiplier(sweep: StraightSweep, time: Fraction) -> tuple[Fraction, Fraction | None]:
     """The first multiplier that proves a time clear, or the next one where that reaches farther; and how far."""
     best: tuple[Fraction, Fraction | None] | None = None
-    for number, multiplier in enumerate(journey.multipliers(time)):
+    for number, multiplier in enumerate(sweep.multipliers(time)):
         if best is not None and number >= _FEW:
             break
-        proof = piece(journey.pencil, multiplier)
+        proof = piece(sweep.pencil, multiplier)
         if value(proof, time) <= 0 or (best is not None and multiplier == best[0]):
             continue
         step = reach(proof, time)
@@ -103,10 +103,10 @@ def _multiplier(journey: Journey, time: Fraction) -> tuple[Fraction, Fraction | 
     return best
 
 
-def _points(row: Sequence[float], journey: Journey, time: Fraction) -> tuple[Point, ...]:
+def _points(row: Sequence[float], sweep: StraightSweep, time: Fraction) -> tuple[Point, ...]:
     """The centre and a point of the spheroid strictly on the other side, cut to as few bits as will do."""
     here = place(row, time)
-    points = crossing.points(here, journey.at(time))
+    points = crossing.points(here, sweep.at(time))
     if len(points) == 1:
         return points
     centre, far = points

@@ -35,7 +35,7 @@ from hypcheck.truth.polynomials import derivative, difference, polynomial_produc
 from hypcheck.truth.rationals import power_near, sign_with_root
 
 Number: TypeAlias = Any
-"""An integer, or a polynomial in time (journey.py): whatever has +, −, · among its kind and with integers."""
+"""An integer, or a polynomial in time (sweep.py): whatever has +, −, · among its kind and with integers."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,15 +1,15 @@
-"""The way between two positions: whether a spheroid that moves along a segment meets contact, exactly, and when first.
+"""The sweep between two positions: whether a spheroid moved along a segment meets contact, exactly, and when first.
 
-The centre is C(t) = C0 + t (C1 − C0), 0 ≤ t ≤ 1; the axis keeps its direction. Steps (`steps`) decide most ways: each
+The centre is C(t) = C0 + t (C1 − C0), 0 ≤ t ≤ 1; the axis keeps its direction. Steps (`steps`) decide most sweeps: each
 is a piece that one multiplier proves clear, and a contact behind the last piece is asked for by the exact decision. The
-roots of a critical polynomial in t decide every way (docs/motion.md). Of an upright spheroid it is the discriminant Δ
+roots of a critical polynomial in t decide every sweep (docs/motion.md). Of an upright spheroid it is the discriminant Δ
 of the cubic, of degree 8 at most; of a tilted one that of the quartic, of degree 12:
 
 - the position changes only through a tangency, and a tangency has Δ = 0. So between two neighbouring roots of Δ the
   position is constant, and one exact decision between them finds it;
 - at a root with the same clear position on both sides there is a tangency (the spheroid grazes the surface), unless the
-  multiple root is the ring's. Where the ring can be is known exactly (`touches` of a journey);
-- Δ of an upright way is not 0 for every t unless nothing moves; of a tilted one another polynomial takes its place.
+  multiple root is the ring's. Where the ring can be is known exactly (`touches` of a sweep);
+- Δ of an upright sweep is not 0 for every t unless nothing moves; of a tilted one another polynomial takes its place.
 
 Roots are counted by Sturm's theorem in integers; nothing is rounded.
 """
@@ -42,10 +42,10 @@ from hypcheck.geometry.pair import (
 )
 from hypcheck.messages import counted, escaped
 from hypcheck.truth.ended_sweeps import EndedSweep, first_contact, grazes
-from hypcheck.truth.journey import Journey, piece
 from hypcheck.truth.polynomial_roots import Interval, narrowed, roots_from_0_to_1
 from hypcheck.truth.polynomials import Polynomial, value
 from hypcheck.truth.rationals import rounded_toward, shortened
+from hypcheck.truth.sweep import StraightSweep, piece
 
 WIDTH_BITS = 60
 """The enclosure of a first contact is at most 2^−60 of it wide."""
@@ -62,9 +62,9 @@ Piece = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True, slots=True)
 class Steps:
-    """Pieces of a way that begins clear, without gap from 0; `contact` is a time of contact that is no tangency.
+    """Pieces of a sweep that begins clear, without gap from 0; `contact` is a time of contact that is no tangency.
 
-    None where the way is clear up to 1. The first contact lies between the end of the last piece and `contact`.
+    None where the sweep is clear up to 1. The first contact lies between the end of the last piece and `contact`.
     """
 
     pieces: tuple[Piece, ...]
@@ -76,13 +76,13 @@ class Steps:
         return self.pieces[-1][1]
 
 
-def steps(journey: Journey) -> Steps | None:
-    """The steps of a way that begins clear, or None where they decide nothing."""
-    pencil, time = journey.pencil, Fraction(0)
+def steps(sweep: StraightSweep) -> Steps | None:
+    """The steps of a sweep that begins clear, or None where they decide nothing."""
+    pencil, time = sweep.pencil, Fraction(0)
     pieces: list[Piece] = []
-    contact = Fraction(1) if _crosses(journey, Fraction(1)) else None
+    contact = Fraction(1) if _crosses(sweep, Fraction(1)) else None
     while len(pieces) < MOST_STEPS and not _narrow(time, contact):
-        multiplier, step = _step(journey, pencil, time)
+        multiplier, step = _step(sweep, pencil, time)
         if step is None or time + step >= 1:
             return Steps((*pieces, (multiplier, Fraction(1))), None)
         if step < SHORTEST * time:
@@ -90,7 +90,7 @@ def steps(journey: Journey) -> Steps | None:
         time += step
         pieces.append((multiplier, time))
         beyond = time + step / 2
-        if beyond < (contact or 1) and _crosses(journey, beyond):
+        if beyond < (contact or 1) and _crosses(sweep, beyond):
             contact = beyond
     return Steps(tuple(pieces), contact) if pieces and contact is not None and _narrow(time, contact) else None
 
@@ -99,18 +99,18 @@ def _narrow(time: Fraction, contact: Fraction | None) -> bool:
     return contact is not None and (contact - time) * 2**WIDTH_BITS <= time
 
 
-def _crosses(journey: Journey, time: Fraction) -> bool:
+def _crosses(sweep: StraightSweep, time: Fraction) -> bool:
     """Whether there is contact at a time that is no tangency."""
-    return journey.position(time) is Position.CONTACT and not journey.tangent(time)
+    return sweep.position(time) is Position.CONTACT and not sweep.tangent(time)
 
 
-def _step(journey: Journey, pencil: Sequence[Polynomial], time: Fraction) -> tuple[Fraction, Fraction | None]:
+def _step(sweep: StraightSweep, pencil: Sequence[Polynomial], time: Fraction) -> tuple[Fraction, Fraction | None]:
     """A multiplier that proves the clear position at a time, and how far beyond it does; None without end.
 
     The first that proves it may do so barely; the next, of twice as many bits, does it as well as any.
     """
     proved = False
-    for multiplier in journey.multipliers(time):
+    for multiplier in sweep.multipliers(time):
         proof = piece(pencil, multiplier)
         if proved or value(proof, time) > 0:
             if proved and value(proof, time) > 0:
@@ -138,11 +138,11 @@ Rational = float | Fraction
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """What happens on the way: the positions at both ends, and the first contact.
+    """What happens on the sweep: the positions at both ends, and the first contact.
 
     `first` encloses the time t of the first contact, 0 ≤ t ≤ 1, in an open interval or as a single number (twice); None
-    where the way is clear. `grazes`: all contact is tangency, from one and the same side; a spheroid that is smaller by
-    any part at all is clear.
+    where the sweep is clear. `grazes`: all contact is tangency, from one and the same side; a spheroid that is smaller
+    by any part at all is clear.
     """
 
     start: Position
@@ -157,7 +157,7 @@ class Passage:
 
     @property
     def hit(self) -> bool:
-        """Whether there is contact somewhere on the way, its two ends included."""
+        """Whether there is contact somewhere on the sweep, its two ends included."""
         return self.first is not None
 
     @property
@@ -192,58 +192,58 @@ def passage(
 ) -> Passage:
     """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
-    `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the way, and `upward` any
-    along the hyperboloid's; they are vertical where they are None. The hyperboloid ends at the heights `z_min` and
+    `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the sweep, and `upward`
+    any along the hyperboloid's; they are vertical where they are None. The hyperboloid ends at the heights `z_min` and
     `z_max` along its axis; with `solid`, flat ends belong to it. Exact for every valid value, in every regime; where
     the hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is
     not finite and > 0, a coordinate not finite, an axis without direction, z_min not less than z_max, or their number
     not 4, 3, 3, 3 and 3.
     """
-    journey = journey_of(sizes, start, end, axis, upward, (z_min, z_max, solid))
-    if journey.start.has_ends:
-        return beside_ends(journey)
-    return by_steps(journey) or by_roots(journey)
+    sweep = sweep_of(sizes, start, end, axis, upward, (z_min, z_max, solid))
+    if sweep.start.has_ends:
+        return beside_ends(sweep)
+    return by_steps(sweep) or by_roots(sweep)
 
 
-def beside_ends(journey: Journey) -> Passage:
-    """What happens on a way beside a hyperboloid that ends."""
-    here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
-    first = first_contact(EndedSweep(journey))
-    return Passage(here, there, first, first is not None and grazes(journey))
+def beside_ends(sweep: StraightSweep) -> Passage:
+    """What happens on a sweep beside a hyperboloid that ends."""
+    here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
+    first = first_contact(EndedSweep(sweep))
+    return Passage(here, there, first, first is not None and grazes(sweep))
 
 
-def by_steps(journey: Journey) -> Passage | None:
-    """What happens on a way, by steps; None where they decide nothing, or where it begins with a tangency."""
-    here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
-    if not journey.moves:
+def by_steps(sweep: StraightSweep) -> Passage | None:
+    """What happens on a sweep, by steps; None where they decide nothing, or where it begins with a tangency."""
+    here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
+    if not sweep.moves:
         return None
     if here is Position.CONTACT:
-        return None if journey.tangent(Fraction(0)) else Passage(here, there, (Fraction(0), Fraction(0)))
-    result = steps(journey)
+        return None if sweep.tangent(Fraction(0)) else Passage(here, there, (Fraction(0), Fraction(0)))
+    result = steps(sweep)
     if result is None:
         return None
     return Passage(here, there, None if result.contact is None else (result.until, result.contact))
 
 
-def by_roots(journey: Journey) -> Passage:
-    """What happens on a way, by the roots of the critical polynomial: always decides."""
-    here, there = journey.position(Fraction(0)), journey.position(Fraction(1))
-    if not journey.moves:
+def by_roots(sweep: StraightSweep) -> Passage:
+    """What happens on a sweep, by the roots of the critical polynomial: always decides."""
+    here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
+    if not sweep.moves:
         met = (Fraction(0), Fraction(0)) if here is Position.CONTACT else None
-        return Passage(here, there, met, met is not None and journey.tangent(Fraction(0)))
-    critical = journey.critical()
+        return Passage(here, there, met, met is not None and sweep.tangent(Fraction(0)))
+    critical = sweep.critical()
     times = roots_from_0_to_1(critical)
     between = list(_between(times))
-    gaps = [None if time is None else journey.position(time) for time in between]
+    gaps = [None if time is None else sweep.position(time) for time in between]
     before = [here if gap is None else gap for gap in gaps[:-1]]
     after = [there if gap is None else gap for gap in gaps[1:]]
     meetings = [
         time
         for time, left, right in zip(times, before, after, strict=True)
-        if left is not right or left is Position.CONTACT or journey.touches(critical, time, left)
+        if left is not right or left is Position.CONTACT or sweep.touches(critical, time, left)
     ]
     contacts = [time for time, gap in zip(between, gaps, strict=True) if time is not None and gap is Position.CONTACT]
-    grazes = bool(meetings or contacts) and all(map(journey.tangent, contacts))
+    grazes = bool(meetings or contacts) and all(map(sweep.tangent, contacts))
     if here is Position.CONTACT:
         return Passage(here, there, (Fraction(0), Fraction(0)), grazes)
     return Passage(here, there, narrowed(critical, *meetings[0]) if meetings else None, grazes)
@@ -261,15 +261,15 @@ def _between(times: Sequence[Interval]) -> Iterator[Fraction | None]:
     yield None if last == 1 and times[-1][0] == 1 else (last + 1) / 2
 
 
-def journey_of(
+def sweep_of(
     sizes: Sequence[Rational],
     start: Sequence[Rational],
     end: Sequence[Rational],
     axis: Sequence[Rational] | None = None,
     upward: Sequence[Rational] | None = None,
     heights: Sequence[float] = WITHOUT_ENDS,
-) -> Journey:
-    """The way of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
+) -> StraightSweep:
+    """The sweep of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
     trouble = trouble_with_heights(heights)
     if trouble is not None:
         raise InputError(trouble)
@@ -288,7 +288,7 @@ def journey_of(
         axes = (0, 0, 1), (0, 0, 1)
     low, high = ended[0] if math.isfinite(heights[0]) else None, ended[-1] if math.isfinite(heights[1]) else None
     low, high = counted_along(axes[1], tower, low, high)
-    return Journey(Lengths(a, w, x, y, c, h, z, *axes, low, high, bool(heights[2])), (u, v, s))
+    return StraightSweep(Lengths(a, w, x, y, c, h, z, *axes, low, high, bool(heights[2])), (u, v, s))
 
 
 def _three(axis: Sequence[Fraction]) -> Vector:

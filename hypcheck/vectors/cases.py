@@ -119,7 +119,7 @@ def offset_to(row: Row, point: Offset) -> Offset:
 
 
 @dataclass(frozen=True, slots=True)
-class WayVector:
+class SweepVector:
     """A case about a sweep: a valid row of ten, thirteen or sixteen numbers, its answer, and what proves it.
 
     `first` are bounds of the first contact: two neighbouring float64 numbers, or 0 twice; None where it is clear.
@@ -153,7 +153,7 @@ class WayVector:
         return PassageCertificate(witness.steps, witness.time, points, witness.double_root)
 
 
-AnyVector = Vector | WayVector
+AnyVector = Vector | SweepVector
 """A case with an answer."""
 
 _CERTIFICATES = ("multiplier", "points", "double_root")
@@ -299,7 +299,7 @@ def _offset(at: JsonPlace, value: Any) -> Offset:  # noqa: ANN401 - JSON
     return (s, t, w)
 
 
-def _sweep_case(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> WayVector:
+def _sweep_case(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> SweepVector:
     row = row_of(at, fields["row"], fields["hex"], content)
     first = _first(at, fields["first"], fields["first_hex"])
     if fields["hit"] is not (first is not None):
@@ -308,9 +308,9 @@ def _sweep_case(at: JsonPlace, fields: dict[str, Any], content: Content, flags: 
             f"{json_text(first is not None)}"
         )
     if "certificate" not in fields:
-        return WayVector(fields["id"], row, first, StoredCertificate())
+        return SweepVector(fields["id"], row, first, StoredCertificate())
     witness = _passage(at, fields["certificate"])
-    return WayVector(fields["id"], row, first, witness, flags_of_case(at, fields["flags"], flags))
+    return SweepVector(fields["id"], row, first, witness, flags_of_case(at, fields["flags"], flags))
 
 
 def _first(at: JsonPlace, value: Any, hexes: Any) -> Bounds | None:  # noqa: ANN401 - JSON
@@ -398,7 +398,7 @@ def _piece_members(piece: Piece) -> list[str]:
     return [low, high, exact_text(piece.multiplier), exact_text(piece.plane)]
 
 
-def _sweep_members(case: WayVector, _content: Content) -> dict[str, str]:
+def _sweep_members(case: SweepVector, _content: Content) -> dict[str, str]:
     first, witness = case.first, case.witness
     proof = {
         "pieces": [list(map(exact_text, step)) for step in witness.steps],

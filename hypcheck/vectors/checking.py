@@ -4,7 +4,7 @@ Each label is proved, or computed anew by an oracle that did not make it. Positi
 the certificate alone (truth/certificate.py, with shows_crossing: rational arithmetic).
 The roots give the kind of an upright pair, the nearest point the clearance. Labels are made by the exact decision,
 which shares nothing with these. Distances to other answers rest on exact decisions and are computed anew; of tilted
-spheroids each end of their bracket is proved anew. So are the flags (flags.py). Of a way, answer and first contact
+spheroids each end of their bracket is proved anew. So are the flags (flags.py). Of a sweep, answer and first contact
 follow from the certificate alone (truth/passage_certificate.py).
 
 A label is checked by this program's meaning of its flag and read by the meaning that its file states, so the two must
@@ -37,12 +37,12 @@ from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
     AnyVector,
     StoredCertificate,
+    SweepVector,
     Vector,
-    WayVector,
     cases_of,
 )
 from hypcheck.vectors.family import Metadata, Row
-from hypcheck.vectors.flags import FlagFacts, flags_of, way_flags
+from hypcheck.vectors.flags import FlagFacts, flags_of, sweep_flags
 from hypcheck.vectors.format import CaseFile, Content
 from hypcheck.vectors.invalid_rows import InvalidRow, columns_at_fault
 from hypcheck.vectors.labels import flips, shows_crossing
@@ -163,30 +163,30 @@ def _proved_lower_ends(cases: Sequence[Vector]) -> list[set[Position]]:
 
 
 def _of_sweeps(file: CaseFile[Any]) -> Iterator[Iterator[str]]:
-    return map(_ended_way_sentences if file.content.ended else _way_sentences, file.cases)
+    return map(_ended_sweep_sentences if file.content.ended else _sweep_sentences, file.cases)
 
 
-def _way_sentences(case: WayVector) -> Iterator[str]:
+def _sweep_sentences(case: SweepVector) -> Iterator[str]:
     if not check_passage(case.row, case.certificate, case.first):
         if case.first is None:
-            yield "the certificate does not prove that the way is clear"
+            yield "the certificate does not prove that the sweep is clear"
         elif contact_at(case.row, case.certificate) is None:
             yield "the certificate does not prove contact at its time"
         else:
             times_text = f"{decimal_of(case.first[0])} … {decimal_of(case.first[1])}"
             yield f"the certificate does not prove that the first contact is at {times_text}"
-    yield from _wrong_flags(case, way_flags(case.row, case.first, case.certificate))
+    yield from _wrong_flags(case, sweep_flags(case.row, case.first, case.certificate))
 
 
 _TIMES = 16
-"""Pieces of a way beside a hyperboloid that ends, at whose ends the least value looks for contact."""
+"""Pieces of a sweep beside a hyperboloid that ends, at whose ends the least value looks for contact."""
 
 _SLACK = 2.0**-30
 """It is asked of a spheroid smaller or larger by this part, so that a rounded centre does not matter."""
 
 
-def _ended_way_sentences(case: WayVector) -> Iterator[str]:
-    """Of a way beside a hyperboloid that ends: the exact decision anew, which the least value must not contradict."""
+def _ended_sweep_sentences(case: SweepVector) -> Iterator[str]:
+    """Of a sweep beside a hyperboloid that ends: the exact decision anew, which the least value must not contradict."""
     truth = scaled_passage(case.row)
     first = (truth.first_lower, truth.first_upper) if truth.hit else None
     if first != case.first:
@@ -195,7 +195,7 @@ def _ended_way_sentences(case: WayVector) -> Iterator[str]:
     times = [place / _TIMES for place in range(_TIMES + 1) if place / _TIMES < until or case.first is None]
     for time in times:
         if _least_at(case.row, time, 1 - _SLACK) is Position.CONTACT:
-            yield f"the way is said to be clear at t {time!r}; the least value says contact"
+            yield f"the sweep is said to be clear at t {time!r}; the least value says contact"
     if case.first and _least_at(case.row, case.first[1], 1 + _SLACK) not in (None, Position.CONTACT):
         yield f"there is no contact at t {case.first[1]!r}, the least value says"
 

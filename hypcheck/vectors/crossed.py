@@ -40,7 +40,7 @@ AXES = (
     "at right angles to the centre, in the meridian plane",
     "at right angles to the centre",
 )
-WAY_AXES = (*AXES, "along the way", "at right angles to the way")
+SWEEP_AXES = (*AXES, "along the way", "at right angles to the way")
 MOTIONS = (
     "any",
     "still",
@@ -60,7 +60,7 @@ FACTORS: Mapping[str, tuple[tuple[str, ...], ...]] = {
     "coincidences": (SIZES, PLACES, HEIGHTS, SIDES),
     "tilted-coincidences": (SIZES, PLACES, HEIGHTS, SIDES, AXES),
     "way-coincidences": (SIZES, PLACES, HEIGHTS, SIDES, MOTIONS, ENDS),
-    "tilted-way-coincidences": (SIZES, PLACES, HEIGHTS, SIDES, MOTIONS, ENDS, WAY_AXES),
+    "tilted-way-coincidences": (SIZES, PLACES, HEIGHTS, SIDES, MOTIONS, ENDS, SWEEP_AXES),
 }
 """The factors of each family, and the values of each factor."""
 
@@ -142,7 +142,7 @@ def _candidates(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any
     centre = _centre(draw, size, values)
     free = [draw.integers(n, 1, 5) * draw.signs(n) for _ in range(3)]
     way = _way(values[MOTIONS], centre, free) if MOTIONS in values else None
-    axes = next((factor for factor in (AXES, WAY_AXES) if factor in values), None)
+    axes = next((factor for factor in (AXES, SWEEP_AXES) if factor in values), None)
     axis = None if axes is None else _axis(values[axes], centre, free, way)
     unit = draw.integers(n, -3, 3)
     lengths = [*size, *centre, *([] if way is None else [p + w for p, w in zip(centre, way, strict=True)])]

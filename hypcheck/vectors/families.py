@@ -8,19 +8,19 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
 from hypcheck.messages import suggestion
 from hypcheck.vectors import (
     coincidences,
     crossed,
     ended,
-    ended_ways,
+    ended_sweeps,
     extremes,
     random_pairs,
     scenes,
     strata,
+    sweeps,
     tilted,
-    ways,
 )
 from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.family import MARK, Family
@@ -99,35 +99,35 @@ TILTED_FAMILIES = _table(
 )
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
 
-WAY_FAMILIES = _table(
-    Family("way-anywhere", ways.anywhere, 108, layout=WAYS),
-    Family("way-tunnelling", ways.tunnelling, 108, layout=WAYS),
-    Family("way-uniform", ways.uniform, 108, layout=WAYS),
-    Family("way-tower", ways.tower, 108, layout=WAYS),
-    Family("way-across", ways.across, 108, layout=WAYS),
-    Family("way-grazing", ways.grazing, 108, layout=WAYS),
-    Family("way-near-graze", ways.near_graze, 108, layout=WAYS),
-    Family("way-ring", ways.ring, 108, layout=WAYS),
-    Family("way-end", ways.at_an_end, 108, layout=WAYS),
-    Family("way-begun-in-contact", ways.begun_in_contact, 108, layout=WAYS),
-    Family("way-still", ways.still, 108, layout=WAYS),
-    Family("way-along-a-line", ways.along_a_line, 108, layout=WAYS),
-    Family("way-vertical", ways.vertical, 108, layout=WAYS),
-    Family("way-horizontal", ways.horizontal, 108, layout=WAYS),
-    Family("way-long", ways.very_long, 108, layout=WAYS),
-    Family("way-short", ways.very_short, 108, layout=WAYS),
-    Family("way-stiff", ways.stiff, 108, layout=WAYS),
-    Family("way-small-integers", ways.small_integers, 108, layout=WAYS),
-    Family("way-coincidences", crossed.crossed("way-coincidences"), 353, layout=WAYS),
-    Family("tilted-way-uniform", ways.tilted_uniform, 40, layout=WAYS, tilted=True),
-    Family("tilted-way-end", ways.tilted_end, 40, layout=WAYS, tilted=True),
-    Family("tilted-way-ring", ways.tilted_ring, 40, layout=WAYS, tilted=True),
-    Family("tilted-way-small-integers", ways.tilted_integers, 40, layout=WAYS, tilted=True),
+SWEEP_FAMILIES = _table(
+    Family("way-anywhere", sweeps.anywhere, 108, layout=SWEEPS),
+    Family("way-tunnelling", sweeps.tunnelling, 108, layout=SWEEPS),
+    Family("way-uniform", sweeps.uniform, 108, layout=SWEEPS),
+    Family("way-tower", sweeps.tower, 108, layout=SWEEPS),
+    Family("way-across", sweeps.across, 108, layout=SWEEPS),
+    Family("way-grazing", sweeps.grazing, 108, layout=SWEEPS),
+    Family("way-near-graze", sweeps.near_graze, 108, layout=SWEEPS),
+    Family("way-ring", sweeps.ring, 108, layout=SWEEPS),
+    Family("way-end", sweeps.at_an_end, 108, layout=SWEEPS),
+    Family("way-begun-in-contact", sweeps.begun_in_contact, 108, layout=SWEEPS),
+    Family("way-still", sweeps.still, 108, layout=SWEEPS),
+    Family("way-along-a-line", sweeps.along_a_line, 108, layout=SWEEPS),
+    Family("way-vertical", sweeps.vertical, 108, layout=SWEEPS),
+    Family("way-horizontal", sweeps.horizontal, 108, layout=SWEEPS),
+    Family("way-long", sweeps.very_long, 108, layout=SWEEPS),
+    Family("way-short", sweeps.very_short, 108, layout=SWEEPS),
+    Family("way-stiff", sweeps.stiff, 108, layout=SWEEPS),
+    Family("way-small-integers", sweeps.small_integers, 108, layout=SWEEPS),
+    Family("way-coincidences", crossed.crossed("way-coincidences"), 353, layout=SWEEPS),
+    Family("tilted-way-uniform", sweeps.tilted_uniform, 40, layout=SWEEPS, tilted=True),
+    Family("tilted-way-end", sweeps.tilted_end, 40, layout=SWEEPS, tilted=True),
+    Family("tilted-way-ring", sweeps.tilted_ring, 40, layout=SWEEPS, tilted=True),
+    Family("tilted-way-small-integers", sweeps.tilted_integers, 40, layout=SWEEPS, tilted=True),
     Family(
-        "tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, layout=WAYS, tilted=True, times=3
+        "tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, layout=SWEEPS, tilted=True, times=3
     ),
 )
-"""Those of ways between two positions: rows as geometry.rows.WAYS has them, upright or tilted."""
+"""Those of sweeps between two positions: rows as geometry.rows.SWEEPS has them, upright or tilted."""
 
 ENDED_FAMILIES = _table(
     *(Family(name, make, frozen, ended=True) for name, (make, frozen) in ended.FAMILIES.items()),
@@ -135,16 +135,16 @@ ENDED_FAMILIES = _table(
 )
 """Those of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
 
-ENDED_WAY_FAMILIES = _table(
-    *(Family(name, make, frozen, ended=True, layout=WAYS) for name, (make, frozen) in ended_ways.FAMILIES.items()),
+ENDED_SWEEP_FAMILIES = _table(
+    *(Family(name, make, frozen, ended=True, layout=SWEEPS) for name, (make, frozen) in ended_sweeps.FAMILIES.items()),
     *(
-        Family(name, make, frozen, tilted=True, ended=True, layout=WAYS)
-        for name, (make, frozen) in ended_ways.TILTED.items()
+        Family(name, make, frozen, tilted=True, ended=True, layout=SWEEPS)
+        for name, (make, frozen) in ended_sweeps.TILTED.items()
     ),
 )
-"""Those of ways beside hyperboloids that end: rows of sixteen numbers, of upright spheroids and of tilted ones."""
+"""Those of sweeps beside hyperboloids that end: rows of sixteen numbers, of upright spheroids and of tilted ones."""
 
-ALL = {**FAMILIES, **TILTED_FAMILIES, **WAY_FAMILIES, **ENDED_FAMILIES, **ENDED_WAY_FAMILIES}
+ALL = {**FAMILIES, **TILTED_FAMILIES, **SWEEP_FAMILIES, **ENDED_FAMILIES, **ENDED_SWEEP_FAMILIES}
 """All of them, in the order in which they are listed."""
 
 EXTREME = "extreme"
@@ -189,12 +189,12 @@ def select(
             raise InputError(
                 f"{pattern!r} names tilted spheroids, which only an implementation with tilt is asked about"
             )
-        if not named and _named(pattern, ENDED_FAMILIES | ENDED_WAY_FAMILIES):
+        if not named and _named(pattern, ENDED_FAMILIES | ENDED_SWEEP_FAMILIES):
             raise InputError(
                 f"{pattern!r} names hyperboloids that end, about which only implementations that take heights are asked"
             )
-        if not named and _named(pattern, WAY_FAMILIES):
-            raise InputError(f"{pattern!r} names ways, which only the question passage is about")
+        if not named and _named(pattern, SWEEP_FAMILIES):
+            raise InputError(f"{pattern!r} names sweeps, which only the question passage is about")
         if not named:
             raise InputError(f"there is no family {pattern!r}; {_advice(pattern)}")
         chosen |= named

@@ -73,10 +73,10 @@ class Family:
     case ids. `frozen`: so many rows are frozen, more where the traps are, few where proofs are long. `extreme`: lengths
     near the end of a float format, so the family is taken only when it is asked for. `by_place`: the generator works
     place by place, so that it can make several blocks at one go. `movement`: so many consecutive rows follow one object
-    from moment to moment; 1 where none do. `layout` says what rows are about, a position or a way. `tilted`: they have
-    three numbers more, the axis of the spheroid behind the others. `ended`: the hyperboloid ends, and rows have heights
-    behind an axis, which is vertical unless `tilted`. `times`: so many rows are asked for each that a run asks of other
-    families.
+    from moment to moment; 1 where none do. `layout` says what rows are about, a position or a sweep. `tilted`: they
+    have three numbers more, the axis of the spheroid behind the others. `ended`: the hyperboloid ends, and rows have
+    heights behind an axis, which is vertical unless `tilted`. `times`: so many rows are asked for each that a run asks
+    of other families.
     """
 
     name: str

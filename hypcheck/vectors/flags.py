@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.geometry.pair import COLUMNS, WAY_COLUMNS, Pair, Position, to_integers
+from hypcheck.geometry.pair import COLUMNS, SWEEP_COLUMNS, Pair, Position, to_integers
 from hypcheck.geometry.rows import Mask, Rows, within
 from hypcheck.truth import backward_error, exact
 from hypcheck.truth.exact import Decision, discriminant
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_certificate import PassageCertificate
 from hypcheck.truth.pencil import cubic, quartic
-from hypcheck.truth.swept import journey_of
+from hypcheck.truth.swept import sweep_of
 from hypcheck.vectors.family import Row, rows_of
 
 
@@ -170,7 +170,7 @@ FLAGS: dict[str, FlagFacts] = {
 }
 """Every flag of upright spheroids, in the order in which a case has them."""
 
-WAY_FLAGS: dict[str, FlagFacts] = {
+SWEEP_FLAGS: dict[str, FlagFacts] = {
     "tunnelling": FlagFacts("both ends are clear, on one side, and there is contact between them", "sampling"),
     "tangent": FlagFacts("the surfaces are tangent at the time of the proof; tangency is contact", "equality"),
     "contact-at-start": FlagFacts("the first contact is at t = 0", "open interval"),
@@ -180,7 +180,7 @@ WAY_FLAGS: dict[str, FlagFacts] = {
     "horizontal-way": FlagFacts("z does not change, x or y do", "degenerate input"),
     "upright": FlagFacts("the axis is given, and is vertical or that of a sphere", "degenerate input"),
 }
-"""The flags of ways, in the order in which a case has them."""
+"""The flags of sweeps, in the order in which a case has them."""
 
 TILTED_FLAGS: dict[str, FlagFacts] = {
     "tangent": FLAGS["tangent"],
@@ -327,9 +327,9 @@ def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
     return tuple(name for name, holds in conditions.items() if holds)
 
 
-def way_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
+def sweep_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
     """What is special about a case; positions at its ends are decided exactly."""
-    start, end, axis = row[4:7], row[7:10], row[len(WAY_COLUMNS) :]
+    start, end, axis = row[4:7], row[7:10], row[len(SWEEP_COLUMNS) :]
     ends = [_position(row, Fraction(time)) for time in (0, 1)]
     conditions = {
         "tunnelling": first is not None and ends[0] is ends[1] is not Position.CONTACT,
@@ -345,4 +345,4 @@ def way_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertifi
 
 
 def _position(row: Row, time: Fraction) -> Position:
-    return journey_of(row[:4], row[4 : len(COLUMNS)], row[7:10], row[len(WAY_COLUMNS) :] or None).position(time)
+    return sweep_of(row[:4], row[4 : len(COLUMNS)], row[7:10], row[len(SWEEP_COLUMNS) :] or None).position(time)

@@ -18,11 +18,11 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, NO_DIRECTION, trouble_with, trouble_with_heights
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Positions, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Positions, Rows
 from hypcheck.tables.numbers import Literal, decimal_of, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of
 from hypcheck.vectors.family import Metadata, Row
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS, FlagFacts
+from hypcheck.vectors.flags import FLAGS, SWEEP_FLAGS, TILTED_FLAGS, FlagFacts
 
 SCHEMA = "1.0.0"
 """The version of the files' schemas, such as cases/schema/vectors-1.0.0.json."""
@@ -30,21 +30,21 @@ SCHEMA = "1.0.0"
 TILTED_SCHEMA = "1.1.0"
 """The version of the schemas of files about tilted spheroids."""
 
-WAY_SCHEMA = "1.2.0"
-"""The version of the schemas of files about ways."""
+SWEEP_SCHEMA = "1.2.0"
+"""The version of the schemas of files about sweeps."""
 
 ENDED_SCHEMA = "1.3.0"
 """The version of the schemas of files about hyperboloids that end."""
 
-ENDED_WAY_SCHEMA = "1.4.0"
-"""The version of the schemas of files about ways beside these; a reader refuses any other than these five."""
+ENDED_SWEEP_SCHEMA = "1.4.0"
+"""The version of the schemas of files about sweeps beside these; a reader refuses any other than these five."""
 
 
 @dataclass(frozen=True, slots=True)
 class Content:
     """What a file holds, by the name that it has there, and the version of its schema.
 
-    `layout` says what rows are about, a position or a way. `tilted`: they have the spheroid's axis behind. `ended`:
+    `layout` says what rows are about, a position or a sweep. `tilted`: they have the spheroid's axis behind. `ended`:
     they have an axis and the heights where the hyperboloid ends. `refused`: they are no valid query, without answers.
     """
 
@@ -58,7 +58,7 @@ class Content:
     @property
     def about_sweeps(self) -> bool:
         """Whether the rows are asked about the motion between two positions."""
-        return self.layout is WAYS
+        return self.layout is SWEEPS
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -69,7 +69,7 @@ class Content:
     @property
     def flags(self) -> Mapping[str, FlagFacts]:
         """The flags that a case may have; none where it has no answer."""
-        known = WAY_FLAGS if self.about_sweeps else TILTED_FLAGS if self.tilted else FLAGS
+        known = SWEEP_FLAGS if self.about_sweeps else TILTED_FLAGS if self.tilted else FLAGS
         return {} if self.refused or self.ended else known
 
 
@@ -80,14 +80,14 @@ CONTENTS = {
         Content("refusals", SCHEMA, refused=True),
         Content("tilted-positions", TILTED_SCHEMA, tilted=True),
         Content("tilted-refusals", TILTED_SCHEMA, tilted=True, refused=True),
-        Content("ways", WAY_SCHEMA, WAYS),
-        Content("tilted-ways", WAY_SCHEMA, WAYS, tilted=True),
-        Content("way-refusals", WAY_SCHEMA, WAYS, refused=True),
-        Content("tilted-way-refusals", WAY_SCHEMA, WAYS, tilted=True, refused=True),
+        Content("ways", SWEEP_SCHEMA, SWEEPS),
+        Content("tilted-ways", SWEEP_SCHEMA, SWEEPS, tilted=True),
+        Content("way-refusals", SWEEP_SCHEMA, SWEEPS, refused=True),
+        Content("tilted-way-refusals", SWEEP_SCHEMA, SWEEPS, tilted=True, refused=True),
         Content("ended-positions", ENDED_SCHEMA, tilted=True, ended=True),
         Content("ended-refusals", ENDED_SCHEMA, tilted=True, refused=True, ended=True),
-        Content("ended-ways", ENDED_WAY_SCHEMA, WAYS, tilted=True, ended=True),
-        Content("ended-way-refusals", ENDED_WAY_SCHEMA, WAYS, tilted=True, refused=True, ended=True),
+        Content("ended-ways", ENDED_SWEEP_SCHEMA, SWEEPS, tilted=True, ended=True),
+        Content("ended-way-refusals", ENDED_SWEEP_SCHEMA, SWEEPS, tilted=True, refused=True, ended=True),
     )
 }
 """All contents by name."""
@@ -147,7 +147,7 @@ class CaseFile(Generic[Case]):
 
     @property
     def positions(self) -> Positions:
-        """The right answers, int8 (n,): positions, hits on ways, or REFUSED."""
+        """The right answers, int8 (n,): positions, hits on sweeps, or REFUSED."""
         return np.asarray([case.answer for case in self.cases], dtype=np.int8)
 
     def numbered_cases(self) -> Iterable[tuple[int, Case]]:
@@ -170,8 +170,8 @@ def content_of(document: JsonDocument, path: str) -> Content:
     if not known:
         raise InputError(
             f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}, "
-            f"{TILTED_SCHEMA!r} about tilted spheroids, {WAY_SCHEMA!r} about ways, {ENDED_SCHEMA!r} about "
-            f"hyperboloids that end and {ENDED_WAY_SCHEMA!r} about ways beside these"
+            f"{TILTED_SCHEMA!r} about tilted spheroids, {SWEEP_SCHEMA!r} about sweeps, {ENDED_SCHEMA!r} about "
+            f"hyperboloids that end and {ENDED_SWEEP_SCHEMA!r} about sweeps beside these"
         )
     place, content = document.members["content"]
     if content not in tuple(known):

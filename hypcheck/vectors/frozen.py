@@ -12,17 +12,17 @@ from pathlib import Path
 from typing import Any
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, WAYS
+from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.messages import suggestion
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.families import (
     ALL,
     ENDED_FAMILIES,
-    ENDED_WAY_FAMILIES,
+    ENDED_SWEEP_FAMILIES,
     FAMILIES,
+    SWEEP_FAMILIES,
     TILTED_FAMILIES,
-    WAY_FAMILIES,
 )
 from hypcheck.vectors.family import Metadata, described
 from hypcheck.vectors.format import CaseFile
@@ -34,21 +34,21 @@ NAMES = (*FAMILIES, cancellation.NAME)
 TILTED_NAMES = tuple(TILTED_FAMILIES)
 """Those of tilted spheroids."""
 
-WAY_NAMES = tuple(WAY_FAMILIES)
-"""Those of ways; the rows of names that begin with tilted have an axis."""
+SWEEP_NAMES = tuple(SWEEP_FAMILIES)
+"""Those of sweeps; the rows of names that begin with tilted have an axis."""
 
 ENDED_NAMES = tuple(ENDED_FAMILIES)
 """Those of hyperboloids that end, upright and tilted."""
 
-ENDED_WAY_NAMES = tuple(ENDED_WAY_FAMILIES)
-"""Those of ways beside hyperboloids that end."""
+ENDED_SWEEP_NAMES = tuple(ENDED_SWEEP_FAMILIES)
+"""Those of sweeps beside hyperboloids that end."""
 
 ALL_NAMES = (
     *(*NAMES, "invalid"),
     *(*TILTED_NAMES, "tilted-invalid"),
-    *(*WAY_NAMES, *INVALID_NAMES[WAYS]),
+    *(*SWEEP_NAMES, *INVALID_NAMES[SWEEPS]),
     *(*ENDED_NAMES, ENDED_INVALID[PAIRS]),
-    *(*ENDED_WAY_NAMES, ENDED_INVALID[WAYS]),
+    *(*ENDED_SWEEP_NAMES, ENDED_INVALID[SWEEPS]),
 )
 """All files, in the order in which they are listed."""
 

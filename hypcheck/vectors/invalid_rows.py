@@ -13,7 +13,7 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, REFUSED, SIZES, trouble_with
-from hypcheck.geometry.rows import PAIRS, WAYS, Layout, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace
 from hypcheck.vectors.family import Row, described
@@ -33,10 +33,10 @@ from hypcheck.vectors.format import (
 INVALID_CONTENTS = {
     "invalid": content_with(refused=True),
     "tilted-invalid": content_with(tilted=True, refused=True),
-    "way-invalid": content_with(WAYS, refused=True),
-    "tilted-way-invalid": content_with(WAYS, tilted=True, refused=True),
+    "way-invalid": content_with(SWEEPS, refused=True),
+    "tilted-way-invalid": content_with(SWEEPS, tilted=True, refused=True),
     "ended-invalid": content_with(refused=True, ended=True),
-    "ended-way-invalid": content_with(WAYS, refused=True, ended=True),
+    "ended-way-invalid": content_with(SWEEPS, refused=True, ended=True),
 }
 """The files of rows without an answer by name, and the content of each."""
 
@@ -45,7 +45,7 @@ ENDED_INVALID = {content.layout: name for name, content in INVALID_CONTENTS.item
 
 INVALID_NAMES = {
     layout: tuple(name for name, content in INVALID_CONTENTS.items() if content.layout is layout and not content.ended)
-    for layout in (PAIRS, WAYS)
+    for layout in (PAIRS, SWEEPS)
 }
 """The names of these files by layout, of upright spheroids and of tilted ones."""
 
@@ -59,7 +59,7 @@ _SOUND = {
         (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0),
         (4.0, 4.0, 1.0, 1.0, 4.0, 0.0, 0.5),
     ),
-    WAYS: (
+    SWEEPS: (
         (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, 4.0, 0.5, 1.0),
         (2.0, 17.8, 0.25, 0.15, 0.5, -1.25, 3.0, -0.5, 1.0, -2.0),
         (4.0, 4.0, 1.0, 1.0, 9.0, 0.0, 0.5, -9.0, 1.0, 0.5),
@@ -156,7 +156,7 @@ def _bad_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
         yield _replaced(row, {4: infinite, 5: infinite ^ _SIGN})
         yield _replaced(row, {2: infinite, 4: infinite})
         yield _replaced(row, {4: nan, 5: nan, 6: nan})
-        for place in range(4, width - 3):  # both ends of a way
+        for place in range(4, width - 3):  # both ends of a sweep
             yield _replaced(row, {place: infinite, place + 3: infinite})  # the step is ∞ − ∞
             yield _replaced(row, {place: infinite, place + 3: infinite ^ _SIGN})
             yield _replaced(row, {place: nan, place + 3: nan})  # at rest, if NaN were equal to itself

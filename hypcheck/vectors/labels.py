@@ -1,6 +1,6 @@
 """The labels of a case: answer, measures, flags, and the shortest proof.
 
-They are made by the exact decisions (truth/exact.py), ways by steps or by roots
+They are made by the exact decisions (truth/exact.py), sweeps by steps or by roots
 (truth/swept.py). checking.py proves them in another way.
 """
 
@@ -26,14 +26,14 @@ from hypcheck.truth.vectors import dot
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,
+    SweepVector,
     Vector,
-    WayVector,
     case_fields,
     offset_to,
     point_at,
 )
 from hypcheck.vectors.family import Row
-from hypcheck.vectors.flags import flags_of, way_flags
+from hypcheck.vectors.flags import flags_of, sweep_flags
 from hypcheck.vectors.format import Content
 
 _MOST_BITS = 1 << 14
@@ -68,23 +68,23 @@ def _positions(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vecto
     ]
 
 
-def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[WayVector]:
+def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[SweepVector]:
     return [(_without_proof if content.ended else _with_proof)(*case) for case in cases]
 
 
-def _with_proof(name: str, row: Row) -> WayVector:
+def _with_proof(name: str, row: Row) -> SweepVector:
     _, first, proof = prove_passage(row)
     offsets: tuple[Offset, ...] = ()
     if proof.time is not None:
         b, (x, y, z) = Fraction(row[2]), place(row, proof.time).row[4:]
         offsets = tuple(((u - x) / b, (v - y) / b, (w - z) / b) for u, v, w in proof.points)
     witness = StoredCertificate(offsets=offsets, double_root=proof.double_root, steps=proof.pieces, time=proof.time)
-    return WayVector(name, row, first, witness, way_flags(row, first, proof))
+    return SweepVector(name, row, first, witness, sweep_flags(row, first, proof))
 
 
-def _without_proof(name: str, row: Row) -> WayVector:
+def _without_proof(name: str, row: Row) -> SweepVector:
     truth = scaled_passage(row)
-    return WayVector(name, row, (truth.first_lower, truth.first_upper) if truth.hit else None, StoredCertificate())
+    return SweepVector(name, row, (truth.first_lower, truth.first_upper) if truth.hit else None, StoredCertificate())
 
 
 def flips(content: Content, pair: Pair, truth: Decision) -> Mapping[Position, Bracket]:

@@ -18,7 +18,7 @@ from hypcheck.tables.streams import replace_output
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
-from hypcheck.vectors.cases import AnyVector, Vector, WayVector, case_text
+from hypcheck.vectors.cases import AnyVector, SweepVector, Vector, case_text
 from hypcheck.vectors.families import EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata
 from hypcheck.vectors.format import Content, read_metadata
@@ -72,7 +72,7 @@ def case_lines(case: AnyVector | InvalidRow, content: Content) -> Iterator[str]:
     for name, value in zip(content.columns, case.row, strict=True):
         yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
     if content.about_sweeps:
-        yield from way_answer_lines(cast("WayVector", case))
+        yield from sweep_answer_lines(cast("SweepVector", case))
     else:
         yield from _position_lines(cast("Vector", case), content)
     for flag in cast("AnyVector", case).flags:
@@ -96,9 +96,9 @@ def _position_lines(case: Vector, content: Content) -> Iterator[str]:
     yield from _titled("proof", (_ended_proof if content.ended else _proof)(case))
 
 
-def way_answer_lines(case: WayVector) -> Iterator[str]:
-    """The answer about a way, and its proof."""
-    yield from _titled("answer", "contact on the way" if case.hit else "clear all along")
+def sweep_answer_lines(case: SweepVector) -> Iterator[str]:
+    """The answer about a sweep, and its proof."""
+    yield from _titled("answer", "contact on the sweep" if case.hit else "clear all along")
     if case.first is not None:
         yield from _titled("first", f"contact at t from {case.first[0]!r} to {case.first[1]!r}")
     pieces = case.witness.steps

@@ -13,12 +13,12 @@ from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan
 from hypcheck.bench.workloads import WAY_WORKLOADS, frozen_ways, scene_of
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import WAYS, first_trouble
+from hypcheck.geometry.rows import SWEEPS, first_trouble
 from hypcheck.implementations.builtin import passage_methods
 from hypcheck.implementations.ways import WAY_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
-from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.families import SWEEP_FAMILIES
 from tests.bench.test_run import RECORD, ended
 from tests.support.inside import size_error
 from tests.support.records import violations
@@ -30,14 +30,14 @@ from tests.tools.miniatures import NOT_ISOLATED, command
 def test_way_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(name):
     rows = WAY_WORKLOADS[name].rows(3, 300)
     assert rows.shape == (300, 10)
-    assert first_trouble(rows, layout=WAYS) is None
+    assert first_trouble(rows, layout=SWEEPS) is None
     assert (WAY_WORKLOADS[name].rows(3, 90) == rows[:90]).all()
     assert WAY_WORKLOADS[name].rows(3, 0).shape == (0, 10)
-    assert (scene_of(rows, WAYS) is not None) == (name == "tower")
+    assert (scene_of(rows, SWEEPS) is not None) == (name == "tower")
 
 
 def test_the_frozen_ways_come_from_all_families_of_upright_spheroids_in_turn():
-    upright = [family for family in WAY_FAMILIES.values() if not family.tilted]
+    upright = [family for family in SWEEP_FAMILIES.values() if not family.tilted]
     rows = frozen_ways()
     assert len(rows) > 1500
     assert len(np.unique(rows[: 4 * len(upright)], axis=0)) == 4 * len(upright)
@@ -112,9 +112,9 @@ def test_bench_of_ways_refuses_methods_and_workloads_that_ways_do_not_have(tmp_p
 
 @pytest.mark.slow
 def test_bench_takes_a_spec_only_if_it_answers_the_question_of_the_run():
-    found = foreign.foreign_method(command("passage", "binary"), NOT_ISOLATED, [], layout=WAYS)
+    found = foreign.foreign_method(command("passage", "binary"), NOT_ISOLATED, [], layout=SWEEPS)
     assert found.name in contenders(BenchPlan(question=PASSAGE, foreign=(found,)))
     with pytest.raises(InputError, match="answers the question passage; it is measured with --question passage"):
         foreign.foreign_method(command("passage", "binary"), NOT_ISOLATED, [])
     with pytest.raises(InputError, match="answers the question position; it is measured without --question passage"):
-        foreign.foreign_method(command("right", "binary"), NOT_ISOLATED, [], layout=WAYS)
+        foreign.foreign_method(command("right", "binary"), NOT_ISOLATED, [], layout=SWEEPS)

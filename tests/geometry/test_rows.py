@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import WAYS, FixedSizes, as_rows, first_trouble, invalid, require_valid, with_axis, within
+from hypcheck.geometry.rows import SWEEPS, FixedSizes, as_rows, first_trouble, invalid, require_valid, with_axis, within
 
 GOOD = [1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0]
 WAY = [1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, 0.0, 0.0, 4.0]
@@ -72,12 +72,12 @@ def test_valid_rows_give_no_error_message():
 
 
 def test_as_rows_of_ways_takes_ten_numbers_or_thirteen_with_an_axis():
-    assert as_rows([WAY], layout=WAYS).shape == (1, 10)
-    assert as_rows([WAY + AXIS], layout=WAYS, tilted=True).shape == (1, 13)
+    assert as_rows([WAY], layout=SWEEPS).shape == (1, 10)
+    assert as_rows([WAY + AXIS], layout=SWEEPS, tilted=True).shape == (1, 13)
     with pytest.raises(
         InputError, match=r"shape \(1, 13\); it must be \(n, 10\): alpha, gamma, b, d, x0, y0, z0, x1, y1, z1$"
     ):
-        as_rows([WAY + AXIS], layout=WAYS)
+        as_rows([WAY + AXIS], layout=SWEEPS)
 
 
 @pytest.mark.parametrize(
@@ -92,24 +92,24 @@ def test_as_rows_of_ways_takes_ten_numbers_or_thirteen_with_an_axis():
 def test_the_error_about_an_invalid_way_names_its_row_and_number(place, value, trouble):
     rows = np.array([WAY + AXIS, WAY + AXIS])
     rows[1, place] = value
-    assert first_trouble(rows, layout=WAYS) == f"row 1: {trouble}"
+    assert first_trouble(rows, layout=SWEEPS) == f"row 1: {trouble}"
 
 
 def test_a_way_may_end_at_the_origin_but_its_axis_must_have_a_direction():
-    assert not invalid(np.array([WAY[:7] + [0.0] * 3]), WAYS).any()
-    assert invalid(np.array([WAY + [0.0] * 3]), WAYS).all()
+    assert not invalid(np.array([WAY[:7] + [0.0] * 3]), SWEEPS).any()
+    assert invalid(np.array([WAY + [0.0] * 3]), SWEEPS).all()
 
 
 def test_with_axis_gives_an_upright_way_the_axis_0_0_1():
-    assert with_axis(np.array([WAY]), WAYS).tolist() == [[*WAY, 0.0, 0.0, 1.0]]
+    assert with_axis(np.array([WAY]), SWEEPS).tolist() == [[*WAY, 0.0, 0.0, 1.0]]
 
 
 def test_a_domain_limits_both_ends_of_a_way_and_not_its_axis():
     far = [*WAY[:8], 1e9, 4.0, 0.0, 1e20, 0.0]
     near = [*WAY, 0.0, 1e20, 0.0]
-    assert within(np.array([near, far]), layout=WAYS).tolist() == [True, False]
+    assert within(np.array([near, far]), layout=SWEEPS).tolist() == [True, False]
     setting = FixedSizes((1.0, 2.0, 1.0, 1.0), z=(0.0, 3.0))
-    assert setting.holds(np.array([WAY, [*WAY[:9], 2.0]]), WAYS).tolist() == [False, True]
+    assert setting.holds(np.array([WAY, [*WAY[:9], 2.0]]), SWEEPS).tolist() == [False, True]
 
 
 def test_within_includes_the_ends_of_the_ranges_of_ratios_and_magnitudes():

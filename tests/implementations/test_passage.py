@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import WAYS, with_axis
+from hypcheck.geometry.rows import SWEEPS, with_axis
 from hypcheck.implementations.description import Description, described
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome, StartError
@@ -78,7 +78,7 @@ def test_a_library_for_ways_is_called_by_its_function_for_passage(flags, tmp_pat
     library = compiled("passage", tmp_path / "passage.so", *SHARED, *flags)
     some = ways(700)
     if "-DTILT" in flags:
-        some = with_axis(some, WAYS)
+        some = with_axis(some, SWEEPS)
         some[:, 10] = np.random.default_rng(3).uniform(-5.0, 5.0, len(some))
     hits, times = crossing(some)
     with open_implementation(f"library:{library}", LIMITS) as it:
@@ -143,7 +143,7 @@ def test_an_implementation_for_ways_refuses_rows_of_another_width():
         with pytest.raises(InputError, match=r"shape \(24, 7\); it must be \(n, 10\): alpha, .*, z1$"):
             it.classify(ways()[:, :7])
         with pytest.raises(InputError, match=r"shape \(24, 13\)"):
-            it.classify(with_axis(ways(), WAYS))
+            it.classify(with_axis(ways(), SWEEPS))
 
 
 def test_the_question_of_a_description_cannot_be_overridden_by_passage():

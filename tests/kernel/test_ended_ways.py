@@ -10,9 +10,9 @@ import pytest
 
 from hypcheck import passage
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import CANNOT_SAY, WAYS, with_axis
-from hypcheck.vectors.families import ENDED_WAY_FAMILIES
-from hypcheck.vectors.frozen import WAY_NAMES, load
+from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS, with_axis
+from hypcheck.vectors.families import ENDED_SWEEP_FAMILIES
+from hypcheck.vectors.frozen import SWEEP_NAMES, load
 from tests.support.ended_ways import near_a_rim, past_a_tower
 from tests.support.inside import compiled_kernel, numpy_kernel_answer_ways
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
@@ -100,10 +100,10 @@ def test_the_kernel_answers_no_way_beside_an_end_wrongly_and_gives_no_late_time(
     assert ((by_numpy == CANNOT_SAY) | (by_numpy == right)).all()
 
 
-@pytest.mark.parametrize("name", list(ENDED_WAY_FAMILIES))
+@pytest.mark.parametrize("name", list(ENDED_SWEEP_FAMILIES))
 def test_of_each_family_no_way_is_answered_wrongly_in_any_mode_and_at_most_one_is_left_open(name):
     """Exact touches are among them, hairs down to 2⁻⁵⁰ radii, and ways that end or begin in a touch."""
-    rows = np.ascontiguousarray(ENDED_WAY_FAMILIES[name].rows(3, 24))
+    rows = np.ascontiguousarray(ENDED_SWEEP_FAMILIES[name].rows(3, 24))
     truth = np.array([exact_passage(row).hit for row in rows.tolist()])
     for mode in (TO_NEAREST, *DIRECTED):
         hits, times = np.empty(len(rows), np.int8), np.empty(len(rows))
@@ -167,10 +167,10 @@ def test_ways_beside_an_end_are_answered_alike_in_every_rounding_mode(mode):
     assert (answers[TO_NEAREST][both] == answers[mode][both]).all()
 
 
-@pytest.mark.parametrize("name", WAY_NAMES)
+@pytest.mark.parametrize("name", SWEEP_NAMES)
 def test_ends_that_are_infinite_or_far_away_change_no_answer_about_ways(name):
     rows = load(name).rows[:40]
-    wide = with_axis(rows, WAYS)
+    wide = with_axis(rows, SWEEPS)
     reach = 4 * np.abs(rows[:, :10]).max(axis=1)
     for low, high, solid in ((-INF, INF, 0), (-INF, INF, 1), (-reach, reach, 0), (-reach, INF, 1)):
         ends = [np.broadcast_to(each, len(rows)) for each in (low, high, solid)]

@@ -11,13 +11,13 @@ import pytest
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import ways
-from hypcheck.vectors.frozen import WAY_NAMES, load
+from hypcheck.vectors.frozen import SWEEP_NAMES, load
 from tests.support.inside import compiled_kernel, hits_at_size, numpy_kernel_answer_ways, scaled_passage
 from tests.tools.attack.rounding import DIRECTED, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
 
-UPRIGHT = [name for name in WAY_NAMES if not name.startswith("tilted")]
+UPRIGHT = [name for name in SWEEP_NAMES if not name.startswith("tilted")]
 TOUCHING = {"way-grazing", "way-near-graze", "way-short"}
 """Families in which clearance, or overlap, falls below what rounding may amount to."""
 
@@ -35,7 +35,7 @@ def some_ways(seed, count, *, leaning=False):
     return np.concatenate([sizes, start, end, axis], axis=1)
 
 
-@pytest.mark.parametrize("name", WAY_NAMES)
+@pytest.mark.parametrize("name", SWEEP_NAMES)
 def test_the_compiled_kernel_answers_no_frozen_way_wrongly_and_decides_most(name):
     cases = load(name)
     hits, times = compiled_kernel.answer_ways(cases.rows)

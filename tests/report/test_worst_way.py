@@ -56,13 +56,13 @@ def test_picture_of_ways_shows_the_worst_way_of_an_upright_spheroid():
     assert drawn_way(each).case == "way-long/1/1/4"
     (plot,) = draw_plots("ways", found)
     assert plot.title == "mine: way-long/1/1/4"
-    assert plot.description == "way-long/1/1/4: clear on the way; answered: in contact on the way."
+    assert plot.description == "way-long/1/1/4: clear on the sweep; answered: in contact on the sweep."
 
 
 def test_picture_of_ways_draws_a_straight_way_as_a_curve_and_marks_first_contact_in_both_panels():
     (plot,) = draw_plots("ways", ways(case("way-long/1/1/3", *THROUGH, 2.0)))
     assert plot.description == (
-        "way-long/1/1/3: in contact on the way, first at 0.275 of it; answered: clear on the way."
+        "way-long/1/1/3: in contact on the sweep, first at 0.275 of it; answered: clear on the sweep."
     )
     whole, near = plot.figure.axes
     curve = max(whole.lines, key=lambda line: len(line.get_xdata()))
@@ -78,7 +78,7 @@ def test_picture_of_ways_draws_a_straight_way_as_a_curve_and_marks_first_contact
 def test_picture_of_ways_draws_a_wrong_time_as_a_separate_body():
     late = case("way-long/1/1/3", *THROUGH, 7.0, answer=1, mistake="late", time=0.5, first=[0.275, 0.276])
     (plot,) = draw_plots("ways", ways(late))
-    assert plot.description.endswith("answered: in contact on the way, first at 0.5.")
+    assert plot.description.endswith("answered: in contact on the sweep, first at 0.5.")
     labels = [text.get_text() for legend in plot.figure.legends for text in legend.get_texts()]
     assert labels[-2:] == ["first contact", "at the answered time"]
 

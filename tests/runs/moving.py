@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import WAYS, invalid
+from hypcheck.geometry.rows import SWEEPS, invalid
 from hypcheck.runs.judges import passage_of
 
 hypcheck = {"name": "moving", "question": "passage", "tilt": True, "times": True, "refuses": True}
@@ -13,7 +13,7 @@ hypcheck = {"name": "moving", "question": "passage", "tilt": True, "times": True
 
 def exact(rows):
     """Right, by integers; a row that is none is refused."""
-    bad = invalid(rows, WAYS)
+    bad = invalid(rows, SWEEPS)
     hits, times = np.full(len(rows), REFUSED, dtype=np.int8), np.full(len(rows), np.nan)
     found = [passage_of(tuple(row)) for row in rows[~bad].tolist()]
     hits[~bad], times[~bad] = [each.hit for each in found], [each.first_lower for each in found]
@@ -25,7 +25,7 @@ def upright(rows):
     standing = rows.copy()
     standing[:, 10:] = 0.0, 0.0, 1.0
     hits, times = exact(standing)
-    return np.where(invalid(rows, WAYS), REFUSED, hits).astype(np.int8), times
+    return np.where(invalid(rows, SWEEPS), REFUSED, hits).astype(np.int8), times
 
 
 def clear_from_infinity(rows):

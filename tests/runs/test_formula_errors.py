@@ -7,13 +7,13 @@ import pytest
 
 import hypcheck
 from hypcheck.runs.causes import SILENT, AnsweredRows
-from hypcheck.runs.formula_errors import WAY_FORMULA_ERRORS
+from hypcheck.runs.formula_errors import SWEEP_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion
 from tests.support.fractions_truth import exact_position
 
 SIZES = (2.0, 3.0, 0.25, 0.15)
 COUNT = 150
-RULES = {cause.name: cause.rule for cause in WAY_FORMULA_ERRORS}
+RULES = {cause.name: cause.rule for cause in SWEEP_FORMULA_ERRORS}
 
 
 def ways(count, seed=7):

@@ -10,9 +10,9 @@ import pytest
 
 from hypcheck.implementations.session import Answered
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from hypcheck.runs.judges import judge_of, passage_of, radii_off, way_in_radii
+from hypcheck.runs.judges import judge_of, passage_of, radii_off, sweep_in_radii
 from hypcheck.runs.score import score
-from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.families import SWEEP_FAMILIES
 from tests.tools.mutants import passages
 from tests.tools.mutants.collection import public_functions
 from tests.tools.mutants.expectation import expectation_of
@@ -47,8 +47,8 @@ def by_hand():
 @pytest.fixture(scope="module")
 def rows():
     """Ways by hand and of the families, and ways within a hyperboloid."""
-    made = [family.rows(1, 4) for family in WAY_FAMILIES.values() if not family.tilted]
-    made += [WAY_FAMILIES[name].rows(1, 24) for name in ("way-anywhere", "way-tunnelling")]
+    made = [family.rows(1, 4) for family in SWEEP_FAMILIES.values() if not family.tilted]
+    made += [SWEEP_FAMILIES[name].rows(1, 24) for name in ("way-anywhere", "way-tunnelling")]
     inside = [[2.0, 17.8, 0.25, 0.15, *ends] for ends in ((0.0, 0.0, -9.0, 0.0, 0.0, 9.0), (0.5, 0, 1, 0.5, 1, 1))]
     return np.concatenate([by_hand(), inside, *made])
 
@@ -141,10 +141,10 @@ def test_size_error_of_a_wrong_answer_is_measured_and_a_wrong_time_in_radii_of_t
 
 def test_way_of_a_spheroid_that_leans_is_measured_along_its_own_axis():
     sizes, start, end = (1.0, 2.0, 0.5, 0.25), (0.0, 0.0, 0.0), (3.0, 0.0, 0.0)
-    assert way_in_radii((*sizes, *start, *end)) == 6.0
-    assert way_in_radii((*sizes, *start, *end, 0.0, 0.0, 1e300)) == 6.0
-    assert way_in_radii((*sizes, *start, *end, -1e-300, 0.0, 0.0)) == 12.0
-    assert way_in_radii((*sizes, *start, *end, 1.0, 1.0, 0.0)) == pytest.approx(3 * math.hypot(4, 2) / 2**0.5)
+    assert sweep_in_radii((*sizes, *start, *end)) == 6.0
+    assert sweep_in_radii((*sizes, *start, *end, 0.0, 0.0, 1e300)) == 6.0
+    assert sweep_in_radii((*sizes, *start, *end, -1e-300, 0.0, 0.0)) == 12.0
+    assert sweep_in_radii((*sizes, *start, *end, 1.0, 1.0, 0.0)) == pytest.approx(3 * math.hypot(4, 2) / 2**0.5)
 
 
 def test_answer_cannot_say_about_a_way_is_not_wrong(rows):

@@ -11,11 +11,11 @@ import pytest
 from click.testing import CliRunner
 
 from hypcheck.cli.setup import init
-from hypcheck.geometry.rows import WAYS, with_axis
+from hypcheck.geometry.rows import SWEEPS, with_axis
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits
 from hypcheck.scaffold.project import LANGUAGES, STUBS, Project
-from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.families import SWEEP_FAMILIES
 from tests.scaffold.test_adapters import TOOLS
 
 SWITCHES = {
@@ -31,7 +31,7 @@ ESCAPED = (r"\"binary\":true", r"\"times\":true,\"tilt\":true,\"binary\":true")
 
 @pytest.fixture(scope="module")
 def rows():
-    return np.concatenate([WAY_FAMILIES[name].rows(1, 300) for name in ("way-anywhere", "way-tunnelling")])
+    return np.concatenate([SWEEP_FAMILIES[name].rows(1, 300) for name in ("way-anywhere", "way-tunnelling")])
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +77,7 @@ def test_generated_adapter_for_ways_passes_on_answers_times_and_axes_of_its_stub
     built(project)
     with open_implementation(project.language.spec, Limits(restarts=0)) as it:
         assert (it.declared.times, it.declared.tilt) == (True, True)
-        answered = it.classify(with_axis(rows, WAYS))
+        answered = it.classify(with_axis(rows, SWEEPS))
     assert answered.answers.tolist() == hits.tolist(), answered.reasons
     np.testing.assert_array_equal(answered.times, times)
     if name != "python":

@@ -36,22 +36,22 @@ from tests.support.inside import (
     exact_position,
     heights_position,
     integers_position,
-    journey_of,
     least_position,
     numpy_kernel_answer_ways,
+    sweep_of,
 )
 from tests.support.inside import kernel_classify as classify
 
 CANNOT_SAY, REFUSED = 2, 127
 POSITIONS = ("", "axis")
 """The groups of rows about positions."""
-WAYS = ("end", "end axis")
+SWEEPS = ("end", "end axis")
 """The groups of rows about straight ways."""
 ENDED = ("axis heights",)
 """That of rows about hyperboloids that end."""
 ENDED_WAYS = ("end axis heights",)
 """That of rows about ways beside them."""
-ALL = POSITIONS + WAYS + ENDED + ENDED_WAYS
+ALL = POSITIONS + SWEEPS + ENDED + ENDED_WAYS
 UPRIGHT = ("",)
 
 
@@ -248,7 +248,7 @@ def of_float_filter(questions: Questions) -> list[int]:
 
 def of_discriminant(questions: Questions) -> Times:
     """The passage by the roots of the discriminant, which is asked where steps do not decide."""
-    ways = [journey_of(row[:4], row[4:7], row[7:10], row[10:] or None) for row in questions.rows.tolist()]
+    ways = [sweep_of(row[:4], row[4:7], row[7:10], row[10:] or None) for row in questions.rows.tolist()]
     found = [by_roots(way) for way in ways]
     first = [(passage.first_lower, passage.first_upper) if passage.hit else (np.nan, np.nan) for passage in found]
     return Times([int(passage.hit) for passage in found], np.array(first).reshape(-1, 2))
@@ -421,14 +421,14 @@ DECIDERS = (
     ),
     Decider("fractions", of_fractions, every=8, refuses=False, drawn=False),
     Decider("certificates", checkers.check_positions, every=4, refuses=False, drawn=False),
-    Decider("hypcheck.passage", of_passage, takes=WAYS, every=3),
-    Decider("passage by the discriminant", of_discriminant, takes=WAYS, every=36, refuses=False, drawn=False),
-    Decider("hypcheck.Scene.passage", partial(by_row, of_scene_passage), takes=WAYS, every=5),
+    Decider("hypcheck.passage", of_passage, takes=SWEEPS, every=3),
+    Decider("passage by the discriminant", of_discriminant, takes=SWEEPS, every=36, refuses=False, drawn=False),
+    Decider("hypcheck.Scene.passage", partial(by_row, of_scene_passage), takes=SWEEPS, every=5),
     Decider("builtin:passage-certified", partial(of_method, "passage-certified"), takes=("end",), refuses=False),
-    Decider("the C header, ways", of_header, takes=WAYS, abstains=0.1, lacks=lacks_compiler),
-    Decider("the numpy kernel, ways", of_ways_in_numpy, takes=WAYS, abstains=0.7),
+    Decider("the C header, ways", of_header, takes=SWEEPS, abstains=0.1, lacks=lacks_compiler),
+    Decider("the numpy kernel, ways", of_ways_in_numpy, takes=SWEEPS, abstains=0.7),
     Decider("hypcheck.passage, ends", of_passage, takes=ENDED_WAYS, every=4, refuses=False, drawn=False),
     Decider("the kernel, ways and ends", of_ways_in_c, takes=ENDED_WAYS, abstains=0.2, refuses=False, drawn=False),
     Decider("the numpy kernel, ways and ends", of_ways_in_numpy, ENDED_WAYS, 1.0, refuses=False, drawn=False),
-    Decider("certificates of ways", checkers.check_ways, takes=WAYS, every=3, refuses=False, drawn=False),
+    Decider("certificates of ways", checkers.check_ways, takes=SWEEPS, every=3, refuses=False, drawn=False),
 )

@@ -121,7 +121,7 @@ from hypcheck.truth.roots import (
     real_roots,
 )
 from hypcheck.truth.surds import Surd, sign_at_root
-from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, journey_of, passage, reach, steps
+from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, reach, steps, sweep_of
 
 __all__ = [
     "AXIAL",
@@ -228,7 +228,6 @@ __all__ = [
     "integers_position",
     "is_tolerated",
     "isolate",
-    "journey_of",
     "kernel",
     "kernel_choice",
     "kernel_classify",
@@ -281,6 +280,7 @@ __all__ = [
     "size_error",
     "steps",
     "surfaces",
+    "sweep_of",
     "swept",
     "thresholds",
     "tilted",

@@ -32,7 +32,7 @@ from hypcheck import passage
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel import _compiled
-from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
 from tests.support.ended_ways import near_a_rim, past_a_tower
 from tests.support.inside import answer_ways, compiled_kernel, least_position, position, verdict
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
@@ -131,9 +131,9 @@ def compare_ways(rows, kind, counts):
 
 def compare_modes(given, counts):
     """Rows of every family that ends under four rounding modes, beside the exact rule; ways beside round to nearest."""
-    for name, family in {**ENDED_FAMILIES, **ENDED_WAY_FAMILIES}.items():
+    for name, family in {**ENDED_FAMILIES, **ENDED_SWEEP_FAMILIES}.items():
         rows = np.ascontiguousarray(family.rows(given.seed, given.rows))
-        ways = rows.shape[1] == len(ENDED_WAY_FAMILIES["ended-way-thin"].columns)
+        ways = rows.shape[1] == len(ENDED_SWEEP_FAMILIES["ended-way-thin"].columns)
         truth = None if ways else np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
         for mode in (TO_NEAREST, *DIRECTED):
             answers = np.empty(len(rows), np.int8)

@@ -26,7 +26,7 @@ from itertools import groupby
 from sympy import QQ, Poly, symbols
 
 from hypcheck.vectors import frozen
-from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.families import SWEEP_FAMILIES
 from tests.support import fractions_truth, tilted_fractions
 from tests.support.inside import passage
 
@@ -194,18 +194,18 @@ def told(first):
     return "no time" if first is None else f"t = {float(first[0])!r} … {float(first[1])!r}"
 
 
-def frozen_ways(names=frozen.WAY_NAMES):
+def frozen_ways(names=frozen.SWEEP_NAMES):
     """What the files say."""
     for name in names:
         for case in frozen.load(name).cases:
             yield Said(case.id, case.row, case.first and tuple(map(Fraction, case.first)))
 
 
-def generated_ways(count, seed, names=frozen.WAY_NAMES):
+def generated_ways(count, seed, names=frozen.SWEEP_NAMES):
     """What hypcheck.passage says of so many ways, those of each family in turn."""
     share = -(-count // len(names))
     for name in names:
-        family = WAY_FAMILIES[name]
+        family = SWEEP_FAMILIES[name]
         for number, row in enumerate(family.rows(seed, share).tolist()):
             found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
             yield Said(f"{name}/{family.version}/{seed}/{number}", tuple(row), found.first)
@@ -223,7 +223,7 @@ def main(arguments=None):
     parser.add_argument("--rows", type=int, help="generated ways; without it the frozen ones")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--samples", type=int, default=64, help="times on a way, and before its first contact")
-    parser.add_argument("--families", default=",".join(frozen.WAY_NAMES), help="names, with commas between")
+    parser.add_argument("--families", default=",".join(frozen.SWEEP_NAMES), help="names, with commas between")
     parser.add_argument("--jobs", type=int, default=1)
     asked = parser.parse_args(arguments)
     names = asked.families.split(",")

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth.journey import _ring_between
+from hypcheck.truth.sweep import _ring_between
 from hypcheck.vectors.tilted import RINGS, TWO_POINTS
 from tests.support.inside import (
     Surd,
@@ -21,12 +21,12 @@ from tests.support.inside import (
     exact,
     hits_at_size,
     is_tolerated,
-    journey_of,
     passage,
     quartic,
     sign_at_root,
     size_error,
     surfaces,
+    sweep_of,
     tolerance,
 )
 
@@ -62,8 +62,8 @@ def test_answer_about_a_tilted_way_agrees_with_exact_positions_on_it(sizes, star
 @settings(max_examples=8, deadline=None)
 @given(_sizes, _centers, _centers, st.one_of(st.none(), _axes))
 def test_passage_by_steps_and_by_roots_agree_about_a_tilted_way(sizes, start, end, axis):
-    journey = journey_of(sizes, start, end, axis)
-    steps, roots = by_steps(journey), by_roots(journey)
+    sweep = sweep_of(sizes, start, end, axis)
+    steps, roots = by_steps(sweep), by_roots(sweep)
     assume(steps is not None)
     assert (steps.start, steps.end, steps.hit, steps.grazes) == (roots.start, roots.end, roots.hit, roots.grazes)
     if steps.hit:
@@ -104,9 +104,9 @@ def test_tilted_way_that_passes_the_ring_is_clear(row):
     """Every way through the centre is short enough to stay clear, and the discriminant is 0 there."""
     ways = [beside(row)[0], (0, 1, 0)]
     for way in ways:
-        journey = journey_of(*way_through(row, way, Fraction(1, 2**20)))
-        assert by_roots(journey).clear
-        assert by_steps(journey).clear
+        sweep = sweep_of(*way_through(row, way, Fraction(1, 2**20)))
+        assert by_roots(sweep).clear
+        assert by_steps(sweep).clear
 
 
 @pytest.mark.parametrize("row", TWO_POINTS)
@@ -133,14 +133,14 @@ def test_a_way_along_which_every_position_has_a_multiple_root_is_decided():
     With λ = −1 the form S + λH has two zero directions at every time; −1 is the pole of the direction n.
     """
     way = ((3, 1, 3, 1), (0, 0, 0), (Fraction(128, 9), 0, 64), (1, 0, 2))
-    journey = journey_of(*way)
+    sweep = sweep_of(*way)
     found = passage(*way)
     positions = [position(*way, Fraction(n, 16)) for n in range(17)]
     assert {*positions} == {CONTACT, Position.INTERIOR}
-    assert all(journey.tangent(Fraction(n, 16)) for n in range(17) if positions[n] is CONTACT)
+    assert all(sweep.tangent(Fraction(n, 16)) for n in range(17) if positions[n] is CONTACT)
     assert found.first == (0, 0)
     assert found.grazes
-    back = by_roots(journey_of(way[0], way[2], way[1], way[3]))
+    back = by_roots(sweep_of(way[0], way[2], way[1], way[3]))
     last = Fraction(positions.count(CONTACT) - 1, 16)
     assert 1 - last - Fraction(1, 16) <= back.first[0] <= back.first[1] <= 1 - last
 
@@ -232,7 +232,7 @@ def test_a_way_without_length_grazes_where_it_touches_and_a_way_that_leaves_a_to
         found = passage((1, 1, 1, 1), touching, end)
         assert (found.first, found.grazes) == ((0, 0), True)
     assert not passage((1, 1, 1, 1), (1.5, 0.0, 0.0), (1.5, 0.0, 0.0)).grazes
-    late = by_roots(journey_of((1, 1, 1, 1), (11.0, 0.0, 0.0), (1.0, 0.0, 0.0)))
+    late = by_roots(sweep_of((1, 1, 1, 1), (11.0, 0.0, 0.0), (1.0, 0.0, 0.0)))
     assert late.first[0] <= Fraction(9, 10) <= late.first[1]
     assert not late.grazes
 

@@ -9,13 +9,13 @@ import mpmath
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.journey import piece
 from hypcheck.truth.rationals import shortened
-from tests.support.inside import WIDTH_BITS, cubic, journey_of, quartic, reach, steps, value
+from hypcheck.truth.sweep import piece
+from tests.support.inside import WIDTH_BITS, cubic, quartic, reach, steps, sweep_of, value
 from tests.support.inside import exact_discriminant as discriminant_of
 from tests.truth.test_passage_certificate import INSIDE, OUTSIDE, THROUGH, TUNNEL, random_ways
 
-WAYS = [THROUGH, OUTSIDE, TUNNEL, INSIDE, *random_ways(12)]
+SWEEPS = [THROUGH, OUTSIDE, TUNNEL, INSIDE, *random_ways(12)]
 
 
 def discriminant(f):
@@ -27,8 +27,8 @@ def discriminant(f):
     return b * b * c * c - 4 * a * c**3 - 4 * b**3 * d + 18 * a * b * c * d - 27 * a * a * d * d
 
 
-def journey(row):
-    return journey_of(row[:4], row[4:7], row[7:10], row[10:] or None)
+def sweep(row):
+    return sweep_of(row[:4], row[4:7], row[7:10], row[10:] or None)
 
 
 def times(seed=1):
@@ -51,18 +51,18 @@ def are_proportional(first, second):
     return first[0] * second[0] > 0 and all(a * second[0] == b * first[0] for a, b in zip(first, second, strict=True))
 
 
-@pytest.mark.parametrize("row", WAYS)
+@pytest.mark.parametrize("row", SWEEPS)
 def test_the_pencil_of_a_way_is_that_of_the_pair_at_each_time(row):
-    way = journey(row)
+    way = sweep(row)
     for time in times():
         there = [at_time(each, time) for each in way.pencil]
         if way.is_upright or quartic(way.at(time)).side:
             assert are_proportional(there, coefficients(way, time)), time
 
 
-@pytest.mark.parametrize("row", WAYS)
+@pytest.mark.parametrize("row", SWEEPS)
 def test_piece_of_a_proof_is_the_determinant_of_the_pencil_at_its_multiplier(row):
-    way = journey(row)
+    way = sweep(row)
     for multiplier in (Fraction(3, 7), Fraction(-2, 5), Fraction(11)):
         proof = piece(way.pencil, multiplier)
         assert len(proof) == 3
@@ -76,17 +76,17 @@ def at_time(polynomial, time):
     return sum(each * time**power for power, each in enumerate(reversed(polynomial)))
 
 
-@pytest.mark.parametrize("row", [row for row in WAYS if len(row) == 10])
+@pytest.mark.parametrize("row", [row for row in SWEEPS if len(row) == 10])
 def test_the_critical_polynomial_of_an_upright_way_has_the_sign_of_the_discriminant(row):
-    way = journey(row)
+    way = sweep(row)
     for time in times():
         expected, found = discriminant(coefficients(way, time)), value(way.critical(), time)
         assert (found > 0, found < 0) == (expected > 0, expected < 0)
 
 
-@pytest.mark.parametrize("row", [row for row in WAYS if len(row) > 10])
+@pytest.mark.parametrize("row", [row for row in SWEEPS if len(row) > 10])
 def test_the_critical_polynomial_of_a_leaning_way_has_the_sign_of_the_discriminant(row):
-    way = journey(row)
+    way = sweep(row)
     for time in times():
         expected, found = discriminant_of(quartic(way.at(time))), value(way.critical(), time)
         assert (found > 0, found < 0) == (expected > 0, expected < 0)
@@ -94,7 +94,7 @@ def test_the_critical_polynomial_of_a_leaning_way_has_the_sign_of_the_discrimina
 
 @pytest.mark.parametrize("row", [OUTSIDE, INSIDE])
 def test_each_multiplier_of_an_upright_way_is_the_local_maximum_to_twice_as_many_bits(row):
-    way = journey(row)
+    way = sweep(row)
     with mpmath.workprec(600):
         for time in times():
             n3, n2, n1, _ = coefficients(way, time)
@@ -156,7 +156,7 @@ def test_reach_of_a_quadratic_is_none_if_no_root_lies_ahead():
 
 def test_steps_enclose_the_first_contact_within_the_stated_width():
     for row in (THROUGH, TUNNEL):
-        way = journey(row)
+        way = sweep(row)
         found = steps(way)
         assert way.position(found.contact) is Position.CONTACT
         assert way.position(found.until) is not Position.CONTACT
@@ -165,7 +165,7 @@ def test_steps_enclose_the_first_contact_within_the_stated_width():
 
 @pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, INSIDE])
 def test_each_piece_of_a_proof_is_positive_over_its_whole_stretch(row):
-    way, last = journey(row), Fraction(0)
+    way, last = sweep(row), Fraction(0)
     found = steps(way)
     for multiplier, end in found.pieces:
         assert last < end <= 1

@@ -12,9 +12,9 @@ from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.vectors import coincidences, double_roots
 from hypcheck.vectors.double_roots import gather
 from hypcheck.vectors.draw import Draw
-from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
+from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES
 from hypcheck.vectors.family import BLOCK
-from hypcheck.vectors.ways import more_than_a_radius_away, ring_attempt
+from hypcheck.vectors.sweeps import more_than_a_radius_away, ring_attempt
 from tests.support import inside
 from tests.support.inside import Kind, cubic, hits_at_size
 from tests.vectors.case_rows import COUNT, fractions, kinds, lengths_of, ratios
@@ -182,7 +182,7 @@ def test_osculation_and_near_axis_families_approach_their_borders_from_both_side
 
 
 def test_generated_ways_across_a_ring_are_clear_where_rings_beside_the_surface_were_replaced() -> None:
-    rows = WAY_FAMILIES["way-ring"].rows(1, BLOCK)
+    rows = SWEEP_FAMILIES["way-ring"].rows(1, BLOCK)
     before = gather(Draw("way-ring", 1, 1, 0), BLOCK, ring_attempt)
     replaced = (rows != before).any(axis=1)
     assert 0 < replaced.sum() < 0.05 * BLOCK

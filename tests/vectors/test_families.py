@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, WAYS, invalid
+from hypcheck.geometry.rows import PAIRS, SWEEPS, invalid
 from hypcheck.vectors.families import (
     ALL,
     ENDED_FAMILIES,
-    ENDED_WAY_FAMILIES,
+    ENDED_SWEEP_FAMILIES,
     FAMILIES,
+    SWEEP_FAMILIES,
     TILTED_FAMILIES,
-    WAY_FAMILIES,
     case_id,
     family_of,
     is_extreme,
@@ -154,7 +154,7 @@ every_family = pytest.mark.parametrize("family", ALL.values(), ids=lambda family
 
 def digest(family: Family) -> str:
     """Of 256 rows, or of 64 ways."""
-    count = 64 if family.layout is WAYS else 256
+    count = 64 if family.layout is SWEEPS else 256
     return hashlib.sha256(family.rows(0, count).astype("<f8").tobytes()).hexdigest()
 
 
@@ -162,15 +162,15 @@ def test_every_family_is_in_the_table_of_its_kind() -> None:
     for families, layout, tilted in (
         (FAMILIES, PAIRS, {False}),
         (TILTED_FAMILIES, PAIRS, {True}),
-        (WAY_FAMILIES, WAYS, {False, True}),
-        (ENDED_WAY_FAMILIES, WAYS, {False, True}),
+        (SWEEP_FAMILIES, SWEEPS, {False, True}),
+        (ENDED_SWEEP_FAMILIES, SWEEPS, {False, True}),
     ):
         assert {family.layout for family in families.values()} == {layout}
         assert {family.tilted for family in families.values()} == tilted
-        assert all(("way" in name) == (layout is WAYS) for name in families)
-    ended = ENDED_FAMILIES | ENDED_WAY_FAMILIES
+        assert all(("way" in name) == (layout is SWEEPS) for name in families)
+    ended = ENDED_FAMILIES | ENDED_SWEEP_FAMILIES
     assert [name for name, family in ALL.items() if family.ended] == [*ended]
-    assert [*ALL] == [*FAMILIES, *TILTED_FAMILIES, *WAY_FAMILIES, *ended]
+    assert [*ALL] == [*FAMILIES, *TILTED_FAMILIES, *SWEEP_FAMILIES, *ended]
 
 
 @every_family
@@ -279,9 +279,9 @@ def test_select_takes_tilted_families_only_if_tilt_is_requested():
 
 
 def test_select_takes_families_of_ways_only_if_ways_are_requested():
-    assert not any(family.layout is WAYS for family in select(["*"], tilted=True))
-    assert set(select(["*"], tilted=True, layout=WAYS)) == set(WAY_FAMILIES.values())
-    assert set(select(["*-way-*"], tilted=True, ended=True, layout=WAYS)) >= set(ENDED_WAY_FAMILIES.values())
+    assert not any(family.layout is SWEEPS for family in select(["*"], tilted=True))
+    assert set(select(["*"], tilted=True, layout=SWEEPS)) == set(SWEEP_FAMILIES.values())
+    assert set(select(["*-way-*"], tilted=True, ended=True, layout=SWEEPS)) >= set(ENDED_SWEEP_FAMILIES.values())
     with pytest.raises(InputError, match="'ended-way-thin' names hyperboloids that end"):
         select(["ended-way-thin"])
     with pytest.raises(InputError, match="'way-ring' names ways"):

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import UNSET
 
-from hypcheck.geometry.rows import PAIRS, WAYS
+from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
@@ -126,7 +126,7 @@ def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
     """The kinds of mistakes that can be made about the questions of these methods."""
     layouts = {QUESTIONS[each.question].layout for each in found}
     of_positions = [Mistake.WRONG_SIDE] if PAIRS in layouts else []
-    of_times = [Mistake.LATE, Mistake.EARLY] if WAYS in layouts else []
+    of_times = [Mistake.LATE, Mistake.EARLY] if SWEEPS in layouts else []
     return [each.value for each in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
 
 
@@ -338,7 +338,7 @@ def _overlaps(lines: list[BoundingLine]) -> TableBlock:
     return table("bounding volumes by shape of the spheroid", columns, rows)
 
 
-_WAYS = prose(
+_SWEEPS = prose(
     "A *missed contact* (dangerous) is a way that was called clear and has contact; a *false contact* closes a way that"
     " is clear. Counts are of all workloads together; a slow method is asked fewer ways. A wrong answer is measured by"
     " the change of b and d that makes it right: half of the wrong answers need at least what stands under *wrong by*,"
@@ -353,7 +353,7 @@ def way_sections(record: Record) -> Iterator[Section]:
     totals = way_totals(record)
     if totals:
         yield Section(
-            "Missed and false contacts against time", (Paragraph(_WAYS), _WAY_FRONT, _way_table(record, totals))
+            "Missed and false contacts against time", (Paragraph(_SWEEPS), _WAY_FRONT, _way_table(record, totals))
         )
 
 

@@ -255,8 +255,8 @@ def _gated_value(tested: UnderTest) -> Text:
     return (name, said)
 
 
-WAYS = Figures("ways", "the way of each implementation's worst answer, in the half plane (r, z)", "ways.svg")
-_WAYS = prose(
+SWEEPS = Figures("ways", "the way of each implementation's worst answer, in the half plane (r, z)", "ways.svg")
+_SWEEPS = prose(
     "The worst answer of each implementation about a way of an upright spheroid. Distance from the axis is drawn across"
     " and height up, so that a straight way is curved; a spheroid touches the hyperboloid in this plane. On the right"
     " is where it first touches, or comes nearest, each direction in its own scale."
@@ -266,7 +266,7 @@ _WAYS = prose(
 def way_sections(record: Record) -> Iterator[Section]:
     """The worst answers about ways, drawn; none if no such answer is wrong."""
     if any(drawn_way(each) is not None for each in implementations(record)):
-        yield Section("The worst ways", (Paragraph(_WAYS), WAYS))
+        yield Section("The worst ways", (Paragraph(_SWEEPS), SWEEPS))
 
 
 def timing_sections(record: Record) -> Iterator[Section]:

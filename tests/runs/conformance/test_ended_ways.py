@@ -80,7 +80,7 @@ def verified(folder, spec, families, *words):
 def test_header_answers_all_frozen_ways_beside_ends(tmp_path):
     library = compiled_text(HEADER.replace("PATH", str(TARGET)), tmp_path / "header.so")
     code, statuses = verified(tmp_path, f"library:{library}", "*ended-way*")
-    asked = sum(frozen.count_of(name) for name in frozen.ENDED_WAY_NAMES)
+    asked = sum(frozen.count_of(name) for name in frozen.ENDED_SWEEP_NAMES)
     assert code == 0
     assert statuses["right"] + statuses.get("skipped", 0) == asked
     assert statuses["right"] > 0.8 * asked

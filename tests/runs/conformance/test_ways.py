@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.geometry.rows import WAYS
+from hypcheck.geometry.rows import SWEEPS
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance
 from hypcheck.record import read
@@ -50,7 +50,7 @@ def test_sampled_passage_fails_with_missed_contacts_and_late_times_counted_separ
     counted = summary["implementations"][0]["mistakes"]
     assert counted["false-clear"] + counted.get("late", 0) == ASKED
     report = (tmp_path / "report.md").read_text()
-    assert "in contact on the way" in report
+    assert "in contact on the sweep" in report
 
 
 @pytest.mark.slow
@@ -144,7 +144,7 @@ def test_saved_progress_keeps_ends_and_times_of_ways():
         CaseChunk("way-anywhere", 1, 2, 4), np.arange(2), np.array([1, 0], dtype=np.int8), np.array([0.25, np.nan])
     )
     total = CasesResult({"way-anywhere": Tally(asked=2, worst=(worst,), unanswered=(lost,))}, (pending,))
-    back = restored_state(saved_state(RunState(Allowance(1, 1), 1, total), WAYS)).total
+    back = restored_state(saved_state(RunState(Allowance(1, 1), 1, total), SWEEPS)).total
     assert back.tallies["way-anywhere"].worst == (worst,)
     assert back.tallies["way-anywhere"].unanswered == (lost,)
     np.testing.assert_array_equal(back.pending[0].times, pending.times)

@@ -8,13 +8,13 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
-from hypcheck.geometry.rows import PAIRS, WAYS, invalid
+from hypcheck.geometry.rows import PAIRS, SWEEPS, invalid
 from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt_place import ENDED, place_of, place_of_row
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
-from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
 
 CENTRE_ALONE = """
 hypcheck = {"takes": ["axis", "heights"]}
@@ -66,7 +66,7 @@ def test_minimise_takes_rows_with_ends_and_proves_the_right_answer(text, row, ca
 
 
 def test_strata_have_the_families_with_ends_where_heights_are_taken():
-    for layout, families in ((PAIRS, ENDED_FAMILIES), (WAYS, ENDED_WAY_FAMILIES)):
+    for layout, families in ((PAIRS, ENDED_FAMILIES), (SWEEPS, ENDED_SWEEP_FAMILIES)):
         without, all_of_them = (
             {stratum.name for stratum in hunt_search.strata(tilt=True, heights=heights, layout=layout)}
             for heights in (False, True)
@@ -76,7 +76,7 @@ def test_strata_have_the_families_with_ends_where_heights_are_taken():
     assert not any("tilted" in name for name in upright)
 
 
-@pytest.mark.parametrize(("row", "layout"), [(PIERCED, PAIRS), (LANDING, WAYS)])
+@pytest.mark.parametrize(("row", "layout"), [(PIERCED, PAIRS), (LANDING, SWEEPS)])
 def test_neighbours_of_a_row_with_ends_are_valid_and_have_other_ends(row, layout):
     around = neighbours(Draw("test"), [Climber(row, 1.0, 0.25)], layout)
     assert around.rows.shape[1] == len(layout.ended)
@@ -105,6 +105,6 @@ def test_place_of_a_row_with_ends_says_what_they_change(row, kind):
 
 
 def test_place_of_a_way_beside_ends_says_so_and_whether_the_spheroid_is_tilted():
-    assert ENDED in place_of_row(LANDING, WAYS).words
-    assert "tilted" not in place_of_row(LANDING, WAYS).words
-    assert "tilted" in place_of_row((*LANDING[:10], 1.0, 0.0, 1.0, *LANDING[13:]), WAYS).words
+    assert ENDED in place_of_row(LANDING, SWEEPS).words
+    assert "tilted" not in place_of_row(LANDING, SWEEPS).words
+    assert "tilted" in place_of_row((*LANDING[:10], 1.0, 0.0, 1.0, *LANDING[13:]), SWEEPS).words

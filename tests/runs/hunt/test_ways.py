@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.geometry.rows import WAYS, invalid
-from hypcheck.runs.hunt_place import TILTED, WAY, way_place
+from hypcheck.geometry.rows import SWEEPS, invalid
+from hypcheck.runs.hunt_place import TILTED, WAY, sweep_place
 from hypcheck.runs.hunt_search import Climber, neighbours
-from hypcheck.runs.minimise import same_query, small_ways
+from hypcheck.runs.minimise import same_query, small_sweeps
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
-from hypcheck.vectors.families import WAY_FAMILIES
+from hypcheck.vectors.families import SWEEP_FAMILIES
 from tests.support.inside import hits_at_size, scaled_passage
 from tests.tools.way_agreement import Said, faults
 
@@ -64,8 +64,8 @@ def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_ti
 
 
 def test_neighbours_of_a_way_are_valid_and_brought_to_the_border_of_contact():
-    around = neighbours(Draw("test"), [Climber(BESIDE, 1.0, 0.25)], WAYS)
-    assert not invalid(around.rows, WAYS).any()
+    around = neighbours(Draw("test"), [Climber(BESIDE, 1.0, 0.25)], SWEEPS)
+    assert not invalid(around.rows, SWEEPS).any()
     numbers, counts = np.unique(around.ladders, return_counts=True)
     longest = numbers[np.argmax(counts)]
     ladder = around.rows[around.ladders == longest]
@@ -86,16 +86,16 @@ def test_the_simplest_way_that_fails_alike_is_short_and_its_answer_is_proved(cap
     found = scaled_passage(row)
     assert found.hit
     assert 0 not in (found.start, found.end)
-    assert "answer      contact on the way" in said
+    assert "answer      contact on the sweep" in said
     assert "proof       contact at t " in said
 
 
 def test_way_in_other_coordinates_has_the_same_answer():
-    for row in [THROUGH, *map(tuple, WAY_FAMILIES["tilted-way-uniform"].rows(4, 2).tolist())]:
+    for row in [THROUGH, *map(tuple, SWEEP_FAMILIES["tilted-way-uniform"].rows(4, 2).tolist())]:
         hit = hits_at_size(row)
-        for other in list(same_query(row, WAYS))[:8]:  # units are rounded
+        for other in list(same_query(row, SWEEPS))[:8]:  # units are rounded
             assert hits_at_size(other) == hit
-    assert len(set(small_ways())) == len(small_ways())
+    assert len(set(small_sweeps())) == len(small_sweeps())
 
 
 @pytest.mark.parametrize(
@@ -109,18 +109,18 @@ def test_way_in_other_coordinates_has_the_same_answer():
         ({4: 2.0, 5: -3.0, 6: 0.0, 7: 2.0, 8: 3.0}, "contact for an instant"),
         ({4: 4.0, 5: 0.0, 6: 0.0, 7: 2.25, 8: 0.0}, "across the ring"),
         ({0: 9.0, 4: 1.0, 7: 0.0}, "clear inside"),
-        ({4: 9.0, 7: 9.0, 9: 5.0}, "a vertical way"),
-        ({4: 9.0, 7: 99999.0}, "a long way"),
+        ({4: 9.0, 7: 9.0, 9: 5.0}, "a vertical sweep"),
+        ({4: 9.0, 7: 99999.0}, "a long sweep"),
     ],
 )
 def test_place_of_a_way_names_what_happens_on_it(changes, kind):
     row = tuple(changes.get(place, value) for place, value in enumerate(THROUGH))
-    place = way_place(row)
+    place = sweep_place(row)
     assert place.kind == place.cause == kind
 
 
 def test_the_place_of_a_way_says_that_the_spheroid_leans():
     row = (*THROUGH[:3], 0.5, *THROUGH[4:], 1.0, 0.0, 1.0)
-    assert TILTED in way_place(row).words
-    assert TILTED not in way_place((*row[:10], 0.0, 0.0, 2.0)).words
-    assert replace(way_place(row), words="").cause == "contact between two clear ends"
+    assert TILTED in sweep_place(row).words
+    assert TILTED not in sweep_place((*row[:10], 0.0, 0.0, 2.0)).words
+    assert replace(sweep_place(row), words="").cause == "contact between two clear ends"

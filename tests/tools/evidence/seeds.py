@@ -11,9 +11,9 @@ import numpy as np
 
 from tests.tools.evidence.parts import ROOT
 
-ROWS, LEANING, SCENE, LEANING_SCENE, WAYS, LEANING_WAYS, CLEARANCES = range(7)
-WIDTHS = {ROWS: 7, LEANING: 10, SCENE: 7, LEANING_SCENE: 10, WAYS: 10, LEANING_WAYS: 13, CLEARANCES: 7}
-TOGETHER = {ROWS: 8, LEANING: 4, SCENE: 8, LEANING_SCENE: 4, WAYS: 2, LEANING_WAYS: 2, CLEARANCES: 2}
+ROWS, LEANING, SCENE, LEANING_SCENE, SWEEPS, LEANING_WAYS, CLEARANCES = range(7)
+WIDTHS = {ROWS: 7, LEANING: 10, SCENE: 7, LEANING_SCENE: 10, SWEEPS: 10, LEANING_WAYS: 13, CLEARANCES: 7}
+TOGETHER = {ROWS: 8, LEANING: 4, SCENE: 8, LEANING_SCENE: 4, SWEEPS: 2, LEANING_WAYS: 2, CLEARANCES: 2}
 """Numbers of a row, and rows of an input."""
 
 
@@ -45,7 +45,7 @@ def seeds(every: int = 1) -> Iterator[bytes]:
 
 def _kinds(name: str, width: int) -> tuple[int, ...]:
     if name.startswith(("way-", "tilted-way-")):
-        return (WAYS,) if width == WIDTHS[WAYS] else (LEANING_WAYS,)
+        return (SWEEPS,) if width == WIDTHS[SWEEPS] else (LEANING_WAYS,)
     return (ROWS, SCENE, CLEARANCES) if width == WIDTHS[ROWS] else (LEANING, LEANING_SCENE)
 
 

@@ -17,7 +17,7 @@ COMMAND = "make mutants"
 NAMED = 3
 """Families that a row of the first tables names; the last table has them all."""
 
-WAYS = ("passages", "ended")
+SWEEPS = ("passages", "ended")
 """Modules about ways and ends, which have families of their own: few, and named in the module's table."""
 
 HEAD = ("implementation", "what it does", "options", "must be", "was", "cases", "families", "most of them in")
@@ -30,7 +30,7 @@ def paragraph_lines(*sentences: str) -> list[str]:
 
 def render(results: Sequence[Result]) -> str:
     """The page."""
-    wrong = [result for result in results if not result.mutant.expectation.right and result.mutant.module not in WAYS]
+    wrong = [result for result in results if not result.mutant.expectation.right and result.mutant.module not in SWEEPS]
     lines = [
         "# Can the gate fail?",
         "",

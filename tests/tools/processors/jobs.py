@@ -11,10 +11,10 @@ from subprocess import run
 import numpy as np
 
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, WAYS
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS
 from hypcheck.implementations.ways import certified
-from hypcheck.vectors.families import FAMILIES, WAY_FAMILIES
-from hypcheck.vectors.frozen import ENDED_NAMES, NAMES, TILTED_NAMES, WAY_NAMES, load
+from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES
+from hypcheck.vectors.frozen import ENDED_NAMES, NAMES, SWEEP_NAMES, TILTED_NAMES, load
 from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_CONTENTS, INVALID_NAMES
 from tests.support.inside import nearest_rows
 from tests.tools.attack.places import Scene
@@ -57,8 +57,8 @@ class Job:
     said: tuple[int, int] = (1, 0)
 
 
-_REFUSALS = (name for name in INVALID_CONTENTS if name != ENDED_INVALID[WAYS])  # no job asks of these ways
-FROZEN = (*NAMES, *TILTED_NAMES, *WAY_NAMES, *ENDED_NAMES, *_REFUSALS)
+_REFUSALS = (name for name in INVALID_CONTENTS if name != ENDED_INVALID[SWEEPS])  # no job asks of these ways
+FROZEN = (*NAMES, *TILTED_NAMES, *SWEEP_NAMES, *ENDED_NAMES, *_REFUSALS)
 
 
 def frozen(names: Sequence[str] = FROZEN) -> Iterator[Job]:
@@ -66,7 +66,7 @@ def frozen(names: Sequence[str] = FROZEN) -> Iterator[Job]:
     for name in names:
         cases = load(name)
         rows, right = cases.rows, cases.positions
-        if name in (*WAY_NAMES, *INVALID_NAMES[WAYS]):
+        if name in (*SWEEP_NAMES, *INVALID_NAMES[SWEEPS]):
             yield _ways("frozen ways", rows, right)
             continue
         if name in (*ENDED_NAMES, ENDED_INVALID[PAIRS]):
@@ -93,8 +93,8 @@ def adversarial(seed: int, rows: int) -> Iterator[Job]:
 
 def ways(seed: int, count: int) -> Iterator[Job]:
     """Ways of every family, whose hits this machine knows: its kernel's, and exact ones where that does not tell."""
-    for family in WAY_FAMILIES.values():
-        rows = family.rows(seed, max(4, count // len(WAY_FAMILIES)))
+    for family in SWEEP_FAMILIES.values():
+        rows = family.rows(seed, max(4, count // len(SWEEP_FAMILIES)))
         yield _ways("ways", rows, certified(rows))
 
 

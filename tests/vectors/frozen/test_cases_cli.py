@@ -46,7 +46,7 @@ def test_cases_list_names_every_family_with_its_count(capsys):
     for name in INVALID_CONTENTS:
         assert counts.pop(name) == len(vectors.load(name).cases)
     files = [*map(vectors.load, vectors.NAMES), *map(vectors.load, vectors.TILTED_NAMES)]
-    files += map(vectors.load, (*vectors.WAY_NAMES, *vectors.ENDED_NAMES, *vectors.ENDED_WAY_NAMES))
+    files += map(vectors.load, (*vectors.SWEEP_NAMES, *vectors.ENDED_NAMES, *vectors.ENDED_SWEEP_NAMES))
     assert counts == {file.head.name: len(file.cases) for file in files}
     assert all(vectors.head_of(name).title in line for line in lines for name in FAMILIES if line.split()[0] == name)
     assert sum("extreme: taken when asked for" in line for line in lines) == sum(file.head.extreme for file in files)

@@ -14,8 +14,8 @@ from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, Position
 from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import StoredCertificate, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
-from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_WAY_FAMILIES
-from hypcheck.vectors.format import ENDED_SCHEMA, ENDED_WAY_SCHEMA
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
+from hypcheck.vectors.format import ENDED_SCHEMA, ENDED_SWEEP_SCHEMA
 from tests.support.records import violations
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
@@ -42,7 +42,10 @@ def test_ended_cases_are_of_every_position_open_and_solid_and_some_touch():
 
 @pytest.mark.parametrize(
     ("name", "content", "version"),
-    [("ended-invalid", "ended-refusals", ENDED_SCHEMA), ("ended-way-invalid", "ended-way-refusals", ENDED_WAY_SCHEMA)],
+    [
+        ("ended-invalid", "ended-refusals", ENDED_SCHEMA),
+        ("ended-way-invalid", "ended-way-refusals", ENDED_SWEEP_SCHEMA),
+    ],
 )
 def test_frozen_invalid_rows_with_heights_fit_their_schema_and_equal_those_that_freezing_makes(name, content, version):
     text = text_of(name)
@@ -102,11 +105,11 @@ def test_shown_cases_that_end_say_their_heights_and_what_proves_them(capsys):
     assert json.loads(capsys.readouterr().out)["certificate"]
 
 
-@pytest.mark.parametrize("name", frozen.ENDED_WAY_NAMES)
+@pytest.mark.parametrize("name", frozen.ENDED_SWEEP_NAMES)
 def test_a_file_of_ways_beside_ends_fits_its_schema_is_fresh_and_has_every_label_checked(name):
     file = frozen.load(name)
-    assert list(violations(json.loads(text_of(name)), schema("ended-ways", ENDED_WAY_SCHEMA))) == []
-    assert {*bits(ENDED_WAY_FAMILIES[name].rows(1, len(file.cases)))} == {*bits(file.rows)}
+    assert list(violations(json.loads(text_of(name)), schema("ended-ways", ENDED_SWEEP_SCHEMA))) == []
+    assert {*bits(ENDED_SWEEP_FAMILIES[name].rows(1, len(file.cases)))} == {*bits(file.rows)}
     assert cases_text(replace(file, lines=())) == text_of(name)
     assert faults_of(replace(file, cases=file.cases[::4], lines=())) == []
     hits = [case.hit for case in file.cases]
@@ -135,6 +138,6 @@ def test_a_way_beside_an_end_is_shown_with_its_first_contact(capsys):
     case = next(case for case in frozen.load("ended-way-over").cases if case.hit)
     assert main(["cases", "show", case.id]) == 0
     text = capsys.readouterr().out
-    assert "contact on the way" in text
+    assert "contact on the sweep" in text
     assert repr(case.first[0]) in text
     assert "z_max" in text

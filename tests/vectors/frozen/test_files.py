@@ -24,10 +24,10 @@ from hypcheck.vectors.coincidences import RUNGS
 from hypcheck.vectors.double_roots import ULPS
 from hypcheck.vectors.families import (
     ENDED_FAMILIES,
-    ENDED_WAY_FAMILIES,
+    ENDED_SWEEP_FAMILIES,
     FAMILIES,
+    SWEEP_FAMILIES,
     TILTED_FAMILIES,
-    WAY_FAMILIES,
 )
 from hypcheck.vectors.flags import DEFEATED
 from hypcheck.vectors.format import SCHEMA
@@ -59,8 +59,8 @@ def schema(name, version=SCHEMA):
 def test_cases_folder_has_one_file_for_each_family_and_no_other():
     found = {path.stem for path in FOLDER.glob("*.json")}
     pairs = {*FAMILIES, "worst-cancellation", "invalid", *TILTED_FAMILIES, "tilted-invalid"}
-    ways = {*WAY_FAMILIES, "way-invalid", "tilted-way-invalid"}
-    ended = {*ENDED_FAMILIES, "ended-invalid", *ENDED_WAY_FAMILIES, "ended-way-invalid"}
+    ways = {*SWEEP_FAMILIES, "way-invalid", "tilted-way-invalid"}
+    ended = {*ENDED_FAMILIES, "ended-invalid", *ENDED_SWEEP_FAMILIES, "ended-way-invalid"}
     assert found == set(vectors.ALL_NAMES) == pairs | ways | ended
 
 

@@ -10,7 +10,7 @@ from hypcheck.cli.main import main
 from hypcheck.vectors import family, fixed_sizes, frozen
 from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.checking import wrong_description, wrong_meanings
-from hypcheck.vectors.flags import FLAGS, TILTED_FLAGS, WAY_FLAGS
+from hypcheck.vectors.flags import FLAGS, SWEEP_FLAGS, TILTED_FLAGS
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 FILE = frozen.load("tangent")
@@ -94,9 +94,9 @@ def test_descriptions_in_the_shipped_files_are_right():
         tilted = frozen.load(name)
         assert tilted.head.name == name
         assert [*wrong_description(tilted.head), *wrong_meanings(tilted.flags, TILTED_FLAGS)] == []
-    for name in frozen.WAY_NAMES:
+    for name in frozen.SWEEP_NAMES:
         ways = frozen.load(name)
         assert ways.head.name == name
-        assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, WAY_FLAGS)] == []
-    for name in (*frozen.ENDED_NAMES, *frozen.ENDED_WAY_NAMES, *INVALID_CONTENTS):
+        assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, SWEEP_FLAGS)] == []
+    for name in (*frozen.ENDED_NAMES, *frozen.ENDED_SWEEP_NAMES, *INVALID_CONTENTS):
         assert list(wrong_description(frozen.load(name).head)) == []

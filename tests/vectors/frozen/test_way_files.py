@@ -12,17 +12,17 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import WAYS, invalid
+from hypcheck.geometry.rows import SWEEPS, invalid
 from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
-from hypcheck.vectors.families import WAY_FAMILIES
-from hypcheck.vectors.flags import WAY_FLAGS
-from hypcheck.vectors.format import WAY_SCHEMA
+from hypcheck.vectors.families import SWEEP_FAMILIES
+from hypcheck.vectors.flags import SWEEP_FLAGS
+from hypcheck.vectors.format import SWEEP_SCHEMA
 from tests.support.records import violations
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
-every_file = pytest.mark.parametrize("name", frozen.WAY_NAMES)
+every_file = pytest.mark.parametrize("name", frozen.SWEEP_NAMES)
 STEP = 12
 OUTDATED = {"way-ring": (14, 43, 55)}
 """Numbers of ways that their generator makes no more: they begin in contact. Those in their places are at the end."""
@@ -33,13 +33,13 @@ def sample(name, step=STEP):
 
 
 def test_there_are_at_least_2000_ways_in_at_least_14_families():
-    files = [frozen.load(name) for name in frozen.WAY_NAMES]
+    files = [frozen.load(name) for name in frozen.SWEEP_NAMES]
     assert len(files) >= 14
     cases = [case for file in files for case in file.cases]
     assert len({struct for file in files for struct in bits(file.rows)}) == len(cases) >= 2000
     answers = Counter(case.hit for case in cases)
     assert min(answers.values()) >= 0.2 * len(cases)
-    assert {flag for case in cases for flag in case.flags} == set(WAY_FLAGS)
+    assert {flag for case in cases for flag in case.flags} == set(SWEEP_FLAGS)
     assert sum("tunnelling" in case.flags for case in cases) >= 200
 
 
@@ -53,10 +53,10 @@ def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplica
         assert found[place] not in wanted
         found[place] = found[len(wanted) + outdated.index(place)]
     assert found == wanted + [wanted[place] for place in outdated]
-    assert file.head == WAY_FAMILIES[name].described(f"hypcheck cases freeze {name}")
+    assert file.head == SWEEP_FAMILIES[name].described(f"hypcheck cases freeze {name}")
     assert cases_text(file) == text_of(name)
     assert file.positions.tolist() == [int(case.hit) for case in file.cases]
-    assert not invalid(file.rows, WAYS).any()
+    assert not invalid(file.rows, SWEEPS).any()
 
 
 @every_file
@@ -68,25 +68,25 @@ def test_labels_of_a_file_of_ways_are_right(name):
 def test_a_file_of_ways_fits_its_published_schema(name):
     document = json.loads(text_of(name))
     document["cases"] = document["cases"][::9]
-    wanted = schema("tilted-ways" if name.startswith("tilted") else "ways", WAY_SCHEMA)
+    wanted = schema("tilted-ways" if name.startswith("tilted") else "ways", SWEEP_SCHEMA)
     assert list(violations(document, wanted)) == []
 
 
-@pytest.mark.parametrize(("name", "columns"), [("way-invalid", WAYS.upright), ("tilted-way-invalid", WAYS.tilted)])
+@pytest.mark.parametrize(("name", "columns"), [("way-invalid", SWEEPS.upright), ("tilted-way-invalid", SWEEPS.tilted)])
 def test_frozen_invalid_ways_fit_their_schema_and_equal_those_that_freezing_makes(name, columns):
     text = text_of(name)
-    assert list(violations(json.loads(text), schema(name.replace("invalid", "refusals"), WAY_SCHEMA))) == []
+    assert list(violations(json.loads(text), schema(name.replace("invalid", "refusals"), SWEEP_SCHEMA))) == []
     assert cases_text(freezing.frozen_invalid_rows(name)) == text
     file = frozen.load(name)
     assert file.rows.shape == (len(file.cases), len(columns))
-    assert invalid(file.rows, WAYS).all()
+    assert invalid(file.rows, SWEEPS).all()
     assert faults_of(file) == []
     assert {case.columns[0] for case in file.cases if len(case.columns) == 1} == set(columns)
     with np.errstate(invalid="ignore"):
         steps = file.rows[:, 7:10] - file.rows[:, 4:7]
     assert np.isnan(steps).any(axis=1).sum() >= 15
     if name == "tilted-way-invalid":
-        assert sum(case.columns == WAYS.tilted[10:] and not any(case.row[10:]) for case in file.cases) == 12
+        assert sum(case.columns == SWEEPS.tilted[10:] and not any(case.row[10:]) for case in file.cases) == 12
 
 
 def test_frozen_ways_have_the_flags_that_their_family_promises():
@@ -117,7 +117,7 @@ def changed(name, place, **changes):
 def test_wrong_labels_of_a_way_are_found():
     case = frozen.load("way-grazing").cases[0]
     assert changed("way-grazing", 0) == []
-    assert changed("way-grazing", 0, first=None)[0] == "the certificate does not prove that the way is clear"
+    assert changed("way-grazing", 0, first=None)[0] == "the certificate does not prove that the sweep is clear"
     later = replace(case.witness, time=case.witness.time + Fraction(1, 64))
     assert changed("way-grazing", 0, witness=later)[0] == "the certificate does not prove contact at its time"
     early = (case.first[0] / 2, case.first[0])
@@ -151,7 +151,7 @@ def test_cases_commands_accept_ways(tmp_path, capsys):
     assert "answers     108 clear, 3 contact" in capsys.readouterr().out
     assert main(["cases", "show", "way-grazing-0001"]) == 0
     shown = capsys.readouterr().out
-    assert "contact on the way" in shown
+    assert "contact on the sweep" in shown
     assert "by a double root" in shown
     assert main(["cases", "show", "way-uniform/1/1/0", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["id"] == "way-uniform/1/1/0"

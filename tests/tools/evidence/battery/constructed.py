@@ -11,7 +11,7 @@ import numpy as np
 
 from tests.support.inside import clearances, passage
 from tests.tools.attack.strike import truth_of
-from tests.tools.evidence.seeds import CLEARANCES, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, WAYS
+from tests.tools.evidence.seeds import CLEARANCES, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, SWEEPS
 
 HAIR = 2.0**-100
 
@@ -94,7 +94,7 @@ def constructed() -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
     """The kind, the rows and the right answers."""
     for rows in (np.array(BESIDE_TANGENCIES, float), rows_of(CANCELLED), rows_of(NOT_TOLD)):
         yield ROWS, rows, truth_of(rows)
-    for kind, text in ((WAYS, WAYS_BEYOND_BOUNDS), (LEANING_WAYS, LEANING_WAYS_BEYOND_BOUNDS)):
+    for kind, text in ((SWEEPS, WAYS_BEYOND_BOUNDS), (LEANING_WAYS, LEANING_WAYS_BEYOND_BOUNDS)):
         rows = rows_of(text)
         yield kind, rows, np.array([_hit(row) for row in rows.tolist()])
     rows = np.array(CLEARANCES_AT_ENDS)

@@ -17,7 +17,7 @@ from tests.tools.attack import places, tilted_places
 from tests.tools.attack.strike import truth_of
 from tests.tools.evidence.battery.constructed import constructed
 from tests.tools.evidence.parts import ROOT
-from tests.tools.evidence.seeds import CLEARANCES, LEANING, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, WAYS, numbers
+from tests.tools.evidence.seeds import CLEARANCES, LEANING, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, SWEEPS, numbers
 
 ALL_MODES, NEAREST = 0b1111, 0b0001
 INVALID = 127
@@ -63,7 +63,7 @@ def frozen(every: int = 1) -> Iterator[Questions]:
             continue
         if path.stem.startswith(("way-", "tilted-way-")):
             hits = np.array([case.get("hit", INVALID) for case in cases])
-            yield Questions(WAYS if rows.shape[1] == 10 else LEANING_WAYS, rows, hits, NEAREST | 4)
+            yield Questions(SWEEPS if rows.shape[1] == 10 else LEANING_WAYS, rows, hits, NEAREST | 4)
         elif rows.shape[1] == 10:
             yield Questions(LEANING, rows, np.array([case.get("position", INVALID) for case in cases]))
         else:

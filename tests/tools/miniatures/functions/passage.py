@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hypcheck.geometry.rows import WAYS, invalid
+from hypcheck.geometry.rows import SWEEPS, invalid
 from hypcheck.truth.swept import passage
 
 hypcheck = {"name": "passage", "question": "passage", "times": True, "refuses": True}
@@ -12,7 +12,7 @@ def classify(rows):
     assert rows.shape[1] == 10
     assert rows.flags.c_contiguous
     hits, times = np.full(len(rows), 127), np.full(len(rows), np.nan)
-    for place in np.flatnonzero(~invalid(rows, WAYS)):
+    for place in np.flatnonzero(~invalid(rows, SWEEPS)):
         row = rows[place].tolist()
         found = passage(row[:4], row[4:7], row[7:])
         hits[place], times[place] = found.hit, found.first_lower

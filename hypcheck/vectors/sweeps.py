@@ -1,8 +1,8 @@
-"""Ways: rows of ten numbers, or of thirteen with an axis, with the traps that a way has beside its ends.
+"""Sweeps: rows of ten numbers, or of thirteen with an axis, with the traps that a sweep has beside its ends.
 
-First ways that touch: through a place where the surfaces touch, across a ring, and from or to a tangency. What is said
-to touch does so exactly: places come from the constructions of tangencies and rings, and both ends of a way are checked
-to be without rounding. Then ways of which nothing is exact.
+First sweeps that touch: through a place where the surfaces touch, across a ring, and from or to a tangency. What is
+said to touch does so exactly: places come from the constructions of tangencies and rings, and both ends of a sweep are
+checked to be without rounding. Then sweeps of which nothing is exact.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from hypcheck.vectors.random_pairs import Sizes, all_regimes, heights, offsets, 
 from hypcheck.vectors.scenes import BODY, TOWER
 
 CENTRE = slice(4, 7)
-"""The columns of the centre, or of the first end of a way."""
+"""The columns of the centre, or of the first end of a sweep."""
 
 
 def between(rows: Rows, ends: Rows) -> Rows:
-    """The ways from the centres of rows (n, 7 or 10) to those of `ends`, (n, 3): (n, 10 or 13), no negative zeros."""
+    """The sweeps from the centres of rows (n, 7 or 10) to those of `ends`, (n, 3): (n, 10 or 13), no negative zeros."""
     return np.concatenate([rows[:, :7], ends, rows[:, 7:]], axis=1) + 0.0
 
 
 def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
     """Ways through the centres of rows, a step before and `after` steps behind, and which have exact ends."""
-    centres, ways = rows[:, CENTRE], rows.copy()
+    centres, sweeps = rows[:, CENTRE], rows.copy()
     (start, lost), (end, missed) = two_sum(centres, -steps), two_sum(centres, steps * after[:, None])
-    ways[:, CENTRE] = start
+    sweeps[:, CENTRE] = start
     moved = (start != end).any(axis=1)
-    return between(ways, end), np.asarray((lost == 0).all(axis=1) & (missed == 0).all(axis=1) & moved)
+    return between(sweeps, end), np.asarray((lost == 0).all(axis=1) & (missed == 0).all(axis=1) & moved)
 
 
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
@@ -43,8 +43,8 @@ def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     rows = in_metres(draw, np.where(tangencies.usable[:, None], tangencies.rows, 1.0))
     share = ldexp(draw.signs(n), draw.integers(n, -6, 2))
     steps = np.stack([-rows[:, 5] * share, rows[:, 4] * share, np.zeros(n)], axis=1)
-    ways, exact = through(rows, steps, turns(n, 1.0, 3.0, 0.5))
-    return ways, exact & tangencies.usable & tangencies.outer & tangencies.tangent
+    sweeps, exact = through(rows, steps, turns(n, 1.0, 3.0, 0.5))
+    return sweeps, exact & tangencies.usable & tangencies.outer & tangencies.tangent
 
 
 def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
@@ -54,8 +54,8 @@ def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     radius = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
     steps = np.zeros((n, 3))
     steps[:, 2] = rows[:, 1] * ldexp(draw.signs(n), draw.integers(n, -6, 3))
-    ways, exact = through(rows, steps, turns(n, 1.0, 3.0, 0.5))
-    return ways, exact & (radius < rows[:, 0])
+    sweeps, exact = through(rows, steps, turns(n, 1.0, 3.0, 0.5))
+    return sweeps, exact & (radius < rows[:, 0])
 
 
 grazing = in_turn(gathered(_exterior_graze), gathered(_interior_graze))
@@ -93,41 +93,41 @@ def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
             np.stack([x * share, y * share, rows[:, 3] * share], axis=1),
         ],
     )
-    ways, exact = through(rows, steps, turns(n, 1.0, 2.0))
-    return ways, exact & usable
+    sweeps, exact = through(rows, steps, turns(n, 1.0, 2.0))
+    return sweeps, exact & usable
 
 
 def ring(draw: Draw, n: int) -> Rows:
     """Across the ring, where the discriminant is 0 in free air, along, up and out.
 
-    A ring may be so near to the surface that a way across it begins in contact. Others take the places of such ways.
+    A ring may be so near to the surface that a sweep across it begins in contact. Others take their places.
     """
-    ways = gather(draw, n, ring_attempt)
-    near = np.flatnonzero(~more_than_a_radius_away(ways))
-    touching = [place for place in near.tolist() if hits_at_size(ways[place].tolist())]
-    ways[touching] = gather(draw, len(touching), _clear_ring_attempt)
-    return ways
+    sweeps = gather(draw, n, ring_attempt)
+    near = np.flatnonzero(~more_than_a_radius_away(sweeps))
+    touching = [place for place in near.tolist() if hits_at_size(sweeps[place].tolist())]
+    sweeps[touching] = gather(draw, len(touching), _clear_ring_attempt)
+    return sweeps
 
 
 def _clear_ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    ways, usable = ring_attempt(draw, n)
-    return ways, usable & more_than_a_radius_away(ways)
+    sweeps, usable = ring_attempt(draw, n)
+    return sweeps, usable & more_than_a_radius_away(sweeps)
 
 
-def more_than_a_radius_away(ways: Rows) -> Mask:
+def more_than_a_radius_away(sweeps: Rows) -> Mask:
     """Ways about a ring that are clear all along, as the waist shows.
 
     In radii, a centre in the plane of the waist between the waist and the ring is r − a away from the surface, and one
     that is z above it is farther than r − a − z. The margin is far more than what r is rounded by.
     """
-    alpha, _, b, d = ways[:, :4].T
-    x, y, end_x, end_y = ways[:, [4, 5, 7, 8]].T
+    alpha, _, b, d = sweeps[:, :4].T
+    x, y, end_x, end_y = sweeps[:, [4, 5, 7, 8]].T
     step_x, step_y = end_x - x, end_y - y
     passing = (x * step_x + y * step_y < 0) & (end_x * step_x + end_y * step_y > 0)
-    with np.errstate(invalid="ignore"):  # a way that leads nowhere does not pass
+    with np.errstate(invalid="ignore"):  # a sweep that leads nowhere does not pass
         foot = np.abs(x * step_y - y * step_x) / np.sqrt(step_x * step_x + step_y * step_y)
     nearest = np.where(passing, foot, np.sqrt(np.minimum(x * x + y * y, end_x * end_x + end_y * end_y))) / b
-    rise = np.abs(ways[:, [6, 9]]).max(axis=1) / d
+    rise = np.abs(sweeps[:, [6, 9]]).max(axis=1) / d
     return np.asarray(nearest * (1 - 2.0**-40) - alpha / b - rise > 1)
 
 
@@ -140,19 +140,19 @@ def at_an_end(draw: Draw, n: int) -> Rows:
     factor = np.where(outside, draw.between(n, 1.25, 4), draw.between(n, -0.5, 0.75))
     away = np.stack([x * factor, y * factor, z], axis=1)
     away[:, 2] = np.where(outside, z * draw.unit(n), z * draw.between(n, 1, 4))
-    ways = between(rows, away)
+    sweeps = between(rows, away)
     backward = turns(n, False, True)
-    ways[backward, 4:7], ways[backward, 7:10] = away[backward] + 0.0, rows[backward, CENTRE]
-    return ways
+    sweeps[backward, 4:7], sweeps[backward, 7:10] = away[backward] + 0.0, rows[backward, CENTRE]
+    return sweeps
 
 
 def tilted_end(draw: Draw, n: int) -> Rows:
     """A tangency at t = 0 or at t = 1, the other end twice as far from the origin, or half as far."""
     rows = tilted.tangent(draw, n)
-    ways = between(rows, rows[:, CENTRE] * turns(n, 2.0, 0.5)[:, None])
+    sweeps = between(rows, rows[:, CENTRE] * turns(n, 2.0, 0.5)[:, None])
     backward = turns(n, False, False, True, True)
-    ways[backward, 4:7], ways[backward, 7:10] = ways[backward, 7:10], ways[backward, 4:7]
-    return ways
+    sweeps[backward, 4:7], sweeps[backward, 7:10] = sweeps[backward, 7:10], sweeps[backward, 4:7]
+    return sweeps
 
 
 def tilted_ring(draw: Draw, n: int) -> Rows:
@@ -242,7 +242,7 @@ def across(draw: Draw, n: int) -> Rows:
 
 
 def begun_in_contact(draw: Draw, n: int) -> Rows:
-    """The first end crosses the surface: the first contact is at t = 0, wherever the way leads."""
+    """The first end crosses the surface: the first contact is at t = 0, wherever the sweep leads."""
     size = sizes(draw, *all_regimes(draw, n))
     start = random_pairs.beside(draw, size, heights(draw, size.c), draw.between(n, -0.9, 0.9))
     return between(start, _beside(draw, size)[:, CENTRE])
@@ -331,6 +331,6 @@ def tilted_uniform(draw: Draw, n: int) -> Rows:
 
 
 def tilted_integers(draw: Draw, n: int) -> Rows:
-    """Whole numbers; vertical axes and spheres among them, which are upright ways."""
+    """Whole numbers; vertical axes and spheres among them, which are upright sweeps."""
     axis = np.stack([draw.integers(n, -2, 2), draw.integers(n, -2, 2), draw.integers(n, 1, 3)], axis=1)
     return np.concatenate([small_integers(draw, n), axis.astype(np.float64) + 0.0], axis=1)

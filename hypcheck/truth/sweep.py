@@ -1,8 +1,8 @@
-"""A straight way in integers: the pair at each time, and what a multiplier λ proves about a whole piece of the way.
+"""A straight sweep in integers: the pair at each time, and what a multiplier λ proves about a whole piece of the sweep.
 
 The centre is C(t) = C0 + t (C1 − C0). For a fixed λ a positive multiple of det(S + λH) is a polynomial of degree 2 at
 most in t: the centre comes into it by its squares and products alone. Where λ is admissible and that polynomial is
-positive on a piece of the way, the spheroid is clear there: outside where λ > 0, inside where λ < 0. One λ proves a
+positive on a piece of the sweep, the spheroid is clear there: outside where λ > 0, inside where λ < 0. One λ proves a
 piece by one quadratic inequality.
 
 F(λ, t), the cubic of an upright pair or the quartic of a tilted one (pencil.py), has coefficients of degree 2 at most
@@ -86,16 +86,16 @@ def _polynomial(number: _InTime | int) -> Polynomial:
 
 
 @dataclass(frozen=True)
-class Journey:
-    """The pair at the start, and the changes of x, y, z over the way in their units."""
+class StraightSweep:
+    """The pair at the start, and the changes of x, y, z over the sweep in their units."""
 
     start: Lengths
-    way: Vector
+    step: Vector
 
     @property
     def moves(self) -> bool:
         """Whether start and end differ."""
-        return any(self.way)
+        return any(self.step)
 
     @property
     def is_upright(self) -> bool:
@@ -105,7 +105,7 @@ class Journey:
     def at(self, time: Fraction) -> Lengths:
         """The pair at a rational time."""
         n, m = time.numerator, time.denominator
-        here, (u, v, w) = self.start, self.way
+        here, (u, v, w) = self.start, self.step
         x, y, z = here.x * m + u * n, here.y * m + v * n, here.z * m + w * n
         low, high = (None if end is None else end * m for end in (here.low, here.high))
         lengths = (here.alpha * m, here.b * m, x, y, here.gamma * m, here.d * m, z)
@@ -122,7 +122,7 @@ class Journey:
     @cached_property
     def pencil(self) -> tuple[Polynomial, ...]:
         """The coefficients of F, the highest power of λ first, as polynomials in t."""
-        here, (u, v, w) = self.start, self.way
+        here, (u, v, w) = self.start, self.step
         centre = _InTime((u, here.x)), _InTime((v, here.y)), _InTime((w, here.z))
         coefficients = cubic_coefficients if self.is_upright else quartic_coefficients
         return tuple(map(_polynomial, coefficients(here, *centre)))
@@ -134,8 +134,8 @@ class Journey:
     def critical(self) -> Polynomial:
         """A polynomial in t, not 0, with a root wherever the position beside the whole hyperboloid changes, primitive.
 
-        The discriminant of F. That of an upright way is not 0 for every t (docs/motion.md); where that of a tilted one
-        is, another polynomial takes its place.
+        The discriminant of F. That of an upright sweep is not 0 for every t (docs/motion.md); where that of a tilted
+        one is, another polynomial takes its place.
         """
         return self.discriminant() or self._where_always_double()
 
@@ -157,8 +157,8 @@ class Journey:
         if not self.is_upright:
             return not _ring_between(*self._at_pole(int(side)), low, high)
         here = self.start
-        height, rise = dot(here.upward, (here.x, here.y, here.z)), dot(here.upward, self.way)
-        nearest = Fraction(-dot(self.way, (here.x, here.y, here.z)), dot(self.way, self.way))
+        height, rise = dot(here.upward, (here.x, here.y, here.z)), dot(here.upward, self.step)
+        nearest = Fraction(-dot(self.step, (here.x, here.y, here.z)), dot(self.step, self.step))
         special = Fraction(-height, rise) if rise else nearest
         if low <= special <= high and value(critical, special) == 0:
             return self.position(special) is Position.CONTACT

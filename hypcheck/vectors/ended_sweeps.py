@@ -1,7 +1,7 @@
 """Ways beside hyperboloids that end: rows of sixteen numbers, with the traps that a rim, an opening or a flat end has.
 
 Each goes through the centre of a row of ended.py, ends at it, or begins there. Rows about touches are whole numbers
-times one power of two, and so are the ends of their ways.
+times one power of two, and so are the ends of their sweeps.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ CENTRE = slice(4, 7)
 
 
 def _ways(rows: Rows, start: Rows, end: Rows) -> Rows:
-    """The rows with these ends of ways in the place of their centres."""
+    """The rows with these ends of sweeps in the place of their centres."""
     return np.asarray(np.concatenate([rows[:, :4], start, end, rows[:, 7:]], axis=1) + 0.0)
 
 
