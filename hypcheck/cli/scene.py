@@ -92,7 +92,9 @@ _EMIT_HELP = """Generate source code: a kernel with only what a scene needs, or 
 
 With --method exact the file answers every float64 row rightly: floats where a proved bound allows, whole numbers for
 the rest, without dependencies. With --method certified it has the floats alone, and says 2 where they cannot say;
-so do dual and local-maximum, which prove the answer by a concave function instead of the discriminant.
+so do dual and local-maximum, which prove the answer by a concave function instead of the discriminant. With tilted the
+spheroid has an axis; clearance gives bounds of its clearance besides, and passage says whether it has contact on a
+straight way, and up to when it has none.
 
 SCENE is a file (docs/scenes.md) or a shipped scene. Its sizes and constant heights are folded in, and only its question
 is answered; `hypcheck plan` shows what is left out and why. The head of the kernel says what is proved about it.
@@ -122,7 +124,7 @@ default names.
     "--method",
     metavar="METHOD",
     type=completing.Names(completing.pair_methods),
-    help="Of one pair, without a scene: exact, certified, dual or local-maximum.",
+    help="Of one pair, without a scene: exact, certified, dual, local-maximum, tilted, clearance or passage.",
 )
 @click.option("--scene", metavar="SCENE", type=completing.SCENE, help="A scene file, or the name of a shipped scene.")
 @click.option("--language", required=True, type=click.Choice(LANGUAGES), help="The language of the kernel.")

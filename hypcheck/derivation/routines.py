@@ -79,12 +79,18 @@ class Loop:
 
     `kept` are numbers that go from round to round: the name of each, what it is before the first round, and the name
     that it has in the body when a round ends. After the loop they are what the last round made of them; what else
-    the body names is forgotten.
+    the body names is forgotten. `until` is a truth value of the body: the round in which it holds is the last.
     """
 
     times: int
     kept: tuple[tuple[str, str, str], ...]
     body: tuple[Part, ...]
+    until: str | None = None
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        """The names of the body that are read when a round ends."""
+        return (*(end for _, _, end in self.kept), *filter(None, [self.until]))
 
 
 Part = Step | Call | Half | Stored | Loop
@@ -176,6 +182,8 @@ class Routine:
             self._require_number(end, inside)
             if end in kinds:  # what a kept number becomes could be lost while the others are set
                 raise ValueError(f"routine {self.name}: a round ends with {end}, which its body does not make")
+        if loop.until is not None and inside.get(loop.until) != BOOLEAN:
+            raise ValueError(f"routine {self.name}: a loop ends by {loop.until}, which is no condition")
 
     def _define(self, name: str, kind: str, kinds: dict[str, str]) -> None:
         if not (name.isascii() and name.isidentifier()):
@@ -237,10 +245,10 @@ def needed_parts(parts: tuple[Part, ...], wanted: Iterable[str]) -> tuple[Part, 
         if isinstance(part, Loop):
             if not alive.intersection(name for name, _, _ in part.kept):
                 continue
-            body = needed_parts(part.body, (end for _, _, end in part.kept))
+            body = needed_parts(part.body, part.ends)
             alive.update(start for _, start, _ in part.kept)
             alive.update(_read(body))
-            found.append(Loop(part.times, part.kept, body))
+            found.append(replace(part, body=body))
         elif part.name in alive:
             alive.update(part.reads)
             found.append(part)
@@ -254,6 +262,11 @@ def _read(parts: Iterable[Part]) -> Iterator[str]:
             yield from _read(part.body)
         else:
             yield from part.reads
+
+
+def names_read(routine: Routine) -> frozenset[str]:
+    """All names that the needed parts and the result read."""
+    return frozenset((*_read(routine.needed), *result_names(routine.result)))
 
 
 def renamed(parts: Iterable[Part], names: Mapping[str, str]) -> Iterator[Part]:
@@ -328,4 +341,6 @@ def _run_loop(loop: Loop, values: dict[str, Any], arithmetic: Arithmetic) -> Non
         inside = {**values, **kept}
         _run(loop.body, inside, arithmetic)
         kept = {name: inside[end] for name, _, end in loop.kept}
+        if loop.until is not None and inside[loop.until]:
+            break
     values.update(kept)

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -318,6 +318,12 @@ def of_emitted(method: str, language: str, questions: Questions) -> list[int]:
     return emitted(method, language)(questions.rows).tolist()
 
 
+def of_emitted_tilted(method: str, language: str, questions: Questions) -> list[int]:
+    """The same of code that is given an axis in any case."""
+    axis = np.tile([0.0, 0.0, 1.0], (len(questions), 1)) if questions.axis is None else questions.axis
+    return of_emitted(method, language, replace(questions, axis=axis))
+
+
 @cache
 def header() -> ctypes.CDLL:
     """The C header, compiled for a program of its own."""
@@ -401,6 +407,19 @@ DECIDERS = (
             lacks=partial(lacks_language, language),
         )
         for method in ("certified", "dual", "local-maximum")
+        for language in LANGUAGES
+    ),
+    *(
+        Decider(
+            f"emitted {method}, {language}",
+            partial(of_emitted_tilted, method, language),
+            takes=WAYS if method == "passage" else POSITIONS,
+            every={"python": 24, "javascript": 4}.get(language, 1),
+            abstains=0.4,
+            drawn=language == "c",
+            lacks=partial(lacks_language, language),
+        )
+        for method in ("tilted", "passage")
         for language in LANGUAGES
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),

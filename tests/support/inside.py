@@ -24,7 +24,8 @@ from hypcheck.kernel.core import HEADER, generate
 from hypcheck.kernel.core.generate import TARGET, header
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.kernel.emission.kernel import description, emitted
-from hypcheck.kernel.emission.pair import METHODS, emitted_pair
+from hypcheck.kernel.emission.pair import UPRIGHT as METHODS
+from hypcheck.kernel.emission.pair import emitted_pair
 from hypcheck.kernel.emission.plan_text import (
     comment_text,
     operations_before,

@@ -131,6 +131,8 @@ _C_LIKE = {
     "keep": "{number} {name} = {value};",
     "keep on": "{name} = {value};",
     "loop": "for (int round = 0; round < {times}; round++) {{",
+    "leave if": "if ({condition}) break;",
+    "told": "const double told = {value};",
 }
 
 _CPP = {
@@ -188,6 +190,8 @@ _RUST = {
     "opaque": "let {name} = std::hint::black_box({value});",
     "keep": "let mut {name} = {value};",
     "loop": "for _ in 0..{times} {{",
+    "leave if": "if {condition} {{\n    break;\n}}",
+    "told": "let told = {value};",
 }
 
 _JAVASCRIPT = {
@@ -221,6 +225,7 @@ _JAVASCRIPT = {
     "given record": ", {{ {inputs} }}",
     "unpack": "",
     "keep": "let {name} = {value};",
+    "told": "const told = {value};",
     "loop": "for (let round = 0; round < {times}; round++) {{",
 }
 
@@ -264,6 +269,8 @@ _PYTHON = {
     "keep": "{name} = {value}",
     "keep on": "{name} = {value}",
     "loop": "for _ in range({times}):",
+    "leave if": "if {condition}:\n    break",
+    "told": "told = {value}",
 }
 
 

@@ -14,20 +14,23 @@ straight-line program has room for the bits that are counted for it (`bits_count
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.kernel import PREFIX, asked_of_compiler, in_rust, require_prefix
+from hypcheck.kernel.emission.kinds import KINDS, POSITION, Kind, asked_of, columns_text, routine_text
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
 from hypcheck.version import VERSION
 
-EXACT, CERTIFIED_ONLY, DUAL, LOCAL_MAXIMUM = METHODS = ("exact", "certified", "dual", "local-maximum")
+EXACT, CERTIFIED_ONLY, DUAL, LOCAL_MAXIMUM = UPRIGHT = ("exact", "certified", "dual", "local-maximum")
+"""The methods for upright spheroids."""
+
+METHODS = (*UPRIGHT, *KINDS)
 """What `emit --method` takes."""
 
 _FLOATS = {
@@ -40,6 +43,8 @@ _FLOATS = {
 
 _SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offset_at_A", "ring_excess")
 """What the last stage asks the signs of."""
+
+_ANSWER = ("exterior", "interior", "decided")
 
 _LIMB = 32
 
@@ -61,25 +66,36 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
     """The text of the file. Raises InputError for another method, or a prefix that the language has no use for."""
     require_method(method)
     require_prefix(prefix, language)
-    dialect, whole = DIALECTS[language], method == EXACT
-    number, (program, values) = dialect.number_of("float64"), _FLOATS[method]
-    steps = dialect.statements(program, ("exterior", "interior", "decided"), "float64")
-    constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
+    dialect, kind = DIALECTS[language], KINDS.get(method, POSITION)
+    head = kind.head if kind.routine else _head(method)
     parts = {
-        "header": "\n".join(f"{dialect.comment}{line}".rstrip() for line in _head(method, language, command)),
+        "header": "\n".join(
+            f"{dialect.comment}{line}".rstrip() for line in (*_made(command), *head, *_notes(language))
+        ),
         "prefix": prefix,
-        "constants": "\n".join(constants),
-        "steps": "\n".join(steps),
-        "imports": "import math\n" if any("math." in step for step in steps) else "",
         "arithmetic": asked_of_compiler(dialect),
-        "description": _described(method, language, prefix),
+        "description": _described(method, kind, language, prefix),
+        "can": "" if method == EXACT else "const CANNOT_SAY: i8 = 2;\n",
         "last": _last(method, language),
-        "can": "" if whole else "const CANNOT_SAY: i8 = 2;\n",
-        "integers": "",
+        **columns_text(kind, dialect, prefix),
+        **(routine_text(kind, kind.routine, dialect) if kind.routine else _by_program(method, dialect)),
     }
-    if whole:
+    if method == EXACT:
         parts["integers"] = dialect.filled("integers", {"steps": "\n".join(_whole(INTEGERS, language))})
     return dialect.filled("pair", parts)
+
+
+def _by_program(method: str, dialect: Dialect) -> dict[str, str]:
+    """The statements of a program of one pair, in the function itself."""
+    program, values = _FLOATS[method]
+    number, steps = dialect.number_of("float64"), dialect.statements(program, _ANSWER, "float64")
+    constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
+    return {
+        "constants": "\n".join(constants),
+        "steps": "\n".join(steps),
+        "integers": "",
+        "imports": "import math\n" if any("math." in step for step in steps) else "",
+    }
 
 
 def _last(method: str, language: str) -> str:
@@ -88,9 +104,12 @@ def _last(method: str, language: str) -> str:
     return f"exactly({_GIVEN.get(language, 'alpha, gamma, b, d, x, y, z')})"
 
 
-def _head(method: str, language: str, command: Sequence[str]) -> Iterator[str]:
+def _made(command: Sequence[str]) -> Iterator[str]:
     yield f"Made by `{' '.join(command)}`, hypcheck {VERSION}."
     yield ""
+
+
+def _head(method: str) -> Iterator[str]:
     yield "A spheroid of semi-axes b, b, d at (x, y, z) against the hyperboloid (x² + y²)/alpha² − z²/gamma² = 1."
     yield "+1 exterior, 0 contact (tangency included), −1 interior; 127 where a size is not finite and > 0, or a"
     yield "coordinate is not finite."
@@ -104,6 +123,9 @@ def _head(method: str, language: str, command: Sequence[str]) -> Iterator[str]:
         yield "2 where float64 cannot say; every other answer is right. phi(lambda) > e proves clear, e bounding the"
         yield "error. The tangent of phi, which is concave, proves contact, or a point of the hyperboloid at the"
         yield f"centre's height. lambda is found by {found}; a bad one makes the answer 2."
+
+
+def _notes(language: str) -> Iterator[str]:
     if language == "javascript":
         yield "Where the engine flushes subnormal numbers to zero, 2 is also the answer to a 0 that may have been one."
     else:
@@ -111,23 +133,24 @@ def _head(method: str, language: str, command: Sequence[str]) -> Iterator[str]:
         yield "numbers to zero are allowed."
 
 
-def _described(method: str, language: str, prefix: str) -> str:
+def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
     told: dict[str, Any] = {
         "protocol": 1,
         "name": f"pair, {method} ({language})",
         "version": VERSION,
         "language": language,
         "precision": "exact",
-        "question": "position",
+        "question": "passage" if kind.passage else "position",
         "refuses": True,
-        "domain": {"ratio": [0, sys.float_info.max], "magnitude": [0, sys.float_info.max]},
+        **({"tilt": True} if kind.tilted else {}),
+        "domain": kind.domain,
     }
     if language == "python":
         return repr(told)
     text = json.dumps(told)
     if language == "javascript":
         return text
-    return in_rust([json.dumps(text)], prefix) if language == "rust" else json.dumps(text)
+    return in_rust([json.dumps(text)], prefix, asked_of(kind)) if language == "rust" else json.dumps(text)
 
 
 def _whole(program: Program, language: str) -> Iterator[str]:

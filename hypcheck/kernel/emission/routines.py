@@ -21,6 +21,7 @@ from hypcheck.derivation.routines import (
     Stored,
     called,
     kind_of_part,
+    names_read,
 )
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.printing.languages import Spelling, argument_of, spelling_of, value_of
@@ -76,7 +77,12 @@ class _Printer:
             of = ", ".join(self._named("input", name, routine) for name in routine.record)
             inputs += self.say("given record", inputs=of, record=self._type_of_record(routine))
         unpacked = [self._named("unpack", name, routine) for name in routine.record]
-        constants = [self.say("constant", name=name, value=repr(value)) for name, value in routine.constants.items()]
+        read = names_read(routine)
+        constants = [
+            self.say("constant", name=name, value=repr(value))
+            for name, value in routine.constants.items()
+            if name in read
+        ]
         head = self.say(
             "function", type=self.type_of(routine.gives), name=routine.name, inputs=inputs, meaning=routine.meaning
         )
@@ -128,7 +134,8 @@ class _Printer:
             yield self.say("keep", name=name, value=start)
         yield self.say("loop", times=loop.times)
         ends = [self.say("keep on", name=name, value=end) for name, _, end in loop.kept]
-        yield from _indented([*self._parts(loop.body, dict(kinds)), *ends])
+        until = [] if loop.until is None else self.say("leave if", condition=loop.until).splitlines()
+        yield from _indented([*self._parts(loop.body, dict(kinds)), *ends, *until])
         yield from filter(None, [self.say("end if")])
 
     def _require_free(self, name: str) -> None:

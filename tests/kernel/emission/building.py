@@ -78,10 +78,13 @@ def pointer(array):
 
 
 def answers(library, rows):
-    """What hypcheck_classify answers, or hypcheck_classify_tilted to rows of ten."""
+    """What hypcheck_classify answers; hypcheck_classify_tilted to rows of ten, hypcheck_passage_tilted of thirteen."""
     found = np.full(len(rows), 99, np.int8)
     queries = np.ascontiguousarray(rows)
     loaded = ctypes.CDLL(str(library))
+    if rows.shape[1] == 13:
+        loaded.hypcheck_passage_tilted(ctypes.c_size_t(len(rows)), pointer(queries), pointer(found), None)
+        return found
     classify = loaded.hypcheck_classify if rows.shape[1] == 7 else loaded.hypcheck_classify_tilted
     classify(ctypes.c_size_t(len(rows)), pointer(queries), pointer(found))
     return found
@@ -90,7 +93,13 @@ def answers(library, rows):
 def asking(path, language):
     """What answers rows: the built kernel in its own language, both entries of a library at once."""
     if language == "python":
-        return lambda rows: np.array(load_module(path).classify(rows.tolist()), np.int8)
+        module = load_module(path)
+
+        def ask_module(rows):
+            many = module.passage if rows.shape[1] == 13 else module.classify
+            return np.array(many(rows.tolist()), np.int8)
+
+        return ask_module
     if language == "javascript":
         return lambda rows: _asked_of_node(path, rows)
 
@@ -131,7 +140,7 @@ process.stdout.write(Buffer.from(found.buffer));
 def _asked_of_node(path, rows):
     script = path.with_name("ask.mjs")
     wide = rows.shape[1]
-    text = _NODE.replace("NAME", "predicate" if wide == 7 else "tilted").replace("WIDE", str(wide))
+    text = _NODE.replace("NAME", {7: "predicate", 10: "tilted", 13: "passage"}[wide]).replace("WIDE", str(wide))
     script.write_text(text.replace("KERNEL", json.dumps(str(path))), encoding="utf-8")
     node, sent = str(shutil.which("node")), np.ascontiguousarray(rows).tobytes()
     done = subprocess.run([node, str(script)], input=sent, capture_output=True, check=False)
