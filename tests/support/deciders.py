@@ -413,7 +413,7 @@ DECIDERS = (
         Decider(
             f"emitted {method}, {language}",
             partial(of_emitted_tilted, method, language),
-            takes=WAYS if method == "passage" else POSITIONS,
+            takes=SWEEPS if method == "passage" else POSITIONS,
             every={"python": 24, "javascript": 4}.get(language, 1),
             abstains=0.4,
             drawn=language == "c",
