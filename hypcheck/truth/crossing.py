@@ -7,7 +7,7 @@ hyperboloid within the spheroid, and a little beyond it the sides have changed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths, over_one_denominator
@@ -255,6 +255,17 @@ def _across_the_pole(
     way = floor_root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
     for sign in (1, -1):
         yield _plus(point, ([length * part for part in direction], square), sign * way - slope)
+
+
+def shortened(offset: Sequence[Fraction], bits: int, most: int) -> Iterator[tuple[Fraction, Fraction, Fraction]]:
+    """An offset, a little shorter so that it stays in the spheroid, with `bits` bits and more, below `most`."""
+    longest = max(map(abs, offset))
+    unit = Fraction(2) ** (longest.numerator.bit_length() - longest.denominator.bit_length())
+    while bits < most:
+        step, share = unit / (1 << bits), 1 - Fraction(1, 1 << bits)
+        x, y, z = (round(part * share / step) * step for part in offset)
+        yield x, y, z
+        bits += 1 + bits // 4
 
 
 def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homogeneous:

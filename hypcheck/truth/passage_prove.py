@@ -7,7 +7,7 @@ only touches at an irrational time has no such proof: its contact has no rationa
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 
 from hypcheck.geometry.pair import SWEEP_COLUMNS
@@ -111,7 +111,8 @@ def _points(row: Sequence[float], sweep: StraightSweep, time: Fraction) -> tuple
         return points
     centre, far = points
     side = _level(here, centre)
-    for offset in _rounded([(a - c) / here.row[2] for a, c in zip(far, centre, strict=True)]):
+    out = [(a - c) / here.row[2] for a, c in zip(far, centre, strict=True)]
+    for offset in crossing.shortened(out, 2, _MOST_BITS):
         x, y, z = (c + here.row[2] * part for c, part in zip(centre, offset, strict=True))
         if _within(here, offset) and _level(here, (x, y, z)) * side < 0:
             return centre, (x, y, z)
@@ -131,14 +132,3 @@ def _within(here: PairAtTime, offset: Sequence[Fraction]) -> bool:
     along = sum((a * v for a, v in zip(offset, here.axis, strict=True)), Fraction(0)) ** 2
     length = sum((v * v for v in here.axis), Fraction(0))
     return sum((a * a for a in offset), Fraction(0)) + ((b / d) ** 2 - 1) * along / length <= 1
-
-
-def _rounded(offset: Sequence[Fraction]) -> Iterator[tuple[Fraction, ...]]:
-    """The offset, a little shortened, with more and more bits."""
-    longest = max(map(abs, offset))
-    unit = Fraction(2) ** (longest.numerator.bit_length() - longest.denominator.bit_length())
-    bits = 2
-    while bits < _MOST_BITS:
-        step, share = unit / (1 << bits), 1 - Fraction(1, 1 << bits)
-        yield tuple(round(part * share / step) * step for part in offset)
-        bits += 1 + bits // 4

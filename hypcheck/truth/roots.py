@@ -14,12 +14,13 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from itertools import chain, combinations_with_replacement, groupby, product
 from types import MappingProxyType
+from typing import TypeVar
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.kinds import Kind
@@ -72,11 +73,14 @@ _EXPONENT = ("", "", "²", "³")
 
 def pattern_of(places: Iterable[tuple[RootPlace, int]]) -> str:
     """The word of PATTERNS for the places and multiplicities of the real roots of a cubic, in ascending order."""
-    roots = list(places)
-    words = [place.value + _EXPONENT[multiplicity] for place, multiplicity in roots]
-    if sum(multiplicity for _, multiplicity in roots) == 1:
-        words.append(COMPLEX)
-    return " ".join(words)
+    roots = [(place.value, multiplicity) for place, multiplicity in places]
+    pair = f" {COMPLEX}" if sum(multiplicity for _, multiplicity in roots) == 1 else ""
+    return word_of(roots) + pair
+
+
+def word_of(roots: Iterable[tuple[str, int]]) -> str:
+    """Places of roots, each with its multiplicity as an exponent."""
+    return " ".join(place + _EXPONENT[multiplicity] for place, multiplicity in roots)
 
 
 def admissible() -> frozenset[str]:
@@ -95,22 +99,25 @@ def admissible() -> frozenset[str]:
                 and (RootPlace.AT_B in places or places.count(RootPlace.ABOVE) % 2 == 1)
                 and (RootPlace.AT_MINUS_A in places or places.count(RootPlace.BELOW) % 2 == 0)
             ):
-                patterns.update(_multiplicities(places))
+                patterns.update(map(pattern_of, multiplicities(places, (RootPlace.AT_MINUS_A, RootPlace.AT_B))))
     return frozenset(patterns)
 
 
 _COMPOSITIONS = {1: ((1,),), 2: ((1, 1), (2,)), 3: ((1, 1, 1), (1, 2), (2, 1), (3,))}
 
 
-def _multiplicities(places: Iterable[RootPlace]) -> Iterator[str]:
-    """All ways for roots in the same open interval to fall together; those at a point are one root."""
+Place = TypeVar("Place")
+
+
+def multiplicities(places: Iterable[Place], points: Container[Place]) -> Iterator[list[tuple[Place, int]]]:
+    """All ways for roots in the same open interval to fall together; those at one of the `points` are one root."""
     choices = []
     for place, group in groupby(places):
         count = len(list(group))
-        ways = ((count,),) if place in (RootPlace.AT_MINUS_A, RootPlace.AT_B) else _COMPOSITIONS[count]
+        ways = ((count,),) if place in points else _COMPOSITIONS[count]
         choices.append([[(place, multiplicity) for multiplicity in way] for way in ways])
     for choice in product(*choices):
-        yield pattern_of(chain.from_iterable(choice))
+        yield list(chain.from_iterable(choice))
 
 
 def same_signs(pattern: str, possible: Iterable[Kind]) -> tuple[Kind, ...]:

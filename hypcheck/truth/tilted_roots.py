@@ -22,16 +22,17 @@ A pattern that the table does not list is an error of ours, never an answer.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from itertools import combinations, combinations_with_replacement, groupby, pairwise, product
+from itertools import combinations, combinations_with_replacement, pairwise
 from types import MappingProxyType
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.polynomial_roots import root_exponents, roots_between, squarefree, sturm_chain
 from hypcheck.truth.polynomials import Polynomial, common_divisor, primitive, quotient, value
+from hypcheck.truth.roots import multiplicities, word_of
 
 
 class Side(Enum):
@@ -55,9 +56,6 @@ PATTERNS: Mapping[Side, tuple[str, ...]] = MappingProxyType(
 """The table: the places of the roots on one side, outward, a multiplicity as an exponent, for each meaning."""
 
 MEANING: Mapping[str, Side] = MappingProxyType({word: side for side, words in PATTERNS.items() for word in words})
-
-_EXPONENT = ("", "", "²", "³")
-_COMPOSITIONS = {1: ((1,),), 2: ((1, 1), (2,)), 3: ((1, 1, 1), (1, 2), (2, 1), (3,))}
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,23 +92,8 @@ def admissible() -> frozenset[str]:
     for number in (1, 3):
         for places in combinations_with_replacement(_PLACES, number):
             if END in places or places.count(BEYOND) % 2 == 1:
-                patterns.update(_multiplicities(places))
+                patterns.update(map(word_of, multiplicities(places, (END,))))
     return frozenset(patterns)
-
-
-def _multiplicities(places: Sequence[str]) -> Iterator[str]:
-    """All ways for roots in the same open interval to fall together; those at R are one root."""
-    choices = []
-    for place, group in groupby(places):
-        count = len(list(group))
-        ways = ((count,),) if place == END else _COMPOSITIONS[count]
-        choices.append([[(place, multiplicity) for multiplicity in way] for way in ways])
-    for choice in product(*choices):
-        yield _word(root for part in choice for root in part)
-
-
-def _word(roots: Iterable[tuple[str, int]]) -> str:
-    return " ".join(place + _EXPONENT[multiplicity] for place, multiplicity in roots)
 
 
 def characteristic(lengths: Lengths) -> Polynomial:
@@ -184,7 +167,7 @@ def side_pattern(f: Polynomial, g: Polynomial) -> str:
             places += [(place, times), *[(place, 1)] * roots_between(simple, multiple, end)]
         else:
             places += [(place, times) for factor, times in factors for _ in range(roots_between(factor, start, end))]
-    return _word(places)
+    return word_of(places)
 
 
 def _factors(f: Polynomial) -> Iterator[tuple[Polynomial, int]]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import count
+from itertools import chain, count
 from typing import Any
 
 from hypcheck.geometry.pair import Pair, Position
@@ -16,6 +16,7 @@ from hypcheck.geometry.rows import PAIRS
 from hypcheck.truth import exact
 from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
 from hypcheck.truth.certificate import Certificate
+from hypcheck.truth.crossing import shortened
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
 from hypcheck.truth.passage_certificate import place
@@ -105,12 +106,13 @@ def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
     if len(offsets) < 2 or PAIRS.has_heights(row):
         return StoredCertificate(certificate.multiplier, offsets, certificate.double_root, certificate.pieces)
     center, far = offsets
+    shorter: Iterator[Offset]
     if PAIRS.has_axis(row):
-        shorter = _rounded(far)
+        shorter = chain(shortened(far, 1, _MOST_BITS), [far])
     else:
         shorter = _cut_off(next(offset for offset in _slid(row, far) if shows_crossing(row, (center, offset))))
     return StoredCertificate(
-        offsets=(center, next(shortened for shortened in shorter if shows_crossing(row, (center, shortened))))
+        offsets=(center, next(offset for offset in shorter if shows_crossing(row, (center, offset))))
     )
 
 
@@ -143,17 +145,6 @@ def _cut_off(offset: Offset) -> Iterator[Offset]:
     """The offset with each part cut off after more and more bits, so that it stays in the spheroid; at last itself."""
     for bits in _bits():
         s, t, w = (Fraction(int(part * (1 << bits)), 1 << bits) for part in offset)
-        yield (s, t, w)
-    yield offset
-
-
-def _rounded(offset: Offset) -> Iterator[Offset]:
-    """The offset, a little shortened, with more and more bits; at last itself."""
-    longest = max(map(abs, offset))
-    unit = Fraction(2) ** (longest.numerator.bit_length() - longest.denominator.bit_length())
-    for bits in _bits():
-        step, share = unit / (1 << bits), 1 - Fraction(1, 1 << bits)
-        s, t, w = (round(part * share / step) * step for part in offset)
         yield (s, t, w)
     yield offset
 
