@@ -25,7 +25,7 @@ import pytest
 
 if TYPE_CHECKING:
     from hypcheck.record import Record
-    from hypcheck.report.benchmark_failures import Failure
+    from hypcheck.report.facts import Failure
 
 MARKER = "hypcheck(SPEC, ..., **options): fail where `hypcheck verify SPEC` with these options does; then run the test."
 

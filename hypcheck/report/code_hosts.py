@@ -25,7 +25,8 @@ from hypcheck.record import Record
 from hypcheck.record.lines import CauseLine
 from hypcheck.record.reader import FILE
 from hypcheck.report import markdown
-from hypcheck.report.benchmark_failures import INCONCLUSIVE, Failure
+from hypcheck.report.benchmark_facts import INCONCLUSIVE
+from hypcheck.report.facts import Failure
 from hypcheck.report.messages import UNEXPLAINED
 from hypcheck.report.model import implementations, under_test
 from hypcheck.report.verdict import EXIT_INCONCLUSIVE, EXITS_UNFINISHED, ended_badly, failures, verdict

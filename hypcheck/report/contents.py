@@ -17,7 +17,6 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import CauseLine, IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes
-from hypcheck.report.benchmark_failures import Failure
 from hypcheck.report.document import (
     Block,
     Bullets,
@@ -35,6 +34,7 @@ from hypcheck.report.document import (
     prose,
     table,
 )
+from hypcheck.report.facts import Failure
 from hypcheck.report.measured import measured_methods
 from hypcheck.report.messages import Replays, error_text, families_text, figure, from_hex, settings_facts, share_text
 from hypcheck.report.model import implementations, under_test

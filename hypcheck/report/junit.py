@@ -10,11 +10,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 from xml.etree import ElementTree as Xml
 
-from hypcheck.messages import counted, escaped
-from hypcheck.record import Record
-from hypcheck.record.lines import EquationLine, FindingLine, GroupLine, OracleLine, ProofLine
+from hypcheck.messages import escaped
+from hypcheck.record import Record, RecordLine
+from hypcheck.record.lines import (
+    EquationLine,
+    FindingLine,
+    GroupLine,
+    ImplementationLine,
+    NotStartedLine,
+    OracleLine,
+    ProofLine,
+)
 from hypcheck.record.measurements import (
     ComparisonLine,
     ForestLine,
@@ -24,27 +33,10 @@ from hypcheck.record.measurements import (
     SpeedLine,
     UnmeasuredLine,
 )
-from hypcheck.report.benchmark_failures import MEASUREMENT, Failure
-from hypcheck.report.measured import measured_methods
-from hypcheck.report.messages import (
-    Replays,
-    classify_command,
-    figure,
-    from_hex,
-    implementation_claims,
-    pace,
-    rows_not_asked,
-    settings_facts,
-)
-from hypcheck.report.model import (
-    ImplementationTotal,
-    explanation,
-    implementations,
-    in_order,
-    oracle_totals,
-    under_test,
-    worst_case,
-)
+from hypcheck.report.benchmark_facts import accuracy_facts, facts_of
+from hypcheck.report.facts import Failure, LineFacts
+from hypcheck.report.messages import settings_facts
+from hypcheck.report.model import implementations, oracle_totals
 from hypcheck.report.verdict import ended_badly, failures, verdict
 
 
@@ -103,78 +95,34 @@ def details(failed: Iterable[Failure]) -> Iterator[str]:
             yield f"replay: {each.replay}"
 
 
-def benchmark_suites(record: Record, failed: Sequence[Failure]) -> Iterator[JunitSuite]:
-    """The suites of a benchmark: answers, times, baseline, scenes, kernels; all empty if there was none."""
-    found = [failure for failure in failed if failure.subject == MEASUREMENT]
-    yield JunitSuite("bench.answers", tuple(_answer_cases(record, found)))
-    yield JunitSuite("bench.times", tuple(_time_cases(record, found)))
-    yield JunitSuite("bench.baseline", tuple(_comparison(line, found) for line in record.of(ComparisonLine)))
-    yield JunitSuite("bench.scenes", tuple(_scene_cases(record, found)))
-    yield JunitSuite("bench.kernels", tuple(_kernel(line, found) for line in record.of(KernelLine)))
-
-
-def _answer_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
-    for each in measured_methods(record):
-        for workload, line in each.accuracy.items():
-            reliable = figure(line.reliable_above)
-            said = f"{line.wrong:,} of {counted(line.asked, 'answer')} wrong; reliable above {reliable}"
-            yield JunitCase(f"{each.name} on {workload}", _trouble(failed, "wrong", each.name, workload), (said,))
-
-
-def _time_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
-    for line in record.of(SpeedLine):
-        ratio = "" if line.ratio is None else f"{pace(line.ratio, 'the reference')}, "
-        said = f"{ratio}{figure(line.median_ns)} ns"
-        yield JunitCase(_name(line), output=(said,))
-    for unmeasured in record.of(UnmeasuredLine):
-        yield JunitCase(_name(unmeasured), JunitTrouble("skipped", "unmeasured", unmeasured.reason))
-    for refused in record.of(RefusedLine):
-        yield JunitCase(_name(refused), _trouble(failed, "refused", refused.method, _where(refused)))
-
-
-def _scene_cases(record: Record, failed: Sequence[Failure]) -> Iterator[JunitCase]:
-    for line in record.of(SceneLine):
-        ratios = (figure(times.by_printed or 0.0) for times in (line.batch, line.single))
-        said = f"{' in a batch and '.join(ratios)} one by one times Table 2's time, {line.wrong:,} wrong"
-        yield JunitCase(line.scene, _trouble(failed, "wrong", line.scene, "scene"), (said,))
-    for step in record.of(ForestLine):
-        group = f"{step.trees:,} trees"
-        said = f"{figure(step.step_ns)} ns a step, {step.wrong:,} wrong"
-        yield JunitCase(f"{step.method}, {group}", _trouble(failed, "wrong", step.method, group), (said,))
-
-
-def _comparison(line: ComparisonLine, failed: Sequence[Failure]) -> JunitCase:
-    said = f"{figure(line.change)} times its former ratio, allowed {figure(line.allowed)}: {line.verdict}"
-    trouble = _trouble(failed, line.verdict, line.method, _where(line))
-    if trouble is None and line.verdict == "inconclusive":
-        trouble = JunitTrouble("skipped", "inconclusive", said)
-    return JunitCase(_name(line), trouble, (said,))
-
-
-def _kernel(line: KernelLine, failed: Sequence[Failure]) -> JunitCase:
-    said = f"wanted {figure(line.wanted)}, measured {figure(line.measured)}: {'met' if line.met else 'not met'}"
-    missed = _failure([each for each in failed if (each.name, each.group) == (line.name, "target")])
-    return JunitCase(f"{line.name}: {line.target}", missed, (said, line.says))
-
-
-def _name(line: SpeedLine | UnmeasuredLine | RefusedLine | ComparisonLine) -> str:
-    return f"{line.method} on {_where(line)}"
-
-
-def _where(line: SpeedLine | UnmeasuredLine | RefusedLine | ComparisonLine) -> str:
-    return f"{line.workload}, {line.mode}"
-
-
-def _trouble(failed: Sequence[Failure], kind: str, name: str, group: str) -> JunitTrouble | None:
-    return _failure([each for each in failed if (each.kind, each.name, each.group) == (kind, name, group)])
-
-
-def _failure(mine: Sequence[Failure], message: str = "") -> JunitTrouble | None:
-    """The trouble of a case to which these failures belong, with their details; None without any."""
-    if not mine:
+def _trouble(failed: Sequence[Failure], message: str = "") -> JunitTrouble | None:
+    """The trouble of a case with these failures, with the cases and commands that show them; None without any."""
+    if not failed:
         return None
-    said = message or "; ".join(each.message for each in mine)
-    return JunitTrouble("failure", mine[0].kind, said, tuple(details(mine)))
+    said = message or "; ".join(each.message for each in failed)
+    shown = tuple(details(failed)) if any(each.case or each.replay for each in failed) else ()
+    return JunitTrouble("failure", failed[0].kind, said, shown)
+
+
+def _case(facts: LineFacts[Any]) -> JunitCase:
+    """The case of one line."""
+    failed, not_judged, seconds = list(facts.failures()), facts.not_judged(), facts.seconds()
+    trouble = _trouble(failed, facts.headline()) if failed else None
+    if not failed and not_judged:
+        trouble = JunitTrouble("skipped", not_judged.kind, not_judged.message)
+    milliseconds = None if seconds is None else _milliseconds(seconds)
+    return JunitCase(facts.name, trouble, tuple(facts.sentences()), milliseconds)
+
+
+def _cases(facts: Iterable[LineFacts[Any]]) -> tuple[JunitCase, ...]:
+    """The cases of these lines under distinct names: parsers merge cases with the same name."""
+    seen: Counter[str] = Counter()
+    cases = []
+    for case in map(_case, facts):
+        seen[case.name] += 1
+        number = seen[case.name]
+        cases.append(case if number == 1 else replace(case, name=f"{case.name} ({number})"))
+    return tuple(cases)
 
 
 _LONGEST_MS = 1e15
@@ -191,22 +139,43 @@ def junit_suites(record: Record) -> Iterator[JunitSuite]:
 
 def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
     """The suites after that of the run itself."""
-    yield JunitSuite("proofs", tuple(_distinct_names(_proof(line) for line in record.of(ProofLine))))
-    yield JunitSuite("equations", tuple(_distinct_names(_equation(line) for line in record.of(EquationLine))))
+    yield JunitSuite("proofs", _cases(facts_of(record, ProofLine)))
+    yield JunitSuite("equations", _cases(facts_of(record, EquationLine)))
+    answers = facts_of(record, OracleLine)
     for oracle in oracle_totals(record):
-        lines = [line for line in record.of(OracleLine) if line.oracle == oracle.name]
         if oracle.unavailable is not None:
             trouble = JunitTrouble("skipped", "unavailable", f"not available: {oracle.unavailable}")
             yield JunitSuite(f"oracles.{oracle.name}", (JunitCase("available", trouble),))
         else:
-            yield JunitSuite(f"oracles.{oracle.name}", tuple(_oracle(line, failed) for line in lines))
+            yield JunitSuite(
+                f"oracles.{oracle.name}", _cases(each for each in answers if each.line.oracle == oracle.name)
+            )
     yield JunitSuite("findings", tuple(_findings(record, failed)))
-    replays = Replays.of(record)
+    groups = {id(each.line): each for each in facts_of(record, GroupLine)}
     for implementation in implementations(record):
-        cases = tuple(_family_case(implementation, group, failed, replays) for group in implementation.groups)
-        yield JunitSuite(f"implementations.{implementation.name}", cases)
-    yield JunitSuite("implementations", tuple(_implementation_cases(record, failed)))
-    yield from benchmark_suites(record, failed)
+        mine = _cases(groups[id(group)] for group in implementation.groups)
+        yield JunitSuite(f"implementations.{implementation.name}", mine)
+    yield JunitSuite("implementations", _cases(facts_of(record, ImplementationLine, NotStartedLine)))
+    yield JunitSuite("bench.answers", _cases(accuracy_facts(record)))
+    yield JunitSuite("bench.times", _cases(_by_type(record, SpeedLine, UnmeasuredLine, RefusedLine)))
+    yield JunitSuite("bench.baseline", _cases(facts_of(record, ComparisonLine)))
+    yield JunitSuite("bench.scenes", _cases(_by_type(record, SceneLine, ForestLine)))
+    yield JunitSuite("bench.kernels", _cases(facts_of(record, KernelLine)))
+
+
+def _by_type(record: Record, *kinds: type[RecordLine]) -> Iterator[LineFacts[Any]]:
+    return (facts for kind in kinds for facts in facts_of(record, kind))
+
+
+def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
+    """A case for each mathematical finding, and one about whether they are the known ones."""
+    found = _cases(facts_of(record, FindingLine))
+    yield from found
+    drifted = [each for each in failed if each.subject == "findings"]
+    if drifted:
+        yield JunitCase("known findings", _trouble(drifted))
+    elif found:
+        yield JunitCase("known findings", output=("the findings are the known ones",))
 
 
 def _ended(record: Record, failed: list[Failure], others: int) -> JunitCase:
@@ -226,104 +195,6 @@ def _ended(record: Record, failed: list[Failure], others: int) -> JunitCase:
 def _milliseconds(seconds: float) -> int:
     """Whole milliseconds; a time beyond _LONGEST_MS is cut."""
     return round(min(1000 * seconds, _LONGEST_MS))
-
-
-def _proof(line: ProofLine) -> JunitCase:
-    name = f"{line.formula}: {line.quantity}"
-    if line.holds:
-        return JunitCase(name, output=(line.statement,))
-    return JunitCase(name, JunitTrouble("failure", "unproved", f"not proved: {line.statement}"))
-
-
-def _equation(line: EquationLine) -> JunitCase:
-    derived = () if line.holds else (f"derived: {line.correction}",)
-    output = (f"{line.verdict}: {line.finding}", f"printed: {line.statement}", *derived)
-    return JunitCase(f"({line.number})", output=output)
-
-
-def _distinct_names(cases: Iterable[JunitCase]) -> Iterator[JunitCase]:
-    """The cases under distinct names: parsers merge cases with the same name."""
-    seen: Counter[str] = Counter()
-    for case in cases:
-        seen[case.name] += 1
-        number = seen[case.name]
-        yield case if number == 1 else replace(case, name=f"{case.name} ({number})")
-
-
-def _oracle(line: OracleLine, failed: list[Failure]) -> JunitCase:
-    stages = ", ".join(f"{stage} {number:,}" for stage, number in line.stages.items())
-    output = (f"{counted(line.asked, 'case')}, {line.undecided:,} undecided: {stages}",)
-    milliseconds = _milliseconds(line.seconds)
-    place = ("oracle", line.oracle, line.family)
-    mine = [each for each in failed if (each.subject, each.name, each.group) == place]
-    trouble = None
-    if mine:
-        counts = f"{counted(line.disagreeing, 'disagreement')} in {counted(line.asked, 'case')}"
-        trouble = _failure(mine, f"{counts}; first: {mine[0].message}")
-    elif line.undecided == line.asked:
-        trouble = JunitTrouble("skipped", "undecided", "no case could be decided")
-    return JunitCase(line.family, trouble, output, milliseconds)
-
-
-def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
-    """A case for each mathematical finding, and one about whether they are the known ones."""
-    yield from _distinct_names(map(_finding, record.of(FindingLine)))
-    drifted = [each for each in failed if each.subject == "findings"]
-    if drifted:
-        yield JunitCase("known findings", _failure(drifted))
-    elif record.of(FindingLine):
-        yield JunitCase("known findings", output=("the findings are the known ones",))
-
-
-def _finding(line: FindingLine) -> JunitCase:
-    where = "inside" if line.inside else "outside"
-    return JunitCase(
-        f"{line.formula} on {line.family}",
-        output=(
-            f"wrong in exact arithmetic, {where} its stated regimes: {line.wrong:,} of {line.asked:,}",
-            explanation(line),
-            f"first case: {line.first_case}",
-            f"replay: {classify_command(from_hex(line.first_row))}",
-        ),
-    )
-
-
-def _implementation_cases(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
-    """A case for each gated implementation, which fails if it did not start, or failed outside any family."""
-    for tested in under_test(record):
-        families = {group.family for group in tested.groups}
-        mine = [each for each in failed if each.name == tested.name and each.group not in families]
-        if mine:
-            message = "; ".join(each.message for each in mine)
-            yield JunitCase(tested.name, JunitTrouble("failure", mine[0].kind, message))
-        else:
-            yield JunitCase(tested.name, output=tuple(implementation_claims(tested.line)))
-
-
-def _family_case(
-    implementation: ImplementationTotal, group: GroupLine, failed: list[Failure], replays: Replays
-) -> JunitCase:
-    """A case for each family: it fails if any status of its cases fails the run; the output has all statuses."""
-    counts, output = in_order(Counter(group.counts)), []
-    cases = sum(counts.values())
-    for status, number in counts.items():
-        why = rows_not_asked(group.not_asked or {}) if status == "skipped" else ""
-        output.append(f"{status}: {number:,} of {counted(cases, 'case')}{why and f': {why}'}")
-        worst = worst_case([case for case in group.worst if case.status == status])
-        if worst is not None:
-            numbered = f" ({replays.place(worst)})" if implementation.gated else ""
-            error = figure(worst.backward_error_u)
-            output.append(f"worst backward error: {error} u, case {worst.case}{numbered}")
-            output.append(f"replay: {replays.command(group, worst)}")
-    place = ("implementation", implementation.name, group.family)
-    mine = [each for each in failed if (each.subject, each.name, each.group) == place and each.kind in counts]
-    if not mine and set(counts) == {"skipped"}:
-        why = rows_not_asked(group.not_asked or {}) or "they lie outside the method's domain or its format's range"
-        message = f"all {counted(cases, 'case')} were not asked: {why}"
-        return JunitCase(group.family, JunitTrouble("skipped", "skipped", message))
-    if group.fresh:
-        output.append(f"fresh rows: {group.fresh:,}")
-    return JunitCase(group.family, _failure(mine), tuple(output))
 
 
 TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}

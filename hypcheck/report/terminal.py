@@ -21,6 +21,7 @@ from hypcheck.report.advice import (
     own_method_facts,
     recommendations,
 )
+from hypcheck.report.benchmark_facts import facts_of, sentences_of
 from hypcheck.report.changes import (
     FASTER,
     SLOWER,
@@ -125,12 +126,6 @@ def _farthest(methods: Sequence[ImplementationTotal]) -> str:
     return "no answer is wrong" if judged else "no answer was judged"
 
 
-def claim_facts(record: Record) -> Iterator[str]:
-    """The verdicts on the paper's claims of cost."""
-    for line in record.of(CostLine):
-        yield f"claim {line.verdict}, {line.scene}: {line.claim}"
-
-
 def benchmark_facts(record: Record) -> Iterator[str]:
     """Targets met, the price of other shapes, and the distances at which errors end."""
     kernels = record.of(KernelLine)
@@ -138,10 +133,7 @@ def benchmark_facts(record: Record) -> Iterator[str]:
         missed = [line.name for line in kernels if not line.met]
         named = f"; not met: {listed(missed)}" if missed else ""
         yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
-    for line in record.of(BoundingLine):
-        if line.asked:
-            share = figure(100 * line.false_contact / line.asked)
-            yield f"a bounding {line.shape} in the spheroid's place, {line.workload}: {share} % false contacts"
+    yield from sentences_of(record, BoundingLine)
     for each in way_totals(record):
         yield _way_fact(each)
     found = [each for each in measured_methods(record) if each.line.kind in IN_FLOATS]
@@ -232,14 +224,14 @@ def summary_lines(
         *([] if against is None else _changes(record, against)),
         *own_method_facts(record),
         *_advice(record),
-        *_absent(record),
+        *sentences_of(record, AbsentLine),
         *_unmeasured(record),
         *oracle_facts(record),
         *paper_facts(record),
         *_under_test(record),
         *method_facts(record),
         *_timings(record),
-        *claim_facts(record),
+        *sentences_of(record, CostLine),
         *benchmark_facts(record),
     ]
     reports = [*_reports(written), *best_rival_facts(record)]
@@ -339,15 +331,10 @@ def _advice(record: Record) -> Iterator[str]:
         yield f"{each.need.what}{where}{asked}: {each.use.name}, {pace(ratio, against)}"
 
 
-def _absent(record: Record) -> Iterator[str]:
-    """What was left out because something is not installed."""
-    yield from (f"left out: {line.reason}" for line in record.of(AbsentLine))
-
-
 def _unmeasured(record: Record) -> Iterator[str]:
     """What could not be timed, and how many samples were dropped as impossible."""
-    for line in record.of(UnmeasuredLine):
-        yield f"not measured: {line.method} on {line.workload}, {line.mode}: {line.reason}"
+    for each in facts_of(record, UnmeasuredLine):
+        yield f"not measured: {each.name}: {each.line.reason}"
     dropped = [(speed, speed.dropped) for speed in record.of(SpeedLine) if speed.dropped]
     if dropped:
         number = sum(samples for _, samples in dropped)

@@ -10,23 +10,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
 
 from hypcheck.implementations.not_asked import too_few
 from hypcheck.messages import counted
 from hypcheck.record import Record
-from hypcheck.record.fields import numbers_of
-from hypcheck.record.lines import DisagreementPart, DriftLine, GroupLine, NotStartedLine, OracleLine, ProofLine
+from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import ComparisonLine, ForestLine, KernelLine, SceneLine
-from hypcheck.report.benchmark_failures import SLOWER, Failure, benchmark_failures
+from hypcheck.report.benchmark_facts import SLOWER, benchmark_failures, failures_of
+from hypcheck.report.facts import Failure
 from hypcheck.report.measured import by_ratio, measured_methods, reference, timed_workloads
 from hypcheck.report.messages import (
-    Replays,
-    classify_command,
-    error_text,
     families_not_asked,
     figure,
-    from_hex,
     listed,
     pace,
     rows_not_asked,
@@ -36,14 +31,11 @@ from hypcheck.report.model import (
     OracleTotal,
     implementations,
     in_order,
-    names_in,
     oracle_totals,
-    subject_of,
     under_test,
     worst_error_u,
 )
-from hypcheck.runs.judge import UNANSWERED, Status
-from hypcheck.runs.judges import judge_of
+from hypcheck.runs.judge import Status
 
 WITHOUT_COMPARISON = (KernelLine, ForestLine, SceneLine)
 """Types of lines that a run can have without comparing methods on rows."""
@@ -104,9 +96,6 @@ EXITS_UNFINISHED = (70, 130, 143)
 EXIT_INCONCLUSIVE = 4
 """The exit code of a run that neither passed nor failed."""
 
-HARMLESS = ("right", "skipped")
-"""Statuses of cases that do not break the promise of an exact method."""
-
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
@@ -118,95 +107,17 @@ class Verdict:
 
 def failures(record: Record) -> list[Failure]:
     """Everything in the record that fails the run, worst first."""
-    return list(
-        chain(
-            _oracles(record),
-            _proofs(record),
-            _starts(record),
-            _implementations(record),
-            _abstentions(record),
-            _drift(record),
-            benchmark_failures(record),
-        )
-    )
-
-
-def _oracles(record: Record) -> Iterator[Failure]:
-    for line in record.of(OracleLine):
-        yield from (_disagreement(line, case) for case in line.disagreements)
-        rest = line.disagreeing - len(line.disagreements)
-        if rest > 0:
-            message = f"{line.oracle} on {line.family}: {counted(rest, 'further case')}, not kept in the record"
-            yield Failure("oracle", line.oracle, line.family, "disagreement", message, count=rest)
-
-
-def _disagreement(line: OracleLine, case: DisagreementPart) -> Failure:
-    message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
-    row = from_hex(numbers_of(case))
-    replay = classify_command(row)
-    return Failure("oracle", line.oracle, line.family, "disagreement", message, case.case, replay=replay, row=row)
-
-
-def _proofs(record: Record) -> Iterator[Failure]:
-    for line in record.of(ProofLine):
-        if not line.holds:
-            message = f"{line.formula}: not proved: {line.statement}"
-            yield Failure("proof", line.formula, line.quantity, "unproved", message)
-
-
-def _starts(record: Record) -> Iterator[Failure]:
-    """Implementations that could not be started, or broke the protocol throughout."""
-    for tested in under_test(record):
-        if isinstance(tested.line, NotStartedLine):
-            yield Failure("implementation", tested.name, "start", "not-started", tested.line.trouble)
-        elif tested.line.broke_protocol_throughout:
-            message = f"{tested.name} broke the protocol throughout"
-            yield Failure("implementation", tested.name, "start", "protocol", message)
-
-
-def _abstentions(record: Record) -> Iterator[Failure]:
-    """Failures of an implementation as a whole: abstentions, answers that change."""
-    for tested in under_test(record):
-        for trouble in [] if isinstance(tested.line, NotStartedLine) else tested.line.troubles:
-            yield Failure("implementation", tested.name, "all families", "behaviour", trouble)
-
-
-def _implementations(record: Record) -> Iterator[Failure]:
-    replays, names = Replays.of(record), names_in(record)
-    for line in record.of(GroupLine):
-        for status, number in in_order(Counter(line.counts)).items():
-            if status in (line.failing or ()) or _breaks_promise(line, status):
-                yield _broken_promise(names[subject_of(line)], line, status, number, replays)
-
-
-def _breaks_promise(line: GroupLine, status: str) -> bool:
-    """Whether a status fails a built-in method; for a gated implementation the record names failing statuses."""
-    return status not in HARMLESS if line.exact else status in UNANSWERED
-
-
-def _broken_promise(name: str, line: GroupLine, status: str, number: int, replays: Replays) -> Failure:
-    family = line.family
-    promise = " promises to be exact, but" if line.exact else ":"
-    message = f"{name}{promise} {number:,} of {counted(line.asked, 'case')} ended as {status}"
-    first = next((case for case in line.worst if case.status == status), None)
-    fault = next((case for case in line.faults or () if case.status == status), None)
-    if fault is not None:
-        message += f"; {fault.case}: {fault.reason}"
-    elif first is not None:
-        asked = judge_of(line.question)
-        message += f"; {first.case} is {asked.truth_in_words(first.truth)}; answered: {asked.in_words(first.answer)}"
-        message += f" ({first.mistake}, {error_text(first)})"
-    case = first if fault is None else fault
-    if case is None:
-        return Failure("implementation", name, family, status, message)
-    place, replay = replays.place(case), replays.command(line, case)
-    row = from_hex(numbers_of(case))
-    return Failure("implementation", name, family, status, message, case.case, place, replay, row)
-
-
-def _drift(record: Record) -> Iterator[Failure]:
-    for line in record.of(DriftLine):
-        yield Failure("findings", "known findings", "drift", "drift", line.sentence)
+    whole = failures_of(record, ImplementationLine, NotStartedLine)
+    starts = [each for each in whole if each.group == "start"]
+    return [
+        *failures_of(record, OracleLine),
+        *failures_of(record, ProofLine),
+        *starts,
+        *failures_of(record, GroupLine),
+        *(each for each in whole if each not in starts),
+        *failures_of(record, DriftLine),
+        *benchmark_failures(record),
+    ]
 
 
 def verdict(record: Record) -> Verdict:

@@ -1,0 +1,394 @@
+"""What each line of a benchmark says: its name, measurements, failures and sentences; and the table of all types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar
+
+from msgspec.structs import asdict
+
+from hypcheck.geometry.pair import Position
+from hypcheck.messages import counted
+from hypcheck.record import Record, RecordLine, lines
+from hypcheck.record.measurements import (
+    AbsentLine,
+    AccuracyLine,
+    BoundingLine,
+    ComparisonLine,
+    ConvergenceLine,
+    CostLine,
+    ForestLine,
+    KernelLine,
+    MemoryLine,
+    NoiseLine,
+    PlacesLine,
+    RefusedLine,
+    SceneLine,
+    SpeedLine,
+    StabilityLine,
+    UnmeasuredLine,
+)
+from hypcheck.report import facts
+from hypcheck.report.facts import Failure, LineFacts, Measurement, NotJudged, RecordContext
+from hypcheck.report.messages import classify_command, figure, from_hex, listed, pace, with_interval
+from hypcheck.runs.judge import in_words
+
+MEASUREMENT = "measurement"
+
+SLOWER, INCONCLUSIVE = "slower", "inconclusive"
+"""Kinds of failures of speed: certain, and too noisy to tell."""
+
+Timed = TypeVar("Timed", SpeedLine, UnmeasuredLine, RefusedLine, ComparisonLine)
+
+
+class TimedFacts(LineFacts[Timed]):
+    """A method on a workload in a mode."""
+
+    @property
+    def name(self) -> str:
+        return f"{self.line.method} on {self.where}"
+
+    @property
+    def where(self) -> str:
+        """The workload and the mode."""
+        return f"{self.line.workload}, {self.line.mode}"
+
+
+class AccuracyFacts(LineFacts[AccuracyLine]):
+    """A method's answers on a workload; one that promises to be exact fails the run where it errs."""
+
+    @property
+    def name(self) -> str:
+        return f"{self.line.method} on {self.line.workload}"
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, (self.line.method, self.line.workload)
+        names = ("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained", "reliable_above")
+        yield from self.fields(*where, "", *names)
+        for exponent, asked, wrong in line.octaves:
+            for quantity, number in (("asked", asked), ("wrong", wrong)):
+                yield *where, f"octave {exponent}", quantity, number
+
+    def failures(self) -> Iterator[Failure]:
+        line, method = self.line, self.context.methods.get(self.line.method)
+        if method is None or not method.exact or not (line.wrong or line.abstained):
+            return
+        counts = ((line.wrong, "wrong"), (line.abstained, "not told"))
+        wrong = listed([f"{number:,} {word}" for number, word in counts if number])
+        message = f"{line.method} promises to be exact, but of {counted(line.asked, 'answer')} {wrong}"
+        case = next(iter(line.worst), None)
+        if case is None:
+            yield Failure(MEASUREMENT, line.method, line.workload, "wrong", message)
+            return
+        answer = in_words(case.answer, method.line.question)
+        message += f"; {case.case} is {Position(case.truth).label}; answered: {answer}"
+        row = from_hex((*case.row, *(case.axis or ())))
+        where, replay = (line.method, line.workload), classify_command(row)
+        yield Failure(MEASUREMENT, *where, "wrong", message, case.case, replay=replay, row=row)
+
+    def sentences(self) -> Iterator[str]:
+        reliable = figure(self.line.reliable_above)
+        yield f"{self.line.wrong:,} of {counted(self.line.asked, 'answer')} wrong; reliable above {reliable}"
+
+
+class SpeedFacts(TimedFacts[SpeedLine]):
+    """A method's time on a workload."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, (self.line.method, self.line.workload)
+        yield *where, line.mode, "ns", line.median_ns, *line.ci95_ns
+        yield *where, line.mode, "ratio", line.ratio, *(line.ratio_ci95 or ())
+        for process, rounds in enumerate(line.samples_ns):
+            for number, sample in enumerate(rounds):
+                yield *where, f"{line.mode}, process {process}, round {number}", "ns", sample
+
+    def sentences(self) -> Iterator[str]:
+        ratio = "" if self.line.ratio is None else f"{pace(self.line.ratio, 'the reference')}, "
+        yield f"{ratio}{figure(self.line.median_ns)} ns"
+
+
+class UnmeasuredFacts(TimedFacts[UnmeasuredLine]):
+    """A method that could not be timed, which does not fail the run."""
+
+    def not_judged(self) -> NotJudged | None:
+        return NotJudged("unmeasured", self.line.reason)
+
+
+class RefusedFacts(TimedFacts[RefusedLine]):
+    """A method that is not timed because it was wrong, which fails the run."""
+
+    def failures(self) -> Iterator[Failure]:
+        message = f"{self.line.method} is not timed: {self.line.reason}"
+        yield Failure(MEASUREMENT, self.line.method, self.where, "refused", message)
+
+
+class ComparisonFacts(TimedFacts[ComparisonLine]):
+    """A ratio held to the baseline's: a slower or noisy one that gates fails the run."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, (self.line.method, self.line.workload, self.line.mode)
+        yield *where, "change", line.change, *(line.ci95 or ())
+        yield from self.fields(*where, "before", "after", "allowed")
+
+    def failures(self) -> Iterator[Failure]:
+        line = self.line
+        if line.verdict in (SLOWER, INCONCLUSIVE) and line.gates:
+            words = "is slower than the baseline allows" if line.verdict == SLOWER else "was too noisy to compare"
+            change, allowed = with_interval(line.change, line.ci95), figure(line.allowed)
+            message = f"{line.method} {words} ({self.where}): {change} times its former ratio, allowed {allowed}"
+            yield Failure(MEASUREMENT, line.method, self.where, line.verdict, message)
+
+    def not_judged(self) -> NotJudged | None:
+        noisy = self.line.verdict == INCONCLUSIVE and not self.line.gates
+        return NotJudged(INCONCLUSIVE, next(self.sentences())) if noisy else None
+
+    def sentences(self) -> Iterator[str]:
+        line = self.line
+        yield f"{figure(line.change)} times its former ratio, allowed {figure(line.allowed)}: {line.verdict}"
+
+
+class SceneFacts(LineFacts[SceneLine]):
+    """The kernel of a scene by Table 2; a wrong answer fails the run."""
+
+    @property
+    def name(self) -> str:
+        return self.line.scene
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, ("kernel", self.line.scene)
+        for name, share in asdict(line.shares).items():
+            yield *where, name, "share", share
+        yield from self.fields(*where, "", "rows", "wrong")
+        for mode, times in (("batch", line.batch), ("single", line.single)):
+            yield from self.fields(*where, mode, "kernel_ns", "printed_ns", "certified_ns", part=times)
+            yield *where, mode, "by_printed", times.by_printed, *(times.by_printed_ci95 or ())
+            yield *where, mode, "by_certified", times.by_certified, *(times.by_certified_ci95 or ())
+
+    def failures(self) -> Iterator[Failure]:
+        line = self.line
+        if line.wrong:
+            said = f"the kernel of the scene answers {line.wrong:,} of {counted(line.rows, 'row')} wrongly"
+            yield Failure(MEASUREMENT, line.scene, "scene", "wrong", said)
+
+    def sentences(self) -> Iterator[str]:
+        ratios = (figure(times.by_printed or 0.0) for times in (self.line.batch, self.line.single))
+        yield f"{' in a batch and '.join(ratios)} one by one times Table 2's time, {self.line.wrong:,} wrong"
+
+
+class ForestFacts(LineFacts[ForestLine]):
+    """A method for a walker among trees; one that promises to be exact fails the run where it errs."""
+
+    @property
+    def name(self) -> str:
+        return f"{self.line.method}, {self.trees}"
+
+    @property
+    def trees(self) -> str:
+        """The size of the forest."""
+        return f"{self.line.trees:,} trees"
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, (self.line.method, "", f"{self.line.trees} trees")
+        yield *where, "step_ns", line.step_ns, *(line.ci95_ns or ())
+        yield *where, "ratio", line.ratio, *(line.ratio_ci95 or ())
+        yield from self.fields(*where, "build_s", "asked", "wrong")
+
+    def failures(self) -> Iterator[Failure]:
+        line = self.line
+        if line.exact and line.wrong:
+            wrong = f"of {counted(line.asked, 'step')} {line.wrong:,} wrong"
+            said = f"{line.method} promises to be exact, but {wrong}"
+            yield Failure(MEASUREMENT, line.method, self.trees, "wrong", said)
+
+    def sentences(self) -> Iterator[str]:
+        yield f"{figure(self.line.step_ns)} ns a step, {self.line.wrong:,} wrong"
+
+
+class KernelFacts(LineFacts[KernelLine]):
+    """A target of a kernel's speed, which fails the run if it is missed, certainly or within the noise."""
+
+    @property
+    def name(self) -> str:
+        return f"{self.line.name}: {self.line.target}"
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, (self.line.name, "", self.line.target)
+        yield *where, "wanted", line.wanted
+        yield *where, "measured", line.measured, *(line.ci95 or ())
+
+    def failures(self) -> Iterator[Failure]:
+        line = self.line
+        if not line.met:
+            low, high = line.ci95 or (line.measured, line.measured)
+            kind = INCONCLUSIVE if low <= line.wanted <= high else SLOWER
+            measured = with_interval(line.measured, line.ci95)
+            message = f"{line.name} misses its target, {line.target}: {measured}, wanted {figure(line.wanted)}"
+            yield Failure(MEASUREMENT, line.name, "target", kind, message)
+
+    def sentences(self) -> Iterator[str]:
+        line = self.line
+        met = "met" if line.met else "not met"
+        yield f"wanted {figure(line.wanted)}, measured {figure(line.measured)}: {met}"
+        yield line.says
+
+
+class NoiseFacts(LineFacts[NoiseLine]):
+    """How far two times of one method differ."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        line = self.line
+        yield "", line.workload, line.mode, "ratio", line.ratio, *(line.ratio_ci95 or ())
+        yield "", line.workload, line.mode, "floor", line.floor
+
+
+class MemoryFacts(LineFacts[MemoryLine]):
+    """The memory of a method."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        return self.fields(self.line.method, "", str(self.line.rows), "peak_bytes")
+
+
+class StabilityFacts(LineFacts[StabilityLine]):
+    """A method over sizes of pairs."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        line = self.line
+        for across, up, asked, wrong in line.bins:
+            for quantity, number in (("asked", asked), ("wrong", wrong)):
+                yield line.method, line.precision, f"bin {across} {up}", quantity, number
+
+
+class PlacesFacts(LineFacts[PlacesLine]):
+    """A method over places of a region."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        letters = "".join(self.line.wrong)
+        for letter, name in ((".", "right"), ("c", "false_clear"), ("w", "false_contact"), ("s", "wrong_side")):
+            yield self.line.method, "", self.line.region, name, letters.count(letter)
+
+
+class ConvergenceFacts(LineFacts[ConvergenceLine]):
+    """A method on meshes of a number of triangles."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        names = ("build_ns", "query_ns", "deviation", "asked", "wrong")
+        return self.fields(self.line.method, "", f"{self.line.triangles} triangles", *names)
+
+
+class BoundingFacts(LineFacts[BoundingLine]):
+    """A shape around the spheroid in its place."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, (self.line.shape, self.line.workload)
+        yield from self.fields(*where, "", "asked", "false_contact", "false_clear")
+        for ratio, *values in line.overlap:
+            for name, value in zip(("asked", "false_contact", "excess_clearance"), values, strict=True):
+                yield *where, f"d/b {ratio}", name, value
+
+    def sentences(self) -> Iterator[str]:
+        line = self.line
+        if line.asked:
+            share = figure(100 * line.false_contact / line.asked)
+            yield f"a bounding {line.shape} in the spheroid's place, {line.workload}: {share} % false contacts"
+
+
+class CostFacts(LineFacts[CostLine]):
+    """A claim of the paper about cost."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        line = self.line
+        for each in line.compared:
+            where = each.name, line.scene, line.claim
+            yield *where, "ratio", each.ratio, *(each.ratio_ci95 or ())
+            yield *where, "ns", each.median_ns
+            for operation, number in (each.operations or {}).items():
+                yield *where, f"operations {operation}", number
+
+    def sentences(self) -> Iterator[str]:
+        yield f"claim {self.line.verdict}, {self.line.scene}: {self.line.claim}"
+
+
+class AbsentFacts(LineFacts[AbsentLine]):
+    """What is not installed."""
+
+    @property
+    def name(self) -> str:
+        return self.line.what
+
+    def sentences(self) -> Iterator[str]:
+        yield f"left out: {self.line.reason}"
+
+
+FACTS: Mapping[type[RecordLine], type[LineFacts[Any]]] = {
+    lines.ProofLine: facts.ProofFacts,
+    lines.EquationLine: facts.EquationFacts,
+    lines.OracleLine: facts.OracleFacts,
+    lines.FindingLine: facts.FindingFacts,
+    lines.DriftLine: facts.DriftFacts,
+    lines.GroupLine: facts.GroupFacts,
+    lines.ImplementationLine: facts.ImplementationFacts,
+    lines.NotStartedLine: facts.NotStartedFacts,
+    lines.MapLine: facts.MapFacts,
+    lines.TimingLine: facts.TimingFacts,
+    AccuracyLine: AccuracyFacts,
+    SpeedLine: SpeedFacts,
+    UnmeasuredLine: UnmeasuredFacts,
+    RefusedLine: RefusedFacts,
+    ComparisonLine: ComparisonFacts,
+    SceneLine: SceneFacts,
+    ForestLine: ForestFacts,
+    KernelLine: KernelFacts,
+    NoiseLine: NoiseFacts,
+    MemoryLine: MemoryFacts,
+    StabilityLine: StabilityFacts,
+    PlacesLine: PlacesFacts,
+    ConvergenceLine: ConvergenceFacts,
+    BoundingLine: BoundingFacts,
+    CostLine: CostFacts,
+    AbsentLine: AbsentFacts,
+}
+"""The facts of each type of line; lines of other types state none that formats share."""
+
+
+def facts_of(record: Record, *kinds: type[RecordLine]) -> list[LineFacts[Any]]:
+    """The facts of all lines, or of those of these types, in the order of the record."""
+    context = RecordContext(record)
+    return [
+        FACTS[type(line)](line, context)
+        for line in record.lines
+        if type(line) in FACTS and (not kinds or isinstance(line, kinds))
+    ]
+
+
+def failures_of(record: Record, *kinds: type[RecordLine]) -> list[Failure]:
+    """The failures of all lines of these types, in the order of the record."""
+    return [failure for each in facts_of(record, *kinds) for failure in each.failures()]
+
+
+def sentences_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
+    """The sentences of all lines of these types."""
+    return (sentence for each in facts_of(record, *kinds) for sentence in each.sentences())
+
+
+def benchmark_failures(record: Record) -> Iterator[Failure]:
+    """Exact methods that erred, answers that changed while they were timed, slowness, noise."""
+    for each in accuracy_facts(record):
+        yield from each.failures()
+    for kind in (RefusedLine, ForestLine, SceneLine):
+        yield from failures_of(record, kind)
+    held = [*_without_baseline(record), *failures_of(record, ComparisonLine), *failures_of(record, KernelLine)]
+    yield from sorted(held, key=lambda failure: failure.kind != SLOWER)
+
+
+def accuracy_facts(record: Record) -> list[LineFacts[Any]]:
+    """The facts of what was answered, method by method."""
+    context = RecordContext(record)
+    methods = context.methods.values()
+    return [AccuracyFacts(line, context) for method in methods for line in method.accuracy.values()]
+
+
+def _without_baseline(record: Record) -> Iterator[Failure]:
+    """A run in which no speed could be compared with the baseline has not passed."""
+    if record.header.options.get("baseline") and not any(line.gates for line in record.of(ComparisonLine)):
+        message = "nothing was compared with the baseline: no gated time was measured in both runs"
+        yield Failure(MEASUREMENT, "baseline", "all workloads", INCONCLUSIVE, message)

@@ -1,0 +1,378 @@
+"""What each line of a verification's record says: its name, measurements, failures and sentences, stated once.
+
+A format takes these finished facts and renders them; it interprets no line itself. The facts of a benchmark's lines
+stand in benchmark_facts.py, which also has the table of all types of lines.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Generic, TypeVar
+
+from msgspec import UNSET
+
+from hypcheck.messages import counted
+from hypcheck.record import Record, RecordLine
+from hypcheck.record.fields import numbers_of
+from hypcheck.record.lines import (
+    DisagreementPart,
+    DriftLine,
+    EquationLine,
+    FindingLine,
+    GroupLine,
+    ImplementationLine,
+    MapLine,
+    NotStartedLine,
+    OracleLine,
+    ProofLine,
+    TimingLine,
+)
+from hypcheck.report.measured import MeasuredMethod, measured_methods
+from hypcheck.report.messages import (
+    Replays,
+    classify_command,
+    error_text,
+    figure,
+    from_hex,
+    implementation_claims,
+    rows_not_asked,
+)
+from hypcheck.report.model import SubjectKey, explanation, in_order, names_in, subject_of, worst_case
+from hypcheck.runs.judge import UNANSWERED
+from hypcheck.runs.judges import judge_of
+
+Measurement = tuple[Any, ...]
+"""Method, workload, detail, quantity and value, and the two ends of its interval if it has one."""
+
+HARMLESS = ("right", "skipped")
+"""Statuses of cases that do not break the promise of an exact method."""
+
+Line = TypeVar("Line", bound=RecordLine)
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """One thing that fails a run.
+
+    subject: "proof", "oracle", "implementation", "findings", "measurement", or "run": how it ended.
+    name: the one that failed.
+    group: the family, the quantity or the workload.
+    kind: one word for what happened.
+    message: one sentence about it, without a full stop.
+    case: the id of the first case, if there is one.
+    place: its place in the record.
+    replay: the command that shows it.
+    row: the numbers of the case.
+    count: how many failures of its kind it stands for.
+    """
+
+    subject: str
+    name: str
+    group: str
+    kind: str
+    message: str
+    case: str | None = None
+    place: str | None = None
+    replay: str | None = None
+    row: tuple[float, ...] = ()
+    count: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class NotJudged:
+    """Why a line has no result: one word, and a sentence without a full stop."""
+
+    kind: str
+    message: str
+
+
+@dataclass(frozen=True)
+class RecordContext:
+    """A record, and what the facts of one line need of its other lines."""
+
+    record: Record
+
+    @cached_property
+    def replays(self) -> Replays:
+        """The commands that show its cases."""
+        return Replays.of(self.record)
+
+    @cached_property
+    def names(self) -> dict[SubjectKey, str]:
+        """The names of its implementations in reports."""
+        return names_in(self.record)
+
+    @cached_property
+    def methods(self) -> dict[str, MeasuredMethod]:
+        """The methods of a benchmark by name."""
+        return {each.name: each for each in measured_methods(self.record)}
+
+
+class LineFacts(Generic[Line]):
+    """The facts of one line; a subclass overrides what its type of line has."""
+
+    def __init__(self, line: Line, context: RecordContext) -> None:
+        self.line, self.context = line, context
+
+    @property
+    def name(self) -> str:
+        """The name of what the line is about, which does not depend on the result."""
+        return ""
+
+    def measurements(self) -> Iterator[Measurement]:
+        """The numbers of the line."""
+        yield from ()
+
+    def failures(self) -> Iterator[Failure]:
+        """What of the line fails the run, worst first."""
+        yield from ()
+
+    def headline(self) -> str:
+        """One sentence for all its failures together; "" where their own messages say it."""
+        return ""
+
+    def not_judged(self) -> NotJudged | None:
+        """Why the line has no result; None if it has one."""
+        return None
+
+    def sentences(self) -> Iterator[str]:
+        """What the line says, in sentences without a full stop."""
+        yield from ()
+
+    def seconds(self) -> float | None:
+        """The time that was spent on it; None if that was not measured."""
+        return None
+
+    def fields(
+        self, method: str, workload: str, detail: str, *names: str, part: object = None
+    ) -> Iterator[Measurement]:
+        """A measurement for each of these fields of the line, or of a part of it."""
+        for name in names:
+            yield method, workload, detail, name, getattr(self.line if part is None else part, name)
+
+
+class ProofFacts(LineFacts[ProofLine]):
+    """A quantity of a formula: it holds, or the run fails."""
+
+    @property
+    def name(self) -> str:
+        return f"{self.line.formula}: {self.line.quantity}"
+
+    def failures(self) -> Iterator[Failure]:
+        if not self.line.holds:
+            message = f"{self.line.formula}: not proved: {self.line.statement}"
+            yield Failure("proof", self.line.formula, self.line.quantity, "unproved", message)
+
+    def headline(self) -> str:
+        return f"not proved: {self.line.statement}"
+
+    def sentences(self) -> Iterator[str]:
+        if self.line.holds:
+            yield self.line.statement
+
+
+class EquationFacts(LineFacts[EquationLine]):
+    """A displayed formula of the paper; one that does not hold is a finding and no failure."""
+
+    @property
+    def name(self) -> str:
+        return f"({self.line.number})"
+
+    def sentences(self) -> Iterator[str]:
+        yield f"{self.line.verdict}: {self.line.finding}"
+        yield f"printed: {self.line.statement}"
+        if not self.line.holds:
+            yield f"derived: {self.line.correction}"
+
+
+class OracleFacts(LineFacts[OracleLine]):
+    """An oracle on a family: each case on which it and the exact decision disagree fails the run."""
+
+    @property
+    def name(self) -> str:
+        return self.line.family
+
+    def measurements(self) -> Iterator[Measurement]:
+        return self.fields(self.line.oracle, self.line.family, "", "asked", "undecided", "disagreeing", "seconds")
+
+    def failures(self) -> Iterator[Failure]:
+        line = self.line
+        yield from map(self._disagreement, line.disagreements)
+        rest = line.disagreeing - len(line.disagreements)
+        if rest > 0:
+            message = f"{line.oracle} on {line.family}: {counted(rest, 'further case')}, not kept in the record"
+            yield Failure("oracle", line.oracle, line.family, "disagreement", message, count=rest)
+
+    def _disagreement(self, case: DisagreementPart) -> Failure:
+        message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
+        row = from_hex(numbers_of(case))
+        where = self.line.oracle, self.line.family
+        return Failure("oracle", *where, "disagreement", message, case.case, replay=classify_command(row), row=row)
+
+    def headline(self) -> str:
+        first = next(self.failures())
+        counts = f"{counted(self.line.disagreeing, 'disagreement')} in {counted(self.line.asked, 'case')}"
+        return f"{counts}; first: {first.message}"
+
+    def not_judged(self) -> NotJudged | None:
+        undecided = self.line.undecided == self.line.asked
+        return NotJudged("undecided", "no case could be decided") if undecided else None
+
+    def sentences(self) -> Iterator[str]:
+        stages = ", ".join(f"{stage} {number:,}" for stage, number in self.line.stages.items())
+        yield f"{counted(self.line.asked, 'case')}, {self.line.undecided:,} undecided: {stages}"
+
+    def seconds(self) -> float | None:
+        return self.line.seconds
+
+
+class FindingFacts(LineFacts[FindingLine]):
+    """A formula that errs in exact arithmetic, which is a finding and no failure."""
+
+    @property
+    def name(self) -> str:
+        return f"{self.line.formula} on {self.line.family}"
+
+    def measurements(self) -> Iterator[Measurement]:
+        return self.fields(self.line.formula, self.line.family, self.line.cause, "asked", "wrong")
+
+    def sentences(self) -> Iterator[str]:
+        line, where = self.line, "inside" if self.line.inside else "outside"
+        yield f"wrong in exact arithmetic, {where} its stated regimes: {line.wrong:,} of {line.asked:,}"
+        yield explanation(line)
+        yield f"first case: {line.first_case}"
+        yield f"replay: {classify_command(from_hex(line.first_row))}"
+
+
+class DriftFacts(LineFacts[DriftLine]):
+    """A difference from the known findings, which fails the run."""
+
+    @property
+    def name(self) -> str:
+        return "known findings"
+
+    def failures(self) -> Iterator[Failure]:
+        yield Failure("findings", self.name, "drift", "drift", self.line.sentence)
+
+
+class GroupFacts(LineFacts[GroupLine]):
+    """A method on a family: the statuses of its cases, the worst of them, and those that fail the run."""
+
+    @property
+    def name(self) -> str:
+        return self.line.family
+
+    def measurements(self) -> Iterator[Measurement]:
+        line, where = self.line, (self.line.method, self.line.family)
+        if line.fresh is not UNSET:
+            yield *where, line.spec or "", "fresh", line.fresh
+        for reason, number in (line.not_asked or {}).items():
+            yield *where, line.spec or "", f"not asked: {reason}", number
+        for counts in (line.counts, line.mistakes):
+            for name, number in counts.items():
+                yield *where, line.spec or "", name, number
+        for exponent, counts in line.octaves.items():
+            for status, number in counts.items():
+                yield *where, f"octave {exponent}", status, number
+
+    def failures(self) -> Iterator[Failure]:
+        for status, number in in_order(Counter(self.line.counts)).items():
+            if status in (self.line.failing or ()) or self._breaks_promise(status):
+                yield self._broken_promise(status, number)
+
+    def _breaks_promise(self, status: str) -> bool:
+        """Whether a status fails a built-in method; of an implementation under test the line names what fails it."""
+        return status not in HARMLESS if self.line.exact else status in UNANSWERED
+
+    def _broken_promise(self, status: str, number: int) -> Failure:
+        line, name, replays = self.line, self.context.names[subject_of(self.line)], self.context.replays
+        promise = " promises to be exact, but" if line.exact else ":"
+        message = f"{name}{promise} {number:,} of {counted(line.asked, 'case')} ended as {status}"
+        first = next((case for case in line.worst if case.status == status), None)
+        fault = next((case for case in line.faults or () if case.status == status), None)
+        if fault is not None:
+            message += f"; {fault.case}: {fault.reason}"
+        elif first is not None:
+            asked = judge_of(line.question)
+            message += (
+                f"; {first.case} is {asked.truth_in_words(first.truth)}; answered: {asked.in_words(first.answer)}"
+            )
+            message += f" ({first.mistake}, {error_text(first)})"
+        case = first if fault is None else fault
+        if case is None:
+            return Failure("implementation", name, line.family, status, message)
+        place, replay, row = replays.place(case), replays.command(line, case), from_hex(numbers_of(case))
+        return Failure("implementation", name, line.family, status, message, case.case, place, replay, row)
+
+    def not_judged(self) -> NotJudged | None:
+        counts = in_order(Counter(self.line.counts))
+        if set(counts) != {"skipped"}:
+            return None
+        outside = "they lie outside the method's domain or its format's range"
+        why = rows_not_asked(self.line.not_asked or {}) or outside
+        return NotJudged("skipped", f"all {counted(sum(counts.values()), 'case')} were not asked: {why}")
+
+    def sentences(self) -> Iterator[str]:
+        line, replays = self.line, self.context.replays
+        counts = in_order(Counter(line.counts))
+        if self.not_judged():
+            return
+        for status, number in counts.items():
+            why = rows_not_asked(line.not_asked or {}) if status == "skipped" else ""
+            yield f"{status}: {number:,} of {counted(sum(counts.values()), 'case')}{why and f': {why}'}"
+            worst = worst_case([case for case in line.worst if case.status == status])
+            if worst is not None:
+                numbered = f" ({replays.place(worst)})" if line.tested else ""
+                yield f"worst backward error: {figure(worst.backward_error_u)} u, case {worst.case}{numbered}"
+                yield f"replay: {replays.command(line, worst)}"
+        if line.fresh:
+            yield f"fresh rows: {line.fresh:,}"
+
+
+class ImplementationFacts(LineFacts[ImplementationLine]):
+    """An implementation under test as a whole: what it declares, and what of its behaviour fails the run."""
+
+    @property
+    def name(self) -> str:
+        return self.context.names[subject_of(self.line)]
+
+    def failures(self) -> Iterator[Failure]:
+        if self.line.broke_protocol_throughout:
+            message = f"{self.name} broke the protocol throughout"
+            yield Failure("implementation", self.name, "start", "protocol", message)
+        for trouble in self.line.troubles:
+            yield Failure("implementation", self.name, "all families", "behaviour", trouble)
+
+    def sentences(self) -> Iterator[str]:
+        return implementation_claims(self.line)
+
+
+class NotStartedFacts(LineFacts[NotStartedLine]):
+    """An implementation that could not be started, which fails the run."""
+
+    @property
+    def name(self) -> str:
+        return self.context.names[subject_of(self.line)]
+
+    def failures(self) -> Iterator[Failure]:
+        yield Failure("implementation", self.name, "start", "not-started", self.line.trouble)
+
+
+class MapFacts(LineFacts[MapLine]):
+    """A method over the half plane of a scene."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        return self.fields(self.line.method, self.line.name, "", "points", "wrong")
+
+
+class TimingFacts(LineFacts[TimingLine]):
+    """A contender on a workload."""
+
+    def measurements(self) -> Iterator[Measurement]:
+        line = self.line
+        yield line.name, line.workload, "batch", "median_ns", line.median_ns
+        for number, sample in enumerate(line.samples_ns):
+            yield line.name, line.workload, f"round {number}", "ns", sample
