@@ -320,6 +320,15 @@ def replay(
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
         done = run(asked, implementation, criterion, formula)
-    for line in [replay_as_json(done)] if as_json else replay_lines(done, values=values or formula is not None):
+    shown = values or formula is not None
+    for line in [replay_as_json(done)] if as_json else replay_lines(done, _in_ledger, values=shown):
         click.echo(printable(line))
     context.exit(Exit.HELD if done.judgement.passes else Exit.WRONG)
+
+
+def _in_ledger(number: str) -> tuple[str, str, str]:
+    """The verdict on a claim of the paper, the claim in words, and its correction; loads sympy."""
+    from hypcheck.paper.ledger.book import statement
+
+    entry = statement(number)
+    return entry.verdict, entry.statement, entry.correction

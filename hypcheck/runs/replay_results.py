@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -119,8 +119,11 @@ _LABEL = 12
 _FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
 
 
-def replay_lines(done: Replay, *, values: bool = True) -> Iterator[str]:
-    """The whole replay, line by line; without `values`, only a formula that SPEC itself evaluates is shown."""
+def replay_lines(done: Replay, ledger: Callable[[str], tuple[str, str, str]], *, values: bool = True) -> Iterator[str]:
+    """The whole replay, line by line; without `values`, only a formula that SPEC itself evaluates is shown.
+
+    `ledger` gives the verdict on a claim of the paper, the claim in words, and its correction, by the claim's number.
+    """
     case = done.case
     yield from _titled("case", case.name)
     for name, value in zip(done.used.asked.layout.columns(len(case.row)), case.row, strict=True):
@@ -136,7 +139,7 @@ def replay_lines(done: Replay, *, values: bool = True) -> Iterator[str]:
     yield ""
     yield from _judgement_lines(done)
     for cause in done.causes:
-        yield from _cause_lines(cause, done.used.language)
+        yield from _cause_lines(cause, done.used.language, ledger)
     if done.choice is not None and isinstance(done.truth, ProvedTruth):
         yield ""
         if values or done.choice.own or done.choice.comparison is None:
@@ -177,14 +180,12 @@ def _regime(pair: Pair) -> str:
     return f"{wide}, {bent}; {'stated by Proposition ' + ' and '.join(stated) if stated else 'outside both regimes'}"
 
 
-def _cause_lines(cause: Cause, language: str) -> Iterator[str]:
+def _cause_lines(cause: Cause, language: str, ledger: Callable[[str], tuple[str, str, str]]) -> Iterator[str]:
     """Why the answer is wrong, the paper's claim that is the reason with the ledger's verdict, and the right line."""
     yield from _titled("cause", cause.sentence)
     if cause.claim:
-        from hypcheck.paper.ledger.book import statement  # noqa: PLC0415 - loads sympy
-
-        entry = statement(cause.claim)
-        yield from _titled("claim", f"{cause.claim}, {entry.verdict}: {entry.statement}", f"right: {entry.correction}")
+        verdict, claim, correction = ledger(cause.claim)
+        yield from _titled("claim", f"{cause.claim}, {verdict}: {claim}", f"right: {correction}")
     yield from _titled("fix", cause.remedy_in(language))
 
 

@@ -119,6 +119,29 @@ def loaded(code):
     return set(done.stderr.split())
 
 
+STUDIES = ("hypcheck.paper", "hypcheck.engines", "hypcheck.proofs")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "classify --alpha 2 --gamma 3 --b 1 --d 1 --center 5 0 0",
+        "verify --help",
+        "replay --help",
+    ],
+)
+def test_commands_of_the_product_load_no_study(command):
+    """Studies are the paper's derivation and simulations, the collision engines, and the proofs in Coq."""
+    code = (
+        "import sys; from hypcheck.cli.main import main\n"
+        f"try: main({command.split()!r})\nexcept SystemExit: pass\n"
+        f"print(*(name for name in sys.modules if name.startswith({STUDIES!r})), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
+    assert done.stdout
+    assert not done.stderr.split()
+
+
 def test_derive_help_loads_no_heavy_library():
     assert loaded("from hypcheck.cli.main import main; main(['derive', '--help'])") == set()
 
