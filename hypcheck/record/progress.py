@@ -138,8 +138,8 @@ class SavedResult(LinePart, frozen=True, kw_only=True):
     """
 
     tallies: dict[str, SavedTally]
-    open: list[PendingCases]
-    again: Retest
+    pending: list[PendingCases] = field(name="open")
+    retest: Retest = field(name="again")
     outcomes: list[Label]
     excusing: list[Total]
     named: list[str]

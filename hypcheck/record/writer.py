@@ -199,7 +199,7 @@ def is_result(line: RecordLine) -> bool:
     if isinstance(line, GroupLine):
         return line.asked > 0
     if isinstance(line, ProgressLine):
-        return bool(line.state.total.open) or any(each.asked for each in line.state.total.tallies.values())
+        return bool(line.state.total.pending) or any(each.asked for each in line.state.total.tallies.values())
     return not isinstance(line, _WITHOUT_RESULT)
 
 

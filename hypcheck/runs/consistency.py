@@ -224,7 +224,7 @@ def _of_sums(
 
 def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     counts = Counter(tally.counts)
-    trouble = _of_sums(family, tally, tally.exponents, (tally.size_bins.as_lists(), tally.place_bins.as_lists()))
+    trouble = _of_sums(family, tally, tally.octaves, (tally.size_bins.as_lists(), tally.place_bins.as_lists()))
     if trouble:
         return trouble
     if tally.dangerous > min(counts[Status.WRONG.value], sum(tally.mistakes.get(each.value, 0) for each in DANGEROUS)):
@@ -233,7 +233,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     diagnosed = sum(each.cases for each in tally.diagnosis.explained.values())
     if diagnosed != (0 if family in INVALID_CONTENTS else sum(counts[each.value] for each in FAILING)):
         return f"{family} has causes of {diagnosed} wrong answers, but another number of these"
-    kept = Counter(fault.status for fault in tally.unanswered)
+    kept = Counter(fault.status for fault in tally.faults)
     if kept != Counter({name: min(UNANSWERED_KEPT, counts[name]) for name in faults if counts[name]}):
         return f"{family} lists cases without an answer that its counts do not have"
     for case in tally.worst:

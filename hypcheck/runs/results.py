@@ -190,7 +190,7 @@ def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashe
             columns = " and ".join(file.cases[index].columns)
             reasons[index] = f"answered {answer}; a row with an invalid {columns} must be refused: {REFUSED}"
     found = unanswered_cases(file.rows, status, reasons, asked, np.arange(len(status)))
-    tally = Tally(asked=len(status), counts=counts_of(status), unanswered=found)
+    tally = Tally(asked=len(status), counts=counts_of(status), faults=found)
     return CasesResult(tallies={asked.family: tally}, outcomes=answered.outcomes)
 
 

@@ -239,8 +239,8 @@ def saved_result(result: CasesResult, layout: Layout = PAIRS) -> SavedResult:
     """The result as a line of progress has it, its rows of that layout."""
     return SavedResult(
         tallies={family: _saved_tally(tally, layout) for family, tally in result.tallies.items()},
-        open=[_saved_open(each) for each in result.pending],
-        again=result.retest,
+        pending=[_saved_open(each) for each in result.pending],
+        retest=result.retest,
         outcomes=sorted(outcome.label for outcome in result.outcomes),
         excusing=sorted(result.excusing),
         named=sorted(result.named),
@@ -251,8 +251,8 @@ def restored_result(content: SavedResult) -> CasesResult:
     """The result in a line of progress. Raises as restored_state does."""
     return CasesResult(
         tallies={family: _restored_tally(tally) for family, tally in content.tallies.items()},
-        pending=tuple(map(_restored_open, content.open)),
-        retest=content.again,
+        pending=tuple(map(_restored_open, content.pending)),
+        retest=content.retest,
         outcomes=frozenset(outcome for outcome in Outcome if outcome.label in content.outcomes),
         excusing=frozenset(content.excusing),
         named=frozenset(content.named),
@@ -288,11 +288,11 @@ def _saved_tally(tally: Tally, layout: Layout) -> SavedTally:
         counts=dict(tally.counts),
         mistakes=dict(tally.mistakes),
         dangerous=tally.dangerous,
-        octaves={exponent: dict(counts) for exponent, counts in tally.exponents.items()},
+        octaves={exponent: dict(counts) for exponent, counts in tally.octaves.items()},
         size_bins=tally.size_bins.as_lists(),
         place_bins=tally.place_bins.as_lists(),
         worst=[SavedAnswer(**_saved_case(case, layout)) for case in tally.worst],
-        faults=[SavedFault(**_saved_case(case, layout)) for case in tally.unanswered],
+        faults=[SavedFault(**_saved_case(case, layout)) for case in tally.faults],
         explained=[_saved_explained(causes, each, layout) for causes, each in tally.diagnosis.explained.items()],
         denied=dict(tally.diagnosis.denied),
         fresh=tally.fresh,
@@ -310,11 +310,11 @@ def _restored_tally(content: SavedTally) -> Tally:
         mistakes=content.mistakes,
         answers=content.answers,
         dangerous=content.dangerous,
-        exponents=content.octaves,
+        octaves=content.octaves,
         size_bins=Histogram.of_lists(content.size_bins),
         place_bins=Histogram.of_lists(content.place_bins),
         worst=tuple(WorstCase(**_restored_case(case)) for case in content.worst),
-        unanswered=tuple(UnansweredCase(**_restored_case(case)) for case in content.faults),
+        faults=tuple(UnansweredCase(**_restored_case(case)) for case in content.faults),
         diagnosis=Diagnosis(
             {int(each.causes, 16): _restored_explained(each) for each in content.explained}, content.denied
         ),

@@ -147,11 +147,11 @@ class Score:
             mistakes=dict(Counter(case.mistake.value for case in cases)),
             answers=answer_counts(self.truth, self.answers, self.answered),
             dangerous=sum(case.status is Status.WRONG and case.mistake in DANGEROUS for case in cases),
-            exponents=by_exponent(exponents, status[: len(exponents)]),
+            octaves=by_exponent(exponents, status[: len(exponents)]),
             size_bins=tally.by_size(self.rows, amiss),
             place_bins=tally.by_place(self.rows, amiss),
             worst=self._worst(cases, source, indices),
-            unanswered=unanswered_cases(self.rows, self.status, self.reasons, source, indices),
+            faults=unanswered_cases(self.rows, self.status, self.reasons, source, indices),
         )
 
     def _worst(self, wrong: Iterable[WrongCase], source: CaseSource, indices: Indices) -> tuple[WorstCase, ...]:

@@ -190,9 +190,9 @@ class Tally:
     `fresh` of those asked are rows that nobody knew before. `counts` are by status, SKIPPED included. `mistakes` count
     wrong and tolerated answers by kind. `answers` count answers by what is true and by what was answered, as in the
     record's line. `dangerous` counts answers that claim clear in contact, beyond the tolerance
-    and not excused. `exponents` count statuses by floor(log2) of the cases' distance to the nearest other position.
+    and not excused. `octaves` count statuses by floor(log2) of the cases' distance to the nearest other position.
     `size_bins` and `place_bins` are histograms over sizes and places. `worst` are the worst cases, the worst first, and
-    `unanswered` the first cases without a valid answer, by place. `diagnosis` says which causes explain wrong answers,
+    `faults` the first cases without a valid answer, by place. `diagnosis` says which causes explain wrong answers,
     of an implementation under test.
     """
 
@@ -203,11 +203,11 @@ class Tally:
     mistakes: Mapping[str, int] = field(default_factory=dict)
     answers: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     dangerous: int = 0
-    exponents: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    octaves: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     size_bins: Histogram = field(default_factory=Histogram)
     place_bins: Histogram = field(default_factory=Histogram)
     worst: tuple[WorstCase, ...] = ()
-    unanswered: tuple[UnansweredCase, ...] = ()
+    faults: tuple[UnansweredCase, ...] = ()
     diagnosis: Diagnosis = field(default_factory=Diagnosis)
 
 
@@ -222,11 +222,11 @@ def merged_tally(tallies: Iterable[Tally]) -> Tally:
         mistakes=_added(part.mistakes for part in parts),
         answers=_added_tables(part.answers for part in parts),
         dangerous=sum(part.dangerous for part in parts),
-        exponents=_added_tables(part.exponents for part in parts),
+        octaves=_added_tables(part.octaves for part in parts),
         size_bins=added(part.size_bins for part in parts),
         place_bins=added(part.place_bins for part in parts),
         worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
-        unanswered=kept_unanswered(case for part in parts for case in part.unanswered),
+        faults=kept_unanswered(case for part in parts for case in part.faults),
         diagnosis=diagnosis.merged(part.diagnosis for part in parts),
     )
 
@@ -259,7 +259,7 @@ def group_line(
         answers=UNSET
         if failing is UNSET or not tallied.answers
         else {truth: dict(sorted(counts.items())) for truth, counts in sorted(tallied.answers.items())},
-        octaves={key: dict(sorted(tallied.exponents[key].items())) for key in sorted(tallied.exponents, key=float)},
+        octaves={key: dict(sorted(tallied.octaves[key].items())) for key in sorted(tallied.octaves, key=float)},
         size_bins=tallied.size_bins.as_lists(),
         place_bins=tallied.place_bins.as_lists(),
         worst=[worst_line(case, criterion) for case in tallied.worst],
@@ -270,8 +270,8 @@ def group_line(
 
 def _unanswered_lines(tallied: Tally, layout: Layout) -> list[lines.FaultPart]:
     """The unanswered cases of the record's line: the first of each status, then the first up to UNANSWERED_KEPT."""
-    first = {fault.status: fault for fault in reversed(tallied.unanswered)}.values()
-    others = [fault for fault in tallied.unanswered if fault not in first]
+    first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
+    others = [fault for fault in tallied.faults if fault not in first]
     chosen = [*first, *others[: max(0, UNANSWERED_KEPT - len(first))]]
     return [
         lines.FaultPart(case=fault.case, **row_fields(fault.row, layout), status=fault.status, reason=fault.reason)

@@ -24,7 +24,7 @@ ONE = SavedTally(
     asked=1, counts={}, mistakes={}, dangerous=0, octaves={}, size_bins=[], place_bins=[], worst=[], faults=[]
 )
 RESULT = SavedResult(
-    tallies={"ring": ONE}, open=[], again=Retest(asked=0, within=0, beyond=0), outcomes=[], excusing=[], named=[]
+    tallies={"ring": ONE}, pending=[], retest=Retest(asked=0, within=0, beyond=0), outcomes=[], excusing=[], named=[]
 )
 BEGUN = SavedState(done=1, left=SavedAllowance(restarts=0), total=RESULT)
 PROGRESS = ProgressLine(number=0, declared=decoded(DESCRIPTION, DescriptionPart), cases=1, state=BEGUN)

@@ -53,7 +53,7 @@ def require_one_crash(found, expected, culprit, reason):
     assert counts.pop("crash") == len(culprit)
     assert counts == expected.tallies["uniform"].counts
     assert found.retest == expected.retest
-    fault = found.tallies["uniform"].unanswered[0]
+    fault = found.tallies["uniform"].faults[0]
     assert fault.case == culprit.name(0)
     assert reason in fault.reason
 

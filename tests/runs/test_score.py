@@ -92,11 +92,11 @@ def test_a_tally_names_worst_cases_and_faults_by_their_indices_in_the_family(sco
     counts = {"right": 1, "wrong": 3, "tolerated": 1, "abstained": 1, "crash": 1, "skipped": 5}
     assert (tally.asked, tally.counts) == (7, counts)
     assert tally.mistakes == {"false-contact": 2, "false-clear": 2}
-    assert tally.exponents == {"-inf": {"tolerated": 1}, "-1": {"right": 1, "wrong": 1}}
+    assert tally.octaves == {"-inf": {"tolerated": 1}, "-1": {"right": 1, "wrong": 1}}
     assert tally.dangerous == 1  # the crossing taken for clear; the tangency is tolerated
     assert tally.size_bins.as_lists() == [[0, 0, 5, 4], [0, 1, 1, 1], [1, 1, 1, 1]]
     assert {case.case for case in tally.worst} == {"mine/11", "mine/13", "mine/14"}
-    assert tally.unanswered == (UnansweredCase((1, 99), "mine/99", CROSS, "crash", "it left"),)
+    assert tally.faults == (UnansweredCase((1, 99), "mine/99", CROSS, "crash", "it left"),)
 
 
 @pytest.mark.parametrize(

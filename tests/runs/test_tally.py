@@ -159,14 +159,14 @@ def test_tally_keeps_a_case_of_each_status_however_many_others_came_first():
         UnansweredCase((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why")
         for n, name in enumerate(("crash", "timeout"))
     ]
-    tallied = tally.merged_tally([tally.Tally(unanswered=(fault,)) for fault in reversed(faults)])
-    assert Counter(fault.status for fault in tallied.unanswered) == {"error": 5, "crash": 1, "timeout": 1}
+    tallied = tally.merged_tally([tally.Tally(faults=(fault,)) for fault in reversed(faults)])
+    assert Counter(fault.status for fault in tallied.faults) == {"error": 5, "crash": 1, "timeout": 1}
     shown = [(fault.case, fault.status) for fault in line_of(tallied).faults]
     assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]
     faults += [
         UnansweredCase((1, n), f"case-{n}", (1.0,), name, "why") for n, name in ((22, "not-run"), (23, "protocol"))
     ]
-    shown = [fault.status for fault in line_of(tally.Tally(unanswered=tuple(faults))).faults]
+    shown = [fault.status for fault in line_of(tally.Tally(faults=tuple(faults))).faults]
     assert shown == ["error", "crash", "timeout", "not-run", "protocol"]
 
 

@@ -264,7 +264,7 @@ def test_restarts_that_run_out_over_several_chunks_count_up_to_the_end_of_the_ch
         waiting = sum(len(each.indices) for each in passed[stopped].total.pending)
         assert only.counts["not-run"] == behind + waiting
         assert passed[-1].left.over == "not asked: 3 restarts are used up; the last row at fault: " + next(
-            fault.reason for fault in only.unanswered if fault.status == "crash"
+            fault.reason for fault in only.faults if fault.status == "crash"
         )
         assert saved_state(last(perform_steps(some, shuffled(it, rules, 1), begun))) == expected
         for pause in (stopped - 1, stopped, stopped + 1):
@@ -300,7 +300,7 @@ def test_merged_result_is_restored_from_its_json():
         cases.CaseChunk("ring", 1, 5, 9, 2), np.array([0, 1, 3]), np.array([1, -1, 2], dtype=np.int8)
     )
     result = CasesResult(
-        tallies={"some": tally.Tally(3, counts={"wrong": 3}, worst=(worst,), unanswered=(fault,))},
+        tallies={"some": tally.Tally(3, counts={"wrong": 3}, worst=(worst,), faults=(fault,))},
         pending=(left,),
         retest=Retest(asked=9, within=2, beyond=1),
         outcomes=frozenset({Outcome.CRASH, Outcome.NOT_RUN}),
@@ -311,7 +311,7 @@ def test_merged_result_is_restored_from_its_json():
         decoded(json.loads(json.dumps(as_json(saved_result(result)), allow_nan=False)), SavedResult)
     )
     assert again.tallies["some"].worst == (worst,)
-    assert repr(again.tallies["some"].unanswered) == repr((fault,))
+    assert repr(again.tallies["some"].faults) == repr((fault,))
     assert saved_result(again) == saved_result(result)
     for name in ("retest", "outcomes", "excusing", "named"):
         assert getattr(again, name) == getattr(result, name)

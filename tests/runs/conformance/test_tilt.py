@@ -242,9 +242,9 @@ def test_pending_cases_of_upright_and_tilted_spheroids_are_retested_together():
 def test_saved_state_of_an_interrupted_run_holds_the_axis_of_its_cases():
     worst = WorstCase((1, 3), f"{LEANING}/1/1/3", BESIDE, 0, 1, "false-clear", "wrong", 0.25)
     fault = UnansweredCase((0, 2), "invalid-0100", (*BESIDE[:7], 0.0, float("nan"), 0.0), "error", "no heading")
-    total = CasesResult(tallies={LEANING: Tally(asked=2, worst=(worst,), unanswered=(fault,))})
+    total = CasesResult(tallies={LEANING: Tally(asked=2, worst=(worst,), faults=(fault,))})
     kept = decoded(as_json(saved_result(total)), SavedResult)
     assert kept.tallies[LEANING].worst[0].axis == ((1.0).hex(), (0.0).hex(), (1.0).hex())
     restored = restored_result(kept).tallies[LEANING]
     assert restored.worst == (worst,)
-    assert repr(restored.unanswered) == repr((fault,))
+    assert repr(restored.faults) == repr((fault,))

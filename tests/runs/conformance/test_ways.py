@@ -143,9 +143,9 @@ def test_saved_progress_keeps_ends_and_times_of_ways():
     pending = PendingRetest(
         CaseChunk("way-anywhere", 1, 2, 4), np.arange(2), np.array([1, 0], dtype=np.int8), np.array([0.25, np.nan])
     )
-    total = CasesResult({"way-anywhere": Tally(asked=2, worst=(worst,), unanswered=(lost,))}, (pending,))
+    total = CasesResult({"way-anywhere": Tally(asked=2, worst=(worst,), faults=(lost,))}, (pending,))
     back = restored_state(saved_state(RunState(Allowance(1, 1), 1, total), SWEEPS)).total
     assert back.tallies["way-anywhere"].worst == (worst,)
-    assert back.tallies["way-anywhere"].unanswered == (lost,)
+    assert back.tallies["way-anywhere"].faults == (lost,)
     np.testing.assert_array_equal(back.pending[0].times, pending.times)
     assert back.pending[0].answers.tolist() == [1, 0]
