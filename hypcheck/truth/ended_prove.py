@@ -20,15 +20,14 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import least
 from hypcheck.truth.certificate import Certificate, Matrix, Piece, Point, check_certificate, is_positive, surfaces
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.prove import prove as prove_without_ends
 from hypcheck.truth.rationals import root_of, rounded
 from hypcheck.truth.sections import Sections
 
 _BITS = (8, 24, 64, 160)
 
 
-def prove(pair: Pair, decision: Decision) -> Certificate:
-    """A certificate for the exact answer about a pair whose hyperboloid ends.
+def prove(pair: Pair, decision: Decision, multiplier: Fraction | None) -> Certificate:
+    """A certificate for the exact answer about a pair that has ends; `multiplier` is that without ends, if any.
 
     That of a touch, and of a crossing that floats do not find, says no more than the position: see certificate.py.
     """
@@ -36,8 +35,7 @@ def prove(pair: Pair, decision: Decision) -> Certificate:
     if position is Position.CONTACT:
         candidates = (Certificate(position, points=points) for points in _crossings(pair))
     else:
-        whole = prove_without_ends(pair.without_ends)
-        candidates = (Certificate(position, multiplier=whole.multiplier) for _ in range(whole.multiplier is not None))
+        candidates = (Certificate(position, multiplier=at) for at in (multiplier,) if at is not None)
     for certificate in candidates:
         if check_certificate(pair, certificate):
             return certificate

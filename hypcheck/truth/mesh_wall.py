@@ -80,7 +80,7 @@ _ON_SURFACE = (0, 2, 6, 8)
 """The places of the corners that are points of the surface."""
 
 
-class Scene:
+class MeshScene:
     """A pair with the spheroid as the unit ball: corners are seen from C in that space."""
 
     def __init__(self, pair: Pair, seven: list[float], ends: list[float]) -> None:
@@ -152,7 +152,7 @@ def refine(pair: Pair) -> Refinement:
         return _undecided(0, 0, f"a size is below {_LEAST:.1e} of the largest length") if scene is None else _cut(scene)
 
 
-def scene_of(pair: Pair) -> Scene | None:
+def scene_of(pair: Pair) -> MeshScene | None:
     """The pair with the spheroid as the unit ball; None where roundings would leave nothing."""
     if pair.is_upright:
         # Theorem 1: lengths across the axis in units of b, those along it in units of d.
@@ -164,10 +164,10 @@ def scene_of(pair: Pair) -> Scene | None:
         ends = [float(np.ldexp(end, -exponent)) for end in (pair.z_min, pair.z_max)]
     if not min(seven[:4]) >= _LEAST * max(map(abs, seven)) or not all(map(math.isfinite, seven)):
         return None
-    return Scene(pair, seven, ends)
+    return MeshScene(pair, seven, ends)
 
 
-def _cut(scene: Scene) -> Refinement:
+def _cut(scene: MeshScene) -> Refinement:
     cells, side = scene.whole(), scene.side
     beyond: list[tuple[Floats, Floats]] = []
     for level in range(_LEVELS):

@@ -26,7 +26,8 @@ def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
     if pair.has_ends:
         from hypcheck.truth import ended_prove  # noqa: PLC0415 - it loads numpy, which other proofs do without
 
-        return ended_prove.prove(pair, decision)
+        touched = decision.position is Position.CONTACT
+        return ended_prove.prove(pair, decision, None if touched else prove(pair.without_ends).multiplier)
     if decision.tangent:
         return Certificate(decision.position, double_root=double_root(lengths))
     if decision.position is Position.CONTACT:

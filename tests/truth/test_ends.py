@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import ended_prove
 from hypcheck.truth.ended_clearance import clearance
+from hypcheck.truth.prove import prove
 from hypcheck.truth.sections import has_root
 from tests.support.inside import (
     Certificate,
@@ -101,7 +101,7 @@ def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
     if not pair.has_ends:
         return
     decision = decide(pair.lengths)
-    certificate = ended_prove.prove(pair, decision)
+    certificate = prove(pair, decision)
     witnessed = bool(certificate.points or certificate.pieces) or certificate.multiplier is not None
     assert witnessed or decision.position is CONTACT
     assert check_certificate(pair, certificate) == witnessed
@@ -112,7 +112,7 @@ def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
 @pytest.mark.parametrize("unit", [1, 8, 1 / 8])
 def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing(unit):
     pair = pair_of([unit * size for size in (1, 1, 1, 1, 2.5, 0, -0.9)], (0, 3 * unit), 0)
-    certificate = ended_prove.prove(pair, decide(pair.lengths))
+    certificate = prove(pair, decide(pair.lengths))
     assert check_certificate(pair, certificate)
     first, *rest = certificate.pieces
     for pieces in (
