@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 
 from hypcheck.errors import HypcheckError
-from hypcheck.proofs import build
+from hypcheck.proofs import build, weakenings
 from hypcheck.proofs.build import CONTROL, Weakened, accepted, weakened
 
 
@@ -19,8 +19,9 @@ from hypcheck.proofs.build import CONTROL, Weakened, accepted, weakened
 @click.argument("kernels", nargs=-1, type=click.Path(path_type=Path), metavar="[KERNEL]...")
 @click.option("--soundness", is_flag=True, help="The checker's soundness alone.")
 @click.option("--weakened", "count", type=click.IntRange(0), help="Weakened statements to try; by default all.")
+@click.option("--every", is_flag=True, help="Try every weakened statement that a program makes: some minutes.")
 @click.option("--into", "built", type=click.Path(path_type=Path), default=build.BUILT, help="The build folder.")
-def main(kernels: tuple[Path, ...], soundness: bool, count: int | None, built: Path) -> None:
+def main(kernels: tuple[Path, ...], soundness: bool, count: int | None, every: bool, built: Path) -> None:
     """Prove, and say each thing that was proved. Ends with 1 where a proof fails, 2 where programs are missing."""
     try:
         build.demand_tools()
@@ -33,6 +34,8 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int | None, built: P
         if not soundness:
             click.echo(f"{build.refuse_changes(2, built)} changes of the printed C are refused")
         _refuse([change for change in weakened() if change.file in names][:count], built)
+        if not soundness:
+            _refuse_made(SAMPLE if count is None else count, every=every, built=built)
         build.build_checker(built)
         sys.exit(build.run_checker(build.frozen_files(), built))
     except HypcheckError as error:
@@ -65,6 +68,23 @@ def _refuse(changes: list[Weakened], built: Path) -> None:
         if accepted(change, built):
             raise build.ProofError(f"Coq accepts {change.file}.v, weakened to allow {change.allows}")
     click.echo(f"{len(changes)} weakened statements are refused")
+
+
+SAMPLE = 12
+"""Weakened statements made by a program that are tried by default."""
+
+
+def _refuse_made(count: int, *, every: bool, built: Path) -> None:
+    changes, why = weakenings.made(build.source), weakenings.reasons()
+    tried = changes if every else weakenings.sample(changes, count, seed=45)
+    explained = [change for change in tried if accepted(change, built)]
+    for change in explained:
+        if (change.file, change.allows) not in why:
+            raise build.ProofError(f"Coq accepts {change.file}.v with {change.allows}, and no reason is given for that")
+    click.echo(
+        f"{len(changes)} weakened statements are made by a program; {len(tried)} are tried: "
+        f"{len(tried) - len(explained)} are refused, {len(explained)} hold too, for a reason that is given"
+    )
 
 
 if __name__ == "__main__":

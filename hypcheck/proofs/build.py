@@ -23,6 +23,7 @@ from time import perf_counter
 from hypcheck import toml
 from hypcheck.errors import Exit, HypcheckError, InputError
 from hypcheck.proofs import printed_c
+from hypcheck.proofs.weakenings import Made
 
 SOURCES = Path(__file__).parent
 BUILT = SOURCES.parents[1] / "build" / "proofs"
@@ -46,8 +47,8 @@ ROUNDING = ("Rounding", "Floats", "StageTwo", "Kernel", "RunningBound", "Region"
 HEADER_TEXT = "HeaderText"
 """The printed C of hypcheck.h as strings of Coq: made when the proofs are built, and kept nowhere else."""
 
-PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns")
-"""What the printed C rests on, and the words of 128 bits that it computes with."""
+PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "Ranges")
+"""What the printed C rests on, the words of 128 bits that it computes with, and the range of its floats."""
 
 COMPOSED = ("StageThree", "StageFive", "Stages", "Long", "StageFour")
 """From the numbers of the last stages to the signs, and all stages in one theorem, Stages.whatever_stage_answers."""
@@ -63,7 +64,10 @@ AXIOMS = (
 """What the real numbers of Coq's standard library rest on. The proofs may assume this and nothing else."""
 
 OF_FLOCQ = "Classical_Prop.classic"
-"""The excluded middle, which Flocq uses: Floats.v, which links its rounding to Rounding.v, may assume it too."""
+"""The excluded middle, which Flocq uses: what is said of its floats may assume it too."""
+
+ON_FLOCQ = ("Floats", "Ranges")
+"""The files that say something of Flocq's floats."""
 
 PACKAGES = {
     "coqc": "coq",
@@ -187,10 +191,10 @@ def assumptions(names: tuple[str, ...], built: Path = BUILT) -> set[str]:
 
 def demand_known_axioms(names: tuple[str, ...], built: Path = BUILT) -> set[str]:
     """The axioms of these compiled files. Raises ProofError where one is not allowed."""
-    found = assumptions(tuple(name for name in names if name != "Floats"), built)
+    found = assumptions(tuple(name for name in names if name not in ON_FLOCQ), built)
     unknown = found - set(AXIOMS)
-    if "Floats" in names:
-        further = assumptions(("Floats",), built)
+    if of_floats := tuple(name for name in ON_FLOCQ if name in names):
+        further = assumptions(of_floats, built)
         unknown |= further - {*AXIOMS, OF_FLOCQ}
         found |= further
     if unknown:
@@ -293,16 +297,19 @@ CONTROL = Weakened("Checker", "Definition less", "Definition less", "nothing")
 """No change at all: this must be accepted, or the refusals would mean nothing."""
 
 
-def accepted(change: Weakened, built: Path = BUILT) -> bool:
+def accepted(change: Weakened | Made, built: Path = BUILT) -> bool:
     """Whether Coq accepts the changed file, which it must not. Raises ValueError where the change does not fit."""
     text = source(change.file)
     if text.count(change.old) != 1:
         raise ValueError(f"{change.file}.v has {text.count(change.old)} places with {change.old!r}; one is needed")
+    changed = text.replace(change.old, change.new)
+    if isinstance(change, Made) and change.until:
+        changed = changed.partition(change.until)[0]
     with TemporaryDirectory(prefix="hypcheck-proofs-") as folder:
         for compiled in built.glob("*.vo"):
             if compiled.stem != change.file:
                 shutil.copy(compiled, folder)
-        (Path(folder) / f"{change.file}.v").write_text(text.replace(change.old, change.new), encoding="utf-8")
+        (Path(folder) / f"{change.file}.v").write_text(changed, encoding="utf-8")
         message = refusal(Path(folder), change.file)
     if "Syntax error" in message:
         raise ValueError(f"the change of {change.file}.v is no Coq: {message}")

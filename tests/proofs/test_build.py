@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from hypcheck.errors import InputError
-from hypcheck.proofs import build, printed_c
+from hypcheck.proofs import build, printed_c, weakenings
 from hypcheck.proofs.__main__ import main
 from hypcheck.proofs.build import CONTROL, Weakened
 
@@ -119,13 +119,15 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
     assert [line.split()[0] for line in lines[: len(build.FILES)]] == [f"{name}.v" for name in build.FILES]
     total = sum(len(build.statements(name)) for name in build.FILES)
     assert lines[len(build.FILES)].startswith(f"{total} statements in ")
-    assert lines[-6:] == [
+    made, given = len(weakenings.made(build.source)), "for a reason that is given"
+    assert lines[-7:] == [
         "    ClassicalDedekindReals.sig_not_dec",
         f"    {build.OF_FLOCQ} (Flocq alone)",
         "    FunctionalExtensionality.functional_extensionality_dep",
         f"Print Assumptions Stages.whatever_stage_answers: {build.AXIOMS[0]}, {build.AXIOMS[2]}",
         f"{len(printed_c.changes(2, seed=45))} changes of the printed C are refused",
         "2 weakened statements are refused",
+        f"{made} weakened statements are made by a program; 2 are tried: 2 are refused, 0 hold too, {given}",
     ]
     everything = (tools.built / "Assumptions.v").read_text(encoding="utf-8")
     assert all(f"@Floats.{each}" in everything for each in build.statements("Floats"))

@@ -19,7 +19,7 @@ from hypcheck.kernel.printing import coq
 from hypcheck.kernel.printing.coq import proof_of
 from hypcheck.paper.ledger import checks
 from hypcheck.paper.ledger.book import claims
-from hypcheck.proofs import build
+from hypcheck.proofs import build, weakenings
 from hypcheck.proofs.build import CONTROL, accepted, weakened
 from hypcheck.vectors import frozen
 from tests.proofs.agreement import disagreements
@@ -75,6 +75,26 @@ def test_coq_accepts_the_checker_and_refuses_it_if_the_ring_counts_as_a_tangency
     )
     assert accepted(CONTROL)
     assert not accepted(ring)
+
+
+def test_a_program_makes_weakened_statements_of_every_stage_and_explains_known_ones_alone():
+    made = weakenings.made(build.source)
+    assert {change.stage for change in made} == {"1 to 5", "1", "2", "3", "4", "5"}
+    assert len({(change.file, change.allows) for change in made}) == len(made) >= 400
+    for change in made:
+        assert change.old != change.new
+        assert build.source(change.file).count(change.old) == 1
+    assert set(weakenings.reasons()) <= {(change.file, change.allows) for change in made}
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("allows", "holds"),
+    [("throat: without two_negative", False), ("waist_clear: 2 +1, place 2", False), ("groove: 3 +1", True)],
+)
+def test_coq_refuses_a_statement_without_a_guard_and_accepts_one_that_asks_for_more(allows, holds):
+    (change,) = (each for each in weakenings.made(build.source) if each.file == "Stages" and each.allows == allows)
+    assert accepted(change) is holds
 
 
 def test_theorems_that_the_ledger_names_are_in_the_coq_sources():

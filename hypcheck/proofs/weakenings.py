@@ -1,0 +1,140 @@
+"""Weakened statements made by a program: constants, comparisons, guards and answers of every stage, each changed.
+
+They are changes of statements and definitions alone, never of a proof. Coq is to refuse each, or explained.toml says
+why the changed statement holds too. A refusal says that the proof as written does not go through, not that the
+statement is false.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from hypcheck import toml
+
+Change = tuple[str, str]
+"""The changed text, and what was changed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """The texts of a file that a pattern finds, the kinds of changes made in them, and the stage that they are of.
+
+    Coq need read no further than `until`: what proves that the changed text is enough stands before it.
+    """
+
+    stage: str
+    file: str
+    pattern: str
+    kinds: tuple[Callable[[str], Iterator[Change]], ...]
+    until: str = ""
+
+
+def constants(text: str) -> Iterator[Change]:
+    """Every whole number one less and one more."""
+    for found in _outside_remarks(r"(?<![\w.'])\d+(?![\w'])", text):
+        for by in (-1, 1):
+            yield _with(text, found, str(int(found[0]) + by)), f"{found[0]} {by:+d}"
+
+
+def comparisons(text: str) -> Iterator[Change]:
+    """Every comparison strict where it is not, and the other way round; what is certain only not excluded."""
+    for found in _outside_remarks(r"(?<=\s)<=?(?=\s)", text):
+        new = {"<": "<=", "<=": "<"}[found[0]]
+        yield _with(text, found, new), f"{new} for {found[0]}"
+    for found in _outside_remarks(r"certainly_(positive|negative) (\w+|\([^()]*(?:\([^()]*\)[^()]*)*\))", text):
+        weak = f"(0 <= {found[2]})" if found[1] == "positive" else f"({found[2]} <= 0)"
+        yield _with(text, found, weak), f"{weak} for certainly_{found[1]}"
+
+
+def guards(text: str) -> Iterator[Change]:
+    """Every hypothesis of a line left out."""
+    head, _, body = text.partition(" : ")
+    parts = re.split(r"\s*->\s*", body)
+    for place, part in enumerate(parts[:-1]):
+        rest = " -> ".join(parts[:place] + parts[place + 1 :])
+        yield f"{head} : {rest}", f"without {' '.join(part.split())}"
+
+
+def answers(text: str) -> Iterator[Change]:
+    """Every answer and every sign of a table another one."""
+    for words in (("Exterior", "Contact", "Interior"), ("Lt", "Eq", "Gt")):
+        for found in _outside_remarks(rf"\b(?:{'|'.join(words)})\b", text):
+            for new in words:
+                if new != found[0]:
+                    yield _with(text, found, new), f"{new} for {found[0]}"
+
+
+def bounds(text: str) -> Iterator[Change]:
+    """Every bound of the header one unit less."""
+    for found in _outside_remarks(r'said "\w+"', text):
+        yield _with(text, found, f"({found[0]} - 1)"), f"{found[0]} less 1"
+
+
+def _outside_remarks(pattern: str, text: str) -> Iterator[re.Match[str]]:
+    hidden = re.sub(r"\(\*.*?\*\)", lambda remark: " " * len(remark[0]), text, flags=re.DOTALL)
+    return re.finditer(pattern, hidden)
+
+
+def _with(text: str, found: re.Match[str], new: str) -> str:
+    return text[: found.start()] + new + text[found.end() :]
+
+
+PLACES = (
+    Place("1 to 5", "Stages", r"^\| \w+[^|]*? : .*?(?=^\||^\(\*|\.$)", (constants, comparisons, guards)),
+    Place("1", "HalfPlanes", r"^Definition (?:beyond|within)_[KM] .*?\.$", (constants,)),
+    Place("2", "Kernel", r"^Theorem error_of_\w+ .*?\.$", (constants,)),
+    Place("2", "RunningBound", r"4 \* unit \* slack; .*?\] 0\.$", (constants,)),
+    Place("3", "FixedRuns", r"^Theorem header_covers_\w+ .*?\.$", (bounds,)),
+    Place("4", "StageFour", r"^Definition (?:lengths|\w+_inputs) .*?\.$", (constants,), "(** ** What the"),
+    Place("4", "Tangency", r"^Definition (?:n2_of|n1_of|tangency_equations) .*?\.$", (constants,)),
+    Place("5", "Positions", r"^Definition exact_answer .*?end\.$", (answers,)),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """A weakened statement: its stage and file, the text that stands there once, the new one, what was changed."""
+
+    stage: str
+    file: str
+    old: str
+    new: str
+    allows: str
+    until: str
+
+
+def made(source: Callable[[str], str]) -> list[Made]:
+    """All of them, in the order of the stages; `source` gives the text of a file. No two are called alike."""
+    found: list[Made] = []
+    often: Counter[tuple[str, str]] = Counter()
+    for place in PLACES:
+        for text in re.finditer(place.pattern, source(place.file), re.MULTILINE | re.DOTALL):
+            for new, what in (change for kind in place.kinds for change in kind(text[0])):
+                called = f"{_name_of(text[0])}: {what}"
+                often[place.file, called] += 1
+                if often[place.file, called] > 1:
+                    called += f", place {often[place.file, called]}"
+                found.append(Made(place.stage, place.file, text[0], new, called, place.until))
+    return found
+
+
+def reasons() -> dict[tuple[str, str], str]:
+    """Why a changed statement that Coq accepts holds too, by file and what was changed: what explained.toml says."""
+    name = "explained.toml"
+    table = toml.parsed((Path(__file__).parent / name).read_text(encoding="utf-8"), name)
+    return {(each["file"], change): each["reason"] for each in table["explained"] for change in each["changes"]}
+
+
+def _name_of(text: str) -> str:
+    return text.partition(" :")[0].partition(":=")[0].strip("| \n")
+
+
+def sample(all_made: list[Made], count: int, seed: int) -> list[Made]:
+    """So many of them from the files that Coq compiles within two seconds, drawn by the seed."""
+    quick = [each for each in all_made if each.file in {"Stages", "HalfPlanes", "Positions"}]
+    return random.Random(seed).sample(quick, min(count, len(quick)))  # noqa: S311 - no secret
