@@ -97,7 +97,7 @@ class InputError(HypcheckError):
 
 
 class NothingJudgedError(HypcheckError):
-    """A run that asked or judged nothing: it proves nothing, so it is no pass."""
+    """A run that asked or judged nothing: it proves nothing, so it is not a pass."""
 
     exit_code = Exit.USAGE
 

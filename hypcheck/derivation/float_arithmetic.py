@@ -95,7 +95,7 @@ class FloatFormat:
             return 0.0
         exponent = _floor_log2(abs(value))
         if not self.least <= exponent <= self.greatest:
-            raise OverflowError(f"a number near 2^{exponent} is no normal number of {self.name}")
+            raise OverflowError(f"a number near 2^{exponent} is not a normal number of {self.name}")
         step = Fraction(2) ** (exponent - self.bits + 1)
         units = value / step
         return float(_whole(units, direction) * step)

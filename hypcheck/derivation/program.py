@@ -278,7 +278,7 @@ def _step_of(line: str) -> Step:
         return Step(name, _PREFIX[words[0]], (_argument(words[1]),))
     if equals and len(words) == 5 and (words[1], words[3]) == ("?", ":"):
         return Step(name, "select", (_argument(words[0]), _argument(words[2]), _argument(words[4])))
-    raise ValueError(f"this line of a listing is no step: {line!r}")
+    raise ValueError(f"this line of a listing is not a step: {line!r}")
 
 
 def _argument(word: str) -> Argument:

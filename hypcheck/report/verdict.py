@@ -125,7 +125,7 @@ def verdict(record: Record) -> Verdict:
     found = failures(record)
     if record.footer is None:
         so_far = f" What was finished has already failed: {_failure_counts(found)}." if found else ""
-        return Verdict(False, f"TRUNCATED: the record has no end; the run was interrupted and is no pass.{so_far}")
+        return Verdict(False, f"TRUNCATED: the record has no end; the run was interrupted and is not a pass.{so_far}")
     code = record.footer.exit_code
     if code == 0 and found:
         return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_failure_counts(found)}.")
@@ -214,7 +214,7 @@ def _passed(record: Record) -> Verdict:
         and not compared
         and not any(isinstance(line, WITHOUT_COMPARISON) for line in record.lines)
     ):
-        return Verdict(False, "NOTHING was asked and nothing was judged: this is no pass.")
+        return Verdict(False, "NOTHING was asked and nothing was judged: this is not a pass.")
     proofs = len(record.of(ProofLine))
     clauses = [
         *([_oracle_clause(totals)] if totals else []),

@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from hypcheck.answer import kind_as_text, proof_as_json, proof_lines
+from hypcheck.answer import kind_as_text
 from hypcheck.geometry.pair import REFUSED, Pair, Position
 from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS
 from hypcheck.implementations.description import Description
+from hypcheck.proof_text import proof_as_json, proof_lines
 from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text

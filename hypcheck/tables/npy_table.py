@@ -120,7 +120,7 @@ def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]
         reason = str(error).partition("\n")[0] or "it cannot be read"
         if reason.startswith("malformed node"):  # the message names an object and its address
             reason = "it has an expression where a plain value must stand"
-        raise InputError(f"{reader.name} is no .npy file, or one cut off in its header: {reason}") from None
+        raise InputError(f"{reader.name} is not a .npy file, or one cut off in its header: {reason}") from None
     raise InputError(f"{reader.name} is a .npy file of version {version[0]}.{version[1]}; it must be 1.0 or 2.0")
 
 

@@ -68,7 +68,7 @@ def test_the_listing_of_a_program_is_read_back_as_the_same_steps(formula):
 
 @pytest.mark.parametrize("line", ["y = x", "y = x + 1 + 2", "x + 1", "y = x ** 2", "y = sin x", "y = p ? x , 1"])
 def test_steps_of_refuses_a_line_that_is_no_step(line):
-    with pytest.raises(ValueError, match="is no step"):
+    with pytest.raises(ValueError, match="is not a step"):
         steps_of(line)
 
 

@@ -107,7 +107,7 @@ def test_fixed_point_errors_are_whole_units_and_cover_the_computed_ranges():
     ("listing", "high", "trouble"),
     [
         ("r = a + a\ns = r - a", 2**127, "step r may leave 128 bits"),
-        ("r = a / a", 1, "div is no operation in fixed point"),
+        ("r = a / a", 1, "div is not an operation in fixed point"),
     ],
 )
 def test_fixed_point_errors_refuse_a_program_that_cannot_run_in_fixed_point(listing, high, trouble):

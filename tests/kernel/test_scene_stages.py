@@ -164,7 +164,7 @@ def test_rounded_gives_the_next_number_of_the_float_format_in_the_given_directio
         assert abs(Fraction(nearest) - value) <= min(value - Fraction(down), Fraction(up) - value)
     assert form.rounded(Fraction(0)) == 0.0
     for beyond in (Fraction(2) ** (form.greatest + 1), Fraction(2) ** (form.least - 1)):
-        with pytest.raises(OverflowError, match="is no normal number"):
+        with pytest.raises(OverflowError, match="is not a normal number"):
             form.rounded(beyond)
 
 

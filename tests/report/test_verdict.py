@@ -21,7 +21,7 @@ BENCHMARK_HELD = (
     " 1 ratio held to the baseline's, 0 of them slower than allowed; 2 of 2 targets of the kernels met; a walker's step"
     " timed in 2 forests of up to 1,000,000 trees; 1 scene timed against Table 2."
 )
-TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is no pass."
+TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is not a pass."
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_a_benchmark_that_is_slower_or_too_noisy_has_not_passed(body, code, sent
 @pytest.mark.parametrize("body", [[], [group("fast", "float64", "ring", {"skipped": 9}, exact=True)]])
 def test_a_run_that_asked_nothing_has_not_passed(body):
     found = verdict(record_samples.record(body))
-    assert found.sentence == "NOTHING was asked and nothing was judged: this is no pass."
+    assert found.sentence == "NOTHING was asked and nothing was judged: this is not a pass."
     assert not found.passed
 
 

@@ -53,7 +53,7 @@ def test_npy_cut_off_at_any_byte_is_refused(tmp_path, capsys):
     for length in range(len(data)):
         sentence = message(tmp_path, capsys, "in.npy", data[:length])
         if length < 128:
-            assert sentence.startswith(" is no .npy file, or one cut off in its header: ")
+            assert sentence.startswith(" is not a .npy file, or one cut off in its header: ")
         else:
             have = (length - 128) // 56
             assert sentence == f" is cut off: its header says 3 rows, and the data ends after {have} of them"

@@ -143,7 +143,7 @@ def errors(program: Program, inputs: Mapping[str, Range]) -> dict[str, Range]:
         rule = _RULES.get("scale" if isinstance(step.arguments[0], int) else step.operation)
         if rule is None:
             raise ValueError(
-                f"program {program.name}: step {step.name}: {step.operation} is no operation in fixed point"
+                f"program {program.name}: step {step.name}: {step.operation} is not an operation in fixed point"
             )
         found = rule(left, right)
         limit = 2 ** (BITS - (found.low < 0))

@@ -224,5 +224,7 @@ def bits_counted(program: Program, of_inputs: int = FLOAT64_BITS) -> dict[str, i
         elif step.operation in {"add", "sub"}:
             bits[step.name] = max(counts) + 1
         else:
-            raise ValueError(f"program {program.name}: step {step.name}: {step.operation} is no operation on integers")
+            raise ValueError(
+                f"program {program.name}: step {step.name}: {step.operation} is not an operation on integers"
+            )
     return bits

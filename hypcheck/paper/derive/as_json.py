@@ -9,7 +9,6 @@ from typing import Any
 
 import sympy
 
-from hypcheck.answer import proof_as_json
 from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain, FiniteCases, Identity, Link, Part, Sign
 from hypcheck.derivation.program import Operations
@@ -17,6 +16,7 @@ from hypcheck.paper.derive.latex import formula
 from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
 from hypcheck.paper.ledger.points import LeaningWitness, PointWitness
+from hypcheck.proof_text import proof_as_json
 from hypcheck.version import VERSION
 
 SCHEMA = "1.4.0"

@@ -10,7 +10,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import sympy
 
-from hypcheck.answer import proof_lines
 from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain, Identity, Link, Part
 from hypcheck.geometry.pair import CENTER, SIZES, Pair
@@ -31,6 +30,7 @@ from hypcheck.paper.derive.selection import (
 from hypcheck.paper.ledger.book import coverage, faults_with_entries
 from hypcheck.paper.ledger.book import entries as whole_ledger
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Evidence, LedgerEntry, described
+from hypcheck.proof_text import proof_lines
 
 WIDTH = 100
 

@@ -52,5 +52,5 @@ def test_an_emitted_kernel_is_within_its_error_bound_near_the_asymptotic_cone(si
     ],
 )
 def test_emit_refuses_sizes_whose_scale_leaves_the_float_format(precision, sizes, z):
-    with pytest.raises(InputError, match=r"no kernel is made for .* is no normal number of float32"):
+    with pytest.raises(InputError, match=r"no kernel is made for .* is not a normal number of float32"):
         plan_of(scene(sizes, z=z), precision)
