@@ -152,6 +152,8 @@ def _proved_lower_ends(cases: Sequence[Vector]) -> list[set[Position]]:
         for other, ends in case.flips.items()
         if other is not case.position and 0 < ends.lower < 1
     ]
+    if not brackets:
+        return proved
     goals = [goal_of(cases[index].position, other) for index, other, _ in brackets]
     pairs = [Pair.from_row(cases[index].row) for index, *_ in brackets]
     for (index, other, _), holds in zip(
