@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from hypcheck.bench.contender import Contender
 from hypcheck.bench.foreign import ForeignMethod
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.timing import CONFIDENCE, LEAST_NS, ratios, resampled_medians
 from hypcheck.errors import InputError
 from hypcheck.record import RecordLine, read
 from hypcheck.record.measurements import ComparisonLine, NoiseLine, SpeedLine
 from hypcheck.record.reader import file_of
+from hypcheck.runs.timing import CONFIDENCE, LEAST_NS, ratios, resampled_medians
 
 SpeedKey = tuple[str, str, str]
 """A method, a workload and a mode."""

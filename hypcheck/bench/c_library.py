@@ -29,7 +29,6 @@ from hypcheck.bench.c_source import (
     trigonometric,
 )
 from hypcheck.bench.contender import EmptyCall, LoadedMethod, PreparedWork
-from hypcheck.bench.timing import Clocked, clocked, clocked_in_c
 from hypcheck.bench.workloads import scene_of
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.errors import UnavailableError
@@ -42,6 +41,7 @@ from hypcheck.kernel.choice import choice
 from hypcheck.kernel.choice import compiled as compiled_kernel
 from hypcheck.kernel.compiled_kernel import in_parts
 from hypcheck.record.measurements import CompilerLine
+from hypcheck.runs.timing import Clocked, clocked, clocked_in_c
 from hypcheck.vectors.scenes import BODY, TOWER
 
 FLAGS = ("-O3", "-march=native", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC")

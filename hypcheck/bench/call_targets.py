@@ -19,7 +19,12 @@ import numpy as np
 import hypcheck
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
 from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
-from hypcheck.bench.timing import (
+from hypcheck.geometry.rows import Floats
+from hypcheck.kernel.choice import choice
+from hypcheck.kernel.compiled_kernel import extension
+from hypcheck.kernel.scalar import exact_position
+from hypcheck.record.measurements import KernelLine
+from hypcheck.runs.timing import (
     Clocked,
     KernelTarget,
     Samples,
@@ -29,11 +34,6 @@ from hypcheck.bench.timing import (
     rate_text,
     thread_clocked,
 )
-from hypcheck.geometry.rows import Floats
-from hypcheck.kernel.choice import choice
-from hypcheck.kernel.compiled_kernel import extension
-from hypcheck.kernel.scalar import exact_position
-from hypcheck.record.measurements import KernelLine
 
 CALLS, TEN = 1000, 10
 BATCHES, MANY = (1_000, 10_000, 100_000), 10_000_000

@@ -16,9 +16,9 @@ from hypcheck.bench import compiled_targets
 from hypcheck.bench.c_library import TOWER_SIZES
 from hypcheck.bench.call_targets import statement, without_loop
 from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
-from hypcheck.bench.timing import KernelTarget, TimingEntry, measured_samples, rate_text, thread_clocked, times_as_long
 from hypcheck.geometry.rows import Positions, tilted_rows
 from hypcheck.record.measurements import KernelLine
+from hypcheck.runs.timing import KernelTarget, TimingEntry, measured_samples, rate_text, thread_clocked, times_as_long
 
 TEN, MANY, CACHED = 10, 1_000_000, 20_000
 

@@ -24,7 +24,12 @@ import hypcheck
 from hypcheck.bench.accuracy import forget_peak, peak
 from hypcheck.bench.c_library import TOWER_SIZES, CBaseline, c_baselines
 from hypcheck.bench.c_source import WORDS
-from hypcheck.bench.timing import (
+from hypcheck.geometry.rows import Columns, Floats, Positions, Rows, tilted_rows
+from hypcheck.implementations.alternatives import by_eigenvectors
+from hypcheck.kernel.choice import choice
+from hypcheck.kernel.compiled_kernel import fill_scene, in_parts
+from hypcheck.record.measurements import KernelLine
+from hypcheck.runs.timing import (
     KernelTarget,
     Samples,
     TimingEntry,
@@ -35,11 +40,6 @@ from hypcheck.bench.timing import (
     times_as_fast,
     times_as_long,
 )
-from hypcheck.geometry.rows import Columns, Floats, Positions, Rows, tilted_rows
-from hypcheck.implementations.alternatives import by_eigenvectors
-from hypcheck.kernel.choice import choice
-from hypcheck.kernel.compiled_kernel import fill_scene, in_parts
-from hypcheck.record.measurements import KernelLine
 from hypcheck.vectors.families import FAMILIES
 from hypcheck.vectors.random_pairs import beside_surface
 

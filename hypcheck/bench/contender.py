@@ -5,6 +5,7 @@ A method is called in a batch and one row at a time; a mesh is also built.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -13,14 +14,14 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.timing import Clocked, clocked
 from hypcheck.bench.workloads import scene_of
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
 from hypcheck.implementations.description import QUESTIONS
-from hypcheck.implementations.domain import Domain, claimed
+from hypcheck.implementations.domain import claimed
 from hypcheck.implementations.meshes import height_of, rows_by_sizes
-from hypcheck.implementations.method import Answers, ByScene, Method
+from hypcheck.implementations.method import Answers, ByScene, Method, MethodClaims
+from hypcheck.runs.timing import Clocked, clocked
 
 Answering = Callable[[Rows], Answers]
 
@@ -242,28 +243,22 @@ class InEngine(LoadedMethod):
         self.meshes.clear()
 
 
-@dataclass(frozen=True)
-class Contender:
+@dataclass(frozen=True, kw_only=True)
+class Contender(MethodClaims):
     """A method as it is compared.
 
-    `name`, `title`, `question`, `precision`, `exact` and `domain` are those of a Method. `tier` is its language or
-    engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm. At most `judged` rows of a
-    workload are asked, in a quick run `quick_judged` or a quarter of few, and `timed` rows make a timed batch. The
-    first `singles` rows of it are asked one by one, enough that a branch predictor does not learn them. `amortised`
-    says whether a mesh is built once for a scene or for each row. `load` loads the method; `needs` names what may be
-    absent here, or is empty. `scenes`, if not None, is the largest number of different sizes in a workload that it is
-    asked. `quick` says whether it is fast enough for a quick run, unless it is named.
+    `tier` is its language or engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm.
+    At most `judged` rows of a workload are asked, in a quick run `quick_judged` or a quarter of few, and `timed`
+    rows make a timed batch. The first `singles` rows of it are asked one by one, enough that a branch predictor
+    does not learn them. `amortised` says whether a mesh is built once for a scene or for each row. `load` loads the
+    method; `needs` names what may be absent here, or is empty. `scenes`, if not None, is the largest number of
+    different sizes in a workload that it is asked. `quick` says whether it is fast enough for a quick run, unless
+    it is named.
     """
 
-    name: str
-    title: str
     tier: str
     kind: str
-    precision: str
-    question: str
-    domain: Domain
     load: Callable[[], LoadedMethod]
-    exact: bool = False
     judged: int | None = None
     timed: int | None = None
     singles: int = 32
@@ -291,6 +286,5 @@ def of_method(
     **fields: Any,  # noqa: ANN401 - of a contender
 ) -> Contender:
     """A built-in method as a contender; `fields` are all that differ from the method's own, and from the defaults."""
-    own = ("name", "title", "precision", "question", "domain", "exact")
-    given: dict[str, Any] = {name: getattr(method, name) for name in own}
+    given: dict[str, Any] = {each.name: getattr(method, each.name) for each in dataclasses.fields(MethodClaims)}
     return Contender(tier=tier, kind=kind, **{"load": partial(InPython, method.answer, scene), **given, **fields})

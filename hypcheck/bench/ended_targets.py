@@ -12,10 +12,10 @@ from functools import partial
 import numpy as np
 
 from hypcheck.bench.c_library import TOWER_SIZES
-from hypcheck.bench.timing import KernelTarget, TimingEntry, measured_samples, rate_text, thread_clocked, times_as_long
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
 from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_ways
 from hypcheck.record.measurements import KernelLine
+from hypcheck.runs.timing import KernelTarget, TimingEntry, measured_samples, rate_text, thread_clocked, times_as_long
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
 
 SEED = 1

@@ -10,7 +10,6 @@ from functools import partial
 import numpy as np
 
 from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork, of_method
-from hypcheck.bench.timing import Clocked, TimingRefusedError
 from hypcheck.bench.workloads import NEAR_SCENES, WAY_WORKLOADS, WORKLOADS, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, Layout, Rows
@@ -21,6 +20,7 @@ from hypcheck.implementations.implementation import Implementation, open_impleme
 from hypcheck.implementations.method import Answers
 from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
 from hypcheck.implementations.spec import parse_spec
+from hypcheck.runs.timing import Clocked, TimingRefusedError
 
 SINGLES = {"library": 256, "python": 64, "command": 16}
 """Rows that are asked one by one, by the kind of SPEC. The worker repeats them in order, and there are enough that a

@@ -22,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.timing import TimingEntry, clocked_calls, estimate, measure, ratios
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.implementations.meshes import FCL, grid_of
@@ -30,6 +29,7 @@ from hypcheck.kernel.scene import Scene
 from hypcheck.processes import Advance
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import ForestLine
+from hypcheck.runs.timing import TimingEntry, clocked_calls, estimate, measure, ratios
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.truth import exact
 from hypcheck.truth.mesh import fcl_module

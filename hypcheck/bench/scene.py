@@ -19,7 +19,6 @@ import numpy as np
 
 from hypcheck.bench.c_library import InC, compile_c, compiled, place_of
 from hypcheck.bench.contender import PreparedWork, prepared
-from hypcheck.bench.timing import Clocked, Samples, TimingEntry, estimate, measure, ratios
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
 from hypcheck.kernel.choice import Question
@@ -32,6 +31,7 @@ from hypcheck.messages import escaped
 from hypcheck.processes import Advance
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import SceneLine, SceneTimes, Shares
+from hypcheck.runs.timing import Clocked, Samples, TimingEntry, estimate, measure, ratios
 from hypcheck.scene.reading import read_scene
 
 _ONE_BY_ONE = """

@@ -18,10 +18,10 @@ from hypcheck.bench.claims import COST_OF, FIRST_AGAIN, CostClaim, cost_claims, 
 from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.timing import LEAST_NS, Estimate, Samples, TimingEntry, estimate, measure, ratios
 from hypcheck.bench.workloads import Workload
 from hypcheck.processes import Advance, fresh, perform
 from hypcheck.record.measurements import CostLine, NoiseLine, RefusedLine, SpeedLine, UnmeasuredLine
+from hypcheck.runs.timing import LEAST_NS, Estimate, Samples, TimingEntry, estimate, measure, ratios
 
 MODES = ("batch", "single", "build")
 """The modes of timing a method: many rows by one call, rows one by one, and the building before."""

@@ -21,7 +21,16 @@ import hypcheck
 from hypcheck.bench import call_targets, cliff_targets, compiled_targets, ended_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
 from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
-from hypcheck.bench.timing import (
+from hypcheck.errors import UnavailableError
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import Columns, Floats, Rows
+from hypcheck.implementations.alternatives import numpy_roots
+from hypcheck.implementations.meshes import FCL, SceneMesh, height_of, scene_mesh
+from hypcheck.kernel import numpy_kernel
+from hypcheck.kernel.choice import choice
+from hypcheck.record import Recorder
+from hypcheck.record.measurements import AbsentLine, KernelLine
+from hypcheck.runs.timing import (
     Clocked,
     KernelTarget,
     Samples,
@@ -32,15 +41,6 @@ from hypcheck.bench.timing import (
     thread_clocked,
     times_as_fast,
 )
-from hypcheck.errors import UnavailableError
-from hypcheck.geometry.pair import Sizes
-from hypcheck.geometry.rows import Columns, Floats, Rows
-from hypcheck.implementations.alternatives import numpy_roots
-from hypcheck.implementations.meshes import FCL, SceneMesh, height_of, scene_mesh
-from hypcheck.kernel import numpy_kernel
-from hypcheck.kernel.choice import choice
-from hypcheck.record import Recorder
-from hypcheck.record.measurements import AbsentLine, KernelLine
 
 
 def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:

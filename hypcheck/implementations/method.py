@@ -7,7 +7,7 @@ program are looked up once, so that a timing measures little besides the arithme
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cache
 from typing import Any
 
@@ -26,23 +26,34 @@ Answers = NDArray[np.int8]
 
 
 @dataclass(frozen=True)
-class Method:
-    """A method under test.
+class MethodClaims:
+    """What a method is and claims, for `verify` as for `bench`.
 
-    `answer` maps valid rows, float64 (n, 7) or of ways (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1 and
-    0 for yes and no. `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be
-    right. `exact` marks a method that is never wrong. `max_rows` limits the rows of each family for a slow one.
-    `measured` marks a method that only `bench` uses: its errors are no finding of `verify`. `timed` stands in the place
-    of `answer` where a method also gives the times of hits.
+    `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be right. `exact`
+    marks a method that is never wrong.
     """
 
     name: str
     title: str
-    answer: Callable[[Rows], Answers] = field(repr=False)
+    _: KW_ONLY
     question: str = "position"
     precision: str = "float64"
     domain: Domain = ORDINARY
     exact: bool = False
+
+
+@dataclass(frozen=True)
+class Method(MethodClaims):
+    """A method in this process.
+
+    `answer` maps valid rows, float64 (n, 7) or of ways (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1 and
+    0 for yes and no. `max_rows` limits the rows of each family for a slow one. `measured` marks a method that only
+    `bench` uses: its errors are no finding of `verify`. `timed` stands in the place of `answer` where a method also
+    gives the times of hits.
+    """
+
+    answer: Callable[[Rows], Answers] = field(repr=False)
+    _: KW_ONLY
     max_rows: int | None = None
     measured: bool = False
     timed: Callable[[Rows], tuple[Answers, Floats]] | None = field(default=None, repr=False)

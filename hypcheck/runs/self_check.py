@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 
-from hypcheck.bench.timing import Samples, TimingEntry, clocked, measure
 from hypcheck.errors import Exit, RunOutcome
 from hypcheck.geometry.rows import CANNOT_SAY, Rows
 from hypcheck.implementations.alternatives import numpy_roots
@@ -29,6 +28,7 @@ from hypcheck.runs import findings, oracles
 from hypcheck.runs.findings import KnownFinding, SelfCheckPlan, batch_of
 from hypcheck.runs.judge import Status
 from hypcheck.runs.oracles import ORACLES
+from hypcheck.runs.timing import Samples, TimingEntry, clocked, measure
 from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors.families import ALL, FAMILIES, select
 
@@ -41,19 +41,10 @@ TIMED_ROWS = 100_000
 FAST, PLAIN = "fast path", "plain numpy formula"
 
 
-@dataclass(frozen=True)
-class TimedMethod:
-    """A method to time: `run` answers the first `count` rows of the workload."""
-
-    name: str
-    title: str
-    run: Callable[[Rows], Answers]
-    count: int
-
-    def entry(self, rows: Rows) -> TimingEntry:
-        """The entry that times the method on these rows."""
-        part = rows[: self.count]
-        return TimingEntry(self.name, len(part), clocked(lambda: self.run(part)))
+def timing_entry(method: Method, rows: Rows) -> TimingEntry:
+    """The entry that times a method on these rows, the first `max_rows` of them."""
+    part = rows[: method.max_rows]
+    return TimingEntry(method.name, len(part), clocked(lambda: method.answer(part)))
 
 
 def timed_rows(seed: int) -> Rows:
@@ -61,40 +52,43 @@ def timed_rows(seed: int) -> Rows:
     return FAMILIES[WORKLOAD].rows(seed, TIMED_ROWS)
 
 
-def timed_methods(*, meshes: bool) -> list[TimedMethod]:
+def timed_methods(*, meshes: bool) -> list[Method]:
     """The methods to time, slow ones on fewer rows. FCL is loaded only with `meshes`."""
     found = [
-        TimedMethod(FAST, "certified floats, integers where they cannot tell; exact", _fast, TIMED_ROWS),
-        TimedMethod(PLAIN, "Table 2 as one writes it in numpy; not certified", _plain, TIMED_ROWS),
-        TimedMethod(
-            "numpy.roots", "eigenvalues of the companion matrix, one call a row; not certified", numpy_roots, 200
+        Method(FAST, "certified floats, integers where they cannot tell; exact", _fast),
+        Method(PLAIN, "Table 2 as one writes it in numpy; not certified", _plain),
+        Method(
+            "numpy.roots",
+            "eigenvalues of the companion matrix, one call a row; not certified",
+            numpy_roots,
+            max_rows=200,
         ),
     ]
     if meshes and ORACLES["mesh"].available() is None:
         found += [
-            TimedMethod(
+            Method(
                 "FCL point-mesh and building its mesh",
                 "distance to a mesh of 2,000 triangles, built for each row",
                 partial(naive_fcl, pairing="point"),
-                12,
+                max_rows=12,
             ),
-            TimedMethod(
+            Method(
                 "FCL certified and building its meshes",
                 "two one-sided meshes, built for each row; contact or clear only",
                 _mesh,
-                60,
+                max_rows=60,
             ),
         ]
     return found
 
 
-def timing_line(contender: TimedMethod, timing: Samples) -> TimingLine:
+def timing_line(method: Method, timing: Samples) -> TimingLine:
     """The record's line about one timed method."""
     return TimingLine(
         workload=WORKLOAD,
         median_ns=timing.median_ns,
         name=timing.name,
-        title=contender.title,
+        title=method.title,
         rows=timing.rows,
         loops=timing.loops,
         samples_ns=timing.samples_ns,
@@ -301,7 +295,7 @@ class _SelfCheck:
 
     def _time(self, advance: Advance) -> None:
         rows, methods = timed_rows(self.plan.seed), timed_methods(meshes=MESH in self.plan.oracles)
-        timings = measure([each.entry(rows) for each in methods], TIMING_ROUNDS, advance=advance)
+        timings = measure([timing_entry(each, rows) for each in methods], TIMING_ROUNDS, advance=advance)
         for method, timing in zip(methods, timings, strict=True):
             self.recorder.add(timing_line(method, timing))
 

@@ -25,11 +25,11 @@ from hypcheck.bench.claims import (
 )
 from hypcheck.bench.plan import QUICK, BenchPlan
 from hypcheck.bench.speed import Measurement, MeasuringSession, _compared
-from hypcheck.bench.timing import Estimate, Samples
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import count
 from hypcheck.geometry.pair import Position
 from hypcheck.implementations.method import RECIPROCAL, by_rows
+from hypcheck.runs.timing import Estimate, Samples
 from hypcheck.vectors.families import FAMILIES
 from tests.support import inside
 from tests.support.inside import flip_exponents

@@ -11,7 +11,6 @@ from hypcheck.bench import foreign
 from hypcheck.bench.baseline import alike, speeds_of
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
-from hypcheck.bench.timing import TimingEntry, TimingRefusedError, measure
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.implementations import implementation
 from hypcheck.implementations.implementation import open_implementation
@@ -20,6 +19,7 @@ from hypcheck.implementations.spec import parse_spec
 from hypcheck.record.fields import decoded
 from hypcheck.record.lines import NotStartedLine
 from hypcheck.record.measurements import AccuracyLine, ComparisonLine, MethodLine, RefusedLine, SpeedLine
+from hypcheck.runs.timing import TimingEntry, TimingRefusedError, measure
 from tests.bench.test_run import ended
 from tests.report import bench_lines
 from tests.tools.miniatures import QUICK, command, compiled

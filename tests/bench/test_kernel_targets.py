@@ -14,13 +14,13 @@ from hypcheck.bench import call_targets, cliff_targets, compiled_targets, ended_
 from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
 from hypcheck.bench.c_source import WORDS
 from hypcheck.bench.compiled_targets import touching_columns, tower_rows, uniform_columns
-from hypcheck.bench.timing import KernelTarget, Samples
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import tilted_rows
 from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.record import SCHEMA
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AbsentLine, KernelLine
+from hypcheck.runs.timing import KernelTarget, Samples
 from tests.support.inside import LEVELS, choice, clearances, nearest
 from tests.support.records import violations
 

@@ -10,11 +10,11 @@ from hypcheck.bench.baseline import speeds_of
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import REFERENCE, BenchPlan
 from hypcheck.bench.speed import REFERENCE_AGAIN, Measurement
-from hypcheck.bench.timing import Samples
 from hypcheck.errors import Exit, RunOutcome
 from hypcheck.record import Recorder
 from hypcheck.record.fields import decoded
 from hypcheck.record.measurements import SpeedLine, UnmeasuredLine
+from hypcheck.runs.timing import Samples
 from tests.report import bench_lines
 from tests.support.records import GrowingText
 

@@ -10,7 +10,7 @@ import gc
 import numpy as np
 import pytest
 
-from hypcheck.bench.timing import (
+from hypcheck.runs.timing import (
     MOST_LOOPS,
     Estimate,
     TimingEntry,

@@ -8,10 +8,10 @@ from importlib import resources
 
 import pytest
 
-from hypcheck.bench.timing import measure
 from hypcheck.derivation.printed_equations import EquationCheck
 from hypcheck.derivation.proofs import Proof
 from hypcheck.errors import RunOutcome
+from hypcheck.implementations.method import Method
 from hypcheck.record import SCHEMA as RECORD_SCHEMA
 from hypcheck.record import Recorder, plain, read
 from hypcheck.record.fields import as_json
@@ -19,7 +19,8 @@ from hypcheck.record.reader import LINES
 from hypcheck.report import summary
 from hypcheck.runs import self_check
 from hypcheck.runs.findings import SelfCheckPlan
-from hypcheck.runs.self_check import TimedMethod, timing_line
+from hypcheck.runs.self_check import timing_entry, timing_line
+from hypcheck.runs.timing import measure
 from hypcheck.vectors.families import FAMILIES
 from tests.report import bench_lines, record_samples
 from tests.support.records import GrowingText, violations
@@ -121,8 +122,8 @@ def test_record_lines_of_the_derivation_have_the_fields_of_their_classes(kind, t
 
 def test_a_timing_line_has_the_fields_of_a_timing():
     rows = FAMILIES["tower-body"].rows(1, 8)
-    contender = TimedMethod("sum", "a sum", lambda part: part[:, 0].astype("int8"), 8)
-    (timing,) = measure([contender.entry(rows)], 2, shortest_s=1e-6)
+    contender = Method("sum", "a sum", lambda part: part[:, 0].astype("int8"))
+    (timing,) = measure([timing_entry(contender, rows)], 2, shortest_s=1e-6)
     line = json.loads(json.dumps(as_json(timing_line(contender, timing))))
     assert violations(line, RECORD, closed=True) == []
 
