@@ -109,6 +109,8 @@ C, C++ and Rust have the names and the signature that `verify library:` expects;
 `python:kernel.py:classify`; the JavaScript module takes the place of predicate.mjs in the adapter of
 `hypcheck init --language javascript`.
 
+With --sweeps the file answers about the mover's straight motions in the whole scene, and up to when one is clear.
+
 With --whole the kernel also has the hyperboloids' places and heights and the mover's parts, in tables of any length,
 and one function more: hypcheck_whole(n, x, y, z, heading, answers), in JavaScript and Python whole(x, y, z, heading),
 the answer about the scene for the mover's centre in the scene's coordinates.
@@ -131,6 +133,7 @@ default names.
 @click.option("--precision", default="float64", show_default=True, metavar="FORMAT", help="float32 or float64.")
 @click.option("--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: the scene's]")
 @click.option("--whole", is_flag=True, help="The whole scene: places, heights and parts too, of any number of trees.")
+@click.option("--sweeps", is_flag=True, help="The whole scene, asked about straight motions of the mover.")
 @click.option("--prefix", default="hypcheck", show_default=True, metavar="NAME", help="Prefix of the function names.")
 @click.option(
     "--output", default="-", show_default=True, metavar="FILE", help="The file to write; - is standard output."
@@ -148,6 +151,7 @@ def emit(
     precision: str,
     question: str | None,
     whole: bool,
+    sweeps: bool,
     prefix: str,
     output: str,
     proof: str | None,
@@ -155,7 +159,7 @@ def emit(
     """Write the kernel of a scene, or the code for one pair."""
     from hypcheck.errors import InputError
     from hypcheck.kernel.emission.kernel import require_prefix
-    from hypcheck.kernel.emission.pair import emitted_pair
+    from hypcheck.kernel.emission.pair import emitted_pair, emitted_scene, needs_routine
     from hypcheck.kernel.printing.coq import proof_of
     from hypcheck.tables.streams import write_files
 
@@ -164,7 +168,7 @@ def emit(
         scenes = {"--scene": scene, "--question": question, "--proof": proof}
         extra = [name for name, value in scenes.items() if value is not None]
         extra += [] if precision == "float64" else ["--precision"]
-        extra += ["--whole"] if whole else []
+        extra += [option for option, is_given in (("--whole", whole), ("--sweeps", sweeps)) if is_given]
         if extra:
             raise InputError(f"{extra[0]} is for a scene; --method {method} is for one pair of any sizes, without it")
         text = emitted_pair(method, language, command, prefix)
@@ -173,12 +177,30 @@ def emit(
     else:
         require_prefix(prefix, language)
         asked = asked_scene(scene, question)
-        plan, text = _kernel(asked, language, precision, command, prefix, whole=whole)
-        proved = None if proof is None else proof_of(plan)
+        if sweeps or (whole and needs_routine(asked)):
+            _require_routine(sweeps, whole, question, proof, precision)
+            text = emitted_scene(asked, language, command, prefix, sweep=sweeps)
+        else:
+            plan, text = _kernel(asked, language, precision, command, prefix, whole=whole)
+            proved = None if proof is None else proof_of(plan)
     if proof is not None and os.path.realpath(proof) == os.path.realpath(output):
         raise InputError(f"--proof {proof} is --output too; name another file")
     proofs = {} if proof is None or proved is None else {proof: proved.encode()}
     write_files({output: text.encode(), **proofs})
+
+
+def _require_routine(sweeps: bool, whole: bool, question: str | None, proof: str | None, precision: str) -> None:
+    """Raise InputError unless code that a routine answers is asked for what it has."""
+    from hypcheck.errors import InputError
+
+    if sweeps and whole:
+        raise InputError("--whole is about positions, --sweeps about straight motions; give one of them")
+    if sweeps and question is not None:
+        raise InputError("--question is about positions; --sweeps asks for contact on a straight motion")
+    if proof is not None:
+        raise InputError("--proof is for kernels of pairs, and of whole scenes in which nothing leans")
+    if precision != "float64":
+        raise InputError(f"no kernel is made in {precision}: sweeps, and scenes in which something leans, need float64")
 
 
 def _command(context: click.Context) -> list[str]:

@@ -74,18 +74,34 @@ class Stored:
 
 
 @dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of numbers by name: in the round of a loop over it, `columns` are the numbers of that row."""
+
+    name: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[float, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Loop:
     """The parts of `body` again and again, so many `times`, one at least.
 
     `kept` are numbers that go from round to round: the name of each, what it is before the first round, and the name
     that it has in the body when a round ends. After the loop they are what the last round made of them; what else
     the body names is forgotten. `until` is a truth value of the body: the round in which it holds is the last.
+    With a `table` the body knows the numbers of a row of it, one row a round.
     """
 
     times: int
     kept: tuple[tuple[str, str, str], ...]
     body: tuple[Part, ...]
     until: str | None = None
+    table: Table | None = None
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """The names of the numbers of a table's row."""
+        return () if self.table is None else self.table.columns
 
     @property
     def ends(self) -> tuple[str, ...]:
@@ -177,6 +193,12 @@ class Routine:
         for name, _, _ in loop.kept:
             self._define(name, NUMBER, kinds)
         inside = dict(kinds)
+        for name in loop.given:
+            self._define(name, NUMBER, inside)
+        if loop.table is not None and {len(loop.table.columns)} != {len(row) for row in loop.table.rows}:
+            raise ValueError(f"routine {self.name}: the table {loop.table.name} has a row of another length")
+        if loop.table is not None and loop.times != len(loop.table.rows):
+            raise ValueError(f"routine {self.name}: a loop over {loop.table.name} has {loop.times} rounds")
         self._check(loop.body, inside)
         for _, _, end in loop.kept:
             self._require_number(end, inside)
@@ -337,8 +359,9 @@ def _run(parts: tuple[Part, ...], values: dict[str, Any], arithmetic: Arithmetic
 
 def _run_loop(loop: Loop, values: dict[str, Any], arithmetic: Arithmetic) -> None:
     kept = {name: values[start] for name, start, _ in loop.kept}
-    for _ in range(loop.times):
-        inside = {**values, **kept}
+    for number in range(loop.times):
+        row = () if loop.table is None else map(arithmetic.convert, loop.table.rows[number])
+        inside = {**values, **kept, **dict(zip(loop.given, row, strict=True))}
         _run(loop.body, inside, arithmetic)
         kept = {name: inside[end] for name, _, end in loop.kept}
         if loop.until is not None and inside[loop.until]:

@@ -132,6 +132,10 @@ _C_LIKE = {
     "keep on": "{name} = {value};",
     "loop": "for (int round = 0; round < {times}; round++) {{",
     "leave if": "if ({condition}) break;",
+    "table": "static const {number} {name}[{rows}][{columns}] = {{\n{body}\n}};",
+    "table row": "{{{values}}}",
+    "loop over": "for (int round = 0; round < {times}; round++) {{",
+    "cell": "const {number} {name} = {table}[round][{index}];",
     "told": "const double told = {value};",
 }
 
@@ -191,6 +195,10 @@ _RUST = {
     "keep": "let mut {name} = {value};",
     "loop": "for _ in 0..{times} {{",
     "leave if": "if {condition} {{\n    break;\n}}",
+    "table": "static {name}: [[{number}; {columns}]; {rows}] = [\n{body}\n];",
+    "table row": "[{values}]",
+    "loop over": "for row in &{table} {{",
+    "cell": "let {name} = row[{index}];",
     "told": "let told = {value};",
 }
 
@@ -226,6 +234,10 @@ _JAVASCRIPT = {
     "unpack": "",
     "keep": "let {name} = {value};",
     "told": "const told = {value};",
+    "table": "const {name} = [\n{body}\n];",
+    "table row": "[{values}]",
+    "loop over": "for (const row of {table}) {{",
+    "cell": "const {name} = row[{index}];",
     "loop": "for (let round = 0; round < {times}; round++) {{",
 }
 
@@ -270,6 +282,10 @@ _PYTHON = {
     "keep on": "{name} = {value}",
     "loop": "for _ in range({times}):",
     "leave if": "if {condition}:\n    break",
+    "table": "{name} = (\n{body}\n)",
+    "table row": "({values},)",
+    "loop over": "for row in {table}:",
+    "cell": "{name} = row[{index}]",
     "told": "told = {value}",
 }
 

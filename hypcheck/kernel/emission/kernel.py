@@ -48,23 +48,20 @@ def description_in_language(value: dict[str, Any], language: str, prefix: str) -
         return "\n    ".join(line.rstrip() for line in lines)
     quoted = [json.dumps(line) for line in lines]  # C, C++ and Rust escape quotation marks and backslashes alike
     if language == "rust":
-        return in_rust(quoted, prefix, "tilted" if "tilt" in value else "predicate")
+        return in_rust(quoted, prefix, *(("tilted", 10) if "tilt" in value else ("predicate", 7)))
     if language == "c" and sum(map(len, lines)) > LONGEST:
         size = sum(map(len, lines)) + 1
         return _BY_PARTS.format(parts=",\n    ".join(quoted), size=size, longest=LONGEST)
     return "return " + "\n    ".join(quoted) + ";"
 
 
-_IN_RUST = {"predicate": ("7", "tilted"), "tilted": ("10", "predicate"), "passage": ("13", "predicate")}
-
-
-def in_rust(quoted: Sequence[str], prefix: str, asked: str) -> str:
+def in_rust(quoted: Sequence[str], prefix: str, asked: str, width: int) -> str:
     """The description, and what the adapter of `hypcheck init` takes from a module: this and a function of one row.
 
-    `asked` is that function, a key of _IN_RUST, which has the columns of its rows and the one that answers none.
+    `asked` is that function, `width` the numbers of a row; another function is there and answers none.
     """
-    columns, other = _IN_RUST[asked]
-    other_columns = _IN_RUST[other][0]
+    columns = str(width)
+    other, other_columns = ("tilted", "10") if asked == "predicate" else ("predicate", "7")
     named = {"asked": asked, "columns": columns, "other": other, "other_columns": other_columns}
     parts = {"description": ",\n".join(quoted), "prefix": prefix, **named}
     return DIALECTS["rust"].filled("description", parts).strip("\n")

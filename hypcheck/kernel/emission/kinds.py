@@ -16,6 +16,8 @@ from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.emission.routines import routines_text
 from hypcheck.kernel.specialise import bounding, looking, sweeping
+from hypcheck.kernel.specialise.scene_routines import position_routine, sweep_routine
+from hypcheck.scene.model import SceneModel
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,8 @@ class Kind:
 
     `routine` makes a number, which is the answer where it is below `decided`; of a `passage` it is a time, and one up
     to 1 is the answer 1. Without a routine the statements are a program's, which makes exterior, interior and decided.
-    `one` and `many` are the functions for one row and for many, `numbers` those that the file has besides, and
+    `one` and `many` are the functions for one row and for many, `python` what the latter is called there, `numbers`
+    those that the file has besides, and
     `head` is what its first lines say.
     """
 
@@ -45,11 +48,17 @@ class Kind:
     passage: bool = False
     numbers: Mapping[str, Number] = field(default_factory=dict)
     head: tuple[str, ...] = ()
+    python: str = ""
 
     @property
     def tilted(self) -> bool:
         """Whether rows have an axis."""
         return set(AXIS) <= set(self.columns)
+
+    @property
+    def sizes(self) -> tuple[str, ...]:
+        """The columns that are sizes: finite and > 0."""
+        return tuple(name for name in self.columns if name in SIZES)
 
     @property
     def domain(self) -> dict[str, object]:
@@ -67,7 +76,7 @@ _PROOF = (
     "bound of all roundings; a bad one makes the answer 2.",
 )
 
-POSITION = Kind(COLUMNS, "position", "classify", _PAIR)
+POSITION = Kind(COLUMNS, "position", "classify", _PAIR, python="classify")
 """Of upright spheroids, by a program."""
 
 KINDS = {
@@ -77,6 +86,7 @@ KINDS = {
         "classify_tilted",
         _PAIR,
         looking.POSITION,
+        python="classify",
         head=(
             _TILTED,
             f"{_BODY} +1 exterior, 0 contact, −1 interior; 2 where float64 cannot say, 127 for an invalid row.",
@@ -89,6 +99,7 @@ KINDS = {
         "classify_tilted",
         _PAIR,
         looking.POSITION,
+        python="classify",
         numbers={
             "clearance_lower": Number(bounding.LOWER, -1.0),
             "clearance_upper": Number(bounding.UPPER, float_info.max),
@@ -108,6 +119,7 @@ KINDS = {
         "Whether a spheroid of semi-axes b, b, d has contact on its straight way.",
         sweeping.FIRST,
         sweeping.UNKNOWN,
+        python="passage",
         passage=True,
         numbers={"first_contact": Number(sweeping.FIRST, float(sweeping.UNKNOWN))},
         head=(
@@ -120,6 +132,50 @@ KINDS = {
     ),
 }
 """By name: what `emit --method` takes beside the methods of pair.py."""
+
+
+def kind_of_scene(scene: SceneModel, *, sweep: bool) -> Kind:
+    """Code for a whole scene, for a mover and hyperboloids of any axis: positions, or sweeps. Raises InputError."""
+    parts = (
+        ("Where the mover itself has contact, its parts are for the caller: the answer is 2.",)
+        if scene.mover.parts
+        else ()
+    )
+    many = f"{len(scene.hyperboloids)} hyperboloid{'s' * (len(scene.hyperboloids) != 1)}"
+    if sweep:
+        routine = sweep_routine(scene)
+        return Kind(
+            routine.inputs,
+            "sweep",
+            "sweep_rows",
+            "Whether the mover has contact on its straight way in the scene.",
+            routine,
+            sweeping.UNKNOWN,
+            passage=True,
+            numbers={"first_contact": Number(routine, float(sweeping.UNKNOWN))},
+            head=(
+                f"The mover of a scene of {many} on a straight way: 1 contact, 0 clear all along;",
+                "2 where float64 cannot say, 127 for an invalid row. first_contact is a time from 0 to 1 up to which a",
+                f"way with contact is proved clear; {sweeping.NEVER} without contact, {sweeping.UNKNOWN} unknown.",
+                *parts,
+                *_PROOF,
+            ),
+        )
+    routine = position_routine(scene)
+    return Kind(
+        routine.inputs,
+        "whole",
+        "whole_rows",
+        "The answer about the mover in the scene.",
+        routine,
+        head=(
+            f"The mover of a scene of {many}, in the scene's coordinates, asked for {scene.question}:",
+            "+1 exterior, 0 contact, −1 interior; of one side 1 is yes and 0 no. 2 where float64 cannot say, 127 for",
+            "an invalid row.",
+            *parts,
+            *_PROOF,
+        ),
+    )
 
 
 @dataclass(frozen=True)
@@ -144,6 +200,10 @@ double {prefix}_{name}({parameters})
     return EVALUATION == 0 || EVALUATION == 1 || EVALUATION == 16 ? {routine}({given}) : {nothing!r};
 }}
 """
+_SIZE_CHECK = """static int is_size(double value)
+{
+    return bits_of(value) >> 63 == 0 && bits_of(value) != 0 && is_finite(value);
+}"""
 _RUST_NUMBER = """
 /// {meaning}
 pub fn {name}(row: &[f64; {width}]) -> f64 {{
@@ -231,6 +291,8 @@ PHRASES_UNDECIDED = "decided = exterior = interior = False"
 
 def asked_of(kind: Kind) -> str:
     """The function of one row that a module of JavaScript or Rust is asked by."""
+    if not kind.sizes:
+        return kind.one
     return "passage" if kind.passage else "tilted" if kind.tilted else "predicate"
 
 
@@ -261,14 +323,15 @@ def columns_text(kind: Kind, dialect: Dialect, prefix: str) -> dict[str, str]:
         **words,
         "row": _row(width),
         "one": one,
-        "many": "passage" if dialect.name == "python" and kind.passage
-        else "classify" if dialect.name == "python" else kind.many,
+        "many": (kind.python or kind.many) if dialect.name == "python" else kind.many,
         "meaning": kind.meaning.format(place=place),
         "outputs": times,
         "keep": phrases.keep.format(row=_row(width), **words) if kind.passage else "",
         "declared": "\n".join(declared),
         "valid": _valid(kind, phrases, dialect.name),
         "has_axis": phrases.axis.format(*AXIS, start=len(names) - 3) if kind.tilted else "",
+        "sizes": str(len(kind.sizes)),
+        "size_check": _SIZE_CHECK if kind.sizes else "",
         "numbers": "".join(texts),
         "answer": phrases.answer if kind.routine is None else phrases.hit if kind.passage else phrases.told,
         "undecided": PHRASES_UNDECIDED if kind.routine is None else phrases.undecided,
@@ -287,10 +350,11 @@ def _camel(name: str) -> str:
 def _valid(kind: Kind, phrases: _Phrases, language: str) -> str:
     """The condition under which a row is valid, in C, C++ and Python."""
     axis = phrases.axis.format(*AXIS, start=0) if kind.tilted else ""
-    others = kind.columns[len(SIZES) :]
+    others = kind.columns[len(kind.sizes) :]
     if language == "python":
-        return f"all(map(is_size, ({', '.join(SIZES)}))) and all(map(is_finite, ({', '.join(others)}))){axis}"
-    checks = [*(f"is_size({name})" for name in SIZES), *(f"is_finite({name})" for name in others)]
+        sizes = f"all(map(is_size, ({', '.join(kind.sizes)}))) and " if kind.sizes else ""
+        return f"{sizes}all(map(is_finite, ({', '.join(others)}))){axis}"
+    checks = [*(f"is_size({name})" for name in kind.sizes), *(f"is_finite({name})" for name in others)]
     return " && ".join(checks) + axis
 
 

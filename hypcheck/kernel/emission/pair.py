@@ -21,10 +21,12 @@ from hypcheck.derivation.program import Program, needed
 from hypcheck.errors import InputError
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.kernel import PREFIX, asked_of_compiler, in_rust, require_prefix
-from hypcheck.kernel.emission.kinds import KINDS, POSITION, Kind, asked_of, columns_text, routine_text
+from hypcheck.kernel.emission.kinds import KINDS, POSITION, Kind, asked_of, columns_text, kind_of_scene, routine_text
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
+from hypcheck.kernel.specialise.settings import axis_of
+from hypcheck.scene.model import SceneModel, leans
 from hypcheck.version import VERSION
 
 EXACT, CERTIFIED_ONLY, DUAL, LOCAL_MAXIMUM = UPRIGHT = ("exact", "certified", "dual", "local-maximum")
@@ -66,8 +68,27 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
     """The text of the file. Raises InputError for another method, or a prefix that the language has no use for."""
     require_method(method)
     require_prefix(prefix, language)
-    dialect, kind = DIALECTS[language], KINDS.get(method, POSITION)
-    head = kind.head if kind.routine else _head(method)
+    kind = KINDS.get(method, POSITION)
+    head = kind.head if kind.routine else tuple(_head(method))
+    return _printed(kind, method, head, language, command, prefix)
+
+
+def needs_routine(scene: SceneModel) -> bool:
+    """Whether something in the scene leans, so that a plan of pairs cannot be made of the whole."""
+    return axis_of(scene.mover) is not None or any(leans(body.axis) for body in scene.hyperboloids)
+
+
+def emitted_scene(
+    scene: SceneModel, language: str, command: Sequence[str], prefix: str = PREFIX, *, sweep: bool
+) -> str:
+    """The text of a file for a whole scene, whose mover and hyperboloids may lean. Raises InputError."""
+    require_prefix(prefix, language)
+    kind = kind_of_scene(scene, sweep=sweep)
+    return _printed(kind, "scene", kind.head, language, command, prefix)
+
+
+def _printed(kind: Kind, method: str, head: Sequence[str], language: str, command: Sequence[str], prefix: str) -> str:
+    dialect = DIALECTS[language]
     parts = {
         "header": "\n".join(
             f"{dialect.comment}{line}".rstrip() for line in (*_made(command), *head, *_notes(language))
@@ -136,13 +157,13 @@ def _notes(language: str) -> Iterator[str]:
 def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
     told: dict[str, Any] = {
         "protocol": 1,
-        "name": f"pair, {method} ({language})",
+        "name": f"{method} ({language})" if method == "scene" else f"pair, {method} ({language})",
         "version": VERSION,
         "language": language,
         "precision": "exact",
         "question": "passage" if kind.passage else "position",
         "refuses": True,
-        **({"tilt": True} if kind.tilted else {}),
+        **({"tilt": True} if kind.tilted and kind.sizes else {}),
         "domain": kind.domain,
     }
     if language == "python":
@@ -150,7 +171,11 @@ def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
     text = json.dumps(told)
     if language == "javascript":
         return text
-    return in_rust([json.dumps(text)], prefix, asked_of(kind)) if language == "rust" else json.dumps(text)
+    return (
+        in_rust([json.dumps(text)], prefix, asked_of(kind), len(kind.columns))
+        if language == "rust"
+        else json.dumps(text)
+    )
 
 
 def _whole(program: Program, language: str) -> Iterator[str]:

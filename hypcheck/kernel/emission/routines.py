@@ -39,7 +39,12 @@ def routines_text(routines: Sequence[Routine], dialect: Dialect, precision: str)
     every = {each.name: each for routine in routines for each in (*called(routine), routine)}
     pairs = any(PAIR in (*each.takes, each.gives) for each in every.values())
     texts = [dialect.say("pair type")] if pairs else []
-    texts += [text for each in every.values() for text in (printer.record(each), printer.text(each)) if text]
+    texts += [
+        text
+        for each in every.values()
+        for text in (*printer.tables(each.needed), printer.record(each), printer.text(each))
+        if text
+    ]
     return ("\n\n\n" if dialect.name == "python" else "\n\n").join(texts) + "\n"
 
 
@@ -69,6 +74,17 @@ class _Printer:
             return ""
         lines = (self._named("record field", name, routine) for name in routine.record)
         return self.say("record", record=self._type_of_record(routine), fields="\n".join(INDENT + one for one in lines))
+
+    def tables(self, parts: Iterable[Part]) -> Iterator[str]:
+        """The tables that loops go over."""
+        for part in parts:
+            if isinstance(part, Loop):
+                if part.table is not None:
+                    rows = (", ".join(map(repr, row)) for row in part.table.rows)
+                    body = "\n".join(f"{INDENT}{self.say('table row', values=row)}," for row in rows)
+                    size = {"rows": part.times, "columns": len(part.given)}
+                    yield self.say("table", name=part.table.name, body=body, **size)
+                yield from self.tables(part.body)
 
     def text(self, routine: Routine) -> str:
         """The function."""
@@ -132,10 +148,17 @@ class _Printer:
             kinds[name] = NUMBER
             self._require_free(name)
             yield self.say("keep", name=name, value=start)
-        yield self.say("loop", times=loop.times)
+        table = loop.table
+        if table is None:
+            yield self.say("loop", times=loop.times)
+        else:
+            yield self.say("loop over", times=loop.times, table=table.name)
+            cells = enumerate(table.columns)
+            yield from _indented(self.say("cell", name=name, index=index, table=table.name) for index, name in cells)
+        inside = {**kinds, **dict.fromkeys(loop.given, NUMBER)}
         ends = [self.say("keep on", name=name, value=end) for name, _, end in loop.kept]
         until = [] if loop.until is None else self.say("leave if", condition=loop.until).splitlines()
-        yield from _indented([*self._parts(loop.body, dict(kinds)), *ends, *until])
+        yield from _indented([*self._parts(loop.body, inside), *ends, *until])
         yield from filter(None, [self.say("end if")])
 
     def _require_free(self, name: str) -> None:

@@ -35,14 +35,14 @@ _STEP = """
     goes_on = known and short_of_contact
     step = size - margin
     next_unbounded = now + step
-    arrived = next_unbounded >= 1
+    arrived = next_unbounded >= to_time
     at_end = goes_on and arrived
     moves = goes_on and next_unbounded_below
     next = moves ? next_unbounded : now
     half = step / 2
     ahead_unbounded = next + half
-    beyond_end = ahead_unbounded > 1
-    ahead_before = beyond_end ? 1 : ahead_unbounded
+    beyond_end = ahead_unbounded > to_time
+    ahead_before = beyond_end ? to_time : ahead_unbounded
     ahead = moves ? ahead_before : next
 """.replace("next_unbounded_below\n", "before_end\n").replace(
     "    at_end =", "    before_end = not arrived\n    at_end ="
@@ -66,8 +66,8 @@ _SEEN = """
 """.replace("    open_after =", "    not_touching_next = not touches_next\n    open_after =")
 
 _SWEPT: tuple[Part, ...] = (
-    Call("start_found", LOOK, (*_LOOK_AT, 0)),
-    Call("end_found", LOOK, (*_LOOK_AT, 1)),
+    Call("start_found", LOOK, (*_LOOK_AT, "from_time")),
+    Call("end_found", LOOK, (*_LOOK_AT, "to_time")),
     *steps_of(
         """
         ends_product = start_found * end_found
@@ -82,7 +82,7 @@ _SWEPT: tuple[Part, ...] = (
     Loop(
         ROUNDS,
         (
-            ("now", "zero", "next"),
+            ("now", "from_time", "next"),
             ("found", "start_found", "next_found"),
             ("hit", "hit_0", "hit_seen"),
             ("state", "zero", "state_new"),
@@ -110,8 +110,8 @@ _SWEPT: tuple[Part, ...] = (
             *steps_of(
                 """
                 look_unbounded = now + distance
-                look_beyond = look_unbounded > 1
-                look_time = look_beyond ? 1 : look_unbounded
+                look_beyond = look_unbounded > to_time
+                look_time = look_beyond ? to_time : look_unbounded
                 """
             ),
             Call("late_found", LOOK, (*_LOOK_AT, "look_time")),
@@ -142,16 +142,17 @@ _SWEPT: tuple[Part, ...] = (
 FIRST_OF_WAY = Routine(
     "first_of_way",
     f"A time up to which a way with contact is proved clear; {NEVER} without contact, {UNKNOWN} cannot say.",
-    sweeps.ROW,
+    (*sweeps.ROW, "from_time", "to_time"),
     _SWEPT,
     "first",
     constants={"zero": 0.0, "contact_code": float(CONTACT), "shortest": 2.0**-46, "margin": 2.0**-49},
 )
-"""A contact is proved before anything is said to be one; `first` is NEVER only where every piece is proved clear."""
+"""Between two times of the way. A contact is proved before anything is said to be one; `first` is NEVER only where
+every piece is proved clear."""
 
 WAY = (*SIZES, *sweeps.START, *sweeps.END, *AXIS)
 """The columns of a way: those of geometry/pair.py, by names that no language has taken."""
 
 FIRST = Routine(
-    "first_of", FIRST_OF_WAY.meaning, WAY, (Call("first", FIRST_OF_WAY, (*WAY, 0, 0, 0, 0, 0, 1)),), "first"
+    "first_of", FIRST_OF_WAY.meaning, WAY, (Call("first", FIRST_OF_WAY, (*WAY, 0, 0, 0, 0, 0, 1, 0, 1)),), "first"
 )

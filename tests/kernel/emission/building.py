@@ -90,7 +90,7 @@ def answers(library, rows):
     return found
 
 
-def asking(path, language):
+def asking(path, language, name=None):
     """What answers rows: the built kernel in its own language, both entries of a library at once."""
     if language == "python":
         module = load_module(path)
@@ -101,7 +101,7 @@ def asking(path, language):
 
         return ask_module
     if language == "javascript":
-        return lambda rows: _asked_of_node(path, rows)
+        return lambda rows: _asked_of_node(path, rows, name)
 
     def ask(rows):
         found = answers(path, rows)
@@ -137,10 +137,10 @@ process.stdout.write(Buffer.from(found.buffer));
 """
 
 
-def _asked_of_node(path, rows):
+def _asked_of_node(path, rows, name=None):
     script = path.with_name("ask.mjs")
     wide = rows.shape[1]
-    text = _NODE.replace("NAME", {7: "predicate", 10: "tilted", 13: "passage"}[wide]).replace("WIDE", str(wide))
+    text = _NODE.replace("NAME", name or {7: "predicate", 10: "tilted", 13: "passage"}[wide]).replace("WIDE", str(wide))
     script.write_text(text.replace("KERNEL", json.dumps(str(path))), encoding="utf-8")
     node, sent = str(shutil.which("node")), np.ascontiguousarray(rows).tobytes()
     done = subprocess.run([node, str(script)], input=sent, capture_output=True, check=False)

@@ -1,0 +1,302 @@
+"""Routines of a whole scene, for movers and hyperboloids of any axis: positions and sweeps, by a loop over a table.
+
+A row of the table is a hyperboloid: sizes, centre, axis, the ends of its height and whether it is solid. Each is asked
+by LOOK or by the routine of sweeps, which count the difference of centres as a step of theirs; ends by bounds:
+
+- beyond an end by more than the mover's longer semi-axis the hyperboloid is not there: the mover is exterior;
+- between the ends by more than that, they do not matter;
+- else what is exterior to the whole hyperboloid is exterior, what is inside an open one is clear of it, on the side of
+  the centre's height, and all else is left open.
+
+A sweep is asked twice: from when it comes near the height to when it leaves it, where it may be clear of the whole, and
+while it is between the ends, where contact is contact with what stands.
+
+The level along the axis, n·(C − c)/|n|, is off by some 20u of the sizes of its terms at most. `loose`, 2⁻⁴⁵ = 128u of
+the sum of the sizes of all that goes into it, ends and semi-axes too, covers that, the sums of ends and reach, and what
+the rounding of a time makes of a level: the times of a window are quotients by a change of the level that is larger
+than `loose`.
+
+Put together as kernel/scene.py does it: contact with any is contact, else inside any is interior, else exterior;
+"cannot say" of one is "cannot say" unless another is in contact. A mover with parts is asked itself: where it has
+contact, its parts are for the caller, and the answer is "cannot say".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from sys import float_info
+
+from hypcheck.derivation.program import steps_of
+from hypcheck.derivation.routines import Call, Loop, Part, Routine, Table
+from hypcheck.errors import InputError
+from hypcheck.geometry.pair import AXIS, CENTER
+from hypcheck.kernel.programs import sweeps
+from hypcheck.kernel.specialise.looking import CONTACT, LOOK
+from hypcheck.kernel.specialise.sweeping import FIRST_OF_WAY, NEVER, UNKNOWN
+from hypcheck.scene.model import FREE, Hyperboloid, SceneModel
+
+LOOSE = 2.0**-45
+_COLUMNS = ("alpha", "gamma", *sweeps.WALL, *sweeps.WALL_AXIS, "z_min", "z_max", "solid")
+_POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
+
+
+def scene_columns(scene: SceneModel, *, sweep: bool) -> tuple[str, ...]:
+    """What a row asks: the mover's centre, or both ends of its way, and its axis where the scene leaves it free."""
+    places = (*sweeps.START, *sweeps.END) if sweep else CENTER
+    return (*places, *(AXIS if scene.mover.axis == FREE else ()))
+
+
+def _row(body: Hyperboloid) -> tuple[float, ...]:
+    span = (-float_info.max, float_info.max) if body.height is None else body.height.ends
+    ends = (min(max(end, -float_info.max), float_info.max) for end in span)
+    return (body.alpha, body.gamma, *body.center, *body.axis, *ends, 1.0 if body.solid and body.height else 0.0)
+
+
+def _dot(name: str, left: str, right: str) -> str:
+    return "".join(f"\n{name}_{k} = {left}_{k} * {right}_{k}" for k in "xyz") + (
+        f"\n{name}_xy = {name}_x + {name}_y\n{name} = {name}_xy + {name}_z"
+    )
+
+
+def _level(at: str) -> str:
+    """The level of a place along the hyperboloid's axis, and the sum of the sizes of what it is made of."""
+    sizes = "".join(f"\nsize_{at}_{k} = abs {at}_{k}" for k in "xyz")
+    return (
+        "".join(f"\nfrom_wall_{at}_{k} = {at}_{k} - wall_{k}" for k in "xyz")
+        + _dot(f"raised_{at}", f"from_wall_{at}", "upward")
+        + f"\nlevel_{at} = raised_{at} / upward_length"
+        + sizes
+        + f"\nsum_{at}_xy = size_{at}_x + size_{at}_y\nsum_{at} = sum_{at}_xy + size_{at}_z"
+    )
+
+
+_AXIS_SIZES = "".join(f"\nsize_wall_axis_{k} = abs wall_axis_{k}\nsize_wall_{k} = abs wall_{k}" for k in "xyz") + (
+    "\nlength_xy = size_wall_axis_x + size_wall_axis_y\nlength = length_xy + size_wall_axis_z"
+    "\nsum_wall_xy = size_wall_x + size_wall_y\nsum_wall = sum_wall_xy + size_wall_z"
+) + "".join(f"\nupward_{k} = wall_axis_{k} / length" for k in "xyz") + _dot("upward_squares", "upward", "upward") + (
+    "\nupward_length = sqrt upward_squares"
+)  # fmt: skip
+
+_ENDS = """
+no_lower = z_min < least_end
+no_upper = z_max > greatest_end
+lower_size = abs z_min
+upper_size = abs z_max
+lower_counts = no_lower ? 0 : lower_size
+upper_counts = no_upper ? 0 : upper_size
+ends_sum = lower_counts + upper_counts
+outer_sum = places_sum + sum_wall
+inner_sum = ends_sum + longest
+whole_sum = outer_sum + inner_sum
+loose = whole_sum * loose_share
+reach = longest + loose
+lowest_reach = lowest - reach
+highest_reach = highest + reach
+beyond_upper = lowest_reach > z_max
+beyond_lower = highest_reach < z_min
+beyond = beyond_upper or beyond_lower
+above_lower = lowest_reach > z_min
+below_upper = highest_reach < z_max
+above_or_none = above_lower or no_lower
+below_or_none = below_upper or no_upper
+between = above_or_none and below_or_none
+is_solid = solid > 0
+is_open = not is_solid
+"""
+
+_OF_PLACE = """
+places_sum = sum_place + sum_place
+lowest = level_place + 0
+highest = level_place + 0
+"""
+
+_OF_SWEEP = """
+places_sum = sum_start + sum_end
+rises = level_start < level_end
+lowest = rises ? level_start : level_end
+highest = rises ? level_end : level_start
+"""
+
+
+def _window(name: str, lower: str, upper: str, sign: tuple[str, str]) -> str:
+    """The times between which the level lies between two: beyond the ends by the reach, or within them by that."""
+    return f"""
+{name}_low = {lower} {sign[0]} reach
+{name}_high = {upper} {sign[1]} reach
+{name}_level_first = rises ? {name}_low : {name}_high
+{name}_level_last = rises ? {name}_high : {name}_low
+{name}_to_first = {name}_level_first - level_start
+{name}_to_last = {name}_level_last - level_start
+{name}_enters = {name}_to_first / divisor
+{name}_leaves = {name}_to_last / divisor
+{name}_enters_late = {name}_enters > 0
+{name}_enters_0 = {name}_enters_late ? {name}_enters : 0
+{name}_leaves_early = {name}_leaves < 1
+{name}_leaves_1 = {name}_leaves_early ? {name}_leaves : 1
+{name}_from = whole_time ? 0 : {name}_enters_0
+{name}_to = whole_time ? 1 : {name}_leaves_1
+{name}_open = {name}_from <= {name}_to
+"""
+
+
+_WINDOWS = (
+    """
+change = level_end - level_start
+size_change = abs change
+flat = size_change <= loose
+whole_time = flat or between
+divisor = whole_time ? 1 : change
+"""
+    + _window("outer", "z_min", "z_max", ("-", "+"))
+    + _window("inner", "z_min", "z_max", ("+", "-"))
+    + """
+not_flat = not flat
+inner_known = between or not_flat
+inner_counts = inner_known and inner_open
+never_there = not outer_open
+"""
+)
+
+_ONE_POSITION = f"""
+is_exterior_raw = found > 0
+is_contact_raw = found == {CONTACT}
+is_interior = found < 0
+not_contact = not is_contact_raw
+is_exterior_whole = is_exterior_raw and not_contact
+is_exterior = beyond or is_exterior_whole
+not_beyond = not beyond
+stands = between and not_beyond
+contact_here = is_contact_raw and stands
+centre_low = lowest - loose
+centre_high = lowest + loose
+centre_above = centre_low > z_min
+centre_below = centre_high < z_max
+centre_above_or_none = centre_above or no_lower
+centre_below_or_none = centre_below or no_upper
+centre_between = centre_above_or_none and centre_below_or_none
+centre_under = centre_high < z_min
+centre_over = centre_low > z_max
+centre_beyond = centre_under or centre_over
+inside_open = is_interior and is_open
+inside_between = inside_open and centre_between
+inside_stands = is_interior and stands
+inside_any = inside_between or inside_stands
+inside_here = inside_any and not_beyond
+inside_beyond = inside_open and centre_beyond
+exterior_here = is_exterior or inside_beyond
+known_clear = exterior_here or inside_here
+known = known_clear or contact_here
+touching_now = contact_here ? 1 : touching
+inside_now = inside_here ? 1 : inside
+unknown_now = known ? unknown : 1
+"""
+
+_ONE_SWEEP = f"""
+whole_never = first == {NEVER}
+whole_hit = first <= 1
+inner_hit = inner_first <= 1
+start_outside = side > 0
+clear_beside = start_outside or is_open
+clear_where_stands = between or clear_beside
+never_here = whole_never and clear_where_stands
+absent = beyond or never_there
+clear_here = absent or never_here
+hit_within = inner_hit and inner_counts
+present = not absent
+hit_here = hit_within and present
+clear_until = whole_hit and clear_where_stands
+time_here = clear_until ? first : outer_from
+earlier = time_here < earliest
+hit_earlier = hit_here and earlier
+earliest_now = hit_earlier ? time_here : earliest
+known = clear_here or hit_here
+unknown_now = known ? unknown : 1
+"""
+
+
+def _arguments(*, sweep: bool) -> tuple[str | int, ...]:
+    places = (*sweeps.START, *sweeps.END) if sweep else (*CENTER, *CENTER)
+    return ("alpha", "gamma", "b", "d", *places, *AXIS, *sweeps.WALL, *sweeps.WALL_AXIS)
+
+
+def _constants(scene: SceneModel) -> dict[str, float]:
+    mover = scene.mover
+    axis = {} if mover.axis == FREE else dict(zip(AXIS, mover.axis, strict=True))
+    ends = {"least_end": -float_info.max / 2, "greatest_end": float_info.max / 2}
+    sizes = {"b": mover.b, "d": mover.d, "longest": max(mover.b, mover.d) * (1 + 2.0**-40)}
+    return {**sizes, **axis, **ends, "zero": 0.0, "never": float(NEVER), "loose_share": LOOSE}
+
+
+def _over(bodies: Iterable[Hyperboloid], kept: tuple[tuple[str, str, str], ...], body: tuple[Part, ...]) -> Loop:
+    rows = tuple(map(_row, bodies))
+    if not rows:
+        raise InputError("no kernel is made: the scene has no hyperboloid")
+    return Loop(len(rows), kept, body, table=Table("hyperboloids", _COLUMNS, rows))
+
+
+def position_routine(scene: SceneModel) -> Routine:
+    """The position of a mover in the scene, or the answer to its question, by a number; 2 cannot say."""
+    body: tuple[Part, ...] = (
+        *steps_of(_AXIS_SIZES + _level("place") + _OF_PLACE + _ENDS),
+        Call("found", LOOK, (*_arguments(sweep=False), 0)),
+        *steps_of(_ONE_POSITION),
+    )
+    kept = (("touching", "zero", "touching_now"), ("inside", "zero", "inside_now"), ("unknown", "zero", "unknown_now"))
+    contact = 2 if scene.mover.parts else 0
+    yes = _POSITION_OF.get(scene.question)
+    end = f"""
+    is_touching = touching > 0
+    is_unknown = unknown > 0
+    is_inside = inside > 0
+    clear = is_inside ? -1 : 1
+    clear_or_2 = is_unknown ? 2 : clear
+    position = is_touching ? {contact} : clear_or_2
+    """
+    if yes is not None:
+        end += f"""
+    is_2 = position == 2
+    is_yes = position == {yes}
+    truth = is_yes ? 1 : 0
+    answer = is_2 ? 2 : truth
+    """
+    return Routine(
+        "position_in_scene",
+        "The answer about the mover in the scene, each proved; 2 cannot say.",
+        scene_columns(scene, sweep=False),
+        (
+            *steps_of("".join(f"place_{k} = {k} + 0\n" for k in "xyz")),
+            _over(scene.hyperboloids, kept, body),
+            *steps_of(end),
+        ),
+        "position" if yes is None else "answer",
+        constants=_constants(scene),
+    )
+
+
+def sweep_routine(scene: SceneModel) -> Routine:
+    """The first contact of a straight way in the scene, as FIRST_OF_WAY has it of one hyperboloid."""
+    arguments = _arguments(sweep=True)
+    body: tuple[Part, ...] = (
+        *steps_of(_AXIS_SIZES + _level("start") + _level("end") + _OF_SWEEP + _ENDS + _WINDOWS),
+        Call("first", FIRST_OF_WAY, (*arguments, "outer_from", "outer_to")),
+        Call("inner_first", FIRST_OF_WAY, (*arguments, "inner_from", "inner_to")),
+        Call("side", LOOK, (*arguments, "outer_from")),
+        *steps_of(_ONE_SWEEP),
+    )
+    kept = (("earliest", "never", "earliest_now"), ("unknown", "zero", "unknown_now"))
+    contact = f"{UNKNOWN}" if scene.mover.parts else "time"
+    end = f"""
+    is_unknown = unknown > 0
+    is_hit = earliest <= 1
+    time = is_unknown ? 0 : earliest
+    clear = is_unknown ? {UNKNOWN} : {NEVER}
+    told = is_hit ? {contact} : clear
+    """
+    return Routine(
+        "first_in_scene",
+        FIRST_OF_WAY.meaning,
+        scene_columns(scene, sweep=True),
+        (_over(scene.hyperboloids, kept, body), *steps_of(end)),
+        "told",
+        constants=_constants(scene),
+    )

@@ -1,0 +1,113 @@
+"""Code for whole scenes in which movers and hyperboloids lean, and for their sweeps: what hypcheck.Scene says, or 2."""
+
+import ctypes
+
+import numpy as np
+import pytest
+
+import hypcheck
+from hypcheck.cli.main import main
+from tests.kernel.emission.building import asking, library_of, load_module, pointer, skip_without
+from tests.support.inside import DIALECTS
+
+SCENE = """
+name = "leaning"
+[[hyperboloid]]
+alpha = 1.0
+gamma = 2.0
+axis = [0.3, 0.1, 1]
+height = [-3, 3]
+[[hyperboloid]]
+alpha = 0.5
+gamma = 2.0
+center = [5, 1, 0.25]
+[[hyperboloid]]
+alpha = 0.75
+gamma = 1.5
+center = [-4, 3, 0]
+height = [-2, 2]
+solid = true
+[mover]
+b = 0.25
+d = 0.15
+axis = AXIS
+"""
+FIXED, FREE = SCENE.replace("AXIS", "[0.2, 0, 1]"), SCENE.replace("AXIS", '"free"')
+UPRIGHT = SCENE.replace("axis = [0.3, 0.1, 1]\n", "").replace("axis = AXIS\n", "")
+BOX = ((-7, -5, -5), (7, 5, 5))
+LANGUAGES = ["c", "python", *(pytest.param(name, marks=pytest.mark.thorough) for name in ("cpp", "rust", "javascript"))]
+
+
+def emitted(folder, text, language, *options):
+    skip_without(language)
+    scene, path = folder / "scene.toml", folder / f"kernel.{DIALECTS[language].extension}"
+    scene.write_text(text, encoding="utf-8")
+    assert main(["emit", "--scene", str(scene), *options, "--language", language, "--output", str(path)]) == 0
+    return library_of(path, language)
+
+
+def rows_of(count, places, *, free=False):
+    rng = np.random.default_rng(7)
+    parts = [rng.uniform(*BOX, (count, 3)) for _ in range(places)]
+    return np.hstack([*parts, *([rng.normal(size=(count, 3))] if free else [])])
+
+
+def answers_of(path, language, name, rows):
+    """What a file says of rows, and the times of sweeps."""
+    if language == "python":
+        module = load_module(path)
+        times = [module.first_contact(*row) for row in rows.tolist()] if name == "sweep" else []
+        return np.array([getattr(module, name)(*row) for row in rows.tolist()]), np.array(times)
+    if language == "javascript":
+        return asking(path, language, name)(rows), np.array([])
+    found, times = np.full(len(rows), 99, np.int8), np.full(len(rows), np.nan)
+    many = getattr(ctypes.CDLL(str(path)), f"hypcheck_{name}_rows")
+    given = (found, times) if name == "sweep" else (found,)
+    many(ctypes.c_size_t(len(rows)), *map(pointer, (np.ascontiguousarray(rows), *given)))
+    return found, times
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("text", "question"), [(FIXED, "position"), (FREE, "position"), (FIXED, "exterior")])
+def test_emitted_code_of_a_leaning_scene_answers_as_the_scene(tmp_path, language, text, question):
+    free, count = text is FREE, 100 if language == "python" else 1000
+    rows = rows_of(count, 1, free=free)
+    scene = hypcheck.Scene.from_text(text.replace("name =", f'question = "{question}"\nname ='))
+    answers = scene.classify(rows[:, :3], **({"axis": rows[:, 3:]} if free else {}))
+    path = emitted(tmp_path, text, language, "--whole", "--question", question)
+    found, _ = answers_of(path, language, "whole", rows)
+    assert ((found == answers) | (found == 2)).all()
+    assert (found == 2).mean() < 0.03
+    assert {0, 1} <= set(found.tolist())
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("text", [FIXED, FREE, UPRIGHT])
+def test_emitted_sweeps_of_a_scene_answer_as_the_scene(tmp_path, language, text):
+    free, count = text is FREE, 20 if language == "python" else 400
+    rows = rows_of(count, 2, free=free)
+    passage = hypcheck.Scene.from_text(text).passage(
+        rows[:, :3], rows[:, 3:6], **({"axis": rows[:, 6:]} if free else {})
+    )
+    found, times = answers_of(emitted(tmp_path, text, language, "--sweeps"), language, "sweep", rows)
+    assert ((found == passage.hit) | (found == 2)).all()
+    assert (found == 2).mean() < 0.1 or language == "python"  # of 20
+    hits = found == 1
+    assert hits.any()
+    if len(times):
+        assert not (times[hits] > passage.first_upper[hits]).any()
+        assert np.median(passage.first_lower[hits] - times[hits]) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--whole", "--sweeps"), "give one of them"),
+        (("--sweeps", "--question", "interior"), "--question is about positions"),
+        (("--sweeps", "--precision", "float32"), "need float64"),
+        (("--sweeps", "--proof", "p.v"), "--proof is for kernels of pairs"),
+    ],
+)
+def test_what_code_of_sweeps_has_not_is_refused(capsys, options, words):
+    assert main(["emit", "--scene", "tower", *options, "--language", "c"]) == 2
+    assert words in capsys.readouterr().err
