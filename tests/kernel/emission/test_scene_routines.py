@@ -84,7 +84,7 @@ def test_emitted_code_of_a_leaning_scene_answers_as_the_scene(tmp_path, language
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("text", [FIXED, FREE, UPRIGHT])
 def test_emitted_sweeps_of_a_scene_answer_as_the_scene(tmp_path, language, text):
-    free, count = text is FREE, 20 if language == "python" else 400
+    free, count = text is FREE, 20 if language == "python" else 150
     rows = rows_of(count, 2, free=free)
     passage = hypcheck.Scene.from_text(text).passage(
         rows[:, :3], rows[:, 3:6], **({"axis": rows[:, 6:]} if free else {})
