@@ -278,13 +278,13 @@ def test_select_takes_tilted_families_only_if_tilt_is_requested():
         select(["ring", "tilted-*"])
 
 
-def test_select_takes_families_of_ways_only_if_ways_are_requested():
+def test_select_takes_families_of_sweeps_only_if_sweeps_are_requested():
     assert not any(family.layout is SWEEPS for family in select(["*"], tilted=True))
     assert set(select(["*"], tilted=True, layout=SWEEPS)) == set(SWEEP_FAMILIES.values())
     assert set(select(["*-way-*"], tilted=True, ended=True, layout=SWEEPS)) >= set(ENDED_SWEEP_FAMILIES.values())
     with pytest.raises(InputError, match="'ended-way-thin' names hyperboloids that end"):
         select(["ended-way-thin"])
-    with pytest.raises(InputError, match="'way-ring' names ways"):
+    with pytest.raises(InputError, match="'way-ring' names sweeps"):
         select(["way-ring"])
 
 
