@@ -14,6 +14,10 @@ from hypcheck.cli.main import main
 from hypcheck.implementations.process import Process
 from hypcheck.isolation.view import PACKAGE, hidden_paths, needed_paths, private_folders
 from tests.isolation.test_isolation import both, isolated, line_of
+from tests.support.inside import kernel_classify
+
+A_MODULE = Path(kernel_classify.__file__).relative_to(PACKAGE)
+"""By this module a copy of hypcheck is known."""
 
 READS = """
 import os, sys
@@ -45,7 +49,7 @@ def project(tmp_path, monkeypatch):
     files = (
         "project/.git/HEAD",
         "project/build/adapter",
-        "project/vendored/hypcheck/kernel/classify.py",
+        f"project/vendored/hypcheck/{A_MODULE}",
         "beside/data",
     )
     for path in files:
@@ -61,7 +65,7 @@ def test_program_sees_its_project_but_no_repository_no_copy_of_hypcheck_and_noth
     paths = (
         here / "build/adapter",
         here / ".git/HEAD",
-        here / "vendored/hypcheck/kernel/classify.py",
+        here / "vendored/hypcheck" / A_MODULE,
         project / "beside/data",
     )
     mine, *others = read_by_program(paths, ways)
@@ -113,7 +117,7 @@ def test_program_sees_what_see_names_although_it_is_hidden_or_beside_its_project
 
 @both
 def test_program_never_sees_this_package_its_vectors_or_the_reports_even_if_see_names_them(ways, project):
-    paths = (PACKAGE / "kernel/classify.py", PACKAGE.parent / "cases/manifest.json", project / "beside/data")
+    paths = (PACKAGE / A_MODULE, PACKAGE.parent / "cases/manifest.json", project / "beside/data")
     seen = (str(PACKAGE.parent), str(project))
     found = read_by_program(paths, ways, seen=seen, hidden=(str(project / "beside"),))
     assert {*found} <= {"FileNotFoundError", "PermissionError"}

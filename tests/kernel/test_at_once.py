@@ -11,11 +11,11 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import tilted_rows
-from tests.support.inside import LEVELS, classify, compiled_kernel
+from tests.support.inside import LEVELS, choice, classify, compiled_kernel
 from tests.support.inside import kernel_classify as step_by_step
 
 core = pytest.importorskip("hypcheck.kernel._compiled")
-if hypcheck.kernel.choice.choice().kernel != "compiled":
+if choice().kernel != "compiled":
     pytest.skip("the compiled kernel is not in use", allow_module_level=True)
 
 LEFT = "left to Python"

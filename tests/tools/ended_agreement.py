@@ -6,7 +6,7 @@
     python -m tests.tools.ended_agreement --modes --rows 1000
 
 Half of the rows are random, half lie within 10⁻⁹ radii of contact with a rim, a flat end or the wall. The least value
-is the one of truth/least.py, a branch and bound; the exact rule that of truth/sections.py. One row in `--mesh` (100) is
+is found by a branch and bound, the exact rule by what the sections say. One row in `--mesh` (100) is
 asked of meshes and FCL too. With `--ways` the kernel's hits are compared with the exact first contact. With `--modes`
 the kernel is asked under all four rounding modes about rows of every family that ends, as many of each, and compared
 with the exact rule.

@@ -16,9 +16,9 @@ from hypcheck.runs.border_search import SearchStep as Step
 from hypcheck.runs.border_search import beside_border, far_numbers, first_of, rows_at, searched
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.tally import STATUS_CODES
-from hypcheck.truth import float_filter
 from hypcheck.vectors.border_lines import RUNGS, RUNGS_ON_A_SIDE
 from hypcheck.vectors.families import family_of, parse_case_id
+from tests.support.inside import float_filter
 
 RIGHT, WRONG = STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG]
 HALF = RUNGS_ON_A_SIDE

@@ -11,9 +11,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from hypcheck.kernel import numpy_kernel
-from hypcheck.kernel.choice import LEVELS, NUMBER_OF, POSITION_OF, compiled
-from hypcheck.kernel.scalar import exact_position
+from tests.support.inside import LEVELS, NUMBER_OF, POSITION_OF, compiled, exact_position, numpy_kernel
 
 
 @dataclass(frozen=True)

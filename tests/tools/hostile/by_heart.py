@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hypcheck.kernel.classify import classify
+from hypcheck import classify
 from hypcheck.runs.cases import first_unfrozen
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES

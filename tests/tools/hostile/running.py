@@ -16,9 +16,12 @@ from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits, Outcome
 from hypcheck.isolation.launch import Isolation
 from hypcheck.isolation.means import Means
+from tests.support.inside import kernel_classify
 from tests.tools.miniatures import stderr_of
 
 PACKAGE = Path(hypcheck.__file__).parent
+KNOWN_BY = Path(kernel_classify.__file__).relative_to(PACKAGE)
+"""The module by which a copy of hypcheck is known."""
 VECTORS = PACKAGE.parent / "cases" / "manifest.json"
 LIMITS = {"timeout": 20.0, "restarts": 0, "memory": 200 << 20}
 
@@ -50,7 +53,7 @@ def command_fate(attack: str, means: Means, folder: Path) -> Fate:
     copy = folder / "copy" / "hypcheck"
     for each in (victim, home, copy / "kernel"):
         each.mkdir(exist_ok=True, parents=True)
-    for name in ("__init__.py", "kernel/__init__.py", "kernel/classify.py"):
+    for name in ("__init__.py", "kernel/__init__.py", KNOWN_BY):
         (copy / name).write_text("")
     (victim / "summary.json").write_text("true")
     (home / ".netrc").write_text("machine example.org password secret")

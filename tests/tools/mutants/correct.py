@@ -10,7 +10,7 @@ from hypcheck import classify
 from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.alternatives import dual
 from hypcheck.implementations.method import on_rows
-from hypcheck.kernel import integers, numpy_kernel
+from tests.support.inside import integers_position, numpy_kernel_positions
 from tests.tools.mutants import exactly
 from tests.tools.mutants.exactly import position
 from tests.tools.mutants.expectation import EXTREME, NO_TOLERANCE, right
@@ -38,19 +38,19 @@ def whole_numbers(rows):
 @right(asked=NO_TOLERANCE)
 def hessian_with_exact_fallback(rows):
     """The fast path: a bounded Hessian discriminant in floats, integers where it cannot tell."""
-    return numpy_kernel.positions(np.ascontiguousarray(rows))
+    return numpy_kernel_positions(np.ascontiguousarray(rows))
 
 
 @right(asked=(*NO_TOLERANCE, *EXTREME))
 def hessian_with_exact_fallback_in_all_ranges(rows):
     """The same at the extremes."""
-    return numpy_kernel.positions(np.ascontiguousarray(rows))
+    return numpy_kernel_positions(np.ascontiguousarray(rows))
 
 
 @right(asked=NO_TOLERANCE)
 def last_stage(rows):
     """The fast path's last stage for every row."""
-    return [int(integers.position(Pair.from_row(row).lengths)) for row in rows.tolist()]
+    return [int(integers_position(Pair.from_row(row).lengths)) for row in rows.tolist()]
 
 
 @right()

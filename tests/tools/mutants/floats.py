@@ -13,7 +13,7 @@ from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.alternatives import dual
 from hypcheck.implementations.method import on_rows
-from hypcheck.kernel import numpy_kernel
+from tests.support.inside import numpy_kernel
 from tests.tools.mutants.exactly import position, signs
 from tests.tools.mutants.expectation import NO_TOLERANCE, wrong
 

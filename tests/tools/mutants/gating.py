@@ -22,8 +22,7 @@ from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
 from hypcheck.runs import cases, judge, results
 from hypcheck.runs.judge import Criterion
-from hypcheck.truth import passage_error
-from hypcheck.truth.exact import Decision
+from tests.support.inside import Decision, passage_error
 from tests.support.without_drawing import draw_nothing
 from tests.tools.mutants.collection import Mutant
 from tests.tools.mutants.expectation import Options

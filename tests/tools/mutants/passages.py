@@ -13,7 +13,7 @@ import numpy as np
 from hypcheck import classify
 from hypcheck.implementations import ways
 from hypcheck.runs.judges import passage_of
-from hypcheck.truth.swept import passage
+from tests.support.inside import passage
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
 hypcheck = {"question": "passage", "times": True}

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3]))
 
-from hypcheck.kernel import classify as kernel
+import hypcheck
 from tests.tools.soak.moods import dice, happen, mood
 
 BINARY = "binary" in sys.argv
@@ -85,7 +85,7 @@ def main() -> None:
     write(json.dumps({"protocol": 1, "name": "flaky", "binary": BINARY}).encode() + b"\n")
     while words := sys.stdin.buffer.readline().decode().split():
         rows = read(int(words[2]), words[-1])
-        answers = kernel.classify(rows).tolist()
+        answers = hypcheck.classify(rows).tolist()
         how = mood(random_)
         reply = instead(how, int(words[1]), answers, random_)
         write(misbehave(how, f"{words[1]} {len(answers)}\n".encode() + body(answers) if reply is None else reply))

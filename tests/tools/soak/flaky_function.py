@@ -13,7 +13,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3]))
 
-from hypcheck.kernel import classify as kernel
+import hypcheck
 from tests.tools.soak import moods
 
 sys.argv = ["flaky", os.environ["HYPCHECK_SOAK_SEED"], os.environ["HYPCHECK_SOAK_FOLDER"]]
@@ -22,7 +22,7 @@ _DICE = moods.dice()
 
 def classify(rows):
     """Positions, mostly."""
-    right, how = kernel.classify(rows), moods.mood(_DICE)
+    right, how = hypcheck.classify(rows), moods.mood(_DICE)
     moods.happen(how)
     misbehave(how)
     replies = {

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from base import serve
 
-from hypcheck.truth.swept import passage
+from hypcheck import passage
 
 TIMES, LEANING = "times" in sys.argv, "leaning" in sys.argv
 

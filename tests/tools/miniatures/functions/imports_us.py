@@ -1,6 +1,6 @@
 """Imports hypcheck, which is no description."""
 
 import hypcheck
-from hypcheck.kernel.classify import classify
+from hypcheck import classify
 
 __all__ = ["classify", "hypcheck"]

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from hypcheck import passage
 from hypcheck.geometry.rows import SWEEPS, invalid
-from hypcheck.truth.swept import passage
 
 hypcheck = {"name": "passage", "question": "passage", "times": True, "refuses": True}
 
