@@ -1,19 +1,29 @@
 """Ships the folder cases/ inside the package, as hypcheck/cases, and compiles what is in C where there is a compiler.
 
-Everything else is said in pyproject.toml.
+The vectors are half of a wheel, so they are packed by xz there. Everything else is said in pyproject.toml.
 """
 
 from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
 
+lzma = None
+with suppress(ImportError):  # some builds of Python lack it, and could not read what is packed
+    import lzma
+
 CASES = sorted(path for path in Path("cases").rglob("*") if path.is_file())
+
+
+def packed_name(path: Path) -> Path:
+    """The name of a file of cases/ in the package."""
+    return path.with_name(f"{path.name}.xz") if lzma and path.match("cases/*.json") else path
 
 
 class BuildWithCases(build_py):
@@ -25,7 +35,10 @@ class BuildWithCases(build_py):
         if not self.editable_mode:
             for path, target in zip(CASES, self._targets(), strict=True):
                 self.mkpath(str(target.parent))
-                self.copy_file(str(path), str(target))
+                if target.suffix == ".xz":
+                    target.write_bytes(lzma.compress(path.read_bytes(), preset=9))
+                else:
+                    self.copy_file(str(path), str(target))
 
     def get_outputs(self, include_bytecode: bool = True) -> list[str]:
         """What is installed."""
@@ -36,7 +49,7 @@ class BuildWithCases(build_py):
         return [*super().get_source_files(), *map(str, CASES)]
 
     def _targets(self) -> list[Path]:
-        return [Path(self.build_lib, "hypcheck", path) for path in CASES]
+        return [Path(self.build_lib, "hypcheck", packed_name(path)) for path in CASES]
 
 
 STRIPPED = ["-s"] if sys.platform == "linux" else []

@@ -22,6 +22,12 @@ from hypcheck.cli.commands import COMMANDS
 from hypcheck.cli.scene import LANGUAGES
 from tests.support.installed import ALL, ROOT, VARIANTS, installation, make_environment, quietly, tracked
 
+SOURCES = "hypcheck/(kernel/core/(parts/|binding.c|at_once.h|columns.h)|isolation/.*[.][ch]$|implementations/.*[.]c$)"
+"""What compilers read, and those who change it; a wheel has none of it."""
+
+LARGEST = 5_000_000
+"""Bytes of a wheel."""
+
 
 @pytest.fixture(scope="session", params=VARIANTS, ids=str)
 def installed(request, tmp_path_factory):
@@ -36,10 +42,16 @@ def test_the_wheel_has_every_file_of_the_package_and_no_other(installed):
     made = r"hypcheck/((kernel/_compiled|implementations/_calls)\.[^/]*\.so|isolation/launcher)"
     compiled = {name for name in packed if re.fullmatch(made, name)}
     assert len(compiled) == (3 if installed.variant.compiler else 0)
-    wanted = {name for name in tracked() if name.startswith("hypcheck/")}
-    wanted |= {f"hypcheck/{name}" for name in tracked() if name.startswith("cases/")}
+    wanted = {name for name in tracked() if name.startswith("hypcheck/") and not re.match(SOURCES, name)}
+    vectors = {name: re.fullmatch(r"cases/[^/]*\.json", name) for name in tracked() if name.startswith("cases/")}
+    wanted |= {f"hypcheck/{name}{'.xz' if packed else ''}" for name, packed in vectors.items()}
     assert sorted(wanted - packed) == []
     assert sorted(packed - compiled - wanted) == []
+
+
+def test_the_wheel_has_at_most_five_megabytes(installed):
+    (wheel,) = (installed.home / "dist").glob("*.whl")
+    assert wheel.stat().st_size <= LARGEST
 
 
 def test_the_sdist_has_every_file_of_the_repository_and_no_other(installed):

@@ -183,7 +183,7 @@ _HEADER = 16
 def code_fingerprint() -> str:
     """The fingerprint of hypcheck's modules and frozen vectors, with their names, at the first call."""
     digest = hashlib.sha256()
-    for place, pattern in ((_PACKAGE, "**/*.py"), (folder(), "*.json")):
+    for place, pattern in ((_PACKAGE, "**/*.py"), (folder(), "*.json*")):
         for path in sorted(place.glob(pattern)):
             digest.update(f"{path.relative_to(place).as_posix()} {_sha256_of_bytes(_content_of(str(path)))}\n".encode())
     return digest.hexdigest()
@@ -245,7 +245,7 @@ def _own_files() -> dict[str, str]:
                 content, state = _content_of(compiled), os.stat(path)
                 if content[4:_HEADER] == struct.pack("<3I", 0, int(state.st_mtime) % 2**32, state.st_size % 2**32):
                     hashes[compiled] = _sha256_of_bytes(content)
-    return hashes | {str(path): _sha256_of_bytes(_content_of(str(path))) for path in folder().glob("*.json")}
+    return hashes | {str(path): _sha256_of_bytes(_content_of(str(path))) for path in folder().glob("*.json*")}
 
 
 def _content_of(path: str) -> bytes:

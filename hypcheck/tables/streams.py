@@ -135,8 +135,9 @@ class Writer:
 def open_input(path: str, *, patient: bool = False) -> Iterator[Reader]:
     """The file at `path`, or standard input for "-". Raises InputError if it cannot be opened.
 
-    A pipe to which nothing is written within PIPE_S seconds is refused. With `patient` it is waited for without end, as
-    a table is whose rows another program makes.
+    A file whose name ends in .xz is unpacked, as the frozen vectors of a wheel are. A pipe to which nothing is written
+    within PIPE_S seconds is refused. With `patient` it is waited for without end, as a table is whose rows another
+    program makes.
     """
     if path == STREAM:
         yield Reader(_binary(sys.stdin, "standard input"), "standard input")
@@ -145,7 +146,30 @@ def open_input(path: str, *, patient: bool = False) -> Iterator[Reader]:
         # Only errors of opening name the path, not those of the caller's block.
         file = open(path, "rb") if patient else open(_promptly_opened(path), "rb")  # noqa: SIM115
     with file:
-        yield Reader(file, path)
+        yield Reader(_unpacked(file, path) if path.endswith(PACKED) else file, path)
+
+
+PACKED = ".xz"
+"""How the name of a packed file ends."""
+
+
+UNPACKED = 64 << 20
+"""Bytes that a packed file may hold."""
+
+
+def _unpacked(file: BinaryIO, path: str) -> BinaryIO:
+    try:
+        import lzma  # noqa: PLC0415 - a part of Python that some builds of it lack, and few runs need
+    except ImportError as error:
+        raise InputError(f"cannot read {path}: this Python was built without lzma") from error
+    unpacking = lzma.LZMADecompressor()
+    try:
+        data = unpacking.decompress(file.read(), UNPACKED)
+    except lzma.LZMAError as error:
+        raise InputError(f"cannot read {path}: {str(error).lower()}") from error
+    if not unpacking.eof:
+        raise InputError(f"cannot read {path}: it is cut off, or holds more than {UNPACKED >> 20} MiB")
+    return io.BytesIO(data)
 
 
 PIPE_S = 10

@@ -14,6 +14,7 @@ from typing import Any
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.messages import suggestion
+from hypcheck.tables.streams import PACKED, open_input
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.families import (
@@ -67,10 +68,12 @@ def folder() -> Path:
 
 
 def path_of(name: str) -> Path:
-    """The file of that name. Raises InputError where there is none of that name."""
+    """The file of that name, which is packed in a wheel. Raises InputError where there is none of that name."""
     if name not in ALL_NAMES:
         raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, ALL_NAMES)}")
-    return folder() / f"{name}.json"
+    path = folder() / f"{name}.json"
+    packed = path.with_name(path.name + PACKED)
+    return packed if packed.exists() else path
 
 
 _HEAD = 1 << 16
@@ -84,9 +87,9 @@ def count_of(name: str) -> int:
     Raises InputError where there are none of that name, or their file cannot be read.
     """
     try:
-        with path_of(name).open("rb") as file:
+        with open_input(str(path_of(name))) as file:
             match = re.search(rb'^"count": (\d+),$', file.read(_HEAD), re.MULTILINE)
-    except OSError:
+    except InputError:
         match = None
     return int(match[1]) if match else len(load(name).cases)
 

@@ -14,7 +14,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.messages import counted, suggestion
 from hypcheck.tables.numbers import equals_text, hex_of, readable_text
-from hypcheck.tables.streams import replace_output
+from hypcheck.tables.streams import open_input, replace_output
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
@@ -136,7 +136,8 @@ def show(name: str, *, as_json: bool) -> Iterator[str]:
         case, content = case_named(name)
         yield from (case_text(case, content),) if as_json else case_lines(case, content)
     elif as_json:
-        yield from frozen.path_of(name).read_text(encoding="utf-8").splitlines()
+        with open_input(str(frozen.path_of(name))) as file:
+            yield from file.read().decode().splitlines()
     else:
         yield from family_lines(name)
 
