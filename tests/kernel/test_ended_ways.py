@@ -14,7 +14,8 @@ from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS, with_axis
 from hypcheck.vectors.families import ENDED_SWEEP_FAMILIES
 from hypcheck.vectors.frozen import SWEEP_NAMES, load
 from tests.support.ended_ways import near_a_rim, past_a_tower
-from tests.support.inside import compiled_kernel, numpy_kernel_answer_ways
+from tests.support.inside import answer_ways as compiled_answer_ways
+from tests.support.inside import numpy_kernel_answer_ways
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -68,7 +69,7 @@ def exact_passage(row, scale=1):
 @pytest.mark.parametrize(("way", "ends", "opened", "flat"), BY_HAND)
 def test_ways_by_hand_are_answered_by_the_kernel_and_exactly(way, ends, opened, flat):
     rows = [row_of(way, ends, solid) for solid in (0, 1)]
-    hits, times = compiled_kernel.answer_ways(np.array(rows))
+    hits, times = compiled_answer_ways(np.array(rows))
     assert hits.tolist() == [opened, flat]
     assert [exact_passage(row).hit for row in rows] == [opened, flat]
     assert (np.isnan(times) == (hits == 0)).all()
@@ -86,7 +87,7 @@ def test_ways_by_hand_are_answered_by_the_kernel_and_exactly(way, ends, opened, 
     ids=["tower", "rim", "hairs", "tilted tower", "tilted rim"],
 )
 def test_the_kernel_answers_no_way_beside_an_end_wrongly_and_gives_no_late_time(rows, most_open):
-    hits, times = compiled_kernel.answer_ways(rows)
+    hits, times = compiled_answer_ways(rows)
     truth = [exact_passage(row) for row in rows.tolist()]
     right = np.array([each.hit for each in truth])
     decided = hits != CANNOT_SAY
@@ -130,18 +131,18 @@ def test_a_sphere_that_touches_in_passing_has_contact_and_one_a_hair_away_has_no
     """The hair of 2⁻⁴⁵ radii is shorter than what roundings may move a centre on its way."""
     for way, ends, solid, place, across in touching_rows():
         row = row_of(way, ends, solid)
-        hits, _ = compiled_kernel.answer_ways(np.array([row]))
+        hits, _ = compiled_answer_ways(np.array([row]))
         assert hits[0] == 1
         lifted = np.array([row])
         lifted[0, [6, 9] if place[2] == 4 else [4, 7]] += 2.0**-45
-        hits, _ = compiled_kernel.answer_ways(lifted)
+        hits, _ = compiled_answer_ways(lifted)
         assert hits[0] == (place[2] == 3 and across[0] > 0)
 
 
 @pytest.mark.parametrize(("count", "leaning"), [(100, False), (30, True)])
 def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit_beside_an_end(count, leaning):
     rows = near_a_rim(6, count, leaning=leaning)
-    hits, times = compiled_kernel.answer_ways(rows)
+    hits, times = compiled_answer_ways(rows)
     assert np.isfinite(times).sum() > 0.85 * (hits == 1).sum() > 0
     for row, time in zip(rows.tolist(), times.tolist(), strict=True):
         if math.isnan(time):
@@ -175,11 +176,11 @@ def test_ends_that_are_infinite_or_far_away_change_no_answer_about_ways(name):
     for low, high, solid in ((-INF, INF, 0), (-INF, INF, 1), (-reach, reach, 0), (-reach, INF, 1)):
         ends = [np.broadcast_to(each, len(rows)) for each in (low, high, solid)]
         ended = np.ascontiguousarray(np.column_stack([wide, *ends]))
-        for said, expected in zip(compiled_kernel.answer_ways(ended), compiled_kernel.answer_ways(rows), strict=True):
+        for said, expected in zip(compiled_answer_ways(ended), compiled_answer_ways(rows), strict=True):
             np.testing.assert_array_equal(said, expected)
 
 
-@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("answer_ways", [compiled_answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
 @pytest.mark.parametrize(
     ("column", "value", "valid"),
     [
@@ -213,6 +214,6 @@ def test_ways_of_extreme_lengths_beside_an_end_are_left_open_or_answered_exactly
     with np.errstate(over="ignore"):
         rows[:, [4, 5, 6, 7, 8, 9, 13, 14]] *= tiny
     kept = rows[np.isfinite(rows[:, :10]).all(axis=1) & (rows[:, 13] < rows[:, 14])]
-    hits, _ = compiled_kernel.answer_ways(kept)
+    hits, _ = compiled_answer_ways(kept)
     for row, hit in zip(kept.tolist(), hits.tolist(), strict=True):
         assert hit == CANNOT_SAY or hit == exact_passage(row).hit

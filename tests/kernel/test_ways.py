@@ -12,7 +12,8 @@ from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import ways
 from hypcheck.vectors.frozen import SWEEP_NAMES, load
-from tests.support.inside import compiled_kernel, hits_at_size, numpy_kernel_answer_ways, scaled_passage
+from tests.support.inside import answer_ways as compiled_answer_ways
+from tests.support.inside import hits_at_size, numpy_kernel_answer_ways, scaled_passage
 from tests.tools.attack.rounding import DIRECTED, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -38,7 +39,7 @@ def some_ways(seed, count, *, leaning=False):
 @pytest.mark.parametrize("name", SWEEP_NAMES)
 def test_the_compiled_kernel_answers_no_frozen_way_wrongly_and_decides_most(name):
     cases = load(name)
-    hits, times = compiled_kernel.answer_ways(cases.rows)
+    hits, times = compiled_answer_ways(cases.rows)
     decided = hits != CANNOT_SAY
     assert (hits[decided] == cases.positions[decided]).all()
     assert decided.all() or name in TOUCHING
@@ -50,7 +51,7 @@ def test_the_compiled_kernel_answers_no_frozen_way_wrongly_and_decides_most(name
 @pytest.mark.parametrize(("count", "leaning"), [(300, False), (80, True)])
 def test_the_compiled_kernel_gives_exact_hits_and_times_not_after_the_first_contact(count, leaning):
     rows = some_ways(1, count, leaning=leaning)
-    hits, times = compiled_kernel.answer_ways(rows)
+    hits, times = compiled_answer_ways(rows)
     truth = [scaled_passage(row) for row in rows.tolist()]
     assert hits.tolist() == [each.hit for each in truth]
     assert 0.1 * count < hits.sum() < 0.9 * count
@@ -62,7 +63,7 @@ def test_the_compiled_kernel_gives_exact_hits_and_times_not_after_the_first_cont
 @pytest.mark.parametrize(("count", "leaning"), [(120, False), (40, True)])
 def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit(count, leaning):
     rows = some_ways(2, count, leaning=leaning)
-    hits, times = compiled_kernel.answer_ways(rows)
+    hits, times = compiled_answer_ways(rows)
     timed = np.isfinite(times)
     assert timed.sum() > 0.9 * (hits == 1).sum()
     for row, time in zip(rows[timed].tolist(), times[timed].tolist(), strict=True):
@@ -84,7 +85,7 @@ def test_the_compiled_kernel_answers_no_way_wrongly_in_any_rounding_mode(mode):
         assert ((hits == CANNOT_SAY) | (hits == cases.positions)).all()
 
 
-@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("answer_ways", [compiled_answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
 @pytest.mark.parametrize("column", range(10))
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.0, -1.0])
 def test_an_invalid_way_is_refused_and_changes_no_other_answer(answer_ways, column, value):
@@ -98,7 +99,7 @@ def test_an_invalid_way_is_refused_and_changes_no_other_answer(answer_ways, colu
 
 
 @pytest.mark.parametrize("axis", [(0.0, -0.0, 0.0), (math.nan, 0.0, 1.0), (0.0, 1.0, -math.inf)])
-@pytest.mark.parametrize("answer_ways", [compiled_kernel.answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("answer_ways", [compiled_answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
 def test_a_way_whose_axis_has_no_direction_is_refused(answer_ways, axis):
     rows = np.array([(*DOWN, 1.0, 0.0, 1.0), (*DOWN, *axis)])
     hits, times = answer_ways(rows)
@@ -127,7 +128,7 @@ TINY, HUGE = 5e-324, 1.7e308
 )
 def test_ways_with_subnormal_and_huge_numbers_are_decided_exactly(row, hit):
     rows = np.array([row], dtype=float)
-    assert compiled_kernel.answer_ways(rows)[0][0] in (hit, CANNOT_SAY)
+    assert compiled_answer_ways(rows)[0][0] in (hit, CANNOT_SAY)
     assert ways.certified(rows).tolist() == [hit]
 
 
@@ -135,7 +136,7 @@ def test_hits_of_ways_do_not_depend_on_whether_times_are_asked_for():
     rows = np.concatenate([load(name).rows for name in UPRIGHT])
     without = np.empty(len(rows), np.int8)
     compiled.passage(rows, without)
-    assert (without == compiled_kernel.answer_ways(rows)[0]).all()
+    assert (without == compiled_answer_ways(rows)[0]).all()
 
 
 def test_compiled_passage_refuses_buffers_that_do_not_fit():

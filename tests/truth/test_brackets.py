@@ -12,7 +12,8 @@ import sympy
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.box_form import Form
-from tests.support.inside import Decision, bracket, decide, estimate, exact, quick_bracket, tolerated
+from tests.support.inside import Decision, bracket, decide, estimate, quick_bracket, tolerated
+from tests.support.inside import position as exact_position
 from tests.tools.oracle_agreement import rows
 from tests.truth.tilted_cases import SYMMETRIC
 
@@ -79,7 +80,7 @@ def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
             for change in (low, min(low, 1)) * 8 if math.isfinite(low) and low > 0 else ():
                 signs = [draw.choice((-1, 1, draw.uniform(-1, 1))) for _ in row]
                 changed = [Fraction(a) * (1 + Fraction(s) * change) for a, s in zip(row, signs, strict=True)]
-                assert not goal(exact.position(Lengths.of(changed)))
+                assert not goal(exact_position(Lengths.of(changed)))
 
 
 def test_right_answers_and_limits_of_right_answers_have_no_backward_error():
@@ -113,7 +114,7 @@ def attains(row, change, answer):
     for signs in itertools.product((-1, 1), repeat=7):
         for turn in itertools.product((-1, 0, 1), repeat=3):
             changed = [Fraction(a) * (1 + s * change) for a, s in zip(row, (*signs, *turn), strict=True)]
-            if any(changed[7:]) and exact.position(Lengths.of(changed)) is answer:
+            if any(changed[7:]) and exact_position(Lengths.of(changed)) is answer:
                 return True
     return False
 

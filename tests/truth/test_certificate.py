@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.geometry.pair import Pair, Position
-from tests.support.inside import Certificate, Piece, check_certificate, exact, prove
+from tests.support.inside import Certificate, Piece, check_certificate, prove
+from tests.support.inside import position as exact_position
 from tests.support.pairs import pairs
 
 RING = Pair(1, 2, 1, 1, 2.5, 0, 0)
@@ -206,7 +207,7 @@ TALL = [
 def test_pairs_a_hair_from_tangency_of_tall_spheroids_and_far_from_it_have_short_proofs_that_hold(row):
     pair = Pair(*row)
     certificate = prove(pair)
-    assert certificate.position is exact.position(pair.lengths)
+    assert certificate.position is exact_position(pair.lengths)
     assert check_certificate(pair, certificate)
     if certificate.multiplier is not None:
         digits = abs(certificate.multiplier.numerator)

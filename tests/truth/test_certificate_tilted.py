@@ -10,13 +10,14 @@ import pytest
 
 from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Pair, Position
 from tests.support.inside import Certificate, check_certificate, decide, exact, pivots, prove, quartic
+from tests.support.inside import position as exact_position
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, WITNESSES, grown, near_contact, random_rows
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 
 
 def position(row):
-    return exact.position(Lengths.of(row))
+    return exact_position(Lengths.of(row))
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ import pytest
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.ended_error import EndedFlip
-from tests.support.inside import exact
+from tests.support.inside import position as exact_position
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 HAIR = 2.0**-6
@@ -64,7 +64,7 @@ BY_HAND = [
 @pytest.mark.parametrize(("row", "ends", "solid", "answer", "size", "share"), BY_HAND)
 def test_the_least_change_that_gives_an_answer_is_enclosed(row, ends, solid, answer, size, share):
     pair = Pair.from_row(map(float, (*row[:7], *(row[7:] or (0, 0, 1)), *ends, solid)))
-    truth = exact.position(pair.lengths)
+    truth = exact_position(pair.lengths)
     assert truth is not answer
     flip = EndedFlip(pair, truth, answer)
     below, above = (Fraction(size * factor) for factor in COINCIDE)

@@ -21,10 +21,10 @@ from tests.support.inside import (
     backward_error,
     check_certificate,
     decide,
-    exact,
     heights_position,
     least_position,
 )
+from tests.support.inside import position as exact_position
 from tests.support.strategies import rows_of
 
 INF = math.inf
@@ -89,7 +89,7 @@ STEEP = (189762196.0, 1.0, 2604.0, 1.0, 0.0, 156261249365.0, 0.0, 0.0, 1.0, 3.0,
 @given(rows_of("axis heights"))
 def test_least_value_and_rule_in_the_height_agree_with_the_exact_decision(row):
     pair = Pair.from_row(row)
-    position = exact.position(pair.lengths)
+    position = exact_position(pair.lengths)
     assert heights_position(pair) is position
     assert least_position(pair) in (None, position)
 
@@ -137,7 +137,7 @@ def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
         scale = (1 + found) * factor
         if 1e-6 < scale < 1e6:
             scaled = replace(pair, b=pair.b * scale, d=pair.d * scale)
-            assert (exact.position(scaled.lengths) is CONTACT) == meets
+            assert (exact_position(scaled.lengths) is CONTACT) == meets
 
 
 def test_the_clearance_of_a_centre_on_wall_or_disc_is_minus_one():

@@ -15,6 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.rationals import sign_with_root
 from tests.support.inside import Decision, Surd, decide, exact, quartic
+from tests.support.inside import position as exact_position
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 
 
@@ -80,8 +81,8 @@ def test_tangency_from_a_rational_rotation_is_tangent_and_turns_clear_when_shrun
         decision = decide(Lengths.of(row))
         assert decision.position is Position.CONTACT
         assert decision.limit_of is side
-        assert exact.position(Lengths.of(grown(row, 1 - step))) is side
-        assert exact.position(Lengths.of(grown(row, 1 + step))) is Position.CONTACT
+        assert exact_position(Lengths.of(grown(row, 1 - step))) is side
+        assert exact_position(Lengths.of(grown(row, 1 + step))) is Position.CONTACT
 
 
 def test_a_spheroid_that_touches_at_one_point_and_crosses_elsewhere_is_not_tangent():
@@ -103,7 +104,7 @@ def test_a_spheroid_that_touches_at_one_point_and_crosses_elsewhere_is_not_tange
 
 @pytest.mark.parametrize(("row", "position", "why"), WITNESSES)
 def test_exact_positions_of_tilted_pairs_equal_those_worked_out_by_hand(row, position, why):
-    assert exact.position(Pair.from_row(row).lengths) is position, why
+    assert exact_position(Pair.from_row(row).lengths) is position, why
 
 
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)

@@ -10,7 +10,7 @@ import pytest
 from hypcheck.geometry.pair import Pair
 from hypcheck.runs import judge
 from hypcheck.vectors.families import FAMILIES
-from tests.support.inside import backward_error, decide, distance_exponents, flip_exponents, positions
+from tests.support.inside import decide, distance_exponents, exponent, flip_exponents, positions
 
 
 def one_by_one(rows):
@@ -19,7 +19,7 @@ def one_by_one(rows):
         pair = Pair.from_row(row)
         truth = decide(pair.lengths)
         targets = judge.right_positions(truth.position, 0, truth.position.name.lower())
-        octaves.append(min(backward_error.exponent(pair, truth, target) for target in targets))
+        octaves.append(min(exponent(pair, truth, target) for target in targets))
     return octaves
 
 
@@ -41,9 +41,9 @@ def test_next_to_a_power_of_two_distance_exponents_are_nan_or_right(sign):
     """x = α + b + δ at the waist: the distance is about δ/(α + b + x), here about a power of two."""
     steps = np.concatenate([2.0 ** np.arange(-12, -6), -(2.0 ** np.arange(-12, -6)), [0.0]])
     rows = np.zeros((40 * len(steps), 7))
-    for place, (exponent, step) in enumerate((k, step) for k in range(-42, -2) for step in steps):
+    for place, (power, step) in enumerate((k, step) for k in range(-42, -2) for step in steps):
         rows[place, :4] = 2.0, 1000.0, 1.0, 1.0
-        rows[place, 4] = 3 + sign * 6 * 2.0**exponent * (1 + step)
+        rows[place, 4] = 3 + sign * 6 * 2.0**power * (1 + step)
     found = distance_exponents(rows, positions(rows))
     told = ~np.isnan(found)
     assert 0.3 < told.mean() < 1

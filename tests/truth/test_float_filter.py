@@ -7,14 +7,15 @@ import pytest
 
 from hypcheck.geometry.pair import Pair
 from tests.support.corpus import questions
-from tests.support.inside import exact, filtered, float_filter, positions
+from tests.support.inside import filtered, float_filter, positions
+from tests.support.inside import position as exact_position
 
 
 @pytest.mark.parametrize("spread", [1, 4, 9, 25])
 def test_the_float_filter_decides_most_rows_and_none_wrongly(spread):
     rows = 2.0 ** np.random.default_rng(spread).uniform(-spread, spread, (3000, 7))
     proved = filtered(rows)
-    expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+    expected = np.array([exact_position(Pair.from_row(row).lengths) for row in rows.tolist()])
     decided = proved != float_filter.UNDECIDED
     assert (proved[decided] == expected[decided]).all()
     assert decided.mean() > 0.9
@@ -39,14 +40,14 @@ def test_the_float_filter_decides_ordinary_rows_of_every_position():
     rows = 2.0 ** np.random.default_rng(6).uniform(-2, 2, (4000, 7))
     rows[:, 4:] *= np.random.default_rng(7).choice((-1, 1), (4000, 3))
     proved = filtered(rows)
-    expected = np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()])
+    expected = np.array([exact_position(Pair.from_row(row).lengths) for row in rows.tolist()])
     for position in (-1, 0, 1):
         assert (proved[expected == position] == position).mean() > 0.999
 
 
 def test_rows_with_heights_whose_axis_has_equal_parts_are_tilted():
     rows = np.array([[*row, 1.0, 1.0, 1.0, -3.0, np.inf, 0.0] for row in questions("axis").rows[:60, :7].tolist()])
-    assert positions(rows).tolist() == [exact.position(Pair.from_row(row).lengths) for row in rows.tolist()]
+    assert positions(rows).tolist() == [exact_position(Pair.from_row(row).lengths) for row in rows.tolist()]
     upright = rows.copy()
     upright[:, 7:9] = 0
     assert (positions(rows) != positions(upright)).any()

@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Pair, Position
-from tests.support.inside import exact
+from tests.support.inside import position as exact_position
 from tests.support.inside import truth_nearest as nearest
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, in_floats
 
@@ -40,5 +40,5 @@ def test_tilted_nearest_oracle_does_not_claim_tangency_from_a_nearby_rational():
     off = [*row[:6], math.nextafter(row[6], math.inf), *row[7:]]
     found = nearest.nearest(Pair.from_row(off))
     assert not found.tangent
-    assert found.position is exact.position(Pair.from_row(off).lengths)
+    assert found.position is exact_position(Pair.from_row(off).lengths)
     assert Fraction(found.clearance) != 0

@@ -29,6 +29,7 @@ from tests.support.inside import (
     sweep_of,
     tolerance,
 )
+from tests.support.inside import position as exact_position
 
 CONTACT = Position.CONTACT
 
@@ -39,7 +40,7 @@ _axes = st.tuples(*[st.integers(-3, 3)] * 3).filter(lambda axis: any(axis[:2]))
 
 def position(sizes, start, end, axis, time):
     centre = (Fraction(a) + time * (Fraction(b) - Fraction(a)) for a, b in zip(start, end, strict=True))
-    return exact.position(Lengths.of((*map(Fraction, sizes), *centre, *map(Fraction, axis))))
+    return exact_position(Lengths.of((*map(Fraction, sizes), *centre, *map(Fraction, axis))))
 
 
 @settings(max_examples=30)

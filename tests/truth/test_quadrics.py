@@ -11,7 +11,8 @@ import pytest
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import quadrics
 from hypcheck.vectors import frozen
-from tests.support.inside import Certificate, exact, proves, surfaces
+from tests.support.inside import Certificate, proves, surfaces
+from tests.support.inside import position as exact_position
 
 QUADRICS = {
     "cone": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 0]],
@@ -134,4 +135,4 @@ def test_position_of_frozen_pairs_is_that_of_the_decision_about_spheroids():
     for name in (*frozen.NAMES, *frozen.TILTED_NAMES):
         for each in frozen.load(name).cases[::97]:
             pair = Pair.from_row(each.row)
-            assert quadrics.position(*surfaces(pair)) is exact.position(pair.lengths), each.id
+            assert quadrics.position(*surfaces(pair)) is exact_position(pair.lengths), each.id
