@@ -147,7 +147,7 @@ def answer_scene(
 def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
     """As classify.Kernel has it: by the position without ends and the spheroid's greatest reach up and down.
 
-    z ∓ r and its distance from an end are within 3u (|z| + r + |end|) of what they stand for.
+    A difference that is rounded lies on the same side of r as the exact one, or is r, because r is a float64.
     """
     refused = invalid(rows)
     whole, _ = answer_rows(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), "position", threads)
@@ -155,8 +155,7 @@ def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
     z, r, ends = lengths[:, 6:7], lengths[:, 2:4].max(axis=1, keepdims=True), heights[:, :2]
     with np.errstate(over="ignore", invalid="ignore"):  # what is no number compares false
         depth = (z - ends) * (1, -1)
-        reach = r + 4 * 2.0**-53 * (np.abs(z) + r + np.where(np.isinf(ends), 0, np.abs(ends)))
-        between, beyond = (depth > reach).all(axis=1), (depth < -reach).any(axis=1)
+        between, beyond = (depth > r).all(axis=1), (depth < -r).any(axis=1)
     beyond |= (whole == Position.EXTERIOR) & (heights[:, 2] != 0)
     positions = np.where(between, whole, CANNOT_SAY)
     positions[beyond] = Position.EXTERIOR
