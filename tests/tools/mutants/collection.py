@@ -29,9 +29,11 @@ MODULES = (
     "tilted",
     "passages",
     "ended",
+    "ended_sweeps",
     "correct",
 )
-"""Small modules, each with one kind of mistake; the last with none. In tilted, passages and ended some are right."""
+"""Small modules, each with one kind of mistake; the last with none. In those of tilted pairs, sweeps and ends some are
+right."""
 
 
 @dataclass(frozen=True, slots=True)

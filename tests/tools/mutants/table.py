@@ -17,8 +17,8 @@ COMMAND = "make mutants"
 NAMED = 3
 """Families that a row of the first tables names; the last table has them all."""
 
-SWEEPS = ("passages", "ended")
-"""Modules about ways and ends, which have families of their own: few, and named in the module's table."""
+SWEEPS = ("passages", "ended", "ended_sweeps")
+"""Modules about sweeps and ends, which have families of their own: few, and named in the module's table."""
 
 HEAD = ("implementation", "what it does", "options", "must be", "was", "cases", "families", "most of them in")
 

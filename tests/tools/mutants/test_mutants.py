@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 import hypcheck
-from hypcheck.geometry.rows import with_axis, with_heights
+from hypcheck.geometry.rows import SWEEPS, with_axis, with_heights
 from hypcheck.runs.judge import exact_positions
 from hypcheck.vectors.families import TILTED_FAMILIES, select
 from tests.tools.mutants import __main__, dual, exactly, table
@@ -48,6 +48,9 @@ SAMPLE = {
     "ended.height_of_the_centre_alone": "ended-rim",
     "ended.discs_ignored": "ended-disc",
     "ended.kernel": "ended-disc,tilted-ended-rim",
+    "ended_sweeps.while_the_centre_is_between_the_heights": "ended-way-landing,ended-way-over",
+    "ended_sweeps.time_without_ends": "ended-way-uniform,ended-way-opening",
+    "ended_sweeps.exact": "ended-way-touch,tilted-ended-way-over",
     "correct.whole_numbers": "ring,tangent,waist,osculation",
     "correct.dual_form_in_float32": "ring,tangent,tiny-spheroids",
     "correct.procedure_1_mended": "ring,regime-borders",
@@ -112,9 +115,14 @@ def test_every_mutant_gives_one_answer_for_each_row():
     row = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0]])
     way = np.array([[2.0, 17.8, 0.25, 0.15, 1.0, 0.5, 3.0, 4.0, 0.5, 3.0]])
     for name, mutant in BY_NAME.items():
-        asked = {"tilted": with_axis(row), "passages": way, "ended": with_heights(row)}.get(mutant.module, row).copy()
-        answers = getattr(imported(mutant.module), mutant.function)(asked)
-        for each in answers if mutant.module == "passages" else (answers,):
+        asked = {
+            "tilted": with_axis(row),
+            "passages": way,
+            "ended": with_heights(row),
+            "ended_sweeps": with_heights(way, SWEEPS),
+        }.get(mutant.module, row)
+        answers = getattr(imported(mutant.module), mutant.function)(asked.copy())
+        for each in answers if mutant.module in {"passages", "ended_sweeps"} else (answers,):
             assert np.asarray(each).shape == (1,), name
 
 
