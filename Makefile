@@ -128,15 +128,17 @@ format: $(VENV)/ready-dev ## rewrite the code in the house format
 docs: $(VENV)/ready-docs ## the site of all pages, its links checked; build/site/index.html
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
 
-packages: $(VENV)/ready-dev ## the packages of other languages, in dist/; packages/
-	$(BIN)/python -m packages --out dist
+packages: $(VENV)/ready-dev ## all packages in dist/, checked, and each installed afresh: every local step of a release
+	rm -rf dist
+	$(BIN)/python -m packages build
+	$(BIN)/python -m packages check
+	$(BIN)/python -m packages try
 
-release: $(VENV)/ready-dev ## the wheel and the sdist of a clean tree in dist/, and the tag of its version
+release: $(VENV)/ready-dev ## make packages on a clean tree, and the tag of its version
 	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 2; }
 	@grep -q '^## $(VERSION)$$' CHANGELOG.md || { echo "CHANGELOG.md has no heading $(VERSION); see CONTRIBUTING.md, A release" >&2; exit 2; }
 	$(BIN)/python -m pytest --quiet tests/test_pages.py tests/test_action.py tests/report/test_reference.py
-	rm -rf dist
-	$(BIN)/python -m build --outdir dist
+	$(MAKE) --no-print-directory packages
 	git tag --annotate --message "hypcheck $(VERSION)" v$(VERSION)
 
 clean: ## remove the environment, caches and the latest reports

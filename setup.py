@@ -105,7 +105,10 @@ class BuildWithLauncher(build_ext):
         self.compiler.link_executable(objects, target.name, output_dir=str(target.parent), extra_postargs=STRIPPED)
 
 
+PURE = bool(os.environ.get("HYPCHECK_PURE"))
+"""A wheel without compiled parts, for machines for which there is no other."""
+
 setup(
     cmdclass={"build_py": BuildWithCases, "build_ext": BuildWithLauncher},
-    ext_modules=[KERNEL, CALLS, *([LAUNCHER] if sys.platform == "linux" else [])],
+    ext_modules=[] if PURE else [KERNEL, CALLS, *([LAUNCHER] if sys.platform == "linux" else [])],
 )

@@ -48,6 +48,7 @@ NOT_TYPED = {
     ".venv/bin/": CLONE,
     "make ": CLONE,
     "python -m tests": CLONE,
+    "python -m packages": CLONE,
     "hypcheck bench": MINUTES,
     "hypcheck engines install": "it needs package indexes",
     "hypcheck engines verify": "it needs engines; tests/engines asks them",

@@ -21,7 +21,7 @@ def quietly(*command, **options):
 
 def packed(folder, name):
     """The archive of a language, built into the folder."""
-    quietly(sys.executable, "-m", "packages", name, "--out", folder, cwd=ROOT)
+    quietly(sys.executable, "-m", "packages", "build", name, "--out", folder, cwd=ROOT)
     return folder / f"hypcheck-{name}-{VERSION}.tar.gz"
 
 

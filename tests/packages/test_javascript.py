@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from packages.trials import ADAPTERS
 from tests.packages.archives import gate, packed, quietly, unpacked_archive
 from tests.report import browser
 
@@ -20,16 +21,6 @@ pytestmark = [
     pytest.mark.skipif(bool(MISSING), reason=f"not here: {', '.join(MISSING)} (Debian: clang, lld, nodejs, npm)"),
     pytest.mark.slow,
 ]
-
-PREDICATE = """import { classify } from "hypcheck";
-
-export const description = {
-  protocol: 1, name: "package", version: "1", language: "javascript", precision: "float64", question: "position",
-  tilt: true, binary: true, time: true,
-};
-export const predicate = (...row) => classify(row)[0];
-export const tilted = (...row) => classify(row, { width: 10 })[0];
-"""
 
 PAGE = """<!doctype html><script type="importmap">{"imports": {"hypcheck": "./package/index.mjs"}}</script>
 <script type="module">
@@ -108,6 +99,6 @@ def test_a_browser_loads_the_package_as_a_module(installed):
 @pytest.mark.thorough
 def test_the_package_is_held_by_the_gate_about_upright_and_tilted_rows(installed):
     quietly(sys.executable, "-m", "hypcheck", "init", "--language", "javascript", "--name", "package", cwd=installed)
-    (installed / "hypcheck-javascript" / "predicate.mjs").write_text(PREDICATE, encoding="utf-8")
+    (installed / "hypcheck-javascript" / "predicate.mjs").write_text(ADAPTERS["predicate.mjs"], encoding="utf-8")
     said = gate(installed, f"command:{NODE} hypcheck-javascript/adapter.mjs", "--count", "40")
     assert "HELD" in said

@@ -8,6 +8,7 @@ import sys
 
 import pytest
 
+from packages.trials import ADAPTERS
 from tests.packages.archives import gate, packed, quietly, unpacked_archive
 
 CARGO = shutil.which("cargo")
@@ -16,24 +17,6 @@ pytestmark = [
     pytest.mark.skipif(CARGO is None, reason="there is no cargo"),
     pytest.mark.slow,
 ]
-
-PREDICATE = """pub const DESCRIPTION: &str = concat!(
-    r#"{"protocol":1,"name":"crate","version":"1","language":"rust","precision":"float64","#,
-    r#""question":"position","tilt":true,"binary":true,"time":true}"#
-);
-
-pub fn predicate(row: [f64; 7]) -> i8 {
-    let mut answer = [0];
-    hypcheck::classify(&[row], &mut answer);
-    answer[0]
-}
-
-pub fn tilted(row: [f64; 10]) -> i8 {
-    let mut answer = [0];
-    hypcheck::classify_tilted(&[row], &mut answer);
-    answer[0]
-}
-"""
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +48,7 @@ def test_cargo_packages_the_crate_and_its_pages_are_made_without_a_warning(crate
 def test_the_crate_is_held_by_the_gate_about_upright_and_tilted_rows(crate, tmp_path):
     quietly(sys.executable, "-m", "hypcheck", "init", "--language", "rust", "--name", "crate", cwd=tmp_path)
     adapter = tmp_path / "hypcheck-rust"
-    (adapter / "src" / "predicate.rs").write_text(PREDICATE, encoding="utf-8")
+    (adapter / "src" / "predicate.rs").write_text(ADAPTERS["predicate.rs"], encoding="utf-8")
     manifest = adapter / "Cargo.toml"
     text = manifest.read_text(encoding="utf-8")
     dependency = f"hypcheck = {{ path = '{crate}' }}"
