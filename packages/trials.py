@@ -153,14 +153,14 @@ def tried(name: str, dist: Path) -> Iterator[str]:
         raise click.ClickException(f"{dist} has {len(found)} archives {trial.archive}; it must have one")
     gate = f"{sys.executable} -m hypcheck"
     variables = {"ARCHIVE": str(found[0].resolve()), "PYTHON": sys.executable, "GATE": gate}
-    root = Path(__file__).resolve().parents[1]
+    outside = {key: text for key, text in os.environ.items() if not key.startswith(("PYTHON", "VIRTUAL_ENV"))}
     with tempfile.TemporaryDirectory() as folder:
         for adapter, text in ADAPTERS.items():
             Path(folder, adapter).write_text(text, encoding="utf-8")
         done = subprocess.run(  # noqa: S603
             ["/bin/bash", "-c", _script(trial.lines)],
             cwd=folder,
-            env=os.environ | variables | {"PYTHONPATH": str(root), "CI": "true"},
+            env=outside | variables | {"CI": "true"},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
