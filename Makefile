@@ -17,7 +17,7 @@ COMPILED := $(BIN)/python -c 'from hypcheck.derivation import printed_equations,
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams surface evidence docs packages release format clean
+.PHONY: help verify bench deep engines reference reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams surface evidence docs packages release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -93,6 +93,9 @@ figures: $(VENV)/ready-dev ## the paper's figures and our simulations' anew; doc
 mutants: $(VENV)/ready-dev ## gate wrong and right implementations; ends with 1 where one escapes; tests/tools/mutants/README.md
 	$(BIN)/python -m tests.tools.mutants --out tests/tools/mutants/README.md
 
+reference: $(VENV)/ready-dev ## every generated figure and page anew, resumable, some hours; reports/README.md says from which commit
+	$(BIN)/python -m tests.tools.reference
+
 evidence: $(VENV)/ready-dev ## what mutants, fuzzing, coverage and faults find in our own code, anew; docs/evidence.md (some hours)
 	$(BIN)/python -m tests.tools.evidence all --write
 
@@ -137,6 +140,7 @@ packages: $(VENV)/ready-dev ## all packages in dist/, checked, and each installe
 release: $(VENV)/ready-dev ## make packages on a clean tree, and the tag of its version
 	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 2; }
 	@grep -q '^## $(VERSION)$$' CHANGELOG.md || { echo "CHANGELOG.md has no heading $(VERSION); see CONTRIBUTING.md, A release" >&2; exit 2; }
+	$(BIN)/python -m tests.tools.reference --check
 	$(BIN)/python -m pytest --quiet tests/test_pages.py tests/test_action.py tests/report/test_reference.py
 	$(MAKE) --no-print-directory packages
 	git tag --annotate --message "hypcheck $(VERSION)" v$(VERSION)
