@@ -15,7 +15,7 @@ from hypcheck.vectors.families import ENDED_SWEEP_FAMILIES
 from hypcheck.vectors.frozen import SWEEP_NAMES, load
 from tests.support.ended_ways import near_a_rim, past_a_tower
 from tests.support.inside import answer_ways as compiled_answer_ways
-from tests.support.inside import numpy_kernel_answer_ways
+from tests.support.inside import numpy_kernel_answer_ways, time_window, tolerance
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -152,6 +152,46 @@ def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit_beside_an_e
         b, d = (min(row[2:4]),) * 2 if leaning else row[2:4]
         reach = sum(map(abs, (*start[:2], *end[:2]))) / Fraction(b) + (abs(start[2]) + abs(end[2])) / Fraction(d)
         assert exact_passage([*row[:4], *there, *there, *row[10:]], 1 + Fraction(1, 2**43) * (1 + reach)).hit
+
+
+def wrong_times(rows, times):
+    """The rows with a time that `hypcheck verify` calls wrong by default, as docs/judging.md says: 8 units."""
+    wrong = []
+    for row, time in zip(rows.tolist(), times.tolist(), strict=True):
+        earliest, latest = time_window(row, tolerance(row, 8, Fraction(1, 2**53)))
+        if math.isnan(time) or not earliest <= Fraction(time) <= (1 if latest is None else latest):
+            wrong.append((row, time))
+    return wrong
+
+
+@pytest.mark.parametrize("name", list(ENDED_SWEEP_FAMILIES))
+def test_each_hit_beside_an_end_has_a_time_that_is_right_within_8_units(name):
+    """Flat ends are reached head-on, rims along their tangents, and touches are exact in these."""
+    rows = np.ascontiguousarray(ENDED_SWEEP_FAMILIES[name].rows(5, 24 if name.startswith("tilted") else 48))
+    hits, times = compiled_answer_ways(rows)
+    assert (hits == 1).sum() > 5
+    assert not wrong_times(rows[hits == 1], times[hits == 1])
+
+
+def test_a_time_that_is_a_part_in_a_trillion_early_or_late_is_called_wrong():
+    rows = past_a_tower(11, 40)
+    hits, times = compiled_answer_ways(rows)
+    moved = (hits == 1) & (times > 0.01)
+    assert moved.sum() > 5
+    for part in (-1e-12, 1e-12):
+        assert len(wrong_times(rows[moved], times[moved] * (1 + part))) > 0.5 * moved.sum()
+
+
+BESIDE_A_RIM = (0.482, 0.174, 0.396, 0.3125, 0.28125, 0.40625, 0.4375, 0.28125, 0.40625, 0.25)
+"""Down beside a flat end whose plane, at 1/32, is touched half way, outside the rim of 0.49."""
+
+
+def test_a_plane_that_is_touched_half_way_outside_its_rim_does_not_hide_the_time():
+    rows = np.array([row_of(BESIDE_A_RIM, (-INF, 0.03125), 1)])
+    hits, times = compiled_answer_ways(rows)
+    assert hits.tolist() == [1]
+    assert times[0] > 0.5
+    assert not wrong_times(rows, times)
 
 
 @pytest.mark.parametrize("mode", [TO_NEAREST, *DIRECTED])

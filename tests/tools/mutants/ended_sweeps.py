@@ -12,6 +12,7 @@ from hypcheck import classify
 from hypcheck.geometry.pair import AXIS, HEIGHTS, SIZES, SWEEP_COLUMNS
 from hypcheck.implementations import ways
 from hypcheck.runs.judges import passage_of
+from tests.support.inside import answer_ways
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
 hypcheck = {"question": "passage", "times": True, "takes": ["axis", "heights"]}
@@ -219,6 +220,13 @@ def late_times(rows):
 
 
 @wrong(claim=BESIDE_ENDS)
+def times_a_trillionth_late(rows):
+    """Its times are one part in a trillion late, thousands of units."""
+    hits, times = _answered(rows)
+    return hits, np.minimum(times * (1 + 1e-12), 1)
+
+
+@wrong(claim=BESIDE_ENDS)
 def times_in_float32(rows):
     """Its times are rounded to float32."""
     hits, times = _answered(rows)
@@ -243,6 +251,12 @@ def certified(rows):
     """The certified steps, and the exact times."""
     hits = ways.certified(rows)
     return hits, np.where(hits == 1, _answered(rows)[1], np.nan)
+
+
+@right(claim=BESIDE_ENDS)
+def certified_times(rows):
+    """What the certified steps say alone, times too, which are early but no more than is tolerated."""
+    return answer_ways(np.ascontiguousarray(rows))
 
 
 @right(claim=BESIDE_ENDS, asked=NO_TOLERANCE)

@@ -112,8 +112,8 @@ void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions);
 /* Rows of any of these widths. Positions: 7, 10 with an axis, 13 with z_min, z_max, solid behind it, as the functions above
    answer them. Ways: 10, 13 with an axis, 16 with z_min, z_max, solid behind it; contact is then that of
    hypcheck_classify_ended, so that a way may lead through an opening without any. 2 is also said of ways that miss, or meet,
-   a rim, the wall or a flat end by less than about 2^-42 of the sizes, and at the time of a hit beside a hyperboloid that
-   ends there is contact of the spheroid larger by 2^-37 (1 + S). Rows of another width are answered 127. */
+   a rim, the wall or a flat end by less than about 2^-42 of the sizes. Of a time what is said above holds. Rows of another
+   width are answered 127. */
 void hypcheck_classify_columns(size_t n, size_t width, const double *rows, int8_t *positions);
 void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t *hits, double *times);
 

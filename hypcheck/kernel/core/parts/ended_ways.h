@@ -4,8 +4,8 @@
 #define HC_RECTANGLES_KEPT 64
 #define HC_AIMS 3
 #define HC_SMALL 9.5367431640625e-07 /* 2^-20 */
-#define HC_TIMES 60 /* halvings of the time before a contact, of which so many may tell nothing */
-#define HC_MOST_UNKNOWN 8
+#define HC_TIMES 60 /* halvings of the time before a contact, of which so many, one after the other, may tell nothing */
+#define HC_MOST_UNKNOWN 12
 #define HC_FINE_SLACK 2.8421709430404007e-14 /* 2^-45, of the way's slack: 2^-96 (1 + the sum in radii) */
 #define HC_NEAR_CONTACT 8 /* errors of a form, within which numbers of two doubles are asked */
 #define HC_SIMPLE_TIMES 1048576.0 /* 2^20: times that are asked exactly are whole numbers over this */
@@ -56,6 +56,8 @@ static int hc_make_ended_way(hc_ended_way *made, const double row[16], const dou
     made->low = row[13];
     made->high = row[14];
     made->solid = row[15] != 0;
+    made->wide = hc_size(row[4]) + hc_size(row[5]) + hc_size(row[7]) + hc_size(row[8]);
+    made->tall = hc_size(row[6]) + hc_size(row[9]);
     made->wall = 1;
     made->row = row;
     made->axis = axis;
@@ -76,8 +78,6 @@ static void hc_make_finer(hc_ended_way *made) {
     made->outer = hc_make_fine(shape, more);
     made->inner = hc_make_fine(shape, -more);
     for (k = 0; k < 3; k++) made->moved[k] = hc_two_sum(made->row[7 + k], -made->row[4 + k]);
-    made->wide = hc_size(made->row[4]) + hc_size(made->row[5]) + hc_size(made->row[7]) + hc_size(made->row[8]);
-    made->tall = hc_size(made->row[6]) + hc_size(made->row[9]);
     made->fine = 1;
 }
 
@@ -247,13 +247,15 @@ static double hc_simplest_time(double first, double last) {
     return at;
 }
 
-/* The same at the simplest time of a rectangle and at the one next to a time; `asked` is the one that was asked last. */
-static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, double time, double *asked, double *contact) {
+/* The same at the simplest time of a rectangle and at the one next to a time, if these are not after the last that is asked
+   about; `asked` is the one that was asked last. */
+static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, double time, double last, double *asked, double *contact) {
     const double simplest = hc_simplest_time(in->first, in->last);
     const double next = (double)(int64_t)(time * HC_SIMPLE_TIMES + 0.5) / HC_SIMPLE_TIMES;
     const double before = *asked;
     *asked = simplest;
-    return (simplest != before && hc_touched_at(made, simplest, contact)) || (next != simplest && hc_touched_at(made, next, contact));
+    return (simplest != before && simplest <= last && hc_touched_at(made, simplest, contact)) ||
+           (next != simplest && next <= last && hc_touched_at(made, next, contact));
 }
 
 /* A rectangle by numbers of two doubles, about a height, a time and a lambda: 1 where it is surely clear, 0 where there is
@@ -338,7 +340,7 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
         }
         if (hc_size(form.value) <= HC_NEAR_CONTACT * error * (1 + made->way.slack / HC_ENDED_ERROR)) {
             const int finely = hc_finely_missed(made, lambda_, w, time, &in, contact);
-            if (finely == 0 || (finely > 1 && hc_touched_about(made, &in, time, &asked, contact))) return 0;
+            if (finely == 0 || (finely > 1 && hc_touched_about(made, &in, time, last, &asked, contact))) return 0;
             if (finely == 2) unknown = 1;
             if (finely < 3) continue;
         }
@@ -355,13 +357,39 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
     return unknown ? 2 : 1;
 }
 
+/* Whether the spheroid, by numbers of two doubles, surely stays on one side of the plane at a height: as it lies beyond it
+   at both times. The error is as in hc_finely_missed, of the first of its terms. */
+static int hc_finely_beyond(hc_ended_way *made, double w, double first, double last) {
+    double sides[2];
+    int k;
+    hc_make_finer(made);
+    for (k = 0; k < 2; k++) {
+        const hc_twin moved = hc_twin_product(hc_twin_of(k ? last : first), made->moved[2]);
+        const hc_twin t = hc_twin_difference(hc_twin_of(w), hc_twin_sum(hc_twin_of(made->row[6]), moved));
+        const double top = hc_size(w) + made->tall, size = 1 + top * top / made->between.T;
+        if (!(size < HC_cap && hc_fine_share(&made->outer, t).high > HC_FINE_ERROR * size)) return 0;
+        sides[k] = t.high;
+    }
+    return (sides[0] > 0) == (sides[1] > 0);
+}
+
+/* Whether the centre of the ellipse in the plane at a height surely lies outside the rim at a time, as the sections of the
+   smaller spheroid are placed, and at all times within 4u of it. A coordinate is off by less than 8u of both its ends. */
+static int hc_center_beyond_rim(const hc_ended_way *made, double w) {
+    const hc_sections *const pair = &made->smaller;
+    const double xi = pair->xi0 - pair->k * (w - pair->z), r = hc_radius(pair, w);
+    const double along = made->wide + hc_size(pair->k) * (hc_size(w) + made->tall);
+    return pair->eta * pair->eta + xi * xi - r * r > 2 * HC_ENDED_ERROR * (along * along + made->wide * made->wide + r * r);
+}
+
 /* The same of the disc at a height, whose rim the spheroid misses all the time. While it meets the plane, which is from one
-   time to another, it stays within the rim or outside: one time tells, and of that time one point in the plane. Where its
-   centre is nearest to the plane at an end of the way, at which there is no contact, there is none at any time: the computed
-   time is off by 4u, in which the centre moves by less than a quarter of the radius, as the slack is below 1/4. */
+   time to another, it stays within the rim or outside, and so does the centre of its ellipse in the plane: that tells at
+   the time at which its centre is nearest to the plane, which is one of those, if there are any. If that is an end of the
+   way, at which there is no contact, there is none at any time: the computed time is off by 4u, in which the centre moves
+   by less than a quarter of the radius, as the slack is below 1/4. */
 static int hc_disc_missed_between(hc_ended_way *made, double w, double first, double last, double *contact) {
     const double time = hc_kept_within(made->rise == 0 ? first : (w - made->way.from[2]) / made->rise, first, last);
-    double center[3], under[2], share;
+    double center[3], under[2], share, near;
     int misses;
     if ((time == 0 && made->clear[0]) || (time == 1 && made->clear[1])) return 1;
     hc_center_at(made, first, center);
@@ -369,8 +397,11 @@ static int hc_disc_missed_between(hc_ended_way *made, double w, double first, do
     hc_center_at(made, last, center);
     under[1] = (w - center[2]) * (1 - HC_ENDED_ERROR);
     if ((under[0] > made->reach && under[1] > made->reach) || (under[0] < -made->reach && under[1] < -made->reach)) return 1;
+    near = made->reach * (1 - HC_SMALL);
+    if (hc_size(under[0]) > near && hc_size(under[1]) > near && hc_finely_beyond(made, w, first, last)) return 1;
     hc_center_at(made, time, center);
     hc_place_sections(&made->smaller, center);
+    if (hc_center_beyond_rim(made, w)) return 1;
     share = (w - center[2]) * (w - center[2]) / made->smaller.T;
     misses = hc_disc_misses(&made->smaller, w);
     if (misses == 0) *contact = time;
@@ -408,7 +439,7 @@ static double hc_first_time(hc_ended_way *made, const double *axis, double conta
         missed = hc_missed_between(made, clear, middle, &met);
         if (missed == 1) clear = middle;
         else contact = met < middle ? met : middle; /* or no more is known before it */
-        unknown += missed == 2;
+        unknown = missed == 2 ? unknown + 1 : 0;
     }
     return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN * made->way.slack) == 0 ? clear : hc_nothing_known();
 }
