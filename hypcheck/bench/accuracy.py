@@ -35,11 +35,10 @@ from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from hypcheck.runs.judges import passage_of, truth_of
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
 from hypcheck.truth.flip_exponents import flip_exponents
-from hypcheck.truth.passage_error import size_error
+from hypcheck.truth.passage_error import passage_of, size_error
 
 if sys.platform != "win32":
     import resource
@@ -115,7 +114,7 @@ def _examined_ways(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
     with np.errstate(divide="ignore"):
         exponents = np.floor(np.log2(off))
     grazing = [passage_of(tuple(row)).grazes for row in rows.tolist()]
-    return truth_of(rows, SWEEPS), np.where(grazing, -np.inf, exponents)
+    return judge.truth_of(rows, SWEEPS), np.where(grazing, -np.inf, exponents)
 
 
 def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:

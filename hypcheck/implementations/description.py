@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, GROUPS, HEIGHTS, SIZES, trouble_with
+from hypcheck.geometry.pair import AXIS, CENTER, GROUPS, HEIGHTS, SIZES, Position, trouble_with
 from hypcheck.geometry.rows import (
     PAIRS,
     SWEEPS,
@@ -29,6 +29,8 @@ from hypcheck.tables.strict_json import object_of, refused_constant, strict_deco
 class Question:
     """A question to an implementation: its name, its answers besides CANNOT_SAY, and the columns of its rows.
 
+    `contact` is the answer after which a program stops, since it claims contact or does not exclude it. `position` is
+    the one that is asked about, by yes or no; None: the answer is the truth itself, a position or a hit.
     `entry` is what a library's function is called after: hypcheck_ENTRY and hypcheck_ENTRY_tilted. `forms` stand before
     "text" and "binary" in the protocol of commands, for upright and for tilted spheroids. `times` says that a time may
     go with each answer 1.
@@ -36,6 +38,8 @@ class Question:
 
     name: str
     answers: tuple[int, ...] = (0, 1)
+    contact: int = 0
+    position: Position | None = None
     layout: Layout = PAIRS
     entry: str = "classify"
     forms: tuple[str, str] = ("", "tilted-")
@@ -47,10 +51,10 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         each.name: each
         for each in (
             Question("position", (-1, 0, 1)),
-            Question("exterior"),
-            Question("interior"),
-            Question("contact"),
-            Question("passage", layout=SWEEPS, entry="passage", forms=("passage-", "passage-"), times=True),
+            Question("exterior", position=Position.EXTERIOR),
+            Question("interior", position=Position.INTERIOR),
+            Question("contact", contact=1, position=Position.CONTACT),
+            Question("passage", contact=1, layout=SWEEPS, entry="passage", forms=("passage-", "passage-"), times=True),
         )
     }
 )

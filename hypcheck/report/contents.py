@@ -43,7 +43,7 @@ from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
 from hypcheck.report.square import squares
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.verdict import Verdict, failures, verdict
-from hypcheck.runs.judges import judge_of
+from hypcheck.runs.judge import in_words, truth_in_words
 
 
 def settings_sections(record: Record) -> Iterator[Section]:
@@ -189,9 +189,8 @@ def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], Text]]:
     ]
     for case, row, each in sorted(found, key=lambda seen: -seen[0].backward_error):
         if can_be_drawn(row) and _can_be_seen(row):
-            asked = judge_of(each.question)
-            answers = f" is {asked.truth_in_words(case.truth)}; ", Code(each.name), " answered "
-            yield row, (Code(case.case), *answers, Strong(asked.in_words(case.answer)), ".")
+            answers = f" is {truth_in_words(case.truth, each.question)}; ", Code(each.name), " answered "
+            yield row, (Code(case.case), *answers, Strong(in_words(case.answer, each.question)), ".")
             return
 
 

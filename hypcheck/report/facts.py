@@ -41,8 +41,7 @@ from hypcheck.report.messages import (
     rows_not_asked,
 )
 from hypcheck.report.model import SubjectKey, explanation, in_order, names_in, subject_of, worst_case
-from hypcheck.runs.judge import UNANSWERED
-from hypcheck.runs.judges import judge_of
+from hypcheck.runs.judge import UNANSWERED, in_words, truth_in_words
 
 Measurement = tuple[Any, ...]
 """Method, workload, detail, quantity and value, and the two ends of its interval if it has one."""
@@ -296,10 +295,8 @@ class GroupFacts(LineFacts[GroupLine]):
         if fault is not None:
             message += f"; {fault.case}: {fault.reason}"
         elif first is not None:
-            asked = judge_of(line.question)
-            message += (
-                f"; {first.case} is {asked.truth_in_words(first.truth)}; answered: {asked.in_words(first.answer)}"
-            )
+            truth, answer = truth_in_words(first.truth, line.question), in_words(first.answer, line.question)
+            message += f"; {first.case} is {truth}; answered: {answer}"
             message += f" ({first.mistake}, {error_text(first)})"
         case = first if fault is None else fault
         if case is None:

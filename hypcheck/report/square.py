@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.messages import counted, escaped
@@ -15,9 +14,8 @@ from hypcheck.record import Record
 from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, TableCell, number, plain, table
 from hypcheck.report.messages import listed
 from hypcheck.report.model import PASSAGE, ImplementationTotal, implementations
-from hypcheck.runs.judges import judge_of
+from hypcheck.runs.judge import in_words, truth_in_words
 
-POSITION = "position"
 _WORDS = {str(CANNOT_SAY): "cannot say", "none": "no valid answer"}
 """Columns that a square has only if there is such an answer."""
 
@@ -38,15 +36,14 @@ def squares(record: Record) -> Iterator[tuple[TableBlock, str]]:
 
 def _square(each: ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:
     """What is true in rows, what was answered in columns."""
-    asked = judge_of(each.question)
     truths = [truth for truth in (("1", "0") if each.question == PASSAGE else ("1", "0", "-1")) if truth in counts]
     usual = [str(answer) for answer in sorted(QUESTIONS[each.question].answers, reverse=True) if answer != CANNOT_SAY]
     others = [answer for answer in _WORDS if any(answer in row for row in counts.values())]
-    titles = [f"answered {_WORDS.get(answer) or asked.in_words(int(answer))}" for answer in usual]
+    titles = [f"answered {_WORDS.get(answer) or in_words(int(answer), each.question)}" for answer in usual]
     columns = [Column(Code(each.name)), *map(number, [*titles, *(_WORDS[answer] for answer in others)])]
     rows: list[Row] = [
         (
-            f"truth {asked.truth_in_words(int(truth))}",
+            f"truth {truth_in_words(int(truth), each.question)}",
             *(
                 _cell(counts[truth].get(answer, 0), right=_right(each.question, truth, answer))
                 for answer in [*usual, *others]
@@ -74,9 +71,8 @@ def _cell(cases: int, *, right: bool) -> TableCell:
 
 def _right(question: str, truth: str, answer: str) -> bool:
     """Whether this is the right answer to a question about a row of which that is true."""
-    if question in (PASSAGE, POSITION):
-        return truth == answer
-    return answer == str(int(int(truth) == Position[question.upper()]))
+    position = QUESTIONS[question].position
+    return answer == (truth if position is None else str(int(int(truth) == position)))
 
 
 _WIDEST = 40

@@ -26,8 +26,7 @@ import numpy as np
 from hypcheck.geometry.rows import Indices, Rows
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.runs.cases import CaseChunk, ChunkCases
-from hypcheck.runs.judge import Criterion, Status
-from hypcheck.runs.judges import judge_of
+from hypcheck.runs.judge import Criterion, Status, truth_of
 from hypcheck.runs.results import CasesResult, JudgingRules, merged_result, result_of_final
 from hypcheck.runs.score import score
 from hypcheck.runs.tally import STATUS_CODES, StatusCodes, Tally
@@ -193,7 +192,7 @@ def ask_search(step: SearchStep, implementation: Implementation | Crashed, rules
         inside, left_out = rules.asked_of(step.family, rows)
         chosen = np.ascontiguousarray(rows[inside])
         answered = implementation.classify(chosen)
-        scored = score(chosen, judge_of(rules.criterion.question).truth(chosen), answered, rules.criterion)
+        scored = score(chosen, truth_of(chosen, rules.criterion.layout), answered, rules.criterion)
         made = ChunkCases(step.chunk, chosen, np.ascontiguousarray(chosen.T), scored.truth)
         result = result_of_final(made, places[inside], scored, rules, left_out=left_out)
         parts.append(replace(result, outcomes=answered.outcomes))

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.runs.diagnosis import CasePlace
-from hypcheck.runs.judges import truth_of
+from hypcheck.runs.judge import truth_of
 from hypcheck.truth.flip_exponents import flip_exponents
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import Vector

@@ -20,12 +20,11 @@ from hypcheck.implementations.implementation import MAX_FAULTS
 from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
 from hypcheck.record.lines import GroupLine, ImplementationLine
-from hypcheck.runs import border_search
+from hypcheck.runs import border_search, judge
 from hypcheck.runs.border_search import SearchStep
 from hypcheck.runs.cases import EXPONENTS_OF, CaseChunk
 from hypcheck.runs.diagnosis import FAILING
 from hypcheck.runs.judge import DANGEROUS, UNANSWERED, Mistake, Status
-from hypcheck.runs.judges import judge_of
 from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
@@ -245,11 +244,11 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
 def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
     """Whether a worst case is judged now as the record has it."""
     rows, answers = np.array([case.row]), np.array([case.answer], dtype=np.int8)
-    asked, times = judge_of(rules.criterion.question), None if case.time is None else np.array([case.time])
-    wrong = np.flatnonzero(asked.is_wrong(rows, asked.truth(rows), answers, times, rules.criterion))
-    for judged in asked.judged(rows, answers, times, wrong, rules.criterion):
+    criterion, times = rules.criterion, None if case.time is None else np.array([case.time])
+    wrong = np.flatnonzero(judge.is_amiss(rows, judge.truth_of(rows, criterion.layout), answers, times, criterion))
+    for judged in judge.judged(rows, answers, wrong, criterion, times):
         status = Status.WRONG if case.status == Status.EXCUSED else Status(case.status)
-        error = asked.measured(judged, rules.criterion)
+        error = judge.measured(judged, criterion.question)
         recorded = (case.truth, case.mistake, status, case.error)
         return recorded == (int(judged.truth), judged.mistake.value, judged.status, error)
     return False

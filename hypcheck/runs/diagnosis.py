@@ -24,10 +24,10 @@ import numpy as np
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import Domain, claimed
+from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, AnsweredRows, Answers, Cause, Scope, subject_of
 from hypcheck.runs.formula_errors import SWEEP_FORMULA_ERRORS, TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion, Status, WrongCase
-from hypcheck.runs.judges import judge_of
 from hypcheck.runs.root_causes import ROOT_CAUSES
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
@@ -273,7 +273,7 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
             np.ascontiguousarray(np.vstack([one for one, _ in some])),
             np.concatenate([one for _, one in some]),
         )
-        given = judge_of(criterion.question).right(truth)
+        given = judge.expected(truth, criterion.question)
         yield AnsweredRows(rows, truth, given, criterion)
 
 

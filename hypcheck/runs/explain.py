@@ -17,10 +17,11 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import SWEEPS, Floats, Mask
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.messages import suggestion
+from hypcheck.runs import judge
 from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.runs.judge import Criterion
-from hypcheck.runs.judges import judge_of, passage_of
+from hypcheck.truth.passage_error import passage_of
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.frozen import NAMES, SWEEP_NAMES, TILTED_NAMES, load
 
@@ -125,7 +126,7 @@ def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterato
 
 def _is_wrong(answered: AnsweredRows) -> Mask:
     """Whether the answers given are wrong; a hit that is right is wrong by its time, where one is given."""
-    wrong = np.asarray(answered.given != judge_of(answered.criterion.question).right(answered.truth))
+    wrong = np.asarray(answered.given != judge.expected(answered.truth, answered.criterion.question))
     return wrong if answered.times is None else ~wrong & (answered.given == 1)
 
 

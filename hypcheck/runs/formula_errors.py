@@ -18,7 +18,8 @@ from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Rows
 from hypcheck.implementations import ways
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause, silent
-from hypcheck.runs.judges import passage_of, time_is_right
+from hypcheck.runs.judge import time_is_right
+from hypcheck.truth.passage_error import passage_of
 
 _MOSTLY = 0.5
 """A formula is evaluated exactly, too, where it gives this share of the wrong answers in float64."""

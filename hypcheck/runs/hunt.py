@@ -22,10 +22,10 @@ from hypcheck.messages import counted
 from hypcheck.runs import judge
 from hypcheck.runs.hunt_place import RowPlace, place_of_row
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
-from hypcheck.runs.judges import Judge, first_contact, judge_of
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUSES, UnansweredCase, counts_of
 from hypcheck.tables.numbers import hex_of
+from hypcheck.truth.passage_error import passage_of
 from hypcheck.vectors.draw import Integers
 
 PIECE = 4096
@@ -65,11 +65,6 @@ class HuntTarget:
     extreme: bool = False
 
     @property
-    def judge(self) -> Judge:
-        """How its answers are judged."""
-        return judge_of(self.criterion.question)
-
-    @property
     def layout(self) -> Layout:
         """The columns of its rows."""
         return self.criterion.layout
@@ -81,7 +76,7 @@ class HuntTarget:
     def ask(self, rows: Rows) -> Score:
         """Ask these rows; their score."""
         answered = self.implementation.classify(rows)
-        return score(rows, self.judge.truth(rows), answered, self.criterion)
+        return score(rows, judge.truth_of(rows, self.layout), answered, self.criterion)
 
 
 def target_of(
@@ -114,7 +109,7 @@ class HuntFinding:
     @classmethod
     def of(cls, case: WrongCase, criterion: Criterion, place: RowPlace, source: str) -> HuntFinding:
         """The finding of a judged case."""
-        error = judge_of(criterion.question).measured(case, criterion)
+        error = judge.measured(case, criterion.question)
         return cls(case, error, judge.in_units(error, criterion.unit), place, source)
 
     @property
@@ -294,12 +289,13 @@ def _cluster_lines(number: int, cluster: FindingCluster, target: HuntTarget) -> 
 def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
     """A finding: its row, the truth beside the answer, and the command that replays it."""
     case = finding.case
-    truth, answer = target.judge.truth_in_words(case.truth), target.judge.in_words(case.answer)
+    question = target.criterion.question
+    truth, answer = judge.truth_in_words(case.truth, question), judge.in_words(case.answer, question)
     yield titled("row", _row(case.row, target))
     yield titled("hex", ",".join(map(hex_of, case.row)))
     yield titled("truth", f"{truth}; answered: {answer} ({case.mistake.value}, wrong by {how_wrong(finding)})")
     if case.time is not None:
-        lower, upper = first_contact(case.row)
+        lower, upper = passage_of(case.row).first_bounds
         yield titled("time", f"answered: {case.time!r}; first contact between {lower!r} and {upper!r}")
     yield titled("replay", _command(target, "replay", decimals(case.row), target.spec))
 

@@ -14,9 +14,9 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, SWEEP_COLUMNS, Lengths, Pair, Position
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
-from hypcheck.runs.judges import passage_of, sweep_in_radii
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.passage_error import passage_of, sweep_in_radii
 from hypcheck.truth.pencil import Cubic, cubic
 
 NEAR = Fraction(1, 64)

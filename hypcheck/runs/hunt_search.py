@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Positions, Rows, as_wide, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt
-from hypcheck.runs.judges import truth_of
+from hypcheck.runs.judge import truth_of
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES, FAMILIES, SWEEP_FAMILIES, TILTED_FAMILIES
 from hypcheck.vectors.family import Family

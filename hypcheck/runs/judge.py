@@ -1,15 +1,22 @@
-"""Judging answers: right or wrong, and the size of the error in one number for every precision.
+"""Judging answers: what is true about rows, which answers are right, and the error of a wrong one in one number.
 
-The backward error of a wrong answer is the infimum of all ε for which a relative change of each input by at most ε
-makes that answer right (truth/backward_error.py). It is counted in units u of the declared precision. For a tilted
-spheroid it is bracketed by two proved ends: the answer is wrong if the lower end exceeds the tolerance, tolerated if
-the upper end does not, and undecided otherwise.
+One judge for every question. What questions differ in is data: `Question` has the answers and the columns of the rows,
+and _SUBJECTS says for each layout of rows what is true and how a wrong answer is measured.
+
+**A position.** The backward error of a wrong answer is the infimum of all ε for which a relative change of each input
+by at most ε makes that answer right (truth/backward_error.py). It is counted in units u of the declared precision. For a
+tilted spheroid it is bracketed by two proved ends: the answer is wrong if the lower end exceeds the tolerance,
+tolerated if the upper end does not, and undecided otherwise.
+
+**A sweep.** A wrong answer is measured by the least relative change of b and d together that makes it right. A time is
+right from the first contact of the spheroid grown by the tolerance to that of the spheroid shrunk by it; a wrong one is
+measured by the sweep between it and the first contact, in spheroid radii (truth/passage_error.py).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
@@ -20,11 +27,13 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.geometry.rows import CANNOT_SAY, Layout, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Floats, Indices, Layout, Mask, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import PRECISIONS, UNIT_ROUNDOFF
-from hypcheck.truth import backward_error, exact, float_filter
+from hypcheck.implementations.ways import rough_exponents
+from hypcheck.truth import backward_error, exact, float_filter, passage_error
 from hypcheck.truth.exact import Decision
+from hypcheck.truth.passage_error import CLEAR, HIT, SWEEP_ANSWERS, passage_of
 
 DEFAULT_TOLERANCE = Fraction(8)
 """The backward error in units u that a run tolerates by default."""
@@ -121,28 +130,58 @@ class WrongCase:
     least: float = 0.0
 
 
-def expected(positions: Positions, question: str) -> NDArray[np.int8]:
-    """The right answers to a question, int8 (n,): the position itself, or 1 for yes and 0 for no."""
-    if question == "position":
-        return positions
-    return np.asarray(positions == Position[question.upper()], dtype=np.int8)
+def exact_positions(rows: Rows) -> Positions:
+    """The exact positions of valid rows, (n, 7), (n, 10) or (n, 13): int8 (n,)."""
+    return float_filter.positions(rows)
 
 
-def is_wrong(truth: Positions, answers: NDArray[np.int8], question: str) -> NDArray[np.bool_]:
+def truth_of(rows: Rows, layout: Layout) -> Positions:
+    """What is true about valid rows of that layout: their positions, or 1 for contact on a sweep, else 0: int8 (n,)."""
+    return _SUBJECTS[layout].truth(rows)
+
+
+def expected(truth: Positions, question: str) -> NDArray[np.int8]:
+    """The right answers to a question, int8 (n,): the truth itself, or 1 for yes and 0 for no."""
+    position = QUESTIONS[question].position
+    return truth if position is None else np.asarray(truth == position, dtype=np.int8)
+
+
+def is_wrong(truth: Positions, answers: NDArray[np.int8], question: str) -> Mask:
     """A mask (n,) of the wrong answers. `answers` hold allowed values and CANNOT_SAY, which is not wrong."""
     return np.asarray((answers != expected(truth, question)) & (answers != CANNOT_SAY))
 
 
-def exact_positions(rows: Rows) -> Positions:
-    """The exact positions of valid rows, (n, 7) or (n, 10): int8 (n,)."""
-    return float_filter.positions(rows)
+def is_amiss(
+    rows: Rows, truth: Positions, answers: NDArray[np.int8], times: Floats | None, criterion: Criterion
+) -> Mask:
+    """A mask (n,) of the wrong answers, and of the right ones with a time that is not right."""
+    wrong = is_wrong(truth, answers, criterion.question)
+    if times is not None:
+        for place in np.flatnonzero((answers == HIT) & (truth == HIT)).tolist():
+            wrong[place] = not time_is_right(tuple(rows[place].tolist()), float(times[place]), criterion)
+    return wrong
 
 
-def judged(rows: Rows, answers: NDArray[np.int8], wrong: NDArray[np.intp], criterion: Criterion) -> Iterator[WrongCase]:
-    """The wrong answers at these indices of a batch, judged in order.
+def time_is_right(row: tuple[float, ...], time: float, criterion: Criterion) -> bool:
+    """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a sweep with contact."""
+    return passage_error.time_is_tolerated(row, time, criterion.tolerance, criterion.unit)
 
-    Where float64 proves a lower end of the error beyond the tolerance, that end is enough; more bits are for the rest.
-    """
+
+def judged(
+    rows: Rows, answers: NDArray[np.int8], wrong: Indices, criterion: Criterion, times: Floats | None = None
+) -> Iterator[WrongCase]:
+    """The wrong answers at these indices of a batch, judged in order."""
+    return _SUBJECTS[criterion.layout].judged(rows, answers, wrong, criterion, times)
+
+
+def _judged_positions(
+    rows: Rows,
+    answers: NDArray[np.int8],
+    wrong: Indices,
+    criterion: Criterion,
+    times: Floats | None,  # noqa: ARG001 - a position has none
+) -> Iterator[WrongCase]:
+    """Where float64 proves a lower end of the error beyond the tolerance, that is enough; the rest gets more bits."""
     pairs = [Pair.from_row(row) for row in rows[wrong].tolist()]
     truths = [exact.decide(pair.lengths) for pair in pairs]
     given = [int(answers[index]) for index in wrong.tolist()]
@@ -170,10 +209,15 @@ def _judged(index: int, pair: Pair, truth: Decision, answer: int, criterion: Cri
 
 
 def measured(case: WrongCase, question: str) -> float:
-    """The backward error of a wrong answer, to 4 significant digits; of a tilted spheroid one of two ends.
+    """The error of a wrong answer: one of two proved ends where it is bracketed; of a wrong time, spheroid radii.
 
-    The lower where it is more than tolerated, so that what is said is proved, else the upper.
+    The lower end where it is more than tolerated, so that what is said is proved, else the upper. A backward error has
+    4 significant digits, that of a sweep's size 1 %.
     """
+    return _SUBJECTS[QUESTIONS[question].layout].measured(case, question)
+
+
+def _measured_position(case: WrongCase, question: str) -> float:
     if case.least:
         return case.least
     return _measured(Pair.from_row(case.row), case.answer, question, case.status in (Status.WRONG, Status.EXCUSED))
@@ -215,9 +259,9 @@ def right_positions(truth: Position, answer: int, question: str) -> tuple[Positi
 
     "No" to a question about one position is right for two; from a clear one, contact is nearer than the other.
     """
-    if question == "position":
+    position = QUESTIONS[question].position
+    if position is None:
         return (Position(answer),)
-    position = Position[question.upper()]
     if answer:
         return (position,)
     if truth is Position.CONTACT:
@@ -233,20 +277,85 @@ def in_units(error: float, unit: Fraction) -> float:
 
 
 def in_words(answer: int, question: str) -> str:
-    """An answer in words: the position, or yes or no to the question; any other answer as its number."""
-    meanings = {position.value: position.label for position in Position}
-    if question != "position":
-        meanings = {1: f"{question}: yes", 0: f"{question}: no"}
-    return meanings.get(answer, str(answer))
+    """An answer in words: what is true of the row, or yes or no to the question; any other answer as its number."""
+    asked = QUESTIONS[question]
+    labels = _SUBJECTS[asked.layout].labels if asked.position is None else _YES_OR_NO
+    return labels.get(answer, str(answer)).format(question)
 
 
-def mistake_of(truth: Position, answer: int, question: str) -> Mistake:
+_YES_OR_NO = {1: "{}: yes", 0: "{}: no"}
+
+
+def truth_in_words(truth: int, question: str) -> str:
+    """What is true about a row, in words."""
+    return _SUBJECTS[QUESTIONS[question].layout].labels[truth]
+
+
+def mistake_of(truth: int, answer: int, question: str) -> Mistake:
     """The kind of a wrong answer, which is neither right nor CANNOT_SAY."""
-    if question == "position":
-        if truth is Position.CONTACT:
-            return Mistake.FALSE_CLEAR
-        return Mistake.FALSE_CONTACT if answer == Position.CONTACT else Mistake.WRONG_SIDE
-    claims_clear = bool(answer) is not (question == "contact")
-    if not claims_clear:
+    asked = QUESTIONS[question]
+    if answer == asked.contact:
         return Mistake.FALSE_CONTACT
-    return Mistake.FALSE_CLEAR if truth is Position.CONTACT else Mistake.WRONG_SIDE
+    return Mistake.FALSE_CLEAR if truth == _SUBJECTS[asked.layout].contact else Mistake.WRONG_SIDE
+
+
+_TOGETHER = 256
+"""Wrong answers about sweeps whose size errors are estimated at a time."""
+
+
+def _judged_sweeps(
+    rows: Rows, answers: NDArray[np.int8], wrong: Indices, criterion: Criterion, times: Floats | None
+) -> Iterator[WrongCase]:
+    for start in range(0, len(wrong), _TOGETHER):
+        part = wrong[start : start + _TOGETHER]
+        some = np.ascontiguousarray(rows[part])
+        for index, numbers, near in zip(part.tolist(), some.tolist(), rough_exponents(some).tolist(), strict=True):
+            row, answer = tuple(numbers), int(answers[index])
+            if passage_of(row).hit == bool(answer) and times is not None:
+                yield _wrong_time(index, row, float(times[index]))
+            else:
+                yield _wrong_hit(index, row, answer, criterion, near)
+
+
+def _wrong_time(index: int, row: tuple[float, ...], time: float) -> WrongCase:
+    mistake = Mistake.LATE if time > passage_of(row).first_upper else Mistake.EARLY
+    off = passage_error.radii_off(row, time)
+    exponent = math.floor(math.log2(off)) if 0 < off < math.inf else (-math.inf if not off else math.inf)
+    return WrongCase(index, row, HIT, HIT, mistake, Status.WRONG, exponent, time)
+
+
+def _wrong_hit(index: int, row: tuple[float, ...], answer: int, criterion: Criterion, near: float) -> WrongCase:
+    change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
+    within = bool(change) and (passage_of(row).grazes or passage_error.is_tolerated(row, bool(answer), change))
+    status, truth = Status.TOLERATED if within else Status.WRONG, CLEAR if answer else HIT
+    return WrongCase(index, row, truth, answer, mistake_of(truth, answer, criterion.question), status, near)
+
+
+def _measured_sweep(case: WrongCase, question: str) -> float:  # noqa: ARG001 - one question is about sweeps
+    if case.time is not None:
+        return passage_error.radii_off(case.row, case.time)
+    error = passage_error.size_error(case.row, bool(case.answer))
+    return error.lower if case.status in (Status.WRONG, Status.EXCUSED) else error.upper
+
+
+@dataclass(frozen=True, slots=True)
+class _Subject:
+    """What rows are about: their truths, `labels` of these, which of them is `contact`, and how wrong answers are."""
+
+    truth: Callable[[Rows], Positions]
+    labels: Mapping[int, str]
+    contact: int
+    judged: Callable[[Rows, NDArray[np.int8], Indices, Criterion, Floats | None], Iterator[WrongCase]]
+    measured: Callable[[WrongCase, str], float]
+
+
+_SUBJECTS: Mapping[Layout, _Subject] = {
+    PAIRS: _Subject(
+        exact_positions,
+        {position.value: position.label for position in Position},
+        Position.CONTACT,
+        _judged_positions,
+        _measured_position,
+    ),
+    SWEEPS: _Subject(passage_error.hits, SWEEP_ANSWERS, HIT, _judged_sweeps, _measured_sweep),
+}

@@ -36,7 +36,6 @@ from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, WIDER_ROUNDINGS, AnsweredRows, Cause, Scope
 from hypcheck.runs.intermediates import FormulaChoice, choose_formula
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
-from hypcheck.runs.judges import HIT, judge_of, passage_of, radii_off
 from hypcheck.runs.score import Score, score, status_of
 from hypcheck.runs.tally import STATUSES
 from hypcheck.tables.numbers import number_of_text
@@ -44,6 +43,7 @@ from hypcheck.truth import backward_error, exact
 from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.passage_error import HIT, passage_of, radii_off
 from hypcheck.truth.swept import Passage
 from hypcheck.vectors.families import is_extreme, parse_case_id
 from hypcheck.vectors.family import MARK
@@ -315,7 +315,7 @@ def _error(case: WrongCase, truth: ProvedTruth | Passage, criterion: Criterion) 
         targets = judge.right_positions(Position(case.truth), case.answer, criterion.question)
         ends = [each for target in targets if isinstance(each := truth.flips[target], tuple)]
         return min(low if case.status is Status.WRONG else high for low, high in ends)
-    return judge_of(criterion.question).measured(case, criterion)
+    return judge.measured(case, criterion.question)
 
 
 def _refused(case: ReplayCase, implementation: Implementation) -> ReplayJudgement:

@@ -15,10 +15,10 @@ from hypcheck.proof_text import proof_as_json, proof_lines
 from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
-from hypcheck.runs.judges import LABELS, sweep_in_radii
 from hypcheck.runs.replay import ProvedTruth, Replay, Row
 from hypcheck.tables.numbers import hex_of
 from hypcheck.truth import passage_error
+from hypcheck.truth.passage_error import SWEEP_ANSWERS, sweep_in_radii
 from hypcheck.truth.swept import Passage
 
 DIGITS = 17
@@ -153,7 +153,9 @@ def replay_lines(done: Replay, ledger: Callable[[str], tuple[str, str, str]], *,
 
 def _sweep_lines(truth: Passage, row: Row) -> Iterator[str]:
     yield from _titled("length", f"{sweep_in_radii(row):.6g} spheroid radii")
-    yield from _titled("truth", LABELS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else ""))
+    yield from _titled(
+        "truth", SWEEP_ANSWERS[int(truth.hit)] + (", only touched for an instant" if truth.grazes else "")
+    )
     yield from _titled("ends", f"{truth.start.label} at the start, {truth.end.label} at the end")
     if truth.hit:
         yield from _titled("first", f"contact between the times {truth.first_lower!r} and {truth.first_upper!r}")
@@ -232,7 +234,7 @@ def answer_said(answer: int, question: str) -> str:
     if answer in (CANNOT_SAY, REFUSED):
         return f"{answer}, {'refused' if answer == REFUSED else 'cannot say'}"
     if question == "passage":
-        return f"{answer}, {LABELS[answer]}"
+        return f"{answer}, {SWEEP_ANSWERS[answer]}"
     if question == "position":
         return f"{answer:+d}, {Position(answer).label}" if answer else f"0, {Position(0).label}"
     return f"{answer}, {'' if answer else 'not '}{question}"

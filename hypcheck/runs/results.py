@@ -26,7 +26,6 @@ from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_expo
 from hypcheck.runs.causes import AnsweredRows
 from hypcheck.runs.diagnosis import CasePlace, Diagnosis, diagnose
 from hypcheck.runs.judge import Criterion, Status, WrongCase
-from hypcheck.runs.judges import judge_of
 from hypcheck.runs.known_failures import KnownFailure, entries_about
 from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
 from hypcheck.runs.tally import STATUS_CODES, Tally, counts_of
@@ -259,7 +258,7 @@ def _excused(
     for place, numbers in zip(places, about, strict=True):
         case, error_u = wrong[place], 0.0
         if any(rules.known[each].max_u < math.inf for each in numbers):  # to measure takes a thousand times as long
-            measured = judge_of(rules.criterion.question).measured(case, rules.criterion)
+            measured = judge.measured(case, rules.criterion.question)
             error_u = judge.in_units(measured, rules.criterion.unit)
         covering = [each for each in numbers if error_u <= rules.known[each].max_u]
         if covering:

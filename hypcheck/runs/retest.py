@@ -20,9 +20,9 @@ from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions,
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.record.lines import Retest
+from hypcheck.runs import judge
 from hypcheck.runs.cases import PACE, CaseChunk, ChunkCases, Pace, cases_of_chunk
 from hypcheck.runs.judge import Criterion, Status
-from hypcheck.runs.judges import judge_of
 from hypcheck.runs.results import CasesResult, JudgingRules, PendingRetest, merged_result, result_of_final
 from hypcheck.runs.score import as_slice, score, status_of
 from hypcheck.runs.tally import STATUSES
@@ -175,15 +175,15 @@ def _moments(each: PendingRetest) -> NDArray[np.int64]:
 
 def _change(sample: _Sample, place: int, answered: Answered, offset: int, criterion: Criterion) -> tuple[Status, str]:
     """The status of a case whose answer, at an offset among others, differs from the first, and the reason."""
-    before, asked = sample.before, judge_of(criterion.question)
+    before = sample.before
     pair = np.array([before.answers[place], answered.answers[offset]], dtype=np.int8)
     times = None
     if before.times is not None and answered.times is not None:
         times = np.array([before.times[place], answered.times[offset]])
     if CANNOT_SAY not in pair:
         twice = np.stack([sample.rows[place]] * 2)
-        wrong = np.flatnonzero(asked.is_wrong(twice, np.repeat(sample.truth[place], 2), pair, times, criterion))
-        if all(case.status is Status.TOLERATED for case in asked.judged(twice, pair, times, wrong, criterion)):
+        wrong = np.flatnonzero(judge.is_amiss(twice, np.repeat(sample.truth[place], 2), pair, times, criterion))
+        if all(case.status is Status.TOLERATED for case in judge.judged(twice, pair, wrong, criterion, times)):
             return Status.TOLERATED, ""
     first, then = (
         f"{answer}" if times is None or answer != 1 else f"{answer} at time {time!r}"

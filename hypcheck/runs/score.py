@@ -19,10 +19,9 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows
 from hypcheck.implementations.session import Answered, Outcome
-from hypcheck.runs import tally
+from hypcheck.runs import judge, tally
 from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import DANGEROUS, Criterion, Mistake, Status, WrongCase
-from hypcheck.runs.judges import judge_of
 from hypcheck.runs.tally import (
     STATUS_CODES,
     STATUSES,
@@ -89,13 +88,13 @@ class Score:
         found: Counter[Mistake] = Counter()
         pairs = zip(self.truth[self.wrong].tolist(), self.answers[self.wrong].tolist(), strict=True)
         for (truth, answer), number in Counter(pairs).items():
-            found[judge_of(self.criterion.question).mistake(truth, answer)] += number
+            found[judge.mistake_of(truth, answer, self.criterion.question)] += number
         return found
 
     def judged(self, wrong: Indices | None = None) -> Iterator[WrongCase]:
         """The wrong answers, or those at the given indices, each with its backward error and whether it passes."""
         places = self.wrong if wrong is None else wrong
-        return judge_of(self.criterion.question).judged(self.rows, self.answers, self.times, places, self.criterion)
+        return judge.judged(self.rows, self.answers, places, self.criterion, self.times)
 
     def part(self, places: Indices) -> Score:
         """The score of the rows at these ascending indices."""
@@ -173,7 +172,7 @@ class Score:
 def score(rows: Rows, truth: Positions, answered: Answered, criterion: Criterion) -> Score:
     """The score of rows with these true positions or hits, int8 (n,)."""
     status, times = status_of(answered), answered.times
-    wrong = judge_of(criterion.question).is_wrong(rows, truth, answered.answers, times, criterion)
+    wrong = judge.is_amiss(rows, truth, answered.answers, times, criterion)
     status[wrong] = STATUS_CODES[Status.WRONG]
     return Score(criterion, rows, truth, answered.answers, status, answered.reasons, times)
 

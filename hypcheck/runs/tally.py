@@ -23,7 +23,7 @@ from hypcheck.record.lines import GroupLine
 from hypcheck.runs import diagnosis, judge
 from hypcheck.runs.diagnosis import CasePlace, Diagnosis
 from hypcheck.runs.judge import Criterion, Status, WrongCase
-from hypcheck.runs.judges import first_contact, judge_of
+from hypcheck.truth.passage_error import passage_of
 
 Integers = NDArray[np.int64]
 
@@ -161,7 +161,7 @@ class WorstCase:
             answer=case.answer,
             mistake=case.mistake.value,
             status=case.status.value,
-            error=judge_of(criterion.question).measured(case, criterion),
+            error=judge.measured(case, criterion.question),
             time=case.time,
         )
 
@@ -350,5 +350,5 @@ def worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
         backward_error=Unsigned(case.error),
         backward_error_u=Unsigned(judge.in_units(case.error, criterion.unit)),
         time=UNSET if case.time is None else case.time,
-        first=UNSET if case.time is None else first_contact(case.row),
+        first=UNSET if case.time is None else passage_of(case.row).first_bounds,
     )

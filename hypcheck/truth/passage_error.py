@@ -18,10 +18,22 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
-from hypcheck.geometry.pair import SIZES, SWEEP_COLUMNS, TILTED_SWEEP_COLUMNS, WITHOUT_ENDS
+import numpy as np
+
+from hypcheck.geometry.pair import SIZES, SWEEP_COLUMNS, TILTED_SWEEP_COLUMNS, UPRIGHT, WITHOUT_ENDS
+from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.truth.rationals import rounded_toward
 from hypcheck.truth.swept import Passage, Rational, passage
+
+Row = tuple[float, ...]
+
+CLEAR, HIT = 0, 1
+SWEEP_ANSWERS = {CLEAR: "clear on the sweep", HIT: "in contact on the sweep"}
+"""The truths about a sweep in words."""
+
+_REMEMBERED = 1 << 16
 
 RELATIVE_WIDTH = Fraction(1, 100)
 """A size error is bracketed to this part of itself."""
@@ -50,6 +62,17 @@ def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
         b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
     sizes = (alpha, gamma, b, d)
     return passage(sizes, start, end, axis or None, z_min=float(low), z_max=float(high), solid=bool(solid))
+
+
+@lru_cache(_REMEMBERED)
+def passage_of(row: Row) -> Passage:
+    """What happens on a sweep; remembered, since the truth is asked for before and after the answers."""
+    return scaled_passage(row)
+
+
+def hits(rows: Rows) -> Positions:
+    """HIT for contact on the sweep, else CLEAR: int8 (n,)."""
+    return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)
 
 
 def _axis_of(row: Sequence[Rational]) -> Sequence[Rational]:
@@ -143,3 +166,43 @@ def time_window(row: Sequence[Rational], change: Rational) -> tuple[Fraction | N
     grown = scaled_passage(row, 1 + part).first
     shrunk = scaled_passage(row, 1 - part).first if part < 1 else None
     return None if grown is None else grown[0], None if shrunk is None else shrunk[1]
+
+
+@lru_cache(_REMEMBERED)
+def _window(row: Row, change: Fraction) -> tuple[Fraction | None, Fraction | None]:
+    return time_window(row, change)
+
+
+def time_is_tolerated(row: Row, time: float, units: Rational, roundoff: Rational) -> bool:
+    """Whether a time of first contact is right for the sizes changed by the `tolerance`, on a sweep with contact."""
+    passage = passage_of(row)
+    if passage.first_lower <= time <= passage.first_upper:
+        return True
+    change = tolerance(row, units, roundoff)
+    if not change:
+        return False
+    earliest, latest = _window(row, change)
+    exact = Fraction(time)
+    return earliest is not None and earliest <= exact and (latest is None or exact <= latest)
+
+
+def radii_off(row: Row, time: float) -> float:
+    """The sweep between a time and the first contact, in spheroid radii."""
+    found = passage_of(row)
+    return max(found.first_lower - time, time - found.first_upper, 0.0) * sweep_in_radii(row)
+
+
+def sweep_in_radii(row: Row) -> float:
+    """The length of the sweep in spheroid radii, those along the spheroid's axis and across it each in their own.
+
+    Of an upright spheroid its square is (Δx² + Δy²)/b² + Δz²/d².
+    """
+    b, d = row[2:4]
+    step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
+    given = row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)]
+    largest = max(map(abs, given), default=0.0)
+    axis = [component / largest for component in given] or UPRIGHT
+    length = math.hypot(*axis)
+    along = sum(component / length * part for component, part in zip(axis, step, strict=True))
+    across = [part - along * component / length for component, part in zip(axis, step, strict=True)]
+    return math.hypot(*(part / b for part in across), along / d)

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from hypcheck.implementations.session import Answered
+from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
-from hypcheck.runs.judges import judge_of, passage_of, radii_off, sweep_in_radii
 from hypcheck.runs.score import score
+from hypcheck.truth.passage_error import hits, passage_of, radii_off, sweep_in_radii
 from hypcheck.vectors.families import SWEEP_FAMILIES
 from tests.tools.mutants import passages
 from tests.tools.mutants.collection import public_functions
@@ -54,9 +55,8 @@ def rows():
 
 
 def judged(rows, answer, criterion=CRITERION):
-    hits, times = answer(rows)
-    judge = judge_of("passage")
-    scored = score(rows, judge.truth(rows), Answered.of(np.asarray(hits, dtype=np.int8), times), criterion)
+    given, times = answer(rows)
+    scored = score(rows, hits(rows), Answered.of(np.asarray(given, dtype=np.int8), times), criterion)
     return list(scored.judged())
 
 
@@ -126,13 +126,12 @@ def test_judge_accepts_the_time_of_a_graze_while_the_grown_spheroid_touches():
 
 
 def test_size_error_of_a_wrong_answer_is_measured_and_a_wrong_time_in_radii_of_the_way():
-    judge = judge_of("passage")
     start, end, _ = BY_HAND["stays clear"]
     (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([1], np.array([0.0])))
-    assert judge.measured(case, CRITERION) == math.inf  # from 3 to 1 it must be twice as large
+    assert judge.measured(case, "passage") == math.inf  # from 3 to 1 it must be twice as large
     start, end, _ = BY_HAND["passes just outside"]
     (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([1], np.array([0.5])))
-    assert judge.measured(case, CRITERION) == pytest.approx(2.0**-40, rel=0.02)
+    assert judge.measured(case, "passage") == pytest.approx(2.0**-40, rel=0.02)
     assert case.exponent == pytest.approx(-40, abs=0.5)
     row = (*BODY, *BY_HAND["runs into the waist"][0], *BY_HAND["runs into the waist"][1])
     assert radii_off(row, 0.75) == pytest.approx(1.0)  # a quarter of a way of 4 radii

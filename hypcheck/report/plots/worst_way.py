@@ -28,7 +28,7 @@ from hypcheck.report.model import drawn_way, implementations
 from hypcheck.report.plots.planes import Interval, draw_surface
 from hypcheck.report.plots.style import WIDTH, colour, new_figure
 from hypcheck.report.plots.svg import Plot
-from hypcheck.runs.judges import LABELS, passage_of
+from hypcheck.truth.passage_error import SWEEP_ANSWERS, passage_of
 
 BROAD, HEIGHT = 1.6 * WIDTH, 330
 
@@ -76,7 +76,7 @@ def _plot(name: str, method: str, case: WrongAnswer) -> Plot:
     _whole(whole, way)
     _near(near, way)
     _legend(drawn, way)
-    said = f"{escaped(case.case)}: {LABELS[int(way.hit)]}{_when(way)}; answered: {_answer(way)}."
+    said = f"{escaped(case.case)}: {SWEEP_ANSWERS[int(way.hit)]}{_when(way)}; answered: {_answer(way)}."
     return Plot(name, f"{escaped(method, _LONGEST_NAME)}: {escaped(case.case, _LONGEST_NAME)}", said, drawn)
 
 
@@ -102,7 +102,9 @@ def _when(way: _Way) -> str:
 
 
 def _answer(way: _Way) -> str:
-    return LABELS.get(way.answer, str(way.answer)) + (f", first at {figure(way.said)}" if way.said is not None else "")
+    return SWEEP_ANSWERS.get(way.answer, str(way.answer)) + (
+        f", first at {figure(way.said)}" if way.said is not None else ""
+    )
 
 
 def _whole(axes: Axes, way: _Way) -> None:

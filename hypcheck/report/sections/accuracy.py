@@ -55,8 +55,7 @@ from hypcheck.report.measured import (
 from hypcheck.report.messages import Replays, figure, from_hex, rows_not_asked
 from hypcheck.report.model import ImplementationTotal, implementations, worst_u
 from hypcheck.report.plots.colours import MISTAKES, STEPS
-from hypcheck.runs.judge import Mistake, Status
-from hypcheck.runs.judges import judge_of
+from hypcheck.runs.judge import Mistake, Status, truth_in_words
 
 MOST_CASES = 12
 """Cases of one implementation that are shown, the worst first; the record keeps up to three for each family."""
@@ -157,7 +156,7 @@ def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replay
     return (
         Code(case.case, from_hex(numbers_of(case))),
         Code(each.name),
-        judge_of(group.question).truth_in_words(case.truth),
+        truth_in_words(case.truth, group.question),
         str(case.answer),
         case.mistake,
         measured(case.backward_error_u),

@@ -12,7 +12,7 @@ import numpy as np
 
 from hypcheck import classify
 from hypcheck.implementations import ways
-from hypcheck.runs.judges import passage_of
+from hypcheck.truth.passage_error import passage_of
 from tests.support.inside import passage
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
