@@ -4,8 +4,8 @@ One judge for every question. What questions differ in is data: `Question` has t
 and _SUBJECTS says for each layout of rows what is true and how a wrong answer is measured.
 
 **A position.** The backward error of a wrong answer is the infimum of all ε for which a relative change of each input
-by at most ε makes that answer right (truth/backward_error.py). It is counted in units u of the declared precision. For a
-tilted spheroid it is bracketed by two proved ends: the answer is wrong if the lower end exceeds the tolerance,
+by at most ε makes that answer right (truth/backward_error.py). It is counted in units u of the declared precision. For
+a tilted spheroid it is bracketed by two proved ends: the answer is wrong if the lower end exceeds the tolerance,
 tolerated if the upper end does not, and undecided otherwise.
 
 **A sweep.** A wrong answer is measured by the least relative change of b and d together that makes it right. A time is
