@@ -83,12 +83,12 @@ def measured_clearance(pair: Pair, decision: Decision) -> float:
 
 def ended_clearance_of(pair: Pair, decision: Decision) -> float:
     """The clearance beside a hyperboloid that ends. Raises DisagreementError if the least value contradicts."""
-    from hypcheck.truth import ended_clearance, least  # noqa: PLC0415 - they load numpy, which other answers do without
+    from hypcheck.truth import ended_error, least  # noqa: PLC0415 - they load numpy, which other answers do without
 
     other = least.position(pair)
     if other not in (None, decision.position):
         raise _disagreement(pair.row, decision.position, decision.tangent, f"by the least value {other.label}")
-    return ended_clearance.clearance(pair, decision)
+    return ended_error.clearance(pair, decision)
 
 
 def answer(pair: Pair, margin: float | None = None) -> Answer:

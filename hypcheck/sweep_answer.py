@@ -15,8 +15,8 @@ from hypcheck.answer import DisagreementError
 from hypcheck.geometry.pair import TILTED_SWEEP_COLUMNS, WITHOUT_ENDS
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
-from hypcheck.truth.passage_certificate import PassageCertificate, check_passage
-from hypcheck.truth.passage_prove import prove
+from hypcheck.truth.certificate import PassageCertificate, check_passage
+from hypcheck.truth.prove import prove_passage
 from hypcheck.truth.swept import Passage, passage
 
 
@@ -46,7 +46,7 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
         found = passage_of_row(row)
         return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper) if found.hit else None, None)
     try:
-        found, first, certificate = prove(row)
+        found, first, certificate = prove_passage(row)
     except ValueError:  # an irrational time has no certificate
         found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
         return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper), None)

@@ -37,7 +37,7 @@ from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUS_CODES, by_exponent
-from hypcheck.truth.flip_exponents import flip_exponents
+from hypcheck.truth.backward_error import flip_exponents
 from hypcheck.truth.passage_error import passage_of, size_error
 
 if sys.platform != "win32":

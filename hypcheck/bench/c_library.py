@@ -42,7 +42,7 @@ from hypcheck.kernel.choice import compiled as compiled_kernel
 from hypcheck.kernel.compiled_kernel import in_parts
 from hypcheck.record.measurements import CompilerLine
 from hypcheck.runs.timing import Clocked, clocked, clocked_in_c
-from hypcheck.vectors.scenes import BODY, TOWER
+from hypcheck.vectors.random_pairs import BODY, TOWER
 
 FLAGS = ("-O3", "-march=native", "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
 """No flag changes a result: no fast-math, no contraction. The last two let gcc vectorise comparisons."""

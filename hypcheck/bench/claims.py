@@ -21,7 +21,7 @@ from hypcheck.implementations.procedures import CRAFT, PROCEDURES, CraftPath, hu
 from hypcheck.record.measurements import Compared, CostLine
 from hypcheck.runs.timing import Estimate, SampleTable, estimate, ratios
 from hypcheck.vectors.draw import Draw
-from hypcheck.vectors.scenes import ARM, BODY, ROTOR, TOWER
+from hypcheck.vectors.random_pairs import ARM, BODY, ROTOR, TOWER
 
 TABLE_2, PROCEDURE_1 = FORMULAS["table-2"], REPAIRED["procedure-1-repaired"]
 PRINTED_A, PRINTED_B, OURS = "Procedure 2.a", "Procedure 2.b", "ours: certified, the body first"

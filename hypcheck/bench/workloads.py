@@ -26,8 +26,7 @@ from hypcheck.vectors import frozen
 from hypcheck.vectors.draw import Draw, in_turn
 from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES, family_of
 from hypcheck.vectors.family import BLOCK
-from hypcheck.vectors.random_pairs import Sizes, beside_surface, centred
-from hypcheck.vectors.scenes import BODY, ROTOR, TOWER
+from hypcheck.vectors.random_pairs import BODY, ROTOR, TOWER, Sizes, beside_surface, centred
 from hypcheck.vectors.tilted import Vectors, anywhere, beside
 
 NEAR_SCENES = (

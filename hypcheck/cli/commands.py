@@ -127,7 +127,7 @@ GROUPS = {
         "init": "hypcheck.cli.setup:init",
         "verify": "hypcheck.cli.verify:verify",
         "replay": "hypcheck.cli.hunt:replay",
-        "explain": "hypcheck.cli.explain:explain",
+        "explain": "hypcheck.cli.hunt:explain",
         "hunt": "hypcheck.cli.hunt:hunt",
         "minimise": "hypcheck.cli.hunt:minimise",
         "bench": "hypcheck.cli.bench:bench",

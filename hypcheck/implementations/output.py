@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hypcheck.implementations.frames import WIDTH
-from hypcheck.isolation.environment import masked
+from hypcheck.isolation.launch import masked
 from hypcheck.messages import escaped
 
 KEPT = 16_384

@@ -19,8 +19,7 @@ from functools import cached_property, lru_cache
 from glob import glob
 from importlib.machinery import PathFinder
 
-from hypcheck.isolation.environment import environment_of
-from hypcheck.isolation.launch import SCRATCH_BYTES, THREADS, Isolation
+from hypcheck.isolation.launch import SCRATCH_BYTES, THREADS, Isolation, environment_of
 from hypcheck.isolation.view import PACKAGE, SHARED_MEMORY, hidden_paths, needed_paths, private_folders, within
 
 _TRUST = "--isolate off runs code that you trust without"

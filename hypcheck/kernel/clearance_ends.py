@@ -1,4 +1,4 @@
-"""Clearances beside hyperboloids that end, rows (n, 13), enclosed by exact decisions of truth/ends.py.
+"""Clearances beside hyperboloids that end, rows (n, 13), enclosed by exact decisions of truth/exact.py.
 
 A spheroid scaled about its centre by 1 + clearance just touches wall, rim or disc. Let c be the clearance of a clear
 pair. Whatever is nearer than c min(b, d) lies in the scaled spheroid, and the point that it touches is c max(b, d) from
@@ -16,7 +16,7 @@ from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Indices, Rows, invalid
 from hypcheck.kernel.clearance_bounds import Clearance, clearances_without_ends
 from hypcheck.kernel.scene_gaps import gaps
-from hypcheck.truth import ended_clearance, exact, least
+from hypcheck.truth import ended_error, exact, least
 from hypcheck.truth.rationals import rounded_toward
 
 _ROUNDED = 2.0**-47
@@ -38,7 +38,7 @@ def ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
     for index in ended.tolist():
         pair = Pair.from_row(rows[index].tolist())
         decision = exact.decide(pair.lengths)
-        low, high = ended_clearance.enclosure(pair, decision)
+        low, high = ended_error.enclosure(pair, decision)
         clear = decision.position is not Position.CONTACT
         found.position[index] = decision.position
         found.lower[index], found.upper[index] = rounded_toward(low, -np.inf), rounded_toward(high, np.inf)

@@ -114,9 +114,9 @@ def _ended_position(
     lengths = Lengths.of(_valid_row(numbers, UPRIGHT if axis is None else axis) + [float(h) for h in heights])
     if not lengths.has_ends:
         return without
-    from hypcheck.truth import ends  # noqa: PLC0415 - hyperboloids that end alone need it
+    from hypcheck.truth import exact  # noqa: PLC0415 - hyperboloids that end alone need it
 
-    return int(ends.position(lengths, without))
+    return int(exact.ended_position(lengths, without))
 
 
 def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:

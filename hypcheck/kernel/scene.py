@@ -35,7 +35,6 @@ from hypcheck.kernel.scene_flights import (
     paths_of,
     require_for_each,
 )
-from hypcheck.kernel.scene_frames import places_of_parts
 from hypcheck.kernel.scene_index import (
     near_ways,
 )
@@ -55,6 +54,7 @@ from hypcheck.kernel.scene_queries import (
     directions,
     finite_columns,
     finite_numbers,
+    places_of_parts,
     points_or_columns,
     ways_of,
 )

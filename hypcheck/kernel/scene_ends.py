@@ -13,7 +13,7 @@ Of a mover that reaches over an end, in the hyperboloid's frame:
   upright, b √(1 − e²/d²).
 
 What is left is asked of the kernel, about a spheroid that is a little larger and one that is smaller, where the
-hyperboloid is vertical, and then decided by truth/ends.py. Heights and distances from an axis are those of
+hyperboloid is vertical, and then decided by truth/exact.py. Heights and distances from an axis are those of
 along_and_across, with a bound of their error; ρ is wrong by α/γ of the error of the height and MARGIN of itself.
 """
 
@@ -41,7 +41,7 @@ from hypcheck.kernel.scene_pairs import (
     larger_and_smaller,
 )
 from hypcheck.scene.model import Mover, leans
-from hypcheck.truth import ends
+from hypcheck.truth import exact
 
 
 def limits_of(bodies: Bodies, mover: Mover) -> Floats:
@@ -222,4 +222,4 @@ def _exactly(
     if tuple(span) == WITHOUT_ENDS[:2]:
         return whole
     offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True)]
-    return int(ends.position(Lengths.of((*sizes, *offset, *mover, *span, solid), axis), Position(whole)))
+    return int(exact.ended_position(Lengths.of((*sizes, *offset, *mover, *span, solid), axis), Position(whole)))

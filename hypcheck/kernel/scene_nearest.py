@@ -28,10 +28,10 @@ from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearances
 from hypcheck.kernel.normals import normals
 from hypcheck.kernel.scene_ends import positions_with_ends
-from hypcheck.kernel.scene_frames import frames_of, turned, turned_axes
 from hypcheck.kernel.scene_gaps import gaps
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
 from hypcheck.kernel.scene_pairs import along_and_across, positions_leaning
+from hypcheck.kernel.scene_queries import frames_of, turned, turned_axes
 from hypcheck.scene.model import Mover
 
 PAIRS_AT_A_TIME = 1 << 18

@@ -13,9 +13,9 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Floats, Indices, Mask
 from hypcheck.kernel.passages import Passages
 from hypcheck.kernel.scene_flights import FirstContact, paths_of
-from hypcheck.kernel.scene_frames import places_of_parts
+from hypcheck.kernel.scene_queries import places_of_parts
 from hypcheck.messages import counted
-from hypcheck.pictures.flight import ShownContact, ShownFlight
+from hypcheck.pictures.page import ShownContact, ShownFlight
 from hypcheck.scene.model import FREE, SceneModel
 
 PIECES = 240

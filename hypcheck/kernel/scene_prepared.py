@@ -1,27 +1,31 @@
-"""What a scene is made from, what is prepared of it, and scenes with one hyperboloid more, less or elsewhere."""
+"""What a scene is made from, what is prepared of it, and scenes with one hyperboloid more, less or elsewhere.
+
+Of a changed scene what was prepared is copied and patched, not made anew. Numbers of hyperboloids are places in the
+scene: one that is added is the last, and those behind one that is removed move up.
+"""
 
 from __future__ import annotations
 
 import os
 import reprlib
+from array import array
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from itertools import chain
 from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices
-from hypcheck.kernel import scene_changes
 from hypcheck.kernel.margins import enlarged
 from hypcheck.kernel.scene_ends import limits_of
-from hypcheck.kernel.scene_index import Bodies, PlaneGrid, bodies_of, grid_of, in_reach, reaches
+from hypcheck.kernel.scene_index import ROOM, Bodies, PlaneGrid, bodies_of, cells_of, grid_of, hashed, in_reach, reaches
 from hypcheck.kernel.scene_motion import Near, near_of
 from hypcheck.kernel.scene_pairs import Body
 from hypcheck.messages import escaped
@@ -125,8 +129,8 @@ class PreparedScene:
         """The scene without one hyperboloid, by its number or its name; those behind it move up by one."""
         place, model = self._place(which), self.model
         model = replace(model, hyperboloids=(*model.hyperboloids[:place], *model.hyperboloids[place + 1 :]))
-        grid = scene_changes.grid_without(self._grid, place, renumbered=True)
-        return self._with(model, scene_changes.bodies_without(self._bodies, place), grid)
+        grid = grid_without(self._grid, place, renumbered=True)
+        return self._with(model, bodies_without(self._bodies, place), grid)
 
     def _place(self, which: int | str) -> int:
         bodies = self.model.hyperboloids
@@ -141,11 +145,11 @@ class PreparedScene:
         )
 
     def _changed(self, others: tuple[Hyperboloid, ...], place: int, body: Bodies, *, added: bool) -> Self:
-        grid = self._grid if added else scene_changes.grid_without(self._grid, place, renumbered=False)
+        grid = self._grid if added else grid_without(self._grid, place, renumbered=False)
         reach = float(reaches(body, self.model.mover, self.model.region.z)[0])
         x, y, _ = body.origins[0].tolist()
-        patched = scene_changes.grid_with(grid, place, x, y, reach)
-        bodies = scene_changes.bodies_with(self._bodies, body, None if added else place)
+        patched = grid_with(grid, place, x, y, reach)
+        bodies = bodies_with(self._bodies, body, None if added else place)
         return self._with(replace(self.model, hyperboloids=others), bodies, patched)
 
     def _with(self, model: SceneModel, bodies: Bodies, grid: PlaneGrid | None) -> Self:
@@ -247,3 +251,57 @@ class PreparedScene:
             body = self.model.hyperboloids[index]
             raise InputError(f"the hyperboloid {body.name!r}: height is {body.height}; its low must be less than high")
         return bodies
+
+
+def bodies_with(bodies: Bodies, other: Bodies, place: int | None = None) -> Bodies:
+    """The columns with those of one other hyperboloid at a place, in the place of what is there; None: at the end."""
+    columns = {}
+    for part in fields(Bodies):
+        column, one = getattr(bodies, part.name), getattr(other, part.name)
+        if place is None:
+            columns[part.name] = np.concatenate([column, one])
+        else:
+            columns[part.name] = column.copy()
+            columns[part.name][place] = one[0]
+    return Bodies(**columns)
+
+
+def bodies_without(bodies: Bodies, place: int) -> Bodies:
+    """The columns without those of one hyperboloid."""
+    return Bodies(**{part.name: np.delete(getattr(bodies, part.name), place, axis=0) for part in fields(Bodies)})
+
+
+def grid_with(grid: PlaneGrid, place: int, x: float, y: float, reach: float) -> PlaneGrid | None:
+    """The grid with a hyperboloid of this number at (x, y); None where its table has become too small to be quick."""
+    columns, rows, everywhere = cells_of(np.array([x]), np.array([y]), np.array([reach]), grid.side)
+    if everywhere:
+        return replace(grid, everywhere=sorted([*grid.everywhere, place]))
+    size, members = len(grid.starts) - 1, np.frombuffer(grid.members, np.intc)
+    if 2 * size < ROOM * (len(members) + len(columns)):
+        return None
+    places = np.unique(hashed(columns, rows, size))
+    starts = np.frombuffer(grid.starts, np.intc)
+    more = np.zeros(size + 1, np.intc)
+    more[places + 1] = 1
+    return replace(
+        grid,
+        starts=_packed(starts + np.cumsum(more, dtype=np.intc)),
+        members=_packed(np.insert(members, starts[places + 1], place)),
+    )
+
+
+def grid_without(grid: PlaneGrid, place: int, *, renumbered: bool) -> PlaneGrid:
+    """The grid without a hyperboloid; with `renumbered`, those behind it move up by one."""
+    members, starts = np.frombuffer(grid.members, np.intc), np.frombuffer(grid.starts, np.intc)
+    gone = np.flatnonzero(members == place)
+    fewer = np.searchsorted(gone, starts).astype(np.intc)  # how many are gone before each start
+    kept = np.delete(members, gone)
+    everywhere: Sequence[int] = [number for number in grid.everywhere if number != place]
+    if renumbered:
+        kept = kept - (kept > place)
+        everywhere = [number - (number > place) for number in everywhere]
+    return replace(grid, starts=_packed(starts - fewer), members=_packed(kept), everywhere=list(everywhere))
+
+
+def _packed(numbers: NDArray[np.intc]) -> array[int]:
+    return array("i", numbers.astype(np.intc).tobytes())

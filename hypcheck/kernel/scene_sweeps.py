@@ -4,8 +4,8 @@ The kernel's answer about sweeps (core/parts/ways.h) is asked twice: about a sph
 is smaller, by what the rounding of the difference of two centres may be in radii, as for positions (scene_pairs.py).
 The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the exact differences
 by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about sweeps is known. Beside a
-tilted hyperboloid both ends and the mover's axis are turned into its frame (scene_frames.py), and the roundings of that
-are added.
+tilted hyperboloid both ends and the mover's axis are turned into its frame (scene_queries.py), and the roundings of
+that are added.
 
 Where the hyperboloid ends, what is clear of the whole one is clear of its wall. A mover that reaches beyond an end, and
 no other, is asked about the ends as well: those decide where it may hit, and of a solid one always.
@@ -24,9 +24,9 @@ from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.scene_ends import meets_for_sure
-from hypcheck.kernel.scene_frames import TURNING, frames_of, turned, turned_axes
 from hypcheck.kernel.scene_index import OUTWARD, PAD, Bodies
 from hypcheck.kernel.scene_pairs import GREATEST, LEAST, MARGIN, height_and_distance, larger_and_smaller
+from hypcheck.kernel.scene_queries import TURNING, frames_of, turned, turned_axes
 from hypcheck.truth import ended_sweeps, swept
 from hypcheck.truth.ended_sweeps import EndedSweep
 

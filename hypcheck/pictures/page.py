@@ -1,7 +1,7 @@
 """A scene, and a flight through it, as one HTML page in three dimensions that needs nothing but a browser.
 
 three.js draws it (three/README.md), packed into the page. Numbers are float32 from the middle of the picture: enough
-for eyes, and what is said in words comes from float64.
+for eyes, and what is said in words comes from float64. What is shown was decided elsewhere: a picture decides nothing.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import io
 import json
 import os
 import tarfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -22,8 +23,45 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.messages import counted, escaped
-from hypcheck.pictures.flight import Numbers, ShownFlight
 from hypcheck.scene.model import SceneModel
+
+Numbers = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ShownContact:
+    """Where the mover has its first contact on a segment: its centre, and the hyperboloid's number."""
+
+    segment: int
+    center: Sequence[float]
+    index: int
+
+
+@dataclass(frozen=True)
+class ShownFlight:
+    """A flight in a scene.
+
+    `points` (T, 3) are the corners, and `axes` (T - 1, 3) the mover's axis on each segment. `hits` (T - 1,) says which
+    segments have contact; `contacts` are the first of some of them. `places` (T - 1, parts, 3) are those of the
+    mover's parts, from its centre.
+
+    The flight is cut into k pieces of one length. `lower`, `upper` (k,) are proved bounds of the least distance on
+    each, `near` (k,) the hyperboloid that it is from, and `touched` (k,) says where it is 0. `least` is the
+    length flown to the least of all, and its bounds.
+    """
+
+    points: Numbers
+    axes: Numbers
+    hits: NDArray[np.bool_]
+    contacts: Sequence[ShownContact]
+    places: Numbers
+    lower: Numbers
+    upper: Numbers
+    near: NDArray[np.intp]
+    touched: NDArray[np.bool_]
+    least: tuple[float, float, float]
+    summary: str
+
 
 _SEE_THROUGH = 12
 """Scenes of so few hyperboloids are drawn so that what is inside can be seen."""

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hypcheck.errors import UnavailableError
-from hypcheck.pictures.flight import Numbers, ShownFlight
-from hypcheck.pictures.page import drawn_bodies
+from hypcheck.pictures.page import Numbers, ShownFlight, drawn_bodies
 from hypcheck.scene.model import Mover, SceneModel
 
 if TYPE_CHECKING:

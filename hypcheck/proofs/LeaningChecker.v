@@ -1,6 +1,6 @@
 (** The checker for any axis, and for straight ways, in rational numbers, and its soundness.
 
-    It does what hypcheck/truth/certificate.py and passage_certificate.py do for rows of ten and of thirteen numbers (of seven and of
+    It does what hypcheck/truth/certificate.py does for rows of ten and of thirteen numbers (of seven and of
     ten where the axis is vertical). Lengths are first counted in a unit that makes them whole, if the caller knows one: the
     answer is proved for the row as it was given, whatever that unit is. *)
 

@@ -13,7 +13,7 @@ from msgspec import UNSET, UnsetType
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES
-from hypcheck.implementations import not_asked
+from hypcheck.implementations import domain
 from hypcheck.implementations.session import Limits
 from hypcheck.messages import counted
 from hypcheck.record import Record
@@ -183,16 +183,16 @@ def _percent(share: float) -> str:
 def rows_not_asked(counts: Mapping[str, int]) -> str:
     """Rows that were not asked, by reason: "120 rows not zero or normal in its precision"; "" without any."""
     return listed(
-        [f"{counted(counts[reason], 'row')} {text}" for reason, text in not_asked.ROWS.items() if counts.get(reason)]
+        [f"{counted(counts[reason], 'row')} {text}" for reason, text in domain.ROWS.items() if counts.get(reason)]
     )
 
 
-def families_not_asked(line: ImplementationLine, reasons: Collection[str] = not_asked.FAMILIES) -> str:
+def families_not_asked(line: ImplementationLine, reasons: Collection[str] = domain.FAMILIES) -> str:
     """Families that were not asked, by reason: "5 families left out by --families"; "" without any."""
     found = {reason: (line.not_asked or {}).get(reason) for reason in reasons}
     return listed(
         [
-            f"{counted(len(families), 'family', 'families')} {not_asked.FAMILIES[reason]}"
+            f"{counted(len(families), 'family', 'families')} {domain.FAMILIES[reason]}"
             for reason, families in found.items()
             if families
         ]

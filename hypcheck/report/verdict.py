@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hypcheck.implementations.not_asked import too_few
+from hypcheck.implementations.domain import too_few
 from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine, OracleLine, ProofLine

@@ -18,7 +18,7 @@ from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import truth_of
-from hypcheck.truth.flip_exponents import flip_exponents
+from hypcheck.truth.backward_error import flip_exponents
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import Vector
 from hypcheck.vectors.families import FAMILIES, case_id, family_of

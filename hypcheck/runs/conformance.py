@@ -11,8 +11,8 @@ from msgspec import UNSET
 
 from hypcheck.errors import Exit, NothingJudgedError, RunOutcome, UnavailableError
 from hypcheck.implementations.description import Description
+from hypcheck.implementations.domain import too_few
 from hypcheck.implementations.implementation import Implementation
-from hypcheck.implementations.not_asked import too_few
 from hypcheck.implementations.session import StartError
 from hypcheck.messages import counted
 from hypcheck.processes import Advance, interrupts_deferred

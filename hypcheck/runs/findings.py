@@ -24,7 +24,7 @@ from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, Formula, answering
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Positions, Rows
-from hypcheck.implementations import not_asked
+from hypcheck.implementations import domain
 from hypcheck.implementations.domain import EVERYWHERE, claimed
 from hypcheck.implementations.method import Method
 from hypcheck.implementations.session import Answered
@@ -159,7 +159,7 @@ def method_group(method: Method, batch: Batch, exponents: NDArray[np.float64], p
     places = inside[: method.max_rows]
     rows = batch.rows[places]
     scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)
-    left_out = not_asked.reasons(
+    left_out = domain.reasons(
         np.delete(batch.rows, inside, axis=0),
         method.domain,
         method.precision,

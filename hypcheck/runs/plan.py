@@ -11,7 +11,7 @@ from pathlib import Path
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, SWEEPS
-from hypcheck.implementations import not_asked
+from hypcheck.implementations import domain
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.session import Limits
@@ -199,8 +199,8 @@ def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
 
 
 def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, dict[str, int]]:
-    """The families of which an implementation is asked no row, with their numbers of rows, by not_asked.FAMILIES."""
-    asked, found = planned_cases(plan, used), {reason: dict[str, int]() for reason in not_asked.FAMILIES}
+    """The families of which an implementation is asked no row, with their numbers of rows, by domain.FAMILIES."""
+    asked, found = planned_cases(plan, used), {reason: dict[str, int]() for reason in domain.FAMILIES}
     chosen = {family.name for family in select(plan.families, tilted=True, ended=True, layout=None)}
     for name, cases in _cases_of(plan, ALL.values()).items():
         if name in asked or not cases:
@@ -242,7 +242,7 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
         if found:
             raise InputError(
                 f"--families names {name}, and {used.name} is asked no row of it: "
-                f"{' and '.join(f'{number:,} are {not_asked.ROWS[reason]}' for reason, number in found.items())}; "
+                f"{' and '.join(f'{number:,} are {domain.ROWS[reason]}' for reason, number in found.items())}; "
                 "leave it out, or set --precision or --domain"
             )
 

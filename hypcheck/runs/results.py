@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import Floats, Indices, Rows
-from hypcheck.implementations import not_asked
+from hypcheck.implementations import domain
 from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
@@ -127,7 +127,7 @@ class JudgingRules:
         precision, layout = self.criterion.precision, self.criterion.layout
         extreme, subnormal = is_extreme(family), family in self.named
         inside = claimed(rows, self.domain, precision, extreme=extreme, subnormal=subnormal, layout=layout)
-        return inside, not_asked.reasons(
+        return inside, domain.reasons(
             np.delete(rows, inside, axis=0), self.domain, precision, extreme=extreme, subnormal=subnormal, layout=layout
         )
 

@@ -29,7 +29,7 @@ from hypcheck.runs.findings import KnownFinding, SelfCheckPlan, batch_of
 from hypcheck.runs.judge import Status
 from hypcheck.runs.oracles import ORACLES
 from hypcheck.runs.timing import Samples, TimingEntry, clocked, measure
-from hypcheck.truth.flip_exponents import flip_exponents
+from hypcheck.truth.backward_error import flip_exponents
 from hypcheck.vectors.families import ALL, FAMILIES, select
 
 if TYPE_CHECKING:

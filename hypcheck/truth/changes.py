@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 
 from hypcheck.geometry.pair import COLUMNS, SIZES, Lengths, Pair, Position
 from hypcheck.truth import exact
-from hypcheck.truth.box_form import Goal, Signs
+from hypcheck.truth.box_proofs import Goal, Signs
 from hypcheck.truth.rationals import fraction, rounded
 
 if TYPE_CHECKING:

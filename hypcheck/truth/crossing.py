@@ -13,8 +13,7 @@ from fractions import Fraction
 from hypcheck.geometry.pair import Lengths, over_one_denominator
 from hypcheck.truth.certificate import Point, Query
 from hypcheck.truth.pencil import Quartic, inside, quartic, toward_maximum
-from hypcheck.truth.rationals import floor_root, precisions, root_of
-from hypcheck.truth.vectors import adjugate, dot, times
+from hypcheck.truth.rationals import adjugate, dot, floor_root, precisions, root_of, times
 
 Vector = list[int]
 Matrix = list[list[int]]

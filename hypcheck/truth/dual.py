@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomials import Polynomial, derivative, difference, polynomial_product, scaled, value
-from hypcheck.truth.vectors import dot, times
+from hypcheck.truth.rationals import dot, times
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,6 @@
-"""Changes of a pair whose hyperboloid ends: of one size, whether some is found that gives an answer, or none can.
+"""How far a pair whose hyperboloid ends is from another answer: by changes of its numbers, and by its clearance.
+
+**Changes** of one size: whether some is found that gives an answer, or none can.
 
 A pair changed by ε has α', γ', b', d', C', an axis v' and heights, each number within a relative ε of its own. Scaling
 space by T = diag(α/α', α/α', γ/γ') makes the hyperboloid the given one; let δ = 2ε/(1 − ε), more than a quotient of two
@@ -16,6 +18,10 @@ So the changed spheroid lies in the given one grown by 1 + η, and holds that sh
 A grown spheroid beside the longest wall that is clear is clear however the pair is changed, and a shrunk one beside the
 shortest wall that has contact has contact. Of a solid, disjoint is disjoint from the longest body, inside is inside the
 shortest.
+
+**Clearance.** 1 + clearance is the factor at which the spheroid, scaled about its centre, just touches. Scaled by more
+than that it meets the wall or a disc, by less it does not: that is decided exactly. least.py guesses the factor, and
+where it cannot, the factor is found by halving exponents and then intervals.
 """
 
 from __future__ import annotations
@@ -27,7 +33,8 @@ from fractions import Fraction
 from itertools import product
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth import exact
+from hypcheck.truth import exact, least
+from hypcheck.truth.exact import Decision
 from hypcheck.truth.rationals import power_of_two, root_of, rounded
 
 _LARGEST = Fraction(1, 100)
@@ -142,3 +149,56 @@ class EndedFlip:
 
 def _times(height: float, factor: Fraction) -> float | Fraction:
     return Fraction(height) * factor if math.isfinite(height) else height
+
+
+_GUESSED, _NARROW_BITS = 40, 56
+_WIDTH = 2.0**-14
+"""Where to guess better takes longer than to halve the interval."""
+_FARTHEST = 2200
+
+
+def clearance(pair: Pair, decision: Decision) -> float:
+    """The clearance in spheroid radii, within 2⁻⁵⁴ of 1 + clearance; 0 for a touch, −1 for a centre on the wall."""
+    low, high = enclosure(pair, decision)
+    try:
+        return float((low + high) / 2)
+    except OverflowError:
+        return math.inf
+
+
+def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
+    """Two numbers that the clearance lies between, 2⁻⁵⁶ of 1 + clearance apart at most."""
+    if decision.tangent:
+        return Fraction(0), Fraction(0)
+    low, high = _bracket(pair)
+    while (high - low) * 2**_NARROW_BITS > high:
+        middle = (low + high) / 2
+        low, high = (low, middle) if _meets(pair, middle) else (middle, high)
+    return low - 1, high - 1
+
+
+def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
+    """Two factors, the spheroid scaled by the first being clear and by the second in contact."""
+    guess = least.to_border(pair, width=_WIDTH)
+    if math.isfinite(guess.upper) and guess.lower > 0:
+        loose = Fraction(1, 2**_GUESSED)
+        low, high = Fraction(guess.lower) * (1 - loose), Fraction(guess.upper) * (1 + loose)
+        if not _meets(pair, low) and _meets(pair, high):
+            return low, high
+    if _meets(pair, _power(-_FARTHEST)):
+        return Fraction(0), Fraction(0)  # the centre lies on the border
+    first, last = -_FARTHEST, _FARTHEST
+    while last - first > 1:
+        middle = (first + last) // 2
+        first, last = (first, middle) if _meets(pair, _power(middle)) else (middle, last)
+    return _power(first), _power(last)
+
+
+def _power(exponent: int) -> Fraction:
+    return Fraction(2) ** exponent
+
+
+def _meets(pair: Pair, factor: Fraction) -> bool:
+    b, d = factor * Fraction(pair.b), factor * Fraction(pair.d)
+    scaled = (pair.alpha, pair.gamma, b, d, pair.x, pair.y, pair.z, *pair.axis, *pair.heights)
+    return exact.position(Lengths.of(scaled)) is Position.CONTACT

@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.truth.box_form import Form, Goal
-from hypcheck.truth.box_proofs import BoxKind, Place, stays_clear, stays_off
-from hypcheck.truth.vectors import dot
+from hypcheck.truth.box_proofs import BoxKind, Form, Goal, Place, stays_clear, stays_off
+from hypcheck.truth.rationals import dot
 
 LEAST = -46
 """Changes below 2^LEAST are not tried: there float64 intervals tell nothing."""

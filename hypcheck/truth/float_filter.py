@@ -46,7 +46,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Lengths, Pair, Position
 from hypcheck.geometry.rows import PAIRS, Floats, Mask, Positions, Rows, require_valid
-from hypcheck.truth import ends, exact
+from hypcheck.truth import exact
 
 LINE_MARGIN = 64 * 2.0**-53
 SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
@@ -169,7 +169,7 @@ def _between_ends(rows: Rows) -> Positions:
     for some, width in ((upright, len(COLUMNS)), (~upright, len(TILTED_COLUMNS))):
         result[some] = positions(np.ascontiguousarray(rows[some, :width]))
     for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)):
-        result[index] = ends.position(Lengths.of(rows[index].tolist()), Position(int(result[index])))
+        result[index] = exact.ended_position(Lengths.of(rows[index].tolist()), Position(int(result[index])))
     return result
 
 

@@ -5,18 +5,27 @@ precision until the claim holds exactly, so each one ends. λ of a clear pair is
 upright pair, and of φ(λ) of a tilted one, which is concave between −ℓ′ and ℓ (exact.py) and whose maximum is found by
 bisection with exact signs. Points of a crossing are looked for in crossing.py. Where the hyperboloid ends,
 ended_prove.py takes this search for the whole one, and cuts the heights into pieces where that is not enough.
+
+The proof about a sweep is pieces of it, and a time with its points, short ones. Bounds of the first contact are
+neighbouring float64 numbers, or 0 twice where the sweep begins in contact. A sweep that only touches at an irrational
+time has no such proof: its contact has no rational time.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from fractions import Fraction
 
-from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.geometry.pair import SWEEP_COLUMNS, Lengths, Pair, Position
 from hypcheck.truth import crossing, exact
-from hypcheck.truth.certificate import Certificate
+from hypcheck.truth.certificate import Certificate, PairAtTime, PassageCertificate, Point, place
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, local_maximum, quartic, sign_at, toward_maximum
-from hypcheck.truth.rationals import precisions, rounded
+from hypcheck.truth.polynomials import value
+from hypcheck.truth.rationals import precisions, rounded, rounded_toward, shortened
+from hypcheck.truth.sweep import StraightSweep, piece
+from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of
 
 
 def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
@@ -65,3 +74,117 @@ def _quartic_multiplier(F: Quartic) -> Fraction:
         if inside(F, at) and sign_at(F.coefficients, at) > 0:
             return at * F.side
     raise AssertionError("unreachable: the precisions do not end")
+
+
+Bounds = tuple[float, float]
+
+_STEP_BITS = 12
+_FEW = 6
+"""So many multipliers, each of twice as many bits, are tried at most once one of them proves a time clear."""
+_MOST_BITS = 1 << 12
+
+
+def prove_passage(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertificate]:
+    """What happens on the row's sweep, bounds of the first contact (None without), and the proof of both.
+
+    Raises ValueError where the only contact is at an irrational time.
+    """
+    sweep = sweep_of(row[:4], row[4:7], row[7:10], row[len(SWEEP_COLUMNS) :] or None)
+    passage = by_steps(sweep) or by_roots(sweep)
+    if passage.first is None:
+        return passage, None, PassageCertificate(_pieces(sweep, Fraction(1)))
+    time = _time_of_contact(sweep, passage)
+    low, high = (time, time) if passage.grazes else passage.first
+    bounds = rounded_toward(low, -math.inf), rounded_toward(high, math.inf)
+    if bounds[0] and Fraction(bounds[0]) >= low:
+        bounds = math.nextafter(bounds[0], 0.0), bounds[1]
+    pieces = _pieces(sweep, Fraction(bounds[0])) if bounds[0] else ()
+    if sweep.tangent(time):
+        return passage, bounds, PassageCertificate(pieces, time, double_root=double_root(sweep.at(time)))
+    return passage, bounds, PassageCertificate(pieces, time, points=_points(row, sweep, time))
+
+
+def _time_of_contact(sweep: StraightSweep, passage: Passage) -> Fraction:
+    """A rational time of contact up to first_upper; of a sweep that only touches, the simplest number it can be."""
+    low, high = passage.first or (Fraction(0), Fraction(0))
+    upper = Fraction(passage.first_upper)
+    for time in (upper, high, low, simplest(low, high)):
+        if time <= 1 and not sweep.position(time):
+            return time
+    raise ValueError("the sweep touches the surface at an irrational time alone")
+
+
+def simplest(low: Fraction, high: Fraction) -> Fraction:
+    """The fraction with the least denominator from low to high, both ≥ 0, by continued fractions."""
+    whole = math.floor(low)
+    if whole == low:
+        return low
+    if whole + 1 <= high:
+        return Fraction(whole + 1)
+    return whole + 1 / simplest(1 / (high - whole), 1 / (low - whole))
+
+
+def _pieces(sweep: StraightSweep, until: Fraction) -> tuple[tuple[Fraction, Fraction], ...]:
+    """Pieces of a sweep that is clear up to a time, that time included."""
+    time = Fraction(0)
+    pieces: list[tuple[Fraction, Fraction]] = []
+    while time < until:
+        multiplier, step = _multiplier(sweep, time)
+        end = until
+        if step is not None and time + step <= until:
+            end = time + shortened(step.numerator, step.denominator, _STEP_BITS)
+        pieces.append((multiplier, end))
+        time = end
+    return tuple(pieces)
+
+
+def _multiplier(sweep: StraightSweep, time: Fraction) -> tuple[Fraction, Fraction | None]:
+    """The first multiplier that proves a time clear, or the next one where that reaches farther; and how far."""
+    best: tuple[Fraction, Fraction | None] | None = None
+    for number, multiplier in enumerate(sweep.multipliers(time)):
+        if best is not None and number >= _FEW:
+            break
+        proof = piece(sweep.pencil, multiplier)
+        if value(proof, time) <= 0 or (best is not None and multiplier == best[0]):
+            continue
+        step = reach(proof, time)
+        if step is None or time + step > 1:
+            return multiplier, step
+        if best is not None:
+            farther = best[1] is not None and step > best[1] * Fraction(9, 8)
+            return (multiplier, step) if farther else best
+        best = multiplier, step
+    if best is None:
+        raise AssertionError("unreachable: the multipliers do not end")
+    return best
+
+
+def _points(row: Sequence[float], sweep: StraightSweep, time: Fraction) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid strictly on the other side, cut to as few bits as will do."""
+    here = place(row, time)
+    points = crossing.points(here, sweep.at(time))
+    if len(points) == 1:
+        return points
+    centre, far = points
+    side = _level(here, centre)
+    out = [(a - c) / here.row[2] for a, c in zip(far, centre, strict=True)]
+    for offset in crossing.shortened(out, 2, _MOST_BITS):
+        x, y, z = (c + here.row[2] * part for c, part in zip(centre, offset, strict=True))
+        if _within(here, offset) and _level(here, (x, y, z)) * side < 0:
+            return centre, (x, y, z)
+    return points
+
+
+def _level(here: PairAtTime, point: Point) -> Fraction:
+    """The hyperboloid's equation at a point."""
+    alpha, gamma = here.row[:2]
+    x, y, z = point
+    return (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
+
+
+def _within(here: PairAtTime, offset: Sequence[Fraction]) -> bool:
+    """Whether the spheroid has the point C + b · offset."""
+    b, d = here.row[2:4]
+    along = sum((a * v for a, v in zip(offset, here.axis, strict=True)), Fraction(0)) ** 2
+    length = sum((v * v for v in here.axis), Fraction(0))
+    return sum((a * a for a in offset), Fraction(0)) + ((b / d) ** 2 - 1) * along / length <= 1

@@ -1,12 +1,16 @@
-"""Rational numbers: roots, cut to few bits, powers of two, and as floats."""
+"""Arithmetic that is no method of any oracle: rational numbers, and vectors of three.
+
+Rational numbers have roots, are cut to few bits, and become powers of two and floats. Numbers of vectors and of 3×3
+matrices are integers, rationals or intervals.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from mpmath import mpf
@@ -84,3 +88,28 @@ def sign_with_root(u: Fraction | int, v: Fraction | int, w: Fraction | int) -> i
         return -1
     difference = u * u - v * v * w
     return ((difference > 0) - (difference < 0)) * (1 if u > 0 else -1)
+
+
+Vector = Sequence[Any]
+Matrix = Sequence[Vector]
+
+
+def dot(p: Vector, q: Vector) -> Any:  # noqa: ANN401 - a number of the vectors' kind
+    """p·q."""
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+
+
+def cross(p: Vector, q: Vector) -> list[Any]:
+    """p × q."""
+    return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+
+
+def times(matrix: Matrix, vector: Vector) -> list[Any]:
+    """The product of a matrix and a vector."""
+    return [dot(row, vector) for row in matrix]
+
+
+def adjugate(matrix: Matrix) -> list[list[Any]]:
+    """The adjugate of a symmetric matrix."""
+    first, second, third = matrix
+    return [cross(second, third), cross(third, first), cross(first, second)]

@@ -49,8 +49,7 @@ from hypcheck.truth.polynomials import (
     shifted_by_one,
     trimmed,
 )
-from hypcheck.truth.rationals import root_of, sign_with_root
-from hypcheck.truth.vectors import dot
+from hypcheck.truth.rationals import dot, root_of, sign_with_root
 
 Height = int | None
 """A height over √U; None is infinite: −∞ at the lower end, ∞ at the upper."""

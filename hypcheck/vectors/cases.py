@@ -17,9 +17,8 @@ from hypcheck.geometry.rows import PAIRS
 from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
 from hypcheck.truth.backward_error import Bracket
-from hypcheck.truth.certificate import Certificate, Piece
+from hypcheck.truth.certificate import Certificate, PassageCertificate, Piece, place
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.passage_certificate import PassageCertificate, place
 from hypcheck.vectors.family import Row
 from hypcheck.vectors.flags import FlagFacts
 from hypcheck.vectors.format import (
@@ -54,7 +53,7 @@ class StoredCertificate:
     point is (x + b s, y + b t, z + d w), and belongs to the spheroid if s² + t² + w² ≤ 1; in all others it is
     (x, y, z) + b (s, t, w), on a sweep with the centre at the `time` of the proof. `pieces` are those of a hyperboloid
     that ends; without any of these a contact rests on the exact rule in the height. `steps` are the pieces (λ, end) of
-    a sweep, see truth/passage_certificate.py.
+    a sweep, see truth/certificate.py.
     """
 
     multiplier: Fraction | None = None

@@ -5,7 +5,7 @@ the certificate alone (truth/certificate.py, with shows_crossing: rational arith
 The roots give the kind of an upright pair, the nearest point the clearance. Labels are made by the exact decision,
 which shares nothing with these. Distances to other answers rest on exact decisions and are computed anew; of tilted
 spheroids each end of their bracket is proved anew. So are the flags (flags.py). Of a sweep, answer and first contact
-follow from the certificate alone (truth/passage_certificate.py).
+follow from the certificate alone (truth/certificate.py).
 
 A label is checked by this program's meaning of its flag and read by the meaning that its file states, so the two must
 agree. A family of this program is described in the words of its generator's version. For an earlier version, or for a
@@ -26,11 +26,10 @@ from hypcheck.tables.numbers import decimal_of, shown_json
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth import exact, least
 from hypcheck.truth.backward_error import excluded_at_once, is_bracket
-from hypcheck.truth.certificate import check_certificate
+from hypcheck.truth.certificate import check_certificate, check_passage, contact_at
 from hypcheck.truth.changes import goal_of
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
-from hypcheck.truth.passage_certificate import check_passage, contact_at
 from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.roots import classify_by_roots
 from hypcheck.vectors import frozen

@@ -10,18 +10,7 @@ from fnmatch import fnmatchcase
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
 from hypcheck.messages import suggestion
-from hypcheck.vectors import (
-    coincidences,
-    crossed,
-    ended,
-    ended_sweeps,
-    extremes,
-    random_pairs,
-    scenes,
-    strata,
-    sweeps,
-    tilted,
-)
+from hypcheck.vectors import coincidences, crossed, ended, ended_sweeps, extremes, random_pairs, strata, sweeps, tilted
 from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
@@ -32,11 +21,11 @@ def _table(*families: Family) -> dict[str, Family]:
 
 
 FAMILIES = _table(
-    Family("forest-type-1", scenes.forest_type_1, 120, by_place=True),
-    Family("forest-type-2", scenes.forest_type_2, 120, by_place=True),
-    Family("tower-body", scenes.tower_body, 120, by_place=True),
-    Family("tower-rotors", scenes.tower_rotors, 120, by_place=True),
-    Family("flight", scenes.flight, 128, by_place=True, movement=scenes.FLIGHT_STEPS),
+    Family("forest-type-1", random_pairs.forest_type_1, 120, by_place=True),
+    Family("forest-type-2", random_pairs.forest_type_2, 120, by_place=True),
+    Family("tower-body", random_pairs.tower_body, 120, by_place=True),
+    Family("tower-rotors", random_pairs.tower_rotors, 120, by_place=True),
+    Family("flight", random_pairs.flight, 128, by_place=True, movement=random_pairs.FLIGHT_STEPS),
     Family("uniform", random_pairs.uniform, 160, by_place=True),
     Family("far-centers", random_pairs.far_centers, 120, by_place=True),
     Family("giant-spheroids", random_pairs.giant_spheroids, 120, by_place=True),

@@ -19,9 +19,9 @@ from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS, SWEEP_COLUMNS, Pair, Position, to_integers
 from hypcheck.geometry.rows import Mask, Rows, within
 from hypcheck.truth import backward_error, exact
+from hypcheck.truth.certificate import PassageCertificate
 from hypcheck.truth.exact import Decision, discriminant
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.passage_certificate import PassageCertificate
 from hypcheck.truth.pencil import cubic, quartic
 from hypcheck.truth.swept import sweep_of
 from hypcheck.vectors.family import Row, rows_of

@@ -15,15 +15,13 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import PAIRS
 from hypcheck.truth import exact
 from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
-from hypcheck.truth.certificate import Certificate
+from hypcheck.truth.certificate import Certificate, place
 from hypcheck.truth.crossing import shortened
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
-from hypcheck.truth.passage_certificate import place
 from hypcheck.truth.passage_error import scaled_passage
-from hypcheck.truth.passage_prove import prove as prove_passage
-from hypcheck.truth.prove import prove
-from hypcheck.truth.vectors import dot
+from hypcheck.truth.prove import prove, prove_passage
+from hypcheck.truth.rationals import dot
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,
@@ -43,7 +41,7 @@ _MOST_BITS = 1 << 14
 def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
     """Cases of a file of that content with every label and flag, from ids and valid rows.
 
-    Raises ValueError as passage_prove.prove does.
+    Raises ValueError as prove_passage does.
     """
     return (_sweeps if content.about_sweeps else _positions)(content, list(cases))
 

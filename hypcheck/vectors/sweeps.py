@@ -16,8 +16,7 @@ from hypcheck.vectors import double_roots, random_pairs, tilted
 from hypcheck.vectors.coincidences import tangent
 from hypcheck.vectors.double_roots import gather, gathered, in_metres
 from hypcheck.vectors.draw import Draw, in_turn, ldexp, turns
-from hypcheck.vectors.random_pairs import Sizes, all_regimes, heights, offsets, sizes
-from hypcheck.vectors.scenes import BODY, TOWER
+from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, all_regimes, heights, offsets, sizes
 
 CENTRE = slice(4, 7)
 """The columns of the centre, or of the first end of a sweep."""

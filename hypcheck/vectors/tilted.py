@@ -21,7 +21,7 @@ from functools import reduce
 import numpy as np
 
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.truth.vectors import dot
+from hypcheck.truth.rationals import dot
 from hypcheck.vectors.double_roots import (
     ULPS,
     BigIntegers,
@@ -33,8 +33,7 @@ from hypcheck.vectors.double_roots import (
     turned,
 )
 from hypcheck.vectors.draw import Draw, Maker, circle_at, in_turn, ldexp, stepped, turns
-from hypcheck.vectors.random_pairs import Sizes, all_regimes, heights, offsets, sizes
-from hypcheck.vectors.scenes import BODY, TOWER
+from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, all_regimes, heights, offsets, sizes
 
 Vectors = tuple[Floats, Floats, Floats]
 """x, y, z, each (n,)."""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import call_targets, cliff_targets, compiled_targets, ended_targets, targets
+from hypcheck.bench import call_targets, compiled_targets, targets
 from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
 from hypcheck.bench.c_source import WORDS
 from hypcheck.bench.compiled_targets import touching_columns, tower_rows, uniform_columns
@@ -49,8 +49,8 @@ def small(monkeypatch):
         ),
         (compiled_targets, {"PART": 1024, "PARTS": 2, "LEAST_PARTS": 2, "EACH": 4, "TURNS": 1, "NEIGHBOURS": 1}),
         (targets, {"MANY": 20_000, "FEW": 3, "TRIANGLES": 60, "AGAIN": 0}),
-        (cliff_targets, {"MANY": 4096, "CACHED": 256}),
-        (ended_targets, {"PACED": 200, "ORDINARY": 40, "NEAR": 20}),
+        (call_targets, {"MILLION": 4096, "EACH_AXIS": 256}),
+        (targets, {"PACED": 200, "ORDINARY": 40, "NEAR": 20}),
         (call_targets, {"MANY": 20_000, "CALLS": 20, "BATCHES": (1000,)}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
     ):
@@ -111,11 +111,11 @@ def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
 def test_rows_left_open_beside_ends_are_counted_by_family(monkeypatch):
     """One row in two of one family is open: its share is the target's, and the sentence names it."""
     pytest.importorskip("hypcheck.kernel._compiled")
-    monkeypatch.setattr(ended_targets, "ORDINARY", 10)
-    monkeypatch.setattr(ended_targets, "NEAR", 10)
-    asked = ended_targets.answer_ways
-    monkeypatch.setattr(ended_targets, "answer_ways", lambda rows: (np.resize([2, 0], len(rows)), asked(rows)[1]))
-    ordinary, near = ended_targets.left_open(1)
+    monkeypatch.setattr(targets, "ORDINARY", 10)
+    monkeypatch.setattr(targets, "NEAR", 10)
+    asked = targets.answer_ways
+    monkeypatch.setattr(targets, "answer_ways", lambda rows: (np.resize([2, 0], len(rows)), asked(rows)[1]))
+    ordinary, near = targets.left_open(1)
     assert (ordinary.measured, near.measured, ordinary.met, near.met) == (0.5, 0.5, False, False)
     assert "ended-way-uniform 5" in ordinary.says
     assert "ended-way-touch 5" in near.says

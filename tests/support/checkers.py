@@ -11,7 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from hypcheck.geometry.pair import WITHOUT_ENDS, Position
-from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, place
+from hypcheck.truth.certificate import PassageCertificate, check_passage, place
 from tests.support.corpus import Questions, row_of
 from tests.support.inside import Certificate, check_certificate
 

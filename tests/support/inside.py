@@ -88,13 +88,22 @@ from hypcheck.truth import (
     swept,
 )
 from hypcheck.truth import nearest as truth_nearest
-from hypcheck.truth.backward_error import Bracket, bracket, estimate, exponent, lower_ends, quick_bracket, tolerated
+from hypcheck.truth.backward_error import (
+    Bracket,
+    bracket,
+    distance_exponents,
+    estimate,
+    exponent,
+    flip_exponents,
+    lower_ends,
+    quick_bracket,
+    tolerated,
+)
 from hypcheck.truth.certificate import Certificate, Piece, check_certificate, pivots, proves, surfaces
 from hypcheck.truth.changes import corner, goal_of
 from hypcheck.truth.exact import Decision, decide, kind_of, position
 from hypcheck.truth.exact import cubic as exact_cubic
 from hypcheck.truth.exact import discriminant as exact_discriminant
-from hypcheck.truth.flip_exponents import distance_exponents, flip_exponents
 from hypcheck.truth.float_filter import filtered, lines_for_sizes, positions
 from hypcheck.truth.heights import position as heights_position
 from hypcheck.truth.kinds import Kind
@@ -121,7 +130,7 @@ from hypcheck.truth.roots import (
     coefficients,
     real_roots,
 )
-from hypcheck.truth.surds import Surd, sign_at_root
+from hypcheck.truth.sweep import Surd, sign_at_root
 from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, reach, steps, sweep_of
 
 __all__ = [

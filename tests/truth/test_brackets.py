@@ -11,7 +11,7 @@ import pytest
 import sympy
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth.box_form import Form
+from hypcheck.truth.box_proofs import Form
 from tests.support.inside import Decision, bracket, decide, estimate, quick_bracket, tolerated
 from tests.support.inside import position as exact_position
 from tests.tools.oracle_agreement import rows

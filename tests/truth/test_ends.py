@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth.ended_clearance import clearance
+from hypcheck.truth.ended_error import clearance
 from hypcheck.truth.prove import prove
 from hypcheck.truth.sections import has_root
 from tests.support.inside import (

@@ -11,7 +11,7 @@ import pytest
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import float_boxes
-from hypcheck.truth.box_form import Goal
+from hypcheck.truth.box_proofs import Goal
 from hypcheck.truth.float_boxes import Enclosures
 from tests.support.inside import goal_of, position
 from tests.truth.tilted_cases import random_rows

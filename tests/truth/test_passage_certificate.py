@@ -9,8 +9,8 @@ from fractions import Fraction
 
 import pytest
 
-from hypcheck.truth.passage_certificate import PassageCertificate, check_passage, clear_until, contact_at
-from hypcheck.truth.passage_prove import prove, simplest
+from hypcheck.truth.certificate import PassageCertificate, check_passage, clear_until, contact_at
+from hypcheck.truth.prove import prove_passage, simplest
 from hypcheck.vectors.tilted import TWO_POINTS
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
@@ -34,7 +34,7 @@ def random_ways(number):
 
 @pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE, *random_ways(24)])
 def test_proof_found_for_a_way_passes_its_check(row):
-    found, first, certificate = prove(row)
+    found, first, certificate = prove_passage(row)
     assert check_passage(row, certificate, first)
     if first:
         assert first[0] <= found.first[1]
@@ -42,7 +42,7 @@ def test_proof_found_for_a_way_passes_its_check(row):
 
 
 def test_proofs_of_hand_worked_ways_have_the_expected_first_contacts():
-    firsts = [prove(row)[1] for row in (THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE)]
+    firsts = [prove_passage(row)[1] for row in (THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE)]
     assert [first is not None for first in firsts] == [True, False, True, True, True, False]
     assert firsts[3][0] < 0.5 == firsts[3][1]
     assert firsts[4] == (0.0, 0.0)
@@ -50,14 +50,14 @@ def test_proofs_of_hand_worked_ways_have_the_expected_first_contacts():
 
 @pytest.mark.parametrize("row", [THROUGH, TUNNEL, *random_ways(24)])
 def test_bounds_of_a_first_contact_are_neighbouring_floats(row):
-    _, first, certificate = prove(row)
+    _, first, certificate = prove_passage(row)
     if first and first[0]:
         assert math.nextafter(first[0], 1.0) == first[1]
         assert certificate.pieces[-1][1] == first[0]
 
 
 def test_a_grazing_way_is_proved_by_the_double_root_of_one_time():
-    certificate = prove(GRAZING)[2]
+    certificate = prove_passage(GRAZING)[2]
     assert certificate.double_root == 2  # √A at the waist
     assert certificate.time == Fraction(1, 2)
 
@@ -65,20 +65,20 @@ def test_a_grazing_way_is_proved_by_the_double_root_of_one_time():
 @pytest.mark.parametrize("row", [(*row[:4], *row[4:7], *row[4:7], *row[7:]) for row in TWO_POINTS[::3]])
 def test_a_tangency_in_two_points_is_proved_where_nothing_moves(row):
     row = tuple(map(float, row))
-    found, first, certificate = prove(row)
+    found, first, certificate = prove_passage(row)
     assert found.grazes
     assert check_passage(row, certificate, first)
 
 
 def test_a_way_that_ends_in_tangency_is_proved_by_its_end():
     row = (*GRAZING[:7], 0.0, *GRAZING[8:])
-    found, first, certificate = prove(row)
+    found, first, certificate = prove_passage(row)
     assert found.first[1] == certificate.time == first[1] == 1
     assert check_passage(row, certificate, first)
 
 
 def test_damaged_proof_of_a_clear_way_is_refused():
-    _, first, certificate = prove(OUTSIDE)
+    _, first, certificate = prove_passage(OUTSIDE)
     assert first is None
     (multiplier, end), *_ = certificate.pieces
     for pieces in (
@@ -106,13 +106,13 @@ def test_piece_of_a_proof_that_reaches_over_a_contact_is_refused():
 def test_a_piece_that_ends_after_the_way_proves_no_time():
     """The ball stays outside on the straight line beyond the way, too."""
     clear = (2.0, 3.0, 1.0, 1.0, 4.0, 0.0, 0.0, 4.0, 1.0, 0.0)
-    multiplier = prove(clear)[2].pieces[0][0]
+    multiplier = prove_passage(clear)[2].pieces[0][0]
     assert clear_until(clear, PassageCertificate(((multiplier, Fraction(1)),))) == 1
     assert clear_until(clear, PassageCertificate(((multiplier, Fraction(3, 2)),))) is None
 
 
 def test_damaged_proof_of_contact_on_a_way_is_refused():
-    _, first, certificate = prove(TUNNEL)
+    _, first, certificate = prove_passage(TUNNEL)
     assert check_passage(TUNNEL, certificate, first)
     for damaged in (
         replace(certificate, points=certificate.points[:1]),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.scenes import ARM, FLIGHT_STEPS
+from hypcheck.vectors.random_pairs import ARM, FLIGHT_STEPS
 from tests.vectors.case_rows import COUNT, ratios
 
 

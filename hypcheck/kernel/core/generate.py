@@ -17,7 +17,7 @@ from hypcheck.derivation.program import Program, Step, needed
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
 from hypcheck.kernel import clearance_bounds
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
-from hypcheck.kernel.programs import certified, fixed, lines, tangency, tilted
+from hypcheck.kernel.programs import certified, fixed, integers, lines, tilted
 from hypcheck.kernel.programs.integers import (
     COEFFICIENTS,
     DISCRIMINANT,
@@ -330,23 +330,23 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "FIXED_DISCRIMINANT": lambda: _fixed(fixed.DISCRIMINANT, fixed.RANGES["discriminant"], ("delta", "middle")),
     "FIXED_AT_B": lambda: _fixed_poles("B"),
     "FIXED_AT_A": lambda: _fixed_poles("A"),
-    "TANGENCY_BEFORE": lambda: tangency.statements_of(tangency.TANGENCY, tangency.BEFORE, short=False),
-    "TANGENCY_EQUATIONS": lambda: tangency.statements_of(
-        tangency.TANGENCY, tangency.EQUATIONS, tangency.BEFORE, short=False
+    "TANGENCY_BEFORE": lambda: integers.statements_of(integers.TANGENCY, integers.BEFORE, short=False),
+    "TANGENCY_EQUATIONS": lambda: integers.statements_of(
+        integers.TANGENCY, integers.EQUATIONS, integers.BEFORE, short=False
     ),
-    "TANGENCY_LAST": lambda: tangency.statements_of(
-        tangency.TANGENCY, tangency.LAST, (*tangency.BEFORE, *tangency.EQUATIONS), short=False
+    "TANGENCY_LAST": lambda: integers.statements_of(
+        integers.TANGENCY, integers.LAST, (*integers.BEFORE, *integers.EQUATIONS), short=False
     ),
-    "TANGENCY_SHORT_BEFORE": lambda: tangency.statements_of(tangency.TANGENCY, ("D", "K", "inner"), short=True),
-    "TANGENCY_SHORT": lambda: tangency.statements_of(
-        tangency.TANGENCY, (*tangency.EQUATIONS, *tangency.LAST), ("D", "K", "inner"), short=True
+    "TANGENCY_SHORT_BEFORE": lambda: integers.statements_of(integers.TANGENCY, ("D", "K", "inner"), short=True),
+    "TANGENCY_SHORT": lambda: integers.statements_of(
+        integers.TANGENCY, (*integers.EQUATIONS, *integers.LAST), ("D", "K", "inner"), short=True
     ),
-    "WAIST_BEFORE": lambda: tangency.statements_of(tangency.WAIST, ("W", "opposite", "p_2", "q_2"), short=False),
-    "WAIST_EXCESS": lambda: tangency.statements_of(
-        tangency.WAIST, ("excess",), ("W", "opposite", "p_2", "q_2"), short=False
+    "WAIST_BEFORE": lambda: integers.statements_of(integers.WAIST, ("W", "opposite", "p_2", "q_2"), short=False),
+    "WAIST_EXCESS": lambda: integers.statements_of(
+        integers.WAIST, ("excess",), ("W", "opposite", "p_2", "q_2"), short=False
     ),
-    "WAIST_SIDES": lambda: tangency.statements_of(
-        tangency.WAIST, ("W_p_2", "room"), ("excess", "W", "opposite"), short=False
+    "WAIST_SIDES": lambda: integers.statements_of(
+        integers.WAIST, ("W_p_2", "room"), ("excess", "W", "opposite"), short=False
     ),
     "INTEGER_INPUTS": lambda: [f"HC_INTEGER({name}, {FLOAT64_BITS});" for name in COLUMNS],
     "INTEGERS": lambda: _integers(_DELTA),

@@ -18,9 +18,8 @@ from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_fun
 from hypcheck.kernel.emission.plan_text import comment_text, header
 from hypcheck.kernel.emission.routines import routines_text
 from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, LeaningSearch
-from hypcheck.kernel.specialise.leaning_search import FREE_SEARCH, HAS_DIRECTION, SEARCH
+from hypcheck.kernel.specialise.leaning_search import FREE_SEARCH, HAS_DIRECTION, SEARCH, SETTING, search_of
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages
-from hypcheck.kernel.specialise.searching import SETTING, search_of
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import escaped
 from hypcheck.scene.model import FREE

@@ -37,8 +37,8 @@ from hypcheck.kernel.emission.kernel import (
 from hypcheck.kernel.emission.plan_text import whole_header
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.specialise.last_stages import DualSearch
+from hypcheck.kernel.specialise.leaning_search import SETTING
 from hypcheck.kernel.specialise.plan import ScenePlan, plan_of
-from hypcheck.kernel.specialise.searching import SETTING
 from hypcheck.scene.model import Hyperboloid, SceneModel, Span
 
 MOST_SETTINGS = 20_000

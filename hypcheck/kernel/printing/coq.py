@@ -14,7 +14,7 @@ from textwrap import fill
 from hypcheck.derivation.program import Argument, Program, Step, cut, line_of, needed
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Sizes
-from hypcheck.kernel.programs import fixed, integers, lines, tangency, tilted
+from hypcheck.kernel.programs import fixed, integers, lines, tilted
 from hypcheck.kernel.programs.certified import CERTIFIED, SINGLE
 from hypcheck.kernel.specialise.last_stages import Discriminant, exact_constants
 from hypcheck.kernel.specialise.plan import ScenePlan
@@ -177,8 +177,8 @@ _PRINTED = {
     "fixed_terms": fixed.TERMS,
     "fixed_discriminant": fixed.DISCRIMINANT,
     "fixed_poles": fixed.POLES,
-    "tangency": tangency.TANGENCY,
-    "waist": tangency.WAIST,
+    "tangency": integers.TANGENCY,
+    "waist": integers.WAIST,
     "integers": integers.INTEGERS,
     "one_line": lines.ONE_LINE,
     "two_lines": lines.TWO_LINES,
