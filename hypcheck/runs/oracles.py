@@ -23,7 +23,7 @@ from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import Batch, SelfCheckPlan
-from hypcheck.truth import exact, heights, least, mesh, mesh_oracle, nearest_rows, roots, tilted_roots
+from hypcheck.truth import exact, heights, least, mesh, mesh_oracle, nearest_rows, roots
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import STAGES
@@ -96,10 +96,9 @@ def _roots(row: list[float]) -> Opinion:
     Of an upright pair the coefficient rule in exact rationals must read the same position from the coefficients.
     """
     pair = Pair.from_row(row)
-    if not pair.is_upright:
-        tilted = tilted_roots.classify_tilted_by_roots(pair)
-        return Opinion(tilted.position, tilted.tangent, None, "root pattern")
     found = roots.classify_by_roots(pair)
+    if found.kind is None:
+        return Opinion(found.position, found.tangent, None, "root pattern")
     rule = _coefficient_rule()(dict(zip(COLUMNS, pair.upright.row, strict=True)))
     stage = "signs suffice" if found.literal is not None else "signs are ambiguous"
     if found.position != rule:

@@ -118,7 +118,8 @@ def _wrong_measures(
 ) -> Iterator[str]:
     """What is wrong of the kind, the clearance, the flips and the flags, of those that the case has."""
     if not content.tilted and (kind := classify_by_roots(pair).kind) is not case.kind:
-        yield f"kind is {case.kind.value if case.kind else None}; the roots say {kind.value}"
+        was, now = (each.value if each else None for each in (case.kind, kind))
+        yield f"kind is {was}; the roots say {now}"
     if case.clearance is not None and (measured := nearest(pair).clearance) != case.clearance:
         yield f"clearance is {decimal_of(case.clearance)}; the nearest point says {decimal_of(measured)}"
     if (truth.position, truth.tangent) != (case.position, case.tangent):

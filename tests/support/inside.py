@@ -118,18 +118,8 @@ from hypcheck.truth.pencil import cubic, quartic, sign_at
 from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate
 from hypcheck.truth.polynomials import linear_factor, polynomial_product, value
 from hypcheck.truth.prove import prove
-from hypcheck.truth.roots import (
-    COMPLEX,
-    KIND_OF,
-    PATTERNS,
-    Invariants,
-    RootPlace,
-    admissible,
-    classify_by_roots,
-    classify_invariants,
-    coefficients,
-    real_roots,
-)
+from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, admissible
+from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients, real_roots
 from hypcheck.truth.sweep import Surd, sign_at_root
 from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, reach, steps, sweep_of
 

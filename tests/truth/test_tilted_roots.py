@@ -7,8 +7,9 @@ from fractions import Fraction
 import pytest
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import tilted_roots as roots
-from hypcheck.truth.tilted_roots import MEANING, PATTERNS, admissible, classify_tilted_by_roots
+from hypcheck.truth import roots
+from hypcheck.truth.root_patterns import MEANING, SIDES, sides_by_signs, word_of
+from hypcheck.truth.roots import classify_by_roots
 from tests.support.tilted_fractions import interpolated, matrices, value
 from tests.tools.oracle_agreement import rows
 from tests.truth.tilted_cases import SYMMETRIC
@@ -17,9 +18,9 @@ EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTE
 
 
 def test_the_table_lists_every_pattern_that_the_signs_allow_once_and_no_other():
-    listed = [word for words in PATTERNS.values() for word in words]
+    listed = [word for words in SIDES.values() for word in words]
     assert len(set(listed)) == len(listed)
-    assert set(listed) == admissible() == set(MEANING)
+    assert set(listed) == set(map(word_of, sides_by_signs(0, 1, 2, 3))) == set(MEANING)
 
 
 def test_the_quartic_is_the_determinant_of_the_pencil():
@@ -39,7 +40,7 @@ def test_the_quartic_is_the_determinant_of_the_pencil():
 
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
 def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_pole(row, position, limit_of):
-    found = classify_tilted_by_roots(Pair.from_row(row))
+    found = classify_by_roots(Pair.from_row(row))
     assert (found.position, found.tangent) == (position, limit_of is not None)
     side = found.above if EXTERIOR in (position, limit_of) else found.below
     assert side in ("(0,R) R²", "R² >R", "R³", "(0,R) R >R")
@@ -47,4 +48,4 @@ def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_po
 
 def test_tilted_roots_oracle_raises_an_error_for_a_pattern_not_in_its_table():
     with pytest.raises(AssertionError, match="a pattern that is not possible"):
-        classify_tilted_by_roots(Pair.from_row([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]), table={})
+        classify_by_roots(Pair.from_row([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]), sides={})

@@ -60,7 +60,7 @@ from hypcheck.truth import exact
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.prove import prove
-from hypcheck.truth.roots import PATTERNS, RootPlace, admissible, pattern_of
+from hypcheck.truth.root_patterns import PATTERNS, RootPlace, admissible, pattern_of
 
 
 def _same(text: str, left: sympy.Expr, right: sympy.Expr) -> Evidence:
