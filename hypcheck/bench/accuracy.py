@@ -29,7 +29,7 @@ from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.method import Answers
 from hypcheck.implementations.session import Answered
-from hypcheck.implementations.ways import least_distances
+from hypcheck.implementations.sweeps import least_distances
 from hypcheck.processes import one_each, perform
 from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken
@@ -45,7 +45,7 @@ if sys.platform != "win32":
 
 WORST_KEPT = 3
 WORST_TRIED, FEW_TRIED = 12, 1
-"""Candidates for the worst wrong answers; to measure one about a way takes twenty milliseconds."""
+"""Candidates for the worst wrong answers; to measure one about a sweep takes twenty milliseconds."""
 
 _PIECE = 500
 
@@ -108,7 +108,7 @@ def _examined(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
 
 
 def _examined_ways(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
-    """Whether ways have contact, exactly, and exponents of about how far in size they are from the other answer."""
+    """Whether sweeps have contact, exactly, and exponents of about how far in size they are from the other answer."""
     rows = piece[1]
     off = np.abs(least_distances(rows) - 1)
     with np.errstate(divide="ignore"):
@@ -241,7 +241,7 @@ def _worst(scored: Score, exponents: Floats, given: MethodAnswers, tried: int) -
 
 
 def _about_error_of(row: Sequence[float], answer: int, question: str) -> float:
-    """How wrong an answer is: the change of the inputs that makes it right; of a way, that of the spheroid's size."""
+    """How wrong an answer is: the change of the inputs that makes it right; of a sweep, that of the spheroid's size."""
     if question == PASSAGE:
         return size_error(row, bool(answer)).lower
     return judge.about_error_of(row, answer, question)

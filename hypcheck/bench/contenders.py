@@ -2,7 +2,7 @@
 
 Methods in C are printed and compiled when bench starts. Meshes have 100 to 100,000 triangles, and are built once or for
 each row; a spheroid that leans is asked as the engine's ellipsoid, posed by its axis, against the same mesh. Runs about
-spheroids that lean and runs about ways have contenders of their own.
+spheroids that lean and runs about sweeps have contenders of their own.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from hypcheck.implementations.builtin import (
 from hypcheck.implementations.domain import EVERYWHERE, Domain
 from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshLibrary, scene_mesh
 from hypcheck.implementations.method import Answers, ByScene, Method, by_scene, on_scene
-from hypcheck.implementations.ways import WAY_SOLVERS, height_of_ways, way_mesh
+from hypcheck.implementations.sweeps import SWEEP_SOLVERS, height_of_sweeps, sweep_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.truth import float_filter
@@ -292,10 +292,10 @@ _JUMPS = "it cannot see what lies between two of its times"
 _BISECTED = "its distance is found by plain bisection, which nothing was done to make fast; a graze takes many steps"
 
 WAYS_JUDGED, WAYS_JUDGED_QUICK = 200, 24
-"""Ways of a workload that an engine is asked: where sizes differ, each takes a mesh."""
+"""Sweeps of a workload that an engine is asked: where sizes differ, each takes a mesh."""
 
 WAYS_TIMED, SLOW_FOR_WAYS, FEW_WAYS = 8, ("passage-fcl-advancement", "passage-fcl-polynomial"), 3
-"""Ways of a timed batch: few of the solvers that take twenty milliseconds for one."""
+"""Sweeps of a timed batch: few of the solvers that take twenty milliseconds for one."""
 
 
 def way_contenders() -> Iterable[Contender]:
@@ -316,19 +316,19 @@ def way_contenders() -> Iterable[Contender]:
 
 def _in_engines() -> Iterable[Contender]:
     """Each solver with a mesh of the whole surface for each scene, which is built before its time is taken."""
-    for name, solver in WAY_SOLVERS.items():
+    for name, solver in SWEEP_SOLVERS.items():
         yield of_method(
             passage_mesh_methods()[name],
             "FCL",
             "mesh",
-            load=partial(InEngine, partial(way_mesh, solver), height_of_ways, SWEEPS),
+            load=partial(InEngine, partial(sweep_mesh, solver), height_of_sweeps, SWEEPS),
             judged=WAYS_JUDGED,
             quick_judged=WAYS_JUDGED_QUICK,
             timed=FEW_WAYS if name in SLOW_FOR_WAYS else WAYS_TIMED,
             singles=FEW_WAYS,
             amortised=ONCE,
             needs=solver.engine.title,
-            note="the time of a way is without that of building its mesh",
+            note="the time of a sweep is without that of building its mesh",
         )
 
 

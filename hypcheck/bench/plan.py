@@ -19,10 +19,10 @@ TILTED_REFERENCE = "eigh"
 """The same where spheroids lean: numpy.linalg.eigh and the dual function, as one writes it in numpy."""
 
 PASSAGE_REFERENCE = "passage-exact"
-"""The same of ways: the exact decision in Python's integers."""
+"""The same of sweeps: the exact decision in Python's integers."""
 
 POSITION, PASSAGE = "position", "passage"
-"""What a run compares methods for: one position, whatever the question about it, or the way between two."""
+"""What a run compares methods for: one position, whatever the question about it, or the sweep between two."""
 
 MAX_SLOWDOWN = 1.1
 """The slowdown that a baseline allows by default."""
@@ -77,7 +77,7 @@ class BenchPlan:
 
     `kernel`, `forest` and `scenes` measure one thing only: the fast path against its targets, a walker's step among
     many trees, the savings of these scenes. `tilted` compares methods for spheroids whose axis leans; so does a scene
-    whose mover leans. `question` is "passage" where methods for ways are compared.
+    whose mover leans. `question` is "passage" where methods for sweeps are compared.
 
     Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` are needs of methods
     that are not available here, and `foreign` are the methods of the SPECs (bench/foreign.py).
@@ -114,7 +114,7 @@ class BenchPlan:
             raise InputError(f"{alone[0]} measures only {whats[alone[0]]}; leave out the other choices")
         if self.question == PASSAGE and (alone or self.tilted):
             other = "--tilted" if self.tilted else alone[0]
-            raise InputError(f"--question passage compares methods for ways of upright spheroids; leave out {other}")
+            raise InputError(f"--question passage compares methods for sweeps of upright spheroids; leave out {other}")
 
     @property
     def everyday(self) -> bool:

@@ -57,9 +57,9 @@ ORDINARY, NEAR = 20_000, 2_000
 END = 17.8
 FAR_AWAY = 1e4
 
-OPEN = KernelTarget("left open, ordinary", "rows and ways beside ends of families named uniform", 1e-4, at_most=True)
+OPEN = KernelTarget("left open, ordinary", "rows and sweeps beside ends of families named uniform", 1e-4, at_most=True)
 OPEN_NEAR = KernelTarget(
-    "left open, near an end", "rows and ways beside ends, the family with most of them", 0.01, at_most=True
+    "left open, near an end", "rows and sweeps beside ends, the family with most of them", 0.01, at_most=True
 )
 
 
@@ -102,7 +102,7 @@ def _rows(centres: Floats, axes: Floats, end: float) -> Rows:
 
 
 def left_open(_rounds: int) -> Iterator[KernelLine]:
-    """How many rows and ways of each family C answers with 2, which Python then decides exactly."""
+    """How many rows and sweeps of each family C answers with 2, which Python then decides exactly."""
     counts = {name: _open_share(name) for name in (*ENDED_FAMILIES, *ENDED_SWEEP_FAMILIES)}
     for target, ordinary in ((OPEN, True), (OPEN_NEAR, False)):
         some = {name: share for name, share in counts.items() if name.endswith("uniform") is ordinary}

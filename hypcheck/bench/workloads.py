@@ -1,4 +1,4 @@
-"""The workloads of a benchmark: rows on which methods are compared, of upright and leaning spheroids and of ways.
+"""The workloads of a benchmark: rows on which methods are compared, of upright and tilted spheroids and of sweeps.
 
 Some are timed and judged, the others only judged. A workload's rows depend only on its name, the seed and their place;
 a shorter call returns the first rows of a longer one (vectors/draw.py). Pairs of spheroids that lean whose nearest
@@ -173,7 +173,7 @@ WORKLOADS = _by_name(
 """Those of upright spheroids, by name, in the order of the record."""
 
 WAY_SHARE = 6
-"""A way takes about a millisecond to decide, so a sixth of the rows of other workloads is judged."""
+"""A sweep takes about a millisecond to decide, so a sixth of the rows of other workloads is judged."""
 
 
 def _frozen_ways(_seed: int, count: int) -> Rows:
@@ -182,7 +182,7 @@ def _frozen_ways(_seed: int, count: int) -> Rows:
 
 @cache
 def frozen_ways() -> Rows:
-    """The frozen ways of upright spheroids, all families in turn."""
+    """The frozen sweeps of upright spheroids, all families in turn."""
     families = [frozen.load(name).rows for name, family in SWEEP_FAMILIES.items() if not family.tilted]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
@@ -224,12 +224,12 @@ WAY_WORKLOADS = _by_name(
     ),
     _way_workload(
         "frozen",
-        "the frozen ways",
-        "The certified vectors of ways of upright spheroids, all 18 families in turn (cases/way-*.json).",
+        "the frozen sweeps",
+        "The certified vectors of sweeps of upright spheroids, all 18 families in turn (cases/way-*.json).",
         _frozen_ways,
     ),
 )
-"""Those of ways, by name, in the order of the record."""
+"""Those of sweeps, by name, in the order of the record."""
 
 PITCH = 20.0
 """Degrees by which the quadcopter leans along x in the workload of one axis."""

@@ -64,7 +64,7 @@ WORKLOADS = completing.Names(completing.workloads, many=True)
     type=click.Choice(["position", "passage"]),
     default="position",
     show_default=True,
-    help="passage: compare methods for the way between two positions.",
+    help="passage: compare methods for the sweep between two positions.",
 )
 @click.option(
     "--scene",
@@ -83,7 +83,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     Every method is judged by how far from right the rows it answers wrongly are, then timed in fresh processes, in
     rounds of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
 
-    With --question passage each row is a straight way, and missed and false contacts are set against the time of a way.
+    With --question passage each row is a sweep, and missed and false contacts are set against the time of a sweep.
     With --tilted the spheroids lean, and the methods are those that can be asked so: the workloads are others, and
     ratios are to another reference. So it is with a scene whose mover leans; the kernel that
     `hypcheck emit` writes for it can be a SPEC.

@@ -220,7 +220,7 @@ def _regimes(text: str | None) -> tuple[str, ...] | None:
 _MINIMISE_HELP = """\
 Show the simplest row next to CASE that SPEC answers wrongly in the same way, and prove the right answer.
 
-CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z (of a way
+CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z (of a sweep
 alpha,gamma,b,d,x0,y0,z0,x1,y1,z1), or RECORD:N, as for `hypcheck replay`.
 
 \b
@@ -265,7 +265,7 @@ _REPLAY_HELP = """\
 Show SPEC's answer to CASE, the right answer with its proof, and where the formula nearest to SPEC goes wrong.
 
 CASE is a case's id (ring-0007, ring/1/42/7), a row alpha,gamma,b,d,x,y,z in decimals or hexadecimal floats (of a
-tilted spheroid with axis_x,axis_y,axis_z behind; of a way alpha,gamma,b,d,x0,y0,z0,x1,y1,z1), or RECORD:N, the N-th
+tilted spheroid with axis_x,axis_y,axis_z behind; of a sweep alpha,gamma,b,d,x0,y0,z0,x1,y1,z1), or RECORD:N, the N-th
 case that a record.jsonl (or the folder of its run) has kept, as reports number them.
 
 \b

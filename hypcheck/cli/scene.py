@@ -94,7 +94,7 @@ With --method exact the file answers every float64 row rightly: floats where a p
 the rest, without dependencies. With --method certified it has the floats alone, and says 2 where they cannot say;
 so do dual and local-maximum, which prove the answer by a concave function instead of the discriminant. With tilted the
 spheroid has an axis; clearance gives bounds of its clearance besides, and passage says whether it has contact on a
-straight way, and up to when it has none.
+straight sweep, and up to when it has none.
 
 SCENE is a file (docs/scenes.md) or a shipped scene. Its sizes and constant heights are folded in, and only its question
 is answered; `hypcheck plan` shows what is left out and why. The head of the kernel says what is proved about it.

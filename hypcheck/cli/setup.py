@@ -52,7 +52,7 @@ def init(language: str, directory: Path, stub: str, name: str | None, source: st
 
     The adapter has a folder of its own and needs no dependencies. The stub is the paper's Table 2, right in the paper's
     scenes and wrong elsewhere: replace it with a call of your predicate. docs/protocol.md says how the adapter speaks.
-    With --question passage it answers about ways between two positions, and the stub takes the spheroid for its centre.
+    With --question passage it answers about sweeps, and the stub takes the spheroid for its centre.
 
     A second language in the same directory is added to hypcheck.toml and to the workflow, which then gate both.
 

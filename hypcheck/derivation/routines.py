@@ -147,9 +147,9 @@ class Routine:
             if name not in kinds:
                 raise ValueError(f"routine {self.name}: there is no {name}")
             if isinstance(self.result, Return) and kinds[name] != BOOLEAN:
-                raise ValueError(f"routine {self.name}: {name} is no condition")
+                raise ValueError(f"routine {self.name}: {name} is not a condition")
             if isinstance(self.result, tuple) and kinds[name] != NUMBER:
-                raise ValueError(f"routine {self.name}: {name} is no number")
+                raise ValueError(f"routine {self.name}: {name} is not a number")
 
     @property
     def given(self) -> dict[str, str]:
@@ -205,7 +205,7 @@ class Routine:
             if end in kinds:  # what a kept number becomes could be lost while the others are set
                 raise ValueError(f"routine {self.name}: a round ends with {end}, which its body does not make")
         if loop.until is not None and inside.get(loop.until) != BOOLEAN:
-            raise ValueError(f"routine {self.name}: a loop ends by {loop.until}, which is no condition")
+            raise ValueError(f"routine {self.name}: a loop ends by {loop.until}, which is not a condition")
 
     def _define(self, name: str, kind: str, kinds: dict[str, str]) -> None:
         if not (name.isascii() and name.isidentifier()):
@@ -216,7 +216,7 @@ class Routine:
 
     def _require_number(self, name: str, kinds: Mapping[str, str]) -> None:
         if kinds.get(name) != NUMBER:
-            raise ValueError(f"routine {self.name}: a loop keeps {name}, which is no number")
+            raise ValueError(f"routine {self.name}: a loop keeps {name}, which is not a number")
 
 
 def kind_of_part(part: Step | Call | Half | Stored, kinds: Mapping[str, str]) -> str:
@@ -228,7 +228,7 @@ def kind_of_part(part: Step | Call | Half | Stored, kinds: Mapping[str, str]) ->
         return PAIR if part.operation == "select" and chosen == [BOOLEAN, PAIR, PAIR] else kind_of(part, dict(kinds))
     wanted = PAIR if isinstance(part, Half) else NUMBER
     if kinds.get(part.reads[0]) != wanted:
-        raise ValueError(f"{part.reads[0]} is no {wanted}")
+        raise ValueError(f"{part.reads[0]} is not a {wanted}")
     return NUMBER
 
 
@@ -238,7 +238,7 @@ def _kind_of_call(call: Call, kinds: Mapping[str, str]) -> str:
         raise ValueError(f"{call.routine.name} takes {len(takes)} arguments, not {len(call.arguments)}")
     for argument, kind in zip(call.arguments, takes, strict=True):
         if (kinds.get(argument) if isinstance(argument, str) else NUMBER) != kind:
-            raise ValueError(f"{argument} is no {kind} that is defined before it is used")
+            raise ValueError(f"{argument} is not a {kind} that is defined before it is used")
     return call.routine.gives
 
 

@@ -28,10 +28,10 @@ TILTED_COLUMNS = COLUMNS + AXIS
 
 START, END = ("x0", "y0", "z0"), ("x1", "y1", "z1")
 SWEEP_COLUMNS = SIZES + START + END
-"""The names of the ten numbers of a straight way: the spheroid's centre goes from (x0, y0, z0) to (x1, y1, z1)."""
+"""The names of the ten numbers of a straight sweep: the spheroid's centre goes from (x0, y0, z0) to (x1, y1, z1)."""
 
 TILTED_SWEEP_COLUMNS = SWEEP_COLUMNS + AXIS
-"""Those of the way of a tilted spheroid, whose axis stays as it is on the way."""
+"""Those of the sweep of a tilted spheroid, whose axis stays as it is on the way."""
 
 ENDS = ("z_min", "z_max")
 HEIGHTS = (*ENDS, "solid")

@@ -1,8 +1,8 @@
 """Many pairs at once: the types of arrays, rows that are checked, and ranges of rows.
 
 Rows are float64 arrays of shape (n, 7), their columns in the order of pair.COLUMNS, or (n, 10) of tilted spheroids,
-in the order of pair.TILTED_COLUMNS, or (n, 13) where hyperboloids end, with pair.HEIGHTS behind. Rows about a way have
-(n, 10), (n, 13) or (n, 16): a Layout says what columns mean.
+in the order of pair.TILTED_COLUMNS, or (n, 13) where hyperboloids end, with pair.HEIGHTS behind. Rows about a sweep
+have (n, 10), (n, 13) or (n, 16): a Layout says what columns mean.
 First the types and the functions that make rows from what a caller passes, then the check of their values, then the
 ranges of ratios and of lengths on which an implementation is judged.
 """
@@ -102,7 +102,7 @@ PAIRS = Layout(COLUMNS)
 """One position of a spheroid: (n, 7), or (n, 10) with its axis."""
 
 SWEEPS = Layout(SWEEP_COLUMNS, ("way", "way", "way"))
-"""The way between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
+"""The sweep between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
 
 
 def as_rows(values: Table | ArrayLike, *, tilted: bool = False, heights: bool = False, layout: Layout = PAIRS) -> Rows:
@@ -328,7 +328,7 @@ class FixedSizes:
         return self.x, self.y, self.z
 
     def holds(self, rows: Rows, layout: Layout = PAIRS) -> Mask:
-        """A mask (n,) of the rows with these sizes, this axis and the centre, on a way both its ends, in the spans."""
+        """A mask (n,) of the rows with these sizes, this axis and the centre, of a sweep both ends, in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
         if not inside.any():  # the usual case where a scene has many sizes
             return np.asarray(inside)

@@ -17,13 +17,13 @@ from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Axis, Pair, Sizes
 from hypcheck.geometry.rows import Floats, Rows
-from hypcheck.implementations import alternatives, ways
+from hypcheck.implementations import alternatives, sweeps
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import EVERYWHERE, ORDINARY, Domain
 from hypcheck.implementations.frames import LARGEST, GivenAnswers
 from hypcheck.implementations.meshes import FCL, naive_fcl
 from hypcheck.implementations.method import Answers, Method, by_rows, on_rows
-from hypcheck.implementations.ways import WAY_SOLVERS, WaySolver, hits_and_times
+from hypcheck.implementations.sweeps import SWEEP_SOLVERS, SweepSolver, hits_and_times
 from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
@@ -145,21 +145,21 @@ def builtin_methods() -> dict[str, Method]:
 
 
 SAMPLES = (4, 16, 64, 256)
-"""Positions of a way at which a sampling method looks."""
+"""Positions of a sweep at which a sampling method looks."""
 
-WAY_ROWS = 200
-"""A method that takes a millisecond for a way is asked so many of a family."""
+SWEEP_ROWS = 200
+"""A method that takes a millisecond for a sweep is asked so many of a family."""
 
 
 @cache
 def passage_methods() -> dict[str, Method]:
     """Every built-in method that answers the question passage, by its name."""
     methods = [
-        _passage_method("passage-exact", "roots and steps in integers", ways.exact, exact=True, max_rows=WAY_ROWS),
+        _passage_method("passage-exact", "roots and steps in integers", sweeps.exact, exact=True, max_rows=SWEEP_ROWS),
         Method(
             "passage-certified",
             "steps in certified floats, exact where they come to nothing",
-            ways.certified,
+            sweeps.certified,
             question="passage",
             domain=EVERYWHERE,
             exact=True,
@@ -167,12 +167,12 @@ def passage_methods() -> dict[str, Method]:
         ),
         *(
             _passage_method(
-                f"passage-sampled-{count}", f"exact positions at {count} times", partial(ways.sampled, count=count)
+                f"passage-sampled-{count}", f"exact positions at {count} times", partial(sweeps.sampled, count=count)
             )
             for count in SAMPLES
         ),
-        _passage_method("passage-advancement", "conservative advancement by the centre's distance", ways.advanced),
-        _passage_method("passage-capsule", "a swept ball in the spheroid's place, advanced alike", ways.capsule),
+        _passage_method("passage-advancement", "conservative advancement by the centre's distance", sweeps.advanced),
+        _passage_method("passage-capsule", "a swept ball in the spheroid's place, advanced alike", sweeps.capsule),
     ]
     return {method.name: method for method in methods}
 
@@ -200,23 +200,23 @@ def _passage_method(
 
 @cache
 def passage_mesh_methods() -> dict[str, Method]:
-    """Every built-in method that asks a collision engine about ways, by its name, whether the engine is here or not."""
-    return {name: _way_mesh_method(solver) for name, solver in WAY_SOLVERS.items()}
+    """Every built-in method that asks a collision engine about sweeps, by its name, even if the engine is not here."""
+    return {name: _way_mesh_method(solver) for name, solver in SWEEP_SOLVERS.items()}
 
 
-def _way_mesh_method(solver: WaySolver) -> Method:
+def _way_mesh_method(solver: SweepSolver) -> Method:
     found = _passage_method(solver.name, solver.title, partial(hits_and_times, solver), max_rows=FCL_ROWS)
     return found if solver.times else replace(found, timed=None)
 
 
 def builtin(name: str) -> Method:
     """The built-in method of that name; raises InputError naming those that exist, or what it needs and lacks."""
-    if name in WAY_SOLVERS and (trouble := WAY_SOLVERS[name].engine.trouble()) is not None:
+    if name in SWEEP_SOLVERS and (trouble := SWEEP_SOLVERS[name].engine.trouble()) is not None:
         raise InputError(f"the built-in method {name!r} cannot be used: {trouble}")
     method = methods_without_meshes().get(name) or passage_methods().get(name) or passage_mesh_methods().get(name)
     method = method or builtin_methods().get(name)  # FCL is loaded only on request
     if method is None:
-        known = [*builtin_methods(), *passage_methods(), *WAY_SOLVERS]
+        known = [*builtin_methods(), *passage_methods(), *SWEEP_SOLVERS]
         raise InputError(f"there is no built-in method {name!r}; {suggestion(name, known)}")
     return method
 

@@ -58,7 +58,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         )
     }
 )
-"""The position itself, whether it is one of the three, and whether there is contact on the way between two."""
+"""The position itself, whether it is one of the three, and whether there is contact on the sweep between two."""
 
 PROTOCOL = 1
 LONGEST = 1 << 16

@@ -88,7 +88,7 @@ ENTRIES = (
     "hypcheck_classify_columns",
     "hypcheck_passage_columns",
 )
-"""The functions of a library: of rows, of rows with an axis, of one scene, of ways, and of rows of any width.
+"""The functions of a library: of rows, of rows with an axis, of one scene, of sweeps, and of rows of any width.
 
 READY says which it exports.
 """

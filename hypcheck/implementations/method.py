@@ -46,8 +46,8 @@ class MethodClaims:
 class Method(MethodClaims):
     """A method in this process.
 
-    `answer` maps valid rows, float64 (n, 7) or of ways (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1 and
-    0 for yes and no. `max_rows` limits the rows of each family for a slow one. `measured` marks a method that only
+    `answer` maps valid rows, float64 (n, 7) or of sweeps (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1
+    and 0 for yes and no. `max_rows` limits the rows of each family for a slow one. `measured` marks a method that only
     `bench` uses: its errors are no finding of `verify`. `timed` stands in the place of `answer` where a method also
     gives the times of hits.
     """

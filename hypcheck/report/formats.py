@@ -12,7 +12,7 @@ class ReportFormat:
 
     file: the name of its file.
     shows: the type of lines that it shows; without one of them no file is written, and none is missed.
-    ways: whether it shows wrong answers about ways; without one it is neither written nor missed.
+    ways: whether it shows wrong answers about sweeps; without one it is neither written nor missed.
     compares: whether it shows changes against another record.
     kept: whether every run writes it; others are made on demand.
     by_suffix: whether a file name with its suffix alone means it; else only its own name does.

@@ -115,7 +115,7 @@ def measured_methods(record: Record) -> list[MeasuredMethod]:
 
 @dataclass(frozen=True, slots=True)
 class WayTotal:
-    """A method for ways: its answers on all workloads together, and the time of a way on the principal one.
+    """A method for sweeps: its answers on all workloads together, and the time of a sweep on the principal one.
 
     typical: half of the wrong answers need about this change of the spheroid's size at least; 0 without any.
     worst: the greatest such change, of those that were measured exactly.
@@ -140,7 +140,7 @@ class WayTotal:
 
 
 def way_totals(record: Record) -> list[WayTotal]:
-    """Every method that answers about ways and was judged, in the order of the record."""
+    """Every method that answers about sweeps and was judged, in the order of the record."""
     where = principal(record), BATCH
     return [
         _way_total(each, each.speed.get(where))

@@ -97,14 +97,14 @@ def classify_command(row: Sequence[float]) -> str:
 def error_text(case: WrongAnswer) -> str:
     """How wrong an answer is, in the unit of the tolerance: "wrong by 12 u", "wrong at any distance".
 
-    Of a time, the first contact and the way to it.
+    Of a time, the first contact and the sweep to it.
     """
     if case.time is UNSET or case.first is UNSET:
         if case.backward_error >= 1:
             return "wrong at any distance"
         return f"wrong by {figure(case.backward_error_u)} u"
     radii = figure(case.backward_error)
-    return f"at {case.time!r}, but the first contact is at {case.first[0]!r}, {radii} radii of the way from there"
+    return f"at {case.time!r}, but the first contact is at {case.first[0]!r}, {radii} radii of the sweep from there"
 
 
 def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:

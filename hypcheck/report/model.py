@@ -35,7 +35,7 @@ SubjectKey = tuple[str, "str | None"]
 """A name and a SPEC: two implementations may have the same name."""
 
 PASSAGE = "passage"
-"""The question about the way between two positions."""
+"""The question about the sweep between two positions."""
 
 REFERENCE = "plain numpy formula"
 """The contender whose time every other is divided by."""
@@ -291,7 +291,7 @@ def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTota
 
 
 def drawn_way(each: ImplementationTotal) -> WrongAnswer | None:
-    """The worst answer about a way of an upright spheroid, which can be drawn in the half plane; None without any."""
+    """The worst answer about a sweep of an upright spheroid, which can be drawn in the half plane; None without any."""
     if each.question != PASSAGE or not each.gated:
         return None
     return worst_case([case for group in each.groups for case in group.worst if case.axis is UNSET])

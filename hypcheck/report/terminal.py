@@ -142,12 +142,12 @@ def benchmark_facts(record: Record) -> Iterator[str]:
 
 
 def _way_fact(each: WayTotal) -> str:
-    """What a method for ways gets wrong, and what a way costs."""
+    """What a method for sweeps gets wrong, and what a sweep costs."""
     missed, false = (figure(100 * each.share(part)) for part in (each.missed, each.false))
     silent = f", {figure(100 * each.share(each.abstained))} % cannot say" if each.abstained else ""
-    time = "" if each.time_ns is None else f", {figure(each.time_ns / 1000)} µs a way"
+    time = "" if each.time_ns is None else f", {figure(each.time_ns / 1000)} µs a sweep"
     ratio = "" if each.ratio is None else f" ({pace(each.ratio, 'the reference')})"
-    wrong = f"{missed} % missed contacts, {false} % false contacts{silent}, of {each.asked:,} ways"
+    wrong = f"{missed} % missed contacts, {false} % false contacts{silent}, of {each.asked:,} sweeps"
     return f"{each.name}: {wrong}{time}{ratio}"
 
 

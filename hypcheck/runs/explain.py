@@ -53,7 +53,7 @@ _SWEEPS = 40
 _ABOUT = {
     "upright": "upright spheroids",
     "tilted": "tilted spheroids",
-    "way": "the way between two positions",
+    "way": "the sweep between two positions",
 }
 
 _SHOWN = {

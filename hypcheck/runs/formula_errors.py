@@ -15,7 +15,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, REFUSED
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Rows
-from hypcheck.implementations import ways
+from hypcheck.implementations import sweeps
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause, silent
 from hypcheck.runs.judge import time_is_right
@@ -351,7 +351,7 @@ SAME_TIME = 1e-9
 """Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
 
 _MOST_SWEEPS = 512
-"""Deciding a way exactly costs a millisecond, so only so many ways of a chunk are asked again."""
+"""Deciding a sweep exactly costs a millisecond, so only so many sweeps of a chunk are asked again."""
 
 
 def _touches(answered: AnsweredRows, place: int) -> Answers:
@@ -389,7 +389,7 @@ def _other_sweeps(*order: int) -> Rule:
         answers, times = silent(answered), np.zeros(len(answered.rows))
         if SWEEPS.has_axis(answered.rows):
             return answers
-        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = ways.exact(
+        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = sweeps.exact(
             np.ascontiguousarray(answered.rows[:_MOST_SWEEPS, order])
         )
         return _timed(answered, answers, times)

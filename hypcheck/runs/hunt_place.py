@@ -226,7 +226,7 @@ def sweep_place(row: tuple[float, ...]) -> RowPlace:
 
 
 def _crosses_the_ring(row: tuple[float, ...]) -> bool:
-    """Whether an upright spheroid's centre comes to the ring, or nearly, on its way through the plane of the waist."""
+    """Whether an upright spheroid's centre comes to the ring, or nearly, where its sweep crosses the waist's plane."""
     alpha, gamma, b, d, x, y, z, end_x, end_y, end_z = row
     radius = _ring_radius(alpha / b, gamma / d)
     if radius is None or z * end_z > 0:

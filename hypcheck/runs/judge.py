@@ -30,7 +30,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Floats, Indices, Layout, Mask, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import PRECISIONS, UNIT_ROUNDOFF
-from hypcheck.implementations.ways import rough_exponents
+from hypcheck.implementations.sweeps import rough_exponents
 from hypcheck.truth import backward_error, exact, float_filter, passage_error
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.passage_error import CLEAR, HIT, SWEEP_ANSWERS, passage_of

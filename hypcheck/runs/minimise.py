@@ -116,7 +116,7 @@ _SMALL = tuple(map(float, range(1, 7)))
 
 
 def same_query(row: Row, layout: Layout) -> Iterator[Row]:
-    """The row in other coordinates: fewer signs, x and y exchanged, a way the other way round, other units.
+    """The row in other coordinates: fewer signs, x and y exchanged, a sweep the other way round, other units.
 
     An upright pair is also turned so that y is 0.
     """

@@ -211,7 +211,7 @@ def _claim_lines(description: Description) -> str:
 
 
 def _mistake(done: Replay) -> str:
-    """How wrong an answer is; of one about a way by the size, or by the way between its time and the first contact."""
+    """How wrong an answer is; of one about a sweep by the size, or by what lies between its time and the contact."""
     judgement, criterion = done.judgement, done.criterion
     if judgement.mistake is None:
         return ""

@@ -96,7 +96,7 @@ def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
         tail = [*g[1:], *[0] * (len(rest) - len(g))]
         rest = [a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
     if any(rest):
-        raise AssertionError("a polynomial that is no factor was to be divided out")
+        raise AssertionError("a polynomial that is not a factor was to be divided out")
     return tuple(quotient)
 
 

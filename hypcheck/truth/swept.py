@@ -319,7 +319,7 @@ def checked_sequence(subject: str, names: Sequence[str], values: object) -> tupl
     """The values, one for each name. Raises InputError where they are more, fewer, or no sequence."""
     wanted = f"there must be {len(names)}: {', '.join(names)}"
     if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InputError(f"{subject}: {escaped(reprlib.repr(values), 60)} is no sequence of numbers; {wanted}")
+        raise InputError(f"{subject}: {escaped(reprlib.repr(values), 60)} is not a sequence of numbers; {wanted}")
     numbers = tuple(values)
     if len(numbers) != len(names):
         raise InputError(

@@ -15,7 +15,7 @@ from hypcheck.bench.workloads import WAY_WORKLOADS, frozen_ways, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import SWEEPS, first_trouble
 from hypcheck.implementations.builtin import passage_methods
-from hypcheck.implementations.ways import WAY_SOLVERS
+from hypcheck.implementations.sweeps import SWEEP_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
 from hypcheck.vectors.families import SWEEP_FAMILIES
@@ -44,7 +44,7 @@ def test_the_frozen_ways_come_from_all_families_of_upright_spheroids_in_turn():
 
 
 def test_bench_compares_all_built_in_methods_for_ways_but_two_in_a_quick_run():
-    every = {*passage_methods(), *WAY_SOLVERS}
+    every = {*passage_methods(), *SWEEP_SOLVERS}
     found = contenders(BenchPlan(question=PASSAGE))
     assert set(found) == every
     assert next(iter(found)) == PASSAGE_REFERENCE

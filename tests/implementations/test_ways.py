@@ -9,12 +9,12 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations import ways
+from hypcheck.implementations import sweeps
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.meshes import COAL, FCL
-from hypcheck.implementations.ways import WAY_SOLVERS, ball_mesh, height_of_ways, hits_and_times, way_mesh
+from hypcheck.implementations.sweeps import SWEEP_SOLVERS, ball_mesh, height_of_sweeps, hits_and_times, sweep_mesh
 
-HERE = [name for name, solver in WAY_SOLVERS.items() if solver.engine.trouble() is None]
+HERE = [name for name, solver in SWEEP_SOLVERS.items() if solver.engine.trouble() is None]
 NEEDS_FCL = pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl has no wheel here")
 
 SIZES = (4.0, 6.0, 1.0, 0.5)
@@ -37,12 +37,12 @@ ROWS = np.array(
 @pytest.fixture(scope="module")
 def found():
     """Hits and times of each solver that is here."""
-    return {name: hits_and_times(WAY_SOLVERS[name], ROWS) for name in HERE}
+    return {name: hits_and_times(SWEEP_SOLVERS[name], ROWS) for name in HERE}
 
 
 @pytest.mark.parametrize("name", [name for name in HERE if name.endswith("-distance")])
 def test_solvers_that_step_by_distance_find_each_contact_and_its_time(name, found):
-    hits, times = ways.exact(ROWS)
+    hits, times = sweeps.exact(ROWS)
     assert hits.tolist() == [1, 1, 0, 0, 1, 1]
     assert found[name][0].tolist() == hits.tolist()
     np.testing.assert_allclose(found[name][1], times, atol=0.02)
@@ -65,7 +65,7 @@ def test_conservative_advancement_of_fcl_finds_contact_only_at_the_start_of_a_wa
 def test_the_polynomial_solver_of_fcl_finds_contacts_and_gives_no_time(found):
     assert found["passage-fcl-polynomial"][0].tolist() == [1, 1, 0, 0, 1, 1]
     assert builtin("passage-fcl-polynomial").timed is None
-    mesh = way_mesh(WAY_SOLVERS["passage-fcl-polynomial"], SIZES, height_of_ways(SIZES, ROWS))
+    mesh = sweep_mesh(SWEEP_SOLVERS["passage-fcl-polynomial"], SIZES, height_of_sweeps(SIZES, ROWS))
     assert mesh.answers(np.concatenate([ROWS, ROWS])).tolist() == [1, 1, 0, 0, 1, 1] * 2  # no mesh stays moved
 
 
@@ -87,14 +87,14 @@ def test_a_way_method_whose_engine_is_missing_names_the_engine():
 def test_a_way_too_long_for_an_engine_is_answered_cannot_say(name):
     far = ROWS[:2].copy()
     far[0, 7] = 1e120
-    assert way_mesh(WAY_SOLVERS[name], SIZES, height_of_ways(SIZES, far), 100).answers(far)[0] == CANNOT_SAY
+    assert sweep_mesh(SWEEP_SOLVERS[name], SIZES, height_of_sweeps(SIZES, far), 100).answers(far)[0] == CANNOT_SAY
     far[0, 9] = 1e120
-    assert hits_and_times(WAY_SOLVERS[name], far[:1])[0].tolist() == [CANNOT_SAY]
+    assert hits_and_times(SWEEP_SOLVERS[name], far[:1])[0].tolist() == [CANNOT_SAY]
 
 
 def test_way_mesh_answers_cannot_say_if_the_engine_refuses_the_mesh():
-    refusing = replace(WAY_SOLVERS["passage-fcl-naive-10"], engine=replace(FCL, mesh=lambda *_: None))
-    assert way_mesh(refusing, SIZES, 20.0).answers(ROWS).tolist() == [CANNOT_SAY] * len(ROWS)
+    refusing = replace(SWEEP_SOLVERS["passage-fcl-naive-10"], engine=replace(FCL, mesh=lambda *_: None))
+    assert sweep_mesh(refusing, SIZES, 20.0).answers(ROWS).tolist() == [CANNOT_SAY] * len(ROWS)
 
 
 def test_ball_mesh_is_inscribed_and_closed():

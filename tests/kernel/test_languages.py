@@ -178,7 +178,7 @@ def test_every_step_printed_in_python_gives_the_same_bits_as_its_program(name):
     [("c", "short"), ("cpp", "new"), ("rust", "loop"), ("javascript", "let"), ("python", "def")],
 )
 def test_printing_a_step_named_as_a_reserved_word_raises_an_error(language, reserved):
-    with pytest.raises(ValueError, match=f"step {reserved}: {reserved} is no name in the language"):
+    with pytest.raises(ValueError, match=f"step {reserved}: {reserved} is not a name in the language"):
         statements_in(language, program_of("p", ("x",), f"{reserved} = x + 1"), (reserved,))
 
 

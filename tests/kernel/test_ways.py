@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.implementations import ways
+from hypcheck.implementations import sweeps
 from hypcheck.vectors.frozen import SWEEP_NAMES, load
 from tests.support.inside import answer_ways as compiled_answer_ways
 from tests.support.inside import hits_at_size, numpy_kernel_answer_ways, scaled_passage
@@ -129,7 +129,7 @@ TINY, HUGE = 5e-324, 1.7e308
 def test_ways_with_subnormal_and_huge_numbers_are_decided_exactly(row, hit):
     rows = np.array([row], dtype=float)
     assert compiled_answer_ways(rows)[0][0] in (hit, CANNOT_SAY)
-    assert ways.certified(rows).tolist() == [hit]
+    assert sweeps.certified(rows).tolist() == [hit]
 
 
 def test_hits_of_ways_do_not_depend_on_whether_times_are_asked_for():

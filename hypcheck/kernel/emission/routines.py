@@ -163,7 +163,7 @@ class _Printer:
 
     def _require_free(self, name: str) -> None:
         if name in self.spelling.reserved:
-            raise ValueError(f"{name} is no name in {self.dialect.name}")
+            raise ValueError(f"{name} is not a name in {self.dialect.name}")
 
     def _result(self, result: Result) -> Iterator[str]:
         if isinstance(result, str):

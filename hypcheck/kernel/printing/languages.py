@@ -89,7 +89,7 @@ def statements(program: Program, wanted: tuple[str, ...], spelling: Spelling) ->
         kinds[step.name] = kind_of(step, kinds)
         reserved = sorted(spelling.reserved.intersection((step.name, *step.reads)))
         if reserved:
-            raise ValueError(f"program {program.name}: step {step.name}: {reserved[0]} is no name in the language")
+            raise ValueError(f"program {program.name}: step {step.name}: {reserved[0]} is not a name in the language")
         if step.operation not in spelling.operations:
             raise ValueError(f"program {program.name}: step {step.name}: the language has no {step.operation}")
         lines.append(declared(step.name, kinds[step.name], value_of(step, spelling), spelling))

@@ -1,6 +1,6 @@
 """Error against run time: how near to contact a method is reliable, its cost, and the front that no other method beats.
 
-Of methods for ways, the share of missed and of false contacts stands in place of the distance. The methods of
+Of methods for sweeps, the share of missed and of false contacts stands in place of the distance. The methods of
 the front and those of the user have names; the other points have tooltips.
 """
 
@@ -266,7 +266,7 @@ def pareto_plots(record: Record) -> Iterator[Plot]:
 def front_plots(record: Record) -> Iterator[Plot]:
     """Two plots with names where there is room: the workload near contact, and the worst of all workloads.
 
-    Of a benchmark of ways: missed contacts, and false contacts.
+    Of a benchmark of sweeps: missed contacts, and false contacts.
     """
     if way_totals(record):
         yield from _way_plots(record)
@@ -385,12 +385,12 @@ def _way_plot(
     log_axis(axes, "x", min(times) / 2, max(times) * 3)
     axes.set_ylim(-(_ABOVE - 1) * most, _ABOVE * most)
     axes.yaxis.set_major_formatter(lambda value, _: f"{100 * value:g} %" if value >= 0 else "")
-    axes.set_xlabel(f"time of a way in a batch, {escaped(where, 40)} (µs)")
-    axes.set_ylabel(f"ways with a {title.lower().removesuffix('s')}")
+    axes.set_xlabel(f"time of a sweep in a batch, {escaped(where, 40)} (µs)")
+    axes.set_ylabel(f"sweeps with a {title.lower().removesuffix('s')}")
     tips = _draw_methods(axes, name, marks)
     _legend(drawn, marks)
     by_need = sorted(marks, key=lambda each: (each.mark.y, each.mark.x))
     names = [escaped(each.name.removeprefix("passage-"), 28) for each in by_need]
     place_labels(axes, [each.mark[:2] for each in by_need], names)
-    said = f"{title}, of all ways that a method was asked: {'; '.join(each.mark.tip for each in by_need)}."
+    said = f"{title}, of all sweeps that a method was asked: {'; '.join(each.mark.tip for each in by_need)}."
     return Plot(name, title, said, drawn, tips)

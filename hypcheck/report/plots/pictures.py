@@ -35,14 +35,14 @@ PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
 _JUDGED_AND_TIMED = "the record has no method that was both judged and timed"
 
 FILES = {
-    "ways": ("The worst answers about ways", "the record has no wrong answer about a way of an upright spheroid"),
+    "ways": ("The worst answers about sweeps", "the record has no wrong answer about a sweep of an upright spheroid"),
     "errors": ("Share of wrong answers against distance", "the record has no errors by distance"),
     "pareto": ("Error against run time", _JUDGED_AND_TIMED),
     "front": ("Error against run time", _JUDGED_AND_TIMED),
 }
 """Plots that have a file of their own: its title, and the reason if there is nothing to draw.
 
-The worst answer about a way of each implementation; the share of wrong answers, one curve a method; error against run
+The worst answer about a sweep of each implementation; the share of wrong answers, one curve a method; error against run
 time, with the front that no method beats; and the same near contact and at its worst, which stands for a whole run.
 """
 

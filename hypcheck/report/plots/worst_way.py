@@ -1,8 +1,8 @@
-"""The worst answer of each implementation about a way: that way in the half plane (r, z), where it is curved.
+"""The worst answer of each implementation about a sweep: that sweep in the half plane (r, z), where it is curved.
 
 An upright spheroid meets the hyperboloid in the half plane of its centre, so that the half plane shows the truth at
-each time. The whole way stands left; right of it is where the spheroid first touches, or comes nearest, which a long
-way would hide. Ways of spheroids that lean have no picture: where they touch, it need not be in this plane.
+each time. The whole sweep stands left; right of it is where the spheroid first touches, or comes nearest, which a long
+sweep would hide. Sweeps of spheroids that lean have no picture: where they touch, it need not be in this plane.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch
 
 from hypcheck.geometry.rows import Floats
-from hypcheck.implementations.ways import distances
+from hypcheck.implementations.sweeps import distances
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
@@ -62,7 +62,7 @@ class _Way:
 
 
 def plots(record: Record) -> Iterator[Plot]:
-    """A plot for each implementation under test that answered wrongly about a way of an upright spheroid."""
+    """A plot for each implementation under test that answered wrongly about a sweep of an upright spheroid."""
     for number, each in enumerate(implementations(record)):
         case = drawn_way(each)
         if case is not None:
@@ -128,7 +128,7 @@ def _near(axes: Axes, way: _Way) -> None:
 
 
 def _panel(axes: Axes, way: _Way, r: Interval, z: Interval, title: str) -> None:
-    """The way and the surface in a part of the half plane."""
+    """The sweep and the surface in a part of the half plane."""
     axes.set(xlim=r, ylim=z, xlabel="r, distance from the axis", ylabel="z, height")
     axes.set_title(title, fontsize=10)
     axes.locator_params(nbins=4)
@@ -145,7 +145,7 @@ def _about(way: _Way) -> tuple[Interval, Interval]:
 
 
 def _times(way: _Way) -> Floats:
-    """Times of the whole way, and more of them about the one that is shown and where it is nearest to the axis."""
+    """Times of the whole sweep, and more of them about the one that is shown and where it is nearest to the axis."""
     x, y = way.row[4:6]
     u, v = way.row[7] - x, way.row[8] - y
     turn = -(x * u + y * v) / (u * u + v * v) if u or v else 0.0
@@ -178,7 +178,7 @@ def _legend(drawn: Figure, way: _Way) -> None:
     own = colour(WAY)
     handles: list[Line2D | Patch] = [
         Line2D([], [], color=colour("ink"), linewidth=0.9, label="hyperboloid"),
-        Line2D([], [], color=own, marker="o", markersize=6, label="the way, from its start"),
+        Line2D([], [], color=own, marker="o", markersize=6, label="the sweep, from its start"),
         Line2D([], [], color=own, marker="s", markersize=6, label="to its end"),
     ]
     if way.hit:

@@ -1,4 +1,4 @@
-"""Sections about errors: by family, distance, workload, size and place; of meshes, bounding volumes and ways."""
+"""Sections about errors: by family, distance, workload, size and place; of meshes, bounding volumes and sweeps."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ _WORKLOAD_DISTANCE = prose(
     " a method whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
 )
 _SIZE_DISTANCE = prose(
-    "The *distance to the other answer* of a way is the least relative change of b and d together that leads to it,"
+    "The *distance to the other answer* of a sweep is the least relative change of b and d together that leads to it,"
     " estimated in floats: a method whose curve has come down can be trusted to the right of it. A point stands for up"
     " to three octaves."
 )
@@ -338,17 +338,17 @@ def _overlaps(lines: list[BoundingLine]) -> TableBlock:
 
 
 _SWEEPS = prose(
-    "A *missed contact* (dangerous) is a way that was called clear and has contact; a *false contact* closes a way that"
-    " is clear. Counts are of all workloads together; a slow method is asked fewer ways. A wrong answer is measured by"
-    " the change of b and d that makes it right: half of the wrong answers need at least what stands under *wrong by*,"
-    " about, and *worst* is the greatest that was found (∞: no change below 100 % is enough, as where the centre goes"
-    " through the surface). Times are medians of a way in a batch."
+    "A *missed contact* (dangerous) is a sweep that was called clear and has contact; a *false contact* closes a"
+    " sweep that is clear. Counts are of all workloads together; a slow method is asked fewer sweeps. A wrong answer"
+    " is measured by the change of b and d that makes it right: half of the wrong answers need at least what stands"
+    " under *wrong by*, about, and *worst* is the greatest that was found (∞: no change below 100 % is enough, as"
+    " where the centre goes through the surface). Times are medians of a sweep in a batch."
 )
-_WAY_FRONT = Figures("front", "missed contacts and false contacts against the time of a way", "front.svg")
+_WAY_FRONT = Figures("front", "missed contacts and false contacts against the time of a sweep", "front.svg")
 
 
 def way_sections(record: Record) -> Iterator[Section]:
-    """The comparison of methods for ways; none if the benchmark is about positions."""
+    """The comparison of methods for sweeps; none if the benchmark is about positions."""
     totals = way_totals(record)
     if totals:
         yield Section(
@@ -358,11 +358,11 @@ def way_sections(record: Record) -> Iterator[Section]:
 
 def _way_table(record: Record, totals: list[WayTotal]) -> TableBlock:
     where = workloads(record)[principal(record)].title
-    mistakes = ("ways", "missed contacts", "share", "false contacts", "share", "cannot say", "wrong by", "worst")
+    mistakes = ("sweeps", "missed contacts", "share", "false contacts", "share", "cannot say", "wrong by", "worst")
     columns = (
         Column("method"),
         *map(number, mistakes),
-        number("µs a way", hint=f"on the workload: {where}"),
+        number("µs a sweep", hint=f"on the workload: {where}"),
         number("ratio", hint=f"to the time of {reference(record)}"),
     )
     return table("missed and false contacts", columns, [_way_row(each) for each in totals])

@@ -255,16 +255,16 @@ def _gated_value(tested: UnderTest) -> Text:
     return (name, said)
 
 
-SWEEPS = Figures("ways", "the way of each implementation's worst answer, in the half plane (r, z)", "ways.svg")
+SWEEPS = Figures("ways", "the sweep of each implementation's worst answer, in the half plane (r, z)", "ways.svg")
 _SWEEPS = prose(
-    "The worst answer of each implementation about a way of an upright spheroid. Distance from the axis is drawn across"
-    " and height up, so that a straight way is curved; a spheroid touches the hyperboloid in this plane. On the right"
-    " is where it first touches, or comes nearest, each direction in its own scale."
+    "The worst answer of each implementation about a sweep of an upright spheroid. Distance from the axis is drawn"
+    " across and height up, so that a straight sweep is curved; a spheroid touches the hyperboloid in this plane. On"
+    " the right is where it first touches, or comes nearest, each direction in its own scale."
 )
 
 
 def way_sections(record: Record) -> Iterator[Section]:
-    """The worst answers about ways, drawn; none if no such answer is wrong."""
+    """The worst answers about sweeps, drawn; none if no such answer is wrong."""
     if any(drawn_way(each) is not None for each in implementations(record)):
         yield Section("The worst ways", (Paragraph(_SWEEPS), SWEEPS))
 

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from hypcheck import classify
-from hypcheck.implementations import ways
+from hypcheck.implementations import sweeps
 from hypcheck.truth.passage_error import passage_of
 from tests.support.inside import passage
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
@@ -62,19 +62,19 @@ def samples_only_the_start(rows):
 @wrong(claim=TRAPS)
 def samples_both_ends(rows):
     """It tests both ends."""
-    return ways.sampled(rows, 2)
+    return sweeps.sampled(rows, 2)
 
 
 @wrong(claim=TRAPS)
 def samples_16_points(rows):
     """It tests 16 points."""
-    return ways.sampled(rows, 16)
+    return sweeps.sampled(rows, 16)
 
 
 @wrong(claim=TRAPS)
 def samples_256_points(rows):
     """It tests 256 points, and times are those of points."""
-    return ways.sampled(rows, 256)
+    return sweeps.sampled(rows, 256)
 
 
 @wrong(claim=TRAPS)
@@ -247,7 +247,7 @@ def always(rows):
 @right(claim=TRAPS, asked=NO_TOLERANCE)
 def exact(rows):
     """The exact decision."""
-    return ways.exact(rows)
+    return sweeps.exact(rows)
 
 
 @right(claim=TRAPS, asked=NO_TOLERANCE)
@@ -260,5 +260,5 @@ def exact_from_above(rows):
 @right(claim=TRAPS, asked=NO_TOLERANCE)
 def certified(rows):
     """The certified steps, and the exact times."""
-    hits = ways.certified(rows)
+    hits = sweeps.certified(rows)
     return hits, np.where(hits == 1, _told(_found(rows))[1], np.nan)

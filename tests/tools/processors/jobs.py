@@ -12,7 +12,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS
-from hypcheck.implementations.ways import certified
+from hypcheck.implementations.sweeps import certified
 from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES
 from hypcheck.vectors.frozen import ENDED_NAMES, NAMES, SWEEP_NAMES, TILTED_NAMES, load
 from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_CONTENTS, INVALID_NAMES

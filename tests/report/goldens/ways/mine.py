@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypcheck.implementations.ways import sampled
+from hypcheck.implementations.sweeps import sampled
 
 hypcheck = {"question": "passage", "times": True, "tilt": True}
 

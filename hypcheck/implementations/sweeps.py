@@ -1,11 +1,11 @@
-"""Methods that answer whether a spheroid meets the hyperboloid on a straight way, and when first.
+"""Methods that answer whether a spheroid meets the hyperboloid on a straight sweep, and when first.
 
 Lengths are in spheroid radii here: across divided by b, along by d. The spheroid is then a unit ball, and it is in
 contact as long as its centre is no farther than 1 from the surface. A method returns hits, int8 (n,), and times,
 float64 (n,), NaN where it sees no contact.
 
 Collision engines are asked too: FCL's continuous collision on meshes, and steps by an engine's distance, which coal's
-users must take. A scene has one inscribed mesh of the whole surface (meshes.py), as high as its ways. What FCL's
+users must take. A scene has one inscribed mesh of the whole surface (meshes.py), as high as its sweeps. What FCL's
 solvers do with a mesh, as python-fcl 0.7.0.11 has them:
 
 - *naive* asks `collide` at equally distant times, ten of them unless told otherwise. It takes every pairing; here it
@@ -14,7 +14,7 @@ solvers do with a mesh, as python-fcl 0.7.0.11 has them:
   comes before a mesh, and takes a mesh before a sphere, or two. Its steps are then too long: what does not
   touch at the start it calls clear. The unit sphere in spheroid radii stands behind the mesh here.
 - *polynomial* takes two meshes that are translated, of which it forgets where they are placed, so that the vertices
-  must stand there, and which it leaves moved, so that the spheroid's is built for each way. It sees crossings of
+  must stand there, and which it leaves moved, so that the spheroid's is built for each sweep. It sees crossings of
   faces and edges, and stops at any of them: it tells hits, but not the first time.
 - *ray shooting* is an empty branch: it answers nothing.
 
@@ -50,7 +50,7 @@ _HALVINGS = 100
 """Bisections of the multiplier: enough for every float64 between its two ends."""
 
 _ZOOM, _ZOOMS = 64, 5
-"""The least distance of a way is looked for on so many pieces, so often, then between the neighbours of the best."""
+"""The least distance of a sweep is looked for on so many pieces, so often, then between the neighbours of the best."""
 
 MOST_ADVANCES = 400
 """Steps of conservative advancement before it gives up."""
@@ -114,7 +114,7 @@ def distances(rows: Rows, times: Floats) -> Floats:
 
 
 def least_distances(rows: Rows) -> Floats:
-    """Rough least distances (n,) on each way, in spheroid radii: the factor of the size that first has contact."""
+    """Rough least distances (n,) on each sweep, in spheroid radii: the factor of the size that first has contact."""
     n = len(rows)
     low, high = np.zeros(n), np.ones(n)
     best = np.full(n, np.inf)
@@ -129,7 +129,7 @@ def least_distances(rows: Rows) -> Floats:
 
 
 def lengths_of(rows: Rows) -> Floats:
-    """Lengths (n,) of ways in spheroid radii."""
+    """Lengths (n,) of sweeps in spheroid radii."""
     x, y, z = (rows[:, 7:10] - rows[:, 4:7]).T
     b, d = rows[:, 2], rows[:, 3]
     return np.asarray(np.hypot(np.hypot(x / b, y / b), z / d))
@@ -138,7 +138,7 @@ def lengths_of(rows: Rows) -> Floats:
 def advanced(rows: Rows) -> HitsAndTimes:
     """Conservative advancement: from each time as far as the distance then allows, until within NEARNESS of contact.
 
-    CANNOT_SAY where MOST_ADVANCES steps reach neither the surface nor the end of the way.
+    CANNOT_SAY where MOST_ADVANCES steps reach neither the surface nor the end of the sweep.
     """
     n, speed = len(rows), lengths_of(rows)
     hits, times, now = np.full(n, CANNOT_SAY, dtype=np.int8), np.full(n, np.nan), np.zeros(n)
@@ -174,7 +174,7 @@ def certified(rows: Rows) -> NDArray[np.int8]:
 
 
 def rough_exponents(rows: Rows) -> Floats:
-    """log2 of how far the sizes of spheroids are from those with which contact begins on their ways, roughly: (n,)."""
+    """About log2 of how far spheroids' sizes are from those with which contact begins on their sweeps: (n,)."""
     off = np.abs(least_distances(rows) - 1)
     with np.errstate(divide="ignore"):
         return np.asarray(np.where(np.isnan(off), -np.inf, np.log2(off)))
@@ -191,7 +191,7 @@ Meets = Callable[[Floats, Floats], tuple[int, float]]
 
 
 @dataclass(frozen=True, slots=True)
-class WaySolver:
+class SweepSolver:
     """A way to ask an engine: `meets` makes it from the engine's object of a mesh, b and d.
 
     `scaled`: lengths are in spheroid radii, so that the body is a unit sphere. `times`: it gives the first time.
@@ -206,7 +206,7 @@ class WaySolver:
 
 
 @dataclass(frozen=True, slots=True)
-class WayMesh:
+class SweepMesh:
     """A mesh in an engine, for one α, γ, b, d; `unit` are the units of a centre's three coordinates."""
 
     triangles: int
@@ -227,13 +227,13 @@ class WayMesh:
         return self.hits_and_times(rows)[0]
 
 
-def height_of_ways(sizes: Sizes, rows: Rows) -> float:
-    """The height of a scene's mesh, in the caller's unit: beyond γ, and beyond every way that is asked."""
+def height_of_sweeps(sizes: Sizes, rows: Rows) -> float:
+    """The height of a scene's mesh, in the caller's unit: beyond γ, and beyond every sweep that is asked."""
     _, gamma, _, d = sizes
     return float(max(1.2 * gamma, np.abs(rows[:, [6, 9]]).max(initial=0.0)) + 1.1 * d)
 
 
-def way_mesh(solver: WaySolver, sizes: Sizes, height: float, triangles: int = TRIANGLES) -> WayMesh:
+def sweep_mesh(solver: SweepSolver, sizes: Sizes, height: float, triangles: int = TRIANGLES) -> SweepMesh:
     """The scene's mesh for a solver."""
     alpha, gamma, b, d = sizes
     grid = grid_of(alpha / b, gamma / d, height / d, triangles)
@@ -242,14 +242,14 @@ def way_mesh(solver: WaySolver, sizes: Sizes, height: float, triangles: int = TR
         vertices, indices = whole.mesh()
     built = solver.engine.mesh(vertices, indices) if np.abs(vertices).max() < LARGEST else None
     unit = (b, b, d) if solver.scaled else (1.0, 1.0, 1.0)
-    return WayMesh(whole.triangles, unit, None if built is None else solver.meets(built, b, d))
+    return SweepMesh(whole.triangles, unit, None if built is None else solver.meets(built, b, d))
 
 
-def hits_and_times(solver: WaySolver, rows: Rows) -> HitsAndTimes:
+def hits_and_times(solver: SweepSolver, rows: Rows) -> HitsAndTimes:
     """Hits and times of rows (n, 10) of any sizes, each scene with a mesh that is built now."""
     hits, times = np.empty(len(rows), dtype=np.int8), np.empty(len(rows))
     for sizes, places in rows_by_sizes(rows):
-        mesh = way_mesh(solver, sizes, height_of_ways(sizes, rows[places]))
+        mesh = sweep_mesh(solver, sizes, height_of_sweeps(sizes, rows[places]))
         hits[places], times[places] = mesh.hits_and_times(rows[places])
     return hits, times
 
@@ -359,11 +359,11 @@ def _stepping(engine: MeshLibrary) -> Callable[[object, float, float], Meets]:
 NAIVE_TIMES = (10, 100)
 """Times at which the naive solver looks; ten are FCL's own choice."""
 
-WAY_SOLVERS = {
+SWEEP_SOLVERS = {
     solver.name: solver
     for solver in (
         *(
-            WaySolver(
+            SweepSolver(
                 f"passage-fcl-naive-{count}",
                 f"FCL's naive continuous collision: its ellipsoid and a mesh at {count} times",
                 FCL,
@@ -372,13 +372,13 @@ WAY_SOLVERS = {
             )
             for count in NAIVE_TIMES
         ),
-        WaySolver(
+        SweepSolver(
             "passage-fcl-advancement",
             "FCL's conservative advancement, its own choice: a scaled mesh and the unit sphere",
             FCL,
             _advancement,
         ),
-        WaySolver(
+        SweepSolver(
             "passage-fcl-polynomial",
             "FCL's polynomial solver: a scaled mesh and a mesh of the unit sphere",
             FCL,
@@ -386,7 +386,7 @@ WAY_SOLVERS = {
             times=False,
         ),
         *(
-            WaySolver(
+            SweepSolver(
                 f"passage-{engine.name}-distance",
                 f"conservative advancement by {engine.title}'s distance from the centre to a scaled mesh",
                 engine,
@@ -396,4 +396,4 @@ WAY_SOLVERS = {
         ),
     )
 }
-"""By name: what a collision engine offers for a way."""
+"""By name: what a collision engine offers for a sweep."""
