@@ -186,7 +186,7 @@ class UnansweredCase:
 class Tally:
     """The results of some cases of one family, in numbers.
 
-    `asked` does not include skipped rows, of which `not_asked` counts the reasons (implementations.not_asked.ROWS).
+    `asked` does not include skipped rows, of which `not_asked` counts the reasons (implementations.domain.ROWS).
     `fresh` of those asked are rows that nobody knew before. `counts` are by status, SKIPPED included. `mistakes` count
     wrong and tolerated answers by kind. `answers` count answers by what is true and by what was answered, as in the
     record's line. `dangerous` counts answers that claim clear in contact, beyond the tolerance

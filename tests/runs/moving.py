@@ -6,7 +6,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import SWEEPS, invalid
-from hypcheck.truth.passage_error import passage_of
+from tests.support.inside import passage_of
 
 hypcheck = {"name": "moving", "question": "passage", "tilt": True, "times": True, "refuses": True}
 

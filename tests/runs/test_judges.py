@@ -12,8 +12,9 @@ from hypcheck.implementations.session import Answered
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import score
-from hypcheck.truth.passage_error import hits, passage_of, radii_off, sweep_in_radii
+from hypcheck.truth.passage_error import hits, radii_off, sweep_in_radii
 from hypcheck.vectors.families import SWEEP_FAMILIES
+from tests.support.inside import passage_of
 from tests.tools.mutants import passages
 from tests.tools.mutants.collection import public_functions
 from tests.tools.mutants.expectation import expectation_of

@@ -113,7 +113,15 @@ from hypcheck.truth.mesh_oracle import verdict
 from hypcheck.truth.nearest import Enclosure, NearestStage, nearest, ratio
 from hypcheck.truth.nearest_rows import clearances
 from hypcheck.truth.nearest_rows import positions as nearest_rows_positions
-from hypcheck.truth.passage_error import hits_at_size, is_tolerated, scaled_passage, size_error, time_window, tolerance
+from hypcheck.truth.passage_error import (
+    hits_at_size,
+    is_tolerated,
+    passage_of,
+    scaled_passage,
+    size_error,
+    time_window,
+    tolerance,
+)
 from hypcheck.truth.pencil import cubic, quartic, sign_at
 from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate
 from hypcheck.truth.polynomials import linear_factor, polynomial_product, value
@@ -250,6 +258,7 @@ __all__ = [
     "operations_before",
     "passage",
     "passage_error",
+    "passage_of",
     "pivots",
     "plan_as_json",
     "plan_lines",

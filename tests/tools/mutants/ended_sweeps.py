@@ -11,8 +11,7 @@ import numpy as np
 from hypcheck import classify
 from hypcheck.geometry.pair import AXIS, HEIGHTS, SIZES, SWEEP_COLUMNS
 from hypcheck.implementations import ways
-from hypcheck.runs.judges import passage_of
-from tests.support.inside import answer_ways
+from tests.support.inside import answer_ways, passage_of
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
 hypcheck = {"question": "passage", "times": True, "takes": ["axis", "heights"]}

@@ -12,8 +12,7 @@ import numpy as np
 
 from hypcheck import classify
 from hypcheck.implementations import sweeps
-from hypcheck.truth.passage_error import passage_of
-from tests.support.inside import passage
+from tests.support.inside import passage, passage_of
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
 hypcheck = {"question": "passage", "times": True}
