@@ -25,7 +25,7 @@ from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, W
 from hypcheck.runs.score import Score, score
 from hypcheck.runs.tally import STATUSES, UnansweredCase, counts_of
 from hypcheck.tables.numbers import hex_of
-from hypcheck.truth.passage_error import passage_of
+from hypcheck.truth.passage_error import first_contact
 from hypcheck.vectors.draw import Integers
 
 PIECE = 4096
@@ -295,7 +295,7 @@ def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
     yield titled("hex", ",".join(map(hex_of, case.row)))
     yield titled("truth", f"{truth}; answered: {answer} ({case.mistake.value}, wrong by {how_wrong(finding)})")
     if case.time is not None:
-        lower, upper = passage_of(case.row).first_bounds
+        lower, upper = first_contact(case.row)
         yield titled("time", f"answered: {case.time!r}; first contact between {lower!r} and {upper!r}")
     yield titled("replay", _command(target, "replay", decimals(case.row), target.spec))
 

@@ -23,7 +23,7 @@ from hypcheck.record.lines import GroupLine
 from hypcheck.runs import diagnosis, judge
 from hypcheck.runs.diagnosis import CasePlace, Diagnosis
 from hypcheck.runs.judge import Criterion, Status, WrongCase
-from hypcheck.truth.passage_error import passage_of
+from hypcheck.truth.passage_error import first_contact
 
 Integers = NDArray[np.int64]
 
@@ -350,5 +350,5 @@ def worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
         backward_error=Unsigned(case.error),
         backward_error_u=Unsigned(judge.in_units(case.error, criterion.unit)),
         time=UNSET if case.time is None else case.time,
-        first=UNSET if case.time is None else passage_of(case.row).first_bounds,
+        first=UNSET if case.time is None else first_contact(case.row),
     )

@@ -70,6 +70,12 @@ def passage_of(row: Row) -> Passage:
     return scaled_passage(row)
 
 
+def first_contact(row: Row) -> tuple[float, float]:
+    """float64 bounds of the time of the first contact, NaN where there is none."""
+    found = passage_of(row)
+    return found.first_lower, found.first_upper
+
+
 def hits(rows: Rows) -> Positions:
     """HIT for contact on the sweep, else CLEAR: int8 (n,)."""
     return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)

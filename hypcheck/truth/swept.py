@@ -177,11 +177,6 @@ class Passage:
         """The least float64 that is not below the enclosure; NaN where there is none."""
         return math.nan if self.first is None else rounded_toward(self.first[1], math.inf)
 
-    @property
-    def first_bounds(self) -> tuple[float, float]:
-        """float64 bounds of the time of first contact, NaN where there is none."""
-        return self.first_lower, self.first_upper
-
 
 @in_default_environment
 def passage(

@@ -99,7 +99,7 @@ def test_bench_of_ways_counts_missed_and_false_contacts_and_records_times(small)
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--tilted",), "--question passage compares methods for ways of upright spheroids; leave out --tilted"),
+        (("--tilted",), "--question passage compares methods for sweeps of upright spheroids; leave out --tilted"),
         (("--kernel",), "leave out --kernel"),
         (("--workloads", "uniform"), "there is no workload 'uniform'"),
         (("--methods", "fast-c"), "there is no method 'fast-c'"),

@@ -86,7 +86,7 @@ def test_every_step_printed_in_c_and_cpp_gives_the_same_bits_as_its_program(lang
 def test_printing_a_step_that_does_not_exist_or_reads_a_reserved_name_raises_an_error():
     with pytest.raises(KeyError, match="has no nothing"):
         c_statements(EVERYTHING, ("nothing",))
-    with pytest.raises(ValueError, match="step y: double is no name"):
+    with pytest.raises(ValueError, match="step y: double is not a name"):
         c_statements(program_of("p", ("double",), "y = double + 1"), ("y",))
 
 

@@ -285,8 +285,13 @@ def test_passage_decides_ways_of_any_magnitude(wide, tall):
             r"a centre: 2 numbers in \(0.0, 0.0\); there must be 3: x, y, z",
         ),
         ((2.0, 3.0, 1.0, 1.0), (0.0,) * 3, (1.0,) * 4, "a centre: 4 numbers in .*; there must be 3: x, y, z"),
-        ((2.0, 3.0, 1.0, 1.0), None, (1.0,) * 3, "a centre: None is no sequence of numbers; there must be 3: x, y, z"),
-        ((2.0, 3.0, 1.0, 1.0), "123", (1.0,) * 3, "a centre: '123' is no sequence of numbers; there must be 3"),
+        (
+            (2.0, 3.0, 1.0, 1.0),
+            None,
+            (1.0,) * 3,
+            "a centre: None is not a sequence of numbers; there must be 3: x, y, z",
+        ),
+        ((2.0, 3.0, 1.0, 1.0), "123", (1.0,) * 3, "a centre: '123' is not a sequence of numbers; there must be 3"),
     ],
 )
 def test_passage_raises_an_error_for_invalid_sizes_or_centres(sizes, start, end, message):

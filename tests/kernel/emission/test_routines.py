@@ -44,5 +44,5 @@ def test_a_name_that_a_language_reserves_is_refused():
     loop = Loop(2, (("short", "x", "y"),), steps_of("y = short + 1"))
     routine = Routine("r", "One more, twice.", ("x",), (loop,), "short")
     assert "short = y" in routines_text([routine], DIALECTS["python"], "float64")
-    with pytest.raises(ValueError, match="short is no name in c"):
+    with pytest.raises(ValueError, match="short is not a name in c"):
         routines_text([routine], DIALECTS["c"], "float64")
