@@ -110,7 +110,7 @@ def _measured_methods() -> Iterator[Method]:
 
 
 def _integers(rows: Rows) -> Answers:
-    return np.array([integers.position(Pair.from_row(row).lengths) for row in rows.tolist()], dtype=np.int8)
+    return np.array([integers.upright_position(Pair.from_row(row).lengths) for row in rows.tolist()], dtype=np.int8)
 
 
 def _oracle(rows: Rows) -> Answers:

@@ -31,8 +31,8 @@ import numpy as np
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS, REFUSED
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Integers, Mask, Positions, Rows, invalid
+from hypcheck.kernel import clearance_points
 from hypcheck.kernel import clearance_points as points
-from hypcheck.kernel import normals
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.numpy_kernel import leaning
@@ -121,14 +121,14 @@ class Clearance:
     @in_default_environment
     def normal(self) -> Floats:
         """The unit vectors from `nearest` to the spheroids."""
-        found = normals.normals(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        found = clearance_points.normals(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
         return found if np.ndim(self.position) else found[0]
 
     @cached_property
     @in_default_environment
     def tie(self) -> Mask:
         """Whether another point is as near, by a symmetry of both bodies."""
-        found = normals.ties(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        found = clearance_points.ties(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
         one: Any = bool(found[0])
         return found if np.ndim(self.position) else one
 

@@ -6,7 +6,7 @@ discriminant and its bound   printed/chunks.py certified
 integers                     integers.py
 
 Rows of ten whose axis leans have a stage in floats, printed/tilted.py, about a multiplier that proves nothing: any is
-safe, a good one leaves fewer rows to the integers of tilted_integers.py.
+safe, a good one leaves fewer rows to integers.py.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from hypcheck.geometry.rows import (
     parts_of,
     tilted_rows,
 )
-from hypcheck.kernel import integers, scene_lines, tilted_integers
+from hypcheck.kernel import integers, scene_lines
 from hypcheck.kernel.choice import POSITION_OF, Question
 from hypcheck.kernel.printed import chunks, tilted
 from hypcheck.kernel.programs.certified import CONSTANTS
@@ -257,7 +257,7 @@ def _certified(rows: Rows, buffers: Buffers[np.float64], result: Positions) -> N
         numbers, truths = buffers.of(len(rows))
         exterior, interior, decided = chunks.certified(alpha, gamma, b, d, x, y, z, CONSTANTS, numbers, truths)
     rest = _filled_in(exterior, interior, decided, result)
-    _by_integers(rows, rest, result, lambda row: integers.position(Pair.from_row(row).lengths))
+    _by_integers(rows, rest, result, lambda row: integers.upright_position(Pair.from_row(row).lengths))
 
 
 def _by_integers(rows: Rows, places: Indices, result: Positions, position: Callable[[list[float]], Position]) -> None:
@@ -282,7 +282,7 @@ def _positions_leaning(rows: Rows) -> Positions:
         numbers = list(np.empty((tilted.TILTED_BUFFERS[0], len(rows))))
         truths = list(np.empty((tilted.TILTED_BUFFERS[1], len(rows)), dtype=np.bool_))
         found = tilted.tilted(*row, _multiplier(row), TILTED_CONSTANTS, numbers, truths)
-    _by_integers(rows, _filled_in(*found, result), result, tilted_integers.position)
+    _by_integers(rows, _filled_in(*found, result), result, integers.position)
     return result
 
 

@@ -20,7 +20,7 @@ from hypcheck.geometry.pair import (
     trouble_with_heights,
     trouble_with_row,
 )
-from hypcheck.kernel import integers, tilted_integers
+from hypcheck.kernel import integers
 from hypcheck.kernel.choice import choice, compiled
 from hypcheck.kernel.printed.scalars import FARTHEST, GREATEST, LEAST, SLACK, single
 from hypcheck.messages import escaped
@@ -84,7 +84,7 @@ def exact_position(
     if z_min != -math.inf or z_max != math.inf or solid:
         return _ended_position((alpha, gamma, b, d, x, y, z), axis, (z_min, z_max, solid), exact_position)
     if axis is not None:
-        return int(tilted_integers.position(_valid_row((alpha, gamma, b, d, x, y, z), axis)))
+        return int(integers.position(_valid_row((alpha, gamma, b, d, x, y, z), axis)))
     if (
         type(alpha) is type(gamma) is type(b) is type(d) is type(x) is type(y) is type(z) is float
         and (LEAST < b < GREATEST and LEAST < d < GREATEST)
@@ -100,7 +100,7 @@ def exact_position(
                         return 1
                 elif (c2 > e2 or c1 < -e1) and A > SLACK:
                     return -1
-    return int(integers.position(Pair.from_row((alpha, gamma, b, d, x, y, z)).lengths))
+    return int(integers.upright_position(Pair.from_row((alpha, gamma, b, d, x, y, z)).lengths))
 
 
 def _ended_position(

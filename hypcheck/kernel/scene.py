@@ -39,7 +39,6 @@ from hypcheck.kernel.scene_index import (
     near_ways,
 )
 from hypcheck.kernel.scene_least import Flights, Least, least_distances
-from hypcheck.kernel.scene_motion import hit_at_once, point_at_once
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     position_beside,
@@ -58,7 +57,16 @@ from hypcheck.kernel.scene_queries import (
     points_or_columns,
     ways_of,
 )
-from hypcheck.kernel.scene_sweeps import Spheroid, Sweep, enters, first_contact, hits_beside, is_clear
+from hypcheck.kernel.scene_sweeps import (
+    Spheroid,
+    Sweep,
+    enters,
+    first_contact,
+    hit_at_once,
+    hits_beside,
+    is_clear,
+    point_at_once,
+)
 from hypcheck.pictures.page import ScenePage, page_of
 from hypcheck.pictures.plot import plot_of
 from hypcheck.scene.model import FREE, UPRIGHT, Point, leans

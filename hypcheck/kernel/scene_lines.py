@@ -186,7 +186,7 @@ def _known_point(sizes: Sizes, height: float, side: int) -> KnownPlace | None:
         return None
     for step in STEPS:
         x = shortened(sizes[2] * math.sqrt(max(edge * (1 - side * step), 0.0)), up=side < 0)
-        if integers.position(Pair.from_row((*sizes, x, 0.0, height)).lengths) != side:
+        if integers.upright_position(Pair.from_row((*sizes, x, 0.0, height)).lengths) != side:
             return KnownPlace(height * height, x * x)
     return None
 

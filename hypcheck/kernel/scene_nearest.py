@@ -26,7 +26,7 @@ import numpy as np
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT, Position
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import clearances
-from hypcheck.kernel.normals import normals
+from hypcheck.kernel.clearance_points import normals
 from hypcheck.kernel.scene_ends import positions_with_ends
 from hypcheck.kernel.scene_gaps import gaps
 from hypcheck.kernel.scene_index import OUTWARD, Bodies

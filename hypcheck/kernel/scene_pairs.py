@@ -28,8 +28,8 @@ from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.classify import classify
+from hypcheck.kernel.integers import position_of_squares, squares_between_axes
 from hypcheck.kernel.scalar import position
-from hypcheck.kernel.tilted_integers import position_of_squares, squares_between_axes
 
 Body = tuple[float, float, float, float, float]
 """α, γ, and the centre x, y, z, of a hyperboloid."""

@@ -26,8 +26,8 @@ from hypcheck.geometry.rows import Floats, Indices
 from hypcheck.kernel.margins import enlarged
 from hypcheck.kernel.scene_ends import limits_of
 from hypcheck.kernel.scene_index import ROOM, Bodies, PlaneGrid, bodies_of, cells_of, grid_of, hashed, in_reach, reaches
-from hypcheck.kernel.scene_motion import Near, near_of
 from hypcheck.kernel.scene_pairs import Body
+from hypcheck.kernel.scene_sweeps import Near, near_of
 from hypcheck.messages import escaped
 from hypcheck.scene.arrays import checked_hyperboloid, hyperboloids_of, mover_of, point_of, require_valid_mover
 from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, leans

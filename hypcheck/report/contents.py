@@ -40,9 +40,8 @@ from hypcheck.report.messages import Replays, error_text, families_text, figure,
 from hypcheck.report.model import implementations, under_test
 from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
-from hypcheck.report.square import squares
 from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
-from hypcheck.report.verdict import Verdict, failures, verdict
+from hypcheck.report.verdict import Verdict, failures, squares, verdict
 from hypcheck.runs.judge import in_words, truth_in_words
 
 

@@ -63,8 +63,7 @@ from hypcheck.report.model import (
     under_test,
     worst_error_u,
 )
-from hypcheck.report.square import aligned, squares
-from hypcheck.report.verdict import failures, verdict
+from hypcheck.report.verdict import aligned, failures, squares, verdict
 from hypcheck.runs.judge import Status
 
 

@@ -23,9 +23,8 @@ from hypcheck.runs.cases import frozen_count, frozen_vectors
 from hypcheck.runs.plan import ConformancePlan, chosen_families, searches
 from hypcheck.runs.results import JudgingRules
 from hypcheck.vectors import crossed
-from hypcheck.vectors.border_lines import RUNGS, octaves_of
+from hypcheck.vectors.border_lines import HIGHEST, RATIO_OCTAVES, RUNGS, STRATA_FARTHEST, STRATA_NEAREST, octaves_of
 from hypcheck.vectors.family import Family
-from hypcheck.vectors.strata import FARTHEST_OCTAVE, HIGHEST, NEAREST_OCTAVE, RATIO_OCTAVES
 
 DISTANCE = "distance to contact"
 
@@ -35,7 +34,7 @@ def _distance_octaves(rows: Rows) -> Floats:
 
     Contact begins or ends where the size changes by that share, which is found by halving.
     """
-    low, high = np.full(len(rows), NEAREST_OCTAVE - 1.0), np.full(len(rows), FARTHEST_OCTAVE + 1.0)
+    low, high = np.full(len(rows), STRATA_NEAREST - 1.0), np.full(len(rows), STRATA_FARTHEST + 1.0)
     touching = np.asarray(classify(rows)) == Position.CONTACT
     grown = np.where(touching, -1.0, 1.0)
 
@@ -61,7 +60,7 @@ COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
         "d/b": lambda rows: _share_of_octaves(rows[:, 3] / rows[:, 2]),
         "α/b": lambda rows: _share_of_octaves(rows[:, 0] / rows[:, 2], -3, 7),
         "azimuth": lambda rows: np.arctan2(rows[:, 5], rows[:, 4]) / (2 * np.pi) + 0.5,
-        DISTANCE: lambda rows: (_distance_octaves(rows) - NEAREST_OCTAVE) / (FARTHEST_OCTAVE - NEAREST_OCTAVE),
+        DISTANCE: lambda rows: (_distance_octaves(rows) - STRATA_NEAREST) / (STRATA_FARTHEST - STRATA_NEAREST),
         "lean": lambda rows: np.cos(np.arctan2(np.hypot(rows[:, 7], rows[:, 8]), np.abs(rows[:, 9]))),
         "heading": lambda rows: np.arctan2(rows[:, 8], rows[:, 7]) / np.pi % 1,
     }

@@ -1,9 +1,15 @@
-"""Lines across the border of contact, for a directed search: one pair, and its spheroid in many sizes.
+"""Rows near contact: evenly spread ones, and lines across the border of contact for a directed search.
 
-A line begins with a spheroid that touches, and its size is multiplied: a larger one is in contact, a smaller one is
-clear. A search asks where on the line an implementation's answer changes (runs/border_search.py). The rungs of a line
-are numbered, so that a row has a case id like any other: row i of the family is rung i mod RUNGS of line i div RUNGS.
-The pairs are those of a lattice, as in strata.py, of other random shifts.
+**Evenly.** No slice of a size, a height or a direction is left without a question: a fault in a narrow range, such as
+|z|/γ between 0.50 and 0.51, shows only in a row within the range and near contact. Random draws leave gaps and heaps.
+Here each block of rows is a lattice of 1024 points with a random shift, so that each coordinate has a row in every
+1024th part of its range, and any two together are spread as evenly. The seed is the start of the lattice. The height is
+that of the centre, not of the point of contact: a bisection finds the point for the height.
+
+**Lines**: one pair, and its spheroid in many sizes. A line begins with a spheroid that touches, and its size is
+multiplied: a larger one is in contact, a smaller one is clear. A search asks where on the line an implementation's
+answer changes (runs/border_search.py). The rungs of a line are numbered, so that a row has a case id like any other:
+row i of the family is rung i mod RUNGS of line i div RUNGS. The pairs are those of a lattice of other random shifts.
 """
 
 from __future__ import annotations
@@ -12,13 +18,141 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.kernel.classify import classify
-from hypcheck.vectors import strata
-from hypcheck.vectors.draw import Draw, Integers
+from hypcheck.vectors.draw import Draw, Integers, circle_at, exponent, ldexp
 from hypcheck.vectors.family import BLOCK, Family
+from hypcheck.vectors.random_pairs import Sizes
+from hypcheck.vectors.tilted import Vectors, beside_at
+
+BITS = 10
+"""A lattice has 2^BITS points."""
+
+GENERATOR = (1, 125, 265, 357, 593, 397, 473, 757, 417, 55)
+"""Of the lattice; the best powers found for the distance of its points in any two of the first nine coordinates."""
+
+HIGHEST = 2.0
+"""|z|/γ of the centre is below it."""
+
+RATIO_OCTAVES = 10
+"""c/a and d/b are from 2^−RATIO_OCTAVES to 2^RATIO_OCTAVES."""
+
+STRATA_NEAREST, STRATA_FARTHEST = -40, -30
+"""Rows are from 2^STRATA_NEAREST to 2^STRATA_FARTHEST radii off contact."""
+
+_EIGHTH = 0.41421356237309503
+"""The tangent of π/8: circle_at spans a quarter of the circle between this and its opposite."""
+
+_HALVINGS = 54
+
+
+def lattice(draw: Draw, n: int) -> NDArray[np.float64]:
+    """Shifted points in [0, 1)^10, (10, n): the first 2^k of them are spread evenly too."""
+    places = np.arange(n, dtype=np.int64)
+    turned = np.zeros(n, dtype=np.int64)
+    for bit in range(BITS):
+        turned |= ((places >> bit) & 1) << (BITS - 1 - bit)
+    steps = turned * np.asarray(GENERATOR, dtype=np.int64)[:, None] % (1 << BITS)
+    points = ldexp(steps, np.full(steps.shape, -BITS)) + draw.unit(len(GENERATOR))[:, None]
+    return np.asarray(points - np.floor(points))
+
+
+def octaves(share: Floats, low: int, high: int) -> Floats:
+    """From 2^low to 2^high, evenly in octaves, and evenly within each."""
+    octave = share * (high - low)
+    whole = np.floor(octave)
+    return ldexp(1 + (octave - whole), low + whole)
+
+
+def _around(share: Floats) -> tuple[Floats, Floats]:
+    """Directions all around, as good as evenly."""
+    quarter = np.floor(share * 4)
+    cosine, sine = circle_at(_EIGHTH * (2 * (share * 4 - quarter) - 1))
+    return (
+        np.select([quarter == 0, quarter == 1, quarter == 2], [cosine, -sine, -cosine], sine),
+        np.select([quarter == 0, quarter == 1, quarter == 2], [sine, cosine, -sine], -cosine),
+    )
+
+
+def _near(points: NDArray[np.float64]) -> Floats:
+    """How far off contact the rows of a lattice are, in radii: negative is in contact."""
+    side, distance = points[5:7]
+    outwards = np.where(np.floor(side * 4) % 2 == 0, 1.0, -1.0)
+    return np.asarray(outwards * octaves(distance, STRATA_NEAREST, STRATA_FARTHEST))
+
+
+def _made(points: NDArray[np.float64], axis: Vectors, off: Floats) -> Rows:
+    height, slope, shape, waist, azimuth, side, _, unit = points[:8]
+    a, b = octaves(waist, -3, 7), octaves(unit, -1, 1)
+    d = b * octaves(shape, -RATIO_OCTAVES, RATIO_OCTAVES)
+    size = _centred(a * b, a * octaves(slope, -RATIO_OCTAVES, RATIO_OCTAVES) * d, b, d)
+    level = HIGHEST * (2 * height - 1)
+    outward = np.where(side < 0.5, 1.0, -1.0)
+    foot = _foot(size, level, axis, outward)
+    rows = beside_at(size, (np.ones(len(a)), np.zeros(len(a))), foot, axis, outward * (1 + off))
+    return _turned(rows, _around(azimuth))
+
+
+def _centred(*lengths: Floats) -> Sizes:
+    """The sizes in units such that the greatest is about as far above 1 as the least is below: none is extreme."""
+    octaves = np.stack([exponent(length) for length in lengths])
+    shift = -((octaves.max(axis=0) + octaves.min(axis=0)) // 2)
+    return Sizes(*(ldexp(length, shift) for length in lengths))
+
+
+def _foot(size: Sizes, level: Floats, axis: Vectors, outward: Floats) -> Floats:
+    """The height in γ of a point on the surface such that a centre that touches it is at `level`, in γ too."""
+    ahead = (np.ones(len(level)), np.zeros(len(level)))
+    reach = np.maximum(size.b, size.d) / size.gamma
+    low, high = level - reach, level + reach
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        above = beside_at(size, ahead, middle, axis, outward)[:, 6] > level * size.gamma
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    return (low + high) / 2
+
+
+def _turned(rows: Rows, to: tuple[Floats, Floats]) -> Rows:
+    """The rows, turned about the hyperboloid's axis until the centres are in these directions."""
+    x, y = rows[:, 4].copy(), rows[:, 5].copy()
+    radius = np.sqrt(x * x + y * y)
+    there = radius > 0
+    safe = np.where(there, radius, 1.0)
+    cosine = (to[0] * np.where(there, x, 1.0) + to[1] * y) / safe
+    sine = (to[1] * np.where(there, x, 1.0) - to[0] * y) / safe
+    rows[:, 4], rows[:, 5] = to[0] * radius, to[1] * radius
+    rows[:, 7], rows[:, 8] = cosine * rows[:, 7] - sine * rows[:, 8], sine * rows[:, 7] + cosine * rows[:, 8]
+    return rows + 0.0
+
+
+def upright(draw: Draw, n: int) -> Rows:
+    """From 2⁻⁴⁰ to 2⁻³⁰ radii off contact, to either side of it, outside and inside; |z| below 2γ."""
+    points = lattice(draw, n)
+    return upright_at(points, _near(points))
+
+
+def upright_at(points: NDArray[np.float64], off: Floats) -> Rows:
+    """The rows of these points of a lattice, (10, n), so many radii off contact."""
+    zero = np.zeros(len(off))
+    return np.ascontiguousarray(_made(points, (zero, zero, np.ones(len(off))), off)[:, :7])
+
+
+def tilted(draw: Draw, n: int) -> Rows:
+    """The same with axes everywhere."""
+    points = lattice(draw, n)
+    return tilted_at(points, _near(points))
+
+
+def tilted_at(points: NDArray[np.float64], off: Floats) -> Rows:
+    """The rows with axes of these points of a lattice, so many radii off contact."""
+    up = points[8]
+    across = np.sqrt(1 - up * up)
+    cosine, sine = _around(points[9])
+    return _made(points, (across * cosine, across * sine, up), off)
+
 
 RUNGS_ON_A_SIDE = 64
 RUNGS = 2 * RUNGS_ON_A_SIDE
@@ -30,7 +164,7 @@ NEAREST_OCTAVE, FARTHEST_OCTAVE = -48, 0
 _LEAST, _MOST = 2.0**-12, 1 + 2.0**-20
 """Between these factors of its size a spheroid begins to touch: it was made to, but may reach the surface elsewhere."""
 
-LINES = 1 << strata.BITS
+LINES = 1 << BITS
 """Lines of one lattice."""
 
 
@@ -66,8 +200,8 @@ SEARCHED = {
 @lru_cache(8)
 def _lines(name: str, version: int, seed: int, number: int, tilted: bool) -> tuple[Rows, Floats]:
     """The lines of a lattice: rows that are just clear, and the share of a rung by which its rungs lie farther out."""
-    points = strata.lattice(Draw(name, version, seed, number), LINES)
-    rows = (strata.tilted_at if tilted else strata.upright_at)(points, np.zeros(LINES))
+    points = lattice(Draw(name, version, seed, number), LINES)
+    rows = (tilted_at if tilted else upright_at)(points, np.zeros(LINES))
     return _resized(rows, _touch(rows) - 1), points[6]
 
 
@@ -91,7 +225,7 @@ def _resized(rows: Rows, change: Floats) -> Rows:
 
 def _changes(rungs: Integers, jitter: Floats) -> Floats:
     """By what share of itself the size at these rungs differs from that which touches."""
-    change = strata.octaves(_share(rungs, jitter), NEAREST_OCTAVE, FARTHEST_OCTAVE)
+    change = octaves(_share(rungs, jitter), NEAREST_OCTAVE, FARTHEST_OCTAVE)
     return np.asarray(np.where(rungs < RUNGS_ON_A_SIDE, -change, change))
 
 

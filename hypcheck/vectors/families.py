@@ -10,7 +10,17 @@ from fnmatch import fnmatchcase
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
 from hypcheck.messages import suggestion
-from hypcheck.vectors import coincidences, crossed, ended, ended_sweeps, extremes, random_pairs, strata, sweeps, tilted
+from hypcheck.vectors import (
+    border_lines,
+    coincidences,
+    crossed,
+    ended,
+    ended_sweeps,
+    extremes,
+    random_pairs,
+    sweeps,
+    tilted,
+)
 from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
@@ -56,7 +66,7 @@ FAMILIES = _table(
     Family("stiff-both", extremes.stiff(radial=True, axial=True), 160),
     Family("whole-domain", extremes.whole_domain, 240),
     Family("coincidences", crossed.crossed("coincidences"), 300),
-    Family("strata", strata.upright, 240, times=10),
+    Family("strata", border_lines.upright, 240, times=10),
     Family("extreme-float16", extremes.at_the_ends_of("float16"), 180, extreme=True),
     Family("extreme-float32", extremes.at_the_ends_of("float32"), 180, extreme=True),
     Family("extreme-float64", extremes.at_the_ends_of("float64"), 180, extreme=True),
@@ -83,7 +93,7 @@ TILTED_FAMILIES = _table(
     Family("tilted-axis-length", tilted.any_length, 160, tilted=True),
     Family("tilted-small-integers", tilted.small_integers, 200, tilted=True),
     Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, tilted=True, times=2),
-    Family("tilted-strata", strata.tilted, 200, tilted=True, times=10),
+    Family("tilted-strata", border_lines.tilted, 200, tilted=True, times=10),
     Family("extreme-tilted", tilted.whole_domain, 120, tilted=True, extreme=True),
 )
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""

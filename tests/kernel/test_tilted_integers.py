@@ -12,7 +12,7 @@ import pytest
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.geometry.pair import TILTED_COLUMNS, Pair
-from hypcheck.kernel import tilted_integers
+from hypcheck.kernel import integers
 from tests.kernel.compiling import HEADER, IMPLEMENTATION, needs_compiler, shared_library
 from tests.support.inside import COEFFICIENTS, DISCRIMINANT, INVARIANTS, QUARTIC, generate, integers_position
 
@@ -58,7 +58,7 @@ def test_the_tilted_discriminant_is_27_times_the_product_of_squared_root_differe
     inputs = dict(zip(COEFFICIENTS, (-poly[0], *poly[1:]), strict=True))
     invariants = evaluate(INVARIANTS, EXACT, inputs)
     assert evaluate(DISCRIMINANT, EXACT, {"I": invariants["I"], "J": invariants["J"]})["delta"] == right
-    assert tilted_integers.discriminant(tuple(poly)) == right
+    assert integers.discriminant(tuple(poly)) == right
 
 
 RINGS = (  # a pole is a double root of the quartic, and the pair is clear; the last two touch at such a pole
@@ -73,7 +73,7 @@ def reference(row):
     """The position by Python's integers, which are asked all frozen cases."""
     if row[2] == row[3] or row[7] == row[8] == 0:
         return int(integers_position(Pair.from_row(row[:7]).lengths))
-    return int(tilted_integers.position(row))
+    return int(integers.position(row))
 
 
 @needs_compiler

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from hypcheck.report.square import AMISS
 from hypcheck.report.terminal import summary_lines
+from hypcheck.report.verdict import AMISS
 from hypcheck.report.write import render
 from tests.report import record_samples
 

@@ -25,7 +25,7 @@ import hypcheck
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
-from hypcheck.kernel import tilted_integers
+from hypcheck.kernel import integers
 from hypcheck.runs.oracles import ORACLES
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
@@ -146,7 +146,7 @@ def of_integers(sizes, center, axis=None) -> int:
     """The last stage in Python, which decides alone here."""
     if axis is None:
         return int(integers_position(Pair(*sizes, *center).lengths))
-    return int(tilted_integers.position((*sizes, *center, *axis)))
+    return int(integers.position((*sizes, *center, *axis)))
 
 
 def of_ways_in_numpy(questions: Questions) -> list[int]:

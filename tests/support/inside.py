@@ -35,7 +35,7 @@ from hypcheck.kernel.emission.plan_text import (
 )
 from hypcheck.kernel.emission.whole import whole, whole_plan
 from hypcheck.kernel.in_use import kernel
-from hypcheck.kernel.integers import position as integers_position
+from hypcheck.kernel.integers import upright_position as integers_position
 from hypcheck.kernel.numpy_kernel import Buffers, chunks, positions_of_scene
 from hypcheck.kernel.numpy_kernel import answer_ways as numpy_kernel_answer_ways
 from hypcheck.kernel.numpy_kernel import positions as numpy_kernel_positions

@@ -279,4 +279,4 @@ def _first(holds: _Test, start: Fraction, least: Fraction, form: FloatFormat) ->
 def _position(sizes: Sizes, x: Fraction, z: float) -> Position:
     """The exact position at (x, 0, z)."""
     alpha, gamma, b, d = sizes
-    return integers.position(Lengths.of((alpha, gamma, b, d, x, 0.0, z)))
+    return integers.upright_position(Lengths.of((alpha, gamma, b, d, x, 0.0, z)))

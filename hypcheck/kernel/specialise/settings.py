@@ -117,7 +117,7 @@ def position_of_box(setting: Setting) -> Position | None:
 
 
 def _at(setting: Setting, centre: tuple[float, float, float]) -> Position:
-    return integers.position(Pair.from_row((*setting.inner_and_outer[1], *centre)).lengths)
+    return integers.upright_position(Pair.from_row((*setting.inner_and_outer[1], *centre)).lengths)
 
 
 def _least(span: Span | None) -> float:

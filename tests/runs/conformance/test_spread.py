@@ -12,9 +12,9 @@ from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.record.lines import ImplementationLine
 from hypcheck.runs.spread import COORDINATES, UPRIGHT, evenness
+from hypcheck.vectors.border_lines import lattice, upright_at
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.strata import lattice, upright_at
 
 
 @pytest.fixture(scope="module")
