@@ -10,7 +10,7 @@ import numpy as np
 
 from hypcheck import classify
 from hypcheck.geometry.pair import AXIS, HEIGHTS, SIZES, SWEEP_COLUMNS
-from hypcheck.implementations import ways
+from hypcheck.implementations import sweeps
 from tests.support.inside import answer_ways, passage_of
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
@@ -248,7 +248,7 @@ def exact_from_above(rows):
 @right(claim=BESIDE_ENDS, asked=NO_TOLERANCE)
 def certified(rows):
     """The certified steps, and the exact times."""
-    hits = ways.certified(rows)
+    hits = sweeps.certified(rows)
     return hits, np.where(hits == 1, _answered(rows)[1], np.nan)
 
 
