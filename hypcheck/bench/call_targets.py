@@ -288,23 +288,23 @@ def forms_of_many(rounds: int) -> Iterator[KernelLine]:
 
 
 def forms_of_an_axis_each(rounds: int) -> Iterator[KernelLine]:
-    """Centres with an axis each, beside upright rows where all are upright, and beside rows of ten where they lean.
-
-    The proof about a row that leans takes four times the arithmetic of an upright one, whatever form it comes in.
-    """
+    """Centres with an axis each, upright or tilted, beside upright rows; and those that are tilted in other forms."""
     columns = uniform_columns(EACH_AXIS)
-    upright, leaning = np.tile([0.0, 0.0, 1.0], (EACH_AXIS, 1)), compiled_targets.axes(EACH_AXIS)
-    rows = tower_rows(columns)
+    upright, tilted = np.tile([0.0, 0.0, 1.0], (EACH_AXIS, 1)), compiled_targets.axes(EACH_AXIS)
     ask, ask_rows = partial(hypcheck.classify_scene, TOWER_SIZES, *columns), hypcheck.classify
-    upright_work = {"upright rows": partial(ask_rows, rows), "all upright": partial(ask, axis=upright)}
-    yield from _many("an axis each", upright_work, {"all upright": 1.5}, EACH_AXIS, rounds)
-    ten = tilted_rows(TOWER_SIZES, columns, (*leaning.T,))
-    leaning_work = {
+    ten = tilted_rows(TOWER_SIZES, columns, (*tilted.T,))
+    beside_upright = {
+        "upright rows": partial(ask_rows, tower_rows(columns)),
+        "all upright": partial(ask, axis=upright),
+        "all tilted": partial(ask_rows, ten),
+    }
+    yield from _many("an axis each", beside_upright, {"all upright": 1.5, "all tilted": 2.5}, EACH_AXIS, rounds)
+    in_other_forms = {
         "rows of ten": partial(ask_rows, ten),
-        "leaning": partial(ask, axis=leaning),
+        "tilted": partial(ask, axis=tilted),
         "Fortran": partial(ask_rows, np.asfortranarray(ten)),
     }
-    yield from _many("an axis each", leaning_work, dict.fromkeys(leaning_work, 1.5), EACH_AXIS, rounds)
+    yield from _many("an axis each", in_other_forms, dict.fromkeys(in_other_forms, 1.5), EACH_AXIS, rounds)
 
 
 def _many(

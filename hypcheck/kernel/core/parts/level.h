@@ -16,7 +16,8 @@
 #define HC_AND(a, b) ((HC_TRUTH)((a) & (b)))
 #define HC_OR(a, b) ((HC_TRUTH)((a) | (b)))
 #define HC_BITS(truth) ((uint64_t)(truth))
-#define HC_SQRT(a) _mm512_sqrt_pd(a)
+#define HC_SQRT(a) hc_about_root_avx512(a)
+#define HC_INVERSE(a) hc_about_inverse_avx512(a)
 #define HC_ROOT(a) _mm512_sqrt_pd(a)
 #define HC_STORE(to, a) _mm512_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm512_min_pd(a, b)
@@ -39,6 +40,7 @@
 #define HC_OR(a, b) _mm256_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm256_movemask_pd(truth))
 #define HC_SQRT(a) _mm256_sqrt_pd(a)
+#define HC_INVERSE(a) (HC_SET(1.0) / (a))
 #define HC_ROOT(a) _mm256_sqrt_pd(a)
 #define HC_STORE(to, a) _mm256_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm256_min_pd(a, b)
@@ -61,6 +63,7 @@
 #define HC_OR(a, b) _mm_or_pd(a, b)
 #define HC_BITS(truth) ((uint64_t)_mm_movemask_pd(truth))
 #define HC_SQRT(a) _mm_sqrt_pd(a)
+#define HC_INVERSE(a) (HC_SET(1.0) / (a))
 #define HC_ROOT(a) _mm_sqrt_pd(a)
 #define HC_STORE(to, a) _mm_storeu_pd(to, a)
 #define HC_MIN(a, b) _mm_min_pd(a, b)
@@ -83,6 +86,7 @@
 #define HC_OR(a, b) vorrq_u64(a, b)
 #define HC_BITS(truth) ((vgetq_lane_u64(truth, 0) & 1) | (vgetq_lane_u64(truth, 1) & 2))
 #define HC_SQRT(a) vsqrtq_f64(a)
+#define HC_INVERSE(a) (HC_SET(1.0) / (a))
 #define HC_ROOT(a) vsqrtq_f64(a)
 #define HC_STORE(to, a) vst1q_f64(to, a)
 #define HC_MIN(a, b) vbslq_f64(vcltq_f64(a, b), a, b)
@@ -105,11 +109,24 @@
 #define HC_OR(a, b) ((a) | (b))
 #define HC_BITS(truth) ((uint64_t)(truth))
 #define HC_SQRT(a) hc_rough_root(a)
+#define HC_INVERSE(a) (HC_SET(1.0) / (a))
 #define HC_ROOT(a) hc_fine_root(a)
 #define HC_STORE(to, a) (*(to) = (a))
 #define HC_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define HC_MAX(a, b) ((a) > (b) ? (a) : (b))
 #define HC_SELECT(truth, a, b) ((truth) ? (a) : (b))
+#endif
+
+#if HC_LEVEL == 3
+/* Within 2^-26, for guesses that prove nothing, in a quarter of the time: a step of Newton's method after 14 bits. */
+HC_TARGET static inline __m512d hc_about_inverse_avx512(__m512d a) {
+    const __m512d guess = _mm512_rcp14_pd(a);
+    return guess * (_mm512_set1_pd(2.0) - a * guess);
+}
+HC_TARGET static inline __m512d hc_about_root_avx512(__m512d a) {
+    const __m512d guess = _mm512_rsqrt14_pd(a), root = a * guess;
+    return root * (_mm512_set1_pd(1.5) - _mm512_set1_pd(0.5) * root * guess);
+}
 #endif
 
 HC_TARGET static int HC_NAME(hc_all_below)(HC_NUMBER numbers, double limit) {
@@ -204,6 +221,7 @@ HC_TARGET static hc_bits HC_NAME(hc_certified)(const double *columns, size_t str
 #undef HC_OR
 #undef HC_BITS
 #undef HC_SQRT
+#undef HC_INVERSE
 #undef HC_ROOT
 #undef HC_STORE
 #undef HC_MIN

@@ -12,16 +12,18 @@ typedef struct {
    A number of exponent field 0 may be 2^52 smaller than that says. NaN stays. The integers need none of it, and x87 may be
    set to 24 bits, where these products are rounded. */
 static void hc_scale_axis(double axis[3]) {
-    int i, most = -4096, least = 4096;
+    int i, most = 0, least = 4096;
     if (!HC_FLOATS_DECIDE) return;
     for (i = 0; i < 3; i++) {
-        const uint64_t word = hc_word(axis[i]) << 1;
-        const int top = (int)(word >> 53);
-        if (word == 0) continue;
-        if (top > most) most = top;
-        if (top < least) least = top;
+        const int top = (int)(hc_word(axis[i]) << 1 >> 53);
+        most = top > most ? top : most;
     }
-    if (most < 0 || most == 2047 || (most > 1023 - 40 && most < 1023 + 40) || most - least > (least ? 1020 : 960)) return;
+    if (most > 1023 - 40 && most < 1023 + 40) return; /* nearly always; no branch depends on which number is greatest */
+    for (i = 0; i < 3; i++) {
+        const uint64_t word = hc_word(axis[i]) << 1;
+        if (word != 0) least = hc_least(least, (int)(word >> 53));
+    }
+    if (least == 4096 || most == 2047 || most - least > (least ? 1020 : 960)) return;
     for (i = 0; i < 3; i++) {
         const hc_parts parts = hc_parts_of(axis[i]);
         uint64_t power;
