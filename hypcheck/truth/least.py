@@ -3,59 +3,91 @@
 With M the spheroid's matrix let n(X) = √((X − C)ᵀ M (X − C)). The spheroid meets the wall if and only if n ≤ 1
 somewhere on it, and 1 + clearance is the least n on the wall, or on the whole border of a solid body. In an end disc n
 is least at the rim or, where the ellipse of the spheroid's own height there has its centre in the disc, |z_end − z|
-over the half height of the spheroid.
+over the half height of the spheroid: rational numbers of the row, compared exactly.
 
-On the wall X(w, θ) = (r cos θ, r sin θ, w), r = α √(1 + w²/γ²), branch and bound. In a cell of half widths h, k about
-its middle, by Taylor's formula for n² = q,
+On the wall X(w, θ) = (r cos θ, r sin θ, w), r = α √(1 + w²/γ²), branch and bound. A cell holds angles within k of θ₀
+and heights from `below` to `above`, cut off at the ends, beyond which there is no wall. w₀ is the height in the middle
+or, if a cell reaches an end, that end; all heights are within h of it. By Taylor's formula at (w₀, θ₀), for n² = q,
 
-    q ≥ q₀ − |q_w| h − |q_θ| k − ½ (K_ww h² + 2 K_wθ h k + K_θθ k²),
+    q ≥ q₀ + min(q_w (below − w₀), q_w (above − w₀)) − |q_θ| k − ½ (K_ww h² + 2 K_wθ h k + K_θθ k²),
 
-K the largest second derivatives in the cell. With m = min(b, d), |V|_M ≤ |V|/m, and N the greatest n in the cell,
+since a linear function of the height is least at one of its ends; K are the largest second derivatives in the cell.
+Where q falls towards a rim with a slope, it falls as far as there and no farther. With m = min(b, d), |V|_M ≤ |V|/m,
+and N the greatest n in the cell,
 
     K_ww ≤ 2 (1 + r'²)/m² + 2 N r''/m,   K_wθ ≤ 2 r r'/m² + 2 N r'/m,   K_θθ ≤ 2 r²/m² + 2 N r/m,
 
-where r' ≤ α/γ, r'' ≤ α²/(γ² r) at the least r of the cell, and N ≤ n₀ + (√(1 + r'²) h + r k)/m. Cells whose bound is
-above what some point has are dropped, the others halved, so that few are left about each minimum. Each coordinate of
-X − C, and of its parts along and across the axis, is within 32u (|X| + |C|), so that n is within 64u (|X| + |C|)/m,
-besides 16u of itself; 256u covers both. Where roundings loosen the bound of a cell more than its width does, cells are
-looked at in numpy's long double, if it is finer here. No polynomial of the pair and no multiplier is used.
+where r' ≤ α/γ, r'' ≤ α²/(γ² r) at the least r of the cell, and N ≤ n₀ + e, e = (√(1 + r'²) h + r k)/m. Cells whose
+bound is above what some point has are dropped, the others cut, so that few are left about each minimum.
+
+Roundings; u = 2⁻⁵³. Each coordinate of X − C, and of its parts along and across the axis, is within 32u S,
+S = |X| + |C|, so that n is within 64u S/m, besides 16u of itself. The slopes are within 128u S/m² in any direction, so
+that they are off by 128u (S/m) e in a cell. If e ≤ 2n, that is no more than q is off by where n is off by 128u S/m; if
+e > 2n, the term of second order alone, e²/2 or more, is above q, so that the bound is below 0 and says nothing. n is
+said to be within 256u S/m, which covers both. Cells overlap by more than the roundings of their middles. n² − 1 is
+looked at, whose sign decides, with 256u for the subtraction.
+
+Where these roundings loosen the bound of a cell more than its width does, the cells that are left, if they are few,
+are looked at in double-double: u is 2⁻¹⁰² then, and θ is the angle of the point (cos θ, sin θ) as float64 has it, drawn
+to the unit circle, which cells overlap by, too. Slopes stay in float64 there, of an X − C that is rounded last, so that
+they are within 128u |X − C|/m², u = 2⁻⁵³: what they are off by is small with the cell. Where no length is much larger
+than m, 10⁻²⁰ radii between the spheroid and contact are seen. An exact touch stays open: a bound is below it and a
+point's value above. No polynomial of the pair and no multiplier is used.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from fractions import Fraction
 
 import numpy as np
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Floats
+from hypcheck.truth import double_double
+from hypcheck.truth.double_double import DoubleDouble
+from hypcheck.truth.rationals import rounded_toward
 
 _SLACK = 256 * 2.0**-53
-_FINE = np.longdouble
-_FINE_SLACK = 128 * float(np.finfo(_FINE).eps)
-_MOST_CELLS, _ROUNDS = 60_000, 60
+_FINE_SLACK = 256 * double_double.ERROR
+_OVERLAP = 2.0**-49
+"""Of angles up to 2π the roundings of a middle, and of its cosine and sine, are less than half of that."""
+_MOST_CELLS, _MOST_FINE_CELLS, _ROUNDS = 60_000, 20_000, 60
+_ALIKE = 4
+"""A cell of which height and angle loosen the bound up to this factor alike is cut across both."""
 _RANGE = (2.0**-200, 2.0**200)
 _WIDTH = 2.0**-40
 
 
 @dataclass(frozen=True, slots=True)
 class LeastValue:
-    """The least n: `lower` ≤ n ≤ `upper`, and a point (3,) near which it is; (0, inf) where bounds tell nothing."""
+    """The least n: `below` ≤ n² − 1 ≤ `above`, and a point (3,) near which it is; −1 and inf if bounds tell nothing."""
 
-    lower: float
-    upper: float
+    below: float
+    above: float
     point: tuple[float, float, float]
+
+    @property
+    def lower(self) -> float:
+        """A lower bound of n."""
+        return math.sqrt(max(0.0, 1 + self.below)) * (1 - 2.0**-51)
+
+    @property
+    def upper(self) -> float:
+        """An upper bound of n."""
+        return math.sqrt(max(0.0, 1 + self.above)) * (1 + 2.0**-51)
 
     @property
     def meets(self) -> bool | None:
         """Whether the closed spheroid reaches that far; None where bounds do not tell."""
-        return True if self.upper < 1 else False if self.lower > 1 else None
+        return True if self.above < 0 else False if self.below > 0 else None
 
 
-NOTHING = LeastValue(0.0, math.inf, (math.nan, math.nan, math.nan))
+_NOWHERE = (math.nan, math.nan, math.nan)
+NOTHING = LeastValue(-1.0, math.inf, _NOWHERE)
+_ELSEWHERE = LeastValue(math.inf, math.inf, _NOWHERE)
 
 
 def position(pair: Pair) -> Position | None:
@@ -65,18 +97,13 @@ def position(pair: Pair) -> Position | None:
         return None
     if meets:
         return Position.CONTACT
-    outside = _sign_of_center(pair)
-    if outside is None:
-        return None
-    return Position.INTERIOR if outside < 0 and pair.z_min <= pair.z <= pair.z_max else Position.EXTERIOR
+    inside = _is_within(pair.alpha, pair.gamma, Fraction(pair.x), Fraction(pair.y), Fraction(pair.z))
+    return Position.INTERIOR if inside and pair.z_min <= pair.z <= pair.z_max else Position.EXTERIOR
 
 
-def _sign_of_center(pair: Pair) -> int | None:
-    """The sign of the hyperboloid's equation at the centre, None near 0."""
-    outward, along = (pair.x / pair.alpha) ** 2 + (pair.y / pair.alpha) ** 2, (pair.z / pair.gamma) ** 2 + 1
-    if abs(outward - along) <= _SLACK * (outward + along):
-        return None
-    return 1 if outward > along else -1
+def _is_within(alpha: float, gamma: float, x: Fraction, y: Fraction, w: Fraction) -> bool:
+    """Whether a point lies in the body of the hyperboloid without ends, exactly."""
+    return (x * x + y * y) * Fraction(gamma) ** 2 <= Fraction(alpha) ** 2 * (Fraction(gamma) ** 2 + w * w)
 
 
 def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) -> LeastValue:
@@ -87,95 +114,98 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
     nearest = _to_wall(pair, side_alone=side_alone, width=width)
     for end in (pair.z_min, pair.z_max) if pair.solid else ():
         disc = _to_disc(pair, end)
-        if disc is None:
-            return LeastValue(0.0, nearest.upper, nearest.point)
-        nearer = disc if disc.upper < nearest.upper else nearest
-        nearest = LeastValue(min(nearest.lower, disc.lower), nearer.upper, nearer.point)
+        nearer = disc if disc.above < nearest.above else nearest
+        nearest = LeastValue(min(nearest.below, disc.below), nearer.above, nearer.point)
     return nearest
 
 
-def _unit(pair: Pair, number: type[np.floating[Any]] = np.float64) -> Floats:
-    """The unit vector of the spheroid's axis."""
-    v = np.array(pair.axis, dtype=number) / max(map(abs, pair.axis))
-    return np.asarray(v / np.sqrt(v @ v))
-
-
-def _to_disc(pair: Pair, end: float) -> LeastValue | None:
-    """The least n in an end disc, infinite where it is at the rim; None where bounds do not tell which."""
+def _to_disc(pair: Pair, end: float) -> LeastValue:
+    """The least n in an end disc, infinite where it is at the rim."""
     if not math.isfinite(end):
-        return LeastValue(math.inf, math.inf, NOTHING.point)
-    v = _unit(pair, _FINE)
-    alpha, gamma, b, d, x, y, z = map(_FINE, pair.row[:7])
-    b2, d2, height = b * b, d * d, _FINE(end)
+        return _ELSEWHERE
+    b2, d2, x, y, height = (Fraction(number) for number in (pair.b, pair.d, pair.x, pair.y, end))
+    v = [Fraction(part) for part in pair.axis]
+    b2, d2, rise = b2 * b2, d2 * d2, height - Fraction(pair.z)
     half = b2 * (v[0] * v[0] + v[1] * v[1]) + d2 * v[2] * v[2]
-    rise = height - z
-    across = (d2 - b2) * v[2] * v[:2] / half * rise + (x, y)
-    radius = alpha * np.hypot(1, height / gamma)
-    off = np.hypot(*across) - radius
-    size = abs(rise) + abs(height) + abs(z)
-    loose = _FINE_SLACK * (radius + abs(x) + abs(y) + size * max(b2, d2) / half)
-    if off > loose:
-        return LeastValue(math.inf, math.inf, NOTHING.point)
-    least, error = abs(rise) / np.sqrt(half), _FINE_SLACK * size / np.sqrt(half)
-    if off > -loose:
-        return None
-    return _least(least - error, least + error, (*across, height))
-
-
-def _least(lower: np.floating[Any], upper: np.floating[Any], point: Iterable[np.floating[Any]]) -> LeastValue:
-    """Bounds of any width in float64, rounded outwards."""
-    first, second, third = map(float, point)
-    return LeastValue(math.nextafter(float(lower), 0), math.nextafter(float(upper), math.inf), (first, second, third))
+    turn = (d2 - b2) * v[2] / half * rise
+    x, y = x + turn * v[0], y + turn * v[1]
+    if not _is_within(pair.alpha, pair.gamma, x, y, height):
+        return _ELSEWHERE
+    least = rise * rise * sum(part * part for part in v) / half - 1
+    return LeastValue(
+        rounded_toward(least, -math.inf), rounded_toward(least, math.inf), (float(x), float(y), float(end))
+    )
 
 
 def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> LeastValue:
-    """Branch and bound over the wall, in long double from where the roundings of float64 matter."""
-    cells = _first_cells(pair)
-    slack = _SLACK
-    best, point, lowest = math.inf, np.array(NOTHING.point), 0.0
+    """Branch and bound over the wall, in double-double from where the roundings of float64 matter."""
+    cells, at, most = _first_cells(pair), _at, _MOST_CELLS
+    above, point, below = math.inf, _NOWHERE, -1.0
     for _ in range(_ROUNDS):
-        at_most, bound, loose, error, curvatures, X = _bounds(pair, cells, slack)
-        place = int(np.argmin(at_most))
-        if at_most[place] < best:
-            best, point = at_most[place], X[:, place]
-        keep = bound <= best
-        lowest = max(lowest, bound[keep].min()) if keep.any() else best
-        settled = not lowest <= 1 <= best if side_alone else best - lowest <= width * best
-        if settled or keep.sum() > _MOST_CELLS:
+        with np.errstate(over="ignore", invalid="ignore"):
+            bounds = _bounds(pair, cells, at)
+        place = int(np.argmin(bounds.above))
+        if bounds.above[place] < above:
+            above, point = float(bounds.above[place]), tuple(bounds.X[:, place].tolist())
+        keep = bounds.below <= above
+        below = max(below, float(bounds.below[keep].min()))
+        settled = not below <= 0 <= above if side_alone else above - below <= width * (1 + above)
+        if settled or keep.sum() > most:
             break
-        nearest = int(np.argmin(bound))
-        if error[nearest] > loose[nearest]:
-            if slack == _FINE_SLACK or _FINE_SLACK >= _SLACK:
-                break
-            cells, slack = cells[:, keep].astype(_FINE), _FINE_SLACK
-            continue
-        cells = _halved(cells[:, keep], *curvatures[:, keep])
-    return _least(np.sqrt(lowest) * (1 - slack), np.sqrt(best) * (1 + slack), point)
+        nearest = int(np.argmin(bounds.below))
+        cells = cells[:, keep]
+        if bounds.error[nearest] <= bounds.loose[nearest]:
+            cells = _cut(cells, bounds.shares[:, keep])
+        elif at is _at and keep.sum() <= _MOST_FINE_CELLS:
+            at, most = _at_finely, _MOST_FINE_CELLS
+        else:
+            break
+    return LeastValue(below, above, point)
 
 
-def _bounds(pair: Pair, cells: Floats, slack: float) -> tuple[Floats, ...]:
-    """An upper bound of the least q in each cell, a lower bound, and the points (3, n) of the first.
+@dataclass(frozen=True, slots=True)
+class _Bounds:
+    """Bounds of the least q − 1 in each of n cells, and points (3, n) of the wall in them where it is below `above`.
 
-    Between the two: the term of second order, the error of q₀, and K_ww and K_θθ (2, n).
+    `below` is loosened by the error of q at that point, and by the term of second order, `loose`; `shares` (2, n) are
+    the parts of it that come from the height alone and from the angle alone.
     """
-    w, _, h, k = cells
-    number = cells.dtype.type
-    alpha, gamma = number(pair.alpha), number(pair.gamma)
-    edges = [np.clip(at, number(pair.z_min), number(pair.z_max)) for at in (w - h, w, w + h)]
-    values, qw, qt, errors, r, X = _values(pair, np.concatenate(edges), np.tile(cells[1], 3), slack)
-    middle = slice(len(w), 2 * len(w))
-    q, qw, qt, error, r = values[middle], qw[middle], qt[middle], errors[middle], r[middle]
-    lowest = (values + errors).reshape(3, -1).argmin(axis=0) * len(w) + np.arange(len(w))
-    m = min(pair.b, pair.d)
-    rise = min(alpha / gamma, 2.0**400)
-    least_r = alpha * np.hypot(1, np.maximum(np.abs(w) - h, 0) / gamma)
+
+    below: Floats
+    above: Floats
+    X: Floats
+    error: Floats
+    loose: Floats
+    shares: Floats
+
+
+def _bounds(pair: Pair, cells: Floats, at: Callable[[Pair, Floats, Floats], _Values]) -> _Bounds:
+    """Bounds in cells, by a value and slopes in the middle of each, or at the end that it reaches."""
+    w, t, half, k = cells
+    below, level, above = (np.clip(height, pair.z_min, pair.z_max) for height in (w - half, w, w + half))
+    level = np.where(below == pair.z_min, below, np.where(above == pair.z_max, above, level))
+    h = np.maximum(level - below, above - level)
+    values = at(pair, level, t)
+    q, r, m = values.excess + 1, np.hypot(*values.X[:2]), min(pair.b, pair.d)
+    rise = min(pair.alpha / pair.gamma, 2.0**400)
+    least_r = pair.alpha * np.hypot(1, np.maximum(np.abs(level) - h, 0) / pair.gamma)
     most_r = r + rise * h
-    n = np.sqrt(q + error) + (np.hypot(1, rise) * h + most_r * k) / m
+    away = (math.hypot(1, rise) * h + most_r * k) / m
+    n = np.sqrt(np.maximum(q + values.error, 0)) + away
     kww = 2 * (1 + rise * rise) / m**2 + 2 * n * (rise * rise / least_r) / m
     kwt, ktt = 2 * most_r * rise / m**2 + 2 * n * rise / m, 2 * most_r**2 / m**2 + 2 * n * most_r / m
-    loose = (kww * h * h + 2 * kwt * h * k + ktt * k * k) / 2 * (1 + slack)
-    bound = q - error - (np.abs(qw) * h + np.abs(qt) * k) * (1 + slack) - loose
-    return (values + errors)[lowest], bound, loose, error, np.stack([kww, ktt]), X[:, lowest]
+    shares = np.stack([kww * h * h, ktt * k * k])
+    loose = shares.sum(axis=0) / 2 + kwt * h * k
+    fall = np.minimum(values.qw * (below - level), values.qw * (above - level)) - np.abs(values.qt) * k
+    bound = values.excess - values.error + (fall - values.blur * away - loose) * (1 + _SLACK)
+    return _Bounds(
+        np.nan_to_num(bound, nan=-np.inf, posinf=np.inf, neginf=-np.inf),
+        np.nan_to_num(values.excess + values.error, nan=np.inf, posinf=np.inf),
+        values.X,
+        values.error,
+        loose,
+        shares,
+    )
 
 
 def _first_cells(pair: Pair) -> Floats:
@@ -190,36 +220,110 @@ def _first_cells(pair: Pair) -> Floats:
         low, high = level, level
     edges = np.linspace(low, high, 17)
     w, t = np.meshgrid((edges[:-1] + edges[1:]) / 2, (np.arange(32) + 0.5) / 32 * 2 * math.pi)
-    half = (edges[1:] - edges[:-1]).max() / 2 * (1 + 1e-12) + abs(high) * 1e-15
+    half = (edges[1:] - edges[:-1]).max() / 2 * (1 + 1e-12) + max(abs(low), abs(high)) * _OVERLAP
     return np.stack([w.ravel(), t.ravel(), np.full(w.size, half), np.full(w.size, math.pi / 32 * (1 + 1e-12))])
 
 
-def _values(pair: Pair, w: Floats, t: Floats, slack: float) -> tuple[Floats, ...]:
-    """q, its slopes, a bound of the error of q, r, and the points (3, n)."""
-    number = w.dtype.type
-    alpha, gamma, b, d, *center = map(number, pair.row[:7])
-    v = _unit(pair, number)
-    r = alpha * np.hypot(1, w / gamma)
-    slope = (alpha / gamma) ** 2 * w / r
-    cosine, sine = np.cos(t), np.sin(t)
-    X = np.stack([r * cosine, r * sine, w])
-    D = X - np.array(center)[:, None]
+@dataclass(frozen=True, slots=True)
+class _Values:
+    """At n points X (3, n) of the wall: q − 1, a bound of its error, and the slopes of q.
+
+    To a point e radii away q changes by what the slopes say within `blur` e, besides what `error` covers.
+    """
+
+    excess: Floats
+    error: Floats
+    qw: Floats
+    qt: Floats
+    blur: Floats
+    X: Floats
+
+
+def _at(pair: Pair, w: Floats, t: Floats) -> _Values:
+    """Values in float64."""
+    r = pair.alpha * np.hypot(1, w / pair.gamma)
+    turn = np.stack([np.cos(t), np.sin(t)])
+    X = np.concatenate([r * turn, w[None]])
+    v = np.array(pair.axis) / max(map(abs, pair.axis))
+    v /= np.sqrt(v @ v)
+    q, qw, qt = _slopes(pair, v, X - _center(pair), r, turn, w)
+    return _Values(q - 1, _error(pair, X, q, _SLACK), qw, qt, np.zeros_like(q), X)
+
+
+def _center(pair: Pair) -> Floats:
+    return np.array([[pair.x], [pair.y], [pair.z]])
+
+
+def _error(pair: Pair, X: Floats, q: Floats, slack: float) -> Floats:
+    """How far q − 1 is off, where n is off by slack (|X| + |C|)/m, and the subtraction by slack."""
+    size = np.abs(X) + np.abs(_center(pair))
+    off = slack * np.sqrt((size * size).sum(axis=0)) / min(pair.b, pair.d)
+    return np.asarray(off * (2 * np.sqrt(q) + off) + slack)
+
+
+def _slopes(pair: Pair, v: Floats, D: Floats, r: Floats, turn: Floats, w: Floats) -> tuple[Floats, Floats, Floats]:
+    """q of D = X − C and its slopes, in float64."""
     along = v @ D
     across = D - along * v[:, None]
-    q = (across * across).sum(axis=0) / b**2 + (along / d) ** 2
-    grad = 2 * (across / b**2 + along / d**2 * v[:, None])
-    qw = grad[0] * slope * cosine + grad[1] * slope * sine + grad[2]
-    qt = r * (grad[1] * cosine - grad[0] * sine)
-    size = np.abs(X) + np.abs([[pair.x], [pair.y], [pair.z]])
-    m = min(pair.b, pair.d)
-    off = slack * np.sqrt((size * size).sum(axis=0)) / m
-    return q, qw, qt, off * (2 * np.sqrt(np.abs(q)) + off), r, X
+    q = (across * across).sum(axis=0) / pair.b**2 + (along / pair.d) ** 2
+    grad = 2 * (across / pair.b**2 + along / pair.d**2 * v[:, None])
+    slope = (pair.alpha / pair.gamma) ** 2 * w / r
+    return q, (grad[:2] * turn).sum(axis=0) * slope + grad[2], r * (grad[1] * turn[0] - grad[0] * turn[1])
 
 
-def _halved(cells: Floats, kww: Floats, ktt: Floats) -> Floats:
-    """Each cell cut in two across the direction that loosens its bound most."""
-    w, t, h, k = cells
-    tall = kww * h * h >= ktt * k * k
-    h2, k2 = np.where(tall, h / 2, h), np.where(tall, k, k / 2)
-    sides = [np.stack([w + s * np.where(tall, h2, 0), t + s * np.where(tall, 0, k2), h2, k2]) for s in (-1, 1)]
-    return np.concatenate(sides, axis=1)
+def _at_finely(pair: Pair, w: Floats, t: Floats) -> _Values:
+    """The same with q − 1 in double-double."""
+    ratio = double_double.quotient_of_floats(w, np.array([pair.gamma]))
+    stretch = double_double.square_root(double_double.add_float(double_double.square(ratio), 1.0))
+    r = double_double.multiply(stretch, _number(pair.alpha))
+    turn = _unit([np.cos(t), np.sin(t)])
+    X = [*(double_double.multiply(r, part) for part in turn), (w, np.zeros_like(w))]
+    D = [double_double.add_float(part, -center) for part, center in zip(X, pair.row[4:7], strict=True)]
+    scale = -math.frexp(max(map(abs, pair.axis)))[1]
+    v = _unit([np.array([math.ldexp(part, scale)]) for part in pair.axis])
+    along = _sum([double_double.multiply(part, axis) for part, axis in zip(D, v, strict=True)])
+    across = [double_double.subtract(p, double_double.multiply(along, axis)) for p, axis in zip(D, v, strict=True)]
+    sides = [*((part, pair.b) for part in across), (along, pair.d)]
+    q = _sum([double_double.square(double_double.divide(part, _number(size))) for part, size in sides])
+    excess = double_double.add_float(q, -1.0)[0]
+    nearby = _rounded(D)
+    _, qw, qt = _slopes(pair, _rounded(v)[:, 0], nearby, r[0], _rounded(turn), w)
+    error = _error(pair, _rounded(X), q[0], _FINE_SLACK) + 2.0**-51 * np.abs(excess)
+    blur = _SLACK * np.sqrt((nearby * nearby).sum(axis=0)) / min(pair.b, pair.d)
+    return _Values(excess, error, qw, qt, blur, _rounded(X))
+
+
+def _number(number: float) -> DoubleDouble:
+    return np.array([number]), np.zeros(1)
+
+
+def _unit(parts: list[Floats]) -> list[DoubleDouble]:
+    """A vector in double-double, of length 1."""
+    norm = double_double.square_root(_sum([double_double.two_square(part) for part in parts]))
+    return [double_double.divide((part, np.zeros_like(part)), norm) for part in parts]
+
+
+def _rounded(parts: list[DoubleDouble]) -> Floats:
+    return np.stack([high for high, _ in parts])
+
+
+def _sum(parts: list[DoubleDouble]) -> DoubleDouble:
+    total = parts[0]
+    for part in parts[1:]:
+        total = double_double.add(total, part)
+    return total
+
+
+def _cut(cells: Floats, shares: Floats) -> Floats:
+    """Cells cut in two across the direction that loosens their bounds most, or in four; the parts overlap."""
+    for row in (0, 1):
+        wide = shares[row] * _ALIKE >= shares[1 - row]
+        room = (np.abs(cells[0]) + cells[2] if row == 0 else 1.0) * _OVERLAP
+        step = np.where(wide, cells[2 + row] / 2, 0)
+        parts = cells.copy()
+        parts[row] -= step
+        parts[2 + row] = np.where(wide, step + room, parts[2 + row])
+        others = parts[:, wide]
+        others[row] += 2 * step[wide]
+        cells, shares = np.concatenate([parts, others], axis=1), np.concatenate([shares, shares[:, wide]], axis=1)
+    return cells

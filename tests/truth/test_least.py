@@ -11,8 +11,9 @@ import pytest
 from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import least
+from hypcheck.truth import exact, least
 from hypcheck.truth.least import NOTHING, to_border
+from tests.tools import ended_agreement
 
 INF = math.inf
 
@@ -80,51 +81,136 @@ def test_a_search_for_the_side_alone_ends_when_it_is_known():
         assert side.meets is whole.meets
         assert side.lower <= whole.upper
         assert whole.lower <= side.upper
-        assert not side.lower <= 1 <= side.upper
+        assert not side.below <= 0 <= side.above
 
 
-def test_the_bound_of_a_cell_is_below_all_that_the_cell_has():
+STAGES = {"float64": least._at, "double-double": least._at_finely}
+
+
+def cells(pair, draw, count):
+    """Cells of any size about the heights of the spheroid, some reaching over an end."""
+    size = max(pair.b, pair.d, pair.alpha)
+    w = np.clip(pair.z + size * draw.normal(size=count), pair.z_min, pair.z_max)
+    h, k = size * 10 ** draw.uniform(-7, 0.5, count), 10 ** draw.uniform(-7, 0, count)
+    return np.stack([w, draw.uniform(-math.pi, math.pi, count), h, k])
+
+
+def in_cells(pair, some, draw):
+    """n² at points of each cell (m, n): 160 drawn, and its corners, none of them beyond the ends."""
+    w, t, h, k = some
+    corners = [(one, other) for one in (-1, 1) for other in (-1, 1)]
+    for across, around in draw.uniform(-1, 1, (40, 2)):
+        corners += [(across, around), (np.sign(across), around), (across, 0), (0, around)]
+    heights = [np.clip(w + one * h, pair.z_min, pair.z_max) for one, _ in corners]
+    places = [wall(pair, height, t + other * k) for height, (_, other) in zip(heights, corners, strict=True)]
+    return np.stack([n_of(pair, place) ** 2 for place in places])
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_the_bound_of_a_cell_is_below_all_that_the_cell_has(stage):
     """The step of the proof: Taylor's formula with the largest second derivatives, in cells of any size."""
     draw = np.random.default_rng(5)
     for pair in drawn(60, seed=4):
-        count, size = 300, max(pair.b, pair.d, pair.alpha)
-        w = np.clip(pair.z + size * draw.normal(size=count), pair.z_min, pair.z_max)
-        h, k = size * 10 ** draw.uniform(-7, 0.5, count), 10 ** draw.uniform(-7, 0, count)
-        t = draw.uniform(-math.pi, math.pi, count)
-        at_most, bound, _, _, curvatures, X = least._bounds(pair, np.stack([w, t, h, k]), least._SLACK)
-        assert (curvatures > 0).all()
-        assert (n_of(pair, X) ** 2 <= at_most * (1 + 1e-12)).all()
-        assert ((X[2] >= pair.z_min) & (X[2] <= pair.z_max) & (abs(X[2] - w) <= h * (1 + 1e-9) + 1e-12 * size)).all()
-        for across, around in draw.uniform(-1, 1, (40, 2)):
-            for one, other in ((across, around), (np.sign(across), around), (across, 0), (0, around)):
-                q = n_of(pair, wall(pair, w + one * h, t + other * k)) ** 2
-                assert (bound <= q * (1 + 1e-12)).all()
+        some = cells(pair, draw, 300)
+        found = least._bounds(pair, some, STAGES[stage])
+        w, _, h, _ = some
+        size = max(pair.b, pair.d, pair.alpha)
+        assert (found.shares >= 0).all()
+        assert (n_of(pair, found.X) ** 2 <= (1 + found.above) * (1 + 1e-12) + 1e-12).all()
+        assert ((found.X[2] >= pair.z_min) & (found.X[2] <= pair.z_max)).all()
+        assert (abs(found.X[2] - w) <= h * (1 + 1e-9) + 1e-12 * size).all()
+        assert (1 + found.below <= in_cells(pair, some, draw) * (1 + 1e-12) + 1e-12).all()
 
 
-def test_the_bound_of_a_small_cell_is_near_its_value():
-    for pair in drawn(30, seed=6):
-        w, t = np.full(8, min(max(pair.z, pair.z_min), pair.z_max)), np.linspace(-3, 3, 8)
-        small = np.full(8, 1e-6)
-        at_most, bound, *_ = least._bounds(pair, np.stack([w, t, small * pair.gamma, small]), least._SLACK)
-        assert (at_most - bound <= 1e-3 * (1 + at_most) * max(1, pair.alpha / min(pair.b, pair.d)) ** 2).all()
+@pytest.mark.parametrize("stage", STAGES)
+def test_the_bound_of_a_cell_at_a_rim_pays_for_no_height_beyond_it(stage):
+    """A bound is below the corners of its cell by no more than the terms of second order of both, and roundings."""
+    draw = np.random.default_rng(6)
+    for pair in drawn(60, seed=14):
+        some = cells(pair, draw, 100)
+        ends = [end for end in (pair.z_min, pair.z_max) if math.isfinite(end)]
+        some[0] = draw.choice(ends, 100) + some[2] * draw.uniform(-1, 1, 100)
+        some[0] = np.clip(some[0], pair.z_min, pair.z_max)
+        found = least._bounds(pair, some, STAGES[stage])
+        lowest = in_cells(pair, some, draw).min(axis=0) - 1
+        assert (lowest - found.below <= 2 * (found.loose + found.error) * (1 + 1e-6) + 1e-12 * (1 + lowest)).all()
 
 
-def test_roundings_of_a_value_are_within_their_bound_far_from_the_axis():
+def test_parts_of_cells_hold_all_that_the_cells_hold_with_room_for_the_roundings_of_middles():
+    draw = np.random.default_rng(8)
+    for pair in drawn(20, seed=9):
+        some = cells(pair, draw, 50)
+        shares = draw.uniform(-1, 1, (2, 40, 50))
+        shares[:, :20] = np.sign(shares[:, :20] + draw.choice([-0.5, 0, 0.5], (2, 20, 50)))
+        shares[:, :10] *= draw.choice([0, 1], (2, 10, 50))
+        rooms = [(abs(some[0]) + some[2]) * 2.0**-50, np.full(50, 2.0**-49)]
+        places = [some[row] + shares[row] * (some[2 + row] - rooms[row]) for row in (0, 1)]
+        for terms in draw.uniform(0, 10, (3, 2, 50)):
+            parts = least._cut(some, terms)
+            assert 100 <= parts.shape[1] <= 200
+            rooms = [(abs(parts[0]) + parts[2]) * 2.0**-51, 2.0**-50]
+            within = [abs(places[row][..., None] - parts[row]) <= parts[2 + row] - rooms[row] for row in (0, 1)]
+            assert (within[0] & within[1]).any(axis=-1).all()
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_roundings_of_a_value_and_its_slopes_are_within_their_bounds_far_from_the_axis(stage):
     draw = np.random.default_rng(7)
     for far in (1.0, 1e4, 1e8):
         for large in drawn(6, seed=8, scale=far):
             pair = replace(large, b=large.b / far, d=large.d / far)
             w, t = pair.z + pair.gamma * draw.normal(size=20), draw.uniform(-3, 3, 20)
-            q, _, _, error, _, _ = least._values(pair, w, t, least._SLACK)
-            with mp.workprec(200):
-                axis = [mpf(part) for part in pair.axis]
+            found = STAGES[stage](pair, w, t)
+            turns = np.stack([np.cos(t), np.sin(t)])
+            with mp.workprec(400):
                 for k in range(20):
-                    r = pair.alpha * mp.sqrt(1 + (mpf(w[k]) / pair.gamma) ** 2)
-                    point = (r * mp.cos(mpf(t[k])), r * mp.sin(mpf(t[k])), mpf(w[k]))
-                    way = [p - c for p, c in zip(point, pair.row[4:7], strict=True)]
-                    along = sum(x * y for x, y in zip(way, axis, strict=True)) ** 2 / sum(x * x for x in axis)
-                    exact = (sum(x * x for x in way) - along) / mpf(pair.b) ** 2 + along / mpf(pair.d) ** 2
-                    assert abs(exact - mpf(q[k])) <= error[k]
+                    turn = (mp.cos(t[k]), mp.sin(t[k]))
+                    if stage != "float64":
+                        turn = tuple(mpf(part) / mp.hypot(*turns[:, k]) for part in turns[:, k])
+                    exact, up, around, lengths = exactly(pair, mpf(w[k]), turn)
+                    assert abs(exact - 1 - mpf(found.excess[k])) <= found.error[k]
+                    slack = (2.0**-45 * lengths[0] if stage == "float64" else found.blur[k]) / min(pair.b, pair.d)
+                    slack /= min(pair.b, pair.d) if stage == "float64" else 1
+                    assert abs(up - mpf(found.qw[k])) <= slack * lengths[1]
+                    assert abs(around - mpf(found.qt[k])) <= slack * lengths[2]
+                    n = float(mp.sqrt(exact))
+                    touching = replace(pair, b=pair.b * n, d=pair.d * n)
+                    here = STAGES[stage](touching, w[k : k + 1], t[k : k + 1])
+                    excess = exactly(touching, mpf(w[k]), turn)[0] - 1
+                    assert abs(excess - mpf(here.excess[0])) <= here.error[0]
+
+
+def exactly(pair, w, turn):
+    """q at a point of the wall, its slopes, and the lengths |X| + |C|, |X_w| and |X_θ|."""
+    u = [mpf(part) / mp.sqrt(sum(mpf(part) ** 2 for part in pair.axis)) for part in pair.axis]
+    r = pair.alpha * mp.sqrt(1 + (w / pair.gamma) ** 2)
+    slope = mpf(pair.alpha) ** 2 / mpf(pair.gamma) ** 2 * w / r
+    X = (r * turn[0], r * turn[1], w)
+    D = [p - c for p, c in zip(X, pair.row[4:7], strict=True)]
+    along = sum(x * y for x, y in zip(D, u, strict=True))
+    M = [(p - along * y) / mpf(pair.b) ** 2 + along * y / mpf(pair.d) ** 2 for p, y in zip(D, u, strict=True)]
+    q = sum(x * y for x, y in zip(D, M, strict=True))
+    up = 2 * (M[0] * slope * turn[0] + M[1] * slope * turn[1] + M[2])
+    lengths = mp.norm(X) + mp.norm(pair.row[4:7]), mp.sqrt(1 + slope**2), r
+    return q, up, 2 * r * (M[1] * turn[0] - M[0] * turn[1]), lengths
+
+
+@pytest.mark.parametrize("leaning", [False, True])
+def test_hairs_from_a_rim_a_disc_or_the_wall_are_decided_and_as_the_exact_rule_says(leaning):
+    rows = ended_agreement.hairs(np.random.default_rng(11), 90, leaning=leaning)
+    for row in rows.tolist():
+        pair = Pair.from_row(row)
+        assert least.position(pair) is exact.position(pair.lengths)
+
+
+@pytest.mark.parametrize(("beyond", "position"), [("1e-20", Position.EXTERIOR), ("-1e-20", Position.CONTACT)])
+def test_a_part_in_ten_to_the_twenty_beside_a_rim_is_seen(beyond, position):
+    """The centre is 15/4 + 1 + `beyond` from the axis: y is chosen so that √(x² + y²) is that."""
+    x = 4.75 - 2.0**-50
+    with mp.workprec(200):
+        y = float(mp.sqrt((mpf(4.75) + mpf(beyond)) ** 2 - mpf(x) ** 2))
+        assert abs(mp.hypot(x, y) - 4.75 - mpf(beyond)) < 1e-25
+    assert least.position(Pair.from_row((*TREE, 1, 1, x, y, 3, 0, 0, 1, -1, 3, 0))) is position
 
 
 TREE = (3.0, 4.0)
@@ -140,6 +226,7 @@ TREE = (3.0, 4.0)
         ((*TREE, 1, 1, 0, 0, -4), (-1, 3), 1, 3.0),  # below it
         ((*TREE, 1, 1, 0, 0, 5), (-1, 3), 0, math.hypot(3.75, 2)),  # the rim of an open wall
         ((*TREE, 1, 1, 4.75, 0, 4), (-1, 3), 1, math.hypot(1, 1)),  # beside the disc: the rim
+        ((*TREE, 1, 1, 3.75, 0, 4.5), (-1, 3), 1, 1.5),  # over its edge
         ((*TREE, 1, 1, 0, 0, 0), (-1, 3), 1, 1.0),  # the disc below is as far as a radius
         ((*TREE, 1, 1, 4, 0, 0), (0, 3), 0, 1.0),
         ((*TREE, 1, 1, 0, 0, 0), (0, 3), 0, 3.0),
@@ -153,12 +240,9 @@ def test_least_values_are_those_found_by_hand(row, ends, solid, value):
     assert found.lower <= value <= found.upper <= found.lower * (1 + 1e-6)  # a whole ring is nearest: many cells
 
 
-def test_bounds_tell_nothing_of_lengths_beyond_their_range_or_over_an_edge_of_a_disc():
+def test_bounds_tell_nothing_of_lengths_beyond_their_range():
     assert to_border(Pair.from_row((1, 1, 1, 1e-70, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is NOTHING
     assert to_border(Pair.from_row((1e70, 1, 1, 1, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is NOTHING
-    over_the_rim = to_border(Pair.from_row((*TREE, 1, 1, 3.75, 0, 4.5, 0, 0, 1, -1, 3, 1)))
-    assert (over_the_rim.lower, over_the_rim.meets) == (0.0, None)
-    assert over_the_rim.upper == pytest.approx(1.5)
 
 
 @pytest.mark.parametrize(
@@ -171,7 +255,9 @@ def test_bounds_tell_nothing_of_lengths_beyond_their_range_or_over_an_edge_of_a_
         ((1, 1, 0.25, 0.25, 0.0, 0.5, 0, 0, 0, 1, -1, 1, 1), Position.INTERIOR),
         ((1, 1, 0.25, 0.25, 0.0, 1.5, 0, 0, 0, 1, -1, 1, 1), Position.EXTERIOR),
         ((1, 1, 0.6, 0.25, 0.0, 1.5, 0, 0, 0, 1, -1, 1, 1), Position.CONTACT),
-        ((1, 1, 2.0**-60, 2.0**-60, 1 + 2.0**-50, 0, 0, 0, 0, 1, -1, 1, 0), None),  # a side that rounds
+        ((1, 1, 2.0**-60, 2.0**-60, 1 + 2.0**-50, 0, 0, 0, 0, 1, -1, 1, 0), None),  # much smaller than roundings of X
+        ((*TREE, 1, 1, 4.75, 0, 3, 0, 0, 1, -1, 3, 0), None),  # touches of a rim and a disc
+        ((*TREE, 1, 1, 1, 0, 4, 0, 0, 1, -1, 3, 1), None),
     ],
 )
 def test_positions_by_the_least_value_are_those_found_by_hand(row, position):
