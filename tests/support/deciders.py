@@ -385,7 +385,7 @@ DECIDERS = (
     ),
     Decider("the C header", of_header, lacks=lacks_compiler),
     Decider("the C header, ends", of_header, takes=ENDED, abstains=0.3, lacks=lacks_compiler),
-    Decider("the least value", of_least_value, takes=ENDED, abstains=0.3, every=8, refuses=False),
+    Decider("the least value", of_least_value, takes=ENDED, abstains=0.085, every=8, refuses=False),
     Decider("the rule in the height", of_rule, takes=ENDED, refuses=False),
     *(
         Decider(
