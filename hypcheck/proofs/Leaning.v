@@ -1,14 +1,14 @@
-(** Certificates for any axis, and along a straight way: the forms behind the checker of LeaningChecker.v.
+(** Certificates for any axis, and along a straight sweep: the forms behind the checker of LeaningChecker.v.
 
     The pencil of a pair, times a number > 0, is a form with whole coefficients where lengths are whole. Elimination without
-    division keeps them whole. On a way from one centre to another the linear part is linear in the time, and the constant is
+    division keeps them whole. On a sweep from one centre to another the linear part is linear in the time, and the constant is
     quadratic: [ss], [st] and [tt] are its coefficients for the two ends, as Bernstein writes them. *)
 
 Require Import Reals Lra.
 From Hypcheck Require Import Geometry Certificates.
 Open Scope R_scope.
 
-(** ** Positive on the whole way. The time w is 0 at the centre with s1, s2, s3 and 1 at that with t1, t2, t3. *)
+(** ** Positive on the whole sweep. The time w is 0 at the centre with s1, s2, s3 and 1 at that with t1, t2, t3. *)
 
 Definition between1 ss st tt := 0 < ss /\ 0 < tt /\ (0 <= st \/ st * st < ss * tt).
 Definition between2 e s t ss st tt := 0 < e /\ between1 (e * ss - s * s) (e * st - s * t) (e * tt - t * t).
@@ -20,7 +20,7 @@ Definition between4 e11 e12 e13 e22 e23 e33 s1 s2 s3 t1 t2 t3 ss st tt := 0 < e1
     (e11 * s2 - e12 * s1) (e11 * s3 - e13 * s1) (e11 * t2 - e12 * t1) (e11 * t3 - e13 * t1)
     (e11 * ss - s1 * s1) (e11 * st - s1 * t1) (e11 * tt - t1 * t1).
 
-Section Way.
+Section Sweep.
 
 Variable w : R.
 Hypothesis W : 0 <= w <= 1.
@@ -79,7 +79,7 @@ Proof.
     + mixed_twice (e11 * ss - s1 * s1) (e11 * st - s1 * t1) (e11 * tt - t1 * t1)).
 Qed.
 
-End Way.
+End Sweep.
 
 (** ** Nowhere negative. *)
 
@@ -117,9 +117,9 @@ Variables alpha gamma b d : R.
 Variable v : point.
 Hypotheses (Ha : 0 < alpha) (Hg : 0 < gamma) (Hb : 0 < b) (Hd : 0 < d) (Hv : 0 < dot v v).
 
-Definition leaning (C : point) := Pair alpha gamma b d v C.
+Definition tilted (C : point) := Pair alpha gamma b d v C.
 
-Lemma leaning_valid C : valid (leaning C).
+Lemma tilted_valid C : valid (tilted C).
 Proof. repeat split; assumption. Qed.
 
 Definition V := dot v v.
@@ -142,11 +142,11 @@ Definition form l (pull1 pull2 pull3 constant x y z : R) :=
   + 2 * pull1 * x + 2 * pull2 * y + 2 * pull3 * z + constant.
 
 Lemma form_is_pencil l C X : form l (pull_x C) (pull_y C) (pull_z C) (rest l C C) (px X) (py X) (pz X)
-  = factor * weight * pencil (leaning C) l X.
+  = factor * weight * pencil (tilted C) l X.
 Proof.
   assert (N : V <> 0) by (unfold V; lra).
   unfold form, pencil, depth, height, norm2, along, entry_xx, entry_yy, entry_zz, rest, pull_x, pull_y, pull_z, pull, mass, factor,
-    weight, leaning; cbn [axis centre Geometry.alpha Geometry.gamma Geometry.b Geometry.d].
+    weight, tilted; cbn [axis centre Geometry.alpha Geometry.gamma Geometry.b Geometry.d].
   fold V; unfold V in N |- *; unfold dot, sub in *; cbn [px py pz]; field; lra.
 Qed.
 
@@ -157,11 +157,11 @@ Proof.
     generalize dependent (d ^ 2); generalize dependent (dot v v); intros; repeat apply Rmult_lt_0_compat; assumption.
 Qed.
 
-Definition on_the_way l C E := between4 (entry_xx l) (factor * mass px py 0) (factor * mass px pz 0) (entry_yy l)
+Definition on_the_sweep l C E := between4 (entry_xx l) (factor * mass px py 0) (factor * mass px pz 0) (entry_yy l)
   (factor * mass py pz 0) (entry_zz l) (pull_x C) (pull_y C) (pull_z C) (pull_x E) (pull_y E) (pull_z E)
   (rest l C C) (rest l C E) (rest l E E).
 
-Theorem way_positive l C E w X : on_the_way l C E -> 0 <= w <= 1 -> 0 < pencil (leaning (between C E w)) l X.
+Theorem sweep_positive l C E w X : on_the_sweep l C E -> 0 <= w <= 1 -> 0 < pencil (tilted (between C E w)) l X.
 Proof.
   intros B W; pose proof (between4_positive w W _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ (px X) (py X) (pz X) B) as P.
   apply Rmult_lt_reg_l with (factor * weight); [apply scale_positive |]; rewrite Rmult_0_r, <- form_is_pencil.
@@ -169,11 +169,11 @@ Proof.
   unfold form, mixed, mixed_twice, rest, pull_x, pull_y, pull_z, pull, mass, between, add, scale, sub; cbn [px py pz]; ring.
 Qed.
 
-Theorem exterior_on_the_way l C E w : on_the_way l C E -> 0 < l -> 0 <= w <= 1 -> exterior (leaning (between C E w)).
-Proof. intros B L W; apply exterior_by_multiplier with l; [exact L |]; intros X; apply way_positive; assumption. Qed.
+Theorem exterior_on_the_sweep l C E w : on_the_sweep l C E -> 0 < l -> 0 <= w <= 1 -> exterior (tilted (between C E w)).
+Proof. intros B L W; apply exterior_by_multiplier with l; [exact L |]; intros X; apply sweep_positive; assumption. Qed.
 
-Theorem interior_on_the_way l C E w : on_the_way l C E -> l < 0 -> 0 <= w <= 1 -> interior (leaning (between C E w)).
-Proof. intros B L W; apply interior_by_multiplier with l; [exact L |]; intros X; apply way_positive; assumption. Qed.
+Theorem interior_on_the_sweep l C E w : on_the_sweep l C E -> l < 0 -> 0 <= w <= 1 -> interior (tilted (between C E w)).
+Proof. intros B L W; apply interior_by_multiplier with l; [exact L |]; intros X; apply sweep_positive; assumption. Qed.
 
 (** ** A touch: the pencil is nowhere negative, and 0 in X, where the gradient vanishes. *)
 
@@ -189,10 +189,10 @@ Definition even l (u : point) := (* the matrix times u is 0 *)
 Variables (m : R) (C X u : point).
 Hypotheses (M : m <> 0) (Semi : semi3 (entry_xx m) (factor * mass px py 0) (factor * mass px pz 0) (entry_yy m)
   (factor * mass py pz 0) (entry_zz m)) (Gx : gradient_x m C X = 0) (Gy : gradient_y m C X = 0) (Gz : gradient_z m C X = 0)
-  (Zero : pencil (leaning C) m X = 0) (Inside : in_spheroid (leaning C) X)
-  (Meets : height (leaning C) X = 0 \/ (0 < dot u u /\ even m u)).
+  (Zero : pencil (tilted C) m X = 0) (Inside : in_spheroid (tilted C) X)
+  (Meets : height (tilted C) X = 0 \/ (0 < dot u u /\ even m u)).
 
-Let about Y : factor * weight * pencil (leaning C) m (add X Y)
+Let about Y : factor * weight * pencil (tilted C) m (add X Y)
   = entry_xx m * px Y ^ 2 + 2 * (factor * mass px py 0) * px Y * py Y + 2 * (factor * mass px pz 0) * px Y * pz Y
     + entry_yy m * py Y ^ 2 + 2 * (factor * mass py pz 0) * py Y * pz Y + entry_zz m * pz Y ^ 2.
 Proof.
@@ -206,27 +206,33 @@ Proof.
   rewrite E, F, Gx, Gy, Gz; ring.
 Qed.
 
-Let nowhere_negative Y : 0 <= pencil (leaning C) m Y.
+(** The pencil is 0 on a line along which its form is 0. *)
+Lemma zero_along t w : even m w -> pencil (tilted C) m (add X (scale t w)) = 0.
+Proof.
+  intros (E1 & E2 & E3); apply Rmult_eq_reg_l with (factor * weight); [| apply Rgt_not_eq, scale_positive].
+  rewrite Rmult_0_r, about; unfold scale; cbn [px py pz].
+  transitivity (t ^ 2 * (px w * (entry_xx m * px w + factor * mass px py 0 * py w + factor * mass px pz 0 * pz w)
+    + py w * (factor * mass px py 0 * px w + entry_yy m * py w + factor * mass py pz 0 * pz w)
+    + pz w * (factor * mass px pz 0 * px w + factor * mass py pz 0 * py w + entry_zz m * pz w))); [ring |].
+  rewrite E1, E2, E3; ring.
+Qed.
+
+Let nowhere_negative Y : 0 <= pencil (tilted C) m Y.
 Proof.
   pose proof (about (sub Y X)) as E; pose proof scale_positive as K.
   replace (add X (sub Y X)) with Y in E by (apply point_eq; unfold add, sub; cbn [px py pz]; ring).
   apply Rmult_le_reg_l with (factor * weight); [exact K |]; rewrite Rmult_0_r, E; apply semi3_form; exact Semi.
 Qed.
 
-Let meets : contact (leaning C).
+Let meets : contact (tilted C).
 Proof.
   destruct Meets as [H | [U (E1 & E2 & E3)]].
-  - apply solid_contact with X; [apply leaning_valid | exact Inside | exact H].
-  - apply contact_by_line with m X u; [apply leaning_valid | exact M | exact Inside | exact U |]; intros t.
-    apply Rmult_eq_reg_l with (factor * weight); [| apply Rgt_not_eq, scale_positive]; rewrite Rmult_0_r, about.
-    unfold scale; cbn [px py pz].
-    transitivity (t ^ 2 * (px u * (entry_xx m * px u + factor * mass px py 0 * py u + factor * mass px pz 0 * pz u)
-      + py u * (factor * mass px py 0 * px u + entry_yy m * py u + factor * mass py pz 0 * pz u)
-      + pz u * (factor * mass px pz 0 * px u + factor * mass py pz 0 * py u + entry_zz m * pz u))); [ring |].
-    rewrite E1, E2, E3; ring.
+  - apply solid_contact with X; [apply tilted_valid | exact Inside | exact H].
+  - apply contact_by_line with m X u; [apply tilted_valid | exact M | exact Inside | exact U |]; intros t.
+    apply zero_along; repeat split; assumption.
 Qed.
 
-Theorem touch : tangent_outside (leaning C) \/ tangent_inside (leaning C).
+Theorem touch : tangent_outside (tilted C) \/ tangent_inside (tilted C).
 Proof.
   destruct (Rlt_dec 0 m) as [P | N]; [left | right].
   - apply tangent_outside_by_multiplier with m; [exact P | exact nowhere_negative | exact meets].

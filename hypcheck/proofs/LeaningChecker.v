@@ -1,4 +1,4 @@
-(** The checker for any axis, and for straight ways, in rational numbers, and its soundness.
+(** The checker for any axis, and for straight sweeps, in rational numbers, and its soundness.
 
     It does what hypcheck/truth/certificate.py does for rows of ten and of thirteen numbers (of seven and of
     ten where the axis is vertical). Lengths are first counted in a unit that makes them whole, if the caller knows one: the
@@ -48,8 +48,8 @@ Definition q_between4 e11 e12 e13 e22 e23 e33 (s t : spot) ss st tt := less 0 e1
     (e11 * q_y s - e12 * q_x s) (e11 * q_z s - e13 * q_x s) (e11 * q_y t - e12 * q_x t) (e11 * q_z t - e13 * q_x t)
     (e11 * ss - q_x s * q_x s) (e11 * st - q_x s * q_x t) (e11 * tt - q_x t * q_x t).
 
-(** Whether the multiplier proves the spheroid clear all the way from one centre to another. *)
-Definition check_way r l (C E : spot) := let s := q_pulls r C in let t := q_pulls r E in
+(** Whether the multiplier proves the spheroid clear on the whole sweep from one centre to another. *)
+Definition check_sweep r l (C E : spot) := let s := q_pulls r C in let t := q_pulls r E in
   negb (Qeq_bool l 0) && q_between4 (q_xx r l) (q_xy r) (q_xz r) (q_yy r l) (q_yz r) (q_zz r l) s t
     (q_rest r l C s) (q_rest r l E s) (q_rest r l E t).
 
@@ -88,7 +88,7 @@ Definition check_through r C points := inside r C points
 Open Scope R_scope.
 
 Definition real (X : spot) := Point (Q2R (q_x X)) (Q2R (q_y X)) (Q2R (q_z X)).
-Definition leans r C := leaning (Q2R (s_alpha r)) (Q2R (s_gamma r)) (Q2R (s_b r)) (Q2R (s_d r)) (real (s_axis r)) (real C).
+Definition tilted_in r C := tilted (Q2R (s_alpha r)) (Q2R (s_gamma r)) (Q2R (s_b r)) (Q2R (s_d r)) (real (s_axis r)) (real C).
 
 Lemma square_is q : Q2R (square q) = Q2R q ^ 2.
 Proof. unfold square; rewrite Q2R_mult; ring. Qed.
@@ -201,29 +201,29 @@ Qed.
 Lemma rest_is l C E : Q2R (q_rest r l E (q_pulls r C)) = rest al ga bb dd v (Q2R l) (real C) (real E).
 Proof. unfold q_rest, rest; to_reals; rewrite dot_is, pulls_are; entries; unfold dot; cbn [px py pz]; ring. Qed.
 
-Theorem check_way_sound l C E w : check_way r l C E = true -> 0 <= w <= 1 ->
-  (0 < Q2R l -> exterior (leaning al ga bb dd v (between (real C) (real E) w)))
-  /\ (Q2R l < 0 -> interior (leaning al ga bb dd v (between (real C) (real E) w))).
+Theorem check_sweep_sound l C E w : check_sweep r l C E = true -> 0 <= w <= 1 ->
+  (0 < Q2R l -> exterior (tilted al ga bb dd v (between (real C) (real E) w)))
+  /\ (Q2R l < 0 -> interior (tilted al ga bb dd v (between (real C) (real E) w))).
 Proof.
-  unfold check_way; intros H W; bools.
+  unfold check_sweep; intros H W; bools.
   match goal with H : q_between4 _ _ _ _ _ _ _ _ _ _ _ = true |- _ => apply between4_true in H end.
   rewrite xx_is, xy_is, xz_is, yy_is, yz_is, zz_is, !rest_is, !on_x, !on_y, !on_z, !pulls_are in *; cbn [px py pz] in *.
-  split; intros L; [apply exterior_on_the_way with (Q2R l) | apply interior_on_the_way with (Q2R l)]; assumption.
+  split; intros L; [apply exterior_on_the_sweep with (Q2R l) | apply interior_on_the_sweep with (Q2R l)]; assumption.
 Qed.
 
-Lemma deep_is C X : Q2R (q_deep r C X) = weight bb dd v * depth (leans r C) (real X).
+Lemma deep_is C X : Q2R (q_deep r C X) = weight bb dd v * depth (tilted_in r C) (real X).
 Proof.
   destruct X as [[x y] z]; unfold q_deep; to_reals; rewrite weight_is, !square_is, !dot_is; fold bb dd v.
-  unfold depth, norm2, along, leans, leaning, weight, V; cbn [axis centre b d]; fold bb dd v; pose proof pv as N.
+  unfold depth, norm2, along, tilted_in, tilted, weight, V; cbn [axis centre b d]; fold bb dd v; pose proof pv as N.
   replace (sub (real (x, y, z)) (real C)) with (real ((x - q_x C)%Q, (y - q_y C)%Q, (z - q_z C)%Q))
     by (unfold real, sub, q_x, q_y, q_z; cbn [fst snd px py pz]; f_equal; to_reals; reflexivity).
   generalize dependent (dot v v); generalize (real ((x - q_x C)%Q, (y - q_y C)%Q, (z - q_z C)%Q)); intros u n N.
   generalize (dot u u) (dot u v); intros; field; pose proof pb; pose proof pd; lra.
 Qed.
 
-Lemma high_is C X : Q2R (q_high r X) = factor al ga * height (leans r C) (real X).
+Lemma high_is C X : Q2R (q_high r X) = factor al ga * height (tilted_in r C) (real X).
 Proof.
-  unfold q_high; to_reals; rewrite factor_is, !square_is; unfold height, factor, leans, leaning, real; cbn [alpha gamma px py pz]; fold al ga.
+  unfold q_high; to_reals; rewrite factor_is, !square_is; unfold height, factor, tilted_in, tilted, real; cbn [alpha gamma px py pz]; fold al ga.
   field; pose proof pa; pose proof pg; lra.
 Qed.
 
@@ -237,8 +237,8 @@ Qed.
 Let sign k x y : 0 < k -> y = k * x -> (0 <= y -> 0 <= x) /\ (y <= 0 -> x <= 0) /\ (0 < y -> 0 < x) /\ (y < 0 -> x < 0) /\ (y = 0 -> x = 0).
 Proof. intros K ->; repeat split; intros H; nra. Qed.
 
-Let depth_sign C X := sign _ _ _ weight_positive (deep_is C X).
-Let height_sign C X := sign _ _ _ factor_positive (high_is C X).
+Definition depth_sign C X := sign _ _ _ weight_positive (deep_is C X).
+Definition height_sign C X := sign _ _ _ factor_positive (high_is C X).
 
 Lemma are_0_true X : are_0 X = true -> px (real X) = 0 /\ py (real X) = 0 /\ pz (real X) = 0.
 Proof. unfold are_0; intros H; bools; rewrite Q2R_0 in *; auto. Qed.
@@ -252,7 +252,7 @@ Proof.
 Qed.
 
 Theorem check_touch_sound m C X u : check_touch r m C X u = true ->
-  tangent_outside (leans r C) \/ tangent_inside (leans r C).
+  tangent_outside (tilted_in r C) \/ tangent_inside (tilted_in r C).
 Proof.
   unfold check_touch; intros H; bools.
   match goal with H : q_semi3 _ _ _ _ _ _ = true |- _ => apply semi3_true in H; rename H into S end.
@@ -264,37 +264,37 @@ Proof.
   rewrite xx_is, yy_is, zz_is, xy_is, xz_is, yz_is in S.
   unfold real in G1, G2, G3; cbn [q_x q_y q_z fst snd px py pz] in G1, G2, G3; revert G1 G2 G3; to_reals.
   rewrite !on_x, !on_y, !on_z, !times_is, !pulls_are; cbn [px py pz]; intros G1 G2 G3.
-  unfold leans; fold al ga bb dd v.
+  unfold tilted_in; fold al ga bb dd v.
   apply (touch al ga bb dd v pa pg pb pd pv (Q2R m) (real C) (real X) (real u)); try assumption.
-  - unfold pencil; fold (leans r C); apply Rmult_eq_reg_l with (factor al ga * weight bb dd v);
+  - unfold pencil; fold (tilted_in r C); apply Rmult_eq_reg_l with (factor al ga * weight bb dd v);
       [| apply Rgt_not_eq, Rmult_lt_0_compat; assumption].
-    rewrite Rmult_0_r; change (leaning al ga bb dd v (real C)) with (leans r C); rewrite <- Z; ring.
+    rewrite Rmult_0_r; change (tilted al ga bb dd v (real C)) with (tilted_in r C); rewrite <- Z; ring.
   - destruct E as [E | E]; bools.
     + left; rewrite Q2R_0 in E; apply (height_sign C X); exact E.
     + right; rewrite Q2R_0, dot_is in *; split; [assumption |].
       match goal with H : are_0 _ = true |- _ => apply are_0_true in H; rewrite times_is in H; exact H end.
 Qed.
 
-Lemma inside_all C points X : inside r C points = true -> In X points -> in_spheroid (leans r C) (real X).
+Lemma inside_all C points X : inside r C points = true -> In X points -> in_spheroid (tilted_in r C) (real X).
 Proof.
   unfold inside; intros H I; rewrite forallb_forall in H; specialize (H X I); apply le_true in H; rewrite Q2R_0 in H.
   apply (proj1 (proj2 (depth_sign C X))); exact H.
 Qed.
 
-Let its_valid C : valid (leans r C).
-Proof. apply leaning_valid; [exact pa | exact pg | exact pb | exact pd | exact pv]. Qed.
+Lemma its_valid C : valid (tilted_in r C).
+Proof. apply tilted_valid; [exact pa | exact pg | exact pb | exact pd | exact pv]. Qed.
 
-Theorem check_meeting_sound C points : check_meeting r C points = true -> contact (leans r C).
+Theorem check_meeting_sound C points : check_meeting r C points = true -> contact (tilted_in r C).
 Proof.
   unfold check_meeting; rewrite !andb_true_iff, !existsb_exists; intros [[D (X & IX & HX)] (Y & IY & HY)].
   apply le_true in HX; apply le_true in HY; rewrite Q2R_0 in HX, HY.
   apply (proj1 (proj2 (height_sign C X))) in HX; apply (proj1 (height_sign C Y)) in HY.
   apply contact_by_points with (real X) (real Y); [apply its_valid | apply inside_all with points; assumption | apply inside_all with points; assumption |].
-  rewrite <- (Rmult_0_r (height (leans r C) (real X))); apply Rmult_le_compat_neg_l; assumption.
+  rewrite <- (Rmult_0_r (height (tilted_in r C) (real X))); apply Rmult_le_compat_neg_l; assumption.
 Qed.
 
 Theorem check_through_sound C points : check_through r C points = true ->
-  contact (leans r C) /\ (crosses_at (leans r C) \/ crosses_inside (leans r C)).
+  contact (tilted_in r C) /\ (crosses_at (tilted_in r C) \/ crosses_inside (tilted_in r C)).
 Proof.
   unfold check_through; rewrite andb_true_iff, orb_true_iff, andb_true_iff, !existsb_exists.
   intros [D [[(X & IX & HX) (Y & IY & HY)] | (X & IX & HX)]].
@@ -302,7 +302,7 @@ Proof.
     apply (height_sign C X) in HX; apply (height_sign C Y) in HY.
     pose proof (inside_all C points X D IX) as DX; pose proof (inside_all C points Y D IY) as DY; split.
     + apply contact_by_points with (real X) (real Y); try assumption; [apply its_valid |].
-      rewrite <- (Rmult_0_r (height (leans r C) (real X))); apply Rmult_le_compat_neg_l; lra.
+      rewrite <- (Rmult_0_r (height (tilted_in r C) (real X))); apply Rmult_le_compat_neg_l; lra.
     + left; exists (real X), (real Y); repeat split; assumption.
   - rewrite andb_true_iff in HX; destruct HX as [HX DX]; apply eq_true in HX; apply less_true in DX; rewrite Q2R_0 in HX, DX.
     apply (height_sign C X) in HX; apply (depth_sign C X) in DX; split.

@@ -32,7 +32,10 @@ CHECKER = "check_cases"
 
 FROZEN = SOURCES.parents[1] / "cases"
 
-SOUNDNESS = ("Geometry", "Certificates", "UnitBall", "Checker", "Leaning", "LeaningChecker", "RowChecker")
+SOUNDNESS = (
+    *("Geometry", "Certificates", "UnitBall", "Checker", "Leaning", "LeaningChecker", "RowChecker"),
+    *("Ends", "EndsChecker"),
+)
 """What the checker's soundness rests on, in the order in which Coq needs it."""
 
 RULE = ("Duality", "AnyAxis", "Completeness", "Cubic", "Rule", "Paper", "RootPatterns")
@@ -245,18 +248,20 @@ def check_kernel(path: Path, built: Path = BUILT) -> float:
 
 def build_checker(built: Path = BUILT) -> None:
     """Compile the extracted checker and the program that reads cases for it."""
-    shutil.copy(SOURCES / "check_cases.ml", built)
+    programs = ["witnesses.ml", f"{CHECKER}.ml"]
+    for program in programs:
+        shutil.copy(SOURCES / program, built)
     command = ["ocamlfind", "ocamlopt", "-w", "-a", "-package", "zarith", "-linkpkg"]
-    command += ["checker.mli", "checker.ml", "check_cases.ml", "-o", CHECKER]
+    command += ["checker.mli", "checker.ml", *programs, "-o", CHECKER]
     found = _run(command, built)
     if found.returncode:
         raise ProofError(f"OCaml refuses the checker:\n{found.stderr.strip()}")
 
 
 def frozen_files() -> list[str]:
-    """The frozen files that the checker reads: all but those about a hyperboloid that ends."""
+    """The frozen files that the checker reads: all but those about sweeps beside a hyperboloid that ends."""
     contents = {path: json.loads(path.read_bytes())["content"] for path in FROZEN.glob("*.json")}
-    return sorted(str(path) for path, content in contents.items() if not content.startswith("ended-"))
+    return sorted(str(path) for path, content in contents.items() if not content.startswith("ended-way"))
 
 
 def run_checker(files: list[str], built: Path = BUILT) -> int:

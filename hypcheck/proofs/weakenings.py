@@ -54,7 +54,13 @@ def comparisons(text: str) -> Iterator[Change]:
 def guards(text: str) -> Iterator[Change]:
     """Every hypothesis of a line left out."""
     head, _, body = text.partition(" : ")
-    parts = re.split(r"\s*->\s*", body)
+    parts = [""]
+    for word in re.split(r"\s*(->)\s*", body):
+        within = parts[-1].count("(") > parts[-1].count(")")
+        if word == "->" and not within:
+            parts.append("")
+        else:
+            parts[-1] += " -> " if word == "->" else word
     for place, part in enumerate(parts[:-1]):
         rest = " -> ".join(parts[:place] + parts[place + 1 :])
         yield f"{head} : {rest}", f"without {' '.join(part.split())}"
@@ -75,6 +81,35 @@ def bounds(text: str) -> Iterator[Change]:
         yield _with(text, found, f"({found[0]} - 1)"), f"{found[0]} less 1"
 
 
+def conditions(text: str) -> Iterator[Change]:
+    """Every condition of a checker left out, every strict one weak, every refusal an acceptance."""
+    for start, stop in _conjuncts(text):
+        condition = " ".join(text[start:stop].split())
+        yield f"{text[:start]}true{text[stop:]}", f"without {condition}"
+    for found in _outside_remarks(r"\bless\b(?!_)", text):
+        yield _with(text, found, "Qle_bool"), "Qle_bool for less"
+    for found in _outside_remarks(r"\bfalse\b", text):
+        yield _with(text, found, "true"), "true for false"
+
+
+_BOUNDARY = r"&&|\|\||[()|]|:=|=>|\.$|\b(?:match|let|in|end|then|else)\b"
+
+
+def _conjuncts(text: str) -> Iterator[tuple[int, int]]:
+    """Where the parts of each `... && ... && ...` begin and end."""
+    tokens = list(_outside_remarks(_BOUNDARY, text))
+    for place, before in enumerate(tokens):
+        if before[0] in {")", "end", "match"}:
+            continue
+        depth = 0
+        for after in tokens[place + 1 :]:
+            if depth == 0 and after[0] not in {"(", "match", "let"}:
+                if "&&" in {before[0], after[0]}:
+                    yield before.end() + 1, after.start() - (text[after.start() - 1] in " \n")
+                break
+            depth += {"(": 1, "match": 1, ")": -1, "end": -1}.get(after[0], 0)
+
+
 def _outside_remarks(pattern: str, text: str) -> Iterator[re.Match[str]]:
     hidden = re.sub(r"\(\*.*?\*\)", lambda remark: " " * len(remark[0]), text, flags=re.DOTALL)
     return re.finditer(pattern, hidden)
@@ -92,6 +127,9 @@ PLACES = (
     Place("3", "FixedRuns", r"^Theorem header_covers_\w+ .*?\.$", (bounds,)),
     Place("4", "StageFour", r"^Definition (?:lengths|\w+_inputs) .*?\.$", (constants,), "(** ** What the"),
     Place("4", "Tangency", r"^Definition (?:n2_of|n1_of|tangency_equations) .*?\.$", (constants,)),
+    Place("ends", "Ends", r"^Definition (?!larger|covered|curve|piece)\w+ .*?\.$", (comparisons,)),
+    Place("ends", "Ends", r"^Theorem (?:open|solid)_\w+_by_\w+ .*?\.$", (guards,)),
+    Place("ends", "EndsChecker", r"^(?:Definition|Fixpoint) (?:valid|q|check|on)_\w+ .*?\.$", (constants, conditions)),
     Place("5", "Positions", r"^Definition exact_answer .*?end\.$", (answers,)),
 )
 
@@ -136,5 +174,5 @@ def _name_of(text: str) -> str:
 
 def sample(all_made: list[Made], count: int, seed: int) -> list[Made]:
     """So many of them from the files that Coq compiles within two seconds, drawn by the seed."""
-    quick = [each for each in all_made if each.file in {"Stages", "HalfPlanes", "Positions"}]
+    quick = [each for each in all_made if each.file in {"Stages", "HalfPlanes", "Positions", "EndsChecker"}]
     return random.Random(seed).sample(quick, min(count, len(quick)))  # noqa: S311 - no secret

@@ -131,7 +131,8 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
     ]
     everything = (tools.built / "Assumptions.v").read_text(encoding="utf-8")
     assert all(f"@Floats.{each}" in everything for each in build.statements("Floats"))
-    assert (tools.built / "check_cases.ml").read_bytes() == (build.SOURCES / "check_cases.ml").read_bytes()
+    for program in ("witnesses.ml", "check_cases.ml"):
+        assert (tools.built / program).read_bytes() == (build.SOURCES / program).read_bytes()
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,7 @@ from hypcheck.paper.ledger.book import claims
 from hypcheck.proofs import build, weakenings
 from hypcheck.proofs.build import CONTROL, accepted, weakened
 from hypcheck.vectors import frozen
+from tests.proofs import ended_agreement
 from tests.proofs.agreement import disagreements
 from tests.proofs.state import up_to_date
 from tests.support.inside import CERTIFIED_CONSTANTS, PATTERNS, SLACK, Kind, U, certified
@@ -79,7 +80,7 @@ def test_coq_accepts_the_checker_and_refuses_it_if_the_ring_counts_as_a_tangency
 
 def test_a_program_makes_weakened_statements_of_every_stage_and_explains_known_ones_alone():
     made = weakenings.made(build.source)
-    assert {change.stage for change in made} == {"1 to 5", "1", "2", "3", "4", "5"}
+    assert {change.stage for change in made} == {"1 to 5", "1", "2", "3", "4", "5", "ends"}
     assert len({(change.file, change.allows) for change in made}) == len(made) >= 400
     for change in made:
         assert change.old != change.new
@@ -190,17 +191,25 @@ def test_coq_proves_the_bound_of_an_emitted_kernel_and_refuses_a_smaller_one(tmp
 
 
 @compiled
-def test_the_proved_checker_accepts_every_frozen_vector_without_ends(capfd):
+def test_the_proved_checker_accepts_every_frozen_certificate(capfd):
     files = build.frozen_files()
-    names = {name for name in frozen.ALL_NAMES if "ended" not in name}
+    names = {name for name in frozen.ALL_NAMES if "ended-way" not in name}
     assert {Path(file).stem for file in files} == names
-    cases = sum(len(json.loads(Path(file).read_text(encoding="utf-8"))["cases"]) for file in files)
+    cases = [case for file in files for case in json.loads(Path(file).read_text(encoding="utf-8"))["cases"]]
+    without = sum(case.get("certificate") == {"rule": "height"} for case in cases)
     assert build.run_checker(files) == 0
-    assert capfd.readouterr().out == f"{cases} cases checked by the proved checker, none with a wrong label\n"
+    assert capfd.readouterr().out == (
+        f"{len(cases) - without} cases checked by the proved checker, none with a wrong label\n"
+        f"{without} contacts beside an end have no certificate and are not checked\n"
+    )
 
 
 def _interior_called_exterior(case):
     case["position"] = 1
+
+
+def _exterior_called_interior(case):
+    case["position"] = -1
 
 
 def _tangency_called_crossing(case):
@@ -233,6 +242,18 @@ def _point_left_out(case):
     del case["certificate"]["points"][0]
 
 
+def _end_moved(case):
+    case["row"][11], case["hex"][11] = "inf", "inf"
+
+
+def _open_called_solid(case):
+    case["row"][12], case["hex"][12] = 1.0, "0x1p+0"
+
+
+def _valid_row(case):
+    case["row"][10], case["row"][11] = -1.0, 2.0
+
+
 @compiled
 @pytest.mark.parametrize(
     ("name", "place", "damage"),
@@ -248,6 +269,12 @@ def _point_left_out(case):
         ("way-across", 0, _piece_left_out),
         ("way-across", 0, _piece_to_the_other_side),
         ("way-across", 0, _point_left_out),
+        ("ended-rim", 0, _exterior_called_interior),
+        ("ended-rim", 0, _piece_left_out),
+        ("ended-rim", 0, _open_called_solid),
+        ("ended-rim", 1, _end_moved),
+        ("ended-rim", 2, _point_left_out),
+        ("tilted-ended-rim", 0, _axis_turned),
     ],
 )
 def test_the_proved_checker_refuses_a_wrong_label(name, place, damage, capfd, tmp_path):
@@ -257,7 +284,24 @@ def test_the_proved_checker_refuses_a_wrong_label(name, place, damage, capfd, tm
     assert build.run_checker([str(tmp_path / "wrong.json")]) == 1
     said = capfd.readouterr().out
     assert f"case {file['cases'][place]['id']}: the certificate does not prove the label" in said
-    assert said.endswith("checked by the proved checker, 1 with a wrong label\n")
+    assert "checked by the proved checker, 1 with a wrong label\n" in said
+
+
+@compiled
+def test_the_proved_checker_says_of_a_row_that_ends_and_must_be_refused_that_it_is_valid(capfd, tmp_path):
+    file = json.loads((frozen.folder() / "ended-invalid.json").read_text(encoding="utf-8"))
+    _valid_row(file["cases"][0])
+    (tmp_path / "wrong.json").write_text(json.dumps(file), encoding="utf-8")
+    assert build.run_checker([str(tmp_path / "wrong.json")]) == 1
+    assert f"case {file['cases'][0]['id']}: is a valid row\n" in capfd.readouterr().out
+
+
+@compiled
+@pytest.mark.parametrize("name", ["ended-disc", "ended-small-integers", "tilted-ended-rim"])
+def test_the_proved_checker_and_python_agree_on_certificates_beside_ends(name, tmp_path):
+    proved, python = ended_agreement.verdicts(name, tmp_path, every=6)
+    assert proved == python
+    assert 20 < sum(proved) < len(proved) - 20
 
 
 @compiled
