@@ -69,7 +69,7 @@ def generate(family: str, seed: int, count: int, said: str | None, target: str) 
     type=click.Choice(("python", "coq")),
     default="python",
     show_default=True,
-    help="coq: position, tangency and first contact, beside ends the position, by the checker that `make prove` builds.",
+    help="coq: position, tangency and first contact, beside ends the position, by the checker of `make prove`.",
 )
 @click.pass_context
 def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:

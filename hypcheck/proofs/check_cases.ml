@@ -16,7 +16,7 @@ open Witnesses
 
 exception Unreadable of string
 
-(* A contact beside an end which rests on the exact rule in the height alone. *)
+(* A contact beside an end that rests on the exact rule in the height alone, and of which no point is found. *)
 exception Without_certificate
 
 let unreadable format = Printf.ksprintf (fun text -> raise (Unreadable text)) format
@@ -269,7 +269,6 @@ let end_witness (place, { Checker.h_low; h_high; h_solid }) claim pieces unit ce
     if h_solid && claim = Checker.Interior then Within (l, Option.value ~default:zero beneath, Option.value ~default:zero over)
     else Pieces [ { Checker.p_low = None; p_high = None; p_multiplier = l; p_plane = zero } ]
   end
-  else if text (field "rule" certificate) = "height" then raise Without_certificate
   else unreadable "a certificate has a multiplier, pieces, points or a rule"
 
 let ended_accepted case =
@@ -281,8 +280,14 @@ let ended_accepted case =
   let pieces = if has "pieces" certificate then List.map piece_of (list (field "pieces" certificate)) else [] in
   let ends = (heights.h_low, heights.h_high) :: List.map (fun (low, high, _, _) -> (low, high)) pieces in
   let unit = unit_of (place.all @ List.concat_map (fun (low, high) -> Option.to_list low @ Option.to_list high) ends) in
-  Checker.check_ended place.sizes (List.hd place.spots) heights unit (axis_unit place) claim
-    (end_witness (place, heights) claim pieces unit certificate)
+  let centre = List.hd place.spots in
+  let proves = Checker.check_ended place.sizes centre heights unit (axis_unit place) claim in
+  if has "rule" certificate && text (field "rule" certificate) = "height" then begin
+    let low = Option.map in_q heights.h_low and high = Option.map in_q heights.h_high in
+    let tried = near_touch place.numbers (vector place.sizes.s_axis) (vector centre) low high in
+    claim = Checker.Contact && (List.exists (fun points -> proves (Places points)) tried || raise Without_certificate)
+  end
+  else proves (end_witness (place, heights) claim pieces unit certificate)
 
 (* A row that must be refused: also where an end is infinite on the wrong side, or not below the other. *)
 let ended_refused case =

@@ -70,7 +70,7 @@ def _certificates(certificate: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def verdicts(name: str, folder: Path, every: int = 1) -> tuple[list[bool], list[bool]]:
-    """What the proved checker, and what Python, says of frozen certificates of a family, one of `every`, and changes."""
+    """What the proved checker, and what Python, says of one frozen certificate in `every`, and of its changes."""
     file = json.loads((frozen.folder() / f"{name}.json").read_text(encoding="utf-8"))
     cases = [other for case in file["cases"][::every] if "rule" not in case["certificate"] for other in changed(case)]
     file["cases"] = [{**case, "id": f"{name}-{place:04}", "tangent": False} for place, case in enumerate(cases)]

@@ -191,17 +191,29 @@ def test_coq_proves_the_bound_of_an_emitted_kernel_and_refuses_a_smaller_one(tmp
 
 
 @compiled
-def test_the_proved_checker_accepts_every_frozen_certificate(capfd):
+def test_the_proved_checker_proves_every_frozen_position_and_every_sweep_without_ends(capfd):
     files = build.frozen_files()
     names = {name for name in frozen.ALL_NAMES if "ended-way" not in name}
     assert {Path(file).stem for file in files} == names
-    cases = [case for file in files for case in json.loads(Path(file).read_text(encoding="utf-8"))["cases"]]
-    without = sum(case.get("certificate") == {"rule": "height"} for case in cases)
+    cases = sum(len(json.loads(Path(file).read_text(encoding="utf-8"))["cases"]) for file in files)
     assert build.run_checker(files) == 0
-    assert capfd.readouterr().out == (
-        f"{len(cases) - without} cases checked by the proved checker, none with a wrong label\n"
-        f"{without} contacts beside an end have no certificate and are not checked\n"
-    )
+    assert capfd.readouterr().out == f"{cases} cases checked by the proved checker, none with a wrong label\n"
+
+
+@compiled
+def test_the_proved_checker_counts_contacts_without_a_certificate_of_which_it_finds_no_point(capfd, tmp_path):
+    file = json.loads((frozen.folder() / "ended-rim-tangent.json").read_text(encoding="utf-8"))
+    (tmp_path / "found.json").write_text(json.dumps(file), encoding="utf-8")
+    touch, other = (case for case in file["cases"][:2] if case["certificate"] == {"rule": "height"})
+    for case, position in ((touch, 0), (other, 1)):
+        case["row"][3], case["hex"][3], case["position"] = 2.0**-10, "0x1p-10", position
+    (tmp_path / "missed.json").write_text(json.dumps({**file, "cases": [touch, other]}), encoding="utf-8")
+    assert build.run_checker([str(tmp_path / "found.json")]) == 0
+    assert "not checked" not in capfd.readouterr().out
+    assert build.run_checker([str(tmp_path / "missed.json")]) == 1
+    said = capfd.readouterr().out
+    assert f"case {other['id']}: the certificate does not prove the label\n" in said
+    assert said.endswith("1 contacts beside an end have no certificate and are not checked\n")
 
 
 def _interior_called_exterior(case):
