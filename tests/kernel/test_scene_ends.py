@@ -257,3 +257,14 @@ def test_answers_outside_of_the_region_know_the_ends_too():
     assert [tree.position(0.3, 0.0, z) for z in (-9.0, 0.0, 2.1, 9.0)] == [1, 0, 0, 1]
     assert tree.classify(0.3, 0.0, [-9.0, 0.0, 2.1, 9.0]).tolist() == [1, 0, 0, 1]
     assert tree.passage([(0.3, 0.0, 9.0)] * 2, [(0.3, 0.0, 5.0), (0.3, 0.0, 2.1)]).tolist() == [0, 1]
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)])
+def test_what_is_tilted_in_one_coordinate_alone_is_not_taken_for_upright_beside_an_end(axis):
+    """A disk on its edge reaches 0.5 up, and an upright one 0.5 along an axis that lies level."""
+    tower = Hyperboloid("tower", 2.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
+    asked = scene(tower, mover=Mover(0.5, 0.01, axis=axis))
+    assert [asked.position(0.0, 0.0, z) for z in (1.51, 1.49, 0.51, 0.49)] == [1, 0, 0, -1]
+    asked = scene(replace(tower, axis=axis), mover=Mover(0.5, 0.01))
+    places = [tuple(along * part for part in axis) for along in (1.51, 1.49, 0.51, 0.49)]
+    assert [asked.position(*place) for place in places] == [1, 0, 0, -1]

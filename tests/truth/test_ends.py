@@ -175,3 +175,15 @@ def test_roots_between_two_numbers_are_found_or_excluded(roots, pairs, low, widt
         return
     between = any(low * denominator < numerator < high * denominator for numerator, denominator in roots)
     assert has_root(tuple(map(int, f)), low, high) in (between, None)
+
+
+@pytest.mark.parametrize(("axis", "square"), [((0, 0, 1), 4), ((3, 0, 4), 2.92), ((0, 1, 0), 1), ((0, 0, 2.0**-60), 4)])
+def test_one_multiplier_proves_a_spheroid_inside_a_solid_body_until_it_reaches_an_end(axis, square):
+    """Its highest point is √(b² + (d² − b²) v_z²) above its centre."""
+    row = (9, 40, 1, 2, 0, 0, 0, *axis)
+    whole = pair_of(row, (-INF, INF), 0)
+    inside = Certificate(INTERIOR, multiplier=prove(whole, decide(whole.lengths)).multiplier)
+    for factor in (1 + 1e-9, 1 - 1e-9):
+        end = math.sqrt(square) * factor
+        for ends in ((-end, INF), (-INF, end)):
+            assert check_certificate(pair_of(row, ends, 1), inside) == (factor > 1)

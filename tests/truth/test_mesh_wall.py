@@ -46,6 +46,14 @@ def test_mesh_oracle_knows_the_disc_of_a_solid_that_a_spheroid_touches_within_it
     assert asked(0.0, 1.0, -3, 1.5, 1, sizes=inside).position is None  # it touches the disc
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_mesh_oracle_finds_a_wall_above_or_below_the_center_of_a_disk_that_stands_on_its_edge(side):
+    disk = {"axis": (1, 0, 0), "sizes": (0.2, 1.0, 3.0, 0.2)}
+    low, high = sorted((side, 2 * side))
+    assert asked(0.3, 0.0, low, high, 0, **disk).position is Position.CONTACT
+    assert asked(0.3, -2.1 * side, low, high, 0, **disk).position is Position.EXTERIOR
+
+
 def test_mesh_oracle_says_contact_where_a_short_wall_is_all_within_the_spheroid():
     assert asked(0.0, 0.0, -0.01, 0.01, 0, sizes=(0.5, 1.0, 2.0, 2.0)).position is Position.CONTACT
     assert asked(0.0, 0.0, -0.01, 0.01, 0, sizes=(0.5, 1.0, 0.4, 0.4)).position is Position.INTERIOR
