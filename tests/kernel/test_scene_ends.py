@@ -11,7 +11,7 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
-from tests.support.inside import Scene, passage
+from tests.support.inside import Scene, kernel_choice, passage
 from tests.support.scenes import truth_beside, truth_in
 
 STUMP = Hyperboloid("stump", 0.2, 1.0, (0.0, 0.0, 0.0), Span(-1.0, 2.0))
@@ -268,3 +268,53 @@ def test_what_is_tilted_in_one_coordinate_alone_is_not_taken_for_upright_beside_
     asked = scene(replace(tower, axis=axis), mover=Mover(0.5, 0.01))
     places = [tuple(along * part for part in axis) for along in (1.51, 1.49, 0.51, 0.49)]
     assert [asked.position(*place) for place in places] == [1, 0, 0, -1]
+
+
+def test_a_mover_between_ends_that_meets_the_wall_beyond_one_alone_is_clear():
+    """The wall's radius is 2.7 to 3 between the ends, and 4.5 at a height of 2, which the mover reaches."""
+    ring = Hyperboloid("ring", 2.0, 1.0, (0.0, 0.0, 0.0), Span(0.9, 1.1))
+    tall = scene(ring, mover=Mover(0.6, 5.0))
+    x = [1.5, 2.0, 2.5, 3.5, 3.6, 4.5]
+    assert tall.classify(x, 0.0, 1.0).tolist() == [tall.position(each, 0.0, 1.0) for each in x] == [-1, -1, 0, 0, 1, 1]
+
+
+def test_a_tilted_mover_reaches_a_tree_by_its_longer_semi_axis():
+    trees = [Hyperboloid(f"tree {x}", 0.5, 9.0, (x, 0.0, 0.0), Span(-2.0, 2.0)) for x in (0.0, 40.0, 80.0)]
+    level = Span(-1.0, 1.0)
+    rod = scene(*trees, mover=Mover(0.125, 3.0, axis=(1.0, 0.0, 0.0)), region=Region(z=level))
+    x = [3.375, 3.625, 43.375, 43.625]
+    assert [rod.position(each, 0.0, 0.0) for each in x] == rod.classify(x, 0.0, 0.0).tolist() == [0, 1, 0, 1]
+    sides = [((each, -1.0, 0.0), (each, 1.0, 0.0)) for each in x]
+    assert [rod.passage(*ends).hit for ends in sides] == [True, False, True, False]
+
+
+@pytest.fixture
+def by_numpy(monkeypatch):
+    """From its call on, the numpy kernel answers, which leaves most sweeps beside ends to bounds."""
+
+    def choose():
+        monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
+        kernel_choice.choice.cache_clear()
+
+    yield choose
+    monkeypatch.undo()
+    kernel_choice.choice.cache_clear()
+
+
+@pytest.mark.parametrize("tilted_mover", [False, True])
+@pytest.mark.parametrize("seed", range(2))
+def test_passages_beside_ends_are_the_same_by_the_numpy_kernel(seed, tilted_mover, by_numpy):
+    asked, centres, axes = random_rows(seed, 16, tilted_bodies=False, tilted_mover=tilted_mover)
+    named = {"axis": axes} if tilted_mover else {}
+    middle = (centres + np.roll(centres, 1, axis=0)) / 2
+    sweeps = ((centres, middle), (middle, centres))
+    expected = [asked.passage(*ends, **named).hit.tolist() for ends in sweeps]
+    by_numpy()
+    assert [asked.passage(*ends, **named).hit.tolist() for ends in sweeps] == expected
+
+
+def test_a_sweep_that_stops_before_a_wall_is_clear_by_the_numpy_kernel_too(by_numpy):
+    tower = scene(Hyperboloid("tower", 2.0, 4.0, height=Span(0.0, 3.0)), mover=Mover(0.25, 0.25))
+    by_numpy()
+    for end, hit in ((2.5, 0), (2.375, 0), (2.1875, 1)):
+        assert tower.passage([(2.75, 0.0, 0.125)], [(end, 0.0, 0.125)]).tolist() == [hit]

@@ -233,6 +233,19 @@ def test_parts_decide_contact_and_the_least_distance_is_that_of_the_mover():
     assert found.least.time == pytest.approx((3 + 0.45) / 3.6)
 
 
+def test_the_least_distance_of_a_tilted_mover_is_that_along_its_own_axis_on_each_segment():
+    """A disk passes 4 and 4.25 from the axis of a wall of radius 2: it reaches 0.125 along its axis, 0.5 across it."""
+    world = scene(Hyperboloid("tower", 2.0, 1e6), mover=Mover(0.5, 0.125, axis=FREE))
+    level, upright = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    path = [[4.0, -6, 0], [4.0, 6, 0], [6, 6, 0], [6, 8, 0], [4.25, 8, 0], [4.25, -8, 0]]
+    for first, last, distance, segment in (
+        (level, level, 1.875, 0), (level, upright, 1.75, 4), (upright, level, 1.5, 0), (upright, upright, 1.5, 0)
+    ):  # fmt: skip
+        least = world.first_contact(path, axis=[first, first, first, last, last]).least
+        assert least.distance_lower <= distance <= least.distance_upper < distance + 1e-6
+        assert least.segment == segment
+
+
 def test_headings_and_axes_are_given_for_all_segments_or_for_each():
     world = scene(Hyperboloid("tower", 2.0, 30.0), mover=Mover(2.0, 0.5, axis=FREE))
     path = [[3.0, -9, 0], [3.0, 0, 0], [9, 0, 0]]

@@ -14,6 +14,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact, least
 from hypcheck.truth.least import NOTHING, to_border
 from tests.tools import ended_agreement
+from tests.support.inside import position
 
 INF = math.inf
 
@@ -246,13 +247,29 @@ def test_bounds_tell_nothing_of_lengths_beyond_their_range():
 
 
 @pytest.mark.parametrize(
-    ("row", "position"),
+    "row",
+    [
+        (3.4e-14, 1.5e-31, 2.4e19, 7.3e-53, 0.0, 3.9e-32, -9.4e12, -0.3, 1.3, -1.2, -INF, 7.6e-53, 1),
+        (5e16, 2.0**-60, 2.0**-60, 9e9, 0, 0, 0, 0, 0, 1, 1, INF, 0),
+    ],
+)
+def test_a_bound_that_overflows_tells_nothing(row):
+    pair = Pair.from_row(row)
+    assert least.position(pair) in (None, position(pair.lengths))
+
+
+@pytest.mark.parametrize(
+    ("row", "expected"),
     [
         ((1, 1, 1, 1, 2, 0, 0, 0, 0, 1, -1, 1, 0), None),  # it touches
         ((1, 1, 0.25, 0.25, 0.5, 0, 0, 0, 0, 1, -1, 1, 0), Position.INTERIOR),
         ((1, 1, 0.25, 0.25, 0.5, 0, 2, 0, 0, 1, -1, 1, 0), Position.EXTERIOR),
         ((1, 1, 0.25, 0.25, 0.5, 0, -2, 0, 0, 1, -1, 1, 0), Position.EXTERIOR),
         ((1, 1, 0.25, 0.25, 0.0, 0.5, 0, 0, 0, 1, -1, 1, 1), Position.INTERIOR),
+        ((2, 4, 0.25, 0.25, 0.0, 1, 0, 0, 0, 1, -1, 1, 0), Position.INTERIOR),
+        ((2, 4, 0.25, 0.25, 1, 0.0, 0, 0, 0, 1, -1, 1, 0), Position.INTERIOR),
+        ((1, 4, 0.125, 0.125, 1.5, 0, 3, 0, 0, 1, -4, 4, 0), Position.EXTERIOR),
+        ((4, 0.25, 0.125, 0.125, 6, 0, 0.5, 0, 0, 1, -4, 4, 0), Position.INTERIOR),
         ((1, 1, 0.25, 0.25, 0.0, 1.5, 0, 0, 0, 1, -1, 1, 1), Position.EXTERIOR),
         ((1, 1, 0.6, 0.25, 0.0, 1.5, 0, 0, 0, 1, -1, 1, 1), Position.CONTACT),
         ((1, 1, 2.0**-60, 2.0**-60, 1 + 2.0**-50, 0, 0, 0, 0, 1, -1, 1, 0), None),  # much smaller than roundings of X
@@ -260,5 +277,5 @@ def test_bounds_tell_nothing_of_lengths_beyond_their_range():
         ((*TREE, 1, 1, 1, 0, 4, 0, 0, 1, -1, 3, 1), None),
     ],
 )
-def test_positions_by_the_least_value_are_those_found_by_hand(row, position):
-    assert least.position(Pair.from_row(row)) is position
+def test_positions_by_the_least_value_are_those_found_by_hand(row, expected):
+    assert least.position(Pair.from_row(row)) is expected
