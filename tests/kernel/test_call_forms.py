@@ -13,6 +13,7 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
+from tests.support.inside import classify
 from tests.support.inside import position as exactly
 
 SIZES = (2.0, 17.8, 0.25, 0.15)
@@ -53,6 +54,14 @@ def test_all_forms_of_the_same_pairs_have_the_same_exact_answers(form, ask):
     assert form(ask, axis=(0.3, 0.1, 0.9)).tolist() == by_truth(one)
     ended = [(*row, 0.0, 0.0, 1.0, -1.0, 4.9, 1.0) for row in ROWS]
     assert form(ask, z_min=-1, z_max=4.9, solid=True).tolist() == by_truth(ended)
+
+
+@pytest.mark.parametrize("ask", [hypcheck.classify, classify])
+def test_prepared_sizes_take_points_and_columns_as_sizes_do(ask):
+    """`classify` is what C leaves other calls to."""
+    for more in ({}, {"threads": 2}):
+        assert ask(hypcheck.Prepared(SIZES), POINTS, **more).tolist() == by_truth(ROWS)
+        assert ask(hypcheck.Prepared(SIZES), *POINTS.T, **more).tolist() == by_truth(ROWS)
 
 
 def test_all_forms_have_the_same_answers_without_the_compiled_kernel():

@@ -22,7 +22,8 @@ def alone(sizes, start, end, **more):
 
 
 @pytest.mark.parametrize(
-    "more", [{}, {"axis": (0.3, 0.1, 0.9)}, {"z_min": -1.0, "z_max": 20.0}, {"z_max": 8.5, "solid": True}]
+    "more",
+    [{}, {"axis": (0.3, 0.1, 0.9)}, {"z_min": -1.0, "z_max": 20.0}, {"z_min": -20.0, "z_max": 8.5, "solid": True}],
 )
 def test_many_ways_are_answered_as_the_exact_decision_about_each(more):
     found = hypcheck.passage(SIZES, STARTS, ENDS, **more)

@@ -187,3 +187,11 @@ def test_a_difference_whose_rounding_exceeds_the_spheroid_is_decided_exactly(x, 
 def test_scene_position_takes_any_number_as_its_float():
     scene = Scene(model.SceneModel("s", "position", (Hyperboloid("h", 2.0, 4.0),), Mover(0.5, 0.5)))
     assert [scene.position(x, np.float32(0), [0]) for x in (9, 2, 0)] == [1, 0, -1]
+
+
+def test_scene_position_of_one_centre_takes_an_axis_for_each_answer():
+    tower = Hyperboloid("tower", 2.0, 4.0)
+    disk = Scene(model.SceneModel("s", "position", (tower,), Mover(1.0, 0.25, axis=model.FREE)))
+    axes = [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
+    assert [disk.position(2.5, 0.0, 0.0, axis=axis) for axis in axes] == [1, 0]
+    assert disk.position(2.5, 0.0, 0.0, axis=axes).tolist() == [1, 0]

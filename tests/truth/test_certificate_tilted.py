@@ -30,8 +30,9 @@ def proofs():
     return [(pair, prove(pair)) for pair in pairs]
 
 
-def test_tilted_certificate_of_one_position_is_refused_for_every_other(proofs):
+def test_tilted_certificate_proves_its_position_and_is_refused_for_every_other(proofs):
     for pair, certificate in proofs:
+        assert check_certificate(pair, certificate)
         for other in set(Position) - {certificate.position}:
             assert not check_certificate(pair, replace(certificate, position=other))
         at = certificate.multiplier
