@@ -120,6 +120,8 @@ def test_one_sweep_is_answered_by_numbers(form):
         (lambda: hypcheck.passage(SIZES, start=POINTS), "passage takes .*; start or end is missing"),
         (lambda: hypcheck.passage(SIZES, POINTS, (0, 0, 5), margin=1), "there is no argument 'margin' here"),
         (lambda: hypcheck.clearance(SIZES, POINTS, margin=1), "there is no argument 'margin' here"),
+        (lambda: hypcheck.classify(TABLE | {"axis_x": 1}), "the columns axis_y, axis_z are missing"),
+        (lambda: hypcheck.classify(TABLE | {"axis_x": [1] * 4, "axis_z": 0}), "the column axis_y is missing"),
         (lambda: hypcheck.passage({"alpha": 1}), "columns gamma, b, d, x, y, z, x1, y1, z1 are missing"),
     ],
 )

@@ -7,6 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import hypcheck
 from tests.support import inside
 from tests.support.inside import Buffers, chunks, numpy_kernel, positions_of_scene, scene_lines
 
@@ -89,3 +90,16 @@ def test_thresholds_of_lines_are_on_the_safe_side_of_the_lines_at_both_ends():
     assert scene_lines.thresholds(lines, 1e-30) is None
     assert scene_lines.thresholds(lines, 1e30) is None
     assert scene_lines.thresholds(lines | {"under": (2.5, 1e20)}, reach) is None
+
+
+@pytest.mark.parametrize("axis", [None, (0.3, 0.1, 0.9)])
+def test_a_last_chunk_that_is_not_full_is_answered_as_the_others(axis):
+    draw = np.random.default_rng(1)
+    count = (numpy_kernel.LINES_CHUNK if axis is None else numpy_kernel.TILTED_CHUNK) + 7
+    sizes, columns = (2.0, 17.8, 0.25, 0.15), draw.uniform(-4, 4, (3, count))
+    rows = np.column_stack(
+        [np.tile(sizes, (count, 1)), columns.T, *([] if axis is None else [np.tile(axis, (count, 1))])]
+    )
+    expected = hypcheck.classify(rows)
+    assert (numpy_kernel.positions(rows) == expected).all()
+    assert (positions_of_scene(sizes, *columns, axis) == expected).all()

@@ -233,6 +233,14 @@ def test_parts_decide_contact_and_the_least_distance_is_that_of_the_mover():
     assert found.least.time == pytest.approx((3 + 0.45) / 3.6)
 
 
+def test_the_least_distance_of_a_flight_that_comes_nearer_to_its_end_is_at_the_last_point_itself():
+    """Rounded, start + (end − start) is another point."""
+    start, end = (8.7, -3.7, 1.7), (3.4, -0.4, -0.9)
+    assert all(a + (b - a) != b for a, b in zip(start, end, strict=True))
+    least = scene(TOWER).first_contact([start, end]).least
+    assert (least.time, tuple(least.center)) == (1.0, end)
+
+
 def test_the_least_distance_of_a_tilted_mover_is_that_along_its_own_axis_on_each_segment():
     """A disk passes 4 and 4.25 from the axis of a wall of radius 2: it reaches 0.125 along its axis, 0.5 across it."""
     world = scene(Hyperboloid("tower", 2.0, 1e6), mover=Mover(0.5, 0.125, axis=FREE))

@@ -187,6 +187,10 @@ def test_a_difference_whose_rounding_exceeds_the_spheroid_is_decided_exactly(x, 
 def test_scene_position_takes_any_number_as_its_float():
     scene = Scene(model.SceneModel("s", "position", (Hyperboloid("h", 2.0, 4.0),), Mover(0.5, 0.5)))
     assert [scene.position(x, np.float32(0), [0]) for x in (9, 2, 0)] == [1, 0, -1]
+    assert scene.position(2**53 + 1, 2**53 + 1, 0.0) == 1
+    for x in ("9", 1j, np.inf):
+        with pytest.raises(hypcheck.InputError, match="x is"):
+            scene.position(x, x, 0.0)
 
 
 def test_scene_position_of_one_centre_takes_an_axis_for_each_answer():
