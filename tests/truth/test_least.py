@@ -13,8 +13,8 @@ from mpmath import mp, mpf
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import exact, least
 from hypcheck.truth.least import NOTHING, to_border
-from tests.tools import ended_agreement
 from tests.support.inside import position
+from tests.tools import ended_agreement
 
 INF = math.inf
 
