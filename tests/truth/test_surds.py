@@ -65,3 +65,11 @@ def test_two_roots_are_enclosed_apart_however_near_or_far_they_are(gap, sign):
     found = isolate(polynomial_product(*factors))
     assert len(found) == 2
     assert all(low < root < high for root, (low, high) in zip(roots, found, strict=True))
+
+
+@pytest.mark.parametrize(("w", "rational"), [(2, False), (16, True), (Fraction(9, 4), True), (Fraction(4, 3), False)])
+def test_a_root_squares_to_its_radicand_and_is_rational_where_that_is_a_square(w, rational):
+    root = Surd.root(Fraction(1), Fraction(w)) - 1
+    assert (root * root - w).sign == 0
+    assert root.sign == 1
+    assert (root.v == 0) == rational
