@@ -11,7 +11,7 @@ for a point X′ of the hyperboloid with |X′ − X| ≤ |h|/|n|. There is one 
 |n|²: h(X − (h/|n|²) n) has not the sign of h. Both ends are off by squares of small numbers, so that L, in
 double-double, is the distance to some thirty digits. G ≥ μ is shown by Sylvester's minors of G − 2μ.
 
-Rounding (η = ERROR bounds an operation, u = 2⁻⁵³):
+Rounding (η = double_double.ERROR bounds an operation, u = 2⁻⁵³):
     v × w within 5η|v||w|, v·w within 4η|v||w|, their squares within 14η|v|²|w|², v² within 3η, so with three more
     operations s + 1 = |v × w|²/(v² b²) + (v·w)²/(v² d²) within 20η|w|²(1/b² + 1/d²);
     h within 7η(1 + X²/α² + Y²/α² + Z²/γ²); L one operation for each of two sums and a product more: 32 η covers it all;
@@ -19,13 +19,6 @@ Rounding (η = ERROR bounds an operation, u = 2⁻⁵³):
     an entry of G within 10u of 1/b² + 1/d² + |λ|(1/α² + 1/γ²), so G within 30u of it, 64 u with that of G − 2μ;
     the minors within 4u and 16u of the same expressions with all signs +.
 Lengths lie in 2^±100 or are 0, so that nothing overflows and no underflow matters.
-
-Double-double: a number is an unevaluated sum high + low with |low| ≤ u·|high|. Every operation is within 16u² = 2⁻¹⁰²
-of the exact result, relative to the result itself, or for sums relative to |first| + |second|, as long as nothing
-overflows and nothing but a negligible part underflows. The count of roundings stands at each operation, in units of u²
-and to first order; 16 leaves room for the higher orders. The error-free transformations are those of Knuth (sum) and
-Dekker (product; numpy has no fused multiply-add). numpy evaluates one operation at a time in float64, so no compiler
-can contract or reorder what is written here.
 """
 
 from __future__ import annotations
@@ -34,8 +27,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
+from hypcheck.truth import double_double
+from hypcheck.truth.double_double import DoubleDouble
 from hypcheck.truth.rationals import cross, dot
 
 _RANGE = (2.0**-100, 2.0**100)
@@ -111,10 +105,10 @@ def _decided(rows: Rows) -> tuple[Floats, Positions, Mask]:
     L, below, above = _enclosed(pairs, X, at)
     clear, contact = L[0] - 1.001 * below > 0, L[0] + 1.001 * above < 0
     position = np.where(clear, np.sign(at), 0).astype(np.int8)
-    squared = add_float(L, 1.0)
-    divisor = add_float(square_root(squared), 1.0)
-    high, low = divide(L, divisor)
-    error = np.maximum(below, above) / np.sqrt(squared[0]) + 8 * ERROR * np.abs(high)
+    squared = double_double.add_float(L, 1.0)
+    divisor = double_double.add_float(double_double.square_root(squared), 1.0)
+    high, low = double_double.divide(L, divisor)
+    error = np.maximum(below, above) / np.sqrt(squared[0]) + 8 * double_double.ERROR * np.abs(high)
     reach = 1.001 * error + 2.0**-104 * np.abs(high)  # 2⁻¹⁰⁴ for the rounding of low ± reach
     rounds_alike = (high + (low + reach) == high) & (high + (low - reach) == high)
     return high, position, (clear | contact) & rounds_alike & (squared[0] > _LEAST_SQUARE)
@@ -168,11 +162,14 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
     w = tuple(_subtracted(x, c) for x, c in zip(X, pairs.centre, strict=True))
     v = tuple((component, np.zeros_like(component)) for component in pairs.axis)
     across = _sum_of_squares([_cross(v, w, k) for k in range(3)])
-    along = square(_sum([multiply(p, q) for p, q in zip(v, w, strict=True)]))
+    along = double_double.square(_sum([double_double.multiply(p, q) for p, q in zip(v, w, strict=True)]))
     axis_square = _sum_of_squares(v)
-    parts = [divide(part, multiply(axis_square, two_square(size))) for part, size in ((across, b), (along, d))]
-    by_height = multiply((at, np.zeros_like(at)), height)
-    L = add(add_float(_sum(parts), -1.0), by_height)
+    parts = [
+        double_double.divide(part, double_double.multiply(axis_square, double_double.two_square(size)))
+        for part, size in ((across, b), (along, d))
+    ]
+    by_height = double_double.multiply((at, np.zeros_like(at)), height)
+    L = double_double.add(double_double.add_float(_sum(parts), -1.0), by_height)
 
     residual, n = _residual(pairs, X, at)
     way = np.sqrt(sum(component[0] * component[0] for component in w))
@@ -240,132 +237,31 @@ def _height(pairs: _Pairs, X: Triple) -> tuple[DoubleDouble, Floats]:
     """h(X), and the sum of the magnitudes of its terms."""
     alpha, gamma = pairs.sizes[0], pairs.sizes[1]
     x, y, z = (
-        square(quotient_of_floats(coordinate, size)) for coordinate, size in zip(X, (alpha, alpha, gamma), strict=True)
+        double_double.square(double_double.quotient_of_floats(coordinate, size))
+        for coordinate, size in zip(X, (alpha, alpha, gamma), strict=True)
     )
-    value = add_float(subtract(add(x, y), z), -1.0)
+    value = double_double.add_float(double_double.subtract(double_double.add(x, y), z), -1.0)
     return value, x[0] + y[0] + z[0] + 1.0
 
 
 def _subtracted(first: Floats, second: Floats) -> DoubleDouble:
     """The difference of two float64, exactly."""
     zero = np.zeros_like(first)
-    return subtract((first, zero), (second, zero))
+    return double_double.subtract((first, zero), (second, zero))
 
 
 def _cross(v: tuple[DoubleDouble, ...], w: tuple[DoubleDouble, ...], k: int) -> DoubleDouble:
     """A component of v × w."""
     i, j = (k + 1) % 3, (k + 2) % 3
-    return subtract(multiply(v[i], w[j]), multiply(v[j], w[i]))
+    return double_double.subtract(double_double.multiply(v[i], w[j]), double_double.multiply(v[j], w[i]))
 
 
 def _sum_of_squares(numbers: list[DoubleDouble] | tuple[DoubleDouble, ...]) -> DoubleDouble:
-    return _sum([square(number) for number in numbers])
+    return _sum([double_double.square(number) for number in numbers])
 
 
 def _sum(numbers: list[DoubleDouble]) -> DoubleDouble:
     total = numbers[0]
     for number in numbers[1:]:
-        total = add(total, number)
+        total = double_double.add(total, number)
     return total
-
-
-DoubleDouble = tuple[Floats, Floats]
-
-ERROR = 2.0**-102
-"""The relative error bound of one operation: 16u²."""
-
-_SPLITTER = 134217729.0  # 2²⁷ + 1: cuts 53 bits into 26 and 26 with a sign
-
-
-def two_product(first: Floats, second: Floats) -> DoubleDouble:
-    """The rounded product and its rounding error, exactly for |operands| < 2⁹⁹⁶ and a product of 0 or over 2⁻⁹⁶⁸."""
-    product = first * second
-    first_high, first_low = _split(first)
-    second_high, second_low = _split(second)
-    error = first_high * second_high - product
-    error += first_high * second_low
-    error += first_low * second_high
-    error += first_low * second_low
-    return product, error
-
-
-def two_square(value: Floats) -> DoubleDouble:
-    """The rounded square and its rounding error; the range is that of two_product."""
-    square = value * value
-    high, low = _split(value)
-    error = high * high - square
-    error += 2.0 * (high * low)
-    error += low * low
-    return square, error
-
-
-def add(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The sum. Roundings: 1 in low + low, 2 in adding the error of high + high; relative to |first| + |second|."""
-    total, error = two_sum(first[0], second[0])
-    return two_sum(total, error + (first[1] + second[1]))
-
-
-def subtract(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The difference, as add."""
-    return add(first, (-second[0], -second[1]))
-
-
-def add_float(first: DoubleDouble, second: Floats | float) -> DoubleDouble:
-    """The sum with a float64, as add."""
-    total, error = two_sum(first[0], second)
-    return two_sum(total, error + first[1])
-
-
-def multiply(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The product. Roundings: low × low left out 1, the two cross products 2, their sum 2, adding the error 3."""
-    product, error = two_product(first[0], second[0])
-    return two_sum(product, error + (first[0] * second[1] + first[1] * second[0]))
-
-
-def square(value: DoubleDouble) -> DoubleDouble:
-    """The square, as multiply."""
-    product, error = two_square(value[0])
-    return two_sum(product, error + 2.0 * (value[0] * value[1]))
-
-
-def divide(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The quotient.
-
-    With q the quotient of the high parts, high − q·high is exact. Roundings: q·low 1, low − that 2, the whole remainder
-    3, its division by the high part alone 3, the rounding of that 3.
-    """
-    quotient = first[0] / second[0]
-    product, error = two_product(quotient, second[0])
-    remainder = ((first[0] - product) - error) + (first[1] - quotient * second[1])
-    return two_sum(quotient, remainder / second[0])
-
-
-def quotient_of_floats(first: Floats, second: Floats) -> DoubleDouble:
-    """The quotient of two float64: the remainder is exact, its division 1."""
-    quotient = first / second
-    product, error = two_product(quotient, second)
-    return two_sum(quotient, ((first - product) - error) / second)
-
-
-def square_root(value: DoubleDouble) -> DoubleDouble:
-    """The square root of a value ≥ 0.
-
-    With s the root of the high part, high − s² is exact. Roundings: the remainder 3, halved by its division by 2s,
-    which adds 2; the Newton step itself leaves out remainder²/(8s³), 2.
-    """
-    root = np.sqrt(value[0])
-    product, error = two_square(root)
-    remainder = ((value[0] - product) - error) + value[1]
-    return two_sum(root, remainder / np.where(root > 0.0, 2.0 * root, 1.0))
-
-
-def where(condition: Mask, first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """Elementwise choice."""
-    return np.where(condition, first[0], second[0]), np.where(condition, first[1], second[1])
-
-
-def _split(value: Floats) -> DoubleDouble:
-    """Two halves of at most 26 bits with value = high + low, for |value| < 2⁹⁹⁶."""
-    scaled = _SPLITTER * value
-    high = scaled - (scaled - value)
-    return high, value - high

@@ -17,7 +17,7 @@ its square root less 1. A λ is found in float64 and taken as given from there o
 is missing is F²/(2|F′|), up to a factor that is known, as F′ changes by much only over the distance to a pole. The
 unknown is u, the distance from λ to the nearer pole; with C = A or B, λ = ±(u − C), and A + B − u ≥ u is the other one.
 
-Rounding (η = distances.ERROR bounds an operation; relative errors unless said otherwise):
+Rounding (η = double_double.ERROR bounds an operation; relative errors unless said otherwise):
     A, B, Q 3η, P and W = A + B 4η; W − u, at least W/2, 13η; |λ| = |u − C| within 4η(u + C), absolutely;
     P/(A+λ)² and Q/(B−λ)²: near 5η, far 33η, their sum 34η; S within 8η|λ|(u + C)(near + far) + 36ηS, with the larger of
     the true and the computed |λ|;
@@ -33,10 +33,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.truth import distances
-from hypcheck.truth.distances import Decided, DoubleDouble
+from hypcheck.truth import double_double
+from hypcheck.truth.distances import Decided
+from hypcheck.truth.double_double import DoubleDouble
 
-_BOUND = 64.0 * distances.ERROR
+_BOUND = 64.0 * double_double.ERROR
 _FLOOR = 2.0**-400
 """Covers what underflows: within the limits below no rounding error of an underflow reaches D with more than 2⁻⁹⁰⁰."""
 _NUMBER_RANGE = (2.0**-900, 2.0**900)
@@ -85,10 +86,12 @@ def _scale(rows: Rows) -> ScaledArrays:
     """A, B, P and Q of the rows."""
     columns = np.ascontiguousarray(rows.T)
     alpha, gamma, b, d, x, y, z = columns
-    A, B, Q = (distances.square(distances.quotient_of_floats(*pair)) for pair in ((alpha, b), (gamma, d), (z, d)))
-    P = distances.add(
-        distances.square(distances.quotient_of_floats(x, b)),
-        distances.square(distances.quotient_of_floats(y, b)),
+    A, B, Q = (
+        double_double.square(double_double.quotient_of_floats(*pair)) for pair in ((alpha, b), (gamma, d), (z, d))
+    )
+    P = double_double.add(
+        double_double.square(double_double.quotient_of_floats(x, b)),
+        double_double.square(double_double.quotient_of_floats(y, b)),
     )
     magnitude = np.abs(columns)
     smallest = np.where(magnitude > 0.0, magnitude, 1.0).min(axis=0)
@@ -154,23 +157,25 @@ def _evaluate(scaled: ScaledArrays, tau: Floats, sigma: Floats) -> DualArrays:
     one = np.where(near_minus_A, 1.0, -1.0)
     near_square, far_square = _swapped(near_minus_A, scaled.P, scaled.Q)
     near_size, far_size = _swapped(near_minus_A, scaled.A, scaled.B)
-    W = distances.add(scaled.A, scaled.B)
+    W = double_double.add(scaled.A, scaled.B)
 
     u = np.minimum(np.minimum(tau, sigma), 0.5 * W[0])
     ended = u == 0.0
     divisor = np.where(ended, 1.0, u)  # at the end of the interval the numerator is 0
-    other = distances.add_float(W, -u)
-    size = distances.add_float((-near_size[0], -near_size[1]), u)
-    near = distances.divide(near_square, distances.two_square(divisor))
-    far = distances.divide(far_square, distances.square(other))
-    near_term = distances.multiply(near_size, near)
-    far_term = distances.multiply(far_size, far)
-    F = distances.add_float(distances.subtract(near_term, far_term), -one)  # one·F: near B the two terms change places
-    S = distances.multiply(distances.square(size), distances.add(near, far))
-    value = distances.add(S, distances.multiply(size, F))
+    other = double_double.add_float(W, -u)
+    size = double_double.add_float((-near_size[0], -near_size[1]), u)
+    near = double_double.divide(near_square, double_double.two_square(divisor))
+    far = double_double.divide(far_square, double_double.square(other))
+    near_term = double_double.multiply(near_size, near)
+    far_term = double_double.multiply(far_size, far)
+    F = double_double.add_float(
+        double_double.subtract(near_term, far_term), -one
+    )  # one·F: near B the two terms change places
+    S = double_double.multiply(double_double.square(size), double_double.add(near, far))
+    value = double_double.add(S, double_double.multiply(size, F))
 
     length = u + near_size[0]
-    size_error = 4.0 * distances.ERROR * length
+    size_error = 4.0 * double_double.ERROR * length
     largest = np.abs(size[0]) + size_error
     terms = near_term[0] + far_term[0] + 1.0
     slope, slope_error = np.abs(F[0]), _BOUND * terms
@@ -189,7 +194,7 @@ def _evaluate(scaled: ScaledArrays, tau: Floats, sigma: Floats) -> DualArrays:
 
 def _swapped(straight: Mask, first: DoubleDouble, second: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
     """first and second, or second and first where not straight."""
-    return distances.where(straight, first, second), distances.where(straight, second, first)
+    return double_double.where(straight, first, second), double_double.where(straight, second, first)
 
 
 def _judge(inside: Mask, dual: DualArrays) -> Decided:
@@ -197,7 +202,7 @@ def _judge(inside: Mask, dual: DualArrays) -> Decided:
 
     Clear is claimed on the evidence of the one λ alone, D(λ) > 1, and on the side that its sign shows.
     """
-    squared = distances.add_float(dual.value, dual.gap)
+    squared = double_double.add_float(dual.value, dual.gap)
     (high, low), error = _clearance(squared, dual.error + dual.gap_error)
     clear = inside & ((dual.value[0] - 1.0) + dual.value[1] > 1.001 * dual.error) & (dual.side != 0.0)
     contact = inside & (high < -1.001 * error)
@@ -230,6 +235,6 @@ def _clearance(squared: DoubleDouble, error: Floats) -> tuple[DoubleDouble, Floa
     η(1 + √s). 4η(1 + √s) covers all three. Where the sum is below 0, so is the exact one, and t is at most `error`.
     """
     below = squared[0] < 0.0
-    root = distances.square_root((np.where(below, 0.0, squared[0]), np.where(below, 0.0, squared[1])))
-    bound = error / np.maximum(root[0], np.sqrt(error)) + 4.0 * distances.ERROR * (1.0 + root[0])
-    return distances.add_float(root, -1.0), bound
+    root = double_double.square_root((np.where(below, 0.0, squared[0]), np.where(below, 0.0, squared[1])))
+    bound = error / np.maximum(root[0], np.sqrt(error)) + 4.0 * double_double.ERROR * (1.0 + root[0])
+    return double_double.add_float(root, -1.0), bound

@@ -11,7 +11,7 @@ from mpmath import mp, mpf
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import distances, upright_distances
+from hypcheck.truth import double_double, upright_distances
 from tests.support.inside import NearestStage, clearances, nearest
 from tests.support.inside import truth_nearest as oracle
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference
@@ -38,22 +38,24 @@ def test_each_double_double_operation_is_within_its_bound(seed):
     X, Y, N = exactly(first), exactly(second), exactly(cancelling)
     x, y, n = exactly(first[0]), exactly(second[0]), exactly(cancelling[0])
     for found, true, scale in (
-        (distances.add(first, second), X + Y, abs(X) + abs(Y)),
-        (distances.add(first, cancelling), X + N, abs(X) + abs(N)),
-        (distances.subtract(first, second), X - Y, abs(X) + abs(Y)),
-        (distances.add_float(first, second[0]), X + y, abs(X) + abs(y)),
-        (distances.add_float(first, cancelling[0]), X + n, abs(X) + abs(n)),
-        (distances.multiply(first, second), X * Y, abs(X * Y)),
-        (distances.square(first), X * X, X * X),
-        (distances.divide(first, second), X / Y, abs(X / Y)),
-        (distances.quotient_of_floats(first[0], second[0]), x / y, abs(x / y)),
+        (double_double.add(first, second), X + Y, abs(X) + abs(Y)),
+        (double_double.add(first, cancelling), X + N, abs(X) + abs(N)),
+        (double_double.subtract(first, second), X - Y, abs(X) + abs(Y)),
+        (double_double.add_float(first, second[0]), X + y, abs(X) + abs(y)),
+        (double_double.add_float(first, cancelling[0]), X + n, abs(X) + abs(n)),
+        (double_double.multiply(first, second), X * Y, abs(X * Y)),
+        (double_double.square(first), X * X, X * X),
+        (double_double.divide(first, second), X / Y, abs(X / Y)),
+        (double_double.quotient_of_floats(first[0], second[0]), x / y, abs(x / y)),
     ):
-        assert (abs(exactly(found) - true) <= Fraction(distances.ERROR) * scale).all()
-    root = exactly(distances.square_root(distances.where(first[0] > 0, first, (-first[0], -first[1]))))
-    assert (abs(root * root - abs(X)) <= 2 * Fraction(distances.ERROR) * abs(X)).all()  # a root's error counts twice
+        assert (abs(exactly(found) - true) <= Fraction(double_double.ERROR) * scale).all()
+    root = exactly(double_double.square_root(double_double.where(first[0] > 0, first, (-first[0], -first[1]))))
+    assert (
+        abs(root * root - abs(X)) <= 2 * Fraction(double_double.ERROR) * abs(X)
+    ).all()  # a root's error counts twice
     assert (exactly(two_sum(first[0], second[0])) == x + y).all()
-    assert (exactly(distances.two_product(first[0], second[0])) == x * y).all()
-    assert (exactly(distances.two_square(first[0])) == x * x).all()
+    assert (exactly(double_double.two_product(first[0], second[0])) == x * y).all()
+    assert (exactly(double_double.two_square(first[0])) == x * x).all()
 
 
 @pytest.mark.parametrize("factor", [1.0, 1 - 1e-6, 1 + 1e-3, 0.5, 2.0, 1e-3])
@@ -65,7 +67,7 @@ def test_the_bound_of_the_float_stage_covers_its_error(factor):
         tau, sigma = upright_distances._solve(scaled)
         tau, sigma = np.where(tau < sigma, tau * factor, tau), np.where(tau < sigma, sigma, sigma * factor)
         dual = upright_distances._evaluate(scaled, tau, sigma)
-        squared = distances.add_float(dual.value, dual.gap)
+        squared = double_double.add_float(dual.value, dual.gap)
         clearance, error = upright_distances._clearance(squared, dual.error + dual.gap_error)
     known = np.flatnonzero(scaled.inside & np.isfinite(error))
     assert len(known) > (30 if abs(factor - 1) > 0.1 else 500)
@@ -86,7 +88,7 @@ def test_the_bound_of_the_dual_is_at_least_what_its_derivation_says(factor):
         tau, sigma = upright_distances._solve(scaled)
         tau, sigma = np.where(tau <= sigma, tau * factor, tau), np.where(tau <= sigma, sigma, sigma * factor)
         error = upright_distances._evaluate(scaled, tau, sigma).error
-    eta, seen = Fraction(distances.ERROR), 0
+    eta, seen = Fraction(double_double.ERROR), 0
     for row, near_A, near_B, bound in zip(rows.tolist(), tau.tolist(), sigma.tolist(), error.tolist(), strict=True):
         alpha, gamma, b, d, x, y, z = map(Fraction, row)
         A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / b**2, (z / d) ** 2
