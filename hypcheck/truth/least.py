@@ -106,6 +106,7 @@ def _is_within(alpha: float, gamma: float, x: Fraction, y: Fraction, w: Fraction
     return (x * x + y * y) * Fraction(gamma) ** 2 <= Fraction(alpha) ** 2 * (Fraction(gamma) ** 2 + w * w)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what overflows tells nothing: _bounds
 def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) -> LeastValue:
     """The least n on the wall and, of a solid, on the discs, to `width` of n²; or until its side of 1 is known."""
     lengths = [abs(number) for number in (*pair.row[:7], pair.z_min, pair.z_max) if number and math.isfinite(number)]
@@ -142,8 +143,7 @@ def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> LeastValue:
     cells, at, most = _first_cells(pair), _at, _MOST_CELLS
     above, point, below = math.inf, _NOWHERE, -1.0
     for _ in range(_ROUNDS):
-        with np.errstate(over="ignore", invalid="ignore"):
-            bounds = _bounds(pair, cells, at)
+        bounds = _bounds(pair, cells, at)
         place = int(np.argmin(bounds.above))
         if bounds.above[place] < above:
             above, point = float(bounds.above[place]), tuple(bounds.X[:, place].tolist())
