@@ -104,8 +104,9 @@ def _conjuncts(text: str) -> Iterator[tuple[int, int]]:
         depth = 0
         for after in tokens[place + 1 :]:
             if depth == 0 and after[0] not in {"(", "match", "let"}:
+                part = text[before.end() : after.start()]
                 if "&&" in {before[0], after[0]}:
-                    yield before.end() + 1, after.start() - (text[after.start() - 1] in " \n")
+                    yield after.start() - len(part.lstrip()), before.end() + len(part.rstrip())
                 break
             depth += {"(": 1, "match": 1, ")": -1, "end": -1}.get(after[0], 0)
 
@@ -130,6 +131,10 @@ PLACES = (
     Place("ends", "Ends", r"^Definition (?!larger|covered|curve|piece)\w+ .*?\.$", (comparisons,)),
     Place("ends", "Ends", r"^Theorem (?:open|solid)_\w+_by_\w+ .*?\.$", (guards,)),
     Place("ends", "EndsChecker", r"^(?:Definition|Fixpoint) (?:valid|q|check|on)_\w+ .*?\.$", (constants, conditions)),
+    *(
+        Place("checker", file, r"^(?:Definition|Fixpoint) (?:valid|q|check|are|inside)\w* .*?\.$", (conditions,))
+        for file in ("Checker", "LeaningChecker", "RowChecker")
+    ),
     Place("5", "Positions", r"^Definition exact_answer .*?end\.$", (answers,)),
 )
 
