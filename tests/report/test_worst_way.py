@@ -90,4 +90,4 @@ def test_report_refers_to_the_picture_of_ways_only_if_the_run_has_a_wrong_uprigh
     leaning = ways(case("tilted-way-uniform/1/1/5", *THROUGH, 9.0, axis=(1, 0, 1)))
     for without in (ways(), leaning, ways(case("way-long/1/1/3", *THROUGH, 2.0), tested=False)):
         assert "ways.svg" not in files_of(without)
-        assert "worst ways" not in markdown.render(without).decode()
+        assert "worst sweeps" not in markdown.render(without).decode()

@@ -266,7 +266,7 @@ _SWEEPS = prose(
 def way_sections(record: Record) -> Iterator[Section]:
     """The worst answers about sweeps, drawn; none if no such answer is wrong."""
     if any(drawn_way(each) is not None for each in implementations(record)):
-        yield Section("The worst ways", (Paragraph(_SWEEPS), SWEEPS))
+        yield Section("The worst sweeps", (Paragraph(_SWEEPS), SWEEPS))
 
 
 def timing_sections(record: Record) -> Iterator[Section]:
