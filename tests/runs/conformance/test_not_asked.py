@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.implementations import domain
+from hypcheck.implementations import domain as domains
 from hypcheck.implementations.description import parse_domain
 from hypcheck.implementations.domain import Domain
 from hypcheck.record import read
@@ -120,7 +120,7 @@ def test_run_is_inconclusive_where_the_domain_leaves_few_of_many_rows(domain, fa
     [(9, 24_000, True), (99, 100, True), (99, 98, False), (100, 9_900, False), (100, 10_001, True), (5, 0, False)],
 )
 def test_fewer_than_a_hundred_rows_or_one_in_a_hundred_are_too_few_where_most_are_skipped(judged, skipped, few):
-    assert domain.too_few(judged, skipped) is few
+    assert domains.too_few(judged, skipped) is few
 
 
 def test_run_that_fails_says_on_the_terminal_what_was_not_asked(capsys):
@@ -164,9 +164,9 @@ def test_every_row_that_is_not_asked_has_one_reason(domain, reason):
     rows, claims = load("uniform").rows, parse_domain(domain)
     outside = rows[~claims.holds(rows)]
     assert 0 < len(outside)
-    found = domain.reasons(outside, claims, "float64", extreme=False, subnormal=False)
+    found = domains.reasons(outside, claims, "float64", extreme=False, subnormal=False)
     assert found == {reason: len(outside)}
-    assert domain.reasons(rows[:0], Domain(), "float64", extreme=False, subnormal=False) == {}
+    assert domains.reasons(rows[:0], Domain(), "float64", extreme=False, subnormal=False) == {}
 
 
 @pytest.mark.parametrize("domain", ['{"regimes": ["a>=1", "c2>=a"], "ratio": [0.01, 99], "magnitude": [0.01, 30]}'])
