@@ -89,6 +89,7 @@ PARTS = (
     "tilted",
     "ways",
     "twins",
+    "sweep_times",
     "fine_sections",
     "ended_integers",
     "ended",

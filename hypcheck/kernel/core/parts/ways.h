@@ -226,6 +226,8 @@ static double hc_way_look(const hc_way *way, double time) {
     return 2;
 }
 
+static double hc_nearest_time(hc_way *way, const double row[10], int side, double clear, double contact); /* sweep_times.h */
+
 /* 1, 0, or 2 where the bounds do not tell, for a valid row, with an axis if it leans; the time is NULL where it is not
    wanted. */
 static int hc_passage_of(const double row[10], const double *axis, double *time) {
@@ -255,6 +257,9 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
     }
     if (contact == 2) contact = hc_way_look(&way, now);
     if (contact == 2) return 2;
-    if (time && hc_way_touches(&way, now, 1 + HC_SEEN * way.slack)) *time = now;
+    if (time) {
+        now = hc_nearest_time(&way, row, start, now, contact);
+        if (hc_way_touches(&way, now, 1 + HC_SEEN * way.slack)) *time = now;
+    }
     return 1;
 }
