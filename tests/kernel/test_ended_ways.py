@@ -174,7 +174,7 @@ ONLY_TOUCHES = {"way-grazing", "way-ring", "tilted-way-ring"}
 
 @pytest.mark.parametrize("name", [*SWEEP_FAMILIES, *ENDED_SWEEP_FAMILIES])
 def test_each_hit_has_a_time_that_is_right_within_8_units(name):
-    """Flat ends are reached head-on, rims along their tangents, and touches at an end of the sweep are exact in these."""
+    """Flat ends are reached head-on, rims along their tangents, and tangencies that end a sweep are exact."""
     family = (SWEEP_FAMILIES | ENDED_SWEEP_FAMILIES)[name]
     rows = np.ascontiguousarray(family.rows(5, 24 if name.startswith("tilted") else 48))
     hits, times = compiled_answer_ways(rows)
@@ -216,7 +216,9 @@ def test_a_sweep_that_stays_between_the_ends_has_a_time_that_is_right_within_8_u
 def test_a_centre_in_the_plane_of_the_waist_or_on_the_axis_does_not_hide_the_time():
     """The best multiplier is a pole then, where the surfaces first touch in two points, or in a circle."""
     bulging = (1.0, 0.25, 0.3, 2.0)
-    rows = np.array([(*bulging, 4, 1, 0, 0, 0.5, 0), (2.0, 1.0, 0.5, 0.5, 5, 1, 0, 0, 0.25, 0), (*DOWN, 0, 0, 9, 0, 0, 0)])
+    rows = np.array(
+        [(*bulging, 4, 1, 0, 0, 0.5, 0), (2.0, 1.0, 0.5, 0.5, 5, 1, 0, 0, 0.25, 0), (*DOWN, 0, 0, 9, 0, 0, 0)]
+    )
     hits, times = compiled_answer_ways(rows)
     assert hits.tolist() == [1, 1, 1]
     assert not wrong_times(rows, times)
