@@ -173,12 +173,13 @@ ONLY_TOUCHES = {"way-grazing", "way-ring", "tilted-way-ring"}
 
 
 @pytest.mark.parametrize("name", [*SWEEP_FAMILIES, *ENDED_SWEEP_FAMILIES])
-def test_each_hit_has_a_time_that_is_right_within_8_units(name):
+@pytest.mark.parametrize("times_as_many", [1, pytest.param(5, marks=pytest.mark.thorough)])
+def test_each_hit_has_a_time_that_is_right_within_8_units(name, times_as_many):
     """Flat ends are reached head-on, rims along their tangents, and tangencies that end a sweep are exact."""
     family = (SWEEP_FAMILIES | ENDED_SWEEP_FAMILIES)[name]
-    rows = np.ascontiguousarray(family.rows(5, 24 if name.startswith("tilted") else 48))
+    rows = np.ascontiguousarray(family.rows(5, (10 if name.startswith("tilted") else 24) * times_as_many))
     hits, times = compiled_answer_ways(rows)
-    assert (hits == 1).sum() > 5 or name in ONLY_TOUCHES
+    assert (hits == 1).sum() > 2 or name in ONLY_TOUCHES
     assert not wrong_times(rows[hits == 1], times[hits == 1])
 
 
