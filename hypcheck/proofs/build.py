@@ -271,7 +271,7 @@ def run_checker(files: list[str], built: Path = BUILT) -> int:
     """
     checker = built / CHECKER
     if not checker.is_file():
-        raise InputError(f"the proved checker is not built: there is no {checker}; `make prove` builds it")
+        raise InputError(f"the proved checker is not built: there is no {checker}; `make prove` builds it, in a clone")
     found = subprocess.run([checker, *files], stderr=subprocess.PIPE, text=True, check=False)  # noqa: S603 - ours
     if found.returncode not in (0, 1):
         raise InputError(

@@ -162,14 +162,16 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
     w = tuple(_subtracted(x, c) for x, c in zip(X, pairs.centre, strict=True))
     v = tuple((component, np.zeros_like(component)) for component in pairs.axis)
     across = _sum_of_squares([_cross(v, w, k) for k in range(3)])
-    along = double_double.square(_sum([double_double.multiply(p, q) for p, q in zip(v, w, strict=True)]))
+    along = double_double.square(
+        double_double.sum_of([double_double.multiply(p, q) for p, q in zip(v, w, strict=True)])
+    )
     axis_square = _sum_of_squares(v)
     parts = [
         double_double.divide(part, double_double.multiply(axis_square, double_double.two_square(size)))
         for part, size in ((across, b), (along, d))
     ]
     by_height = double_double.multiply((at, np.zeros_like(at)), height)
-    L = double_double.add(double_double.add_float(_sum(parts), -1.0), by_height)
+    L = double_double.add(double_double.add_float(double_double.sum_of(parts), -1.0), by_height)
 
     residual, n = _residual(pairs, X, at)
     way = np.sqrt(sum(component[0] * component[0] for component in w))
@@ -257,11 +259,4 @@ def _cross(v: tuple[DoubleDouble, ...], w: tuple[DoubleDouble, ...], k: int) -> 
 
 
 def _sum_of_squares(numbers: list[DoubleDouble] | tuple[DoubleDouble, ...]) -> DoubleDouble:
-    return _sum([double_double.square(number) for number in numbers])
-
-
-def _sum(numbers: list[DoubleDouble]) -> DoubleDouble:
-    total = numbers[0]
-    for number in numbers[1:]:
-        total = double_double.add(total, number)
-    return total
+    return double_double.sum_of([double_double.square(number) for number in numbers])

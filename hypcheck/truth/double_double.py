@@ -10,6 +10,8 @@ numpy evaluates one operation at a time in float64, so no compiler can contract 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
@@ -60,6 +62,14 @@ def add_float(first: DoubleDouble, second: Floats | float) -> DoubleDouble:
     """The sum with a float64, as add."""
     total, error = two_sum(first[0], second)
     return two_sum(total, error + first[1])
+
+
+def sum_of(numbers: Sequence[DoubleDouble]) -> DoubleDouble:
+    """The sum of one number or more, from the first on, as add."""
+    total, *others = numbers
+    for number in others:
+        total = add(total, number)
+    return total
 
 
 def multiply(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:

@@ -281,10 +281,10 @@ def _at_finely(pair: Pair, w: Floats, t: Floats) -> _Values:
     D = [double_double.add_float(part, -center) for part, center in zip(X, pair.row[4:7], strict=True)]
     scale = -math.frexp(max(map(abs, pair.axis)))[1]
     v = _unit([np.array([math.ldexp(part, scale)]) for part in pair.axis])
-    along = _sum([double_double.multiply(part, axis) for part, axis in zip(D, v, strict=True)])
+    along = double_double.sum_of([double_double.multiply(part, axis) for part, axis in zip(D, v, strict=True)])
     across = [double_double.subtract(p, double_double.multiply(along, axis)) for p, axis in zip(D, v, strict=True)]
     sides = [*((part, pair.b) for part in across), (along, pair.d)]
-    q = _sum([double_double.square(double_double.divide(part, _number(size))) for part, size in sides])
+    q = double_double.sum_of([double_double.square(double_double.divide(part, _number(size))) for part, size in sides])
     excess = double_double.add_float(q, -1.0)[0]
     nearby = _rounded(D)
     _, qw, qt = _slopes(pair, _rounded(v)[:, 0], nearby, r[0], _rounded(turn), w)
@@ -299,19 +299,12 @@ def _number(number: float) -> DoubleDouble:
 
 def _unit(parts: list[Floats]) -> list[DoubleDouble]:
     """A vector in double-double, of length 1."""
-    norm = double_double.square_root(_sum([double_double.two_square(part) for part in parts]))
+    norm = double_double.square_root(double_double.sum_of([double_double.two_square(part) for part in parts]))
     return [double_double.divide((part, np.zeros_like(part)), norm) for part in parts]
 
 
 def _rounded(parts: list[DoubleDouble]) -> Floats:
     return np.stack([high for high, _ in parts])
-
-
-def _sum(parts: list[DoubleDouble]) -> DoubleDouble:
-    total = parts[0]
-    for part in parts[1:]:
-        total = double_double.add(total, part)
-    return total
 
 
 def _cut(cells: Floats, shares: Floats) -> Floats:

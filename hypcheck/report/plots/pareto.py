@@ -385,7 +385,7 @@ def _way_plot(
     log_axis(axes, "x", min(times) / 2, max(times) * 3)
     axes.set_ylim(-(_ABOVE - 1) * most, _ABOVE * most)
     axes.yaxis.set_major_formatter(lambda value, _: f"{100 * value:g} %" if value >= 0 else "")
-    axes.set_xlabel(f"time of a sweep in a batch, {escaped(where, 40)} (µs)")
+    axes.set_xlabel(f"µs a sweep in a batch, {escaped(where, 40)}")
     axes.set_ylabel(f"sweeps with a {title.lower().removesuffix('s')}")
     tips = _draw_methods(axes, name, marks)
     _legend(drawn, marks)

@@ -66,6 +66,18 @@ typedef struct {
     int side;
 } hc_fine_sweep;
 
+/* The pole of the side, of a sweep whose squares are made. The roots of b² d² l² + p l = alpha² gamma², of which one is > 0,
+   and -alpha²/b². */
+static hc_twin hc_fine_pole(const hc_fine_sweep *made, hc_fine_ball d2) {
+    const hc_fine_ball ends = hc_fine_times(made->alpha2, made->gamma2), axes = hc_fine_times(made->b2, d2);
+    const hc_fine_ball p = hc_fine_minus(hc_fine_times(made->alpha2, made->T), hc_fine_times(made->gamma2, made->across));
+    const hc_fine_ball squares = hc_fine_plus(hc_fine_times(p, p), hc_fine_times(hc_fine(4), hc_fine_times(axes, ends)));
+    const hc_twin size = p.v.high < 0 ? hc_twin_minus(p.v) : p.v, sum = hc_twin_sum(hc_twin_root(squares.v), size);
+    const hc_twin half = hc_twin_product(sum, hc_twin_of(0.5)), other = hc_twin_quotient(made->alpha2.v, made->b2.v);
+    const hc_twin root = (made->side > 0) == (p.v.high < 0) ? hc_twin_quotient(half, axes.v) : hc_twin_quotient(ends.v, half);
+    return made->side < 0 && other.high < root.high ? other : root;
+}
+
 /* h is scaled by a power of two, so that no square of it is lost where the axis leans by a hair, and all lengths by the one
    that makes b about 1, so that no product of them is too large. */
 static void hc_make_fine_sweep(hc_fine_sweep *made, const double row[10], const double *axis, int side) {
@@ -91,9 +103,7 @@ static void hc_make_fine_sweep(hc_fine_sweep *made, const double row[10], const 
     for (k = 0; k < 2; k++) {
         hc_fine_ball place[3];
         int i;
-        for (i = 0; i < 3; i++) {
-            place[i] = k ? hc_fine_minus(lengths[7 + i], lengths[4 + i]) : lengths[4 + i];
-        }
+        for (i = 0; i < 3; i++) place[i] = k ? hc_fine_minus(lengths[7 + i], lengths[4 + i]) : lengths[4 + i];
         places[k][0] = hc_fine_minus(hc_fine_times(place[0], h1), hc_fine_times(place[1], h0));
         places[k][1] = hc_fine_plus(hc_fine_times(place[0], h0), hc_fine_times(place[1], h1));
         places[k][2] = place[2];
@@ -112,16 +122,7 @@ static void hc_make_fine_sweep(hc_fine_sweep *made, const double row[10], const 
         made->T = d2;
         made->mixed = hc_fine(0);
     }
-    {
-        /* The roots of b² d² l² + p l = alpha² gamma², of which one is > 0, and -alpha²/b². */
-        const hc_fine_ball ends = hc_fine_times(made->alpha2, made->gamma2), axes = hc_fine_times(made->b2, d2);
-        const hc_fine_ball p = hc_fine_minus(hc_fine_times(made->alpha2, made->T), hc_fine_times(made->gamma2, made->across));
-        const hc_fine_ball squares = hc_fine_plus(hc_fine_times(p, p), hc_fine_times(hc_fine(4), hc_fine_times(axes, ends)));
-        const hc_twin size = p.v.high < 0 ? hc_twin_minus(p.v) : p.v, sum = hc_twin_sum(hc_twin_root(squares.v), size);
-        const hc_twin half = hc_twin_product(sum, hc_twin_of(0.5)), other = hc_twin_quotient(made->alpha2.v, made->b2.v);
-        made->pole = (side > 0) == (p.v.high < 0) ? hc_twin_quotient(half, axes.v) : hc_twin_quotient(ends.v, half);
-        if (side < 0 && other.high < made->pole.high) made->pole = other;
-    }
+    made->pole = hc_fine_pole(made, d2);
 }
 
 /* As hc_leaning_multiplier, v itself: l = side pole v/(1 + v), where v may be so large that l is next to its pole. */

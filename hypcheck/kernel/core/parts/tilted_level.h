@@ -52,7 +52,7 @@ HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride
             /* printed from the program "tilted", the rest */
             @TILTED_AT_MULTIPLIER@
             /* end of the program "tilted", the rest */
-            found.plus |= HC_BITS(exterior) << at;
+            found.plus |= HC_BITS(exterior) << at; /* proved, as all that is decided: no later step takes it back */
             found.minus |= HC_BITS(interior) << at;
             found.decided |= HC_BITS(decided) << at;
             if (!(asked & ~HC_BITS(decided))) break;
