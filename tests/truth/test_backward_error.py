@@ -46,8 +46,8 @@ def test_changing_lengths_by_the_backward_error_makes_the_answer_right(pair, ans
     truth = decide(pair.lengths)
     found = quick_bracket(pair, truth, answer).upper
     assume(0 < found < 1 and found > 1e-300)
-    assert tolerated(pair, truth, [answer], Fraction(found))
-    assert not tolerated(pair, truth, [answer], Fraction(found) * Fraction(9999, 10000))
+    assert tolerated(pair, truth, [answer], Fraction(found)) is True
+    assert tolerated(pair, truth, [answer], Fraction(found) * Fraction(9999, 10000)) is False
 
 
 @given(grid_pairs, POSITIONS)

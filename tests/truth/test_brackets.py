@@ -47,6 +47,17 @@ def test_bracket_of_a_tilted_backward_error_holds_the_value_worked_out_by_hand(r
         assert tolerated(Pair.from_row(row), decided(row), [answer], Fraction(error * share)) is expected
 
 
+@pytest.mark.parametrize(
+    "row", [(1, 4, 0.125, 0.25, 3, 1, 2, 1, 2, 3), (3, 4, 1.25, 1.25, 4.75, 0, 4, 0, 0, 1, -1, 3, 0)]
+)
+def test_change_between_the_ends_of_a_bracket_is_neither_tolerated_nor_refused(row):
+    """A tilted pair, and one beside a rim: no single decision tells of all changes up to one."""
+    pair, truth = Pair.from_row(row), decided(row)
+    found = bracket(pair, truth, CONTACT)
+    for change, answer in ((found.lower, False), ((found.lower + found.upper) / 2, None), (found.upper, True)):
+        assert tolerated(pair, truth, [CONTACT], Fraction(change)) is answer
+
+
 def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair():
     for _, row in rows(["near", "grid"], 6, seed=3):
         pair = Pair.from_row(row[:7])

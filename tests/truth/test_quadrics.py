@@ -126,6 +126,13 @@ def test_ball_beside_a_cylinder_of_radius_2_is_clear_only_where_they_do_not_touc
     assert quadrics.position(ball, cylinder) is position
 
 
+def test_ball_is_decided_where_the_corner_of_a_tried_matrix_is_0():
+    """The ellipsoid 4x² + 2y² + z² = 1 goes through the ball that touches x = 0 at its centre."""
+    ball = [[1, 0, 0, -1], [0, 1, 0, 0], [0, 0, 1, 0], [-1, 0, 0, 0]]
+    ellipsoid = [[-4, 0, 0, 0], [0, -2, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]
+    assert quadrics.position(ball, ellipsoid) is Position.CONTACT
+
+
 def test_determinant_above_0_is_no_proof_where_two_pivots_are_below_0():
     """(a, c, r, z) = (2, ½, 4, 0) crosses, and f(−8) > 0."""
     assert quadrics.position(*surfaces(Pair(2, 0.5, 1, 1, 4, 0, 0))) is Position.CONTACT

@@ -161,6 +161,11 @@ def test_roots_oracle_separates_two_roots_beside_a_tangency():
         ((1, 8, 1, 1, 4, 0, 0), Position.EXTERIOR, {Kind.EXTERIOR}),
         ((1, 1, 1, 1, 1, 0, 0), Position.CONTACT, {Kind.CROSSING_ONE_CURVE}),
         ((3, 3, 1, 1, 2, 0, 0), Position.CONTACT, {Kind.INTERIOR_TANGENT_POINT}),
+        # At the borders a = 1 and c² = a, where kinds end, and a little beyond a = 1.
+        ((1, 1, 1, 1, 0, 0, 5), Position.INTERIOR, {Kind.INTERIOR}),
+        ((5, 5, 4, 4, 1, 0, 0), Position.CONTACT, {Kind.INTERIOR_TANGENT_POINT}),
+        ((4, 2, 1, 1, 5, 0, 0), Position.CONTACT, {Kind.EXTERIOR_TANGENT_OSCULATING}),
+        ((12, 6, 3, 3, 14, 7, 1), Position.CONTACT, {Kind.EXTERIOR_TANGENT_POINT}),  # A = 16, B = 4, m = 8/3, n = 9
     ],
 )
 def test_signs_and_multiplicities_of_roots_alone_give_the_expected_kinds(row, literal, kinds):

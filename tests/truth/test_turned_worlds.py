@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import random
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from hypcheck import passage
+from hypcheck import classify, passage
+from hypcheck.geometry.pair import Lengths
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.vectors.frozen import load
 from tests.support.corpus import expected, questions
 from tests.support.inside import Scene
+from tests.support.inside import position as exact_position
 
 TURNS = {
     "a cycle of the axes": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]),
@@ -79,6 +82,32 @@ def test_a_passage_counts_heights_along_the_axis_that_it_is_told(name):
         heights = {"z_min": scale * low, "z_max": scale * high, "solid": solid}
         for along in (axis, None) if axis[:2] == upward[:2] == [0, 0] else (axis,):
             assert passage(sizes, place, place, along, upward, **heights).hit == (expected(case) == 0)
+
+
+@pytest.mark.parametrize("upward", [(1, 1, 0), (0, 1, -1), (1, 1, 1), (2, 1, 0), (1, -2, 1)])
+def test_an_axis_whose_length_is_irrational_is_decided_as_the_pair_turned_upright_in_float64(upward):
+    """Small integers, whose ends lie at irrational multiples of the axis; rows that a hair changes are left out."""
+    draw = random.Random(str(upward))  # noqa: S311
+    rows = [
+        [draw.randint(1, 4) for _ in range(4)]
+        + [draw.randint(-5, 5) for _ in range(3)]
+        + draw.choice([[0, 0, 1], [1, 0, 0], [1, 1, 0], [1, -1, 0], [1, 1, 1], list(upward)])
+        + draw.choice([[-np.inf, draw.randint(-4, 4)], [draw.randint(-4, 4), np.inf], [-2, draw.randint(-1, 5)]])
+        + [draw.randint(0, 1)]
+        for _ in range(160)
+    ]
+    along = np.array(upward) / np.linalg.norm(upward)
+    turn = np.array([*np.linalg.svd([along])[2][1:], along])
+    sizes, places, axes, heights = np.split(np.array(rows, dtype=float), [4, 7, 10], axis=1)
+    answers = [
+        classify(np.column_stack([sizes * [1, 1, hair, hair], places @ turn.T, axes @ turn.T, heights]))
+        for hair in (1 - 1e-9, 1 + 1e-9)
+    ]
+    kept = np.flatnonzero(answers[0] == answers[1])
+    assert len(kept) > 120
+    assert {*answers[0][kept]} == {-1, 0, 1}
+    for row, answer in zip([rows[k] for k in kept], answers[0][kept], strict=True):
+        assert exact_position(Lengths.of(row, upward)) == answer, row
 
 
 def test_an_upright_spheroid_passes_beyond_the_end_of_a_hyperboloid_that_points_down():
