@@ -5,6 +5,8 @@ from __future__ import annotations
 import doctest
 import itertools
 import math
+import random
+from collections import Counter
 from fractions import Fraction
 from pathlib import Path
 
@@ -13,9 +15,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position
+from hypcheck.geometry.pair import Lengths, Position
 from tests.support.fractions_truth import TRIPLES, exact_position, sign
 from tests.support.inside import passage
+from tests.support.inside import position as decided
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 HALF = Fraction(1, 2)
@@ -246,6 +249,35 @@ def test_a_spheroid_that_lies_across_and_comes_down_on_a_rim_touches_it():
         found = passage(*way, z_min=-1, z_max=3, solid=solid)
         assert found.first_lower == pytest.approx((9 - touch) / 6, rel=1e-14)
         assert not passage(*way, z_min=-1, z_max=2, solid=solid).hit
+
+
+@pytest.mark.parametrize("upward", [(0, 0, 1), (3, 0, 4), (1, 1, 0)])
+def test_answer_about_a_sweep_beside_ends_agrees_with_exact_positions_on_it(upward):
+    """Where it begins a spheroid that is a hair larger is in contact; one a hair smaller meets nothing if it grazes."""
+    draw = random.Random(str(upward))  # noqa: S311
+    seen, hair = Counter(), Fraction(1, 2**20)
+    for _ in range(30):
+        sizes = [Fraction(draw.randint(1, 4)) for _ in range(4)]
+        start, end = ([Fraction(draw.randint(-6, 6)) for _ in range(3)] for _ in range(2))
+        axis = draw.choice([(0, 0, 1), (1, 0, 0), (0, 1, 1), (1, 1, 0), (1, -1, 0), upward])
+        low, high = draw.choice([(-math.inf, draw.randint(-6, 6)), (draw.randint(-6, 6), math.inf), (-1, 1)])
+        ends = {"z_min": low, "z_max": high, "solid": draw.randint(0, 1)}
+
+        def meets(time, larger=0, sizes=sizes, start=start, end=end, axis=axis, ends=ends):
+            place = [a + (b - a) * time for a, b in zip(start, end, strict=True)]
+            scaled = [*sizes[:2], *(size * (1 + larger) for size in sizes[2:])]
+            row = (*scaled, *place, *axis, *(Fraction(h) if math.isfinite(h) else h for h in ends.values()))
+            return decided(Lengths.of(row, upward)) is CONTACT
+
+        found = passage(sizes, start, end, axis, upward, **ends)
+        before = 2 if found.clear else found.first[0]
+        assert not any(meets(time) for time in (Fraction(k, 7) for k in range(8)) if time < before)
+        if found.hit:
+            smaller = [*sizes[:2], *(size * (1 - hair) for size in sizes[2:])]
+            assert meets(sum(found.first) / 2, hair)
+            assert found.grazes == passage(smaller, start, end, axis, upward, **ends).clear
+        seen["clear" if found.clear else "grazes" if found.grazes else "at once" if not before else "later"] += 1
+    assert min(seen["clear"], seen["at once"], seen["later"]) > 3, seen
 
 
 def test_a_clear_way_has_no_time_of_contact():

@@ -7,6 +7,7 @@ killed or timeout (by which test), survived, or not-made where no function that 
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import resource
@@ -89,6 +90,7 @@ class Runner:
         limit = LEAST_S + 2 * sum(self._tasks["seconds"].get(name, USUAL_S) for name in names)
         file = str(Path(mutation.module).resolve())
         if file not in self._living:
+            importlib.import_module(mutation.module.removesuffix(".py").replace("/", "."))  # some are loaded when asked
             self._living[file] = functions_of(file)
 
         def work(tell: Tell) -> int:
