@@ -96,7 +96,7 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
         exponents = np.empty(len(rows))
         truth = np.empty(len(rows), dtype=np.int8)
-        examine = _examined if workload.layout is PAIRS else _examined_ways
+        examine = _examined if workload.layout is PAIRS else _examined_sweeps
         for (start, piece), (truths, found) in perform(examine, pieces, executor):
             truth[start : start + len(piece)], exponents[start : start + len(piece)] = truths, found
         yield WorkloadTruth(workload, rows, truth, exponents)
@@ -107,7 +107,7 @@ def _examined(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
     return judge.exact_positions(piece[1]), flip_exponents(piece[1])
 
 
-def _examined_ways(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
+def _examined_sweeps(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
     """Whether sweeps have contact, exactly, and exponents of about how far in size they are from the other answer."""
     rows = piece[1]
     off = np.abs(least_distances(rows) - 1)

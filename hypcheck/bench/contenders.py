@@ -298,8 +298,8 @@ WAYS_TIMED, SLOW_FOR_WAYS, FEW_WAYS = 8, ("passage-fcl-advancement", "passage-fc
 """Sweeps of a timed batch: few of the solvers that take twenty milliseconds for one."""
 
 
-def way_contenders() -> Iterable[Contender]:
-    """All of them, including the reference."""
+def sweep_contenders(*, tilted: bool) -> Iterable[Contender]:
+    """All of them, including the reference; engines are asked about upright spheroids alone."""
     methods = passage_methods()
     yield of_method(methods["passage-exact"], "python", "exact", timed=16, singles=8)
     compiled = choice().kernel == "compiled"
@@ -311,7 +311,8 @@ def way_contenders() -> Iterable[Contender]:
         yield of_method(
             methods[name], "numpy", kind, judged=WAYS_JUDGED, timed=8, singles=0, note=_BISECTED, quick=False
         )
-    yield from _in_engines()
+    if not tilted:
+        yield from _in_engines()
 
 
 def _in_engines() -> Iterable[Contender]:
@@ -359,7 +360,7 @@ def _quick(each: Contender) -> Contender:
 def _everything(plan: BenchPlan) -> Iterable[Contender]:
     """Every method, chosen or not."""
     if plan.question == PASSAGE:
-        yield from way_contenders()
+        yield from sweep_contenders(tilted=plan.tilted)
         return
     if plan.tilted:
         yield from tilted_contenders()

@@ -112,9 +112,8 @@ class BenchPlan:
         more = len(alone) > 1 or ((self.kernel or self.forest) and (self.chosen or self.tilted))
         if more:
             raise InputError(f"{alone[0]} measures only {whats[alone[0]]}; leave out the other choices")
-        if self.question == PASSAGE and (alone or self.tilted):
-            other = "--tilted" if self.tilted else alone[0]
-            raise InputError(f"--question passage compares methods for sweeps of upright spheroids; leave out {other}")
+        if self.question == PASSAGE and alone:
+            raise InputError(f"--question passage compares methods for sweeps; leave out {alone[0]}")
 
     @property
     def everyday(self) -> bool:

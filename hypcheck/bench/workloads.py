@@ -172,28 +172,28 @@ WORKLOADS = _by_name(
 )
 """Those of upright spheroids, by name, in the order of the record."""
 
-WAY_SHARE = 6
+SWEEP_SHARE = 6
 """A sweep takes about a millisecond to decide, so a sixth of the rows of other workloads is judged."""
 
 
-def _frozen_ways(_seed: int, count: int) -> Rows:
-    return frozen_ways()[:count].copy()
+def _frozen_sweeps(_seed: int, count: int, *, tilted: bool) -> Rows:
+    return frozen_sweeps(tilted)[:count].copy()
 
 
 @cache
-def frozen_ways() -> Rows:
-    """The frozen sweeps of upright spheroids, all families in turn."""
-    families = [frozen.load(name).rows for name, family in SWEEP_FAMILIES.items() if not family.tilted]
+def frozen_sweeps(tilted: bool) -> Rows:
+    """The frozen sweeps of upright or of tilted spheroids, all families in turn."""
+    families = [frozen.load(name).rows for name, family in SWEEP_FAMILIES.items() if family.tilted == tilted]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
 
 
-def _way_workload(name: str, title: str, text: str, rows: _Rows, *, timed: bool = False) -> Workload:
-    return Workload(name, title, text, rows, timed, WAY_SHARE, SWEEPS)
+def _sweep_workload(name: str, title: str, text: str, rows: _Rows, *, timed: bool = False) -> Workload:
+    return Workload(name, title, text, rows, timed, SWEEP_SHARE, SWEEPS)
 
 
-WAY_WORKLOADS = _by_name(
-    _way_workload(
+SWEEP_WORKLOADS = _by_name(
+    _sweep_workload(
         "tower",
         "down through the tower's waist",
         "A quadcopter's body straight down through the waist of the paper's cooling tower and out, about as near "
@@ -201,35 +201,35 @@ WAY_WORKLOADS = _by_name(
         _in_turn("bench-ways", "way-tower"),
         timed=True,
     ),
-    _way_workload(
+    _sweep_workload(
         "anywhere",
         "anywhere about the waist",
         "Both ends uniform in a box about the waist; sizes differ from row to row (the family way-anywhere).",
         _in_turn("bench-ways", "way-anywhere"),
         timed=True,
     ),
-    _way_workload(
+    _sweep_workload(
         "tunnelling",
         "steps that are too long",
         "Straight through a wall, through the whole waist, past the surface from far away: both ends are mostly "
         "clear and contact is between (the families way-tunnelling, way-across and way-long).",
         _in_turn("bench-ways", "way-tunnelling", "way-across", "way-long"),
     ),
-    _way_workload(
+    _sweep_workload(
         "grazing",
         "grazing or nearly so",
         "Tangent at one instant or at an end, or by 2⁻⁵⁰ to 2⁻³ of the size from it (the families way-near-graze, "
         "way-grazing and way-end).",
         _in_turn("bench-ways", "way-near-graze", "way-grazing", "way-end"),
     ),
-    _way_workload(
+    _sweep_workload(
         "frozen",
         "the frozen sweeps",
-        "The certified vectors of sweeps of upright spheroids, all 18 families in turn (cases/way-*.json).",
-        _frozen_ways,
+        "The certified vectors of sweeps of upright spheroids, all 19 families in turn (cases/way-*.json).",
+        partial(_frozen_sweeps, tilted=False),
     ),
 )
-"""Those of sweeps, by name, in the order of the record."""
+"""Those of sweeps of upright spheroids, by name, in the order of the record."""
 
 PITCH = 20.0
 """Degrees by which the quadcopter leans along x in the workload of one axis."""
@@ -243,9 +243,15 @@ def _one_axis(draw: Draw, n: int, _before: int) -> Rows:
 
 
 def _an_axis_each(draw: Draw, n: int, _before: int) -> Rows:
+    axes = _axes_up_to_45_degrees(draw, n)
+    return tilted_rows(TOWER + BODY, _in_the_box(draw, n), axes)
+
+
+def _axes_up_to_45_degrees(draw: Draw, n: int) -> Vectors:
+    """Axes that are tilted to any side."""
     cosine, sine = draw.circle(n)
-    lean = draw.unit(n)  # up to 45°
-    return tilted_rows(TOWER + BODY, _in_the_box(draw, n), (lean * cosine, lean * sine, np.ones(n)))
+    tangent = draw.unit(n)
+    return tangent * cosine, tangent * sine, np.ones(n)
 
 
 def _in_the_box(draw: Draw, n: int) -> Vectors:
@@ -312,6 +318,61 @@ TILTED_WORKLOADS = _by_name(
     ),
 )
 """Those of spheroids that lean, by name, in the order of the record."""
+
+
+def _pitched(names: Sequence[str]) -> _Block:
+    """Sweeps of these families in turn, each with an axis that is tilted to any side, by up to 45°."""
+    make = _families(*names)
+
+    def rows(draw: Draw, n: int, before: int) -> Rows:
+        return np.column_stack([make(draw, n, before), *_axes_up_to_45_degrees(draw, n)])
+
+    return rows
+
+
+def _tilted_sweep_workload(name: str, title: str, text: str, make: _Block, *, timed: bool = False) -> Workload:
+    return _sweep_workload(name, title, text, _in_blocks(make, 13, "bench-tilted-sweeps", name), timed=timed)
+
+
+TILTED_SWEEP_WORKLOADS = _by_name(
+    _tilted_sweep_workload(
+        "tower",
+        "down through the tower's waist, tilted",
+        "A quadcopter's body straight down through the waist of the paper's cooling tower and out, tilted to any side "
+        "by up to 45° (the family way-tower with an axis).",
+        _pitched(["way-tower"]),
+        timed=True,
+    ),
+    _tilted_sweep_workload(
+        "anywhere",
+        "anywhere about the waist, tilted",
+        "Both ends about the waist, axes in all directions; sizes differ from row to row (the family "
+        "tilted-way-uniform).",
+        _families("tilted-way-uniform"),
+        timed=True,
+    ),
+    _tilted_sweep_workload(
+        "tunnelling",
+        "steps that are too long, tilted",
+        "Straight through a wall, through the whole waist, past the surface from far away, tilted to any side by up to "
+        "45° (the families way-tunnelling, way-across and way-long with an axis).",
+        _pitched(["way-tunnelling", "way-across", "way-long"]),
+    ),
+    _tilted_sweep_workload(
+        "grazing",
+        "grazing or nearly so, tilted",
+        "Sweeps that end in a tangency, or whose centre passes a clear place where Δ = 0 (the families tilted-way-end "
+        "and tilted-way-ring).",
+        _families("tilted-way-end", "tilted-way-ring"),
+    ),
+    _sweep_workload(
+        "frozen",
+        "the frozen sweeps of tilted spheroids",
+        "The certified vectors of sweeps of tilted spheroids, all 5 families in turn (cases/tilted-way-*.json).",
+        partial(_frozen_sweeps, tilted=True),
+    ),
+)
+"""Those of sweeps of tilted spheroids, by name, in the order of the record."""
 
 
 def leaning_scenes(names: tuple[str, ...]) -> list[str]:
@@ -384,5 +445,5 @@ def workloads_of(plan: BenchPlan) -> dict[str, Workload]:
     if plan.scenes:
         return scene_workloads(*plan.scenes)
     if plan.question == PASSAGE:
-        return WAY_WORKLOADS
+        return TILTED_SWEEP_WORKLOADS if plan.tilted else SWEEP_WORKLOADS
     return TILTED_WORKLOADS if plan.tilted else WORKLOADS

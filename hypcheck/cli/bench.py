@@ -58,7 +58,7 @@ WORKLOADS = completing.Names(completing.workloads, many=True)
 )
 @click.option("--kernel", is_flag=True, help="Measure only the fast path, against its targets.")
 @click.option("--forest", is_flag=True, help="Measure only a walker's step among 10 to 10^6 trees.")
-@click.option("--tilted", is_flag=True, help="Compare methods for spheroids whose axis leans.")
+@click.option("--tilted", is_flag=True, help="Compare methods for tilted spheroids.")
 @click.option(
     "--question",
     type=click.Choice(["position", "passage"]),
@@ -71,7 +71,8 @@ WORKLOADS = completing.Names(completing.workloads, many=True)
     multiple=True,
     type=completing.SCENE,
     metavar="SCENE",
-    help="Measure only what a kernel for this scene saves; may be repeated. If its mover leans: methods on its rows.",
+    help="Measure only what a kernel for this scene saves; may be repeated. If its mover is tilted: methods on its "
+    "rows.",
 )
 @ISOLATE
 @PASS_ENV
@@ -84,8 +85,8 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     rounds of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
 
     With --question passage each row is a sweep, and missed and false contacts are set against the time of a sweep.
-    With --tilted the spheroids lean, and the methods are those that can be asked so: the workloads are others, and
-    ratios are to another reference. So it is with a scene whose mover leans; the kernel that
+    With --tilted the spheroids are tilted, and the methods are those that can be asked so: the workloads are others,
+    and ratios of positions are to another reference. So it is with a scene whose mover is tilted; the kernel that
     `hypcheck emit` writes for it can be a SPEC.
 
     With --baseline, times relative to the reference method are compared with those of an earlier record, of this

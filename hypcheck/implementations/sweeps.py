@@ -1,12 +1,12 @@
 """Methods that answer whether a spheroid meets the hyperboloid on a straight sweep, and when first.
 
-Lengths are in spheroid radii here: across divided by b, along by d. The spheroid is then a unit ball, and it is in
-contact as long as its centre is no farther than 1 from the surface. A method returns hits, int8 (n,), and times,
-float64 (n,), NaN where it sees no contact.
+Lengths are in spheroid radii here: across the axis divided by b, along it by d. The spheroid is then a unit ball, and
+it is in contact as long as its centre is no farther than 1 from the surface. A method returns hits, int8 (n,), and
+times, float64 (n,), NaN where it sees no contact. Rows are those of upright spheroids, or have an axis.
 
-Collision engines are asked too: FCL's continuous collision on meshes, and steps by an engine's distance, which coal's
-users must take. A scene has one inscribed mesh of the whole surface (meshes.py), as high as its sweeps. What FCL's
-solvers do with a mesh, as python-fcl 0.7.0.11 has them:
+Collision engines are asked too, about upright spheroids: FCL's continuous collision on meshes, and steps by an
+engine's distance, which coal's users must take. A scene has one inscribed mesh of the whole surface (meshes.py), as
+high as its sweeps. What FCL's solvers do with a mesh, as python-fcl 0.7.0.11 has them:
 
 - *naive* asks `collide` at equally distant times, ten of them unless told otherwise. It takes every pairing; here it
   has the ellipsoid, in the caller's units.
@@ -36,7 +36,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import COLUMNS, Sizes
+from hypcheck.geometry.pair import COLUMNS, SWEEP_COLUMNS, Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
 from hypcheck.implementations.meshes import COAL, FCL, LARGEST, MeshGrid, MeshLibrary, grid_of, rows_by_sizes
 from hypcheck.implementations.method import Answers
@@ -45,6 +45,9 @@ from hypcheck.truth.mesh import Triangles, Vertices, fcl_module, mesh_object
 from hypcheck.truth.passage_error import scaled_passage
 
 HitsAndTimes = tuple[NDArray[np.int8], Floats]
+
+SWEEP_ENDS = slice(len(COLUMNS), len(SWEEP_COLUMNS))
+"""The columns of where a sweep ends."""
 
 _HALVINGS = 100
 """Bisections of the multiplier: enough for every float64 between its two ends."""
@@ -74,13 +77,11 @@ def sampled(rows: Rows, count: int) -> HitsAndTimes:
 
 def _positions(rows: Rows, times: Floats) -> NDArray[np.int8]:
     """Positions (n, m) at m times."""
-    n, m = len(rows), len(times)
-    asked = np.empty((n, m, len(COLUMNS)))
-    asked[:, :, :4] = rows[:, None, :4]
-    asked[:, :, 4:] = rows[:, None, 4:7] + times[None, :, None] * (rows[:, 7:10] - rows[:, 4:7])[:, None, :]
-    asked[:, times == 1.0, 4:] = rows[:, None, 7:10]
-    positions = kernel().answer_rows(asked.reshape(n * m, len(COLUMNS)), "position", 1)[0]
-    return positions.reshape(n, m)
+    n, m, width = len(rows), len(times), len(COLUMNS)
+    pairs = np.repeat(np.delete(rows, SWEEP_ENDS, axis=1)[:, None, :], m, axis=1)
+    pairs[:, :, 4:width] += times[None, :, None] * (rows[:, SWEEP_ENDS] - rows[:, 4:7])[:, None, :]
+    pairs[:, times == 1.0, 4:width] = rows[:, None, SWEEP_ENDS]
+    return kernel().answer_rows(pairs.reshape(n * m, pairs.shape[2]), "position", 1)[0].reshape(n, m)
 
 
 def _first(touching: NDArray[np.bool_], times: Floats) -> HitsAndTimes:
@@ -95,22 +96,47 @@ def distances(rows: Rows, times: Floats) -> Floats:
 
     The nearest point is where a multiplier solves the secular equation, which falls in it, between two poles.
     """
-    alpha, gamma, b, d = rows[:, :4].T
-    a, c = alpha / b, gamma / d
-    x, y, z = (rows[:, 4 + i] + times * (rows[:, 7 + i] - rows[:, 4 + i]) for i in range(3))
-    r, q = np.hypot(x, y) / b, np.abs(z) / d
-    low, high = -a * a, c * c
+    curvatures, centres = _in_radii(rows, rows[:, 4:7] + times[:, None] * (rows[:, SWEEP_ENDS] - rows[:, 4:7]))
+    low, high = -1 / curvatures[:, 2], -1 / curvatures[:, 0]
     with np.errstate(all="ignore"):
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            outer = (r / (a + middle / a)) ** 2 - (q / (c - middle / c)) ** 2 > 1
+            outer = (curvatures * (centres / (1 + middle[:, None] * curvatures)) ** 2).sum(axis=1) > 1
             low, high = np.where(outer, middle, low), np.where(outer, high, middle)
-        near_r = r / (1 + low / (a * a))
-        near_q = q / (1 - low / (c * c))
-        outside = low > 0
-        near_q = np.where(outside, c * np.sqrt(np.maximum((near_r / a) ** 2 - 1, 0)), near_q)
-        near_r = np.where(outside, near_r, a * np.sqrt(1 + (near_q / c) ** 2))
-    return np.asarray(np.hypot(r - near_r, q - near_q))
+        near = np.where(centres == 0, 0, centres / (1 + low[:, None] * curvatures))
+        # Beside a pole the coordinate that belongs to it follows from the others, since the point is on the surface.
+        pole = np.where(low > 0, 0, 2)[:, None]
+        rest = 1 - np.where(np.arange(3) == pole, 0, curvatures * near**2).sum(axis=1, keepdims=True)
+        last = np.sqrt(np.maximum(rest / np.take_along_axis(curvatures, pole, axis=1), 0))
+        side = np.copysign(last, np.take_along_axis(centres, pole, axis=1))
+    np.put_along_axis(near, pole, side, axis=1)
+    return np.asarray(np.linalg.norm(centres - near, axis=1))
+
+
+def _in_radii(rows: Rows, centres: Floats) -> tuple[Floats, Floats]:
+    """The hyperboloid Σ λ_i q_i² = 1 where the spheroid is a unit ball: λ ascending (n, 3), and centres (n, 3) there.
+
+    Of a surface of revolution about the spheroid's axis the plane through the centre is enough.
+    """
+    alpha, gamma, b, d = rows[:, :4].T
+    if rows.shape[1] == len(SWEEP_COLUMNS):
+        across = b**2 / alpha**2
+        radius = np.hypot(centres[:, 0], centres[:, 1]) / b
+        return (
+            np.column_stack([-(d**2) / gamma**2, across, across]),
+            np.column_stack([centres[:, 2] / d, 0 * radius, radius]),
+        )
+    stretch, shrink = _along_and_across(rows, d, b), _along_and_across(rows, 1 / d, 1 / b)
+    surface = np.column_stack([alpha**-2.0, alpha**-2.0, -(gamma**-2.0)])[:, :, None]
+    curvatures, frames = np.linalg.eigh(stretch @ (surface * stretch))
+    return curvatures, np.einsum("nij,njk,nk->ni", frames.transpose(0, 2, 1), shrink, centres)
+
+
+def _along_and_across(rows: Rows, along: Floats, across: Floats) -> Floats:
+    """Matrices (n, 3, 3) that multiply by `along` along the spheroid's axis, by `across` across it."""
+    axis = rows[:, len(SWEEP_COLUMNS) :] / np.linalg.norm(rows[:, len(SWEEP_COLUMNS) :], axis=1, keepdims=True)
+    onto: Floats = axis[:, :, None] * axis[:, None, :]
+    return across[:, None, None] * (np.eye(3) - onto) + along[:, None, None] * onto
 
 
 def least_distances(rows: Rows) -> Floats:
@@ -130,9 +156,10 @@ def least_distances(rows: Rows) -> Floats:
 
 def lengths_of(rows: Rows) -> Floats:
     """Lengths (n,) of sweeps in spheroid radii."""
-    x, y, z = (rows[:, 7:10] - rows[:, 4:7]).T
-    b, d = rows[:, 2], rows[:, 3]
-    return np.asarray(np.hypot(np.hypot(x / b, y / b), z / d))
+    step, (b, d) = rows[:, SWEEP_ENDS] - rows[:, 4:7], rows[:, 2:4].T
+    if rows.shape[1] == len(SWEEP_COLUMNS):
+        return np.asarray(np.hypot(np.hypot(step[:, 0] / b, step[:, 1] / b), step[:, 2] / d))
+    return np.asarray(np.linalg.norm(_along_and_across(rows, 1 / d, 1 / b) @ step[:, :, None], axis=(1, 2)))
 
 
 def advanced(rows: Rows) -> HitsAndTimes:

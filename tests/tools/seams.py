@@ -188,13 +188,12 @@ def spec(*words: str) -> Callable[[Groups], None]:
 
 
 def emit(groups: Groups) -> None:
-    """`hypcheck emit`, of a scene."""
-    if "end" in groups:
-        raise RefusedError("kernels for sweeps are the C header's and numpy's; emit prints kernels for positions")
+    """`hypcheck emit`, of a scene; with an end, about sweeps in it."""
+    sweeps = ["--sweeps"] if "end" in groups else []
     axis = f"axis = {list(vector('axis'))}" if "axis" in groups else ""
     height = "height = [-3.0, 3.0]" if "heights" in groups else ""
     Path("scene.toml").write_text(SCENE.format(axis=axis, height=height, part=""))
-    command("emit", "--scene", "scene.toml", "--language", "c", "--output", "kernel.c")
+    command("emit", "--scene", "scene.toml", "--language", "c", "--output", "kernel.c", *sweeps)
 
 
 ASKED: Mapping[str, Callable[[Groups], None]] = {

@@ -1,4 +1,4 @@
-"""Bench about ways: its workloads, a small run, and what is refused."""
+"""Bench about sweeps: its workloads, a small run, and what is refused."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypcheck.bench import foreign
 from hypcheck.bench.accuracy import WorkloadTruth, workload_truths
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan
-from hypcheck.bench.workloads import WAY_WORKLOADS, frozen_ways, scene_of
+from hypcheck.bench.workloads import SWEEP_WORKLOADS, TILTED_SWEEP_WORKLOADS, frozen_sweeps, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import SWEEPS, first_trouble
 from hypcheck.implementations.builtin import passage_methods
@@ -26,34 +26,39 @@ from tests.support.without_drawing import draw_nothing
 from tests.tools.miniatures import NOT_ISOLATED, command
 
 
-@pytest.mark.parametrize("name", WAY_WORKLOADS)
-def test_way_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(name):
-    rows = WAY_WORKLOADS[name].rows(3, 300)
-    assert rows.shape == (300, 10)
+@pytest.mark.parametrize(("workloads", "width"), [(SWEEP_WORKLOADS, 10), (TILTED_SWEEP_WORKLOADS, 13)])
+@pytest.mark.parametrize("name", SWEEP_WORKLOADS)
+def test_sweep_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(workloads, width, name):
+    assert list(workloads) == list(SWEEP_WORKLOADS)
+    rows = workloads[name].rows(3, 240)
+    assert rows.shape == (240, width)
     assert first_trouble(rows, layout=SWEEPS) is None
-    assert (WAY_WORKLOADS[name].rows(3, 90) == rows[:90]).all()
-    assert WAY_WORKLOADS[name].rows(3, 0).shape == (0, 10)
-    assert (scene_of(rows, SWEEPS) is not None) == (name == "tower")
+    assert (workloads[name].rows(3, 90) == rows[:90]).all()
+    assert workloads[name].rows(3, 0).shape == (0, width)
+    assert (scene_of(rows, SWEEPS) is not None) == (name == "tower" and width == 10)
 
 
-def test_the_frozen_ways_come_from_all_families_of_upright_spheroids_in_turn():
-    upright = [family for family in SWEEP_FAMILIES.values() if not family.tilted]
-    rows = frozen_ways()
-    assert len(rows) > 1500
-    assert len(np.unique(rows[: 4 * len(upright)], axis=0)) == 4 * len(upright)
+@pytest.mark.parametrize(("tilted", "count"), [(False, 1500), (True, 200)])
+def test_the_frozen_sweeps_come_from_all_families_of_their_kind_in_turn(tilted, count):
+    families = [family for family in SWEEP_FAMILIES.values() if family.tilted == tilted]
+    rows = frozen_sweeps(tilted)
+    assert len(rows) > count
+    assert len(np.unique(rows[: 4 * len(families)], axis=0)) == 4 * len(families)
 
 
-def test_bench_compares_all_built_in_methods_for_ways_but_two_in_a_quick_run():
+def test_bench_compares_all_built_in_methods_for_sweeps_but_two_in_a_quick_run_and_engines_if_tilted():
     every = {*passage_methods(), *SWEEP_SOLVERS}
     found = contenders(BenchPlan(question=PASSAGE))
     assert set(found) == every
     assert next(iter(found)) == PASSAGE_REFERENCE
     quick = contenders(BenchPlan(question=PASSAGE, quick=True, amounts=QUICK))
     assert every - set(quick) == {"passage-advancement", "passage-capsule"}
+    assert set(contenders(BenchPlan(question=PASSAGE, tilted=True))) == set(passage_methods())
 
 
-def test_the_distance_of_a_judged_way_is_near_its_size_error():
-    plan = BenchPlan(question=PASSAGE, workloads=("grazing",), amounts=replace(QUICK, judged=144))
+@pytest.mark.parametrize(("tilted", "workload"), [(False, "grazing"), (True, "tunnelling"), (True, "anywhere")])
+def test_the_distance_of_a_judged_sweep_is_near_its_size_error(tilted, workload):
+    plan = BenchPlan(question=PASSAGE, tilted=tilted, workloads=(workload,), amounts=replace(QUICK, judged=144))
     (truth,) = workload_truths(plan, None)
     assert isinstance(truth, WorkloadTruth)
     for row, hit, exponent in zip(truth.rows.tolist(), truth.positions.tolist(), truth.exponents, strict=True):
@@ -64,25 +69,25 @@ def test_the_distance_of_a_judged_way_is_near_its_size_error():
             assert 2.0 ** (exponent - 1) <= error.lower <= 2.0 ** (exponent + 2)
 
 
-@pytest.fixture(scope="module")
-def small(tmp_path_factory):
+@pytest.fixture(scope="module", params=[(), ("--tilted",)], ids=["upright", "tilted"])
+def small(request, tmp_path_factory):
     chosen = ("--methods", "passage-sampled-4", "--workloads", "tower,tunnelling", "--processes", "1", "--rounds", "1")
     with pytest.MonkeyPatch.context() as patch:
         draw_nothing(patch)
-        return ended(tmp_path_factory.mktemp("ways"), "--question", "passage", *chosen)
+        return ended(tmp_path_factory.mktemp("sweeps"), "--question", "passage", *request.param, *chosen)
 
 
 @pytest.mark.slow
-def test_bench_of_ways_counts_missed_and_false_contacts_and_records_times(small):
+def test_bench_of_sweeps_counts_missed_and_false_contacts_and_records_times(small):
     code, record = small
     assert code == 0
     for line in record.lines:
         assert violations(as_json(line), RECORD, closed=True) == []
     assert record.header.options["reference"] == PASSAGE_REFERENCE
     assert not record.header.settings  # the option replaces no declaration
+    one_scene = ["tower"] if not record.header.options["tilted"] else []  # a scene has one axis
     assert [(line.workload, line.scene is None) for line in record.of(WorkloadLine)] == [
-        ("tower", False),
-        ("tunnelling", True),
+        (name, name not in one_scene) for name in ("tower", "tunnelling")
     ]
     judged = {(line.method, line.workload): line for line in record.of(AccuracyLine)}
     assert judged[PASSAGE_REFERENCE, "tunnelling"].wrong == 0
@@ -99,13 +104,12 @@ def test_bench_of_ways_counts_missed_and_false_contacts_and_records_times(small)
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--tilted",), "--question passage compares methods for sweeps of upright spheroids; leave out --tilted"),
-        (("--kernel",), "leave out --kernel"),
+        (("--kernel",), "--question passage compares methods for sweeps; leave out --kernel"),
         (("--workloads", "uniform"), "there is no workload 'uniform'"),
         (("--methods", "fast-c"), "there is no method 'fast-c'"),
     ],
 )
-def test_bench_of_ways_refuses_methods_and_workloads_that_ways_do_not_have(tmp_path, options, message):
+def test_bench_of_sweeps_refuses_methods_and_workloads_that_sweeps_do_not_have(tmp_path, options, message):
     with pytest.raises(InputError, match=message):
         ended(tmp_path, "--question", "passage", *options)
 
