@@ -372,6 +372,10 @@ class NotStartedLine(RecordLine, frozen=True, kw_only=True, tag="implementation"
     trouble: str
 
 
+UNEXPLAINED = "unexplained"
+"""The cause of wrong answers that no known cause gives."""
+
+
 class CauseLine(RecordLine, frozen=True, kw_only=True):
     """A cause of wrong answers of an implementation under test, since 1.7.0; `cause` "unexplained" if none is known.
 

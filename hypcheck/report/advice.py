@@ -20,11 +20,15 @@ from hypcheck.report.document import (
     Paragraph,
     Row,
     Section,
+    Strong,
     Text,
+    against,
     bullets,
+    columns,
     count,
     joined,
     measured,
+    paced,
     prose,
     table,
 )
@@ -71,6 +75,12 @@ class Need:
     distance: float = 0.0
     mode: str = BATCH
 
+    @property
+    def words(self) -> str:
+        """The need in words, without the workloads and the question if they are the usual ones."""
+        usual = (EVERYWHERE, POSITION)
+        return ", ".join([self.what, *(part for part in (self.where, self.asked) if part not in usual)])
+
 
 @dataclass(frozen=True, slots=True)
 class Advice:
@@ -86,6 +96,11 @@ class Advice:
     alike: tuple[MeasuredMethod, ...]
     workload: str
     errs: tuple[str, ...] = ()
+
+    @property
+    def ratio(self) -> float:
+        """The time of the advised method by that of the run's reference."""
+        return self.use.ratio(self.workload, self.need.mode) or 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,17 +253,26 @@ def advice_sections(record: Record) -> Iterator[Section]:
         return
     known = workloads(record)
     scenes = listed([known[name].title for name in timed_workloads(record)])
-    against = reference(record)
+    other = reference(record)
     said: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
-    if against is not None:
-        said.append(("The reference, of ratio 1, is ", Code(against), "."))
     said += [(f"No measured method meets this need: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet]
     worse = [(Code(loser.name), " (", Code(winner.name), ")") for loser, winner in dominated_methods(record)]
     if worse:
         lead = "Beaten by a method of the same tier that is certainly faster and errs no farther from contact: "
         said.append((lead, joined(worse), "."))
-    blocks: tuple[Block, ...] = (Paragraph(_HOW), _advice_table(chosen.advice), bullets(said))
-    yield Section("Which method to use when", blocks)
+    lines: list[Text] = [
+        (Strong(line.need.words), ": ", Code(line.use.name), f", {pace(line.ratio, other or 'the reference')}.")
+        for line in chosen.advice
+    ]
+    how = Paragraph(_HOW)
+    yield Section("Which method to use when", (bullets(lines), how, _advice_table(chosen.advice, other), bullets(said)))
+
+
+def advice_facts(record: Record) -> Iterator[str]:
+    """The advice of a benchmark, a sentence without a full stop for each need."""
+    other = reference(record) or "the reference"
+    for line in recommendations(record).advice:
+        yield f"{line.need.words}: {line.use.name}, {pace(line.ratio, other)}"
 
 
 def _price_sentences(record: Record) -> Iterator[Text]:
@@ -273,7 +297,7 @@ def _price_sentences(record: Record) -> Iterator[Text]:
 
 def own_method_facts(record: Record) -> Iterator[str]:
     """The user's methods of a benchmark: how near to contact each errs, and its time."""
-    found, against, known = measured_methods(record), reference(record) or "the reference", workloads(record)
+    found, other, known = measured_methods(record), reference(record) or "the reference", workloads(record)
     for each in found:
         if not each.foreign:
             continue
@@ -286,8 +310,7 @@ def own_method_facts(record: Record) -> Iterator[str]:
             line, ratio = each.speed.get((name, BATCH)), each.ratio(name)
             if line is not None and ratio is not None:
                 time = f"{with_interval(line.median_ns, line.ci95_ns)} ns a row in a batch"
-                span = " to ".join(map(figure, each.ratio_interval(name)))
-                yield f"{each.name}, {known[name].title}: {time}, {pace(ratio, against)} ({span})"
+                yield f"{each.name}, {known[name].title}: {time}, {pace(ratio, other, each.ratio_interval(name))}"
 
 
 def best_rival_facts(record: Record) -> Iterator[str]:
@@ -306,11 +329,18 @@ def best_rival_facts(record: Record) -> Iterator[str]:
             and all(other.accuracy[name].reliable_above <= line.reliable_above for name, line in each.accuracy.items())
         ]
         best = next(iter(by_ratio(rivals, timed[0])), None)
-        against = None if best is None else best.ratio(timed[0])
-        if best is None or not against:
+        rival = None if best is None else best.ratio(timed[0])
+        if best is None or not rival:
             yield f"{each.name}: no other method that was measured is as reliable"
         else:
-            yield f"{each.name}: {pace(own / against, f'{best.name}, the fastest that is as reliable')}"
+            yield f"{each.name}: {pace(own / rival, f'{best.name}, the fastest that is as reliable')}"
+
+
+def own_method_sections(record: Record) -> Iterator[Section]:
+    """The user's methods: errors, times, and each against the best that is as reliable; none if there are none."""
+    items = [f"{fact}." for fact in (*best_rival_facts(record), *own_method_facts(record))]
+    if items:
+        yield Section("Your methods", (bullets(items),))
 
 
 def advised_method_sections(record: Record) -> Iterator[Section]:
@@ -329,9 +359,13 @@ def advised_method_sections(record: Record) -> Iterator[Section]:
         yield Section("What these methods are", (bullets(items),), level=3)
 
 
-def _advice_table(advice: tuple[Advice, ...]) -> Block:
-    columns = "you need | use | in | asked | # time ratio | # ns a query | # judged | as fast | not reliable on"
-    return table("which method to use when", columns, [_advice_row(each) for each in advice])
+def _advice_table(advice: tuple[Advice, ...], reference: str | None) -> Block:
+    before, after = (
+        columns("you need | use | in | asked"),
+        columns("# ns a query | # judged | as fast | not reliable on"),
+    )
+    heads = (*before, against(reference), *after)
+    return table("which method to use when", heads, [_advice_row(line) for line in advice])
 
 
 def _advice_row(each: Advice) -> Row:
@@ -341,7 +375,7 @@ def _advice_row(each: Advice) -> Row:
         Code(each.use.name),
         each.need.where,
         each.need.asked,
-        measured(line.ratio or 0.0, line.ratio_ci95),
+        paced(line.ratio or 0.0, line.ratio_ci95),
         measured(line.median_ns),
         count(each.use.asked),
         joined([Code(other.name) for other in each.alike]),

@@ -326,6 +326,7 @@ FACTS: Mapping[type[RecordLine], type[LineFacts[Any]]] = {
     lines.FindingLine: facts.FindingFacts,
     lines.DriftLine: facts.DriftFacts,
     lines.GroupLine: facts.GroupFacts,
+    lines.CauseLine: facts.CauseFacts,
     lines.ImplementationLine: facts.ImplementationFacts,
     lines.NotStartedLine: facts.NotStartedFacts,
     lines.MapLine: facts.MapFacts,

@@ -10,6 +10,7 @@ from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.lines import GroupLine
 from hypcheck.record.measurements import AccuracyLine, SpeedLine
@@ -186,6 +187,32 @@ def _differing(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[
 def _shared(before: Mapping[Key, Value], after: Mapping[Key, Value]) -> list[tuple[Key, tuple[Value, Value]]]:
     """The keys of both with their two values."""
     return [(key, (before[key], after[key])) for key in before if key in after]
+
+
+MOST_CONDITIONS = 3
+"""Differences in the conditions of two runs that are listed in sentences."""
+
+
+def change_facts(record: Record, against: Record) -> Iterator[str]:
+    """The changes against another record, the most important of each kind by name."""
+    yield f"against the run of {against.header.started}, which ended: {verdict(against).sentence}"
+    statuses, ratios = status_changes(against, record), ratio_changes(against, record)
+    accuracies = accuracy_changes(against, record)
+    worse = [f"{change.implementation} on {change.family}" for change in statuses if change.worse]
+    yield f"  statuses: {counted(len(statuses), 'family of a method', 'families of methods')} changed" + (
+        f", worse: {listed(worse)}" if worse else ""
+    )
+    if accuracies:
+        changed = [f"{change.after.method} on {change.after.workload}" for change in accuracies]
+        yield f"  errors: {listed(changed)} changed"
+    for verdict_ in (SLOWER, FASTER):
+        named = [f"{each.method} ({each.workload}, {each.mode})" for each in ratios if each.verdict == verdict_]
+        if named:
+            yield f"  {verdict_}, by ratio: {listed(named)}"
+    others = [*conditions(against, record), *only_in_one(against, record)]
+    yield from (f"  {each}" for each in others[:MOST_CONDITIONS])
+    if len(others) > MOST_CONDITIONS:
+        yield f"  and {counted(len(others) - MOST_CONDITIONS, 'more difference')} between the runs themselves"
 
 
 _RATIOS = prose(

@@ -22,12 +22,10 @@ from hypcheck.errors import InputError, system_reason
 from hypcheck.implementations.spec import Spec, is_file, parse_spec
 from hypcheck.messages import counted, escaped, sentence
 from hypcheck.record import Record
-from hypcheck.record.lines import CauseLine
 from hypcheck.record.reader import FILE
 from hypcheck.report import markdown
 from hypcheck.report.benchmark_facts import INCONCLUSIVE
-from hypcheck.report.facts import Failure
-from hypcheck.report.messages import UNEXPLAINED
+from hypcheck.report.facts import CauseFacts, Failure, cause_facts
 from hypcheck.report.model import implementations, under_test
 from hypcheck.report.verdict import EXIT_INCONCLUSIVE, EXITS_UNFINISHED, ended_badly, failures, verdict
 from hypcheck.runs.fingerprint import sha256
@@ -157,10 +155,10 @@ def render_sarif(record: Record) -> bytes:
     A note for each cause of wrong answers follows; its rule has the id that `hypcheck explain` takes.
     """
     found = placed_failures(record)
-    causes = record.of(CauseLine) if found else []
+    causes = cause_facts(record) if found else []
     known = dict.fromkeys(each.rule for each in found)
     rules = [_rule(rule) for rule in known]
-    rules += {sentence(line.cause): _cause_rule(line) for line in causes}.values()
+    rules += {sentence(facts.name): _cause_rule(facts) for facts in causes}.values()
     number = {rule["id"]: place for place, rule in enumerate(rules)}
     places, names = dict(_places(record)), {each.line.spec: each.name for each in under_test(record)}
     ended, footer = verdict(record), record.footer
@@ -182,8 +180,8 @@ def render_sarif(record: Record) -> bytes:
         "results": [
             *(_result(each, number[each.rule]) for each in found),
             *(
-                _cause_result(line, number[sentence(line.cause)], places.get(names.get(line.spec, ""), UNKNOWN))
-                for line in causes
+                _cause_result(facts, number[sentence(facts.name)], places.get(names.get(facts.line.spec, ""), UNKNOWN))
+                for facts in causes
             ),
         ],
     }
@@ -207,24 +205,23 @@ def _result(each: PlacedFailure, rule: int) -> dict[str, Any]:
     }
 
 
-def _cause_rule(line: CauseLine) -> dict[str, Any]:
-    about = "" if line.cause == UNEXPLAINED else f"; hypcheck explain {line.cause}"
+def _cause_rule(facts: CauseFacts) -> dict[str, Any]:
+    about = f"; {facts.command}" if facts.command else ""
     return {
-        "id": sentence(line.cause),
-        "shortDescription": {"text": sentence(line.sentence)},
-        "help": {"text": sentence(f"{line.remedy}{about}")},
+        "id": sentence(facts.name),
+        "shortDescription": {"text": sentence(facts.line.sentence)},
+        "help": {"text": sentence(f"{facts.line.remedy}{about}")},
     }
 
 
-def _cause_result(line: CauseLine, rule: int, place: CodePlace) -> dict[str, Any]:
+def _cause_result(facts: CauseFacts, rule: int, place: CodePlace) -> dict[str, Any]:
     """A note: the failures that it explains are results of their own."""
-    digest = hashlib.sha256(f"cause\0{line.spec}\0{line.cause}".encode("utf-8", "replace")).hexdigest()
-    told = f"{line.cases:,} wrong: {line.sentence}; fix: {line.remedy}"
+    digest = hashlib.sha256(f"cause\0{facts.line.spec}\0{facts.name}".encode("utf-8", "replace")).hexdigest()
     return {
-        "ruleId": sentence(line.cause),
+        "ruleId": sentence(facts.name),
         "ruleIndex": rule,
         "level": "note",
-        "message": {"text": sentence(told)},
+        "message": {"text": sentence("; ".join([facts.headline(), *facts.sentences()]))},
         "locations": [{"physicalLocation": _location(place)}],
         "partialFingerprints": {"hypcheck/v1": digest},
     }

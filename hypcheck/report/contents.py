@@ -14,7 +14,7 @@ from hypcheck.isolation.means import isolation_text
 from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
-from hypcheck.record.lines import CauseLine, IsolationPart
+from hypcheck.record.lines import IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes
 from hypcheck.report.document import (
@@ -34,13 +34,13 @@ from hypcheck.report.document import (
     prose,
     table,
 )
-from hypcheck.report.facts import Failure
+from hypcheck.report.facts import Failure, cause_facts
 from hypcheck.report.measured import measured_methods
-from hypcheck.report.messages import Replays, error_text, families_text, figure, from_hex, settings_facts, share_text
+from hypcheck.report.messages import error_text, figure, from_hex, settings_facts
 from hypcheck.report.model import implementations, under_test
+from hypcheck.report.run_facts import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
-from hypcheck.report.terminal import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.verdict import Verdict, failures, squares, verdict
 from hypcheck.runs.judge import in_words, truth_in_words
 
@@ -140,21 +140,21 @@ _CAUSES = prose(
 
 def cause_sections(record: Record) -> Iterator[Section]:
     """The causes of wrong answers with their remedies; none if nothing was wrong, or the record is of before 1.7.0."""
-    found, replays = record.of(CauseLine), Replays.of(record)
-    if not found:
+    causes = cause_facts(record)
+    if not causes:
         return
     rows = [
         (
-            Code(line.method),
-            count(line.cases, bad=True),
-            share_text(line, found),
-            Code(line.cause),
-            line.sentence + (f" ({line.claim})" if line.claim else ""),
-            families_text(line, len(line.families)),
-            line.remedy,
-            (error_text(line.worst), ": ", Code(replays.of_case(line.worst.case, line.spec))),
+            Code(facts.line.method),
+            count(facts.line.cases, bad=True),
+            facts.share,
+            Code(facts.name),
+            facts.line.sentence + (f" ({facts.line.claim})" if facts.line.claim else ""),
+            facts.families(6),
+            facts.line.remedy,
+            (error_text(facts.line.worst), ": ", Code(facts.replay)),
         )
-        for line in found
+        for facts in causes
     ]
     columns = "implementation | # wrong | # share | cause | why | where | what to do | the worst of them"
     yield Section("Why wrong answers are wrong", (Paragraph(_CAUSES), table("causes", columns, rows)))
@@ -170,39 +170,52 @@ def can_be_drawn(row: Sequence[float]) -> bool:
 
 
 def explorer_sections(record: Record) -> Iterator[Section]:
-    """The bodies of a failing case, or on the ring, to be moved."""
+    """The bodies of a failing case, to be moved; none if no failing case can be drawn."""
     shown = list(shown_case(record))
     rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
-    row = shown[0][0] if shown else next(iter(rows), ON_THE_RING)
-    yield Section("Look closer", (*(Paragraph(text) for _, text in shown), Explorer(row)), page=True)
+    if shown or rows:
+        row = shown[0][0] if shown else rows[0]
+        yield Section("Look closer", (*(Paragraph(text) for _, text in shown), Explorer(row)), page=True)
+
+
+_ON_THE_RING = Section("Look closer", (Explorer(ON_THE_RING),), page=True)
+"""The explorer of a run without a failing case."""
 
 
 def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], Text]]:
-    """The wrong answer with the greatest error whose bodies one can see: its row and a sentence; none without any."""
-    found = [
-        (case, from_hex(numbers_of(case)), each)
-        for each in implementations(record)
-        for group in each.groups
+    """The wrong answer with the greatest error whose bodies one can see: its row and a sentence; none without any.
+
+    One whose wall is flat or far is taken only if there is no other.
+    """
+    failing = [
+        (case, from_hex(numbers_of(case)), total)
+        for total in implementations(record)
+        for group in total.groups
         for case in group.worst
-        if each.gated and case.status in (group.failing or ())
+        if total.gated and case.status in (group.failing or ())
     ]
-    for case, row, each in sorted(found, key=lambda seen: -seen[0].backward_error):
-        if can_be_drawn(row) and _can_be_seen(row):
-            answers = f" is {truth_in_words(case.truth, each.question)}; ", Code(each.name), " answered "
-            yield row, (Code(case.case), *answers, Strong(in_words(case.answer, each.question)), ".")
-            return
+    drawable = [(case, row, total) for case, row, total in failing if can_be_drawn(row) and _fits(row)]
+    for case, row, total in sorted(drawable, key=lambda drawn: (_flat(drawn[1]), -drawn[0].backward_error))[:1]:
+        answers = f" is {truth_in_words(case.truth, total.question)}; ", Code(total.name), " answered "
+        yield row, (Code(case.case), *answers, Strong(in_words(case.answer, total.question)), ".")
 
 
 _ALIKE = 20.0
 """Lengths of a picture differ by at most this factor if all of them are to be seen."""
 
 
-def _can_be_seen(row: Sequence[float]) -> bool:
-    """Whether the wall and the spheroid have sizes that fit into one picture, and lie near each other."""
+def _fits(row: Sequence[float]) -> bool:
+    """Whether the waist and the spheroid have sizes that fit into one picture, and the wall is near the spheroid."""
     alpha, gamma, b, d, x, y, z = row
     gap = abs(math.hypot(x, y) - alpha * math.hypot(1, z / gamma))
     sizes = (alpha, b, d)
     return max(sizes) <= _ALIKE * min(sizes) and gap <= _ALIKE / 4 * b
+
+
+def _flat(row: Sequence[float]) -> bool:
+    """Whether the wall is so flat or so steep that it looks like a line beside the spheroid."""
+    gamma, others = row[1], (row[0], row[2], row[3])
+    return not max(others) / _ALIKE <= gamma <= min(others) * _ALIKE
 
 
 def compared_sections(record: Record) -> Iterator[Section]:
@@ -255,6 +268,7 @@ FAILING: tuple[Callable[[Record], Iterator[Section]], ...] = (
 PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     settings_sections,
     times.baseline_sections,
+    advice.own_method_sections,
     advice.advice_sections,
     accuracy.error_sections,
     accuracy.peer_sections,
@@ -297,8 +311,8 @@ def content(record: Record, against: Record | None = None) -> ReportContent:
     failing = [section for part in first for section in part(record)]
     changed = [] if against is None else [changes.change_section(record, against)]
     others = [section for part in later for section in part(record)]
-    if ended.passed:
-        others[-1:-1] = explorer_sections(record)
+    if not any(section.title == _ON_THE_RING.title for section in failing):
+        others.insert(-1, _ON_THE_RING)
     return ReportContent(report_title(record), ended, (*failing, *changed, *others))
 
 
@@ -323,6 +337,7 @@ def overview(record: Record, beside: Collection[str]) -> ReportContent:
         *square_sections(record),
         *failure_sections(record),
         *settings_sections(record),
+        *advice.own_method_sections(record),
         *advice.advice_sections(record),
         *advice.advised_method_sections(record),
         *([Section("Pictures", pictures[:1])] if pictures else []),

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Union
 
-from hypcheck.report.messages import figure, with_interval
+from hypcheck.report.messages import figure, pace, with_interval
 
 NONE, MISSING = "·", "–"
 """The texts of a cell where nothing is wrong, and of one that has no value."""
@@ -189,15 +189,13 @@ class Section:
     page: bool = False
 
 
-def table(name: str, columns: str | Iterable[Column], rows: Iterable[Row]) -> TableBlock:
-    """A table. Columns may be their titles with bars between them: "method | # rows".
+def table(name: str, heads: str | Iterable[Column], rows: Iterable[Row]) -> TableBlock:
+    """A table. `heads` are its columns, or their titles with bars between them: "method | # rows".
 
     A # stands before the title of a column of numbers. Such titles are our own words; foreign text needs a Column.
     """
-    if isinstance(columns, str):
-        columns = (Column(title.removeprefix("# "), title.startswith("# ")) for title in columns.split(" | "))
-    cells = tuple(tuple(each if isinstance(each, TableCell) else TableCell(each) for each in row) for row in rows)
-    return TableBlock(name, tuple(columns), cells)
+    cells = tuple(tuple(cell if isinstance(cell, TableCell) else TableCell(cell) for cell in row) for row in rows)
+    return TableBlock(name, columns(heads) if isinstance(heads, str) else tuple(heads), cells)
 
 
 def bullets(items: Sequence[Text | Item]) -> Bullets:
@@ -216,6 +214,11 @@ def measured(value: float | None, interval: Sequence[float] | None = None) -> Ta
     return TableCell(MISSING) if value is None else TableCell(with_interval(value, interval), value)
 
 
+def paced(ratio: float | None, interval: tuple[float, float] | None = None) -> TableCell:
+    """The cell of a time by that of the method that the column names: "24 times as fast"; a dash without a ratio."""
+    return TableCell(MISSING) if ratio is None else TableCell(pace(ratio, interval=interval), ratio)
+
+
 def share(part: float, whole: float) -> TableCell:
     """The cell of a share in per cent; a dash if there is no whole."""
     return TableCell(f"{figure(100 * part / whole)} %", part / whole) if whole else TableCell(MISSING)
@@ -224,3 +227,13 @@ def share(part: float, whole: float) -> TableCell:
 def number(title: Text, hint: str = "") -> Column:
     """A column of numbers."""
     return Column(title, number=True, hint=hint)
+
+
+def against(other: str | None, hint: str = "") -> Column:
+    """The column of times by that of a method; None: of the reference, which has no name."""
+    return number("against the reference" if other is None else ("against ", Code(other)), hint)
+
+
+def columns(titles: str) -> tuple[Column, ...]:
+    """The columns with these titles, which have bars between them: see table()."""
+    return tuple(Column(title.removeprefix("# "), title.startswith("# ")) for title in titles.split(" | "))

@@ -18,6 +18,8 @@ from hypcheck.messages import counted
 from hypcheck.record import Record, RecordLine
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import (
+    UNEXPLAINED,
+    CauseLine,
     DisagreementPart,
     DriftLine,
     EquationLine,
@@ -38,6 +40,7 @@ from hypcheck.report.messages import (
     figure,
     from_hex,
     implementation_claims,
+    listed,
     rows_not_asked,
 )
 from hypcheck.report.model import SubjectKey, explanation, in_order, names_in, subject_of, worst_case
@@ -327,6 +330,52 @@ class GroupFacts(LineFacts[GroupLine]):
                 yield f"replay: {replays.command(line, worst)}"
         if line.fresh:
             yield f"fresh rows: {line.fresh:,}"
+
+
+class CauseFacts(LineFacts[CauseLine]):
+    """A cause of wrong answers of an implementation under test."""
+
+    @property
+    def name(self) -> str:
+        return self.line.cause
+
+    @property
+    def command(self) -> str:
+        """The command that explains the cause; "" where no known cause gives the answers."""
+        return "" if self.line.cause == UNEXPLAINED else f"hypcheck explain {self.line.cause}"
+
+    @property
+    def replay(self) -> str:
+        """The command that shows the worst answer."""
+        return self.context.replays.of_case(self.line.worst.case, self.line.spec)
+
+    @property
+    def share(self) -> str:
+        """The share of the implementation's wrong answers that have this cause: "12 %", "under 1 %"."""
+        line = self.line
+        alike = [other for other in self.context.record.of(CauseLine) if other.spec == line.spec]
+        total = sum(other.cases for other in alike if other.method == line.method)
+        percent = 100 * line.cases / total if total else 0.0
+        return "under 1 %" if percent < 1 else f"{min(percent, 99 if line.cases < total else 100):.0f} %"
+
+    def families(self, most: int = 3) -> str:
+        """Where the wrong answers are: "ring 140, osculation 15 and 2 more families"."""
+        ranked = sorted(self.line.families.items(), key=lambda counts: (-counts[1], counts[0]))
+        shown = [f"{family} {number:,}" for family, number in ranked[:most]]
+        rest = len(ranked) - most
+        return listed([*shown, *([counted(rest, "more family", "more families")] if rest > 0 else [])])
+
+    def headline(self) -> str:
+        return f"{self.line.cases:,} wrong: {self.line.sentence}"
+
+    def sentences(self) -> Iterator[str]:
+        yield f"fix: {self.line.remedy}"
+
+
+def cause_facts(record: Record) -> list[CauseFacts]:
+    """The facts of all causes of wrong answers, in the order of the record."""
+    context = RecordContext(record)
+    return [CauseFacts(line, context) for line in record.of(CauseLine)]
 
 
 class ImplementationFacts(LineFacts[ImplementationLine]):

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.measurements import (
     AccuracyLine,
@@ -54,6 +55,11 @@ class MeasuredMethod:
     def foreign(self) -> bool:
         """Whether a SPEC of the user names it."""
         return self.line.kind == "foreign"
+
+    @property
+    def label(self) -> str:
+        """Its name in a picture; the user's methods are marked."""
+        return escaped(self.name, 28) + " (yours)" * self.foreign
 
     @property
     def exact(self) -> bool:

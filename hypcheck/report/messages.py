@@ -19,7 +19,6 @@ from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import (
-    CauseLine,
     DescriptionPart,
     DomainPart,
     FaultPart,
@@ -59,13 +58,20 @@ def with_interval(value: float, interval: Sequence[float] | None) -> str:
     return figure(value) if interval is None else f"{figure(value)} ({' to '.join(map(figure, interval))})"
 
 
-def pace(ratio: float, other: str) -> str:
-    """A time by that of another method: "24 times as fast as NAME", "takes 3 times as long as NAME"."""
-    return (
-        f"{figure(1 / ratio)} times as fast as {other}"
-        if 0 < ratio < 1
-        else f"takes {figure(ratio)} times as long as {other}"
-    )
+def pace(ratio: float, other: str = "", interval: tuple[float, float] | None = None) -> str:
+    """A time by that of another method: "24 times as fast as NAME", "takes 3 times as long as NAME (2 to 4)".
+
+    Without a name, "24 times as fast". `interval` holds the ends of the ratio's interval.
+    """
+    named = f" as {other}" if other else ""
+    if ratio == 1:
+        return f"as fast{named}"
+    if 0 < ratio < 1:
+        words = f"{figure(1 / ratio)} times as fast{named}"
+        ends = [1 / end if end else math.inf for end in reversed(interval or ())]
+    else:
+        words, ends = f"takes {figure(ratio)} times as long{named}", [*(interval or ())]
+    return f"{words} ({' to '.join(map(figure, ends))})" if ends else words
 
 
 def from_hex(row: Sequence[str]) -> tuple[float, ...]:
@@ -270,25 +276,6 @@ class Replays:
     def of_case(self, case: str, spec: str) -> str:
         """The command that replays a case of an implementation."""
         return shlex.join(["hypcheck", "replay", case, spec, *self.options])
-
-
-UNEXPLAINED = "unexplained"
-"""The cause of wrong answers that no known cause gives."""
-
-
-def share_text(line: CauseLine, lines: Sequence[CauseLine]) -> str:
-    """The share of an implementation's wrong answers that have this cause: "12 %", "under 1 %"."""
-    total = sum(other.cases for other in lines if other.spec == line.spec and other.method == line.method)
-    percent = 100 * line.cases / total if total else 0.0
-    return "under 1 %" if percent < 1 else f"{min(percent, 99 if line.cases < total else 100):.0f} %"
-
-
-def families_text(line: CauseLine, most: int = 3) -> str:
-    """Where wrong answers with a cause are: "ring 140, osculation 15 and 2 more families"."""
-    ranked = sorted(line.families.items(), key=lambda each: (-each[1], each[0]))
-    shown = [f"{family} {number:,}" for family, number in ranked[:most]]
-    rest = len(ranked) - most
-    return listed([*shown, *([counted(rest, "more family", "more families")] if rest > 0 else [])])
 
 
 def tolerance_of(options: Mapping[str, Any]) -> float | None:

@@ -17,11 +17,11 @@ from hypcheck.implementations.session import StartError
 from hypcheck.messages import counted
 from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
-from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
+from hypcheck.record.lines import UNEXPLAINED, CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
 from hypcheck.runs import spread, tally
 from hypcheck.runs.causes import subject_of
 from hypcheck.runs.consistency import require_all_tallied
-from hypcheck.runs.diagnosis import UNEXPLAINED, causes_of
+from hypcheck.runs.diagnosis import causes_of
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
 from hypcheck.runs.judge import UNANSWERED, Status
 from hypcheck.runs.known_failures import no_longer_failing

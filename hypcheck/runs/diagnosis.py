@@ -39,9 +39,6 @@ PLACE_CAUSES: tuple[Cause, ...] = (*PLACES, *ROOT_CAUSES, *WIDER_ROUNDINGS)
 CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_FORMULA_ERRORS, *TILTED_FORMULA_ERRORS, *SWEEP_FORMULA_ERRORS)
 """All causes; a set of them is a number with a bit for each, in this order."""
 
-UNEXPLAINED = "unexplained"
-"""What stands in place of a cause where none is known."""
-
 _BITS = {cause.name: bit for bit, cause in enumerate(CAUSES)}
 
 WITNESSES = 256

@@ -1,6 +1,7 @@
 """Ids of causes are published: in records, in files of CI and in scripts of others. None is ever renamed or removed."""
 
-from hypcheck.runs.diagnosis import CAUSES, UNEXPLAINED
+from hypcheck.record.lines import UNEXPLAINED
+from hypcheck.runs.diagnosis import CAUSES
 
 IDS = """
 ring groove throat zero-coefficient interior-tangent-point interior-tangent-circle exterior-tangent-point

@@ -253,7 +253,7 @@ def _groups(found: list[MeasuredMethod], workload: str) -> Iterator[tuple[str, l
         line = each.accuracy.get(workload)
         if line is not None and line.asked:
             octaves = {float(exponent): (asked, wrong) for exponent, asked, wrong in line.octaves}
-            groups.setdefault(_group(each), []).append(curve(each.name, octaves))
+            groups.setdefault(_group(each), []).append(curve(each.label, octaves))
     for name, curves in groups.items():
         parts = list(in_parts(curves))
         for number, part in enumerate(parts, start=1):

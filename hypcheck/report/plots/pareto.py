@@ -209,12 +209,8 @@ class ParetoPoint:
     reliable_above: float
     asked: int
     exact: bool
+    label: str = ""
     foreign: bool = False
-
-    @property
-    def label(self) -> str:
-        """Its name beside the mark; those of the user are marked."""
-        return escaped(self.name, 28) + " (yours)" * self.foreign
 
     @property
     def shown(self) -> bool:
@@ -240,7 +236,7 @@ def points(record: Record, workload: str, *, everywhere: bool = False) -> list[P
         errors = each if everywhere else here
         reliable_above, time_ns = errors.reliable_above, speed.median_ns
         place = (time_ns, reliable_above, errors.asked)
-        found.append(ParetoPoint(each.name, each.tier, *place, each.exact, each.foreign))
+        found.append(ParetoPoint(each.name, each.tier, *place, each.exact, each.label, each.foreign))
     return found
 
 
@@ -331,11 +327,11 @@ def _axes(axes: Axes, found: Sequence[ParetoPoint], timed: str) -> dict[float, f
         axes.axhspan(always - 0.05 * span, always + 0.06 * span, color=colour("rule"), alpha=0.45, linewidth=0)
     axes.set_yticks([height for height, _ in ticks], [label for _, label in ticks])
     axes.set_ylim(ticks[0][0] - 0.08 * span, ticks[-1][0] + 0.08 * span)
-    axes.set_ylabel("errors end at this distance to contact (relative)")
+    axes.set_ylabel("reliable beyond this distance (share of the size)")
     times = [point.time_ns for point in found]
     least, most = min(times) / 2, max(times) * 3
     log_axis(axes, "x", least, most)
-    axes.set_xlabel(f"time of a query in a batch{', ' if timed else ''}{escaped(timed, 18)} (ns)")
+    axes.set_xlabel(f"nanoseconds a query in a batch{', ' if timed else ''}{escaped(timed, 18)}")
     return heights
 
 

@@ -60,7 +60,7 @@ def speed_plots(record: Record) -> Iterator[Plot]:
             ratio = each.ratio(workload, mode)
             if ratio:
                 ends, time = each.ratio_interval(workload, mode), each.speed[workload, mode].median_ns
-                rows.append(SpeedRow(each.name, each.tier, ratio, *ends, time))
+                rows.append(SpeedRow(each.label, each.tier, ratio, *ends, time))
         if len(rows) > 1:
             rows.sort(key=lambda row: row.ratio)
             title = f"{workloads(record)[workload].title}, {_MODES[mode]}"
@@ -86,7 +86,7 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
             marks = [Mark(row.ratio, at, row.tip) for at, row in mine]
             look: dict[str, Any] = {"color": own, "marker": MARKERS[number], "markersize": 5, "label": tier}
             tips |= draw_marks(axes, f"{name}-{number}", marks, **look)
-    axes.set_yticks(range(len(rows)), [escaped(row.name, 26) for row in rows])
+    axes.set_yticks(range(len(rows)), [escaped(row.name, 36) for row in rows])
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.tick_params(axis="y", length=0, labelsize=9)
     axes.set_xlabel(f"time by that of {escaped(against, 26)}, 95 % interval")

@@ -32,11 +32,13 @@ from hypcheck.report.document import (
     Section,
     TableBlock,
     TableCell,
+    against,
     bullets,
     count,
     joined,
     measured,
     number,
+    paced,
     prose,
     share,
     table,
@@ -363,7 +365,7 @@ def _way_table(record: Record, totals: list[WayTotal]) -> TableBlock:
         Column("method"),
         *map(number, mistakes),
         number("µs a sweep", hint=f"on the workload: {where}"),
-        number("ratio", hint=f"to the time of {reference(record)}"),
+        against(reference(record)),
     )
     return table("missed and false contacts", columns, [_way_row(each) for each in totals])
 
@@ -380,7 +382,7 @@ def _way_row(each: WayTotal) -> Row:
         _size(each, each.typical),
         _size(each, each.worst),
         measured(None if each.time_ns is None else each.time_ns / 1000),
-        measured(each.ratio, each.ratio_ci95),
+        paced(each.ratio, each.ratio_ci95),
     )
 
 

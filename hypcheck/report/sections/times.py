@@ -32,19 +32,22 @@ from hypcheck.report.document import (
     Strong,
     TableBlock,
     TableCell,
+    against,
     bullets,
+    columns,
     count,
     measured,
+    paced,
     prose,
     table,
 )
-from hypcheck.report.measured import lost, measured_methods, noise_floor, workloads
+from hypcheck.report.measured import lost, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.messages import figure
 
 _TIMES = prose(
-    "Medians over interleaved rounds in fresh processes, with 95 % intervals. A ratio is of times in the same round, to"
-    " the run's reference; over 1 is slower. *Noise* is the difference of one method from itself: a smaller difference"
-    " means nothing. Absolute times do not carry over to another machine, ratios mostly do."
+    "Medians over interleaved rounds in fresh processes, with 95 % intervals. A method is set *against* the run's"
+    " reference in the same rounds. *Noise* is the difference of one method from itself: a smaller difference"
+    " means nothing. Times do not carry over to another machine; one method against another mostly does."
 )
 _MEMORY = "The growth of a fresh process's peak resident memory while it answers a batch."
 
@@ -74,8 +77,9 @@ def _speed_table(record: Record) -> TableBlock:
         for each in measured_methods(record)
         for line in each.speed.values()
     ]
-    columns = "method | workload | mode | # ratio | # ns a query | # queries a second | # noise | # rows | timed by"
-    return table("run times", columns, rows)
+    after = "# ns a query | # queries a second | # noise | # rows | timed by"
+    heads = (*columns("method | workload | mode"), against(reference(record)), *columns(after))
+    return table("run times", heads, rows)
 
 
 def _time(record: Record, line: SpeedLine) -> Row:
@@ -87,7 +91,7 @@ def _time(record: Record, line: SpeedLine) -> Row:
         return (MISSING, "no more than an empty call", MISSING, *ends)
     median = line.median_ns
     rate = measured(1e9 / median if median > 0 else None)
-    return (measured(line.ratio, line.ratio_ci95), measured(median, line.ci95_ns), rate, *ends)
+    return (paced(line.ratio, line.ratio_ci95), measured(median, line.ci95_ns), rate, *ends)
 
 
 def _memory(record: Record) -> TableBlock:
@@ -109,8 +113,8 @@ _FOREST = prose(
 )
 _SCENES = prose(
     "Centres spread evenly over each scene's region; the share that each stage of its kernel (`hypcheck emit`) decides."
-    " Then the kernel's time, in C, by that of Table 2 as printed, in C, and of the certified kernel of"
-    " `classify_scene`, in one thread, many rows by a call and a call for each: below 1 is faster."
+    " Then the kernel's time, in C, against Table 2 as printed, in C, and against the certified kernel of"
+    " `classify_scene`, in one thread, many rows by a call and a call for each."
 )
 
 
@@ -131,15 +135,15 @@ def _forest(lines: list[ForestLine]) -> TableBlock:
             Code(line.method),
             count(line.trees),
             measured(line.step_ns, line.ci95_ns),
-            measured(line.ratio, line.ratio_ci95),
+            paced(line.ratio, line.ratio_ci95),
             measured(line.build_s),
             count(line.asked),
             count(line.wrong, bad=line.exact),
         )
         for line in lines
     ]
-    columns = "asked | # trees | # ns a step | # by hypcheck.Scene's | # building, s | # steps | # wrong"
-    return table("a step in a forest", columns, rows)
+    heads = "asked | # trees | # ns a step | # against hypcheck.Scene | # building, s | # steps | # wrong"
+    return table("a step in a forest", heads, rows)
 
 
 def _shares(lines: list[SceneLine]) -> TableBlock:
@@ -163,19 +167,19 @@ def _scene_table(lines: list[SceneLine]) -> TableBlock:
             line.scene,
             how,
             measured(times.kernel_ns),
-            measured(times.by_printed, times.by_printed_ci95),
-            measured(times.by_certified, times.by_certified_ci95),
+            paced(times.by_printed, times.by_printed_ci95),
+            paced(times.by_certified, times.by_certified_ci95),
         )
         for line in lines
         for times, how in ((line.batch, "many by a call"), (line.single, "a call each"))
     ]
-    columns = "scene | asked | # ns a row | # by Table 2's | # by the certified kernel's"
-    return table("what scenes save", columns, rows)
+    heads = "scene | asked | # ns a row | # against Table 2 | # against the certified kernel"
+    return table("what scenes save", heads, rows)
 
 
 _TONES = {"does not hold": "bad", "slower": "bad", "holds": "good", "faster": "good"}
 _BASELINE = prose(
-    "Ratios to the run's reference, here and in the baseline; *change* is their quotient with its 95 % interval."
+    "Times by that of the run's reference, here and in the baseline; *change* is their quotient with its 95 % interval."
     " *Slower* means beyond what is allowed even at the interval's lower end; *inconclusive*, that the noise is too"
     " large to tell. Verdicts in brackets are about methods that the baseline does not gate, and decide nothing."
 )
@@ -203,16 +207,16 @@ def _baseline(lines: list[ComparisonLine]) -> TableBlock:
             Code(line.method),
             line.workload,
             line.mode,
-            measured(line.before),
-            measured(line.after),
+            paced(line.before),
+            paced(line.after),
             measured(line.change, line.ci95),
             measured(line.allowed),
             _verdict(line),
         )
         for line in ranked
     ]
-    columns = "method | workload | mode | # before | # after | # change | # allowed | verdict"
-    return table("against the baseline", columns, rows)
+    heads = "method | workload | mode | # before | # after | # change | # allowed | verdict"
+    return table("against the baseline", heads, rows)
 
 
 def _verdict(line: ComparisonLine) -> TableCell:
@@ -247,13 +251,13 @@ def _claims(record: Record) -> Iterator[Block]:
         ]
         yield table("what was measured of a claim", "scene | verdict | what was measured", verdicts)
         compared = [row for line in lines for row in _compared(line)]
-        yield table("what was compared", "scene | compared | # ratio | # ns | operations", compared)
+        yield table("what was compared", "scene | compared | # against the first | # ns | operations", compared)
 
 
 def _compared(line: CostLine) -> Iterator[Row]:
     for each in line.compared:
         operations = ", ".join(f"{amount} {name}" for name, amount in (each.operations or {}).items())
-        yield (line.scene, each.name, measured(each.ratio, each.ratio_ci95), measured(each.median_ns), operations)
+        yield (line.scene, each.name, paced(each.ratio, each.ratio_ci95), measured(each.median_ns), operations)
 
 
 def _kernels(lines: list[KernelLine]) -> TableBlock:
@@ -268,5 +272,5 @@ def _kernels(lines: list[KernelLine]) -> TableBlock:
         )
         for line in sorted(lines, key=lambda line: line.met)
     ]
-    columns = "kernel | target | # wanted | # measured | met | which says"
-    return table("targets of the kernels", columns, rows)
+    heads = "kernel | target | # wanted | # measured | met | which says"
+    return table("targets of the kernels", heads, rows)

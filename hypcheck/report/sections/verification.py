@@ -31,6 +31,7 @@ from hypcheck.report.document import (
     joined,
     measured,
     number,
+    paced,
     prose,
     table,
 )
@@ -276,9 +277,8 @@ def timing_sections(record: Record) -> Iterator[Section]:
         return
     workloads = joined([Code(name) for name in dict.fromkeys(total.workload for total in totals)])
     how = (
-        ", in one process, in interleaved rounds on the machine below. The ratio is the time by that of the"
-        f" {REFERENCE} in the same round, median of the rounds: below 1 is faster. Absolute figures do not carry over"
-        " to another machine."
+        ", in one process, in interleaved rounds on the machine below. Each is set against the"
+        f" {REFERENCE} in the same round; the median of the rounds. Times do not carry over to another machine."
     )
     said = ("On ", workloads, how)
     rows = [
@@ -288,11 +288,11 @@ def timing_sections(record: Record) -> Iterator[Section]:
             count(total.rows),
             measured(total.median_ns),
             TableCell(f"{figure(total.least_ns)} to {figure(total.greatest_ns)}", total.greatest_ns),
-            measured(total.ratio),
+            paced(total.ratio),
         )
         for total in totals
     ]
-    columns = "contender | what it is | # rows | # ns a row, median | # least to greatest | # time ratio"
+    columns = "contender | what it is | # rows | # ns a row, median | # least to greatest | # against the plain formula"
     yield Section("Timings", (Paragraph(said), table("timings", columns, rows)))
 
 

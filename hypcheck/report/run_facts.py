@@ -1,0 +1,170 @@
+"""What a whole run says, in sentences without a full stop: each fact of several lines together, stated once.
+
+The facts of one line stand in facts.py and benchmark_facts.py, the advice of a benchmark in advice.py, and what changed
+from one run to another in changes.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from hypcheck.messages import counted
+from hypcheck.record import Record
+from hypcheck.record.lines import EquationLine, FindingLine, ProofLine
+from hypcheck.record.measurements import BoundingLine, KernelLine, SpeedLine, UnmeasuredLine
+from hypcheck.report.advice import IN_FLOATS
+from hypcheck.report.benchmark_facts import facts_of, sentences_of
+from hypcheck.report.measured import NEAREST, MeasuredMethod, WayTotal, measured_methods, way_totals, workloads
+from hypcheck.report.messages import figure, implementation_claims, listed, pace, tolerance_of
+from hypcheck.report.model import (
+    ImplementationTotal,
+    implementations,
+    oracle_totals,
+    timing_totals,
+    under_test,
+    worst_error_u,
+)
+
+
+def oracle_facts(record: Record) -> Iterator[str]:
+    """One sentence about the oracles that were asked, one about those that could not be asked."""
+    totals = oracle_totals(record)
+    asked = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
+    if asked:
+        yield f"oracles in agreement: {', '.join(asked)}"
+    missing = [f"{total.name} ({total.unavailable})" for total in totals if total.unavailable is not None]
+    if missing:
+        yield f"oracles not available: {'; '.join(missing)}"
+
+
+def paper_facts(record: Record) -> Iterator[str]:
+    """The paper's equations, the proofs and the mathematical findings."""
+    equations = record.of(EquationLine)
+    if equations:
+        numbers: dict[str, list[str]] = {}
+        for line in equations:
+            numbers.setdefault(line.verdict, []).append(f"({line.number})")
+        holding = len(numbers.pop("holds", []))
+        wrong = "".join(f"; {name}: {listed(those)}" for name, those in numbers.items())
+        yield f"equations of the paper: {holding} of {len(equations)} hold{wrong}"
+    proofs = record.of(ProofLine)
+    if proofs:
+        yield f"proofs: {sum(line.holds for line in proofs)} of {len(proofs)} hold"
+    findings = record.of(FindingLine)
+    if findings:
+        inside = [line.family for line in findings if line.inside]
+        named = f" ({', '.join(dict.fromkeys(inside))})" if inside else ""
+        outside = len(findings) - len(inside)
+        yield f"wrong in exact arithmetic: {len(inside)} inside the stated regimes{named}, {outside} outside"
+
+
+def method_facts(record: Record) -> Iterator[str]:
+    """For each precision: how many methods err beyond the tolerance, and the greatest backward error."""
+    tolerance = tolerance_of(record.header.options)
+    beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
+    found = [each for each in implementations(record) if each.asked and not each.gated]
+    for precision in dict.fromkeys(each.precision for each in found if not each.exact):
+        methods = [each for each in found if each.precision == precision and not each.exact]
+        wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
+        yield f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond {beyond}; {_farthest(methods)}"
+
+
+_REMARKS = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a known failure)"}
+"""Remarks about the worst answer by its status: why it may not count as beyond the tolerance."""
+
+
+def _farthest(methods: Sequence[ImplementationTotal]) -> str:
+    """The answer with the greatest backward error, or that no answer is wrong, if one was judged."""
+    method = max(methods, key=lambda each: worst_error_u(each.worst))
+    worst = method.worst
+    if worst is not None:
+        also = _REMARKS.get(worst.status, f" ({worst.status})")
+        return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst.case}{also}"
+    judged = any(each.statuses.get(status) for each in methods for status in ("right", *_REMARKS))
+    return "no answer is wrong" if judged else "no answer was judged"
+
+
+def benchmark_facts(record: Record) -> Iterator[str]:
+    """Targets met, the price of other shapes, and the distances at which errors end."""
+    kernels = record.of(KernelLine)
+    if kernels:
+        missed = [line.name for line in kernels if not line.met]
+        named = f"; not met: {listed(missed)}" if missed else ""
+        yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
+    yield from sentences_of(record, BoundingLine)
+    for each in way_totals(record):
+        yield _way_fact(each)
+    found = [each for each in measured_methods(record) if each.line.kind in IN_FLOATS]
+    for name, workload in workloads(record).items():
+        yield from _endings(workload.title, name, [each for each in found if name in each.accuracy])
+
+
+def _way_fact(each: WayTotal) -> str:
+    """What a method for sweeps gets wrong, and what a sweep costs."""
+    missed, false = (figure(100 * each.share(part)) for part in (each.missed, each.false))
+    silent = f", {figure(100 * each.share(each.abstained))} % cannot say" if each.abstained else ""
+    time = "" if each.time_ns is None else f", {figure(each.time_ns / 1000)} µs a sweep"
+    ratio = "" if each.ratio is None else f" ({pace(each.ratio, 'the reference')})"
+    wrong = f"{missed} % missed contacts, {false} % false contacts{silent}, of {each.asked:,} sweeps"
+    return f"{each.name}: {wrong}{time}{ratio}"
+
+
+def _endings(title: str, workload: str, found: Sequence[MeasuredMethod]) -> Iterator[str]:
+    """The distances at which errors of methods in floats end on a workload; methods that err at any distance."""
+    ends = {each: float(each.accuracy[workload].reliable_above) for each in found}
+    most = max((each.accuracy[workload].asked for each in found), default=0)
+    for precision in ("float64", "float32"):
+        mine = {each: end for each, end in ends.items() if each.line.precision == precision and end < math.inf}
+        # A method that was asked only a few rows would seem to err less.
+        mine = {each: end for each, end in mine.items() if 2 * each.accuracy[workload].asked >= most}
+        if mine and max(mine.values()):
+            best, worst = min(mine, key=mine.__getitem__), max(mine, key=mine.__getitem__)
+            if mine[best] == mine[worst]:
+                yield f"{title}, {precision}: {_end(mine[best])}"
+                continue
+            yield (
+                f"{title}, {precision}, the best and the worst: {best.name}, {_end(mine[best])};"
+                f" {worst.name}, {_end(mine[worst])}"
+            )
+    never, others = ([each.name for each in found if (ends[each] == math.inf) == bad] for bad in (True, False))
+    if never and len(never) <= len(others):
+        yield f"{title}: at no distance reliable: {listed(never)}"
+    elif never:
+        but = f", all but {listed(others)}" if others else ""
+        yield f"{title}: at no distance reliable: {len(never)} of {counted(len(found), 'method')} in floats{but}"
+
+
+def _end(distance: float) -> str:
+    if not distance:
+        return "none"
+    return "at exact tangencies alone" if distance <= NEAREST else f"errors end at {figure(distance)}"
+
+
+def tested_facts(record: Record) -> Iterator[str]:
+    """What gated implementations declare, what they were judged as, and what a verdict that is no pass leaves out."""
+    for tested in under_test(record):
+        counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
+        yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line, counts))
+        fresh = sum(group.fresh or 0 for group in tested.groups)
+        if fresh:
+            yield f"{tested.name}: {counted(fresh, 'fresh row')}"
+
+
+def timing_facts(record: Record) -> Iterator[str]:
+    """The median time of each contender."""
+    totals = [f"{total.name} {figure(total.median_ns)}" for total in timing_totals(record)]
+    if totals:
+        yield f"ns a row: {', '.join(totals)}"
+
+
+def unmeasured_facts(record: Record) -> Iterator[str]:
+    """What could not be timed, and how many samples were dropped as impossible."""
+    for each in facts_of(record, UnmeasuredLine):
+        yield f"not measured: {each.name}: {each.line.reason}"
+    dropped = [(speed, speed.dropped) for speed in record.of(SpeedLine) if speed.dropped]
+    if dropped:
+        number = sum(samples for _, samples in dropped)
+        where = listed([f"{speed.method} ({speed.workload}, {speed.mode})" for speed, _ in dropped])
+        yield f"{counted(number, 'sample')} dropped, no longer than the empty call that is taken off: {where}"
