@@ -268,8 +268,8 @@ class Chain:
 
 def link(statement: str, *parts: Part, reason: str = "", cites: str = "") -> Link:
     """A link of these parts; its reason is the last of REASONS that it has, where no other one is named."""
-    found = [_REASON_OF[type(part)] for part in parts] + ["cited theorem"] * bool(cites)
-    return Link(statement, reason or max(found, key=REASONS.index), parts, cites)
+    reasons = [_REASON_OF[type(part)] for part in parts] + ["cited theorem"] * bool(cites)
+    return Link(statement, reason or max(reasons, key=REASONS.index), parts, cites)
 
 
 _REASON_OF = {Identity: "identity", Sign: "sign", FiniteCases: "case split"}
@@ -316,8 +316,8 @@ def sign(text: str, positive: str = "", nonnegative: str = "") -> Sign:
     Raises ValueError where the text has none of RELATIONS.
     """
     for relation in RELATIONS:
-        left, found, right = text.partition(f" {relation} ")
-        if found:
+        left, shown, right = text.partition(f" {relation} ")
+        if shown:
             expression = read(left) - read(right)
             return Sign(text, expression, relation, tuple(positive.split()), tuple(nonnegative.split()))
     raise ValueError(f"{text!r} states no sign")

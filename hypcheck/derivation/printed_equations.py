@@ -244,16 +244,16 @@ def check(claims: tuple[PrintedClaim, ...]) -> EquationCheck:
         left = claim.statement.partition("=")[0].strip()
         for printed, derived in claim.pairs:
             if difference(printed.subs(claim.meanings), derived) != 0:
-                found = repair(printed, derived, claim.meanings)
-                repairs.append((left, found))
+                repaired = repair(printed, derived, claim.meanings)
+                repairs.append((left, repaired))
     statement = "; ".join(claim.statement for claim in claims)
     if not repairs:
         return EquationCheck(claims[0].number, True, "holds", statement, "right − left = 0", "")
     return EquationCheck(
         number=claims[0].number,
         holds=False,
-        verdict="misprint" if all(found.one_place for _, found in repairs) else "false",
+        verdict="misprint" if all(repaired.one_place for _, repaired in repairs) else "false",
         statement=statement,
-        finding="; ".join(found.finding for _, found in repairs),
-        correction="; ".join(f"{left} = {plain(found.corrected)}" for left, found in repairs),
+        finding="; ".join(repaired.finding for _, repaired in repairs),
+        correction="; ".join(f"{left} = {plain(repaired.corrected)}" for left, repaired in repairs),
     )

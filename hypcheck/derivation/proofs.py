@@ -221,11 +221,11 @@ class Proof:
 @cache
 def prove_formulas() -> tuple[Proof, ...]:
     """Every proof: the identities, each formula, and that procedure-2a-spheroid is one rotor with l = 0."""
-    found = [Proof("derivation", text, vanishes(gap), text) for text, gap in identities().items()]
+    proofs = [Proof("derivation", text, vanishes(gap), text) for text, gap in identities().items()]
     for formula in (*FORMULAS.values(), *REPAIRED.values()):
-        found.extend(proofs_of(formula))
-    found.extend(_prove_one_rotor())
-    return tuple(found)
+        proofs.extend(proofs_of(formula))
+    proofs.extend(_prove_one_rotor())
+    return tuple(proofs)
 
 
 @cache

@@ -224,7 +224,7 @@ def kind_of_part(part: Step | Call | Half | Stored, kinds: Mapping[str, str]) ->
     if isinstance(part, Call):
         return _kind_of_call(part, kinds)
     if isinstance(part, Step):
-        chosen = [kinds.get(each) for each in part.arguments if isinstance(each, str)]
+        chosen = [kinds.get(argument) for argument in part.arguments if isinstance(argument, str)]
         return PAIR if part.operation == "select" and chosen == [BOOLEAN, PAIR, PAIR] else kind_of(part, dict(kinds))
     wanted = PAIR if isinstance(part, Half) else NUMBER
     if kinds.get(part.reads[0]) != wanted:
@@ -262,7 +262,7 @@ def result_names(result: Result) -> tuple[str, ...]:
 
 def needed_parts(parts: tuple[Part, ...], wanted: Iterable[str]) -> tuple[Part, ...]:
     """The parts that the wanted names depend on, in order; a loop is left whole but for steps that no round needs."""
-    alive, found = set(wanted), list[Part]()
+    alive, parts_needed = set(wanted), list[Part]()
     for part in reversed(parts):
         if isinstance(part, Loop):
             if not alive.intersection(name for name, _, _ in part.kept):
@@ -270,11 +270,11 @@ def needed_parts(parts: tuple[Part, ...], wanted: Iterable[str]) -> tuple[Part, 
             body = needed_parts(part.body, part.ends)
             alive.update(start for _, start, _ in part.kept)
             alive.update(_read(body))
-            found.append(replace(part, body=body))
+            parts_needed.append(replace(part, body=body))
         elif part.name in alive:
             alive.update(part.reads)
-            found.append(part)
-    return tuple(reversed(found))
+            parts_needed.append(part)
+    return tuple(reversed(parts_needed))
 
 
 def _read(parts: Iterable[Part]) -> Iterator[str]:
@@ -297,18 +297,18 @@ def renamed(parts: Iterable[Part], names: Mapping[str, str]) -> Iterator[Part]:
         if isinstance(part, Half):
             yield replace(part, pair=names.get(part.pair, part.pair))
         elif isinstance(part, Step | Call):
-            yield replace(part, arguments=tuple(names.get(str(each), each) for each in part.arguments))
+            yield replace(part, arguments=tuple(names.get(str(argument), argument) for argument in part.arguments))
         else:
             raise TypeError(f"{type(part).__name__} has no arguments to rename")
 
 
 def called(routine: Routine) -> tuple[Routine, ...]:
     """The routines that it calls, directly or not, each once and before what calls it."""
-    found: dict[str, Routine] = {}
+    routines: dict[str, Routine] = {}
     for call in _calls(routine.needed):
-        for each in (*called(call.routine), call.routine):
-            found.setdefault(each.name, each)
-    return tuple(found.values())
+        for inner in (*called(call.routine), call.routine):
+            routines.setdefault(inner.name, inner)
+    return tuple(routines.values())
 
 
 def _calls(parts: Iterable[Part]) -> Iterator[Call]:
@@ -330,7 +330,10 @@ def run(routine: Routine, arithmetic: Arithmetic, inputs: Mapping[str, Any]) -> 
     if isinstance(routine.result, str):
         return values[routine.result]
     if isinstance(routine.result, tuple):
-        return tuple(values[each] if isinstance(each, str) else arithmetic.convert(each) for each in routine.result)
+        return tuple(
+            values[result_name] if isinstance(result_name, str) else arithmetic.convert(result_name)
+            for result_name in routine.result
+        )
     held = (value for name, value in routine.result.choices if values[name])
     return next(held, routine.result.otherwise)
 
@@ -347,7 +350,10 @@ def _run(parts: tuple[Part, ...], values: dict[str, Any], arithmetic: Arithmetic
         if isinstance(part, Half | Stored):
             values[part.name] = values[part.pair][part.low] if isinstance(part, Half) else values[part.value]
             continue
-        given = [values[each] if isinstance(each, str) else arithmetic.convert(each) for each in part.arguments]
+        given = [
+            values[argument] if isinstance(argument, str) else arithmetic.convert(argument)
+            for argument in part.arguments
+        ]
         if isinstance(part, Step) and part.operation == "select" and isinstance(given[1], tuple):
             values[part.name] = given[1] if given[0] else given[2]
         elif isinstance(part, Step):

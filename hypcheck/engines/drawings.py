@@ -26,42 +26,42 @@ _SHOWN = 30.0
 """The gap is drawn at most as long as this in the magnified square, and a tenth of it at least."""
 
 
-def drawing(found: Finding) -> str:
+def drawing(finding: Finding) -> str:
     """An SVG of the section by the plane through the spheroid's axis and the certificate's direction, or point."""
-    cut, foot = _section_of(found)
-    zoom = 100.0 / max(found.b, found.d)
+    cut, foot = _section_of(finding)
+    zoom = 100.0 / max(finding.b, finding.d)
     (u0, v0), (u1, v1) = (cut * zoom).tolist()
-    magnified = _magnification(found, zoom)
-    unit = f"; one unit of the engine is {found.millimetres:g} mm" if found.millimetres != 1000.0 else ""
+    magnified = _magnification(finding, zoom)
+    unit = f"; one unit of the engine is {finding.millimetres:g} mm" if finding.millimetres != 1000.0 else ""
     return "\n".join(
         [
             '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-150 -150 450 345" font-size="10">',
             '<rect x="-150" y="-150" width="450" height="345" fill="white"/>',
-            f'<ellipse rx="{found.b * zoom:.2f}" ry="{found.d * zoom:.2f}" fill="{_BODY}" stroke="{_EDGE}"/>',
+            f'<ellipse rx="{finding.b * zoom:.2f}" ry="{finding.d * zoom:.2f}" fill="{_BODY}" stroke="{_EDGE}"/>',
             f'<line x1="{u0:.2f}" y1="{-v0:.2f}" x2="{u1:.2f}" y2="{-v1:.2f}" stroke="{_TRIANGLE}" stroke-width="2"/>',
-            f'<text x="-145" y="-135">{found.engine} {found.version}: {found.said}</text>',
-            f'<text x="-145" y="160">exact: {found.proved}</text>',
-            f'<text x="-145" y="174">in the engine\'s unit b = {found.b!r}, d = {found.d!r}{unit}</text>',
+            f'<text x="-145" y="-135">{finding.engine} {finding.version}: {finding.said}</text>',
+            f'<text x="-145" y="160">exact: {finding.proved}</text>',
+            f'<text x="-145" y="174">in the engine\'s unit b = {finding.b!r}, d = {finding.d!r}{unit}</text>',
             '<text x="-145" y="188">red: the triangle</text>',
-            *(_inset(found, cut, foot, zoom, magnified) if magnified > 1.0 else ()),
+            *(_inset(finding, cut, foot, zoom, magnified) if magnified > 1.0 else ()),
             "</svg>",
             "",
         ]
     )
 
 
-def _section_of(found: Finding) -> tuple[Floats, Floats]:
+def _section_of(finding: Finding) -> tuple[Floats, Floats]:
     """In the plane of the picture: the ends (2, 2) of the triangle's section, and the point to be magnified."""
-    corners = np.array(found.corners)
-    point = np.array(found.shares) @ corners
-    toward = point if found.kind == "missed contact" else np.array(found.direction)
+    corners = np.array(finding.corners)
+    point = np.array(finding.shares) @ corners
+    toward = point if finding.kind == "missed contact" else np.array(finding.direction)
     level = np.array([toward[0], toward[1], 0.0])
     level = level / np.linalg.norm(level) if np.linalg.norm(level) > 0 else np.array([1.0, 0.0, 0.0])
     across = np.cross([0.0, 0.0, 1.0], level)
     cut = _section(corners @ across, np.stack([corners @ level, corners[:, 2]], axis=1))
-    if found.kind == "missed contact":
+    if finding.kind == "missed contact":
         return cut, np.array([point @ level, point[2]])
-    pushed = toward * np.array([found.b, found.b, found.d]) ** 2
+    pushed = toward * np.array([finding.b, finding.b, finding.d]) ** 2
     foot = pushed / np.sqrt(toward @ pushed)  # the spheroid's point at the certificate's direction
     return cut, np.array([foot @ level, foot[2]])
 
@@ -77,22 +77,22 @@ def _section(beside: Floats, points: Floats) -> Floats:
     return np.array(ends[:2] if len(ends) >= 2 else points[near])
 
 
-def _magnification(found: Finding, zoom: float) -> float:
+def _magnification(finding: Finding, zoom: float) -> float:
     """How many times what is near the point is drawn larger: a power of ten that shows the gap, or what is too deep."""
-    shown = found.error_mm / found.millimetres * zoom
+    shown = finding.error_mm / finding.millimetres * zoom
     return 10.0 ** floor(log10(_SHOWN / shown)) if 0 < shown < _SHOWN else 1.0
 
 
-def _inset(found: Finding, cut: Floats, foot: Floats, zoom: float, times: float) -> Iterator[str]:
+def _inset(finding: Finding, cut: Floats, foot: Floats, zoom: float, times: float) -> Iterator[str]:
     """The square beside the bodies: what is about the foot, magnified. Only what is near it is drawn, as a polygon."""
     reach = 2.0 * _HALF_SIDE / (zoom * times)
-    middle = np.arctan2(foot[1] / found.d, foot[0] / found.b)
-    spread = min(np.pi, 3.0 * reach / min(found.b, found.d))
+    middle = np.arctan2(foot[1] / finding.d, foot[0] / finding.b)
+    spread = min(np.pi, 3.0 * reach / min(finding.b, finding.d))
     angles = middle + np.linspace(-spread, spread, 65)
     # From the foot itself, so that nothing is lost where the gap is a millionth of the body.
     half = (angles - middle) / 2
     turned = -2.0 * np.sin(half)[:, np.newaxis] * np.stack([np.sin(middle + half), -np.cos(middle + half)], axis=1)
-    rim = np.vstack([turned * [found.b, found.d], [-foot]]) * zoom * times
+    rim = np.vstack([turned * [finding.b, finding.d], [-foot]]) * zoom * times
     line = _near(cut - foot, reach) * zoom * times
     yield '<clipPath id="square"><rect x="170" y="-45" width="90" height="90"/></clipPath>'
     yield '<g clip-path="url(#square)"><g transform="translate(215 0)">'
@@ -116,8 +116,8 @@ def _near(ends: Floats, reach: float) -> Floats:
     return np.asarray(ends[0] + shares[:, np.newaxis] * way)
 
 
-def _points(found: Floats) -> str:
-    return " ".join(f"{np.clip(x, -1e4, 1e4):.2f},{np.clip(-y, -1e4, 1e4):.2f}" for x, y in found.tolist())
+def _points(points: Floats) -> str:
+    return " ".join(f"{np.clip(x, -1e4, 1e4):.2f},{np.clip(-y, -1e4, 1e4):.2f}" for x, y in points.tolist())
 
 
 _LEAST, _MOST = -7, 3
@@ -126,7 +126,7 @@ _LEAST, _MOST = -7, 3
 
 def chart(record: EngineRecord) -> str:
     """An SVG of an engine's own worst error in each family: a ring at default settings, a dot at the other ones."""
-    names = [name for name in FAMILIES if any(each.family == name for each in record.default)]
+    names = [name for name in FAMILIES if any(measured.family == name for measured in record.default)]
     bottom = 22 * len(names) + 30
     marks = [f'<text x="10" y="16">{record.name} {record.version}: own worst error, mm at the tower of 2 m</text>']
     for power in range(_LEAST, _MOST + 1, 2):
@@ -156,4 +156,4 @@ def _place(millimetres: float) -> float:
 
 def own_worst(measured: Sequence[Measured], family: str) -> float:
     """The worst own error of a family on any mesh, in millimetres; 0 if there is none."""
-    return max((each.own_worst_mm for each in measured if each.family == family), default=0.0)
+    return max((measurement.own_worst_mm for measurement in measured if measurement.family == family), default=0.0)

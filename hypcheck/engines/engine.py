@@ -209,8 +209,8 @@ def install(engine: Engine, cache: Path) -> None:
         if done.returncode != 0:
             shutil.rmtree(folder, ignore_errors=True)
             last = [line for line in (done.stderr or done.stdout).splitlines() if line.strip()][-1:] or ["nothing"]
-            said = escaped(last[0].strip(), 200)
-            raise UnavailableError(f"{engine.name} could not be installed: {engine.manager} ended with: {said}")
+            last_words = escaped(last[0].strip(), 200)
+            raise UnavailableError(f"{engine.name} could not be installed: {engine.manager} ended with: {last_words}")
     (folder / _READY).write_text(_digest(engine))
 
 
@@ -254,7 +254,7 @@ def _have(engine: Engine) -> bool:
 
 
 def _digest(engine: Engine) -> str:
-    found = hashlib.sha256(f"{engine.package} {engine.version}".encode())
+    digest = hashlib.sha256(f"{engine.package} {engine.version}".encode())
     for file in engine.files:
-        found.update((FOLDER / file).read_bytes())
-    return found.hexdigest()
+        digest.update((FOLDER / file).read_bytes())
+    return digest.hexdigest()

@@ -96,8 +96,8 @@ def proved(finding: Finding) -> bool:
         factor = 1 - error / Fraction(min(finding.b, finding.d))
         return _inside(point, squares) <= factor * factor
     way = _exactly(finding.direction)
-    above = Fraction(sqrt(_dot(squares, [each * each for each in way])) * (1 + 1e-12))  # more than h
-    foot = [square * each / above for square, each in zip(squares, way, strict=True)]
+    above = Fraction(sqrt(_dot(squares, [number * number for number in way])) * (1 + 1e-12))  # more than h
+    foot = [square * number / above for square, number in zip(squares, way, strict=True)]
     bound = Fraction(finding.reported or 0.0) - error
     apart = [x - y for x, y in zip(point, foot, strict=True)]
     return bound > 0 and _inside(foot, squares) <= 1 and _dot(apart, apart) <= bound * bound
@@ -115,7 +115,7 @@ def _along(finding: Finding) -> tuple[Fraction, Fraction, Fraction]:
     """Along the direction n: the least n·v of the corners v, and the squares of h(n) and of |n|."""
     way = _exactly(finding.direction)
     least = min(_dot(way, _exactly(corner)) for corner in finding.corners)
-    return least, _dot(_squares(finding), [each * each for each in way]), _dot(way, way)
+    return least, _dot(_squares(finding), [number * number for number in way]), _dot(way, way)
 
 
 def _shared_point(finding: Finding) -> list[Fraction]:
@@ -124,11 +124,11 @@ def _shared_point(finding: Finding) -> list[Fraction]:
 
 
 def _squares(finding: Finding) -> list[Fraction]:
-    return [each * each for each in _exactly([finding.b, finding.b, finding.d])]
+    return [axis * axis for axis in _exactly([finding.b, finding.b, finding.d])]
 
 
 def _exactly(numbers: Iterable[float]) -> list[Fraction]:
-    return [Fraction(each) for each in numbers]
+    return [Fraction(number) for number in numbers]
 
 
 def _dot(first: Sequence[Fraction], second: Sequence[Fraction]) -> Fraction:
@@ -137,7 +137,7 @@ def _dot(first: Sequence[Fraction], second: Sequence[Fraction]) -> Fraction:
 
 def _inside(point: Sequence[Fraction], squares: Sequence[Fraction]) -> Fraction:
     """(x² + y²)/b² + z²/d², which is below 1 inside the spheroid."""
-    return _dot([each * each for each in point], [1 / square for square in squares])
+    return _dot([coordinate * coordinate for coordinate in point], [1 / square for square in squares])
 
 
 def _at_least_roots(value: Fraction, first: Fraction, second: Fraction) -> bool:
@@ -189,68 +189,69 @@ def template_of(engine: Engine) -> Path:
     return next(folder.glob("reproduction.*.txt"))
 
 
-def reproduction(found: Finding) -> str:
+def reproduction(finding: Finding) -> str:
     """The text of a reproduction."""
-    engine = ENGINES[found.engine]
+    engine = ENGINES[finding.engine]
     path = template_of(engine)
     comment, end, negated = _ENDS[Path(path.stem).suffix]
     install = _INSTALLS[engine.manager].format(package=engine.package, version=engine.version)
     lines = [
-        f"{found.engine} {found.version} says {found.said}. Exact: {found.proved} (at a tower of 2 m).",
-        *_settings_of(found, engine),
-        *_proof(found),
+        f"{finding.engine} {finding.version} says {finding.said}. Exact: {finding.proved} (at a tower of 2 m).",
+        *_settings_of(finding, engine),
+        *_proof(finding),
     ]
     head = "".join(f"{comment}{line}\n" for line in [*lines, f"Needs: {install}. Ends with 1 while it is wrong."])
-    values = {"b": repr(found.b), "d": repr(found.d), "corners": repr(found.corners)}
+    values = {"b": repr(finding.b), "d": repr(finding.d), "corners": repr(finding.corners)}
     body = Template(path.read_text(encoding="utf-8")).substitute(values)
     first, last = ("default", engine.other) if engine.tightens else (engine.other, "default")
-    return head + body + end.format(wrong=_wrong(found, negated), first=first, last=last)
+    return head + body + end.format(wrong=_wrong(finding, negated), first=first, last=last)
 
 
-def _settings_of(found: Finding, engine: Engine) -> list[str]:
+def _settings_of(finding: Finding, engine: Engine) -> list[str]:
     """What the engine says at which settings, in words, and its unit."""
-    unit = f"Lengths are in the engine's unit, {found.millimetres:g} mm of the tower; b = {found.b!r}, d = {found.d!r}."
+    size = f"b = {finding.b!r}, d = {finding.d!r}"
+    unit = f"Lengths are in the engine's unit, {finding.millimetres:g} mm of the tower; {size}."
     if not engine.adjustable:
         return [f"Settings: {engine.default.words}.", unit]
     if not engine.tightens:
         return [
             f"That is at its default settings: {engine.default.words}.",
-            f"With its {engine.other} it says {found.at_other}: {engine.tightest.words}.",
+            f"With its {engine.other} it says {finding.at_other}: {engine.tightest.words}.",
             unit,
         ]
     return [
         f"That is at its tightest settings: {engine.tightest.words}.",
-        f"At its default settings it says {found.at_other}: {engine.default.words}.",
+        f"At its default settings it says {finding.at_other}: {engine.default.words}.",
         unit,
     ]
 
 
-def _wrong(found: Finding, negated: str) -> str:
+def _wrong(finding: Finding, negated: str) -> str:
     """The condition that the engine is wrong, in all languages alike but for the word not."""
-    if found.kind == "contradiction":
+    if finding.kind == "contradiction":
         return {"not ": "contact and distance > 0", "!": "contact && distance > 0.0"}[negated]
-    if found.kind in {"false contact", "missed contact"}:
-        return "contact" if found.kind == "false contact" else f"{negated}contact"
-    sign, error = (1, "<") if found.kind == "too near" else (-1, ">")
-    return f"distance {error} {(found.reported or 0.0) + sign * 0.9 * found.error_mm / found.millimetres!r}"
+    if finding.kind in {"false contact", "missed contact"}:
+        return "contact" if finding.kind == "false contact" else f"{negated}contact"
+    sign, error = (1, "<") if finding.kind == "too near" else (-1, ">")
+    return f"distance {error} {(finding.reported or 0.0) + sign * 0.9 * finding.error_mm / finding.millimetres!r}"
 
 
-def _proof(found: Finding) -> list[str]:
+def _proof(finding: Finding) -> list[str]:
     """The certificate in words."""
-    n = f"n = ({', '.join(map(repr, found.direction))})"
-    if found.kind in _BY_DIRECTION:
-        least, half2, length2 = _along(found)
+    n = f"n = ({', '.join(map(repr, finding.direction))})"
+    if finding.kind in _BY_DIRECTION:
+        least, half2, length2 = _along(finding)
         return [
             f"Certificate: with {n}, every corner v of the triangle has n·v >= {float(least):.17g}, and every",
             f"point x of the spheroid has n·x <= sqrt(b²(nx² + ny²) + d² nz²) = {sqrt(half2):.17g};",
             f"|n| = {sqrt(length2):.17g}.",
         ]
-    shares = ", ".join(map(repr, found.shares))
-    point = _shared_point(found)
-    where = ", ".join(f"{float(each):.17g}" for each in point)
+    shares = ", ".join(map(repr, finding.shares))
+    point = _shared_point(finding)
+    where = ", ".join(f"{float(coordinate):.17g}" for coordinate in point)
     first = f"Certificate: the point p = ({where}) of the triangle, which has the"
-    if found.kind == "missed contact":
-        inside = float(_inside(point, _squares(found)))
+    if finding.kind == "missed contact":
+        inside = float(_inside(point, _squares(finding)))
         return [first, f"shares {shares} of the corners, has (x² + y²)/b² + z²/d² = {inside:.17g} < 1."]
     return [
         first,

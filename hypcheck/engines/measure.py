@@ -112,11 +112,11 @@ class Own:
     radii: Floats
 
 
-def own_errors(said: Mask, distances: Floats, *, hull: bool) -> Own:
+def own_errors(contacts: Mask, distances: Floats, *, hull: bool) -> Own:
     """The own errors of an engine that said contact (or not), at these distances from its mesh in spheroid radii."""
-    false_contact = said & (distances > 1.0)
+    false_contact = contacts & (distances > 1.0)
     inner = HULL if hull else 1.0
-    missed = ~said & (distances < inner)
+    missed = ~contacts & (distances < inner)
     size = np.where(false_contact, distances - 1.0, np.where(missed, inner - distances, 0.0))
     return Own(np.asarray(false_contact | missed), np.asarray(size))
 
@@ -124,7 +124,7 @@ def own_errors(said: Mask, distances: Floats, *, hull: bool) -> Own:
 def measure(
     engine: Engine,
     words: Sequence[str],
-    asked: Implementation,
+    implementation: Implementation,
     placed: Placed,
     mesh: SurfaceMesh,
     distances: Floats,
@@ -136,14 +136,14 @@ def measure(
     alone.
     """
     family = placed.family
-    answered = asked.classify(placed.rows)
-    known, said = answered.answered, answered.answers == 1
-    wrong = known & (said != placed.contact)
+    answered = implementation.classify(placed.rows)
+    known, contacts = answered.answered, answered.answers == 1
+    wrong = known & (contacts != placed.contact)
     meshed = (distances <= 1.0) != placed.contact
     error = np.abs(placed.gap) * family.millimetres
-    others = asked.classify(beside[0])
+    others = implementation.classify(beside[0])
     own = own_errors(
-        np.concatenate([said, others.answers == 1]),
+        np.concatenate([contacts, others.answers == 1]),
         np.concatenate([distances, beside[1]]),
         hull=hulled(engine, placed),
     )
@@ -168,14 +168,14 @@ def measure(
         own_worst_mm=float(own_mm[own_wrong].max(initial=0.0)),
         own_worst_row=np.concatenate([placed.rows, beside[0]])[furthest].tolist() if own_wrong.any() else None,
         faults={
-            each.label: answered.count(each) + others.count(each)
-            for each in Outcome
-            if each and answered.count(each) + others.count(each)
+            outcome.label: answered.count(outcome) + others.count(outcome)
+            for outcome in Outcome
+            if outcome and answered.count(outcome) + others.count(outcome)
         },
         decades=_decades(placed, error, wrong),
-        distance=_reported(reported, placed, distances, ~placed.contact, said),
-        penetration=_reported(reported, placed, distances, placed.contact, said),
-        microseconds=_microseconds(asked, placed.rows),
+        distance=_reported(reported, placed, distances, ~placed.contact, contacts),
+        penetration=_reported(reported, placed, distances, placed.contact, contacts),
+        microseconds=_microseconds(implementation, placed.rows),
     )
 
 
@@ -185,13 +185,13 @@ def hulled(engine: Engine, placed: Placed) -> bool:
 
 
 def _decades(placed: Placed, error: Floats, wrong: Mask) -> list[Decade]:
-    power = np.array([floor(log10(each)) for each in error])
-    found = []
-    for each in sorted(set(power.tolist()), reverse=True):
-        clear, contact = (power == each) & ~placed.contact, (power == each) & placed.contact
+    power = np.array([floor(log10(length)) for length in error])
+    decades = []
+    for exponent in sorted(set(power.tolist()), reverse=True):
+        clear, contact = (power == exponent) & ~placed.contact, (power == exponent) & placed.contact
         counts = (int(mask.sum()) for mask in (clear, clear & wrong, contact, contact & wrong))
-        found.append(Decade(10.0**each, *counts))
-    return found
+        decades.append(Decade(10.0**exponent, *counts))
+    return decades
 
 
 def reported_distances(words: Sequence[str], rows: Rows, patience_s: float = _PATIENCE_S) -> Floats:
@@ -204,12 +204,12 @@ def reported_distances(words: Sequence[str], rows: Rows, patience_s: float = _PA
         )
     except subprocess.TimeoutExpired:
         return np.full(len(rows), nan)
-    said = done.stdout.splitlines()[2:]  # after its description, and the reply's own line
-    numbers = [float(line) for line in said[: len(rows)]]
+    replies = done.stdout.splitlines()[2:]  # after its description, and the reply's own line
+    numbers = [float(line) for line in replies[: len(rows)]]
     return np.array(numbers + [nan] * (len(rows) - len(numbers)))
 
 
-def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask, said: Mask) -> Reported:
+def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask, contacts: Mask) -> Reported:
     """Errors of the distances of these rows; a distance of the wrong sign counts as it is. `said`: contact or not."""
     family = placed.family
     there = which & (np.abs(reported) < NO_DISTANCE)  # false for NaN
@@ -221,20 +221,20 @@ def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask, 
         exact = (distances - 1.0) * family.sizes[2]
         own = float((np.abs(reported - exact)[there] * family.millimetres).max())
     missing, worst = int(which.sum() - there.sum()), placed.rows[there][int(errors.argmax())].tolist()
-    above = np.where(there & said, reported, 0.0)
+    above = np.where(there & contacts, reported, 0.0)
     against = placed.rows[int(above.argmax())].tolist() if (above > 0).any() else None
     counts = (int((above > 0).sum()), against)
     return Reported(int(there.sum()), missing, float(np.median(errors)), float(errors.max()), worst, own, *counts)
 
 
-def _microseconds(asked: Implementation, rows: Rows) -> float | None:
+def _microseconds(implementation: Implementation, rows: Rows) -> float | None:
     """Microseconds for a row, by the adapter's own clock: the least of three tries; None where it cannot be timed."""
     some = rows[:: max(1, len(rows) // TIMED_ROWS)]
     try:
-        tries = [asked.time(some, 1) for _ in range(3)]
+        tries = [implementation.time(some, 1) for _ in range(3)]
     except TimingError:
         return None
-    return min(each for each in tries if each is not None) / len(some) / 1000.0
+    return min(time for time in tries if time is not None) / len(some) / 1000.0
 
 
 class EngineRecord(Struct):
@@ -259,16 +259,16 @@ class EngineRecord(Struct):
 
 
 @cache
-def _placed(family: str, each: int) -> Placed:
-    return placed(FAMILIES[family], each)
+def _placed(family: str, count: int) -> Placed:
+    return placed(FAMILIES[family], count)
 
 
 @cache
-def _mesh(family: str, each: int, triangles: int) -> tuple[SurfaceMesh, Floats, tuple[Rows, Floats]]:
+def _mesh(family: str, count: int, triangles: int) -> tuple[SurfaceMesh, Floats, tuple[Rows, Floats]]:
     """A family's mesh, how far its rows are from it, and half as many rows beside the mesh."""
     mesh = surface_mesh(FAMILIES[family].sizes, triangles)
-    spot, gap = drawn(FAMILIES[family], each // 2, seed=2)
-    return mesh, distances(_placed(family, each).rows, mesh), rows_near(spot, gap, mesh)
+    spot, gap = drawn(FAMILIES[family], count // 2, seed=2)
+    return mesh, distances(_placed(family, count).rows, mesh), rows_near(spot, gap, mesh)
 
 
 def spec_of(words: Sequence[str]) -> str:
@@ -281,52 +281,52 @@ def record_of(
     cache_folder: Path,
     progress: Callable[[str], None] = lambda _: None,
     *,
-    each: int = EACH,
+    count: int = EACH,
     meshes: Sequence[int] = TRIANGLES,
     families: Sequence[str] = tuple(FAMILIES),
 ) -> EngineRecord:
     """Ask an installed engine everything. Raises InputError where it is not installed."""
     machine = f"{platform.system()} {platform.machine()}"
-    found = EngineRecord(SCHEMA, VERSION, machine, engine.name, engine.version, [], [], {})
+    record = EngineRecord(SCHEMA, VERSION, machine, engine.name, engine.version, [], [], {})
     for tightest in (False, True) if engine.adjustable else (False,):
-        _ask_all(engine, cache_folder, found, progress, each, meshes, families, tightest=tightest)
-    return found
+        _ask_all(engine, cache_folder, record, progress, count, meshes, families, tightest=tightest)
+    return record
 
 
 def _ask_all(
     engine: Engine,
     cache_folder: Path,
-    found: EngineRecord,
+    record: EngineRecord,
     progress: Callable[[str], None],
-    each: int,
+    count: int,
     meshes: Sequence[int],
     families: Sequence[str],
     *,
     tightest: bool,
 ) -> None:
     """Ask an engine about all families on all meshes at one of its settings, and add it to the record."""
-    told, setting = (found.tightest, engine.tightest) if tightest else (found.default, engine.default)
+    measurements, setting = (record.tightest, engine.tightest) if tightest else (record.default, engine.default)
     for name in families:
         if FAMILIES[name].leans and not engine.tilts:
-            found.skipped[name] = "no spheroid leans"
+            record.skipped[name] = "no spheroid leans"
             continue
         for triangles in meshes:
             progress(f"{engine.name}, {setting.words}: {name}, about {triangles} triangles")
             try:
-                told.append(_asked(engine, cache_folder, name, each, triangles, tightest=tightest))
+                measurements.append(_asked(engine, cache_folder, name, count, triangles, tightest=tightest))
             except StartError as error:
-                found.skipped[name] = escaped(str(error).rpartition("stderr: ")[2], 200)
+                record.skipped[name] = escaped(str(error).rpartition("stderr: ")[2], 200)
                 break
 
 
-def _asked(engine: Engine, cache_folder: Path, name: str, each: int, triangles: int, *, tightest: bool) -> Measured:
-    mesh, apart, beside = _mesh(name, each, triangles)
+def _asked(engine: Engine, cache_folder: Path, name: str, count: int, triangles: int, *, tightest: bool) -> Measured:
+    mesh, apart, beside = _mesh(name, count, triangles)
     with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
         scene = Path(folder, "scene")
         write_scene(scene, FAMILIES[name].sizes, mesh)
         words = command(engine, cache_folder, scene, tightest=tightest)
-        with open_implementation(spec_of(words), _LIMITS) as asked:
-            return measure(engine, words, asked, _placed(name, each), mesh, apart, beside)
+        with open_implementation(spec_of(words), _LIMITS) as implementation:
+            return measure(engine, words, implementation, _placed(name, count), mesh, apart, beside)
 
 
 def write_record(folder: Path, record: EngineRecord) -> None:

@@ -144,18 +144,18 @@ class Placed:
         return np.asarray(self.gap < 0)
 
 
-def placed(family: SpotFamily, each: int, seed: int = 1) -> Placed:
+def placed(family: SpotFamily, count: int, seed: int = 1) -> Placed:
     """Up to `each` clear rows and contacts of every decade; what is not certified is left out."""
-    spot, gap = drawn(family, each, seed)
+    spot, gap = drawn(family, count, seed)
     good = spot.certifies(gap)
     return Placed(family, spot.rows(gap)[good], gap[good])
 
 
-def drawn(family: SpotFamily, each: int, seed: int = 1) -> tuple[Spot, Floats]:
+def drawn(family: SpotFamily, count: int, seed: int = 1) -> tuple[Spot, Floats]:
     """Spots all over the surface, and `each` gaps of both signs of every decade, in the unit of the rows."""
-    n = 2 * each * len(DECADES)
+    n = 2 * count * len(DECADES)
     draw = Draw("engines", family.name, 1, seed)
-    decade = np.repeat(np.array(DECADES, dtype=np.float64), 2 * each)
+    decade = np.repeat(np.array(DECADES, dtype=np.float64), 2 * count)
     gap = 10.0 ** (decade + draw.unit(n)) * np.where(np.arange(n) % 2 == 0, 1.0, -1.0)
     spot = Spot.at(family, 2 * pi * draw.unit(n), (1.6 * draw.unit(n) - 0.8) * TOWER[1], _axes(family, draw, n))
     return spot, gap / family.unit

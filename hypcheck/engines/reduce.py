@@ -78,22 +78,22 @@ class Asker:
         """Whether the engine has a hull in the spheroid's place: only what holds for all bodies within is an error."""
         return self.engine.body == "hull" and self.b != self.d
 
-    def error(self, kind: str, said: Said | None, corners: Floats) -> float:
+    def error(self, kind: str, reply: Said | None, corners: Floats) -> float:
         """The engine's error of this kind about one triangle (3, 3), in the unit of lengths; 0 without any."""
-        if said is None or (self.hull and kind in {"missed contact", "too far"}):
+        if reply is None or (self.hull and kind in {"missed contact", "too far"}):
             return 0.0
         if kind == "missed contact":
             inside = 1 - float(np.linalg.norm(nearest_point(corners / [self.b, self.b, self.d])))
-            return 0.0 if said.contact else max(0.0, inside * min(self.b, self.d))
+            return 0.0 if reply.contact else max(0.0, inside * min(self.b, self.d))
         way = best_direction(corners, self.b, self.d)
         least = float(lower_bounds(corners, self.b, self.d, way[np.newaxis])[0])
         if kind == "false contact":
-            return max(0.0, least) if said.contact else 0.0
-        if not abs(said.reported) < NO_DISTANCE:
+            return max(0.0, least) if reply.contact else 0.0
+        if not abs(reply.reported) < NO_DISTANCE:
             return 0.0
         if kind == "contradiction":
-            return max(0.0, least) if said.contact and said.reported > 0 else 0.0
-        return max(0.0, least - said.reported if kind == "too near" else said.reported - least if least > 0 else 0.0)
+            return max(0.0, least) if reply.contact and reply.reported > 0 else 0.0
+        return max(0.0, least - reply.reported if kind == "too near" else reply.reported - least if least > 0 else 0.0)
 
 
 def findings_of(
@@ -108,42 +108,42 @@ def findings_of(
     for kind in KINDS:
         best: Finding | None = None
         for measured, row in _candidates(record, kind):
-            found = _reduced(asker_of(ENGINES[record.name], cache, measured, answer), kind, measured, np.array(row))
-            if found is None or found.error_mm <= tolerance * found.millimetres:
+            reduced = _reduced(asker_of(ENGINES[record.name], cache, measured, answer), kind, measured, np.array(row))
+            if reduced is None or reduced.error_mm <= tolerance * reduced.millimetres:
                 continue
-            if best is None or _weight(found) > _weight(best):
-                best = found
+            if best is None or _weight(reduced) > _weight(best):
+                best = reduced
         if best is not None:
             yield best
 
 
-def _weight(found: Finding) -> tuple[bool, float]:
-    return found.millimetres == 1000.0, found.error_mm
+def _weight(finding: Finding) -> tuple[bool, float]:
+    return finding.millimetres == 1000.0, finding.error_mm
 
 
 def _candidates(record: EngineRecord, kind: str) -> list[tuple[Measured, list[float]]]:
     """Rows that may show this kind of error, one a family, the worst first; upright ones outside the tower."""
     hull = ENGINES[record.name].body == "hull" and kind in {"missed contact", "too far"}
     worst: dict[str, tuple[float, Measured, list[float]]] = {}
-    for each in record.best:
-        family = FAMILIES[each.family]
+    for measurement in record.best:
+        family = FAMILIES[measurement.family]
         if family.leans or family.inside or (hull and family.b != family.d):
             continue
-        for size, row in _shown(each, kind):
-            if row is not None and (each.family not in worst or size > worst[each.family][0]):
-                worst[each.family] = (size, each, row)
-    found = sorted(worst.values(), key=lambda one: (FAMILIES[one[1].family].unit != 1, -one[0]))
-    return [(measured, row) for _, measured, row in found[:MOST_TRIED]]
+        for size, row in _shown(measurement, kind):
+            if row is not None and (measurement.family not in worst or size > worst[measurement.family][0]):
+                worst[measurement.family] = (size, measurement, row)
+    worst_first = sorted(worst.values(), key=lambda one: (FAMILIES[one[1].family].unit != 1, -one[0]))
+    return [(measured, row) for _, measured, row in worst_first[:MOST_TRIED]]
 
 
-def _shown(each: Measured, kind: str) -> list[tuple[float, list[float] | None]]:
+def _shown(measured: Measured, kind: str) -> list[tuple[float, list[float] | None]]:
     """The worst rows of one mesh for a kind of error, with their errors in millimetres."""
     if kind in {"missed contact", "false contact"}:
-        return [(each.own_worst_mm, each.own_worst_row)]
+        return [(measured.own_worst_mm, measured.own_worst_row)]
     if kind == "contradiction":
-        return [(one.contradicted, one.contradicted_row) for one in (each.distance, each.penetration)]
-    reported = [(one.worst_mm or 0.0, one.worst_row) for one in (each.distance, each.penetration)]
-    return [(size, row) for size, row in reported if size > 1.5 * each.deviation_mm]
+        return [(one.contradicted, one.contradicted_row) for one in (measured.distance, measured.penetration)]
+    reported = [(one.worst_mm or 0.0, one.worst_row) for one in (measured.distance, measured.penetration)]
+    return [(size, row) for size, row in reported if size > 1.5 * measured.deviation_mm]
 
 
 def asker_of(
@@ -163,21 +163,23 @@ def _reduced(asker: Asker, kind: str, measured: Measured, row: Floats) -> Findin
     if not error > 0:
         return None
     small = _rounded(asker, kind, corners, error)
-    said, other = asker(small[np.newaxis]), replace(asker, tightest=not engine.tightens)(small[np.newaxis])
-    if said is None:
+    reply, other = asker(small[np.newaxis]), replace(asker, tightest=not engine.tightens)(small[np.newaxis])
+    if reply is None:
         return None
-    found = _certified(asker, kind, small, said, family.millimetres)
-    if found is None or not engine.adjustable:
-        return found
+    finding = _certified(asker, kind, small, reply, family.millimetres)
+    if finding is None or not engine.adjustable:
+        return finding
     words = "nothing" if other is None else _words(kind, other, 0.0, family.millimetres)[0]
-    return msgspec.structs.replace(found, at_other=words)
+    return msgspec.structs.replace(finding, at_other=words)
 
 
 def _near(measured: Measured, row: Floats) -> Floats:
     """The triangles nearest to a row's spheroid, or that it touches, (m, 3, 3) from its centre, the nearest first."""
     sizes = FAMILIES[measured.family].sizes
     mesh = next(
-        each for each in (surface_mesh(sizes, n) for n in TRIANGLES) if len(each.triangles) == measured.triangles
+        surface
+        for surface in (surface_mesh(sizes, n) for n in TRIANGLES)
+        if len(surface.triangles) == measured.triangles
     )
     squares = to_triangles(seen_from(row, mesh.vertices)[mesh.triangles])
     order = np.argsort(squares)
@@ -191,23 +193,23 @@ def _alone(asker: Asker, kind: str, corners: Floats) -> Floats | None:
         return np.asarray(corners[0])
     while len(corners) > 1:
         halves = [corners[: len(corners) // 2], corners[len(corners) // 2 :]]
-        told = [asker(half) for half in halves]
-        marks = [_mark(kind, said) for said in told]
+        replies = [asker(half) for half in halves]
+        marks = [_mark(kind, reply) for reply in replies]
         if max(marks) == -np.inf:
             return None
         corners = halves[int(np.argmax(marks))]
     return np.asarray(corners[0])
 
 
-def _mark(kind: str, said: Said | None) -> float:
+def _mark(kind: str, reply: Said | None) -> float:
     """The greater, the more an answer about many triangles looks like this error."""
-    if said is None:
+    if reply is None:
         return -np.inf
     if kind == "false contact":
-        return float(said.contact) if said.contact else -np.inf
+        return float(reply.contact) if reply.contact else -np.inf
     if kind == "contradiction":
-        return said.reported if said.contact and said.reported > 0 else -np.inf
-    return -said.reported if isfinite(said.reported) else -np.inf
+        return reply.reported if reply.contact and reply.reported > 0 else -np.inf
+    return -reply.reported if isfinite(reply.reported) else -np.inf
 
 
 def _rounded(asker: Asker, kind: str, corners: Floats, error: float) -> Floats:
@@ -222,26 +224,26 @@ def _rounded(asker: Asker, kind: str, corners: Floats, error: float) -> Floats:
     return corners
 
 
-def _certified(asker: Asker, kind: str, corners: Floats, said: Said, millimetres: float) -> Finding | None:
+def _certified(asker: Asker, kind: str, corners: Floats, reply: Said, millimetres: float) -> Finding | None:
     """The finding with its certificate in few digits; None where rationals do not prove it."""
-    error = asker.error(kind, said, corners)
+    error = asker.error(kind, reply, corners)
     way = best_direction(corners, asker.b, asker.d)
     shares = nearest_shares(
         corners / [asker.b, asker.b, asker.d] if kind == "missed contact" else corners - _foot(asker, way)
     )
     scale = millimetres
-    reported = said.reported if kind in {"too near", "too far"} else None
-    words = _words(kind, said, error, scale)
+    reported = reply.reported if kind in {"too near", "too far"} else None
+    words = _words(kind, reply, error, scale)
     for digits in range(2, 17):
         unit = 2.0 ** (3 * digits)
         parts = np.round(shares * unit) / unit
         parts[int(parts.argmax())] = 1.0 - (parts.sum() - parts.max())
-        found = Finding(
+        finding = Finding(
             asker.engine.name, asker.engine.version, kind, asker.b, asker.d, corners.tolist(), reported,
-            [round(each, digits) for each in way.tolist()], parts.tolist(), error * scale, scale, *words, "", "",
+            [round(part, digits) for part in way.tolist()], parts.tolist(), error * scale, scale, *words, "", "",
         )  # fmt: skip
-        if proved(found):
-            return found
+        if proved(finding):
+            return finding
     return None
 
 
@@ -251,18 +253,18 @@ def _foot(asker: Asker, way: Floats) -> Floats:
     return np.asarray(pushed / np.sqrt(way @ pushed))
 
 
-def _words(kind: str, said: Said, error: float, scale: float) -> tuple[str, str]:
+def _words(kind: str, reply: Said, error: float, scale: float) -> tuple[str, str]:
     if kind == "missed contact":
         return (
-            "contact" if said.contact else "clear",
+            "contact" if reply.contact else "clear",
             f"in contact: {error * scale:.2g} mm less in radius still touches",
         )
     if kind in {"false contact", "contradiction"}:
-        word = "contact" if said.contact else "clear"
-        contradicts = kind == "contradiction" or (said.contact and 0 < said.reported < NO_DISTANCE)
-        words = f"{word}, and {_length(said.reported * scale)}" if contradicts else word
+        word = "contact" if reply.contact else "clear"
+        contradicts = kind == "contradiction" or (reply.contact and 0 < reply.reported < NO_DISTANCE)
+        words = f"{word}, and {_length(reply.reported * scale)}" if contradicts else word
         return words, f"clear by {error * scale:.2g} mm"
-    reported, exact = said.reported * scale, (said.reported + (error if kind == "too near" else -error)) * scale
+    reported, exact = reply.reported * scale, (reply.reported + (error if kind == "too near" else -error)) * scale
     return _length(reported), f"{_length(exact)} at {'least' if exact > 0 and kind == 'too near' else 'most'}"
 
 
@@ -308,11 +310,11 @@ def nearest_shares(corners: Floats) -> Floats:
         s, t = np.linalg.solve(gram, -edges @ corners[0])
         if s >= 0 and t >= 0 and s + t <= 1:
             return np.array([1 - s - t, s, t])
-    found = []
+    candidates = []
     for i, j in ((0, 1), (1, 2), (2, 0)):
         edge = corners[j] - corners[i]
         share = float(np.clip(-(corners[i] @ edge) / (edge @ edge), 0.0, 1.0)) if edge @ edge > 0 else 0.0
         shares = np.zeros(3)
         shares[i], shares[j] = 1 - share, share
-        found.append(shares)
-    return np.asarray(min(found, key=lambda each: float(np.linalg.norm(each @ corners))))
+        candidates.append(shares)
+    return np.asarray(min(candidates, key=lambda candidate: float(np.linalg.norm(candidate @ corners))))

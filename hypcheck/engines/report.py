@@ -86,9 +86,9 @@ def write_page(folder: Path) -> None:
     (folder / "README.md").write_text("\n".join(parts), encoding="utf-8")
 
 
-def _rank(found: Finding) -> tuple[int, float]:
+def _rank(finding: Finding) -> tuple[int, float]:
     """Answers that contradict themselves first, then the greatest error relative to the body."""
-    return (not found.contradicts, -found.of_body)
+    return (not finding.contradicts, -finding.of_body)
 
 
 def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
@@ -96,12 +96,12 @@ def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
     shutil.rmtree(folder / "findings", ignore_errors=True)
     (folder / "findings").mkdir(parents=True)
     named = []
-    for found in findings:
-        stem = f"findings/{found.engine}-{found.kind.replace(' ', '-')}"
-        file, picture = stem + Path(template_of(ENGINES[found.engine]).stem).suffix, stem + ".svg"
-        (folder / file).write_text(reproduction(found), encoding="utf-8")
-        (folder / picture).write_text(drawing(found), encoding="utf-8")
-        named.append(msgspec.structs.replace(found, file=file, picture=picture))
+    for finding in findings:
+        stem = f"findings/{finding.engine}-{finding.kind.replace(' ', '-')}"
+        file, picture = stem + Path(template_of(ENGINES[finding.engine]).stem).suffix, stem + ".svg"
+        (folder / file).write_text(reproduction(finding), encoding="utf-8")
+        (folder / picture).write_text(drawing(finding), encoding="utf-8")
+        named.append(msgspec.structs.replace(finding, file=file, picture=picture))
     (folder / "findings" / "findings.json").write_bytes(msgspec.json.format(msgspec.json.encode(named)) + b"\n")
     return named
 
@@ -122,15 +122,15 @@ def _head(records: Sequence[EngineRecord]) -> str:
 def _found(findings: Sequence[Finding]) -> str:
     rows = [
         [
-            f"{each.engine} {each.version}",
-            each.said,
-            each.proved,
-            f"{each.error_mm:.2g}",
-            f"{each.of_body:.1e}",
-            _of_tolerance(each),
-            f"[file]({each.file}), [picture]({each.picture})",
+            f"{finding.engine} {finding.version}",
+            finding.said,
+            finding.proved,
+            f"{finding.error_mm:.2g}",
+            f"{finding.of_body:.1e}",
+            _of_tolerance(finding),
+            f"[file]({finding.file}), [picture]({finding.picture})",
         ]
-        for each in findings
+        for finding in findings
     ]
     lines = [
         "## Findings",
@@ -158,20 +158,20 @@ def _found(findings: Sequence[Finding]) -> str:
 def _settings(findings: Sequence[Finding]) -> list[list[str]]:
     """The settings of each finding, and what the engine says at them."""
     rows = []
-    for each in findings:
-        engine, name, unit = ENGINES[each.engine], f"{each.engine}, {each.kind}", f"{each.millimetres:g}"
+    for finding in findings:
+        engine, name, unit = ENGINES[finding.engine], f"{finding.engine}, {finding.kind}", f"{finding.millimetres:g}"
         if not engine.adjustable:
-            rows.append([name, engine.default.words, each.said, "none", "–", unit])
+            rows.append([name, engine.default.words, finding.said, "none", "–", unit])
             continue
-        at_default, at_other = (each.at_other, each.said) if engine.tightens else (each.said, each.at_other)
+        at_default, at_other = (finding.at_other, finding.said) if engine.tightens else (finding.said, finding.at_other)
         other = f"{engine.other}: {engine.tightest.words}"
         rows.append([name, engine.default.words, at_default, other, at_other, unit])
     return rows
 
 
-def _of_tolerance(found: Finding) -> str:
-    tolerance = ENGINES[found.engine].judged.tolerance
-    return f"{found.error_mm / (tolerance * found.millimetres):.1e}" if tolerance else "–"
+def _of_tolerance(finding: Finding) -> str:
+    tolerance = ENGINES[finding.engine].judged.tolerance
+    return f"{finding.error_mm / (tolerance * finding.millimetres):.1e}" if tolerance else "–"
 
 
 def _tables_of_own(records: Sequence[EngineRecord]) -> Iterable[str]:
@@ -196,8 +196,8 @@ def _link(record: EngineRecord) -> str:
 
 
 def _own_cell(record: EngineRecord, family: str) -> str:
-    measured = [each for each in record.best if each.family == family]
-    faults = sum(sum(each.faults.values()) for each in measured)
+    measured = [measurement for measurement in record.best if measurement.family == family]
+    faults = sum(sum(measurement.faults.values()) for measurement in measured)
     if not measured:
         return "–"
     return _mm(own_worst(measured, family)) + (f", {faults} lost" if faults else "")
@@ -210,13 +210,14 @@ def _defaults(records: Sequence[EngineRecord]) -> str:
         engine = ENGINES[record.name]
         if not engine.adjustable:
             continue
-        for label, setting, told in (
+        for label, setting, measurements in (
             ("default", engine.default, record.default),
             (engine.other, engine.tightest, record.tightest),
         ):
-            metres = [each for each in told if FAMILIES[each.family].unit == 1]
-            wrong = f"{sum(each.own for each in metres)} of {sum(each.own_rows for each in metres)}"
-            rows.append([record.name, label, setting.words, wrong, _mm(max(each.own_worst_mm for each in metres))])
+            metres = [measured for measured in measurements if FAMILIES[measured.family].unit == 1]
+            wrong = f"{sum(measured.own for measured in metres)} of {sum(measured.own_rows for measured in metres)}"
+            worst = _mm(max(measured.own_worst_mm for measured in metres))
+            rows.append([record.name, label, setting.words, wrong, worst])
     lines = [
         "## What the defaults cost",
         "",
@@ -231,19 +232,20 @@ def _defaults(records: Sequence[EngineRecord]) -> str:
 def _by_distance(records: Sequence[EngineRecord]) -> Iterable[str]:
     """False contacts, and false clears, by distance from contact, of all families on the finest meshes."""
     powers = sorted(
-        {each.least_mm for record in records for one in _finest(record) for each in one.decades}, reverse=True
+        {shown.least_mm for record in records for one in _finest(record) for shown in one.decades},
+        reverse=True,
     )
     for what in ("false contacts", "false clears"):
         rows = []
         for record in records:
             sums: dict[float, list[int]] = defaultdict(lambda: [0, 0])
-            for each in (decade for one in _finest(record) for decade in one.decades):
+            for shown in (decade for one in _finest(record) for decade in one.decades):
                 wrong = (
-                    (each.false_contacts, each.clear)
+                    (shown.false_contacts, shown.clear)
                     if what == "false contacts"
-                    else (each.false_clears, each.contacts)
+                    else (shown.false_clears, shown.contacts)
                 )
-                sums[each.least_mm] = [old + new for old, new in zip(sums[each.least_mm], wrong, strict=True)]
+                sums[shown.least_mm] = [old + new for old, new in zip(sums[shown.least_mm], wrong, strict=True)]
             rows.append([record.name, *("{} of {}".format(*sums[power]) for power in powers)])
         yield "\n".join(
             [
@@ -258,8 +260,8 @@ def _by_distance(records: Sequence[EngineRecord]) -> Iterable[str]:
 
 
 def _finest(record: EngineRecord) -> list[Measured]:
-    most = max(each.triangles for each in record.best)
-    return [each for each in record.best if each.triangles == most]
+    most = max(measurement.triangles for measurement in record.best)
+    return [measurement for measurement in record.best if measurement.triangles == most]
 
 
 def _of_engine(record: EngineRecord) -> str:
@@ -301,8 +303,8 @@ def _of_the_other_setting(record: EngineRecord) -> list[str]:
     """How wrong the depths of an engine's other setting are, where that is no tighter one."""
     engine = ENGINES[record.name]
     depths: dict[str, float] = {}
-    for each in record.tightest:
-        depths[each.family] = max(depths.get(each.family, 0.0), each.penetration.worst_mm or 0.0)
+    for measurement in record.tightest:
+        depths[measurement.family] = max(depths.get(measurement.family, 0.0), measurement.penetration.worst_mm or 0.0)
     if engine.tightens or not depths:
         return []
     worst = max(depths, key=lambda family: depths[family])
@@ -314,28 +316,28 @@ def _skipped(reason: str) -> str:
     return reason.rstrip(".")
 
 
-def _own_row(each: Measured) -> list[str]:
+def _own_row(measured: Measured) -> list[str]:
     return [
-        each.family,
-        str(each.triangles),
-        f"{each.own} of {each.own_rows}",
-        _mm(each.own_worst_mm),
-        ", ".join(f"{count} {name}" for name, count in each.faults.items()) or "0",
-        "–" if each.microseconds is None else f"{each.microseconds:.3g}",
+        measured.family,
+        str(measured.triangles),
+        f"{measured.own} of {measured.own_rows}",
+        _mm(measured.own_worst_mm),
+        ", ".join(f"{count} {name}" for name, count in measured.faults.items()) or "0",
+        "–" if measured.microseconds is None else f"{measured.microseconds:.3g}",
     ]
 
 
-def _surface_row(each: Measured) -> list[str]:
-    clear, contact = sum(one.clear for one in each.decades), sum(one.contacts for one in each.decades)
+def _surface_row(measured: Measured) -> list[str]:
+    clear, contact = sum(one.clear for one in measured.decades), sum(one.contacts for one in measured.decades)
     return [
-        each.family,
-        str(each.triangles),
-        f"{each.false_contacts} of {clear}",
-        f"{each.false_clears} of {contact}",
-        _mm(each.worst_mm),
-        *_shown(each.distance),
-        *_shown(each.penetration),
-        str(each.distance.contradicted + each.penetration.contradicted),
+        measured.family,
+        str(measured.triangles),
+        f"{measured.false_contacts} of {clear}",
+        f"{measured.false_clears} of {contact}",
+        _mm(measured.worst_mm),
+        *_shown(measured.distance),
+        *_shown(measured.penetration),
+        str(measured.distance.contradicted + measured.penetration.contradicted),
     ]
 
 
@@ -344,11 +346,11 @@ def _shown(reported: Reported) -> tuple[str, str]:
 
 
 def _worst(record: EngineRecord) -> float:
-    return max(each.own_worst_mm for each in record.best if FAMILIES[each.family].unit == 1)
+    return max(measured.own_worst_mm for measured in record.best if FAMILIES[measured.family].unit == 1)
 
 
 def _message(record: EngineRecord) -> str:
-    faults = sum(sum(each.faults.values()) for each in record.best)
+    faults = sum(sum(measured.faults.values()) for measured in record.best)
     return f"own error {_mm(_worst(record))} mm" + (f", {faults} answers lost" if faults else "")
 
 

@@ -115,9 +115,9 @@ def rows_near(spot: Spot, gap: Floats, mesh: SurfaceMesh) -> tuple[Rows, Floats]
     shift, before = np.zeros(len(gap)), half * 1e-3
     apart = distances(spot.rows(before), mesh) - 1.0
     for _ in range(_SECANTS):
-        found = distances(spot.rows(shift), mesh) - 1.0
-        slope = np.where(found != apart, (shift - before) / np.where(found != apart, found - apart, 1.0), 0.0)
-        before, apart, shift = shift, found, shift - found * slope
+        gaps = distances(spot.rows(shift), mesh) - 1.0
+        slope = np.where(gaps != apart, (shift - before) / np.where(gaps != apart, gaps - apart, 1.0), 0.0)
+        before, apart, shift = shift, gaps, shift - gaps * slope
     rows = spot.rows(shift + gap)
     return rows, distances(rows, mesh)
 

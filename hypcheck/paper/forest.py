@@ -61,13 +61,13 @@ class Trees:
     @cached_property
     def _heights(self) -> Floats:
         heights = [tree.height for tree in self.scene.hyperboloids]
-        return np.array([(-np.inf, np.inf) if each is None else (each.low, each.high) for each in heights])
+        return np.array([(-np.inf, np.inf) if height is None else (height.low, height.high) for height in heights])
 
     @cached_property
     def _lines(self) -> Floats:
         """K and M of x² + y² > K + M z², a proof of exterior (truth/float_filter.py); inf where λ = α/b proves none."""
-        found = [lines_for_sizes(*map(float, sizes), 0).exterior[:1] for sizes in self.sizes]
-        return np.array([each[0] if each else (np.inf, 0.0) for each in found])
+        bounds = [lines_for_sizes(*map(float, sizes), 0).exterior[:1] for sizes in self.sizes]
+        return np.array([bound[0] if bound else (np.inf, 0.0) for bound in bounds])
 
     @cached_property
     def types(self) -> list[int]:
@@ -113,8 +113,10 @@ class Trees:
     def exterior(self, at: Places) -> Mask:
         """Which trees the walker is exterior to, exactly, (n, m)."""
         n, m = len(at), len(self.sizes)
-        found = positions_beside(np.tile(self.sizes, (n, 1)), np.repeat(at, m, axis=0), np.tile(self.centers, (n, 1)))
-        return np.asarray(found.reshape(n, m) == Position.EXTERIOR)
+        positions = positions_beside(
+            np.tile(self.sizes, (n, 1)), np.repeat(at, m, axis=0), np.tile(self.centers, (n, 1))
+        )
+        return np.asarray(positions.reshape(n, m) == Position.EXTERIOR)
 
     def gaps(self, at: Places) -> Floats:
         """The free way between the walker and each trunk at the walker's height, (n, m); for people, not exact."""

@@ -173,8 +173,8 @@ class VerdictCounts:
 
     def add(self, other: VerdictCounts) -> None:
         """Count what another of the same kind has counted as well."""
-        for each in fields(self):
-            setattr(self, each.name, getattr(self, each.name) + getattr(other, each.name))
+        for field in fields(self):
+            setattr(self, field.name, getattr(self, field.name) + getattr(other, field.name))
 
     def _count(self, name: str, those: Mask) -> None:
         setattr(self, name, getattr(self, name) + int(np.count_nonzero(those)))
@@ -185,8 +185,8 @@ Verdicts = TypeVar("Verdicts", bound=VerdictCounts)
 
 def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
     """All counts in one, which is added up in `none`."""
-    for each in several:
-        none.add(each)
+    for counts in several:
+        none.add(counts)
     return none
 
 
@@ -293,15 +293,15 @@ def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> t
 def _contacts(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Contact, ...]:
     """The first contact of each of these moves; the rotor that has it first."""
     first, last = craft.rotors(start, heading), craft.rotors(end, heading)
-    found = []
+    contacts = []
     for move, (here, there) in enumerate(zip(zip(*start, strict=True), zip(*end, strict=True), strict=True)):
         times = [
             (first_contact(craft.rotor, first, last, move + rotor * len(start[0])), rotor + 1)
             for rotor in range(ROTORS)
         ]
         (lower, upper), rotor = min(times)
-        found.append(Contact(_floats(here), _floats(there), rotor, lower, upper))
-    return tuple(found)
+        contacts.append(Contact(_floats(here), _floats(there), rotor, lower, upper))
+    return tuple(contacts)
 
 
 def _floats(point: tuple[np.float64, ...]) -> tuple[float, float, float]:
@@ -436,12 +436,12 @@ def near_wall(craft: Craft, degrees: float, seed: int, count: int = CENTRES) -> 
     at = (x, np.zeros_like(x), z)
     upright = classify_scene(craft.sizes, *at)
     outward = np.ones_like(x), np.zeros_like(x)
-    found: dict[str, Any] = {"centres": count}
+    counts: dict[str, Any] = {"centres": count}
     for name, toward in (("anywhere", any_angle(draw.between(count, -180.0, 180.0))), ("outward", outward)):
         leaning = _positions(craft.sizes, at, Lean.by(degrees, toward).axis)
         changed = upright != leaning
-        found[name] = {
+        counts[name] = {
             "changed": int(np.count_nonzero(changed)),
             "dangerous": int(np.count_nonzero(changed & (leaning == Position.CONTACT))),
         }
-    return found
+    return counts

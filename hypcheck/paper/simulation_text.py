@@ -237,8 +237,8 @@ def _row(
     ours = "".join(f"{_with_error(percent, error):>14}" for percent, error in zip(percents, errors, strict=True))
     yield f"  t = {time:4g} s  {ours}"
     yield "  printed     " + "".join(f"{figure:>14.4f}" for figure in printed)
-    shown = ("–" if each is None else f"{each:+.1f}" for each in differences)
-    yield "  difference  " + "".join(f"{each:>14}" for each in shown)
+    shown = ("–" if difference is None else f"{difference:+.1f}" for difference in differences)
+    yield "  difference  " + "".join(f"{difference:>14}" for difference in shown)
 
 
 def _with_error(percent: float, error: float | None) -> str:
@@ -291,7 +291,7 @@ def pitch_lines(lean: dict[str, Any]) -> Iterator[str]:
 
 
 def _way(contact: dict[str, Any]) -> str:
-    start, end = (", ".join(f"{each:.3f}" for each in contact[name]) for name in ("start", "end"))
+    start, end = (", ".join(f"{coordinate:.3f}" for coordinate in contact[name]) for name in ("start", "end"))
     return f"({start}) to ({end})"
 
 

@@ -223,14 +223,14 @@ def table_5(
     cells: Mapping[tuple[float, float], Sequence[FlightBlock]], executor: Executor | None, advance: Advance
 ) -> dict[tuple[float, float], FlightShare]:
     """Every cell, flown by the executor's processes; advanced by a block's moves whenever one is done."""
-    tasks = sorted((block for each in cells.values() for block in each), key=lambda block: -block.moves)
+    tasks = sorted((block for cell_blocks in cells.values() for block in cell_blocks), key=lambda block: -block.moves)
     done = {}
     for block, result in perform(fly_block, tasks, executor):
         done[block.time, block.speed, block.number] = result
         advance(block.moves)
     return {
-        (time, speed): _cell([done[time, speed, block.number] for block in each])
-        for (time, speed), each in cells.items()
+        (time, speed): _cell([done[time, speed, block.number] for block in cell_blocks])
+        for (time, speed), cell_blocks in cells.items()
     }
 
 
@@ -267,7 +267,9 @@ _COLUMNS = "percent", "standard_error"
 _FURTHER_COLUMNS = "difference_in_standard_errors", "executions", "refused", "outside_height"
 
 
-def as_json(cells: Mapping[tuple[float, float], FlightShare], runs: int, said: str, *, watched: bool) -> dict[str, Any]:
+def as_json(
+    cells: Mapping[tuple[float, float], FlightShare], runs: int, craft_words: str, *, watched: bool
+) -> dict[str, Any]:
     """The table in rows t and columns v, as docs/simulate.md has it; `said` is what has to be said of it."""
     rows = [[cells[time, speed] for speed in SPEEDS] for time in (*TIMES, SECOND_READING)]
     columns: dict[str, list[list[float | None]]] = {
@@ -280,7 +282,7 @@ def as_json(cells: Mapping[tuple[float, float], FlightShare], runs: int, said: s
     ]
     *as_printed, read_anew = rows
     return {
-        "statement": said,
+        "statement": craft_words,
         "runs": runs,
         "v": list(SPEEDS),
         "t": list(TIMES),
@@ -389,14 +391,14 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
     if plan.ends:
         require_ends(plan.scene)
     tracks, ways, ends = paths(craft, flight, step, plan.seed)
-    cells, said = table_5(plan.blocks(), executor, advance), statement(craft)
+    cells, craft_words = table_5(plan.blocks(), executor, advance), statement(craft)
     pitch = plan.pitch
     return {
         "hypcheck": HYPCHECK,
         "schema": SCHEMA,
         "simulation": "tower",
         "seed": plan.seed,
-        "statement": said,
+        "statement": craft_words,
         "assumptions": _assumptions(plan.scene, craft, flight),
         "flights": {
             "speed": plan.speed,
@@ -405,7 +407,7 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
             "paths": tracks,
             "ways": asdict(ways) if plan.continuous else None,
         },
-        "table_5": as_json(cells, plan.runs, said, watched=plan.continuous) if cells else None,
+        "table_5": as_json(cells, plan.runs, craft_words, watched=plan.continuous) if cells else None,
         "pitch": None
         if pitch is None
         else {"degrees": pitch, **pitch_as_json(cells), "near_wall": near_wall(craft, pitch, plan.seed)},

@@ -119,12 +119,12 @@ def recommendations(record: Record) -> Recommendations:
     if not timed or way_totals(record):  # the needs are those of positions
         return Recommendations((), ())
     for need, candidates in _needs(measured_methods(record), timed):
-        found = _fastest(record, candidates, timed[0], need.mode)
-        if not found:
+        fastest = _fastest(record, candidates, timed[0], need.mode)
+        if not fastest:
             unmet.append(need)
             continue
-        errs = [name for name, line in found[0].accuracy.items() if line.reliable_above > need.distance]
-        new = Advice(need, found[0], tuple(found[1:]), timed[0], tuple(errs))
+        errs = [name for name, line in fastest[0].accuracy.items() if line.reliable_above > need.distance]
+        new = Advice(need, fastest[0], tuple(fastest[1:]), timed[0], tuple(errs))
         if not any(_covers(old, new) for old in advice):
             advice.append(new)
     return Recommendations(tuple(advice), tuple(unmet))
@@ -132,8 +132,8 @@ def recommendations(record: Record) -> Recommendations:
 
 def _covers(old: Advice, new: Advice) -> bool:
     """Whether the same method was advised for a stricter need, so that the new advice adds nothing."""
-    asked, where = (old.need.asked, new.need.asked), (old.need.where, new.need.where)
-    stricter = old.need.distance <= new.need.distance and asked in _COVERED and where in _COVERED
+    questions, where = (old.need.asked, new.need.asked), (old.need.where, new.need.where)
+    stricter = old.need.distance <= new.need.distance and questions in _COVERED and where in _COVERED
     wider = not old.errs or (old.errs, *where) == (new.errs, EVERYDAY, EVERYDAY)
     return old.use is new.use and old.need.mode == new.need.mode and stricter and wider
 
@@ -146,18 +146,18 @@ _COVERED = (
 """Pairs of needs: advice for the first holds for the second."""
 
 
-def _needs(found: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
-    position = [each for each in found if each.line.question == "position"]
-    clear = [each for each in found if each.line.question in ("position", "exterior")]
-    exact = [each for each in position if each.never_wrong]
+def _needs(methods: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
+    position = [method for method in methods if method.line.question == "position"]
+    clear = [method for method in methods if method.line.question in ("position", "exterior")]
+    exact = [method for method in position if method.never_wrong]
     yield Need("never a wrong answer"), exact
     yield Need("never a wrong answer, one query a call", mode=SINGLE), exact
-    row_by_row = [each for each in exact if each.tier == "python"]
+    row_by_row = [method for method in exact if method.tier == "python"]
     if row_by_row:  # by their batches: a single call may take no longer than the empty one that is subtracted
         yield Need("never a wrong answer, a call a row from Python"), row_by_row
-    floats = [each for each in position if not each.exact and each.line.kind in IN_FLOATS]
+    floats = [method for method in position if not method.exact and method.line.kind in IN_FLOATS]
     for precision in ("float64", "float32"):
-        yield from _nearest(f"plain {precision}", [each for each in floats if each.line.precision == precision])
+        yield from _nearest(f"plain {precision}", [method for method in floats if method.line.precision == precision])
     for words, distance in DISTANCES.items():
         what = f"{BEYOND} {words}"
         yield Need(what, distance=distance), _reliable(position, distance)
@@ -170,70 +170,72 @@ def _needs(found: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tu
         (Need(what, distance=distance), _reliable(position, distance)),
         (Need(what, EVERYDAY, distance=distance), _reliable(position, distance, timed)),
     ):
-        if any(each.tier == "numpy" for each in fitting):
-            yield need, [each for each in fitting if each.tier == "numpy"]
-    yield from _nearest("a mesh, because an engine has one", [each for each in found if each.line.kind == "mesh"])
+        if any(method.tier == "numpy" for method in fitting):
+            yield need, [method for method in fitting if method.tier == "numpy"]
+    yield from _nearest(
+        "a mesh, because an engine has one", [method for method in methods if method.line.kind == "mesh"]
+    )
 
 
-def _nearest(what: str, found: Sequence[MeasuredMethod]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
+def _nearest(what: str, methods: Sequence[MeasuredMethod]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
     """The methods that are reliable nearest to contact, or at most NEARLY times as far from it."""
-    best = min((each.reliable_above for each in found), default=math.inf)
+    best = min((method.reliable_above for method in methods), default=math.inf)
     if best < math.inf:
         distance = NEARLY * best
         need = Need(f"{what}; errors end by {figure(distance)}" if best else f"{what}; none wrong", distance=distance)
-        yield need, [each for each in found if each.reliable_above <= distance]
+        yield need, [method for method in methods if method.reliable_above <= distance]
 
 
 def _reliable(
-    found: Iterable[MeasuredMethod], distance: float, names: Sequence[str] | None = None
+    methods: Iterable[MeasuredMethod], distance: float, names: Sequence[str] | None = None
 ) -> list[MeasuredMethod]:
     """The methods that are reliable above the distance on all workloads, or on the named ones."""
 
-    def holds(each: MeasuredMethod) -> bool:
-        lines = [line for name, line in each.accuracy.items() if names is None or name in names]
+    def holds(method: MeasuredMethod) -> bool:
+        lines = [line for name, line in method.accuracy.items() if names is None or name in names]
         return bool(lines) and all(line.reliable_above <= distance for line in lines)
 
-    return [each for each in found if each.line.kind != "bounding" and holds(each)]
+    return [method for method in methods if method.line.kind != "bounding" and holds(method)]
 
 
-def _fastest(record: Record, found: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
+def _fastest(record: Record, methods: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
     """The fastest method, and after it those as fast within the noise, by their ratios."""
-    ranked = by_ratio(found, workload, mode)
+    ranked = by_ratio(methods, workload, mode)
     if not ranked:
         return []
     best = ranked[0]
     limit = (best.ratio(workload, mode) or 0.0) * (1 + (noise_floor(record, workload, mode) or 0.0))
     high = best.ratio_interval(workload, mode)[1]
     return [
-        each
-        for each in ranked
-        if each is best
-        or (each.ratio(workload, mode) or 0.0) <= limit
-        or each.ratio_interval(workload, mode)[0] <= high
+        method
+        for method in ranked
+        if method is best
+        or (method.ratio(workload, mode) or 0.0) <= limit
+        or method.ratio_interval(workload, mode)[0] <= high
     ]
 
 
 def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMethod]]:
     """Methods for which another of the same tier and question is certainly faster, and reliable at least as near."""
-    found = [each for each in measured_methods(record) if each.line.kind != "bounding"]
-    timed = [name for name in workloads(record) if any((name, BATCH) in each.speed for each in found)]
+    methods = [method for method in measured_methods(record) if method.line.kind != "bounding"]
+    timed = [name for name in workloads(record) if any((name, BATCH) in method.speed for method in methods)]
     pairs = []
-    for each in found:
-        faster = [other for other in found if _beats(other, each, timed)]
+    for method in methods:
+        faster = [other for other in methods if _beats(other, method, timed)]
         if faster:
-            pairs.append((each, min(faster, key=lambda other: other.ratio(timed[0]) or math.inf)))
+            pairs.append((method, min(faster, key=lambda other: other.ratio(timed[0]) or math.inf)))
     return pairs
 
 
-def _beats(other: MeasuredMethod, each: MeasuredMethod, timed: Sequence[str]) -> bool:
-    if (other.tier, other.line.question) != (each.tier, each.line.question):
+def _beats(other: MeasuredMethod, method: MeasuredMethod, timed: Sequence[str]) -> bool:
+    if (other.tier, other.line.question) != (method.tier, method.line.question):
         return False
-    if (each.exact and not other.exact) or each.accuracy.keys() != other.accuracy.keys():
+    if (method.exact and not other.exact) or method.accuracy.keys() != other.accuracy.keys():
         return False
-    if any(other.accuracy[name].reliable_above > line.reliable_above for name, line in each.accuracy.items()):
+    if any(other.accuracy[name].reliable_above > line.reliable_above for name, line in method.accuracy.items()):
         return False
-    shared = [name for name in timed if each.ratio(name) is not None and other.ratio(name) is not None]
-    return bool(shared) and all(other.ratio_interval(name)[1] < each.ratio_interval(name)[0] for name in shared)
+    shared = [name for name in timed if method.ratio(name) is not None and other.ratio(name) is not None]
+    return bool(shared) and all(other.ratio_interval(name)[1] < method.ratio_interval(name)[0] for name in shared)
 
 
 _HOW = prose(
@@ -254,18 +256,22 @@ def advice_sections(record: Record) -> Iterator[Section]:
     known = workloads(record)
     scenes = listed([known[name].title for name in timed_workloads(record)])
     other = reference(record)
-    said: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
-    said += [(f"No measured method meets this need: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet]
+    notes: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
+    notes += [
+        (f"No measured method meets this need: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet
+    ]
     worse = [(Code(loser.name), " (", Code(winner.name), ")") for loser, winner in dominated_methods(record)]
     if worse:
         lead = "Beaten by a method of the same tier that is certainly faster and errs no farther from contact: "
-        said.append((lead, joined(worse), "."))
+        notes.append((lead, joined(worse), "."))
     lines: list[Text] = [
         (Strong(line.need.words), ": ", Code(line.use.name), f", {pace(line.ratio, other or 'the reference')}.")
         for line in chosen.advice
     ]
     how = Paragraph(_HOW)
-    yield Section("Which method to use when", (bullets(lines), how, _advice_table(chosen.advice, other), bullets(said)))
+    yield Section(
+        "Which method to use when", (bullets(lines), how, _advice_table(chosen.advice, other), bullets(notes))
+    )
 
 
 def advice_facts(record: Record) -> Iterator[str]:
@@ -282,8 +288,8 @@ def _price_sentences(record: Record) -> Iterator[Text]:
     """
     timed, known = timed_workloads(record), workloads(record)
     ranked = by_ratio(measured_methods(record), timed[0]) if timed else []
-    never = next((each for each in ranked if each.never_wrong), None)
-    fastest = next((each for each in ranked if each.wrong and each.line.kind != "bounding"), None)
+    never = next((method for method in ranked if method.never_wrong), None)
+    fastest = next((method for method in ranked if method.wrong and method.line.kind != "bounding"), None)
     if never is not None and fastest is not None:
         ratios = [(known[name].title, never.ratio(name), fastest.ratio(name)) for name in timed]
         times = listed([f"{figure(mine / other)} times ({title})" for title, mine, other in ratios if mine and other])
@@ -297,43 +303,45 @@ def _price_sentences(record: Record) -> Iterator[Text]:
 
 def own_method_facts(record: Record) -> Iterator[str]:
     """The user's methods of a benchmark: how near to contact each errs, and its time."""
-    found, other, known = measured_methods(record), reference(record) or "the reference", workloads(record)
-    for each in found:
-        if not each.foreign:
+    methods, other, known = measured_methods(record), reference(record) or "the reference", workloads(record)
+    for method in methods:
+        if not method.foreign:
             continue
-        end = each.reliable_above
+        end = method.reliable_above
         errors = (
             "reliable at no distance" if end == math.inf else f"errors end at {figure(end)}" if end else "none wrong"
         )
-        yield f"{each.name}: {each.wrong:,} of {counted(each.asked, 'answer')} wrong, {errors}"
+        yield f"{method.name}: {method.wrong:,} of {counted(method.asked, 'answer')} wrong, {errors}"
         for name in known:
-            line, ratio = each.speed.get((name, BATCH)), each.ratio(name)
+            line, ratio = method.speed.get((name, BATCH)), method.ratio(name)
             if line is not None and ratio is not None:
                 time = f"{with_interval(line.median_ns, line.ci95_ns)} ns a row in a batch"
-                yield f"{each.name}, {known[name].title}: {time}, {pace(ratio, other, each.ratio_interval(name))}"
+                yield f"{method.name}, {known[name].title}: {time}, {pace(ratio, other, method.ratio_interval(name))}"
 
 
 def best_rival_facts(record: Record) -> Iterator[str]:
     """Each of the user's methods against the fastest that errs no farther from contact."""
-    found, timed = measured_methods(record), timed_workloads(record)
-    for each in found:
-        own = each.ratio(timed[0]) if timed else None
-        if not each.foreign or not own:
+    methods, timed = measured_methods(record), timed_workloads(record)
+    for method in methods:
+        own = method.ratio(timed[0]) if timed else None
+        if not method.foreign or not own:
             continue
         rivals = [
             other
-            for other in found
+            for other in methods
             if not other.foreign
-            and other.line.question == each.line.question
-            and other.accuracy.keys() == each.accuracy.keys()
-            and all(other.accuracy[name].reliable_above <= line.reliable_above for name, line in each.accuracy.items())
+            and other.line.question == method.line.question
+            and other.accuracy.keys() == method.accuracy.keys()
+            and all(
+                other.accuracy[name].reliable_above <= line.reliable_above for name, line in method.accuracy.items()
+            )
         ]
         best = next(iter(by_ratio(rivals, timed[0])), None)
         rival = None if best is None else best.ratio(timed[0])
         if best is None or not rival:
-            yield f"{each.name}: no other method that was measured is as reliable"
+            yield f"{method.name}: no other method that was measured is as reliable"
         else:
-            yield f"{each.name}: {pace(own / rival, f'{best.name}, the fastest that is as reliable')}"
+            yield f"{method.name}: {pace(own / rival, f'{best.name}, the fastest that is as reliable')}"
 
 
 def own_method_sections(record: Record) -> Iterator[Section]:
@@ -345,16 +353,16 @@ def own_method_sections(record: Record) -> Iterator[Section]:
 
 def advised_method_sections(record: Record) -> Iterator[Section]:
     """A section that describes the advised methods."""
-    found = {each.use.name: each.use for each in recommendations(record).advice}
-    if found:
+    advised = {advice.use.name: advice.use for advice in recommendations(record).advice}
+    if advised:
         items: list[Text] = [
             (
                 Code(name),
-                f", {each.tier}: {each.line.title}",
-                f"; {note}" if (note := each.line.note) else "",
+                f", {method.tier}: {method.line.title}",
+                f"; {note}" if (note := method.line.note) else "",
                 ".",
             )
-            for name, each in found.items()
+            for name, method in advised.items()
         ]
         yield Section("What these methods are", (bullets(items),), level=3)
 
@@ -368,16 +376,16 @@ def _advice_table(advice: tuple[Advice, ...], reference: str | None) -> Block:
     return table("which method to use when", heads, [_advice_row(line) for line in advice])
 
 
-def _advice_row(each: Advice) -> Row:
-    line = each.use.speed[each.workload, each.need.mode]
+def _advice_row(advice: Advice) -> Row:
+    line = advice.use.speed[advice.workload, advice.need.mode]
     return (
-        each.need.what,
-        Code(each.use.name),
-        each.need.where,
-        each.need.asked,
+        advice.need.what,
+        Code(advice.use.name),
+        advice.need.where,
+        advice.need.asked,
         paced(line.ratio or 0.0, line.ratio_ci95),
         measured(line.median_ns),
-        count(each.use.asked),
-        joined([Code(other.name) for other in each.alike]),
-        ", ".join(each.errs),
+        count(advice.use.asked),
+        joined([Code(other.name) for other in advice.alike]),
+        ", ".join(advice.errs),
     )

@@ -167,8 +167,8 @@ class SceneFacts(LineFacts[SceneLine]):
     def failures(self) -> Iterator[Failure]:
         line = self.line
         if line.wrong:
-            said = f"the kernel of the scene answers {line.wrong:,} of {counted(line.rows, 'row')} wrongly"
-            yield Failure(MEASUREMENT, line.scene, "scene", "wrong", said)
+            message = f"the kernel of the scene answers {line.wrong:,} of {counted(line.rows, 'row')} wrongly"
+            yield Failure(MEASUREMENT, line.scene, "scene", "wrong", message)
 
     def sentences(self) -> Iterator[str]:
         ratios = (figure(times.by_printed or 0.0) for times in (self.line.batch, self.line.single))
@@ -197,8 +197,8 @@ class ForestFacts(LineFacts[ForestLine]):
         line = self.line
         if line.exact and line.wrong:
             wrong = f"of {counted(line.asked, 'step')} {line.wrong:,} wrong"
-            said = f"{line.method} promises to be exact, but {wrong}"
-            yield Failure(MEASUREMENT, line.method, self.trees, "wrong", said)
+            message = f"{line.method} promises to be exact, but {wrong}"
+            yield Failure(MEASUREMENT, line.method, self.trees, "wrong", message)
 
     def sentences(self) -> Iterator[str]:
         yield f"{figure(self.line.step_ns)} ns a step, {self.line.wrong:,} wrong"
@@ -297,11 +297,11 @@ class CostFacts(LineFacts[CostLine]):
 
     def measurements(self) -> Iterator[Measurement]:
         line = self.line
-        for each in line.compared:
-            where = each.name, line.scene, line.claim
-            yield *where, "ratio", each.ratio, *(each.ratio_ci95 or ())
-            yield *where, "ns", each.median_ns
-            for operation, number in (each.operations or {}).items():
+        for compared in line.compared:
+            where = compared.name, line.scene, line.claim
+            yield *where, "ratio", compared.ratio, *(compared.ratio_ci95 or ())
+            yield *where, "ns", compared.median_ns
+            for operation, number in (compared.operations or {}).items():
                 yield *where, f"operations {operation}", number
 
     def sentences(self) -> Iterator[str]:
@@ -363,18 +363,18 @@ def facts_of(record: Record, *kinds: type[RecordLine]) -> list[LineFacts[Any]]:
 
 def failures_of(record: Record, *kinds: type[RecordLine]) -> list[Failure]:
     """The failures of all lines of these types, in the order of the record."""
-    return [failure for each in facts_of(record, *kinds) for failure in each.failures()]
+    return [failure for line_facts in facts_of(record, *kinds) for failure in line_facts.failures()]
 
 
 def sentences_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
     """The sentences of all lines of these types."""
-    return (sentence for each in facts_of(record, *kinds) for sentence in each.sentences())
+    return (sentence for line_facts in facts_of(record, *kinds) for sentence in line_facts.sentences())
 
 
 def benchmark_failures(record: Record) -> Iterator[Failure]:
     """Exact methods that erred, answers that changed while they were timed, slowness, noise."""
-    for each in accuracy_facts(record):
-        yield from each.failures()
+    for line_facts in accuracy_facts(record):
+        yield from line_facts.failures()
     for kind in (RefusedLine, ForestLine, SceneLine):
         yield from failures_of(record, kind)
     held = [*_without_baseline(record), *failures_of(record, ComparisonLine), *failures_of(record, KernelLine)]

@@ -99,16 +99,20 @@ def _bad(group: GroupLine) -> float:
 
 def status_changes(before: Record, after: Record) -> list[StatusChange]:
     """Families of both records whose counts by status or worst errors differ; those that got worse first."""
-    found = []
+    changed = []
     for (name, _), (old, new) in _shared(_groups(before), _groups(after)):
         all_right = set(old.counts) == set(new.counts) == {"right"}
         if not all_right and (old.counts, worst_u(old)) != (new.counts, worst_u(new)):
-            found.append(StatusChange(name, old, new))
-    return sorted(found, key=lambda change: not change.worse)
+            changed.append(StatusChange(name, old, new))
+    return sorted(changed, key=lambda change: not change.worse)
 
 
 def _groups(record: Record) -> dict[tuple[str, str], GroupLine]:
-    return {(each.name, group.family): group for each in implementations(record) for group in each.groups}
+    return {
+        (implementation.name, group.family): group
+        for implementation in implementations(record)
+        for group in implementation.groups
+    }
 
 
 def accuracy_changes(before: Record, after: Record) -> list[AccuracyChange]:
@@ -123,8 +127,8 @@ def _errors(line: AccuracyLine) -> tuple[int, int, float]:
 
 def ratio_changes(before: Record, after: Record) -> list[RatioChange]:
     """Every method that both records have timed against their reference, those with a difference first."""
-    found = [RatioChange(*key, *pair) for key, pair in _shared(_ratios(before), _ratios(after))]
-    return sorted(found, key=lambda change: [SLOWER, FASTER, UNCLEAR].index(change.verdict))
+    ratios = [RatioChange(*key, *pair) for key, pair in _shared(_ratios(before), _ratios(after))]
+    return sorted(ratios, key=lambda change: [SLOWER, FASTER, UNCLEAR].index(change.verdict))
 
 
 def _ratios(record: Record) -> dict[tuple[str, str, str], Ratio]:
@@ -134,9 +138,9 @@ def _ratios(record: Record) -> dict[tuple[str, str, str], Ratio]:
         if line.ratio is not None
     }
     timed = {
-        (each.name, each.workload, "batch"): (each.ratio, each.ratio_range)
-        for each in timing_totals(record)
-        if each.ratio is not None
+        (total.name, total.workload, "batch"): (total.ratio, total.ratio_range)
+        for total in timing_totals(record)
+        if total.ratio is not None
     }
     return {**measured, **timed}
 
@@ -154,9 +158,9 @@ def only_in_one(before: Record, after: Record) -> Iterator[str]:
         alone = [*(name for name, _ in mine if name not in other_names)]
         alone += sorted(measured[mine is new] - measured[mine is old])
         families = {family for name, family in {*mine} - {*others} if name in names & other_names}
-        for noun, found in (("methods", list(dict.fromkeys(alone))), ("families", sorted(families))):
-            if found:
-                yield f"{noun} in {which} alone: {listed(found)}"
+        for noun, missing in (("methods", list(dict.fromkeys(alone))), ("families", sorted(families))):
+            if missing:
+                yield f"{noun} in {which} alone: {listed(missing)}"
 
 
 def conditions(before: Record, after: Record) -> Iterator[str]:
@@ -205,12 +209,12 @@ def change_facts(record: Record, against: Record) -> Iterator[str]:
     if accuracies:
         changed = [f"{change.after.method} on {change.after.workload}" for change in accuracies]
         yield f"  errors: {listed(changed)} changed"
-    for verdict_ in (SLOWER, FASTER):
-        named = [f"{each.method} ({each.workload}, {each.mode})" for each in ratios if each.verdict == verdict_]
+    for which in (SLOWER, FASTER):
+        named = [f"{ratio.method} ({ratio.workload}, {ratio.mode})" for ratio in ratios if ratio.verdict == which]
         if named:
-            yield f"  {verdict_}, by ratio: {listed(named)}"
+            yield f"  {which}, by ratio: {listed(named)}"
     others = [*conditions(against, record), *only_in_one(against, record)]
-    yield from (f"  {each}" for each in others[:MOST_CONDITIONS])
+    yield from (f"  {difference}" for difference in others[:MOST_CONDITIONS])
     if len(others) > MOST_CONDITIONS:
         yield f"  and {counted(len(others) - MOST_CONDITIONS, 'more difference')} between the runs themselves"
 
@@ -229,7 +233,7 @@ def change_section(record: Record, against: Record) -> Section:
     began = against.header.started
     blocks: list[Block] = [
         Paragraph(f"Against the run of {began}, which ended: {verdict(against).sentence}"),
-        bullets([f"{each}." for each in (*conditions(against, record), *only_in_one(against, record))]),
+        bullets([f"{difference}." for difference in (*conditions(against, record), *only_in_one(against, record))]),
     ]
     if statuses:
         blocks.append(_status_table(statuses))

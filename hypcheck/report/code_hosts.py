@@ -73,14 +73,14 @@ def placed_failures(record: Record) -> list[PlacedFailure]:
     failed = failures(record)
     ended = ended_badly(record, failed)
     known = dict(_places(record))
-    found, seen = [], dict[str, int]()
+    placed, seen = [], dict[str, int]()
     for failure in [*([ended] if ended else []), *failed]:
         name = "\0".join((failure.subject, failure.name, failure.group, failure.kind))
         seen[name] = seen.get(name, 0) + 1
         digest = hashlib.sha256(f"{name}\0{seen[name]}".encode("utf-8", "replace")).hexdigest()
         place = known.get(failure.name, UNKNOWN) if failure.subject == "implementation" else UNKNOWN
-        found.append(PlacedFailure(failure, place, digest))
-    return found
+        placed.append(PlacedFailure(failure, place, digest))
+    return placed
 
 
 def _places(record: Record) -> Iterator[tuple[str, CodePlace]]:
@@ -122,16 +122,16 @@ def _relative(file: str) -> str:
     return (path.relative_to(here) if path.is_relative_to(here) else path).as_posix()
 
 
-def _line(spec: Spec, file: str, told: str | None) -> int | None:
+def _line(spec: Spec, file: str, recorded: str | None) -> int | None:
     """The line of a Python function in its file; None if the file is another now, or does not define it by name."""
-    if spec.kind != "python" or told is None or sha256(Path(file)) != told:
+    if spec.kind != "python" or recorded is None or sha256(Path(file)) != recorded:
         return None
     name = re.escape(spec.words[1])
     text = Path(file).read_text(encoding="utf-8", errors="replace")
-    found = re.search(
+    definition = re.search(
         rf"^[ \t]*(?:async[ \t]+def|def|class)[ \t]+{name}\b|^{name}[ \t]*(?::[^=\n]*)?=", text, re.MULTILINE
     )
-    return None if found is None else text.count("\n", 0, found.start()) + 1
+    return None if definition is None else text.count("\n", 0, definition.start()) + 1
 
 
 VERSION = "2.1.0"
@@ -154,16 +154,16 @@ def render_sarif(record: Record) -> bytes:
 
     A note for each cause of wrong answers follows; its rule has the id that `hypcheck explain` takes.
     """
-    found = placed_failures(record)
-    causes = cause_facts(record) if found else []
-    known = dict.fromkeys(each.rule for each in found)
+    placed = placed_failures(record)
+    causes = cause_facts(record) if placed else []
+    known = dict.fromkeys(each.rule for each in placed)
     rules = [_rule(rule) for rule in known]
     rules += {sentence(facts.name): _cause_rule(facts) for facts in causes}.values()
     number = {rule["id"]: place for place, rule in enumerate(rules)}
     places, names = dict(_places(record)), {each.line.spec: each.name for each in under_test(record)}
     ended, footer = verdict(record), record.footer
     invocation = {
-        "executionSuccessful": footer is not None and not any(each.failure.subject == "run" for each in found),
+        "executionSuccessful": footer is not None and not any(each.failure.subject == "run" for each in placed),
         **({} if footer is None else {"exitCode": footer.exit_code}),
         "exitCodeDescription": sentence(ended.sentence),
     }
@@ -178,7 +178,7 @@ def render_sarif(record: Record) -> bytes:
         "invocations": [invocation],
         "columnKind": "unicodeCodePoints",
         "results": [
-            *(_result(each, number[each.rule]) for each in found),
+            *(_result(each, number[each.rule]) for each in placed),
             *(
                 _cause_result(facts, number[sentence(facts.name)], places.get(names.get(facts.line.spec, ""), UNKNOWN))
                 for facts in causes
@@ -194,14 +194,14 @@ def _rule(rule: str) -> dict[str, Any]:
     return {"id": rule, "shortDescription": {"text": f"{_SUBJECTS[subject]}: {kind}."}}
 
 
-def _result(each: PlacedFailure, rule: int) -> dict[str, Any]:
+def _result(placed: PlacedFailure, rule: int) -> dict[str, Any]:
     return {
-        "ruleId": each.rule,
+        "ruleId": placed.rule,
         "ruleIndex": rule,
-        "level": "error" if each.certain else "warning",
-        "message": {"text": each.message},
-        "locations": [{"physicalLocation": _location(each.place)}],
-        "partialFingerprints": {"hypcheck/v1": each.fingerprint},
+        "level": "error" if placed.certain else "warning",
+        "message": {"text": placed.message},
+        "locations": [{"physicalLocation": _location(placed.place)}],
+        "partialFingerprints": {"hypcheck/v1": placed.fingerprint},
     }
 
 
@@ -242,13 +242,13 @@ def render_gitlab(record: Record) -> bytes:
     """
     issues = [
         {
-            "description": each.message,
-            "check_name": f"hypcheck/{each.rule}",
-            "fingerprint": each.fingerprint,
-            "severity": "critical" if each.certain else "minor",
-            "location": {"path": sentence(each.place.file), "lines": {"begin": each.place.line or 1}},
+            "description": placed.message,
+            "check_name": f"hypcheck/{placed.rule}",
+            "fingerprint": placed.fingerprint,
+            "severity": "critical" if placed.certain else "minor",
+            "location": {"path": sentence(placed.place.file), "lines": {"begin": placed.place.line or 1}},
         }
-        for each in placed_failures(record)
+        for placed in placed_failures(record)
     ]
     return (json.dumps(issues, ensure_ascii=False, indent=2) + "\n").encode("utf-8", "replace")
 
@@ -300,10 +300,10 @@ def harmless(lines: Iterable[str]) -> Iterator[str]:
 
 def error_lines(record: Record) -> list[str]:
     """GitHub's annotations: a line for each failure of the run, MOST_ANNOTATIONS at most."""
-    found = failures(record)
-    shown = found if len(found) <= MOST_ANNOTATIONS else found[: MOST_ANNOTATIONS - 1]
-    rest = len(found) - len(shown)
-    lines = [_annotation(f"hypcheck: {each.name}, {each.group}", _message(each)) for each in shown]
+    failed = failures(record)
+    shown = failed if len(failed) <= MOST_ANNOTATIONS else failed[: MOST_ANNOTATIONS - 1]
+    rest = len(failed) - len(shown)
+    lines = [_annotation(f"hypcheck: {failure.name}, {failure.group}", _message(failure)) for failure in shown]
     if rest:
         lines.append(
             _annotation("hypcheck", [f"and {counted(rest, 'more failure')}; report.md and junit.xml list them"])

@@ -47,9 +47,9 @@ from hypcheck.runs.judge import in_words, truth_in_words
 
 def settings_sections(record: Record) -> Iterator[Section]:
     """The settings file of the run and the options that weaken its gate; none if there are neither."""
-    found = list(settings_facts(record.header.settings))
-    if found:
-        items = [Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in found]
+    facts = list(settings_facts(record.header.settings))
+    if facts:
+        items = [Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in facts]
         yield Section("Settings", (bullets(items),))
 
 
@@ -71,9 +71,9 @@ def run_sections(record: Record) -> Iterator[Section]:
     yield Section("The run", (bullets(items),))
 
 
-def _isolation(found: IsolationPart | UnsetType) -> Iterator[str]:
-    if found is not UNSET:
-        yield f"Implementations: {isolation_text(found.means, found.missing)}."
+def _isolation(isolation: IsolationPart | UnsetType) -> Iterator[str]:
+    if isolation is not UNSET:
+        yield f"Implementations: {isolation_text(isolation.means, isolation.missing)}."
 
 
 LISTED = 50
@@ -85,25 +85,25 @@ IN_TABLE = 1000
 
 def failure_sections(record: Record) -> Iterator[Section]:
     """Every failure with its case and the command that shows it; none if nothing failed."""
-    found = failures(record)
-    if found:
-        yield Section("What failed", (Either(page=_failure_table(found), text=_failure_list(found)),))
+    failed = failures(record)
+    if failed:
+        yield Section("What failed", (Either(page=_failure_table(failed), text=_failure_list(failed)),))
 
 
-def _failure_list(found: list[Failure]) -> Bullets:
+def _failure_list(failed: list[Failure]) -> Bullets:
     items: list[Text] = []
-    for failure in found[:LISTED]:
+    for failure in failed[:LISTED]:
         place: Text = (" (", Code(failure.place), ")") if failure.place else ""
         case: Text = (" Case ", Code(failure.case), place, ": ", Code(failure.replay or "")) if failure.case else ""
         items.append((Strong((failure.subject, ", ", failure.group)), ": ", failure.message, ".", case))
-    return bullets([*items, *_omitted_failures(len(found) - LISTED)])
+    return bullets([*items, *_omitted_failures(len(failed) - LISTED)])
 
 
-def _failure_table(found: list[Failure]) -> TableBlock:
+def _failure_table(failed: list[Failure]) -> TableBlock:
     """The failures, with the commands that show them if there are any."""
-    replays = any(failure.replay for failure in found)
-    rows = [_failure_row(failure, with_case=replays) for failure in found[:IN_TABLE]]
-    rows += [("", "", text, *(("", "") if replays else ())) for text in _omitted_failures(len(found) - IN_TABLE)]
+    replays = any(failure.replay for failure in failed)
+    rows = [_failure_row(failure, with_case=replays) for failure in failed[:IN_TABLE]]
+    rows += [("", "", text, *(("", "") if replays else ())) for text in _omitted_failures(len(failed) - IN_TABLE)]
     return table("failures", f"which | where | what happened{' | case | look at it with' if replays else ''}", rows)
 
 
@@ -220,21 +220,21 @@ def _flat(row: Sequence[float]) -> bool:
 
 def compared_sections(record: Record) -> Iterator[Section]:
     """What a benchmark compared: methods, workloads, and what was missing; none if nothing was measured."""
-    found = measured_methods(record)
-    if not found:
+    methods = measured_methods(record)
+    if not methods:
         return
     columns = "method | what it is | tier | precision | question | exact | remarks"
     rows = [
         (
-            Code(each.name),
-            each.line.title,
-            each.tier,
-            each.line.precision,
-            each.line.question,
-            "yes" if each.exact else "",
-            "; ".join(_remarks(each.line)),
+            Code(method.name),
+            method.line.title,
+            method.tier,
+            method.line.precision,
+            method.line.question,
+            "yes" if method.exact else "",
+            "; ".join(_remarks(method.line)),
         )
-        for each in found
+        for method in methods
     ]
     items = [
         (Strong(line.title), f" ({line.rows:,} rows, seed {line.seed}): {line.text}")
@@ -331,7 +331,7 @@ _OTHER_REPORTS = (
 def overview(record: Record, beside: Collection[str]) -> ReportContent:
     """The content of the page; it shows the pictures among the files `beside` it."""
     parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
-    shows = bullets([f"{said[:1].upper()}{said[1:]}." for part in parts for said in part(record)])
+    shows = bullets([f"{fact[:1].upper()}{fact[1:]}." for part in parts for fact in part(record)])
     pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)
     sections = [
         *square_sections(record),

@@ -51,11 +51,11 @@ def prose(words: str) -> Text:
     """Text of hypcheck with marks for `code`, **strong** and *emphasised*; never for foreign text."""
     parts: list[Text] = []
     end = 0
-    for found in _MARKS.finditer(words):
-        code, strong, emphasis = found.groups()
-        parts.append(words[end : found.start()])
+    for mark in _MARKS.finditer(words):
+        code, strong, emphasis = mark.groups()
+        parts.append(words[end : mark.start()])
         parts.append(Code(code) if code else Strong(strong) if strong else Emphasis(emphasis))
-        end = found.end()
+        end = mark.end()
     return tuple(part for part in (*parts, words[end:]) if part)
 
 
@@ -200,7 +200,7 @@ def table(name: str, heads: str | Iterable[Column], rows: Iterable[Row]) -> Tabl
 
 def bullets(items: Sequence[Text | Item]) -> Bullets:
     """A list of texts or items."""
-    return Bullets(tuple(each if isinstance(each, Item) else Item(each) for each in items))
+    return Bullets(tuple(item if isinstance(item, Item) else Item(item) for item in items))
 
 
 def count(number: int, *, bad: bool = False) -> TableCell:

@@ -110,7 +110,7 @@ class RecordContext:
     @cached_property
     def methods(self) -> dict[str, MeasuredMethod]:
         """The methods of a benchmark by name."""
-        return {each.name: each for each in measured_methods(self.record)}
+        return {method.name: method for method in measured_methods(self.record)}
 
 
 class LineFacts(Generic[Line]):

@@ -145,7 +145,9 @@ def _template_block(block: Block, record: Record, drawings: Drawings) -> _Templa
     if isinstance(block, Either):
         return _template_block(block.page, record, drawings)
     if isinstance(block, Details):
-        return _TemplateBlock("details", block, tuple(_template_block(each, record, drawings) for each in block.blocks))
+        return _TemplateBlock(
+            "details", block, tuple(_template_block(inner, record, drawings) for inner in block.blocks)
+        )
     if isinstance(block, Figures):
         return _figures(block, record, drawings)
     return _TemplateBlock(_KINDS[type(block)], block)
@@ -227,14 +229,16 @@ def formulas_as_json() -> str:
     """Every formula about a pair, Table 2 first: name, title, question, regimes, steps, and the step of the answer."""
     listed = [
         {
-            "name": each.name,
-            "title": each.title,
-            "question": each.question,
-            "regimes": each.regimes,
-            "answer": each.answer,
-            "steps": [(step.name, step.operation, *step.arguments) for step in needed(each.program, (each.answer,))],
+            "name": formula.name,
+            "title": formula.title,
+            "question": formula.question,
+            "regimes": formula.regimes,
+            "answer": formula.answer,
+            "steps": [
+                (step.name, step.operation, *step.arguments) for step in needed(formula.program, (formula.answer,))
+            ],
         }
-        for each in (*FORMULAS.values(), *REPAIRED.values())
-        if each.classifies_pairs
+        for formula in (*FORMULAS.values(), *REPAIRED.values())
+        if formula.classifies_pairs
     ]
     return json.dumps(listed, ensure_ascii=False, separators=(",", ":"))

@@ -88,20 +88,20 @@ def total(times: Iterable[int | None]) -> int | None:
 
 def details(failed: Iterable[Failure]) -> Iterator[str]:
     """Each failure with its case, and the command that shows it."""
-    for each in failed:
-        place = f" ({each.place})" if each.place else ""
-        yield f"case {each.case}{place}: {each.message}" if each.case else each.message
-        if each.replay:
-            yield f"replay: {each.replay}"
+    for failure in failed:
+        place = f" ({failure.place})" if failure.place else ""
+        yield f"case {failure.case}{place}: {failure.message}" if failure.case else failure.message
+        if failure.replay:
+            yield f"replay: {failure.replay}"
 
 
 def _trouble(failed: Sequence[Failure], message: str = "") -> JunitTrouble | None:
     """The trouble of a case with these failures, with the cases and commands that show them; None without any."""
     if not failed:
         return None
-    said = message or "; ".join(each.message for each in failed)
-    shown = tuple(details(failed)) if any(each.case or each.replay for each in failed) else ()
-    return JunitTrouble("failure", failed[0].kind, said, shown)
+    text = message or "; ".join(failure.message for failure in failed)
+    shown = tuple(details(failed)) if any(failure.case or failure.replay for failure in failed) else ()
+    return JunitTrouble("failure", failed[0].kind, text, shown)
 
 
 def _case(facts: LineFacts[Any]) -> JunitCase:
@@ -148,10 +148,10 @@ def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
             yield JunitSuite(f"oracles.{oracle.name}", (JunitCase("available", trouble),))
         else:
             yield JunitSuite(
-                f"oracles.{oracle.name}", _cases(each for each in answers if each.line.oracle == oracle.name)
+                f"oracles.{oracle.name}", _cases(facts for facts in answers if facts.line.oracle == oracle.name)
             )
     yield JunitSuite("findings", tuple(_findings(record, failed)))
-    groups = {id(each.line): each for each in facts_of(record, GroupLine)}
+    groups = {id(facts.line): facts for facts in facts_of(record, GroupLine)}
     for implementation in implementations(record):
         mine = _cases(groups[id(group)] for group in implementation.groups)
         yield JunitSuite(f"implementations.{implementation.name}", mine)
@@ -169,12 +169,12 @@ def _by_type(record: Record, *kinds: type[RecordLine]) -> Iterator[LineFacts[Any
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
     """A case for each mathematical finding, and one about whether they are the known ones."""
-    found = _cases(facts_of(record, FindingLine))
-    yield from found
-    drifted = [each for each in failed if each.subject == "findings"]
+    cases = _cases(facts_of(record, FindingLine))
+    yield from cases
+    drifted = [failure for failure in failed if failure.subject == "findings"]
     if drifted:
         yield JunitCase("known findings", _trouble(drifted))
-    elif found:
+    elif cases:
         yield JunitCase("known findings", output=("the findings are the known ones",))
 
 
@@ -203,11 +203,11 @@ TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
 
 def render(record: Record) -> bytes:
     """The test suites as XML 1.0 in UTF-8."""
-    found = [suite for suite in junit_suites(record) if suite.cases]
-    root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(found)})
+    suites = [suite for suite in junit_suites(record) if suite.cases]
+    root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(suites)})
     # Without its offset: the schema that most parsers use allows none.
     started = escaped(record.header.started)[:19]
-    for suite in found:
+    for suite in suites:
         element = Xml.SubElement(root, "testsuite", {"name": escaped(suite.name), **_attributes([suite])})
         element.set("timestamp", started)
         _set_properties(element, record)
@@ -219,18 +219,18 @@ def render(record: Record) -> bytes:
 
 def _set_properties(element: Xml.Element, record: Record) -> None:
     """The settings of the run, in each suite: the schema that most parsers use has properties only there."""
-    found = list(settings_facts(record.header.settings))
-    if found:
+    facts = list(settings_facts(record.header.settings))
+    if facts:
         properties = Xml.SubElement(element, "properties")
-        for fact in found:
+        for fact in facts:
             Xml.SubElement(properties, "property", {"name": "settings", "value": escaped(fact)})
 
 
-def _attributes(found: Sequence[JunitSuite]) -> dict[str, str]:
+def _attributes(suites: Sequence[JunitSuite]) -> dict[str, str]:
     return {
-        "tests": str(sum(len(suite.cases) for suite in found)),
-        **{attribute: str(sum(suite.count(tag) for suite in found)) for tag, attribute in TAGS.items()},
-        **_time(total(suite.milliseconds for suite in found)),
+        "tests": str(sum(len(suite.cases) for suite in suites)),
+        **{attribute: str(sum(suite.count(tag) for suite in suites)) for tag, attribute in TAGS.items()},
+        **_time(total(suite.milliseconds for suite in suites)),
     }
 
 

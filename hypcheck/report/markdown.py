@@ -35,8 +35,8 @@ _BLOCK_START = re.compile(r"^(?:[-+=#]|\d+(?=[.)](?:\s|$)))")
 
 def escape_text(foreign: object) -> str:
     """The text, escaped, for running text and cells of tables."""
-    safe = _SPECIAL.sub(lambda found: _ENTITIES.get(found[0], "\\" + found[0]), escaped(foreign))
-    return _BLOCK_START.sub(lambda found: "".join(f"&#{ord(c)};" for c in found[0]), safe)
+    safe = _SPECIAL.sub(lambda match: _ENTITIES.get(match[0], "\\" + match[0]), escaped(foreign))
+    return _BLOCK_START.sub(lambda match: "".join(f"&#{ord(c)};" for c in match[0]), safe)
 
 
 def code_span(foreign: object) -> str:
@@ -109,7 +109,7 @@ def _block(block: Block, beside: Collection[str]) -> Iterator[str]:
         case Bullets(items) if items:
             for item in items:
                 yield f"- {running_text(item.text)}"
-                yield from (f"  - {running_text(each)}" for each in item.below)
+                yield from (f"  - {running_text(text_below)}" for text_below in item.below)
             yield ""
         case TableBlock(_, columns, rows):
             numbers = [place for place, column in enumerate(columns) if column.number]

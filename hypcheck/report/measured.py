@@ -149,20 +149,20 @@ def way_totals(record: Record) -> list[WayTotal]:
     """Every method that answers about sweeps and was judged, in the order of the record."""
     where = principal(record), BATCH
     return [
-        _way_total(each, each.speed.get(where))
-        for each in measured_methods(record)
-        if each.line.question == PASSAGE and each.asked
+        _way_total(method, method.speed.get(where))
+        for method in measured_methods(record)
+        if method.line.question == PASSAGE and method.asked
     ]
 
 
-def _way_total(each: MeasuredMethod, speed: SpeedLine | None) -> WayTotal:
-    lines = each.accuracy.values()
+def _way_total(method: MeasuredMethod, speed: SpeedLine | None) -> WayTotal:
+    lines = method.accuracy.values()
     timed = speed if speed is not None and not lost(speed) else None
     return WayTotal(
-        name=each.name,
-        tier=each.tier,
-        exact=each.exact,
-        asked=each.asked,
+        name=method.name,
+        tier=method.tier,
+        exact=method.exact,
+        asked=method.asked,
         missed=sum(line.false_clear for line in lines),
         false=sum(line.false_contact for line in lines),
         abstained=sum(line.abstained for line in lines),
@@ -187,11 +187,11 @@ def _median_size(octaves: Sequence[Octave]) -> float:
 
 def workloads(record: Record) -> dict[str, WorkloadLine]:
     """The workloads by name, in the order of the record, also those that are measured but not described."""
-    found = {line.workload: line for line in record.of(WorkloadLine)}
+    known = {line.workload: line for line in record.of(WorkloadLine)}
     judged, timed = record.of(AccuracyLine), record.of(SpeedLine)
     for name in [*(line.workload for line in judged), *(line.workload for line in timed)]:
-        found.setdefault(name, WorkloadLine(workload=name, title=name, text="", rows=0, seed=0))
-    return found
+        known.setdefault(name, WorkloadLine(workload=name, title=name, text="", rows=0, seed=0))
+    return known
 
 
 def timed_workloads(record: Record) -> list[str]:
@@ -212,10 +212,10 @@ def reference(record: Record) -> str | None:
     return None if named is None else str(named)
 
 
-def by_ratio(found: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
+def by_ratio(methods: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
     """The methods that have a ratio there, the fastest first."""
-    ranked = [(ratio, each) for each in found if (ratio := each.ratio(workload, mode)) is not None]
-    return [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
+    ranked = [(ratio, method) for method in methods if (ratio := method.ratio(workload, mode)) is not None]
+    return [method for _, method in sorted(ranked, key=lambda pair: pair[0])]
 
 
 def noise_floor(record: Record, workload: str, mode: str) -> float | None:

@@ -123,7 +123,7 @@ def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
     parts = [f"settings are those of {settings.file}"] if settings.file else []
     weakened = settings.weakened
     if weakened:
-        named = (f"{each.option} {each.value}, not {each.default} ({each.source})" for each in weakened)
+        named = (f"{option.option} {option.value}, not {option.default} ({option.source})" for option in weakened)
         parts.append(f"weaker than the default: {'; '.join(named)}")
     yield "; ".join(parts)
 
@@ -148,9 +148,9 @@ def implementation_claims(
     yield from spread(line)
     again, restarts = line.again, line.restarts
     other = again.within + again.beyond
-    asked = f"asked again about {counted(again.asked, 'case')}, {other:,} answered otherwise"
+    repetition = f"asked again about {counted(again.asked, 'case')}, {other:,} answered otherwise"
     beyond = f" ({again.beyond:,} beyond the tolerance)"
-    repeated = f"{asked}{beyond}" if again.asked else "nothing to ask again: no answer was judged"
+    repeated = f"{repetition}{beyond}" if again.asked else "nothing to ask again: no answer was judged"
     yield f"{repeated}; {counted(restarts, 'restart')}"
 
 
@@ -195,11 +195,11 @@ def rows_not_asked(counts: Mapping[str, int]) -> str:
 
 def families_not_asked(line: ImplementationLine, reasons: Collection[str] = domain.FAMILIES) -> str:
     """Families that were not asked, by reason: "5 families left out by --families"; "" without any."""
-    found = {reason: (line.not_asked or {}).get(reason) for reason in reasons}
+    left_out = {reason: (line.not_asked or {}).get(reason) for reason in reasons}
     return listed(
         [
             f"{counted(len(families), 'family', 'families')} {domain.FAMILIES[reason]}"
-            for reason, families in found.items()
+            for reason, families in left_out.items()
             if families
         ]
     )
@@ -232,7 +232,7 @@ def domain_text(value: DomainPart) -> str:
     regimes = listed(value.regimes) if value.regimes else "every regime"
     ranges = [f"ratios {_range(value.ratio)}", f"magnitudes {_range(value.magnitude)}"]
     settings = value.settings or ()
-    sizes = [f"({', '.join(f'{size:.6g}' for size in each.sizes)})" for each in settings]
+    sizes = [f"({', '.join(f'{size:.6g}' for size in setting.sizes)})" for setting in settings]
     if len(sizes) > _SIZES_NAMED:
         sizes = [*sizes[:_SIZES_NAMED], f"{len(sizes) - _SIZES_NAMED:,} more"]
     only = [f"only α, γ, b, d = {listed(sizes, 'or')}"] if sizes else []
@@ -260,7 +260,7 @@ class Replays:
     @classmethod
     def of(cls, record: Record) -> Replays:
         """The commands for the cases of a record."""
-        numbers = {id(each.case): each.number for each in recorded_cases(record)}
+        numbers = {id(numbered.case): numbered.number for numbered in recorded_cases(record)}
         return cls(numbers, tuple(_options(record.header.options)))
 
     def place(self, case: WrongAnswer | FaultPart) -> str:
@@ -286,11 +286,11 @@ def tolerance_of(options: Mapping[str, Any]) -> float | None:
 
 def _options(options: Mapping[str, Any]) -> list[str]:
     """Options of the run that differ from their defaults and change what a replay shows."""
-    said = [f"--{name}={options[name]}" for name in ("precision", "question") if options.get(name) is not None]
+    words = [f"--{name}={options[name]}" for name in ("precision", "question") if options.get(name) is not None]
     tolerance = tolerance_of(options)
     if tolerance is not None and tolerance != DEFAULT_TOLERANCE:
-        said.append(f"--tolerance={tolerance:g}")
+        words.append(f"--tolerance={tolerance:g}")
     limits, usual = options.get("limits"), Limits()
     limits = limits if isinstance(limits, dict) else {}
     unusual = [name for name in _LIMITS if name in limits and limits[name] != getattr(usual, name)]
-    return said + [f"--{name.replace('_', '-')}={limits[name]}" for name in unusual]
+    return words + [f"--{name.replace('_', '-')}={limits[name]}" for name in unusual]

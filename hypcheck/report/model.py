@@ -100,8 +100,8 @@ class ImplementationTotal:
     @property
     def fresh(self) -> int | None:
         """The cases asked that nobody knew before the run; None if the record does not say."""
-        told = [group.fresh for group in self.groups if group.fresh is not UNSET]
-        return sum(told) if told else None
+        counts = [group.fresh for group in self.groups if group.fresh is not UNSET]
+        return sum(counts) if counts else None
 
     @property
     def not_asked(self) -> dict[str, int]:
@@ -173,9 +173,9 @@ def oracle_totals(record: Record) -> list[OracleTotal]:
     for line in record.of(OracleLine):
         by_name.setdefault(line.oracle, []).append(line)
     names = sorted(by_name, key=lambda name: (name != EXACT_ORACLE, -sum(line.asked for line in by_name[name])))
-    asked = [_oracle_total(name, by_name[name]) for name in names]
+    totals = [_oracle_total(name, by_name[name]) for name in names]
     missing = [OracleTotal(line.oracle, 0, 0, 0, 0, {}, 0.0, line.reason) for line in record.of(UnavailableLine)]
-    return asked + missing
+    return totals + missing
 
 
 def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
@@ -206,8 +206,8 @@ def implementations(record: Record) -> list[ImplementationTotal]:
     by_subject: dict[SubjectKey, list[GroupLine]] = {}
     for line in record.of(GroupLine):
         by_subject.setdefault(subject_of(line), []).append(line)
-    found = [_implementation(names[subject], lines) for subject, lines in by_subject.items()]
-    return sorted(found, key=lambda each: not each.exact)
+    totals = [_implementation(names[subject], lines) for subject, lines in by_subject.items()]
+    return sorted(totals, key=lambda total: not total.exact)
 
 
 def under_test(record: Record) -> list[UnderTest]:
@@ -290,8 +290,8 @@ def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTota
     )
 
 
-def drawn_way(each: ImplementationTotal) -> WrongAnswer | None:
+def drawn_way(implementation: ImplementationTotal) -> WrongAnswer | None:
     """The worst answer about a sweep of an upright spheroid, which can be drawn in the half plane; None without any."""
-    if each.question != PASSAGE or not each.gated:
+    if implementation.question != PASSAGE or not implementation.gated:
         return None
-    return worst_case([case for group in each.groups for case in group.worst if case.axis is UNSET])
+    return worst_case([case for group in implementation.groups for case in group.worst if case.axis is UNSET])

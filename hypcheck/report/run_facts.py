@@ -31,9 +31,9 @@ from hypcheck.report.model import (
 def oracle_facts(record: Record) -> Iterator[str]:
     """One sentence about the oracles that were asked, one about those that could not be asked."""
     totals = oracle_totals(record)
-    asked = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
-    if asked:
-        yield f"oracles in agreement: {', '.join(asked)}"
+    agreements = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
+    if agreements:
+        yield f"oracles in agreement: {', '.join(agreements)}"
     missing = [f"{total.name} ({total.unavailable})" for total in totals if total.unavailable is not None]
     if missing:
         yield f"oracles not available: {'; '.join(missing)}"
@@ -64,10 +64,10 @@ def method_facts(record: Record) -> Iterator[str]:
     """For each precision: how many methods err beyond the tolerance, and the greatest backward error."""
     tolerance = tolerance_of(record.header.options)
     beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
-    found = [each for each in implementations(record) if each.asked and not each.gated]
-    for precision in dict.fromkeys(each.precision for each in found if not each.exact):
-        methods = [each for each in found if each.precision == precision and not each.exact]
-        wrong = sum(each.statuses.get("wrong", 0) > 0 for each in methods)
+    totals = [total for total in implementations(record) if total.asked and not total.gated]
+    for precision in dict.fromkeys(total.precision for total in totals if not total.exact):
+        methods = [total for total in totals if total.precision == precision and not total.exact]
+        wrong = sum(total.statuses.get("wrong", 0) > 0 for total in methods)
         yield f"{precision}: {wrong} of {counted(len(methods), 'method')} beyond {beyond}; {_farthest(methods)}"
 
 
@@ -77,12 +77,12 @@ _REMARKS = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a
 
 def _farthest(methods: Sequence[ImplementationTotal]) -> str:
     """The answer with the greatest backward error, or that no answer is wrong, if one was judged."""
-    method = max(methods, key=lambda each: worst_error_u(each.worst))
+    method = max(methods, key=lambda total: worst_error_u(total.worst))
     worst = method.worst
     if worst is not None:
         also = _REMARKS.get(worst.status, f" ({worst.status})")
         return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst.case}{also}"
-    judged = any(each.statuses.get(status) for each in methods for status in ("right", *_REMARKS))
+    judged = any(total.statuses.get(status) for total in methods for status in ("right", *_REMARKS))
     return "no answer is wrong" if judged else "no answer was judged"
 
 
@@ -94,31 +94,31 @@ def benchmark_facts(record: Record) -> Iterator[str]:
         named = f"; not met: {listed(missed)}" if missed else ""
         yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
     yield from sentences_of(record, BoundingLine)
-    for each in way_totals(record):
-        yield _way_fact(each)
-    found = [each for each in measured_methods(record) if each.line.kind in IN_FLOATS]
+    for method in way_totals(record):
+        yield _way_fact(method)
+    methods = [method for method in measured_methods(record) if method.line.kind in IN_FLOATS]
     for name, workload in workloads(record).items():
-        yield from _endings(workload.title, name, [each for each in found if name in each.accuracy])
+        yield from _endings(workload.title, name, [method for method in methods if name in method.accuracy])
 
 
-def _way_fact(each: WayTotal) -> str:
+def _way_fact(total: WayTotal) -> str:
     """What a method for sweeps gets wrong, and what a sweep costs."""
-    missed, false = (figure(100 * each.share(part)) for part in (each.missed, each.false))
-    silent = f", {figure(100 * each.share(each.abstained))} % cannot say" if each.abstained else ""
-    time = "" if each.time_ns is None else f", {figure(each.time_ns / 1000)} µs a sweep"
-    ratio = "" if each.ratio is None else f" ({pace(each.ratio, 'the reference')})"
-    wrong = f"{missed} % missed contacts, {false} % false contacts{silent}, of {each.asked:,} sweeps"
-    return f"{each.name}: {wrong}{time}{ratio}"
+    missed, false = (figure(100 * total.share(part)) for part in (total.missed, total.false))
+    silent = f", {figure(100 * total.share(total.abstained))} % cannot say" if total.abstained else ""
+    time = "" if total.time_ns is None else f", {figure(total.time_ns / 1000)} µs a sweep"
+    ratio = "" if total.ratio is None else f" ({pace(total.ratio, 'the reference')})"
+    wrong = f"{missed} % missed contacts, {false} % false contacts{silent}, of {total.asked:,} sweeps"
+    return f"{total.name}: {wrong}{time}{ratio}"
 
 
-def _endings(title: str, workload: str, found: Sequence[MeasuredMethod]) -> Iterator[str]:
+def _endings(title: str, workload: str, methods: Sequence[MeasuredMethod]) -> Iterator[str]:
     """The distances at which errors of methods in floats end on a workload; methods that err at any distance."""
-    ends = {each: float(each.accuracy[workload].reliable_above) for each in found}
-    most = max((each.accuracy[workload].asked for each in found), default=0)
+    ends = {method: float(method.accuracy[workload].reliable_above) for method in methods}
+    most = max((method.accuracy[workload].asked for method in methods), default=0)
     for precision in ("float64", "float32"):
-        mine = {each: end for each, end in ends.items() if each.line.precision == precision and end < math.inf}
+        mine = {method: end for method, end in ends.items() if method.line.precision == precision and end < math.inf}
         # A method that was asked only a few rows would seem to err less.
-        mine = {each: end for each, end in mine.items() if 2 * each.accuracy[workload].asked >= most}
+        mine = {method: end for method, end in mine.items() if 2 * method.accuracy[workload].asked >= most}
         if mine and max(mine.values()):
             best, worst = min(mine, key=mine.__getitem__), max(mine, key=mine.__getitem__)
             if mine[best] == mine[worst]:
@@ -128,12 +128,12 @@ def _endings(title: str, workload: str, found: Sequence[MeasuredMethod]) -> Iter
                 f"{title}, {precision}, the best and the worst: {best.name}, {_end(mine[best])};"
                 f" {worst.name}, {_end(mine[worst])}"
             )
-    never, others = ([each.name for each in found if (ends[each] == math.inf) == bad] for bad in (True, False))
+    never, others = ([method.name for method in methods if (ends[method] == math.inf) == bad] for bad in (True, False))
     if never and len(never) <= len(others):
         yield f"{title}: at no distance reliable: {listed(never)}"
     elif never:
         but = f", all but {listed(others)}" if others else ""
-        yield f"{title}: at no distance reliable: {len(never)} of {counted(len(found), 'method')} in floats{but}"
+        yield f"{title}: at no distance reliable: {len(never)} of {counted(len(methods), 'method')} in floats{but}"
 
 
 def _end(distance: float) -> str:
@@ -161,8 +161,8 @@ def timing_facts(record: Record) -> Iterator[str]:
 
 def unmeasured_facts(record: Record) -> Iterator[str]:
     """What could not be timed, and how many samples were dropped as impossible."""
-    for each in facts_of(record, UnmeasuredLine):
-        yield f"not measured: {each.name}: {each.line.reason}"
+    for facts in facts_of(record, UnmeasuredLine):
+        yield f"not measured: {facts.name}: {facts.line.reason}"
     dropped = [(speed, speed.dropped) for speed in record.of(SpeedLine) if speed.dropped]
     if dropped:
         number = sum(samples for _, samples in dropped)

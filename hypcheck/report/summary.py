@@ -277,7 +277,7 @@ def render(record: Record) -> bytes:
 def summary(record: Record) -> Summary:
     """The summary; its keys and their order are the same for every run."""
     ended, footer, causes = verdict(record), record.footer, record.of(CauseLine)
-    wholes = {each.name: each.line for each in under_test(record) if isinstance(each.line, Tested)}
+    wholes = {tested.name: tested.line for tested in under_test(record) if isinstance(tested.line, Tested)}
     return Summary(
         hypcheck=record.header.hypcheck,
         schema=SCHEMA,
@@ -293,12 +293,12 @@ def summary(record: Record) -> Summary:
         proofs=_proofs(record.of(ProofLine)),
         findings=_findings(record),
         implementations=[
-            _implementation(each, wholes.get(each.name), [line for line in causes if line.spec == each.spec])
-            for each in implementations(record)
+            _implementation(judged, wholes.get(judged.name), [line for line in causes if line.spec == judged.spec])
+            for judged in implementations(record)
         ],
         timings=[decoded(total, TimingSummary) for total in timing_totals(record)],
-        methods=[_method(each) for each in measured_methods(record)],
-        failures=[decoded(each, FailureSummary) for each in failures(record)],
+        methods=[_method(method) for method in measured_methods(record)],
+        failures=[decoded(failure, FailureSummary) for failure in failures(record)],
     )
 
 
@@ -315,10 +315,10 @@ def _oracle(total: OracleTotal) -> OracleSummary:
 
 
 def _equations(lines: list[EquationLine]) -> Equations:
-    found: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
+    numbers: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
     for line in lines:
-        found[line.verdict].append(line.number)
-    return Equations(**found)
+        numbers[line.verdict].append(line.number)
+    return Equations(**numbers)
 
 
 def _proofs(lines: list[ProofLine]) -> Proofs:
@@ -336,28 +336,28 @@ def _findings(record: Record) -> Findings:
     )
 
 
-def _implementation(each: ImplementationTotal, whole: Tested | None, causes: list[CauseLine]) -> ImplementationSummary:
-    found = ImplementationSummary(
-        name=each.name,
-        spec=each.spec,
-        precision=each.precision,
-        question=each.question,
-        exact=each.exact,
-        **_counts(each.asked, each.statuses, each.mistakes, each.worst),
-        families={group.family: _family(group) for group in each.groups},
-        statuses=each.statuses,
+def _implementation(total: ImplementationTotal, whole: Tested | None, causes: list[CauseLine]) -> ImplementationSummary:
+    counts = ImplementationSummary(
+        name=total.name,
+        spec=total.spec,
+        precision=total.precision,
+        question=total.question,
+        exact=total.exact,
+        **_counts(total.asked, total.statuses, total.mistakes, total.worst),
+        families={group.family: _family(group) for group in total.groups},
+        statuses=total.statuses,
     )
     if whole is None:
-        return found
+        return counts
     return replace(
-        found,
+        counts,
         declared=decoded(whole.declared, Claims),
         judged_as=decoded(whole.used, Claims),
         restarts=whole.restarts,
         asked_again=whole.again,
         causes=[_cause(line) for line in causes] or UNSET,
-        fresh=UNSET if each.fresh is None else each.fresh,
-        not_asked=each.not_asked,
+        fresh=UNSET if total.fresh is None else total.fresh,
+        not_asked=total.not_asked,
         families_not_asked=UNSET
         if whole.not_asked is UNSET
         else {why: [*some] for why, some in whole.not_asked.items()},
@@ -391,22 +391,22 @@ def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], wors
 
 
 def _mistakes(counted: dict[str, int]) -> Mistakes:
-    found = {name: counted.get(name.replace("_", "-"), 0) for name in Mistakes.__struct_fields__}
-    return Mistakes(**{name: number for name, number in found.items() if number or name not in ("late", "early")})
+    counts = {name: counted.get(name.replace("_", "-"), 0) for name in Mistakes.__struct_fields__}
+    return Mistakes(**{name: number for name, number in counts.items() if number or name not in ("late", "early")})
 
 
-def _method(each: MeasuredMethod) -> MethodSummary:
-    line = each.line
+def _method(method: MeasuredMethod) -> MethodSummary:
+    line = method.line
     return MethodSummary(
-        name=each.name,
+        name=method.name,
         tier=line.tier,
         kind=line.kind,
         precision=line.precision,
         question=line.question,
         exact=line.exact,
-        asked=each.asked,
-        wrong=each.wrong,
-        reliable_above=Unsigned(each.reliable_above),
-        workloads={name: decoded(found, WorkloadSummary) for name, found in each.accuracy.items()},
-        times=[decoded(found, TimeSummary) for found in each.speed.values()],
+        asked=method.asked,
+        wrong=method.wrong,
+        reliable_above=Unsigned(method.reliable_above),
+        workloads={name: decoded(measurement, WorkloadSummary) for name, measurement in method.accuracy.items()},
+        times=[decoded(measurement, TimeSummary) for measurement in method.speed.values()],
     )

@@ -63,7 +63,7 @@ def summary_lines(
     """
     ended = verdict(record)
     head = click.style(escaped(ended.sentence), fg="green" if ended.passed else "red", bold=True)
-    found = [
+    facts = [
         *_failures(record, ended.sentence),
         *settings_facts(record.header.settings),
         *([] if against is None else change_facts(record, against)),
@@ -81,7 +81,7 @@ def summary_lines(
     ]
     reports = [*_reports(written), *best_rival_facts(record)]
     drawn = [] if ended.passed else list(_squares(record))
-    lines = [*_causes(record), *found[: MOST_LINES - 1 - len(reports)], *reports]
+    lines = [*_causes(record), *facts[: MOST_LINES - 1 - len(reports)], *reports]
     return [head if colour else click.unstyle(head), *drawn, *(_line(line, width) for line in lines)]
 
 
@@ -97,19 +97,20 @@ def _line(text: str, width: int | None) -> str:
     return indent + escaped(text, width)
 
 
-def _failures(record: Record, said: str) -> Iterator[str]:
+def _failures(record: Record, verdict_sentence: str) -> Iterator[str]:
     """The failures that neither the verdict, `said`, nor the causes of wrong answers name."""
     explained = {line.method for line in record.of(CauseLine)}
-    found = [
-        each
-        for each in failures(record)
-        if each.message not in said and not (each.kind == Status.WRONG.value and each.name in explained)
+    unexplained = [
+        failure
+        for failure in failures(record)
+        if failure.message not in verdict_sentence
+        and not (failure.kind == Status.WRONG.value and failure.name in explained)
     ]
-    for each in found[:MOST_FAILURES]:
-        named = each.case is None or each.case in each.message
-        yield f"  ✗ {each.message}" if named else f"  ✗ {each.case}: {each.message}"
-    if len(found) > MOST_FAILURES:
-        yield f"  ✗ and {counted(len(found) - MOST_FAILURES, 'more failure')}; junit.xml lists them all"
+    for failure in unexplained[:MOST_FAILURES]:
+        named = failure.case is None or failure.case in failure.message
+        yield f"  ✗ {failure.message}" if named else f"  ✗ {failure.case}: {failure.message}"
+    if len(unexplained) > MOST_FAILURES:
+        yield f"  ✗ and {counted(len(unexplained) - MOST_FAILURES, 'more failure')}; junit.xml lists them all"
 
 
 def _causes(record: Record) -> Iterator[str]:
@@ -131,11 +132,11 @@ def _causes(record: Record) -> Iterator[str]:
 def _reports(written: Sequence[WrittenReport]) -> Iterator[str]:
     """The folders of the reports, and the reports that are missing, with the reason."""
     folders: dict[str, list[str]] = {}
-    for each in written:
-        if each.skipped is None:
-            folders.setdefault(str(each.path.parent), []).append(each.path.name)
+    for report in written:
+        if report.skipped is None:
+            folders.setdefault(str(report.path.parent), []).append(report.path.name)
     for folder, names in folders.items():
         yield f"reports in {folder}{os.sep}: {', '.join(names)}"
-    for each in written:
-        if each.skipped is not None:
-            yield f"no {each.path.name}: {each.skipped}"
+    for report in written:
+        if report.skipped is not None:
+            yield f"no {report.path.name}: {report.skipped}"

@@ -50,18 +50,21 @@ WITHOUT_COMPARISON = (KernelLine, ForestLine, SceneLine)
 
 def _method_clauses(record: Record) -> Iterator[str]:
     """Clauses about methods of a benchmark that were compared on rows."""
-    found = [each for each in measured_methods(record) if each.asked or each.speed]
-    if not found:
+    methods = [method for method in measured_methods(record) if method.asked or method.speed]
+    if not methods:
         return
     scenes, against = timed_workloads(record), reference(record)
-    best = next(iter(by_ratio([each for each in found if each.never_wrong], scenes[0])), None) if scenes else None
+    best = (
+        next(iter(by_ratio([method for method in methods if method.never_wrong], scenes[0])), None) if scenes else None
+    )
     ratio = None if best is None else best.ratio(scenes[0])
     if best is not None and ratio and against and best.name != against:
         yield f"right on every row and {pace(ratio, against)}: {best.name}"
-    timed = sum(bool(each.speed) for each in found)
-    workloads = {name for each in found for name in each.accuracy} | {name for each in found for name, _ in each.speed}
-    yield f"{counted(len(found), 'method')} compared on {counted(len(workloads), 'workload')}, {timed:,} of them timed"
-    exact = [f"{each.name} ({each.asked:,})" for each in found if each.exact and each.asked]
+    timed = sum(bool(method.speed) for method in methods)
+    workloads = {name for method in methods for name in (*method.accuracy, *(name for name, _ in method.speed))}
+    compared = f"{counted(len(methods), 'method')} compared on {counted(len(workloads), 'workload')}"
+    yield f"{compared}, {timed:,} of them timed"
+    exact = [f"{method.name} ({method.asked:,})" for method in methods if method.exact and method.asked]
     if exact:
         yield f"right on every row: {listed(exact)}"
     held = [line for line in record.of(ComparisonLine) if line.gates]
@@ -115,13 +118,13 @@ class Verdict:
 def failures(record: Record) -> list[Failure]:
     """Everything in the record that fails the run, worst first."""
     whole = failures_of(record, ImplementationLine, NotStartedLine)
-    starts = [each for each in whole if each.group == "start"]
+    starts = [failure for failure in whole if failure.group == "start"]
     return [
         *failures_of(record, OracleLine),
         *failures_of(record, ProofLine),
         *starts,
         *failures_of(record, GroupLine),
-        *(each for each in whole if each not in starts),
+        *(failure for failure in whole if failure not in starts),
         *failures_of(record, DriftLine),
         *benchmark_failures(record),
     ]
@@ -129,28 +132,28 @@ def failures(record: Record) -> list[Failure]:
 
 def verdict(record: Record) -> Verdict:
     """How the run ended."""
-    found = failures(record)
+    failed = failures(record)
     if record.footer is None:
-        so_far = f" What was finished has already failed: {_failure_counts(found)}." if found else ""
+        so_far = f" What was finished has already failed: {_failure_counts(failed)}." if failed else ""
         return Verdict(False, f"TRUNCATED: the record has no end; the run was interrupted and is not a pass.{so_far}")
     code = record.footer.exit_code
-    if code == 0 and found:
-        return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_failure_counts(found)}.")
+    if code == 0 and failed:
+        return Verdict(False, f"CONTRADICTORY: the record ends with exit code 0, but holds {_failure_counts(failed)}.")
     if code == 0:
         return _passed(record)
-    parts = (MEANINGS[code] if code in EXITS_UNFINISHED else "", _reasons(record, found))
+    parts = (MEANINGS[code] if code in EXITS_UNFINISHED else "", _reasons(record, failed))
     reason = "; ".join(filter(None, parts)) or MEANINGS.get(code, "no line of the record says why")
     if code != EXIT_INCONCLUSIVE:
         return Verdict(False, f"FAILED with exit code {code}: {reason}.")
-    few = [each for each in implementations(record) if each.gated and too_few(each.judged, each.skipped)]
+    few = [total for total in implementations(record) if total.gated and too_few(total.judged, total.skipped)]
     if few:
-        told = "; ".join(_gated_clause(each, record) for each in few)
-        return Verdict(False, f"INCONCLUSIVE, exit code {code}: too few rows: {told}. A wider domain would tell.")
+        clauses = "; ".join(_gated_clause(total, record) for total in few)
+        return Verdict(False, f"INCONCLUSIVE, exit code {code}: too few rows: {clauses}. A wider domain would tell.")
     undecided = sum(line.counts.get("undecided", 0) for line in record.of(GroupLine))
     if undecided:
         between = "the tolerance lies between the two ends that are proved of the backward error"
         return Verdict(False, f"INCONCLUSIVE, exit code {code}: {counted(undecided, 'answer')} undecided: {between}.")
-    noisy = f"{counted(len(found), 'comparison')} too noisy to tell" if found else reason
+    noisy = f"{counted(len(failed), 'comparison')} too noisy to tell" if failed else reason
     what_helps = "A quieter machine or more --processes would tell."
     return Verdict(False, f"INCONCLUSIVE, exit code {code}: {noisy}. {what_helps}")
 
@@ -166,17 +169,17 @@ def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
     return Failure("run", "hypcheck", "ended", "unfinished" if unfinished else "unexplained", ended.sentence)
 
 
-def _reasons(record: Record, found: list[Failure]) -> str:
+def _reasons(record: Record, failed: list[Failure]) -> str:
     """Why the run failed: what happened to implementations; of others how many failures, or what the only one is."""
-    if len(found) == 1 and found[0].subject in _TELLING and found[0].kind != Status.WRONG.value:
-        return found[0].message
-    tested = [each for each in found if each.subject == "implementation"]
-    said = [*_wrong_clauses(record), *(each.message for each in tested if each.group in _WHOLE)]
-    if tested and said:
-        rest = [f"and {counted(len(said) - _NAMED, 'more reason')}"] if len(said) > _NAMED else []
-        others = _failure_counts([each for each in found if each not in tested])
-        return "; ".join([*said[:_NAMED], *rest, *([others] if others else [])])
-    return found[0].message if len(found) == 1 and found[0].subject in _TELLING else _failure_counts(found)
+    if len(failed) == 1 and failed[0].subject in _TELLING and failed[0].kind != Status.WRONG.value:
+        return failed[0].message
+    tested = [failure for failure in failed if failure.subject == "implementation"]
+    clauses = [*_wrong_clauses(record), *(failure.message for failure in tested if failure.group in _WHOLE)]
+    if tested and clauses:
+        rest = [f"and {counted(len(clauses) - _NAMED, 'more reason')}"] if len(clauses) > _NAMED else []
+        others = _failure_counts([failure for failure in failed if failure not in tested])
+        return "; ".join([*clauses[:_NAMED], *rest, *([others] if others else [])])
+    return failed[0].message if len(failed) == 1 and failed[0].subject in _TELLING else _failure_counts(failed)
 
 
 _TELLING = ("implementation", "findings", "measurement")
@@ -188,17 +191,20 @@ _WHOLE = ("start", "all families")
 
 def _wrong_clauses(record: Record) -> Iterator[str]:
     """Of each implementation under test, how many cases of those asked ended in each way that fails the run."""
-    for each in implementations(record):
+    for total in implementations(record):
         ended = sum(
-            (Counter({status: group.counts.get(status, 0) for status in group.failing or ()}) for group in each.groups),
+            (
+                Counter({status: group.counts.get(status, 0) for status in group.failing or ()})
+                for group in total.groups
+            ),
             Counter(),
         )
         counts = [f"{number:,} {status}" for status, number in in_order(ended).items()]
-        if each.gated and counts:
-            yield f"{each.name}: {', '.join(counts)} of {counted(each.asked, 'case')}"
+        if total.gated and counts:
+            yield f"{total.name}: {', '.join(counts)} of {counted(total.asked, 'case')}"
 
 
-def _failure_counts(found: list[Failure]) -> str:
+def _failure_counts(failed: list[Failure]) -> str:
     """The failures by subject: "2 disagreements of oracles and 1 failed proof"."""
     nouns = {
         "oracle": ("disagreement of oracles", "disagreements of oracles"),
@@ -207,14 +213,14 @@ def _failure_counts(found: list[Failure]) -> str:
         "findings": ("drift from what is known", "drifts from what is known"),
         "measurement": ("failed measurement",),
     }
-    counts = {subject: sum(each.count for each in found if each.subject == subject) for subject in nouns}
+    counts = {subject: sum(failure.count for failure in failed if failure.subject == subject) for subject in nouns}
     return listed([counted(number, *nouns[subject]) for subject, number in counts.items() if number])
 
 
 def _passed(record: Record) -> Verdict:
     totals = [total for total in oracle_totals(record) if total.asked]
-    tested = [each for each in implementations(record) if each.asked]
-    compared = [each for each in measured_methods(record) if each.asked or each.speed]
+    tested = [method for method in implementations(record) if method.asked]
+    compared = [method for method in measured_methods(record) if method.asked or method.speed]
     if (
         not totals
         and not tested
@@ -226,42 +232,42 @@ def _passed(record: Record) -> Verdict:
     clauses = [
         *([_oracle_clause(totals)] if totals else []),
         *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
-        *(f"{each.name} right on all {counted(each.asked, 'case')}" for each in tested if each.exact),
-        *(_gated_clause(each, record) for each in tested if each.gated),
+        *(f"{method.name} right on all {counted(method.asked, 'case')}" for method in tested if method.exact),
+        *(_gated_clause(method, record) for method in tested if method.gated),
         *_method_clauses(record),
         *_other_clauses(record),
     ]
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
 
 
-def _gated_clause(each: ImplementationTotal, record: Record) -> str:
+def _gated_clause(total: ImplementationTotal, record: Record) -> str:
     """How many cases of a gated implementation were judged and how they ended, which were skipped, and not asked."""
-    ended = ", ".join(f"{number:,} {status}" for status, number in each.statuses.items() if status != "skipped")
-    worst = f"worst backward error {figure(worst_error_u(each.worst))} u"
-    parts = [f"{each.name}: {each.judged:,} judged: {ended}", worst]
-    if each.fresh is not None:
-        parts.append(counted(each.fresh, "fresh row") if each.fresh else "no fresh rows")
-    for what, texts in (("skipped", _skipped(each)), ("not asked", _not_asked(each, record))):
-        said = ", ".join(texts)
-        parts += [f"{what}: {said}"] if said else []
+    ended = ", ".join(f"{number:,} {status}" for status, number in total.statuses.items() if status != "skipped")
+    worst = f"worst backward error {figure(worst_error_u(total.worst))} u"
+    parts = [f"{total.name}: {total.judged:,} judged: {ended}", worst]
+    if total.fresh is not None:
+        parts.append(counted(total.fresh, "fresh row") if total.fresh else "no fresh rows")
+    for what, texts in (("skipped", _skipped(total)), ("not asked", _not_asked(total, record))):
+        reasons = ", ".join(texts)
+        parts += [f"{what}: {reasons}"] if reasons else []
     return "; ".join(parts)
 
 
-def _skipped(each: ImplementationTotal) -> Iterator[str]:
+def _skipped(total: ImplementationTotal) -> Iterator[str]:
     """Rows that were skipped, by reason, and families of which all were."""
-    rows = rows_not_asked(each.not_asked)
+    rows = rows_not_asked(total.not_asked)
     if rows:
         yield rows
-    empty = [group.family for group in each.groups if group.counts and not group.asked]
+    empty = [group.family for group in total.groups if group.counts and not group.asked]
     if empty:
         yield (
             f"all of {listed(empty)}" if len(empty) <= _NAMED else f"all of {counted(len(empty), 'family', 'families')}"
         )
 
 
-def _not_asked(each: ImplementationTotal, record: Record) -> Iterator[str]:
+def _not_asked(total: ImplementationTotal, record: Record) -> Iterator[str]:
     """Families that the run left out."""
-    lines = [tested.line for tested in under_test(record) if tested.groups == each.groups]
+    lines = [tested.line for tested in under_test(record) if tested.groups == total.groups]
     for line in lines if record.header.options.get("families") else ():
         families = "" if isinstance(line, NotStartedLine) else families_not_asked(line)
         if families:
@@ -278,9 +284,8 @@ def _oracle_clause(totals: list[OracleTotal]) -> str:
     doubt = f", {undecided:,} undecided" if undecided else ""
     if len(totals) == 1:
         return f"{counted(totals[0].asked, 'case')} asked of {totals[0].name} and of no other oracle{doubt}"
-    return (
-        f"no disagreement in the cases asked of {listed([f'{each.name} ({each.asked:,})' for each in totals])}{doubt}"
-    )
+    oracles = listed([f"{total.name} ({total.asked:,})" for total in totals])
+    return f"no disagreement in the cases asked of {oracles}{doubt}"
 
 
 _WORDS = {str(CANNOT_SAY): "cannot say", "none": "no valid answer"}
@@ -295,37 +300,41 @@ def squares(record: Record) -> Iterator[tuple[TableBlock, str]]:
 
     None of a record before 1.10.0.
     """
-    for each in implementations(record):
-        counts = each.answers
-        if each.gated and any(not _right(each.question, truth, answer) for truth in counts for answer in counts[truth]):
-            yield _square(each, counts), _passing(each)
+    for total in implementations(record):
+        counts = total.answers
+        if total.gated and any(
+            not _right(total.question, truth, answer) for truth in counts for answer in counts[truth]
+        ):
+            yield _square(total, counts), _passing(total)
 
 
-def _square(each: ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:
+def _square(total: ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:
     """What is true in rows, what was answered in columns."""
-    truths = [truth for truth in (("1", "0") if each.question == PASSAGE else ("1", "0", "-1")) if truth in counts]
-    usual = [str(answer) for answer in sorted(QUESTIONS[each.question].answers, reverse=True) if answer != CANNOT_SAY]
+    truths = [truth for truth in (("1", "0") if total.question == PASSAGE else ("1", "0", "-1")) if truth in counts]
+    usual = [str(answer) for answer in sorted(QUESTIONS[total.question].answers, reverse=True) if answer != CANNOT_SAY]
     others = [answer for answer in _WORDS if any(answer in row for row in counts.values())]
-    titles = [f"answered {_WORDS.get(answer) or in_words(int(answer), each.question)}" for answer in usual]
-    columns = [Column(Code(each.name)), *map(number, [*titles, *(_WORDS[answer] for answer in others)])]
+    titles = [f"answered {_WORDS.get(answer) or in_words(int(answer), total.question)}" for answer in usual]
+    columns = [Column(Code(total.name)), *map(number, [*titles, *(_WORDS[answer] for answer in others)])]
     rows: list[Row] = [
         (
-            f"truth {truth_in_words(int(truth), each.question)}",
+            f"truth {truth_in_words(int(truth), total.question)}",
             *(
-                _cell(counts[truth].get(answer, 0), right=_right(each.question, truth, answer))
+                _cell(counts[truth].get(answer, 0), right=_right(total.question, truth, answer))
                 for answer in [*usual, *others]
             ),
         )
         for truth in truths
     ]
-    return table(f"answers of {each.name} against the truth", columns, rows)
+    return table(f"answers of {total.name} against the truth", columns, rows)
 
 
-def _passing(each: ImplementationTotal) -> str:
+def _passing(total: ImplementationTotal) -> str:
     """How many of the answers that are marked do not fail the run; "" without any."""
     reasons = (("tolerated", "within the tolerance"), ("excused", "excused as known failures"))
     parts = [
-        f"{counted(each.statuses[status], 'answer')} {words}" for status, words in reasons if each.statuses.get(status)
+        f"{counted(total.statuses[status], 'answer')} {words}"
+        for status, words in reasons
+        if total.statuses.get(status)
     ]
     return f"{AMISS} includes {listed(parts)}" if parts else ""
 

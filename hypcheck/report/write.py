@@ -81,12 +81,12 @@ def import_all() -> None:
 def files_of(record: Record) -> list[str]:
     """The names of the reports that a run with this record writes, if all of them can be made."""
     every = [REPORTS[name] for name in kept_formats()]
-    return [each.file for each in every if _has_content(each, record)]
+    return [report.file for report in every if _has_content(report, record)]
 
 
 def _has_content(report: ReportFormat, record: Record) -> bool:
     if report.ways:
-        return any(drawn_way(each) is not None for each in implementations(record))
+        return any(drawn_way(implementation) is not None for implementation in implementations(record))
     return report.shows is None or any(line.type == report.shows for line in record.lines)
 
 

@@ -47,7 +47,7 @@ def test_the_engines_cache_is_the_folder_of_its_variable_or_in_the_users_cache(m
 @pytest.mark.skipif(not installing.is_installed(ENGINES["python-fcl"], CACHE), reason="python-fcl is not installed")
 def test_a_record_of_an_engine_is_written_read_and_shown_as_page_and_badge(tmp_path):
     families = ("ball", "kilometres")
-    record = record_of(ENGINES["python-fcl"], CACHE, each=2, meshes=(500,), families=families)
+    record = record_of(ENGINES["python-fcl"], CACHE, count=2, meshes=(500,), families=families)
     write_record(tmp_path, record)
     assert read_records(tmp_path) == [record]
     assert len(record.tightest) == len(record.default)

@@ -46,7 +46,7 @@ def lines(_: Selection) -> Iterator[str]:
 
 def filled(text: str, values: Mapping[str, str]) -> str:
     """The text with a value for each name in it. Raises KeyError for a name without one."""
-    return _PLACE.sub(lambda found: values[found[1]], text)
+    return _PLACE.sub(lambda match: values[match[1]], text)
 
 
 def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
@@ -120,8 +120,8 @@ def _point(coordinates: Iterable[Fraction | float]) -> str:
 
 def _leaning(entry: LedgerEntry) -> dict[str, str]:
     """The pair that is clear upright and in contact as it leans."""
-    found = [witness for evidence in entry.evidence for witness in evidence.leaning]
-    (dangerous,) = (each for each in found if each.certificate.position is Position.CONTACT)
+    witnesses = [witness for evidence in entry.evidence for witness in evidence.leaning]
+    (dangerous,) = (each for each in witnesses if each.certificate.position is Position.CONTACT)
     return _words_of(dangerous)
 
 

@@ -120,27 +120,27 @@ def _runs(tokens: list[Run], edge: str) -> list[Run]:
 def _tokens(text: str, *, articles: bool = False) -> list[Run]:
     """The tokens; in sentences, where there are `articles`, "a" before a word is one, and a cosine is a word."""
     return [
-        (found[0], "text")
-        if articles and (found[0] in _OF_ROTORS or _ARTICLE.match(text, found.start()))
-        else _token(found)
-        for found in _TOKEN.finditer(text)
+        (match[0], "text")
+        if articles and (match[0] in _OF_ROTORS or _ARTICLE.match(text, match.start()))
+        else _token(match)
+        for match in _TOKEN.finditer(text)
     ]
 
 
-def _token(found: re.Match[str]) -> Run:
+def _token(match: re.Match[str]) -> Run:
     """One token in LaTeX, and whether it is "math", "text", a "space" or a "mark" that can be either."""
-    text = found[0]
-    if found["code"]:
+    text = match[0]
+    if match["code"]:
         return rf"\texttt{{{plain(text.strip('`'))}}}", "text"
-    if found["plain"]:
+    if match["plain"]:
         return text, "text"
-    if found["raised"]:
+    if match["raised"]:
         return f"^{{{text.translate(_RAISED)}}}", "math"
-    if found["root"]:
+    if match["root"]:
         return rf"\sqrt{{{formula(text[1:])}}}", "math"
-    if found["number"]:
+    if match["number"]:
         return text, "math"
-    if found["word"]:
+    if match["word"]:
         return _word(text)
     if text.isspace():
         return " ", "space"

@@ -119,8 +119,8 @@ def _sentences() -> Iterator[str]:
     yield from ("", "## Sentences: the paper's text in order, and what judges each", "")
     yield from _row("section", "the sentence begins", "rows, or why it has none")
     yield "| --- | --- | --- |"
-    for each in sentences():
-        yield from _row(each.section, each.words, "; ".join(each.rows) or f"*{each.reason}*")
+    for sentence in sentences():
+        yield from _row(sentence.section, sentence.words, "; ".join(sentence.rows) or f"*{sentence.reason}*")
 
 
 def _row(*cells: str) -> Iterator[str]:

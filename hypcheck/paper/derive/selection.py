@@ -63,7 +63,9 @@ class Selection:
 
 def _with_needs(name: str) -> tuple[str, ...]:
     """A chain's name, where there is one, and the names of those that it needs."""
-    return (name, *(each for needed in chains()[name].needs for each in _with_needs(needed))) if name else ()
+    return (
+        (name, *(chain_name for needed in chains()[name].needs for chain_name in _with_needs(needed))) if name else ()
+    )
 
 
 CHECKED, FAILS = "checked", "FAILS"

@@ -132,8 +132,8 @@ def _entry(entry: LedgerEntry, *, brief: bool) -> Iterator[str]:
     yield from _details(details(entry), 4)
 
 
-def _details(said: Iterable[tuple[str, str]], start: int) -> Iterator[str]:
-    for title, text in said:
+def _details(titled: Iterable[tuple[str, str]], start: int) -> Iterator[str]:
+    for title, text in titled:
         yield from paragraph(text, start + _TITLE, " " * start + title)
 
 
@@ -165,7 +165,7 @@ def _evidence(evidence: Evidence) -> Iterator[str]:
     for leaning in evidence.leaning:
         yield from formula(leaning.text, indent, CHECKED if evidence.holds and leaning.holds else FAILS)
         yield from paragraph(leaning.shows, indent + 4)
-        axis = " ".join(f"{each:g}" for each in leaning.pair.axis)
+        axis = " ".join(f"{number:g}" for number in leaning.pair.axis)
         yield f"{'':{indent + 4}}{_command(leaning.upright)} --axis {axis}"
         for line in (
             *proof_lines(leaning.pair, leaning.certificate),

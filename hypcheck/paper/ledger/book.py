@@ -109,11 +109,11 @@ def equation(checked: EquationCheck) -> LedgerEntry:
     """The entry of one formula; the verdict expected of it is confirmed where the check comes to the same."""
     entry = statement(_in_brackets(checked.number))
     expected = "misprint" if entry.verdict == MISPRINT else "holds"
-    found = Evidence("identity", checked.finding, checked.verdict == expected)
+    evidence = Evidence("identity", checked.finding, checked.verdict == expected)
     return replace(
         entry,
         why=entry.why + checked.finding,
-        grounds=lambda: (found, *entry.grounds()),
+        grounds=lambda: (evidence, *entry.grounds()),
         correction=checked.correction,
         printed=checked.statement,
     )
@@ -169,11 +169,11 @@ def _evidence(line: str) -> Evidence:
 
 def entries_of(claim: str) -> tuple[LedgerEntry, ...]:
     """The entries of one number; "Proposition 3" has several. Raises InputError where there is none."""
-    asked = _plain(claim)
-    found = tuple(entry for entry in entries() if _is_of(_plain(entry.number), asked))
-    if not found:
-        raise InputError(f"there is no claim {claim!r} in the ledger; {_advice(asked)}")
-    return found
+    claimed = _plain(claim)
+    matching = tuple(entry for entry in entries() if _is_of(_plain(entry.number), claimed))
+    if not matching:
+        raise InputError(f"there is no claim {claim!r} in the ledger; {_advice(claimed)}")
+    return matching
 
 
 def _plain(number: str) -> str:
@@ -184,14 +184,14 @@ def _plain(number: str) -> str:
     return " ".join(bare.split())
 
 
-def _is_of(number: str, asked: str) -> bool:
+def _is_of(number: str, claimed: str) -> bool:
     """Whether a number is the one asked for or one of its parts: "proposition 3" has "proposition 3.1"."""
-    return number == asked or bool(asked and re.match(re.escape(asked) + r"[.,:]\s?", number))
+    return number == claimed or bool(claimed and re.match(re.escape(claimed) + r"[.,:]\s?", number))
 
 
-def _advice(asked: str) -> str:
+def _advice(claimed: str) -> str:
     numbers = {_plain(entry.number): entry.number for entry in entries()}
-    near = get_close_matches(asked, numbers, n=1)
+    near = get_close_matches(claimed, numbers, n=1)
     if near:
         return f"did you mean {numbers[near[0]]!r}?"
     return "give an equation's number such as 12, or Proposition 3, Remark 4, Table 2, A.2b"
@@ -241,7 +241,7 @@ def _sentence(line: str) -> Sentence:
 def coverage() -> str:
     """How many sentences the ledger judges, and why it leaves out the rest, in words."""
     every = sentences()
-    without = [each.reason for each in every if each.reason]
+    without = [sentence.reason for sentence in every if sentence.reason]
     counted = ", ".join(f"{without.count(word)} {word} ({meaning})" for word, meaning in REASONS.items())
     return (
         f"The paper has {len(every)} sentences, its tables' lines and captions counted in; "

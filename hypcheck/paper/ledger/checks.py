@@ -142,8 +142,8 @@ def _same_cubic(
     expected = (-(first + second + third), first * second + first * third + second * third, -first * second * third)
     holds = all(regime(pair) and coefficients(pair) == expected for pair in pairs)
     positions = tuple(_position_by_roots(first, second, pair) for pair in pairs)
-    told = "; ".join(f"{pair}: {position.label}" for pair, position in zip(pairs, positions, strict=True))
-    text = f"g = (λ − {first})(λ − {second})(λ − {third}) for {told}".replace("− -", "+ ").replace("-", "−")
+    labels = "; ".join(f"{pair}: {position.label}" for pair, position in zip(pairs, positions, strict=True))
+    text = f"g = (λ − {first})(λ − {second})(λ − {third}) for {labels}".replace("− -", "+ ").replace("-", "−")
     return Evidence("identity", text, holds and positions == (clear, Position.CONTACT))
 
 
@@ -188,13 +188,13 @@ _MISLED_BY_12 = (
 
 def misled_by_12() -> Evidence:
     """Pairs in contact that a printed proposition calls clear, in its regime, when g is taken from (12)."""
-    found = with_counterexample(*_MISLED_BY_12)
+    evidence = with_counterexample(*_MISLED_BY_12)
     answers = ("exterior by Proposition 3", "interior by Proposition 5")
     text = "; ".join(
-        f"{described(each.facts)}; with (12) as printed {signs(by_12(each.facts))}: {answer}"
-        for each, answer in zip(found.witnesses, answers, strict=False)
+        f"{described(witness.facts)}; with (12) as printed {signs(by_12(witness.facts))}: {answer}"
+        for witness, answer in zip(evidence.witnesses, answers, strict=False)
     )
-    return replace(found, text=text or found.text)
+    return replace(evidence, text=text or evidence.text)
 
 
 def regime_of_section_4() -> Evidence:
@@ -293,11 +293,14 @@ def changed_by_leaning() -> Evidence:
             Position.CONTACT, Position.INTERIOR, "needless: the upright body is refused, the one that leans is clear"
         ),
     )
-    found = tuple(search.found for search in searches if search.found is not None)
+    witnesses = tuple(search.found for search in searches if search.found is not None)
     text = (
-        "; ".join(each.text for each in found) or f"nothing found among {sum(each.tried for each in searches):,} pairs"
+        "; ".join(item.text for item in witnesses)
+        or f"nothing found among {sum(item.tried for item in searches):,} pairs"
     )
-    return Evidence("search", text, len(found) == len(searches) and all(each.holds for each in found), leaning=found)
+    return Evidence(
+        "search", text, len(witnesses) == len(searches) and all(item.holds for item in witnesses), leaning=witnesses
+    )
 
 
 def missed_by_the_centres_height() -> Evidence:
@@ -306,11 +309,11 @@ def missed_by_the_centres_height() -> Evidence:
     One has its centre above z_max, where nothing is asked, and meets the wall; one has its centre below it, and meets
     the wall only where there is none.
     """
-    found = (_above_the_end(), _below_the_end())
+    witnesses = (_above_the_end(), _below_the_end())
     shows = ("above it, in contact with the wall", "not above it, interior; in contact without the end")
-    text = "; ".join(f"{_with_end(pair)} {what}" for pair, what in zip(found, shows, strict=True))
-    proofs = (prove(pair, exact.decide(pair.lengths)) for pair in found)
-    proved = all(check_certificate(pair, proof) for pair, proof in zip(found, proofs, strict=True))
+    text = "; ".join(f"{_with_end(pair)} {what}" for pair, what in zip(witnesses, shows, strict=True))
+    proofs = (prove(pair, exact.decide(pair.lengths)) for pair in witnesses)
+    proved = all(check_certificate(pair, proof) for pair, proof in zip(witnesses, proofs, strict=True))
     return Evidence("search", text, proved)
 
 

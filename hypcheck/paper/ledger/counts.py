@@ -85,11 +85,11 @@ def discriminants_closest_to_zero() -> Evidence:
     values = _discriminants(A, B, P, Q)
     inside = (radii < walls) & (values > 0)
     distances = (walls - radii)[inside][np.argsort(values[inside])]
-    found = [float(distances[: len(distances) // part].max()) for part in (100, 10)]
-    near = all(far <= bound for far, bound in zip(found, NEAREST, strict=True))
+    least = [float(distances[: len(distances) // part].max()) for part in (100, 10)]
+    near = all(far <= bound for far, bound in zip(least, NEAREST, strict=True))
     text = (
         f"of {len(distances):,} clear positions spread evenly over the paper's tower, those with the lowest 1 % of Δ "
-        f"have the centre within {found[0]:.2f} m of the wall, the lowest 10 % within {found[1]:.2f} m; the median "
+        f"have the centre within {least[0]:.2f} m of the wall, the lowest 10 % within {least[1]:.2f} m; the median "
         f"is {np.median(distances):.2f} m"
     )
     return Evidence("count", text, near)
@@ -224,5 +224,5 @@ def figures() -> dict[str, str]:
         "third_row": f"{_figure(0.3, 5):.4f}",
     }
     return {name: str(number) for name, number in numbers.items()} | {
-        f"bench_{name}": said for name, said in BENCH.items()
+        f"bench_{name}": value for name, value in BENCH.items()
     }

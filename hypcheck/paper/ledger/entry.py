@@ -90,10 +90,10 @@ class LedgerEntry:
         """
         if self.verdict == DEFINITION:
             return ()
-        found = {_PROVED_BY.get(evidence.kind, "") for evidence in self.evidence}
+        means = {_PROVED_BY.get(evidence.kind, "") for evidence in self.evidence}
         if any(evidence.witnesses or evidence.leaning for evidence in self.evidence):
-            found.add("witness")
-        return tuple(word for word in ("Coq", "sympy", "exhaustive", "witness") if word in found)
+            means.add("witness")
+        return tuple(word for word in ("Coq", "sympy", "exhaustive", "witness") if word in means)
 
     @property
     def confirmed(self) -> bool:

@@ -253,8 +253,8 @@ def root(value: Fraction) -> Fraction | None:
     """The root of a rational, where that is a rational."""
     if value < 0:
         return None
-    found = Fraction(isqrt(value.numerator), isqrt(value.denominator))
-    return found if found * found == value else None
+    candidate = Fraction(isqrt(value.numerator), isqrt(value.denominator))
+    return candidate if candidate * candidate == value else None
 
 
 Condition = Callable[[PointFacts], bool]
@@ -351,13 +351,13 @@ class LeaningWitness:
     @property
     def text(self) -> str:
         """The pair and its positions: "α = 2, γ = 1, b = 2, d = 1, C = (1, 0, 2): interior; with the axis …"."""
-        alpha, gamma, b, d, *center = (f"{each:g}" for each in self.pair.row[:7])
-        axis = ", ".join(f"{each:g}" for each in self.pair.axis)
-        said = (
+        alpha, gamma, b, d, *center = (f"{number:g}" for number in self.pair.row[:7])
+        axis = ", ".join(f"{number:g}" for number in self.pair.axis)
+        words = (
             f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)}): {self.vertical.position.label} "
             f"upright, {self.certificate.position.label} with the axis ({axis})"
         )
-        return said.replace("-", "−")
+        return words.replace("-", "−")
 
 
 def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[LeaningWitness]:
@@ -378,6 +378,6 @@ def first_change(before: Position, after: Position, shows: str, largest: int = L
 def quadcopter_pairs(largest: int) -> Iterator[tuple[float, ...]]:
     """Sizes and centres (x, 0, z) with α ≥ b, the regime of Procedures 2.a and 2.b, and b > d, as a quadcopter has."""
     sizes = range(1, largest + 1)
-    whole = (each for each in product(sizes, repeat=6) if each[0] >= each[2] > each[3])
-    for alpha, gamma, b, d, x, z in sorted(whole, key=lambda each: (sum(each), max(each), each)):
+    whole = (numbers for numbers in product(sizes, repeat=6) if numbers[0] >= numbers[2] > numbers[3])
+    for alpha, gamma, b, d, x, z in sorted(whole, key=lambda numbers: (sum(numbers), max(numbers), numbers)):
         yield (*map(float, (alpha, gamma, b, d, x)), 0.0, float(z))

@@ -212,7 +212,7 @@ def program_says(name: str, facts: PointFacts) -> int:
 def errs(name: str, *about: Statement) -> Evidence:
     """That a printed program for exterior positions errs in exact arithmetic at a counterexample to each statement."""
     witnesses = with_counterexample(*about).witnesses
-    wrong = [program_says(name, each.facts) != exterior(each.facts) for each in witnesses]
+    wrong = [program_says(name, witness.facts) != exterior(witness.facts) for witness in witnesses]
     return Evidence("programs", f"{name} errs there in exact arithmetic", bool(wrong) and all(wrong))
 
 
@@ -258,8 +258,12 @@ def refused_though_inside(hull: PointFacts) -> Quadcopter | None:
     """A quadcopter that Procedure 2.b refuses by its hull alone although its four rotors are interior."""
     if hull.delta <= 0 or printed_interior(hull):
         return None
-    inside = (each for each in quadcopters(hull) if exact.position(each.farthest.pair.lengths) is Position.INTERIOR)
-    return next((each for each in inside if not each.answer), None)
+    inside = (
+        quadcopter
+        for quadcopter in quadcopters(hull)
+        if exact.position(quadcopter.farthest.pair.lengths) is Position.INTERIOR
+    )
+    return next((quadcopter for quadcopter in inside if not quadcopter.answer), None)
 
 
 def refusal(where: Condition, shows: str) -> Evidence:
@@ -321,7 +325,7 @@ def _crossing(hull: PointFacts) -> bool:
 
 def cleared_by_its_rotors(hull: PointFacts) -> Quadcopter | None:
     """A quadcopter that Procedure 2.b calls valid about a body in contact."""
-    return next((each for each in quadcopters(hull) if each.answer), None)
+    return next((quadcopter for quadcopter in quadcopters(hull) if quadcopter.answer), None)
 
 
 def part_beyond_the_wall(body: PointWitness) -> tuple[Fraction, ...]:

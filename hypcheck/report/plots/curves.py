@@ -133,8 +133,8 @@ def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
 
 def _description(curves: Sequence[Curve]) -> str:
     """The plot in words."""
-    said = [f"{curve.name}: {curve.wrong:,} of {counted(curve.asked, 'answer')} wrong" for curve in curves]
-    return f"Share of wrong answers against distance to the other answer, both logarithmic. {'; '.join(said)}."
+    counts = [f"{curve.name}: {curve.wrong:,} of {counted(curve.asked, 'answer')} wrong" for curve in curves]
+    return f"Share of wrong answers against distance to the other answer, both logarithmic. {'; '.join(counts)}."
 
 
 def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
@@ -205,24 +205,24 @@ NOT_WRONG = ("right", "skipped", "abstained", "refused")
 
 def octave_plots(record: Record) -> Iterator[Plot]:
     """A plot for each precision, more of them where the methods are many."""
-    found = implementations(record)
-    for precision in dict.fromkeys(each.precision for each in found):
-        curves = [one for each in found if each.precision == precision and (one := _octave_curve(each)).octaves]
+    totals = implementations(record)
+    for precision in dict.fromkeys(total.precision for total in totals):
+        curves = [one for total in totals if total.precision == precision and (one := _octave_curve(total)).octaves]
         for number, part in enumerate(in_parts(curves)):
             more = f", part {number + 1}" if len(curves) > len(part) else ""
             yield curve_plot(f"octaves-{precision}-{number}", f"Wrong answers by distance, {precision}{more}", part)
 
 
-def _octave_curve(each: ImplementationTotal) -> Curve:
+def _octave_curve(implementation: ImplementationTotal) -> Curve:
     """The octaves of all families together."""
     asked: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
-    for group in each.groups:
+    for group in implementation.groups:
         for exponent, counts in group.octaves.items():
             for status, number in counts.items():
                 asked[float(exponent)] += number * (status != "skipped")
                 wrong[float(exponent)] += number * (status not in NOT_WRONG)
-    return curve(each.name, {exponent: (asked[exponent], wrong[exponent]) for exponent in asked})
+    return curve(implementation.name, {exponent: (asked[exponent], wrong[exponent]) for exponent in asked})
 
 
 FORMULAS = ("paper", "algebraic", "certified")
@@ -240,29 +240,29 @@ def error_plots(record: Record) -> Iterator[Plot]:
 
 def other_error_plots(record: Record) -> Iterator[Plot]:
     """The same for every other workload, of the methods that are wrong there."""
-    found, known = measured_methods(record), workloads(record)
+    methods, known = measured_methods(record), workloads(record)
     for place, workload in enumerate(name for name in known if name != principal(record)):
-        wrong = [each for each in found if workload in each.accuracy and each.accuracy[workload].wrong]
+        wrong = [method for method in methods if workload in method.accuracy and method.accuracy[workload].wrong]
         for number, (group, curves) in enumerate(_groups(wrong, workload)):
             yield curve_plot(f"errors-{place}-{number}", f"{known[workload].title}: {group}", curves)
 
 
-def _groups(found: list[MeasuredMethod], workload: str) -> Iterator[tuple[str, list[Curve]]]:
+def _groups(methods: list[MeasuredMethod], workload: str) -> Iterator[tuple[str, list[Curve]]]:
     groups: dict[str, list[Curve]] = {}
-    for each in sorted(found, key=lambda each: TIERS.index(each.tier)):
-        line = each.accuracy.get(workload)
+    for method in sorted(methods, key=lambda method: TIERS.index(method.tier)):
+        line = method.accuracy.get(workload)
         if line is not None and line.asked:
             octaves = {float(exponent): (asked, wrong) for exponent, asked, wrong in line.octaves}
-            groups.setdefault(_group(each), []).append(curve(each.label, octaves))
+            groups.setdefault(_group(method), []).append(curve(method.label, octaves))
     for name, curves in groups.items():
         parts = list(in_parts(curves))
         for number, part in enumerate(parts, start=1):
             yield (f"{name}, part {number}" if len(parts) > 1 else name), list(part)
 
 
-def _group(each: MeasuredMethod) -> str:
-    kind, line = each.line.kind, each.line
-    if each.exact:
+def _group(method: MeasuredMethod) -> str:
+    kind, line = method.line.kind, method.line
+    if method.exact:
         return "Exact methods"
     if kind in FORMULAS:
         return f"Formulas in {line.tier}, {_SHORT if line.precision in SHORT else _LONG}"

@@ -150,14 +150,14 @@ class MethodMark:
     shown: bool = True
 
 
-def _draw_methods(axes: Axes, name: str, found: Sequence[MethodMark]) -> dict[str, list[str]]:
+def _draw_methods(axes: Axes, name: str, methods: Sequence[MethodMark]) -> dict[str, list[str]]:
     """Draw the marks, the fastest tier on top, with a ring about those of exact methods. Returns the tooltips."""
-    exact = [each.mark for each in found if each.exact]
+    exact = [method.mark for method in methods if method.exact]
     axes.plot([mark.x for mark in exact], [mark.y for mark in exact], **RING)
     tips: dict[str, list[str]] = {}
     for number, tier in reversed(list(enumerate(TIERS))):
         for shown in (True, False):
-            mine = [each.mark for each in found if (each.tier, each.shown) == (tier, shown)]
+            mine = [method.mark for method in methods if (method.tier, method.shown) == (tier, shown)]
             tips |= draw_marks(axes, f"{name}-{number}-{shown}", mine, **_mark_style(number, shown=shown))
     return tips
 
@@ -180,18 +180,18 @@ RING: dict[str, Any] = {
 """Around the mark of a method that promises never to be wrong."""
 
 
-def _legend(drawn: Figure, found: Sequence[MethodMark], *others: Line2D) -> None:
+def _legend(drawn: Figure, methods: Sequence[MethodMark], *others: Line2D) -> None:
     """The tiers above the axes; below them the other entries, the ring and the hollow marks."""
     handles = [
         Line2D([], [], linestyle="none", label=tier, **_mark_style(number, shown=True))
         for number, tier in enumerate(TIERS)
-        if any(each.tier == tier for each in found)
+        if any(method.tier == tier for method in methods)
     ]
     drawn.legend(handles=handles, loc="outside upper left", ncols=5, handlelength=1.2)
     below = [*others]
-    if any(each.exact for each in found):
+    if any(method.exact for method in methods):
         below.append(Line2D([], [], label="ringed: promises never to be wrong", **RING))
-    if not all(each.shown for each in found):
+    if not all(method.shown for method in methods):
         soft: dict[str, Any] = {"markeredgecolor": colour("soft"), "markerfacecolor": colour("surface")}
         few = f"hollow: under {ENOUGH:,} answers judged, too few to show 1 in 1000"
         below.append(Line2D([], [], linestyle="none", marker="o", markersize=6, label=few, **soft))
@@ -228,22 +228,22 @@ class ParetoPoint:
 
 def points(record: Record, workload: str, *, everywhere: bool = False) -> list[ParetoPoint]:
     """The methods that were judged and timed on the workload; `everywhere`: with the errors of all workloads."""
-    found = []
-    for each in measured_methods(record):
-        speed, here = each.speed.get((workload, BATCH)), each.accuracy.get(workload)
+    marks = []
+    for method in measured_methods(record):
+        speed, here = method.speed.get((workload, BATCH)), method.accuracy.get(workload)
         if speed is None or lost(speed) or here is None:
             continue
-        errors = each if everywhere else here
+        errors = method if everywhere else here
         reliable_above, time_ns = errors.reliable_above, speed.median_ns
         place = (time_ns, reliable_above, errors.asked)
-        found.append(ParetoPoint(each.name, each.tier, *place, each.exact, each.label, each.foreign))
-    return found
+        marks.append(ParetoPoint(method.name, method.tier, *place, method.exact, method.label, method.foreign))
+    return marks
 
 
-def front(found: Sequence[ParetoPoint]) -> list[ParetoPoint]:
+def front(candidates: Sequence[ParetoPoint]) -> list[ParetoPoint]:
     """The points that no other beats: from the fastest on, each more reliable than all faster ones."""
     best, kept = math.inf, []
-    for point in sorted(found, key=lambda point: (point.time_ns, point.reliable_above)):
+    for point in sorted(candidates, key=lambda point: (point.time_ns, point.reliable_above)):
         if point.reliable_above < best:
             best = point.reliable_above
             kept.append(point)
@@ -252,11 +252,11 @@ def front(found: Sequence[ParetoPoint]) -> list[ParetoPoint]:
 
 def pareto_plots(record: Record) -> Iterator[Plot]:
     """A plot for each timed workload, but not the one in `front_plots` if there are others."""
-    found_on = {name: found for name in workloads(record) if (found := points(record, name))}
+    found_on = {name: methods for name in workloads(record) if (methods := points(record, name))}
     for place, (name, line) in enumerate(workloads(record).items()):
-        found = found_on.get(name, [])
-        if found and (name != principal(record) or len(found_on) == 1):
-            yield _plot(f"pareto-{place}", f"Error against run time, {line.title}", found)
+        methods = found_on.get(name, [])
+        if methods and (name != principal(record) or len(found_on) == 1):
+            yield _plot(f"pareto-{place}", f"Error against run time, {line.title}", methods)
 
 
 def front_plots(record: Record) -> Iterator[Plot]:
@@ -275,33 +275,37 @@ def front_plots(record: Record) -> Iterator[Plot]:
         yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, timed=where)
 
 
-def _plot(name: str, title: str, found: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> Plot:
+def _plot(name: str, title: str, methods: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> Plot:
     """A plot with names along the front and of the user's methods, or with all if they are few; others have tooltips.
 
     `timed` names the workload of the times if the title does not.
     """
     drawn = new_figure(WIDTH, height)
     axes = drawn.subplots()
-    best = front(found)
-    heights = _axes(axes, found, timed)
+    best = front(methods)
+    heights = _axes(axes, methods, timed)
     steps = _steps(best, heights, axes.get_xlim()[1])
     for (x0, y0), (x1, y1) in steps:
         axes.plot((x0, x1), (y0, y1), color=colour("soft"), linewidth=1.2, linestyle=DASHES[1], zorder=1.5)
     marks = [
         MethodMark(
-            each.name, each.tier, each.exact, Mark(each.time_ns, heights[each.reliable_above], each.tip), each.shown
+            method.name,
+            method.tier,
+            method.exact,
+            Mark(method.time_ns, heights[method.reliable_above], method.tip),
+            method.shown,
         )
-        for each in found
+        for method in methods
     ]
     tips = _draw_methods(axes, name, marks)
     _legend(drawn, marks, Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label=_UNBEATEN))
-    important = sorted(found, key=lambda point: (not point.foreign, point not in best, point.time_ns))
-    first = sum(point.foreign or point in best for point in found)
-    names = [point.label if place < first or len(found) <= _FEW else None for place, point in enumerate(important)]
+    important = sorted(methods, key=lambda point: (not point.foreign, point not in best, point.time_ns))
+    first = sum(point.foreign or point in best for point in methods)
+    names = [point.label if place < first or len(methods) <= _FEW else None for place, point in enumerate(important)]
     places = [(point.time_ns, heights[point.reliable_above]) for point in important]
     place_labels(axes, places, names, steps, first)
-    said = f"The front, from the fastest: {'; '.join(point.tip for point in best)}."
-    return Plot(name, title, said, drawn, tips)
+    description = f"The front, from the fastest: {'; '.join(point.tip for point in best)}."
+    return Plot(name, title, description, drawn, tips)
 
 
 _FEW = 10
@@ -310,25 +314,25 @@ _FEW = 10
 _UNBEATEN = "no method is faster and more reliable"
 
 
-def _axes(axes: Axes, found: Sequence[ParetoPoint], timed: str) -> dict[float, float]:
+def _axes(axes: Axes, methods: Sequence[ParetoPoint], timed: str) -> dict[float, float]:
     """Name the axes; the height of each reliability: its log10, and heights of their own for 0 and infinity."""
-    finite = [math.log10(point.reliable_above) for point in found if 0 < point.reliable_above < math.inf] or [-1.0]
+    finite = [math.log10(point.reliable_above) for point in methods if 0 < point.reliable_above < math.inf] or [-1.0]
     low, high = math.floor(min(finite)), math.ceil(max(finite))
     span = max(high - low, 4)
     never, always = low - 0.1 * span, high + 0.1 * span
     heights = {0.0: never, math.inf: always}
-    heights |= {p.reliable_above: math.log10(p.reliable_above) for p in found if 0 < p.reliable_above < math.inf}
+    heights |= {p.reliable_above: math.log10(p.reliable_above) for p in methods if 0 < p.reliable_above < math.inf}
     ticks = [(float(k), power_of_ten(k)) for k in decades(10.0**low, 10.0**high)]
-    if any(point.reliable_above == 0 for point in found):
+    if any(point.reliable_above == 0 for point in methods):
         ticks.insert(0, (never, "none wrong"))
         axes.axhspan(never - 0.06 * span, never + 0.05 * span, color=colour("rule"), alpha=0.45, linewidth=0)
-    if any(point.reliable_above == math.inf for point in found):
+    if any(point.reliable_above == math.inf for point in methods):
         ticks.append((always, "at no distance"))
         axes.axhspan(always - 0.05 * span, always + 0.06 * span, color=colour("rule"), alpha=0.45, linewidth=0)
     axes.set_yticks([height for height, _ in ticks], [label for _, label in ticks])
     axes.set_ylim(ticks[0][0] - 0.08 * span, ticks[-1][0] + 0.08 * span)
     axes.set_ylabel("reliable beyond this distance (share of the size)")
-    times = [point.time_ns for point in found]
+    times = [point.time_ns for point in methods]
     least, most = min(times) / 2, max(times) * 3
     log_axis(axes, "x", least, most)
     axes.set_xlabel(f"nanoseconds a query in a batch{', ' if timed else ''}{escaped(timed, 18)}")
@@ -358,26 +362,26 @@ _LEAST = 0.01
 
 def _way_plots(record: Record) -> Iterator[Plot]:
     """Missed contacts, then false contacts, of all workloads together; the time is that of the principal one."""
-    found = [(each, each.time_ns / 1000) for each in way_totals(record) if each.time_ns is not None]
-    if found:
+    timed = [(total, total.time_ns / 1000) for total in way_totals(record) if total.time_ns is not None]
+    if timed:
         where = str(workloads(record)[principal(record)].title)
-        yield _way_plot("front-missed", "Missed contacts", found, where, lambda each: each.missed)
-        yield _way_plot("front-false", "False contacts", found, where, lambda each: each.false)
+        yield _way_plot("front-missed", "Missed contacts", timed, where, lambda total: total.missed)
+        yield _way_plot("front-false", "False contacts", timed, where, lambda total: total.false)
 
 
 def _way_plot(
-    name: str, title: str, found: Sequence[tuple[WayTotal, float]], where: str, mistakes: Callable[[WayTotal], int]
+    name: str, title: str, timed: Sequence[tuple[WayTotal, float]], where: str, mistakes: Callable[[WayTotal], int]
 ) -> Plot:
     """A plot of the share of these mistakes against microseconds."""
     drawn = new_figure(WIDTH, HEIGHT)
     axes = drawn.subplots()
     marks = []
-    for each, time in found:
-        share = each.share(mistakes(each))
-        tip = f"{each.name}, {figure(time)} µs, {figure(100 * share)} % of {each.asked:,}"
-        marks.append(MethodMark(each.name, each.tier, each.exact, Mark(time, share, tip)))
-    most = max(_LEAST, *(each.mark.y for each in marks))
-    times = [each.mark.x for each in marks]
+    for method, time in timed:
+        share = method.share(mistakes(method))
+        tip = f"{method.name}, {figure(time)} µs, {figure(100 * share)} % of {method.asked:,}"
+        marks.append(MethodMark(method.name, method.tier, method.exact, Mark(time, share, tip)))
+    most = max(_LEAST, *(method.mark.y for method in marks))
+    times = [method.mark.x for method in marks]
     log_axis(axes, "x", min(times) / 2, max(times) * 3)
     axes.set_ylim(-(_ABOVE - 1) * most, _ABOVE * most)
     axes.yaxis.set_major_formatter(lambda value, _: f"{100 * value:g} %" if value >= 0 else "")
@@ -385,8 +389,8 @@ def _way_plot(
     axes.set_ylabel(f"sweeps with a {title.lower().removesuffix('s')}")
     tips = _draw_methods(axes, name, marks)
     _legend(drawn, marks)
-    by_need = sorted(marks, key=lambda each: (each.mark.y, each.mark.x))
-    names = [escaped(each.name.removeprefix("passage-"), 28) for each in by_need]
-    place_labels(axes, [each.mark[:2] for each in by_need], names)
-    said = f"{title}, of all sweeps that a method was asked: {'; '.join(each.mark.tip for each in by_need)}."
-    return Plot(name, title, said, drawn, tips)
+    by_need = sorted(marks, key=lambda method: (method.mark.y, method.mark.x))
+    names = [escaped(method.name.removeprefix("passage-"), 28) for method in by_need]
+    place_labels(axes, [method.mark[:2] for method in by_need], names)
+    description = f"{title}, of all sweeps that a method was asked: {'; '.join(method.mark.tip for method in by_need)}."
+    return Plot(name, title, description, drawn, tips)

@@ -65,23 +65,23 @@ def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterato
 
     A cell has `width` decades: cell k reaches from 10^(k·width) to 10^((k+1)·width).
     """
-    places = [place for found in maps.values() for place in found]
+    places = [place for bins in maps.values() for place in bins]
     if not places:
         return
     limits = [(min(place[k] for place in places), max(place[k] for place in places) + 1) for k in (0, 1)]
     first = None
-    for number, (title, found) in enumerate(maps.items()):
-        plot = _heat_plot(f"{prefix}-{number}", title, width, found, limits)
+    for number, (title, bins) in enumerate(maps.items()):
+        plot = _heat_plot(f"{prefix}-{number}", title, width, bins, limits)
         first = share_layout(plot.figure, first)
         yield plot
 
 
-def _heat_plot(name: str, title: str, width: float, found: Cells, limits: Sequence[tuple[int, int]]) -> Plot:
+def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequence[tuple[int, int]]) -> Plot:
     drawn = new_figure(SMALL, 170)
     axes = drawn.subplots()
     axes.grid(visible=False)
-    wrong = {place: counts for place, counts in found.items() if counts[1]}
-    right = [place for place in found if place not in wrong]
+    wrong = {place: counts for place, counts in bins.items() if counts[1]}
+    right = [place for place in bins if place not in wrong]
     if right:  # as one shape: there are many, and nothing else to say of each
         shape = Path.make_compound_path_from_polys(_squares(right))
         axes.add_patch(PathPatch(shape, facecolor=colour("share-0"), linewidth=0, clip_on=False))
@@ -94,10 +94,10 @@ def _heat_plot(name: str, title: str, width: float, found: Cells, limits: Sequen
         getattr(axes, f"set_{axis}lim")(*ends)
         getattr(axes, f"set_{axis}ticks")(ticks, [power_of_ten(exponent) for exponent in exponents])
         getattr(axes, f"set_{axis}label")(label)
-    asked, errors = (sum(counts[k] for counts in found.values()) for k in (0, 1))
-    said = f"Share of wrong answers over {SIZES[0]} and {SIZES[1]}: {errors:,} of {asked:,} wrong."
+    asked, errors = (sum(counts[k] for counts in bins.values()) for k in (0, 1))
+    description = f"Share of wrong answers over {SIZES[0]} and {SIZES[1]}: {errors:,} of {asked:,} wrong."
     tips = {name: [_tip(width, place, counts) for place, counts in wrong.items()]} if wrong else {}
-    return Plot(name, title, said, drawn, tips)
+    return Plot(name, title, description, drawn, tips)
 
 
 def _squares(places: Iterable[tuple[int, int]]) -> Floats:
@@ -119,9 +119,9 @@ OCTAVES = 3
 def size_plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method that erred."""
     maps = {
-        each.name: cells((row for group in each.groups for row in group.size_bins), OCTAVES)
-        for each in implementations(record)
-        if any(row[3] for group in each.groups for row in group.size_bins)
+        implementation.name: cells((row for group in implementation.groups for row in group.size_bins), OCTAVES)
+        for implementation in implementations(record)
+        if any(row[3] for group in implementation.groups for row in group.size_bins)
     }
     yield from _heat_plots("sizes", OCTAVES * math.log10(2), maps)
 
@@ -184,20 +184,20 @@ CELLS, PER_UNIT = 64, 8
 def field_plots(record: Record) -> Iterator[Plot]:
     """A small plot for each method that erred."""
     first = None
-    for number, each in enumerate(implementations(record)):
-        found = cells(row for group in each.groups for row in group.place_bins)
-        if any(wrong for _, wrong in found.values()):
-            plot = _field_plot(f"fields-{number}", each, found)
+    for number, implementation in enumerate(implementations(record)):
+        bins = cells(row for group in implementation.groups for row in group.place_bins)
+        if any(wrong for _, wrong in bins.values()):
+            plot = _field_plot(f"fields-{number}", implementation, bins)
             first = share_layout(plot.figure, first)
             yield plot
 
 
-def _field_plot(name: str, each: ImplementationTotal, found: Cells) -> Plot:
+def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> Plot:
     drawn = new_figure(SMALL, 170)
     axes = drawn.subplots()
     image = np.zeros((CELLS, CELLS, 4))
     steps: Counter[str] = Counter()
-    for (across, up), (asked, wrong) in found.items():
+    for (across, up), (asked, wrong) in bins.items():
         role = step(asked, wrong)
         steps[role] += 1
         image[min(up, CELLS - 1), min(across, CELLS - 1)] = to_rgba(FAINT if role == "share-0" else colour(role))
@@ -207,12 +207,12 @@ def _field_plot(name: str, each: ImplementationTotal, found: Cells) -> Plot:
     axes.set(xlabel="r/α", ylabel="|z|/γ")
     axes.set_xticks(range(0, 9, 2))
     axes.set_yticks(range(0, 9, 2))
-    asked, wrong = (sum(counts[k] for counts in found.values()) for k in (0, 1))
+    asked, wrong = (sum(counts[k] for counts in bins.values()) for k in (0, 1))
     some = sum(number for role, number in steps.items() if role != "share-0")
-    said = (
-        f"Share of wrong answers over r/α and |z|/γ: {wrong:,} of {asked:,} wrong, in {some:,} of {len(found):,} cells."
+    description = (
+        f"Share of wrong answers over r/α and |z|/γ: {wrong:,} of {asked:,} wrong, in {some:,} of {len(bins):,} cells."
     )
-    return Plot(name, each.name, said, drawn)
+    return Plot(name, implementation.name, description, drawn)
 
 
 def place_plots(record: Record) -> Iterator[Plot]:
@@ -233,11 +233,11 @@ def _place_plot(name: str, line: PlacesLine) -> Plot:
     axes.set(xlabel="r (m)", ylabel="z (m)")
     axes.locator_params(nbins=4)
     counts = Counter(letter for text in line.wrong for letter in text)
-    found = [f"{counts[letter]:,} {what}" for letter, (what, _) in MISTAKES.items() if counts[letter]]
+    mistakes = [f"{counts[letter]:,} {what}" for letter, (what, _) in MISTAKES.items() if counts[letter]]
     where = "near the ring" if line.region == "ring" else "around the scene"
     scene = ", ".join(f"{size} {value:g}" for size, value in asdict(line.scene).items())
-    said = f"Wrong answers {where} ({scene}) at {sum(counts.values()):,} grid points: {listed(found)}."
-    return Plot(name, f"{line.method}, {where}", said, drawn)
+    description = f"Wrong answers {where} ({scene}) at {sum(counts.values()):,} grid points: {listed(mistakes)}."
+    return Plot(name, f"{line.method}, {where}", description, drawn)
 
 
 REGIONS = {"e": ("exterior", "#d7e9f7"), "c": ("contact", "#737373"), "i": ("interior", "#ecc767")}
@@ -263,8 +263,8 @@ def maps_together(record: Record) -> Plot:
     lines = record.of(MapLine)
     drawn = draw_maps(lines, 390 * len(lines), 470)
     drawn.suptitle("\n".join(dict.fromkeys(map(_scene, lines))), fontsize=11)
-    said = " ".join(f"{escaped(line.name)}: {_counts(line)}." for line in lines)
-    return Plot("map", "Exact positions, and the wrong answers of a method", said, drawn)
+    description = " ".join(f"{escaped(line.name)}: {_counts(line)}." for line in lines)
+    return Plot("map", "Exact positions, and the wrong answers of a method", description, drawn)
 
 
 def draw_maps(lines: Sequence[MapLine], width: float, height: float) -> Figure:

@@ -60,9 +60,9 @@ def _mark_contacts(axes: Iterable[Any], ways: dict[str, Any] | None) -> None:
         points.append(start + contact["first_upper"] * (end - start))
     if not points:
         return
-    for each in axes:
-        each.plot(
-            *np.transpose(points)[: 3 if each.name == "3d" else 2],
+    for panel in axes:
+        panel.plot(
+            *np.transpose(points)[: 3 if panel.name == "3d" else 2],
             linestyle="none",
             marker="P",
             markersize=7,
@@ -108,12 +108,12 @@ def _walk(result: dict[str, Any]) -> Plot:
         _wall(panels[1], panels[0], wall)
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4 if wall else 3)
     steps = result["steps"]
-    said = (
+    description = (
         f"{steps['tried']:,} steps of a walker among {len(result['trees'])} trees who obeys Procedure 1 in float32: "
         f"{steps['contact']:,} rightly refused, {steps['phantom']:,} stopped by phantoms, that is, on rings where Δ "
         "vanishes though nothing is near."
     )
-    return Plot("forest-walk", "A walk in the forest, and its invisible walls", said, figure)
+    return Plot("forest-walk", "A walk in the forest, and its invisible walls", description, figure)
 
 
 def _forest_from_above(axes: Axes, result: dict[str, Any]) -> None:
@@ -164,7 +164,7 @@ def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
     axes.set_title(f"the invisible wall at {_MARKED}")
     labels = {"e": "free, and float32 says so", "E": "free, but float32 says contact"}
     seen = {letter for line in wall["lines"] for letter in line}
-    handles = [Patch(facecolor=colours[each], label=label) for each, label in labels.items() if each in seen]
+    handles = [Patch(facecolor=colours[kind], label=label) for kind, label in labels.items() if kind in seen]
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.24), fontsize=9)
     x, y, _ = wall["center"]
     whole.annotate(
@@ -195,8 +195,10 @@ def _space(result: dict[str, Any]) -> Plot:
     trunks = [Patch(facecolor=colour(paint), edgecolor=colour("ink"), label=label) for label, paint in TRUNKS.values()]
     handles, _ = axes.get_legend_handles_labels()
     figure.legend(handles=[*trunks, *handles], loc="outside lower center", ncols=3)
-    said = f"{len(result['trees'])} trunks as hyperboloids of one sheet, the walk on the ground, and where it stopped."
-    return Plot("forest-space", "The forest in space", said, figure)
+    description = (
+        f"{len(result['trees'])} trunks as hyperboloids of one sheet, the walk on the ground, and where it stopped."
+    )
+    return Plot("forest-space", "The forest in space", description, figure)
 
 
 def _nearness(tree: dict[str, Any]) -> float:
@@ -249,13 +251,13 @@ def flights(result: dict[str, Any]) -> Plot:
     _mark_contacts([solid, above], flown["ways"])
     handles = [handle for axes in (above, along) for handle in axes.get_legend_handles_labels()[0]]
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
-    said = (
+    description = (
         f"Inside a hyperboloid with α = {assumptions['alpha']:g} m and γ = {assumptions['gamma']:g} m, "
         f"{len(flown['paths'])} random flights with steps of {flown['step']:g} m, from the side and from above, and "
         "the discriminant Δ of the body's cubic at each position: at one height it falls towards the wall, across "
         "heights it does not tell how near the wall is, and where it is not above 0 the rotors are asked."
     )
-    return Plot("tower-flights", "Flights inside a cooling tower, and Δ along them", said, figure)
+    return Plot("tower-flights", "Flights inside a cooling tower, and Δ along them", description, figure)
 
 
 def _tower_in_space(figure: SubFigure, assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> Any:  # noqa: ANN401 - axes in space
@@ -343,12 +345,12 @@ def _table(table: dict[str, Any]) -> Plot:
         axes.plot(steps, table["printed"][row], **curve_style(row).marks, label=label, **look)
     axes.set(xlabel="step v·t (m)", ylabel="executions with Δ ≤ 0 (%)")
     axes.legend(**_FRAMED)
-    said = (
+    description = (
         f"The printed figures of Table 5 and simulated ones of {table['runs']:,} runs over the step v·t. "
         f"Root mean square difference {table['root_mean_square_difference']:.2f} as printed, "
         f"{other['root_mean_square_difference']:.2f} with the second row read as 0.25 s. {table['statement']}"
     )
-    return Plot("tower-table-5", "The paper's Table 5, printed and simulated", said, figure)
+    return Plot("tower-table-5", "The paper's Table 5, printed and simulated", description, figure)
 
 
 def _pitch(assumptions: dict[str, Any], pitch: dict[str, Any]) -> Plot:
@@ -369,12 +371,12 @@ def _pitch(assumptions: dict[str, Any], pitch: dict[str, Any]) -> Plot:
     shares.set(xlabel="step v·t (m)", ylabel="wrong answers about horizontal moves (%)")
     shares.legend(**_FRAMED)
     total = pitch["total"]
-    said = (
+    description = (
         f"Left: the body in a section through the tower's axis, upright and leaning outwards by {pitch['degrees']:g} "
         f"degrees, where the upright one just touches the wall. Right: of {total['moves']:,} horizontal moves the "
         f"upright model's answer is wrong about {total['wrong']:,}, dangerous for {total['dangerous']:,}."
     )
-    return Plot("tower-pitch", "A quadcopter that leans into its movement, and the upright model", said, figure)
+    return Plot("tower-pitch", "A quadcopter that leans into its movement, and the upright model", description, figure)
 
 
 def _section(axes: Axes, assumptions: dict[str, Any], degrees: float) -> None:

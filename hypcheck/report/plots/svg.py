@@ -72,7 +72,7 @@ def standalone(plot: Plot) -> bytes:
 def together(name: str, title: str, plots: Sequence[tuple[str, str]]) -> bytes:
     """Several plots, each a title and its element, as one file: row by row under their titles."""
     parts = [Xml.fromstring(svg) for _, svg in plots]  # noqa: S314 - as inline made it
-    sizes = [tuple(float(each) for each in part.get("viewBox", "0 0 0 0").split()[2:]) for part in parts]
+    sizes = [tuple(float(size) for size in part.get("viewBox", "0 0 0 0").split()[2:]) for part in parts]
     widest, top = max(wide for wide, _ in sizes), 0.0
     whole = Xml.Element(f"{_SVG}svg")
     for first in range(0, len(parts), _COLUMNS):
@@ -156,7 +156,7 @@ def _unstyle(element: Xml.Element) -> None:
 def _shorten(element: Xml.Element) -> None:
     for name in ("d", "x", "y", "transform", "width", "height", "points"):
         if name in element.attrib:
-            short = _NUMBER.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), element.attrib[name])
+            short = _NUMBER.sub(lambda digits: f"{float(digits[0]):.2f}".rstrip("0").rstrip("."), element.attrib[name])
             element.set(name, _AROUND_LETTERS.sub(r"\1", " ".join(short.split())) if name == "d" else short)
     if _LINK in element.attrib:
         element.set("href", element.attrib.pop(_LINK))
@@ -165,8 +165,8 @@ def _shorten(element: Xml.Element) -> None:
 def _give_tips(root: Xml.Element, plot: Plot) -> None:
     groups = {element.get("id"): element for element in root.iter(f"{_SVG}g")}
     for gid, tips in plot.tips.items():
-        definitions = {id(each) for defs in groups[gid].iter(f"{_SVG}defs") for each in defs.iter()}
-        marks = [each for each in groups[gid].iter() if each.tag in _MARKS and id(each) not in definitions]
+        definitions = {id(node) for defs in groups[gid].iter(f"{_SVG}defs") for node in defs.iter()}
+        marks = [node for node in groups[gid].iter() if node.tag in _MARKS and id(node) not in definitions]
         if len(marks) != len(tips):
             raise ValueError(f"{plot.name}: {gid} has {len(marks)} marks and {len(tips)} tooltips")
         for mark, tip in zip(marks, tips, strict=True):
@@ -180,7 +180,10 @@ def _shown(words: str) -> str:
 def _rename(root: Xml.Element, name: str) -> None:
     """Ids that something refers to get the plot's name before them; the others go."""
     used = {
-        found for element in root.iter() for value in element.attrib.values() for found in _REFERENCE.findall(value)
+        reference
+        for element in root.iter()
+        for value in element.attrib.values()
+        for reference in _REFERENCE.findall(value)
     }
     for element in root.iter():
         identity = element.attrib.pop("id", None)

@@ -52,15 +52,15 @@ class SpeedRow:
 
 def speed_plots(record: Record) -> Iterator[Plot]:
     """A plot for each workload and mode in which there are ratios."""
-    found = measured_methods(record)
+    methods = measured_methods(record)
     keys = dict.fromkeys((line.workload, line.mode) for line in record.of(SpeedLine))
     for number, (workload, mode) in enumerate(keys):
         rows = []
-        for each in found:
-            ratio = each.ratio(workload, mode)
+        for method in methods:
+            ratio = method.ratio(workload, mode)
             if ratio:
-                ends, time = each.ratio_interval(workload, mode), each.speed[workload, mode].median_ns
-                rows.append(SpeedRow(each.label, each.tier, ratio, *ends, time))
+                ends, time = method.ratio_interval(workload, mode), method.speed[workload, mode].median_ns
+                rows.append(SpeedRow(method.label, method.tier, ratio, *ends, time))
         if len(rows) > 1:
             rows.sort(key=lambda row: row.ratio)
             title = f"{workloads(record)[workload].title}, {_MODES[mode]}"
@@ -91,8 +91,8 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
     axes.tick_params(axis="y", length=0, labelsize=9)
     axes.set_xlabel(f"time by that of {escaped(against, 26)}, 95 % interval")
     drawn.legend(loc="outside upper left", ncols=3, handlelength=1.4)
-    said = f"Ratios of times, the fastest first: {'; '.join(row.tip for row in rows)}."
-    return Plot(name, title, said, drawn, tips)
+    description = f"Ratios of times, the fastest first: {'; '.join(row.tip for row in rows)}."
+    return Plot(name, title, description, drawn, tips)
 
 
 def _draw_curves(axes: Axes, name: str, curves: Mapping[str, Sequence[Mark]]) -> dict[str, list[str]]:
@@ -153,8 +153,8 @@ def _convergence_plot(what: str, label: str, methods: Mapping[str, Sequence[Conv
     if what == "wrong":
         handles.append(Line2D([], [], label=NONE_WRONG, color=colour("soft"), linestyle="none", **LIMIT))
     drawn.legend(handles=handles, loc="outside lower left")
-    said = f"{label} against the number of triangles. At the most: {_last_tips(curves)}."
-    return Plot(f"convergence-{what}", label, said, drawn, tips)
+    description = f"{label} against the number of triangles. At the most: {_last_tips(curves)}."
+    return Plot(f"convergence-{what}", label, description, drawn, tips)
 
 
 def _last_tips(curves: Mapping[str, Sequence[Mark]]) -> str:
@@ -180,20 +180,20 @@ def bounding_plots(record: Record) -> Iterator[Plot]:
 
 def _bounding_marks(line: BoundingLine, what: str) -> list[Mark]:
     """What is drawn over d/b, of the rows that have it."""
-    found = []
+    marks = []
     for ratio, asked, contacts, excess in line.overlap:
         value = excess if what == "excess" else contacts / asked if asked else None
         if value is not None and asked:
             known = "" if excess is None else f", median excess clearance {figure(excess)} radii"
             tip = f"{line.shape}, d/b {figure(ratio)}: {contacts:,.0f} of {asked:,.0f} false contacts{known}"
-            found.append(Mark(float(ratio), float(value), tip))
-    return sorted(found)
+            marks.append(Mark(float(ratio), float(value), tip))
+    return sorted(marks)
 
 
 def _bounding_plot(what: str, label: str, curves: Mapping[str, Sequence[Mark]]) -> Plot:
     drawn = new_figure(WIDTH, 240 + 15 * len(curves))
     axes = drawn.subplots()
-    marks = [mark for each in curves.values() for mark in each]
+    marks = [mark for drawn_marks in curves.values() for mark in drawn_marks]
     ratios = [mark.x for mark in marks]
     log_axis(axes, "x", min(*ratios, 0.5) / 1.3, max(*ratios, 2.0) * 1.3)
     axes.axvline(1, color=colour("soft"), linewidth=0.8)
@@ -224,5 +224,5 @@ def forest_plots(record: Record) -> Iterator[Plot]:
     tips = _draw_curves(axes, "forest", curves)
     drawn.legend(handles=legend_handles(curves), loc="outside lower left")
     title = "time of a step against the number of trees"
-    said = f"{title.capitalize()}. In the largest forest: {_last_tips(curves)}."
-    yield Plot("forest", title, said, drawn, tips)
+    description = f"{title.capitalize()}. In the largest forest: {_last_tips(curves)}."
+    yield Plot("forest", title, description, drawn, tips)

@@ -63,10 +63,10 @@ class _Way:
 
 def plots(record: Record) -> Iterator[Plot]:
     """A plot for each implementation under test that answered wrongly about a sweep of an upright spheroid."""
-    for number, each in enumerate(implementations(record)):
-        case = drawn_way(each)
+    for number, implementation in enumerate(implementations(record)):
+        case = drawn_way(implementation)
         if case is not None:
-            yield _plot(f"way-{number}", each.name, case)
+            yield _plot(f"way-{number}", implementation.name, case)
 
 
 def _plot(name: str, method: str, case: WrongAnswer) -> Plot:
@@ -76,15 +76,15 @@ def _plot(name: str, method: str, case: WrongAnswer) -> Plot:
     _whole(whole, way)
     _near(near, way)
     _legend(drawn, way)
-    said = f"{escaped(case.case)}: {SWEEP_ANSWERS[int(way.hit)]}{_when(way)}; answered: {_answer(way)}."
-    return Plot(name, f"{escaped(method, _LONGEST_NAME)}: {escaped(case.case, _LONGEST_NAME)}", said, drawn)
+    description = f"{escaped(case.case)}: {SWEEP_ANSWERS[int(way.hit)]}{_when(way)}; answered: {_answer(way)}."
+    return Plot(name, f"{escaped(method, _LONGEST_NAME)}: {escaped(case.case, _LONGEST_NAME)}", description, drawn)
 
 
 def _way_of(case: WrongAnswer) -> _Way:
     row = from_hex(numbers_of(case))
-    found = passage_of(row)
-    shown = found.first_lower if found.hit else _nearest_time(row)
-    return _Way(row, int(case.answer), found.hit, shown, case.time if case.time else None)
+    sweep = passage_of(row)
+    shown = sweep.first_lower if sweep.hit else _nearest_time(row)
+    return _Way(row, int(case.answer), sweep.hit, shown, case.time if case.time else None)
 
 
 def _nearest_time(row: tuple[float, ...]) -> float:
@@ -140,7 +140,7 @@ def _panel(axes: Axes, way: _Way, r: Interval, z: Interval, title: str) -> None:
 def _about(way: _Way) -> tuple[Interval, Interval]:
     """The part of the half plane about the spheroid at the time that is shown."""
     b, d = way.row[2:4]
-    r, z = (float(each) for each in way.at(way.shown))
+    r, z = (float(coordinate) for coordinate in way.at(way.shown))
     return (max(0.0, r - AROUND * b), r + AROUND * b), (z - AROUND * d, z + AROUND * d)
 
 
@@ -166,7 +166,7 @@ def _touching(axes: Axes, way: _Way) -> None:
 
 def _body(axes: Axes, way: _Way, time: float, role: str, *, filled: bool = False) -> None:
     b, d = way.row[2:4]
-    r, z = (float(each) for each in way.at(time))
+    r, z = (float(coordinate) for coordinate in way.at(time))
     face = colour(role) if filled else "none"
     axes.add_patch(Ellipse((r, z), 2 * b, 2 * d, facecolor=face, edgecolor="none", alpha=0.25, zorder=2))
     turn = np.linspace(0.0, 2 * math.pi, 121)

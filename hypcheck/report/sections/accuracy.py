@@ -76,10 +76,10 @@ _FAMILY_DISTANCE = prose(
 
 def family_sections(record: Record) -> Iterator[Section]:
     """Every family of every judged method, the worst cases, and where they lie; only the page has these sections."""
-    found = [each for each in implementations(record) if each.asked or each.statuses]
-    if not found:
+    totals = [total for total in implementations(record) if total.asked or total.statuses]
+    if not totals:
         return
-    if any(group.octaves for each in found for group in each.groups):
+    if any(group.octaves for total in totals for group in total.groups):
         yield Section("Wrong answers by distance", (Paragraph(_FAMILY_DISTANCE), Figures("octaves")), page=True)
     size = Figures("sizes", small=True, legend=HEAT)
     place = Figures("fields", small=True, legend=HEAT)
@@ -88,34 +88,34 @@ def family_sections(record: Record) -> Iterator[Section]:
         Details("By the place, r/α and |z|/γ", (place,)),
     )
     yield Section("Where the wrong answers lie", blocks, page=True)
-    yield Section("Family by family", tuple(_families(record, found)), page=True)
+    yield Section("Family by family", tuple(_families(record, totals)), page=True)
 
 
-def _families(record: Record, found: Sequence[ImplementationTotal]) -> Iterator[Block]:
+def _families(record: Record, totals: Sequence[ImplementationTotal]) -> Iterator[Block]:
     """A fold for each gated implementation, and one for all built-in methods."""
     replays = Replays.of(record)
-    for each in found:
-        if each.gated:
-            yield Details(each.name, (_family_table([each]), *_cases([each], replays)))
-    builtin = [each for each in found if not each.gated]
+    for total in totals:
+        if total.gated:
+            yield Details(total.name, (_family_table([total]), *_cases([total], replays)))
+    builtin = [total for total in totals if not total.gated]
     if builtin:
         yield Details("All methods and families", (_family_table(builtin),))
         yield Details("Their worst cases", tuple(_cases(builtin, replays)))
 
 
-def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
+def _family_table(totals: Sequence[ImplementationTotal]) -> TableBlock:
     """Families by status, with columns for the statuses that occurred."""
-    seen = [status.value for status in Status if any(status.value in each.statuses for each in found)]
-    mistakes, several = _mistakes(found), len(found) > 1
-    fresh, left_out = any(each.fresh for each in found), any(each.not_asked for each in found)
+    seen = [status.value for status in Status if any(status.value in total.statuses for total in totals)]
+    mistakes, several = _mistakes(totals), len(totals) > 1
+    fresh, left_out = any(total.fresh for total in totals), any(total.not_asked for total in totals)
     rows = [
         (
-            *([Code(each.name)] if several else []),
+            *([Code(total.name)] if several else []),
             *_status_row(group, seen, mistakes, fresh=fresh),
             *([rows_not_asked(group.not_asked or {})] if left_out else []),
         )
-        for each in found
-        for group in each.groups
+        for total in totals
+        for group in total.groups
     ]
     numbers = ("asked", *(["fresh"] if fresh else []), *seen, *(name.replace("-", " ") for name in mistakes))
     counted = " | ".join(f"# {name}" for name in numbers)
@@ -123,9 +123,9 @@ def _family_table(found: Sequence[ImplementationTotal]) -> TableBlock:
     return table("families", f"{'method | ' if several else ''}family | {counted} | # worst error in u{why}", rows)
 
 
-def _mistakes(found: Sequence[ImplementationTotal]) -> list[str]:
+def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
     """The kinds of mistakes that can be made about the questions of these methods."""
-    layouts = {QUESTIONS[each.question].layout for each in found}
+    layouts = {QUESTIONS[each.question].layout for each in totals}
     of_positions = [Mistake.WRONG_SIDE] if PAIRS in layouts else []
     of_times = [Mistake.LATE, Mistake.EARLY] if SWEEPS in layouts else []
     return [each.value for each in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
@@ -141,23 +141,23 @@ def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str], *, 
     return (Code(group.family), count(group.asked), *new, *statuses, *mistakes, worst)
 
 
-def _cases(found: Sequence[ImplementationTotal], replays: Replays) -> Iterator[TableBlock]:
-    worst = [(each, group, case) for each in found for group in each.groups for case in group.worst]
+def _cases(totals: Sequence[ImplementationTotal], replays: Replays) -> Iterator[TableBlock]:
+    worst = [(total, group, case) for total in totals for group in total.groups for case in group.worst]
     if worst:
         worst.sort(key=lambda of: -of[2].backward_error_u)
-        kept = [of for each in found for of in [one for one in worst if one[0] is each][:MOST_CASES]]
+        kept = [of for total in totals for of in [one for one in worst if one[0] is total][:MOST_CASES]]
         columns = "case | method | truth | answer | mistake | # wrong by, u | status | look at it with"
         yield table("worst cases", columns, [_case(*of, replays) for of in kept])
-    faults = [(each, group, case) for each in found for group in each.groups for case in group.faults or ()]
+    faults = [(total, group, case) for total in totals for group in total.groups for case in group.faults or ()]
     if faults:
         columns = "case | method | ended | because | look at it with"
         yield table("cases without an answer", columns, [_fault(*of, replays) for of in faults[: 5 * MOST_CASES]])
 
 
-def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> Row:
+def _case(total: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> Row:
     return (
         Code(case.case, from_hex(numbers_of(case))),
-        Code(each.name),
+        Code(total.name),
         truth_in_words(case.truth, group.question),
         str(case.answer),
         case.mistake,
@@ -167,9 +167,9 @@ def _case(each: ImplementationTotal, group: GroupLine, case: WrongAnswer, replay
     )
 
 
-def _fault(each: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> Row:
+def _fault(total: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> Row:
     shown, command = Code(case.case, from_hex(numbers_of(case))), Code(replays.command(group, case))
-    return (shown, Code(each.name), _status(case), case.reason, command)
+    return (shown, Code(total.name), _status(case), case.reason, command)
 
 
 def _status(case: WrongAnswer | FaultPart) -> TableCell:
@@ -219,9 +219,9 @@ def error_sections(record: Record) -> Iterator[Section]:
 def _workload_table(record: Record) -> Block:
     titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
-        (Code(each.name), titles[name], *_workload_row(line))
-        for each in measured_methods(record)
-        for name, line in each.accuracy.items()
+        (Code(method.name), titles[name], *_workload_row(line))
+        for method in measured_methods(record)
+        for name, line in method.accuracy.items()
     ]
     columns = (
         "method | workload | # asked | # wrong | # false clear | # false contact | # wrong side | # abstained"
@@ -367,26 +367,26 @@ def _way_table(record: Record, totals: list[WayTotal]) -> TableBlock:
         number("µs a sweep", hint=f"on the workload: {where}"),
         against(reference(record)),
     )
-    return table("missed and false contacts", columns, [_way_row(each) for each in totals])
+    return table("missed and false contacts", columns, [_way_row(total) for total in totals])
 
 
-def _way_row(each: WayTotal) -> Row:
+def _way_row(total: WayTotal) -> Row:
     return (
-        Code(each.name),
-        count(each.asked),
-        count(each.missed, bad=True),
-        share(each.missed, each.asked),
-        count(each.false),
-        share(each.false, each.asked),
-        count(each.abstained),
-        _size(each, each.typical),
-        _size(each, each.worst),
-        measured(None if each.time_ns is None else each.time_ns / 1000),
-        paced(each.ratio, each.ratio_ci95),
+        Code(total.name),
+        count(total.asked),
+        count(total.missed, bad=True),
+        share(total.missed, total.asked),
+        count(total.false),
+        share(total.false, total.asked),
+        count(total.abstained),
+        _size(total, total.typical),
+        _size(total, total.worst),
+        measured(None if total.time_ns is None else total.time_ns / 1000),
+        paced(total.ratio, total.ratio_ci95),
     )
 
 
-def _size(each: WayTotal, size: float) -> TableCell:
-    if not each.missed and not each.false:
+def _size(total: WayTotal, size: float) -> TableCell:
+    if not total.missed and not total.false:
         return TableCell(NONE, 0.0)
     return TableCell(f"{figure(100 * size)} %" if size < math.inf else "∞", size)

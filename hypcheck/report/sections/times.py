@@ -73,9 +73,9 @@ def _untimed(words: str, lines: Sequence[RefusedLine | UnmeasuredLine]) -> list[
 def _speed_table(record: Record) -> TableBlock:
     titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
-        (Code(each.name), titles[line.workload], line.mode, *_time(record, line))
-        for each in measured_methods(record)
-        for line in each.speed.values()
+        (Code(method.name), titles[line.workload], line.mode, *_time(record, line))
+        for method in measured_methods(record)
+        for line in method.speed.values()
     ]
     after = "# ns a query | # queries a second | # noise | # rows | timed by"
     heads = (*columns("method | workload | mode"), against(reference(record)), *columns(after))
@@ -157,7 +157,7 @@ def _shares(lines: list[SceneLine]) -> TableBlock:
         )
         for line in lines
     ]
-    stages = " | ".join(f"# {each.name}, %" for each in fields(Shares))
+    stages = " | ".join(f"# {field.name}, %" for field in fields(Shares))
     return table("what decides in scenes", f"scene | question | # pairs of sizes | {stages} | # wrong", rows)
 
 
@@ -226,10 +226,10 @@ def _verdict(line: ComparisonLine) -> TableCell:
 
 def costs_by_claim(record: Record) -> dict[str, list[CostLine]]:
     """The claims of cost with their lines, one for each scene."""
-    found: dict[str, list[CostLine]] = {}
+    claims: dict[str, list[CostLine]] = {}
     for line in record.of(CostLine):
-        found.setdefault(line.claim, []).append(line)
-    return found
+        claims.setdefault(line.claim, []).append(line)
+    return claims
 
 
 def claim_sections(record: Record) -> Iterator[Section]:
@@ -255,9 +255,15 @@ def _claims(record: Record) -> Iterator[Block]:
 
 
 def _compared(line: CostLine) -> Iterator[Row]:
-    for each in line.compared:
-        operations = ", ".join(f"{amount} {name}" for name, amount in (each.operations or {}).items())
-        yield (line.scene, each.name, paced(each.ratio, each.ratio_ci95), measured(each.median_ns), operations)
+    for alternative in line.compared:
+        operations = ", ".join(f"{amount} {name}" for name, amount in (alternative.operations or {}).items())
+        yield (
+            line.scene,
+            alternative.name,
+            paced(alternative.ratio, alternative.ratio_ci95),
+            measured(alternative.median_ns),
+            operations,
+        )
 
 
 def _kernels(lines: list[KernelLine]) -> TableBlock:

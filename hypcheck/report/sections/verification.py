@@ -100,19 +100,19 @@ _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
 
 def method_sections(record: Record) -> Iterator[Section]:
     """What each method got wrong, by how much, and in which families; none if nothing was judged."""
-    found = implementations(record)
-    exact = [each for each in found if each.exact]
-    others = [each for each in found if not each.exact]
+    totals = implementations(record)
+    exact = [total for total in totals if total.exact]
+    others = [total for total in totals if not total.exact]
     if exact:
         yield _exact(exact)
     if others:
         yield _introduction(record, others)
-    for precision in dict.fromkeys(each.precision for each in others):
-        yield _part(precision, [each for each in others if each.precision == precision])
+    for precision in dict.fromkeys(total.precision for total in others):
+        yield _part(precision, [total for total in others if total.precision == precision])
 
 
 def _exact(methods: Sequence[ImplementationTotal]) -> Section:
-    rows = [(Code(each.name), each.title, count(each.asked), _statuses(each.statuses)) for each in methods]
+    rows = [(Code(method.name), method.title, count(method.asked), _statuses(method.statuses)) for method in methods]
     return Section(
         "Methods that promise to be exact",
         (
@@ -125,7 +125,7 @@ def _exact(methods: Sequence[ImplementationTotal]) -> Section:
 def _introduction(record: Record, methods: Sequence[ImplementationTotal]) -> Section:
     tolerance = tolerance_of(record.header.options)
     limit = f"at most {figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
-    said = (
+    sentences = (
         prose(
             "Each method in floats, held against the exact decisions, on the cases inside its stated regimes. The"
             " *backward error* of a wrong answer is the least relative change of the inputs that makes it right, in"
@@ -136,22 +136,24 @@ def _introduction(record: Record, methods: Sequence[ImplementationTotal]) -> Sec
             "*tolerated*. A *false clear* (dangerous) calls a contact clear, a *false contact* is an invisible wall."
         ),
     )
-    return Section("Numerical findings", (Paragraph(said), _glossary(methods)))
+    return Section("Numerical findings", (Paragraph(sentences), _glossary(methods)))
 
 
 def _glossary(methods: Sequence[ImplementationTotal]) -> Block:
     """The titles of the methods; one that runs in several precisions is described once."""
-    titles = {_plain_name(each): each.title.removesuffix(f", {each.precision}") for each in methods}
+    titles = {_plain_name(method): method.title.removesuffix(f", {method.precision}") for method in methods}
     return bullets([(Code(name), f": {title}") for name, title in titles.items() if title != name])
 
 
-def _plain_name(each: ImplementationTotal) -> str:
-    return each.name.removesuffix(f"-{each.precision}")
+def _plain_name(method: ImplementationTotal) -> str:
+    return method.name.removesuffix(f"-{method.precision}")
 
 
 def _part(precision: str, methods: Sequence[ImplementationTotal]) -> Section:
-    otherwise = [(each, {name: n for name, n in each.statuses.items() if name not in _IN_TABLE}) for each in methods]
-    also: list[Text] = [(Code(each.name), f" also ended: {_statuses(rest)}") for each, rest in otherwise if rest]
+    otherwise = [
+        (method, {name: n for name, n in method.statuses.items() if name not in _IN_TABLE}) for method in methods
+    ]
+    also: list[Text] = [(Code(method.name), f" also ended: {_statuses(rest)}") for method, rest in otherwise if rest]
     return Section(precision, (_totals(methods), bullets(also), *_matrix(methods)), level=3)
 
 
@@ -162,25 +164,25 @@ def _totals(methods: Sequence[ImplementationTotal]) -> TableBlock:
     return table("methods", columns, [_method_row(each) for each in methods])
 
 
-def _method_row(each: ImplementationTotal) -> Row:
-    statuses, worst = each.statuses, each.worst
+def _method_row(method: ImplementationTotal) -> Row:
+    statuses, worst = method.statuses, method.worst
     error = worst_error_u(worst)
     return (
-        Code(_plain_name(each)),
-        each.question,
-        count(each.asked),
+        Code(_plain_name(method)),
+        method.question,
+        count(method.asked),
         count(statuses.get("right", 0)),
         count(statuses.get("tolerated", 0)),
         count(statuses.get("wrong", 0), bad=True),
-        count(each.mistakes.get("false-clear", 0)),
+        count(method.mistakes.get("false-clear", 0)),
         TableCell(figure(error) if worst else NONE, error),
         Code(worst.case, from_hex(numbers_of(worst))) if worst else NONE,
     )
 
 
 def _matrix(methods: Sequence[ImplementationTotal]) -> tuple[Block, ...]:
-    families = dict.fromkeys(group.family for each in methods for group in each.groups)
-    groups = {(each.name, group.family): group for each in methods for group in each.groups}
+    families = dict.fromkeys(group.family for total in methods for group in total.groups)
+    groups = {(total.name, group.family): group for total in methods for group in total.groups}
 
     def cell(method: str, family: str) -> TableCell:
         group = groups.get((method, family))
@@ -189,8 +191,8 @@ def _matrix(methods: Sequence[ImplementationTotal]) -> tuple[Block, ...]:
         wrong = group.counts.get("wrong", 0)
         return TableCell(f"{wrong:,}", wrong, "bad") if wrong else TableCell(NONE, 0)
 
-    rows: list[Row] = [(Code(family), *(cell(each.name, family) for each in methods)) for family in families]
-    columns = (Column("family"), *(number(Code(_plain_name(each))) for each in methods))
+    rows: list[Row] = [(Code(family), *(cell(total.name, family) for total in methods)) for family in families]
+    columns = (Column("family"), *(number(Code(_plain_name(total))) for total in methods))
     asked = max((group.asked for group in groups.values()), default=0)
     return (
         Paragraph(
@@ -207,15 +209,18 @@ def _statuses(statuses: dict[str, int]) -> str:
 
 def gated_sections(record: Record) -> Iterator[Section]:
     """Gated implementations: what each declares, and what it was judged as; none if nothing was gated."""
-    found = under_test(record)
-    if not found:
+    gated = under_test(record)
+    if not gated:
         return
     columns = " |  | question | spheroids | precision | domain | language | version"
     rows = [
-        row for each in found if isinstance(each.line, ImplementationLine) for row in _gated_rows(each.name, each.line)
+        row
+        for tested in gated
+        if isinstance(tested.line, ImplementationLine)
+        for row in _gated_rows(tested.name, tested.line)
     ]
     declared = [table("implementations under test", columns, rows)] if rows else []
-    yield Section("Implementations under test", (*declared, bullets([_gated_value(each) for each in found])))
+    yield Section("Implementations under test", (*declared, bullets([_gated_value(tested) for tested in gated])))
 
 
 def _gated_rows(name: str, line: ImplementationLine) -> Iterator[Row]:
@@ -243,17 +248,19 @@ def _gated_value(tested: UnderTest) -> Text:
     excused = sum(group.counts.get("excused", 0) for group in tested.groups)
     known = f" {counted(excused, 'case')} excused as known failures." if excused else ""
     fresh = sum(group.fresh or 0 for group in tested.groups)
-    told = f" {counted(fresh, 'row')} of a seed that nobody knew before the run." if fresh else " No fresh rows."
+    freshness = f" {counted(fresh, 'row')} of a seed that nobody knew before the run." if fresh else " No fresh rows."
     counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
     left_out = [text for text in (rows_not_asked(counts), families_not_asked(line)) if text]
-    known += (told if line.not_asked is not UNSET else "") + (f" Not asked: {'; '.join(left_out)}." if left_out else "")
+    known += (freshness if line.not_asked is not UNSET else "") + (
+        f" Not asked: {'; '.join(left_out)}." if left_out else ""
+    )
     known += "".join(f" {fact[0].upper()}{fact[1:]}." for fact in spread(line))
-    said = (
+    sentences = (
         f": {counted(again.asked, 'case')} asked again in another order, in other batches and in a fresh process;"
         f" {again.within:,} answered otherwise within the tolerance, {again.beyond:,} beyond it."
         f" {counted(line.restarts, 'restart')}.{known}{troubles}"
     )
-    return (name, said)
+    return (name, sentences)
 
 
 SWEEPS = Figures("ways", "the sweep of each implementation's worst answer, in the half plane (r, z)", "ways.svg")
@@ -266,7 +273,7 @@ _SWEEPS = prose(
 
 def way_sections(record: Record) -> Iterator[Section]:
     """The worst answers about sweeps, drawn; none if no such answer is wrong."""
-    if any(drawn_way(each) is not None for each in implementations(record)):
+    if any(drawn_way(implementation) is not None for implementation in implementations(record)):
         yield Section("The worst sweeps", (Paragraph(_SWEEPS), SWEEPS))
 
 
@@ -280,7 +287,7 @@ def timing_sections(record: Record) -> Iterator[Section]:
         ", in one process, in interleaved rounds on the machine below. Each is set against the"
         f" {REFERENCE} in the same round; the median of the rounds. Times do not carry over to another machine."
     )
-    said = ("On ", workloads, how)
+    introduction = ("On ", workloads, how)
     rows = [
         (
             total.name,
@@ -293,7 +300,7 @@ def timing_sections(record: Record) -> Iterator[Section]:
         for total in totals
     ]
     columns = "contender | what it is | # rows | # ns a row, median | # least to greatest | # against the plain formula"
-    yield Section("Timings", (Paragraph(said), table("timings", columns, rows)))
+    yield Section("Timings", (Paragraph(introduction), table("timings", columns, rows)))
 
 
 MAP = Figures("map", "exact positions and wrong answers over the half plane (r, z)", "map.svg")
@@ -325,13 +332,13 @@ _FINDINGS = prose(
 
 def paper_sections(record: Record) -> Iterator[Section]:
     """The paper's equations, the proofs of its formulas, and what they get wrong exactly."""
-    equations, proofs, found = record.of(EquationLine), record.of(ProofLine), record.of(FindingLine)
+    equations, proofs, findings = record.of(EquationLine), record.of(ProofLine), record.of(FindingLine)
     if equations:
         yield _equations(equations)
     if proofs:
         yield _proofs(proofs)
-    if found:
-        yield _findings(found)
+    if findings:
+        yield _findings(findings)
 
 
 def _equations(lines: list[EquationLine]) -> Section:
@@ -345,8 +352,10 @@ def _equations(lines: list[EquationLine]) -> Section:
         if not line.holds
     ]
     named = f": {', '.join(holding)}." if holding else "."
-    said = f"Each displayed formula was compared with the derivation: {len(holding)} of {len(lines)} hold{named}"
-    return Section("The paper's equations", (Paragraph(said), bullets(items)))
+    introduction = (
+        f"Each displayed formula was compared with the derivation: {len(holding)} of {len(lines)} hold{named}"
+    )
+    return Section("The paper's equations", (Paragraph(introduction), bullets(items)))
 
 
 def _proofs(lines: list[ProofLine]) -> Section:
@@ -368,8 +377,8 @@ def _findings(lines: list[FindingLine]) -> Section:
         key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
         alike.setdefault(key, []).append(line)
     columns = "formula | family | stated regimes | # wrong | why | first witness, to six digits | its case"
-    found = table("mathematical findings", columns, [_finding(group) for group in alike.values()])
-    return Section("Mathematical findings", (Paragraph(_FINDINGS), found))
+    witnesses = table("mathematical findings", columns, [_finding(group) for group in alike.values()])
+    return Section("Mathematical findings", (Paragraph(_FINDINGS), witnesses))
 
 
 def _finding(group: list[FindingLine]) -> Row:
@@ -377,7 +386,7 @@ def _finding(group: list[FindingLine]) -> Row:
     why = explanation(line)
     row = from_hex(line.first_row)
     return (
-        joined([Code(each.formula) for each in group]),
+        joined([Code(finding.formula) for finding in group]),
         Code(line.family),
         Strong("inside") if line.inside else "outside",
         TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
