@@ -199,11 +199,15 @@ Measurements = dict[MeasurementKey, list[Measurement]]
 
 def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
     """The hashes of the judged answers, by method, workload and mode."""
-    found: dict[MeasurementKey, str] = {}
-    for each in answers:
-        found[each.method, each.workload, "batch"] = NOT_ANSWERED if each.trouble else each.batch_print
-        found[each.method, each.workload, "single"] = NOT_ANSWERED if each.trouble else each.single_print
-    return found
+    prints: dict[MeasurementKey, str] = {}
+    for method_answers in answers:
+        prints[method_answers.method, method_answers.workload, "batch"] = (
+            NOT_ANSWERED if method_answers.trouble else method_answers.batch_print
+        )
+        prints[method_answers.method, method_answers.workload, "single"] = (
+            NOT_ANSWERED if method_answers.trouble else method_answers.single_print
+        )
+    return prints
 
 
 def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advance: Advance) -> Measurements:

@@ -142,7 +142,10 @@ def _attained_at_minus_A() -> Link:
 
 
 def _attained_at_B() -> Link:
-    """In the half plane y = 0, x ≥ 0 of the centre (r, 0, 0); k says by how much A·P exceeds (A + B)²."""
+    """Where the bound is attained: in the half plane y = 0, x ≥ 0 of the centre (r, 0, 0).
+
+    k says by how much A·P exceeds (A + B)².
+    """
     r, zeta = symbol("r"), symbol("zeta")
     rho = A * r / (A + B)
     height = sympy.sqrt(B * (rho**2 / A - 1))

@@ -309,7 +309,7 @@ class Cost:
 
 @cache
 def costs() -> tuple[Cost, ...]:
-    """Of every formula, then of the roots' way."""
+    """The costs of every formula, then of computing the roots."""
     sweep = _cost(
         SWEEP, "a sweep of a general root finder (Weierstrass, complex); it takes several", "mpmath's polyroots"
     )
@@ -330,7 +330,7 @@ def _cost(program: Program, title: str, source: str) -> Cost:
 
 
 def loop_as_printed() -> Operations:
-    """Of the lines that Table 2 prints inside its loop: all but those of A, B, c0 and C."""
+    """The cost of the lines that Table 2 prints inside its loop: all but those of A, B, c0 and C."""
     program = FORMULAS["table-2"].program
     before = cut(program, (), ("A", "B", "c0", "C")).steps
     return count(step for step in program.steps if step not in before)

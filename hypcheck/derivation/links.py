@@ -281,7 +281,10 @@ def chain(name: str, statement: str, *links: Link, needs: tuple[str, ...] = ()) 
 
 
 def identity(text: str, left: sympy.Expr, **meanings: sympy.Expr) -> Identity:
-    """That `left` equals what the text says right of its last "="; `meanings` are what letters there stand for."""
+    """A formula that says that `left` equals what the text says right of its last "=".
+
+    `meanings` are what letters there stand for.
+    """
     right = read(text.rpartition(" = ")[2])
     return Identity(text, left, right.subs({symbol(name): value for name, value in meanings.items()}))
 
@@ -292,7 +295,10 @@ def known(text: str) -> Identity:
 
 
 def matrix_identity(text: str, left: sympy.Matrix) -> Identity:
-    """That the matrix is what the text says right of "=": rows parted by semicolons, entries by commas."""
+    """A formula that says that the matrix is what the text says right of "=".
+
+    Its rows are parted by semicolons, its entries by commas.
+    """
     rows = text.partition(" = ")[2].strip("[]").split("; ")
     return Identity(text, left, sympy.Matrix([[read(entry) for entry in row.split(", ")] for row in rows]))
 
@@ -311,7 +317,9 @@ def printed(*numbers: str) -> tuple[Identity, ...]:
 
 
 def sign(text: str, positive: str = "", nonnegative: str = "") -> Sign:
-    """That what the text says is true by its form; `positive` and `nonnegative` name letters, parted by spaces.
+    """A formula that says that the text is true by its form.
+
+    `positive` and `nonnegative` name letters, parted by spaces.
 
     Raises ValueError where the text has none of RELATIONS.
     """

@@ -316,12 +316,12 @@ def rotor_centre() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
 
 
 def next_rotor(expression: sympy.Expr) -> sympy.Expr:
-    """The same expression of the next rotor, a quarter of a turn on."""
+    """The expression for the next rotor, a quarter of a turn on."""
     return expression.subs({COSINE: -SINE, SINE: COSINE}, simultaneous=True)
 
 
 def mean_over_rotors(expression: sympy.Expr) -> sympy.Expr:
-    """The mean of what the expression is for each of the four rotors."""
+    """The mean of the expression over the four rotors."""
     second = next_rotor(expression)
     third = next_rotor(second)
     return sympy.expand((expression + second + third + next_rotor(third)) / 4)

@@ -303,7 +303,7 @@ class Operations:
 
     @property
     def rounded(self) -> int:
-        """Those that round: + − × ÷ √, cos, arccos."""
+        """The number of operations that round: + − × ÷ √, cos, arccos."""
         return self.additions + self.multiplications + self.divisions + self.square_roots + self.functions
 
 

@@ -277,7 +277,7 @@ def _decides(part: Program, decision: DecisionRule) -> bool:
 
 
 def _prove_one_rotor() -> Iterable[Proof]:
-    """With l = 0, b_s = b and d_s = d each rotor of Procedure 2.a has the coefficients of procedure-2a-spheroid."""
+    """Prove that each rotor of Procedure 2.a has procedure-2a-spheroid's coefficients if l = 0, b_s = b and d_s = d."""
     rotors, spheroid = FORMULAS["procedure-2a"].program, FORMULAS["procedure-2a-spheroid"].program
     inputs = {**INPUTS, "b_s": INPUTS["b"], "d_s": INPUTS["d"], "l": sympy.Integer(0)}
     pairs = [("c0", "c0_s"), *((name, f"{name}_g{rotor}") for rotor in ROTORS for name in ("c1", "c2"))]

@@ -141,7 +141,7 @@ def _same_sign() -> Link:
 
 
 def _same_side() -> Link:
-    """Of the quadratic k(λ) = g(λ)/(λ − s); B = s − w."""
+    """The two smaller roots lie together: of the quadratic k(λ) = g(λ)/(λ − s), with B = s − w."""
     r1, r2, s = ROOTS
     quadratic = (LAMBDA - r1) * (LAMBDA - r2)
     g, w = pencil.cubic().g, symbol("w")
@@ -160,7 +160,7 @@ def _same_side() -> Link:
 
 
 def _together() -> Link:
-    """With A = B = 2 every place of two roots to −A, 0 and B is that of one of these pairs."""
+    """Two roots beside −A, 0 and B: with A = B = 2 every order of them is that of one of these pairs."""
     places = (-3, -2, -1, 1, 2, 3)
     return link(
         "Hence they lie together in one of the four intervals.",
@@ -211,7 +211,7 @@ PATTERNS = (
 
 
 def true_of_patterns(statement: str, where: Callable[[Pattern], bool], right: Callable[[Pattern], bool]) -> Link:
-    """That what is said is `right` of every pattern of roots that can occur, which are those `where` it says so."""
+    """A link: what is said is `right` for every pattern of roots that can occur, which are those `where` it says so."""
     possible = tuple((pattern,) for pattern in PATTERNS if where(pattern))
     return link(
         statement, FiniteCases(f"true of each of the {len(possible)} patterns of roots that can occur", possible, right)
@@ -400,7 +400,7 @@ def _two_negative() -> Link:
 
 
 def _dropped() -> Link:
-    """With c0 = −r, r > 0."""
+    """The interior positions that the printed condition drops; c0 = −r, r > 0."""
     p, q, r = (symbol(name) for name in "pqr")
     generic = pencil.discriminant_of_cubic()
     c2, c1, c0 = (symbol(name) for name in ("c2", "c1", "c0"))

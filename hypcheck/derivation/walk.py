@@ -203,7 +203,7 @@ def _discriminant() -> Chain:
 
 
 def _roots_in_numbers() -> Chain:
-    """With √h1 as a letter of its own, c1 = (c2² − √h1²)/3."""
+    """The roots in numbers; with √h1 as a letter of its own, c1 = (c2² − √h1²)/3."""
     root, cosine = symbol("h"), symbol("k")
     in_root = {C1: (C2**2 - root**2) / 3}
     w = (9 * C1 * C2 - 2 * C2**3 - 27 * C0).subs(in_root)

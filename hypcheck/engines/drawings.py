@@ -51,7 +51,7 @@ def drawing(finding: Finding) -> str:
 
 
 def _section_of(finding: Finding) -> tuple[Floats, Floats]:
-    """In the plane of the picture: the ends (2, 2) of the triangle's section, and the point to be magnified."""
+    """What the picture shows in its plane: the ends (2, 2) of the triangle's section, and the point to be magnified."""
     corners = np.array(finding.corners)
     point = np.array(finding.shares) @ corners
     toward = point if finding.kind == "missed contact" else np.array(finding.direction)
@@ -67,7 +67,7 @@ def _section_of(finding: Finding) -> tuple[Floats, Floats]:
 
 
 def _section(beside: Floats, points: Floats) -> Floats:
-    """Where a triangle meets the plane of the picture: the ends (2, 2) of its section, or of its nearest edge."""
+    """The cut of a triangle by the plane of the picture: the ends (2, 2) of its section, or of its nearest edge."""
     ends = []
     for i, j in ((0, 1), (1, 2), (2, 0)):
         if (beside[i] < 0) != (beside[j] < 0):
@@ -149,7 +149,7 @@ def chart(record: EngineRecord) -> str:
 
 
 def _place(millimetres: float) -> float:
-    """Where an error stands on the chart's axis; none at its left end."""
+    """The place of an error on the chart's axis; no error is at its left end."""
     power = log10(millimetres) if millimetres > 0 else _LEAST - 1
     return 130.0 + 370.0 * (min(max(power, _LEAST - 1), _MOST) - (_LEAST - 1)) / (_MOST - _LEAST + 1)
 

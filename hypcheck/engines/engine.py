@@ -174,7 +174,7 @@ _TOOLS = {
 
 
 def cache_folder() -> Path:
-    """Where engines are installed: HYPCHECK_ENGINES, or hypcheck/engines in the user's cache (XDG_CACHE_HOME)."""
+    """The folder in which engines are installed: HYPCHECK_ENGINES, else hypcheck/engines in XDG_CACHE_HOME."""
     if os.environ.get(VARIABLE):
         return Path(os.environ[VARIABLE])
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "hypcheck" / "engines"

@@ -113,7 +113,7 @@ class Spot:
         return np.hstack([sizes, self.center + gap[:, np.newaxis] * self.normal, self.axis])
 
     def certifies(self, gap: Floats) -> Mask:
-        """For which gaps it is proved that they are the distances to the other answer, but for SLACK."""
+        """Tell for which gaps it is proved that they are the distances to the other answer, but for SLACK."""
         rows, half = self.rows(gap), self.half_width()
         size = np.abs(gap) * (1 - SLACK) - FUZZ * rows[:, 0]
         grown = size**2 + half * size

@@ -104,7 +104,7 @@ class Session(Protocol):
     """Whether it has an entry for scenes: one set of sizes, many centres."""
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
-        """An integer for each row and, if the description says so, times; neither is checked."""
+        """Ask the rows: an integer for each and, if the description says so, times; neither is checked."""
         ...
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int] | None:

@@ -355,7 +355,7 @@ class Scene(PreparedScene):
         return scene_nearest.first_of(found) if are_one(center, 0, axis) else found
 
     def _position_leaning(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
-        """The same where something leans."""
+        """The position where the mover or a hyperboloid is tilted."""
         mover_axis = [float(each) for each in self._axes(axis)]
         trouble = trouble_with_axis(mover_axis)
         if trouble is not None:

@@ -123,7 +123,7 @@ def drawn_bodies(model: SceneModel, flight: ShownFlight | None) -> Numbers:
 
 
 def _view(bodies: Numbers, flight: ShownFlight | None) -> tuple[dict[str, Any], Numbers]:
-    """Where the camera looks at first, in numbers from the middle of the picture, and that middle."""
+    """What the camera shows first, in numbers from the middle of the picture, and that middle."""
     tall = np.abs(bodies[:, 2:4]).max(axis=1)
     wide = np.maximum(bodies[:, 0] * np.sqrt(1 + (tall / bodies[:, 1]) ** 2), tall)[:, None]
     low, high = (bodies[:, 4:7] - wide).min(axis=0), (bodies[:, 4:7] + wide).max(axis=0)

@@ -359,7 +359,7 @@ class CauseFacts(LineFacts[CauseLine]):
         return "under 1 %" if percent < 1 else f"{min(percent, 99 if line.cases < total else 100):.0f} %"
 
     def families(self, most: int = 3) -> str:
-        """Where the wrong answers are: "ring 140, osculation 15 and 2 more families"."""
+        """The families of the wrong answers: "ring 140, osculation 15 and 2 more families"."""
         ranked = sorted(self.line.families.items(), key=lambda counts: (-counts[1], counts[0]))
         shown = [f"{family} {number:,}" for family, number in ranked[:most]]
         rest = len(ranked) - most

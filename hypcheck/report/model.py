@@ -94,7 +94,7 @@ class ImplementationTotal:
 
     @property
     def statuses(self) -> dict[str, int]:
-        """How its cases ended, skipped ones included, in the order of judge.Status."""
+        """The counts of its cases by status, skipped ones included, in the order of judge.Status."""
         return in_order(sum((Counter(group.counts) for group in self.groups), Counter()))
 
     @property

@@ -61,7 +61,7 @@ def paper_facts(record: Record) -> Iterator[str]:
 
 
 def method_facts(record: Record) -> Iterator[str]:
-    """For each precision: how many methods err beyond the tolerance, and the greatest backward error."""
+    """A sentence for each precision: how many methods err beyond the tolerance, and the greatest backward error."""
     tolerance = tolerance_of(record.header.options)
     beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
     totals = [total for total in implementations(record) if total.asked and not total.gated]

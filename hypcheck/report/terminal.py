@@ -57,7 +57,7 @@ def summary_lines(
     colour: bool = False,
     width: int | None = None,
 ) -> list[str]:
-    """At most MOST_LINES lines of plain text, and those of squares and about causes; the reason of a failure first.
+    """The summary, the reason of a failure first: at most MOST_LINES lines of plain text, besides squares and causes.
 
     With `colour`, the first is green or red; with `width`, lines are cut to that.
     """

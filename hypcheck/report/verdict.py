@@ -190,7 +190,7 @@ _WHOLE = ("start", "all families")
 
 
 def _wrong_clauses(record: Record) -> Iterator[str]:
-    """Of each implementation under test, how many cases of those asked ended in each way that fails the run."""
+    """Count, for each implementation under test, how many of the cases asked ended in each way that fails the run."""
     for total in implementations(record):
         ended = sum(
             (

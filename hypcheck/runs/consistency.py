@@ -154,13 +154,14 @@ def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
 
 def _difference(tallied: Mapping[str, int], planned: Mapping[str, int]) -> str:
     for family in sorted({*tallied, *planned}):
-        found, expected = tallied.get(family, 0), planned.get(family, 0)
-        if found != expected:
-            return f"{found} cases of {family} are tallied, but it has {expected}"
+        counted, expected = tallied.get(family, 0), planned.get(family, 0)
+        if counted != expected:
+            return f"{counted} cases of {family} are tallied, but it has {expected}"
     return ""
 
 
 def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
+    """Why the restarts, faults and hangs that are left contradict the plan, or the rows asked; "" if they do not."""
     left = state.left
     hangs = left.hangs is None or 0 <= left.hangs <= MAX_HANGS
     if not (0 <= left.restarts <= plan.limits.restarts and 0 <= left.faults <= MAX_FAULTS and hangs):

@@ -362,7 +362,7 @@ def _touches(answered: AnsweredRows, place: int) -> Answers:
 
 
 def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answers:
-    """The hits; nothing where a hit is given at another time than these, which explains no time that is wrong."""
+    """The hits, but SILENT where the answer is a hit at another time: these times do not explain that one."""
     if answered.times is None:
         return hits
     with np.errstate(invalid="ignore"):

@@ -149,7 +149,7 @@ class ProvedTruth:
 
     @property
     def kind(self) -> Kind | None:
-        """The kind of its roots; None of a tilted spheroid."""
+        """The kind of its roots; None for a tilted spheroid."""
         return self.decision.kind
 
 

@@ -137,7 +137,7 @@ def require_same_run(
 
 
 def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> ResumedRun:
-    """From where the run of the plan continues; there are so many `cases` for each implementation.
+    """Where the run of the plan continues; `cases` is how many each implementation is asked.
 
     Raises InputError if the implementation that was being asked has another description now, or the record contradicts
     itself; StartError if the implementation does not start.

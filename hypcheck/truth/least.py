@@ -240,7 +240,7 @@ class _Values:
 
 
 def _at(pair: Pair, w: Floats, t: Floats) -> _Values:
-    """Values in float64."""
+    """The values, in float64, at the points of height w and angle t."""
     r = pair.alpha * np.hypot(1, w / pair.gamma)
     turn = np.stack([np.cos(t), np.sin(t)])
     X = np.concatenate([r * turn, w[None]])

@@ -90,7 +90,7 @@ def header(plan: ScenePlan, command: Sequence[str], prefix: str) -> str:
 
 
 def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], prefix: str) -> str:
-    """The same for the kernel of a whole scene, whose plan is of positions."""
+    """The comment at the head of a whole scene's kernel, whose plan is of positions."""
     name, question = comment_text(scene.name).replace('"', "'"), _question_in_comment(scene.question)
     pairs = _question_in_comment(plan.question)
     answers = f"It answers {CANNOT_SAY} outside of the scene's region and to numbers that are not finite."

@@ -29,7 +29,7 @@ class Selection:
 
     @cached_property
     def sections(self) -> tuple[Chain, ...]:
-        """Those of the derivation."""
+        """The sections of the derivation."""
         return tuple(walk()) if "derivation" in self.parts else ()
 
     @cached_property
@@ -51,7 +51,7 @@ class Selection:
 
     @cached_property
     def costs(self) -> tuple[Cost, ...]:
-        """Of every way to the answer."""
+        """The costs of every way to the answer."""
         return costs() if "costs" in self.parts else ()
 
     @property

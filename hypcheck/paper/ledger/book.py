@@ -60,7 +60,7 @@ class Claim(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 @cache
 def claims() -> dict[str, Claim]:
-    """By number, in the ledger's order."""
+    """The claims by number, in the ledger's order."""
     return {claim.number: claim for claim in msgspec.convert(_content()["claim"], list[Claim])}
 
 

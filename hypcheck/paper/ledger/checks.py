@@ -68,13 +68,13 @@ def _same(text: str, left: sympy.Expr, right: sympy.Expr) -> Evidence:
 
 
 def discriminant_and_coefficients() -> Evidence:
-    """That (13) is the discriminant and (14) the coefficients."""
+    """Evidence that (13) is the discriminant and (14) the coefficients."""
     product = known("Δ is the product of the squared differences of the roots")
     return Evidence("identity", product.text, product.holds and by_printed("(13) and (14)").holds)
 
 
 def listed_patterns(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Evidence:
-    """That the typed table of root patterns has the patterns that signs allow, each once."""
+    """Evidence that the typed table of root patterns has the patterns that signs allow, each once."""
     listed = sorted(chain.from_iterable(patterns.values()))
     allowed = sorted(admissible())
     wrong = sorted(set(listed) ^ set(allowed)) or (["a pattern twice"] if listed != allowed else [])
@@ -83,7 +83,7 @@ def listed_patterns(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Eviden
 
 
 def patterns_in_coq(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Evidence:
-    """That Coq's table of root patterns is the typed one."""
+    """Evidence that Coq's table of root patterns is the typed one."""
     ours = {(kind.value, _meaning(kind), pattern) for kind, listed in patterns.items() for pattern in listed}
     coqs = [
         (kind, meaning, pattern_of((_PLACES[place], count) for place, count in roots))
@@ -122,12 +122,12 @@ REMARK_6 = (
 
 
 def same_cubic_of_interior_and_contact() -> Evidence:
-    """That no function of g tells an interior pair from one in contact (Remark 4)."""
+    """Evidence that no function of g tells an interior pair from one in contact (Remark 4)."""
     return _same_cubic(REMARK_4, Position.INTERIOR, lambda pair: pair.B**2 >= pair.A)
 
 
 def same_cubic_of_exterior_and_contact() -> Evidence:
-    """That no function of g tells an exterior pair from one in contact (Remark 6)."""
+    """Evidence that no function of g tells an exterior pair from one in contact (Remark 6)."""
     return _same_cubic(REMARK_6, Position.EXTERIOR, lambda pair: pair.A >= 1)
 
 
@@ -198,7 +198,7 @@ def misled_by_12() -> Evidence:
 
 
 def regime_of_section_4() -> Evidence:
-    """That a alone is meant where section 4 has the regime of Proposition 5 as (a/b) ≥ 1: by (12), a is α/b already."""
+    """Evidence that section 4, which has the regime of Proposition 5 as (a/b) ≥ 1, means a alone: by (12), a is α/b."""
     meaning = read("α/b")
     checked = check((equality("Section 4", "regime = a/b", a=meaning, regime=meaning),))
     printed_as = read("a/b").subs(pencil.SMALL_A, meaning) == read("α/b²")
@@ -207,14 +207,14 @@ def regime_of_section_4() -> Evidence:
 
 
 def roots_of_f() -> Evidence:
-    """That f has one root more than the cubic g."""
+    """Evidence that f has one root more than the cubic g."""
     factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
     degree = sympy.degree(pencil.cubic().g, pencil.LAMBDA)
     return Evidence("identity", factor.text, factor.holds and degree == 3)
 
 
 def scaling_of_the_spheroid() -> Evidence:
-    """That the scaling makes the spheroid's matrix the unit matrix, and is symmetric."""
+    """Evidence that the scaling makes the spheroid's matrix the unit matrix, and is symmetric."""
     b, d = sympy.symbols("b d", positive=True)
     scaling, matrix = sympy.diag(1 / b, 1 / b, 1 / d), sympy.diag(1 / b**2, 1 / b**2, 1 / d**2)
     unit = scaling.inv() * matrix * scaling.inv() == sympy.eye(3)
@@ -222,14 +222,14 @@ def scaling_of_the_spheroid() -> Evidence:
 
 
 def mirrored_cubic() -> Evidence:
-    """That g(−λ) is what the proof of Proposition 3 says."""
+    """Evidence that g(−λ) is what the proof of Proposition 3 says."""
     cubic, at = pencil.cubic(), pencil.LAMBDA
     mirrored = -(at**3) + cubic.c2 * at**2 - cubic.c1 * at + cubic.c0
     return _same("g(−λ)", sympy.expand(cubic.g.subs(at, -at)), sympy.expand(mirrored))
 
 
 def constant_of_the_cubic() -> Evidence:
-    """That c0 is −AB, and so is below 0."""
+    """Evidence that c0 is −AB, and so is below 0."""
     return _same("c0 = −AB", sympy.expand(pencil.cubic().c0), -pencil.A * pencil.B)
 
 
@@ -238,19 +238,19 @@ _COSINE, _SINE = sympy.cos(_ANGLE), sympy.sin(_ANGLE)
 
 
 def squares_of_t1_and_t2() -> Evidence:
-    """That T1² + T2² of equation (15) is 2."""
+    """Evidence that T1² + T2² of equation (15) is 2."""
     return _same("T1² + T2² = 2", (_COSINE - _SINE) ** 2 + (_COSINE + _SINE) ** 2, sympy.Integer(2))
 
 
 def radius_at_a_height() -> Evidence:
-    """That the hyperboloid is wider the farther from its waist, so that its shape is not similar at all heights."""
+    """Evidence that the hyperboloid is wider the farther from its waist, so its shape is not similar at all heights."""
     alpha, gamma, z = map(symbol, ("α", "γ", "z0"))
     radius = alpha * sympy.sqrt(1 + z**2 / gamma**2)
     return _same("R² − α² = α²·z²/γ²", radius**2 - alpha**2, (alpha * z / gamma) ** 2)
 
 
 def probabilities() -> Evidence:
-    """That the probabilities of the rules of flight add up to 1."""
+    """Evidence that the probabilities of the rules of flight add up to 1."""
     return Evidence("count", "0.25 + 0.25 + 0.5 = 1", 0.25 + 0.25 + 0.5 == 1)
 
 
@@ -259,7 +259,7 @@ _PLACE = sympy.symbols("x y z", real=True)
 
 
 def spheroid_after_a_turn() -> Evidence:
-    """That a turn about the axis leaves the spheroid as it is."""
+    """Evidence that a turn about the axis leaves the spheroid as it is."""
     (b, d), (x, y, z) = _SEMI_AXES, _PLACE
     turned = ((x * _COSINE - y * _SINE) ** 2 + (x * _SINE + y * _COSINE) ** 2) / b**2 + z**2 / d**2
     return _same("(x² + y²)/b² + z²/d² after a turn", turned, (x**2 + y**2) / b**2 + z**2 / d**2)
@@ -273,13 +273,13 @@ def _mixed_term() -> sympy.Expr:
 
 
 def tilted_spheroid() -> Evidence:
-    """That pitch brings a term x·z, which no equation (4) has."""
+    """Evidence that pitch brings a term x·z, which no equation (4) has."""
     b, d = _SEMI_AXES
     return _same("the coefficient of x·z", _mixed_term(), sympy.sin(2 * _ANGLE) * (1 / d**2 - 1 / b**2))
 
 
 def tilted_spheroid_is_another() -> Evidence:
-    """That this term does not vanish."""
+    """Evidence that this term does not vanish."""
     return Evidence("identity", "it is not 0", sympy.simplify(_mixed_term()) != 0)
 
 

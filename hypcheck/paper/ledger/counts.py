@@ -31,27 +31,27 @@ _TABLE_2, _COSINES = cost_of(FORMULAS["table-2"]), cost_of(ROOTS_TRIGONOMETRIC)
 
 
 def divisions_of_table_2() -> Evidence:
-    """That its loop does divide."""
+    """Evidence that its loop does divide."""
     count = _TABLE_2.query.divisions
     text = f"{count} divisions a query, {_TABLE_2.by_fixed} of them by a number that the sizes fix"
     return Evidence("count", text, count > 0 and _TABLE_2.by_fixed == count)
 
 
 def operations_of_the_sizes() -> Evidence:
-    """That more could leave the loop of Table 2 than what it prints before it."""
+    """Evidence that more could leave the loop of Table 2 than what it prints before it."""
     scene, left = _TABLE_2.scene.rounded, loop_as_printed().rounded - _TABLE_2.query.rounded
     return Evidence("count", f"{scene} operations depend on the sizes alone", 0 < left < scene)
 
 
 def operations_of_roots() -> Evidence:
-    """That Table 2 takes fewer operations than the roots by cosines, and no cosine."""
+    """Evidence that Table 2 takes fewer operations than the roots by cosines, and no cosine."""
     coefficients, roots = _TABLE_2.query, _COSINES.query
     fewer = coefficients.rounded < roots.rounded and coefficients.functions == 0
     return Evidence("count", f"{coefficients.rounded} < {roots.rounded}", fewer)
 
 
 def directions_of_rotors() -> Evidence:
-    """That one cosine and one sine serve all rotors."""
+    """Evidence that one cosine and one sine serve all rotors."""
     formula = FORMULAS["procedure-2a"]
     angles, cost = [name for name in formula.program.inputs if name in {"cosine", "sine"}], cost_of(formula)
     text = f"{len(angles)} inputs tell the direction of four rotors, and no step takes a cosine"
@@ -59,7 +59,7 @@ def directions_of_rotors() -> Evidence:
 
 
 def share_of_discriminants() -> Evidence:
-    """That more than half of Procedure 2.a's operations are those of discriminants: one half is our own threshold."""
+    """Evidence that more than half of Procedure 2.a's operations are those of discriminants; the half is ours."""
     share, whole = discriminant_share()
     return Evidence("count", f"{share} of {whole} is more than half", 2 * share > whole)
 
@@ -77,7 +77,7 @@ NEAREST = (0.28, 0.46)
 
 
 def discriminants_closest_to_zero() -> Evidence:
-    """That the least values of Δ > 0 in the paper's tower are those near its wall."""
+    """Evidence that the least values of Δ > 0 in the paper's tower are those near its wall."""
     # Evenly over the cylinder about the tower, so that those inside are evenly over the tower's volume.
     heights, areas = (np.arange(400) + 0.5) / 400 * 17.8, (np.arange(1000) + 0.5) / 1000
     walls, radii = 2 * np.hypot(1, heights / 17.8)[:, None], 2 * np.sqrt(2 * areas)
@@ -102,13 +102,13 @@ def _discriminants(A: float, B: float, P: Floats, Q: Floats) -> Floats:
 
 
 def discriminant_is_no_distance() -> Evidence:
-    """That Δ near the wall at one height exceeds Δ on the axis at another."""
+    """Evidence that Δ near the wall at one height exceeds Δ on the axis at another."""
     greater = 0 < discriminant(ON_THE_AXIS) < discriminant(NEAR_THE_WALL)
     return Evidence("count", "across heights the greater Δ can be the one nearer to the wall", greater)
 
 
 def discriminant_falls_at_each_height() -> Evidence:
-    """That at one height Δ falls towards the wall."""
+    """Evidence that at one height Δ falls towards the wall."""
     text = "at each of 7 heights from 0 to 17.8 m Δ falls at each of the steps of 6 cm from the axis to Δ ≤ 0"
     return Evidence("count", text, all(_falls(height) for height in range(7)))
 
@@ -126,7 +126,7 @@ def _falling(values: Iterable[Fraction | float]) -> bool:
 
 
 def greatest_share() -> Evidence:
-    """That all printed figures of Table 5 are below 14 %."""
+    """Evidence that all printed figures of Table 5 are below 14 %."""
     most = max(map(max, PRINTED))
     return Evidence("count", f"{most} < 14", most < 14)
 
@@ -136,12 +136,12 @@ _FALL = 100 * (1 - PRINTED[0][-1] / PRINTED[0][0])
 
 
 def rows_fall() -> Evidence:
-    """That all rows of Table 5 fall as the speed rises."""
+    """Evidence that all rows of Table 5 fall as the speed rises."""
     return Evidence("count", "15 falls of 15", all(map(_falling, PRINTED)))
 
 
 def columns_fall() -> Evidence:
-    """That all columns of Table 5 fall as the response time rises."""
+    """Evidence that all columns of Table 5 fall as the response time rises."""
     return Evidence("count", "12 falls of 12", all(map(_falling, zip(*PRINTED, strict=True))))
 
 
@@ -159,13 +159,13 @@ _SAID_OF_STEPS = ", ".join(f"{one:.2f} against {other:.2f} at v·t = {step:g}" f
 
 
 def equal_steps() -> Evidence:
-    """That equal steps have unequal figures."""
+    """Evidence that equal steps have unequal figures."""
     apart = all(abs(one - other) > 0.6 and abs(here - there) < 1e-9 for one, other, here, there in _EQUAL_STEPS)
     return Evidence("count", f"{_SAID_OF_STEPS}: more than 7 standard errors of a difference", apart)
 
 
 def second_row_read_as_a_quarter() -> Evidence:
-    """That equal steps have equal figures, and longer steps lower ones, if t = 0.2 is a misprint for 0.25."""
+    """Evidence that equal steps have equal figures, and longer steps lower ones, if t = 0.2 is a misprint for 0.25."""
     near = abs(_figure(0.3, 5) - _figure(0.2, 6)) < 0.02
     text = "t = 0.25 brings the two figures of v·t = 1.5 to within 0.02, and all figures fall as v·t grows"
     return Evidence("count", text, near and _fall_with_steps((0.1, 0.25, 0.3)) and not _fall_with_steps(TIMES))

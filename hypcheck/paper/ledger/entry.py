@@ -84,7 +84,9 @@ class LedgerEntry:
 
     @property
     def proved_by(self) -> tuple[str, ...]:
-        """By what the verdict is proved: Coq, sympy, exhaustive, witness. A search that finds nothing is no proof.
+        """The means by which the verdict is proved: Coq, sympy, exhaustive, witness.
+
+        A search that finds nothing is no proof.
 
         A definition needs none.
         """
@@ -104,35 +106,35 @@ class LedgerEntry:
 
 
 def by_chain(name: str) -> Evidence:
-    """That a chain of the derivation holds, with all it needs."""
+    """Evidence that a chain of the derivation holds, with all it needs."""
     links = len(chains()[name].links)
     return Evidence("chain", f"{name}: {links} links hold", proved(name), chain=name)
 
 
 def by_identity(text: str) -> Evidence:
-    """That one of the derivation's own identities holds, by its sentence."""
+    """Evidence that one of the derivation's own identities holds, by its sentence."""
     return Evidence("identity", text, known(text).holds)
 
 
 def by_printed(text: str) -> Evidence:
-    """That the displayed formulas whose numbers the text names hold as printed: "(7) and (8) hold"."""
+    """Evidence that the displayed formulas whose numbers the text names hold as printed: "(7) and (8) hold"."""
     parts = (part for number in re.findall(r"\((\d+)\)", text) for part in printed(number))
     return Evidence("identity", text, all(part.holds for part in parts))
 
 
 def by_reading(text: str) -> Evidence:
-    """That two places of the paper's text were compared by reading."""
+    """Evidence that two places of the paper's text were compared by reading."""
     return Evidence("text", text, holds=True)
 
 
 def by_coq(theorem: str) -> Evidence:
-    """That a Coq file states a theorem, "File.theorem", and leaves nothing unproved; `make prove` has Coq check it."""
+    """Evidence that a Coq file states a theorem, "File.theorem", without a gap; `make prove` checks it."""
     file, _, name = theorem.partition(".")
     return Evidence("coq", f"{name} in proofs/{file}.v, which `make prove` checks", proves(file, name))
 
 
 def by_programs(*formulas: Formula) -> Evidence:
-    """That programs compute and decide what they must."""
+    """Evidence that programs compute and decide what they must."""
     proofs = [proof for formula in formulas for proof in proofs_of(formula)]
     names = ", ".join(formula.name for formula in formulas)
     text = f"{len(proofs)} proofs of the program{'s' * (len(formulas) > 1)} {names}"
@@ -140,7 +142,7 @@ def by_programs(*formulas: Formula) -> Evidence:
 
 
 def without_counterexample(statement: Statement) -> Evidence:
-    """That no point of the whole space contradicts the statement."""
+    """Evidence that no point of the whole space contradicts the statement."""
     search = counterexample(statement)
     return Evidence(
         "search", f"no counterexample among {search.tried:,} pairs", search.found is None and search.tried > 0
@@ -148,13 +150,13 @@ def without_counterexample(statement: Statement) -> Evidence:
 
 
 def harmless_where(statement: Statement, where: Condition) -> Evidence:
-    """That no point at which `where` holds contradicts a statement that is false elsewhere."""
+    """Evidence that no point at which `where` holds contradicts a statement that is false elsewhere."""
     evidence = without_counterexample(replace(statement, where=lambda facts: statement.where(facts) and where(facts)))
     return replace(evidence, text=f"harmless there: {evidence.text}")
 
 
 def with_counterexample(*statements: Statement) -> Evidence:
-    """That each statement is false: the simplest point which contradicts it, its position certified."""
+    """Evidence that each statement is false: the simplest point which contradicts it, its position certified."""
     searches = [(statement, counterexample(statement)) for statement in statements]
     return _found([(search, f"contradicts: {statement.text}") for statement, search in searches])
 

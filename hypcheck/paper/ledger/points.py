@@ -51,7 +51,7 @@ class Point:
 
     @property
     def pair(self) -> Pair:
-        """The same in whole numbers, which float64 holds: radial and axial lengths have a unit each."""
+        """The pair in whole numbers, which float64 holds: radial and axial lengths have a unit each."""
         b, d = lcm(self.a.denominator, self.r.denominator), lcm(self.c.denominator, self.z.denominator)
         return Pair(*map(float, (self.a * b, self.c * d, b, d, self.r * b, 0, self.z * d)))
 

@@ -210,7 +210,7 @@ def program_says(name: str, facts: PointFacts) -> int:
 
 
 def errs(name: str, *about: Statement) -> Evidence:
-    """That a printed program for exterior positions errs in exact arithmetic at a counterexample to each statement."""
+    """Evidence that a printed program for exterior positions errs exactly at a counterexample to each statement."""
     witnesses = with_counterexample(*about).witnesses
     wrong = [program_says(name, witness.facts) != exterior(witness.facts) for witness in witnesses]
     return Evidence("programs", f"{name} errs there in exact arithmetic", bool(wrong) and all(wrong))
@@ -249,7 +249,7 @@ class Quadcopter:
 
 
 def quadcopters(hull: PointFacts) -> tuple[Quadcopter, ...]:
-    """Those tried about one hull: arms of a half, a quarter, … and rotors half as long as the arms."""
+    """The quadcopters tried about one hull: arms of a half, a quarter, … and rotors half as long as the arms."""
     tried = (Quadcopter(hull, Fraction(2, halvings), Fraction(1, halvings)) for halvings in (4, 8, 16, 32))
     return tuple(quadcopter for quadcopter in tried if quadcopter.fits)
 
@@ -282,12 +282,12 @@ def refusal(where: Condition, shows: str) -> Evidence:
 
 
 def refused_for_a_zero_coefficient() -> Evidence:
-    """That Procedure 2.b refuses an interior hull of the regimes of Propositions 3 and 5, and its rotors with it."""
+    """Evidence that Procedure 2.b refuses an interior hull in the regimes of Propositions 3 and 5, and its rotors."""
     return refusal(lambda hull: wide(hull) and tall(hull), "interior, and refused for a zero coefficient")
 
 
 def refused_though_the_hull_is_in_contact() -> Evidence:
-    """That Procedure 2.b refuses four interior rotors in a low hyperboloid, where a hull in contact can have Δ > 0."""
+    """Evidence that Procedure 2.b refuses interior rotors in a low hyperboloid: hulls in contact can have Δ > 0."""
     return refusal(
         lambda hull: wide(hull) and not tall(hull) and contact(hull),
         "contact with Δ > 0, refused, rotors unasked",
@@ -295,7 +295,7 @@ def refused_though_the_hull_is_in_contact() -> Evidence:
 
 
 def valid_though_the_body_meets_the_wall() -> Evidence:
-    """That Procedure 2.b calls a movement valid though a part of the body beside the rotors is beyond the wall.
+    """Evidence that Procedure 2.b calls a movement valid though a part of the body beside the rotors is past the wall.
 
     The body is in contact, the rotors are interior, and the certificate of contact has a point of the body's spheroid
     beyond the wall: a part there would collide.

@@ -118,7 +118,7 @@ def in_parts(curves: Sequence[Curve]) -> Iterator[Sequence[Curve]]:
 
 
 def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
-    """At most AT_MOST curves with their legend below them."""
+    """A plot of at most AT_MOST curves with their legend below them."""
     columns = 2 if all(len(escaped(curve.name)) <= _LABEL for curve in curves) else 1
     rows = -(-len(curves) // columns) + 1
     drawn = new_figure(WIDTH, 250 + 15.5 * rows)
@@ -233,13 +233,13 @@ _SHORT, _LONG = "float32 and shorter", "float64 and longer"
 
 
 def error_plots(record: Record) -> Iterator[Plot]:
-    """For the workload near contact, or the first, a plot for each group of methods."""
+    """A plot for each group of methods, of the workload near contact, or the first."""
     for number, (group, curves) in enumerate(_groups(measured_methods(record), principal(record))):
         yield curve_plot(f"errors-{number}", group, curves)
 
 
 def other_error_plots(record: Record) -> Iterator[Plot]:
-    """The same for every other workload, of the methods that are wrong there."""
+    """A plot for each group of the methods that are wrong on another workload, for every such workload."""
     methods, known = measured_methods(record), workloads(record)
     for place, workload in enumerate(name for name in known if name != principal(record)):
         wrong = [method for method in methods if workload in method.accuracy and method.accuracy[workload].wrong]

@@ -145,7 +145,7 @@ def _draw_rings(axes: Any, trees: list[dict[str, Any]], *height: float) -> None:
 
 
 def _draw_stops(axes: Any, stops: list[dict[str, Any]], coordinates: int, **look: Any) -> None:  # noqa: ANN401
-    """Where the walker was stopped, in axes of two or of three coordinates."""
+    """Draw where the walker was stopped, in axes of two or of three coordinates."""
     for kind, (label, marker, size, paint) in _STOPS.items():
         tried = [stop["tried"][:coordinates] for stop in stops if stop["kind"] == kind]
         if tried:

@@ -88,7 +88,7 @@ def _way_of(case: WrongAnswer) -> _Way:
 
 
 def _nearest_time(row: tuple[float, ...]) -> float:
-    """About when the spheroid is nearest to the surface."""
+    """The time, about, at which the spheroid is nearest to the surface."""
     low, high = 0.0, 1.0
     for _ in range(_ZOOMS):
         times = np.linspace(low, high, _POINTS // _ZOOMS)

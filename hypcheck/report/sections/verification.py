@@ -307,7 +307,7 @@ MAP = Figures("map", "exact positions and wrong answers over the half plane (r, 
 
 
 def map_sections(record: Record) -> Iterator[Section]:
-    """Where a method goes wrong in the half plane of a scene; none if there is no map."""
+    """The points at which a method goes wrong in the half plane of a scene; none if there is no map."""
     items = [
         (
             f"{line.name}: ",
