@@ -78,7 +78,7 @@ THOROUGH = {
     "cli": "completion detach pytest_plugin",
     "derivation": "repaired_formulas rounding",
     "implementations": "fcl_naive",
-    "kernel": "header parallel_lines sanitizers scene_leaning tilted_integers tilted_sanitizers",
+    "kernel": "header parallel_lines sanitizers scene_tilted tilted_integers tilted_sanitizers",
     "kernel/emission": "conformance extremes foreign_text kernels leaning limits prefix scenes text",
     "proofs": "proofs",
     "paper": "erratum flights forest ledger_cli ledger_search motion pitch simulate_cli tower",

@@ -32,7 +32,7 @@ from hypcheck.implementations.alternatives import numpy_roots
 from hypcheck.implementations.meshes import FCL, SceneMesh, height_of, scene_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
-from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_ways
+from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_sweeps
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import AbsentLine, KernelLine
 from hypcheck.runs.timing import (
@@ -115,7 +115,7 @@ def _open_share(name: str) -> float:
     ways = name in ENDED_SWEEP_FAMILIES
     family = ENDED_SWEEP_FAMILIES[name] if ways else ENDED_FAMILIES[name]
     rows = np.ascontiguousarray(family.rows(SEED, ORDINARY if name.endswith("uniform") else NEAR))
-    answers = answer_ways(rows)[0] if ways else answer_ended(rows, 1)
+    answers = answer_sweeps(rows)[0] if ways else answer_ended(rows, 1)
     return float((answers == CANNOT_SAY).mean())
 
 

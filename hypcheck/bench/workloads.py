@@ -20,7 +20,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Rows, tilted_rows
 from hypcheck.kernel.specialise.settings import REACH, Setting, settings_of
-from hypcheck.scene.model import FREE, SceneModel, leans
+from hypcheck.scene.model import FREE, SceneModel, is_tilted
 from hypcheck.scene.reading import read_scene
 from hypcheck.vectors import frozen
 from hypcheck.vectors.draw import Draw, in_turn
@@ -377,21 +377,21 @@ TILTED_SWEEP_WORKLOADS = _by_name(
 
 def leaning_scenes(names: tuple[str, ...]) -> list[str]:
     """The scenes whose mover leans, or may. Raises InputError for a scene that does not exist."""
-    return [name for name in names if leans(read_scene(name).mover.axis)]
+    return [name for name in names if is_tilted(read_scene(name).mover.axis)]
 
 
 @cache
 def scene_workloads(name: str) -> dict[str, Workload]:
-    """The workloads of a scene whose mover leans.
+    """The workloads of a scene whose mover is tilted.
 
-    Raises InputError if a hyperboloid leans as well, or if nothing is ever asked in the scene.
+    Raises InputError if a hyperboloid is tilted as well, or if nothing is ever asked in the scene.
     """
     scene = read_scene(name)
-    lean = next((body for body in scene.hyperboloids if leans(body.axis)), None)
-    if lean is not None:
+    tilted = next((body for body in scene.hyperboloids if is_tilted(body.axis)), None)
+    if tilted is not None:
         raise InputError(
-            f"the scene {scene.name!r} is not measured: the hyperboloid {lean.name!r} leans, and rows of ten numbers "
-            "are about upright ones"
+            f"the scene {scene.name!r} is not measured: the hyperboloid {tilted.name!r} is tilted, and rows of ten "
+            "numbers are about upright ones"
         )
     settings = settings_of(scene)
     if not settings:

@@ -194,7 +194,7 @@ def capsule(rows: Rows) -> HitsAndTimes:
 
 def certified(rows: Rows) -> NDArray[np.int8]:
     """Hits (n,): by the kernel, whose bounds prove what they decide; by the exact decision where they do not tell."""
-    hits = kernel().answer_ways(rows)[0]
+    hits = kernel().answer_sweeps(rows)[0]
     rest = np.flatnonzero(hits == CANNOT_SAY)
     hits[rest] = exact(rows[rest])[0]
     return hits

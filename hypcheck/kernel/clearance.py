@@ -33,7 +33,7 @@ def clearance(
 
     The clearance is known within 2⁻³⁰ of 1 + clearance, or of 1 where that is greater, unless the spheroid so much
     enlarged leaves float64. The distance is known within 2⁻²⁹ of itself and b or d, unless a spheroid that holds all
-    points so near reaches the hyperboloid elsewhere: long ones in a groove, and some that lean. Then it lies between
+    points so near reaches the hyperboloid elsewhere: long ones in a groove, and some tilted ones. Then it lies between
     clearance · min(b, d) and clearance · max(b, d), or nearer. So it does where the hyperboloid ends; there no error of
     the touching point is proved, and a row takes some milliseconds.
 

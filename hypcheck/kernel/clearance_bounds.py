@@ -14,8 +14,8 @@ Floats only guess (clearance_points.py). What is returned is proved by exact dec
 Where a guess cannot be proved, the same decisions halve the interval. No bound of a rounding error decides but these:
 
 Points. Each coordinate of an end of the gap takes fewer than 16 roundings of terms below |X| or |C| + max(b, d), where
-an axis leans times (max/min of b, d)²; _POINTS = 2⁻⁴⁶ holds that for both ends, and for |X − Y|. _OUTWARD covers the 12
-roundings of a semi-axis. Both hold for lengths in 2^±300, which are asked for.
+an axis is tilted times (max/min of b, d)²; _POINTS = 2⁻⁴⁶ holds that for both ends, and for |X − Y|. _OUTWARD covers
+the 12 roundings of a semi-axis. Both hold for lengths in 2^±300, which are asked for.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from hypcheck.kernel import clearance_points
 from hypcheck.kernel import clearance_points as points
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
-from hypcheck.kernel.numpy_kernel import leaning
+from hypcheck.kernel.numpy_kernel import is_tilted
 
 CHUNK = 1 << 14
 GUESS = 2.0**-32
@@ -161,7 +161,7 @@ _SHIFT = 2.0**-36
 
 
 def _fill_ties(found: Clearance, queries: Rows, threads: int | None) -> None:
-    """Nearest points where a spheroid that leans is on the axis, so that no direction is known: those of one beside it.
+    """Nearest points where a tilted spheroid is on the axis, so that no direction is known: those of one beside it.
 
     A distance changes by no more than the centre moves, so the bounds hold with twice the shift, which covers its
     rounding. Of the shifts along x and y the better counts.
@@ -195,23 +195,23 @@ def _compiled(rows: Rows, threads: int | None) -> Clearance:
 
 
 def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
-    """The answers about some valid rows; those that lean, and those that do not, together."""
+    """The answers about some valid rows; those that are tilted, and those that do not, together."""
     some = queries[places]
-    lean = leaning(some) if PAIRS.has_axis(some) else np.zeros(len(some), np.bool_)
-    for chosen in (lean, ~lean):
+    tilted = is_tilted(some) if PAIRS.has_axis(some) else np.zeros(len(some), np.bool_)
+    for chosen in (tilted, ~tilted):
         if chosen.any():
-            rows = np.ascontiguousarray(some[chosen] if chosen is lean else some[chosen, : len(COLUMNS)])
+            rows = np.ascontiguousarray(some[chosen] if chosen is tilted else some[chosen, : len(COLUMNS)])
             answers = _answers(rows, threads)
             for name in _MEASURED:
                 getattr(found, name)[places[chosen]] = getattr(answers, name)
 
 
 def _answers(rows: Rows, threads: int | None) -> Clearance:
-    """The answers about rows that all lean, (n, 10), or that are all upright, (n, 7)."""
+    """The answers about rows that are all tilted, (n, 10), or that are all upright, (n, 7)."""
     rows, shift = scaled(rows)
-    leans = PAIRS.has_axis(rows)
+    has_axis = PAIRS.has_axis(rows)
     position = _positions(rows, threads)
-    touches = points.leaning_touches(rows) if leans else points.upright_touches(rows)
+    touches = points.tilted_touches(rows) if has_axis else points.upright_touches(rows)
     low, high = _factors(rows, position, touches.factor, threads)
     lower, upper = np.maximum(_less_one(low, -np.inf), -1.0), _less_one(high, np.inf)
     lengths = rows[:, 2:4]
@@ -220,7 +220,7 @@ def _answers(rows: Rows, threads: int | None) -> Clearance:
     nearest = touches.point.copy()
     clear = np.flatnonzero(position)
     if len(clear):
-        ask = points.leaning_gaps if leans else points.upright_gaps
+        ask = points.tilted_gaps if has_axis else points.upright_gaps
         gaps = ask(rows[clear], position[clear], touches.point[clear])
         usual = _usual(rows[clear])
         measured = np.where(usual, _measured(rows[clear], gaps), np.inf)
@@ -326,8 +326,8 @@ def _measured(rows: Rows, gaps: points.PointGaps) -> Floats:
     largest = np.maximum(b, d)
     if PAIRS.has_axis(rows):
         largest = largest * (largest / np.minimum(b, d)) ** 2
-    way = gaps.there - gaps.here
-    length = np.sqrt((way * way).sum(axis=1))
+    offset = gaps.there - gaps.here
+    length = np.sqrt((offset * offset).sum(axis=1))
     terms = np.abs(gaps.there).sum(axis=1) + np.abs(rows[:, 4:7]).sum(axis=1) + largest
     return np.asarray(length + _POINTS * (length + terms))
 

@@ -11,7 +11,7 @@ height ζ and of the radius ρ. Hence |ρ* − ρ| ≤ √(Γ A/τ) and |ζ* −
 the other coordinate follows: A ζ/(B ρ) is its slope, and ζ*² = B (ρ*²/A − 1). In C the
 roundings are 38 for 16, as quotients are shared. _ROUNDED = 64u holds each coordinate.
 
-**Leaning touches.** The multiplier is that of the kernel's second stage (numpy_kernel.py), the point X solves a linear
+**Tilted touches.** The multiplier is that of the kernel's second stage (numpy_kernel.py), the point X solves a linear
 system. With G = M + λD ≥ μ, r = G X − M C and n = D X there is a point of the hyperboloid within |h|/|n| of X where
 |h| max|D| < |n|² (h changes its sign on the way along n), and X − G⁻¹r is where |X − C|² + λ h is least. So the exact
 place is within |r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ). Elimination shows μ: where G − shift has positive pivots in floats,
@@ -192,8 +192,8 @@ def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
     return PointGaps(gap, v / n, there, here)
 
 
-def leaning_touches(rows: Rows, at: Floats | None = None) -> Touches:
-    """The touches of valid rows (n, 10) whose axis leans.
+def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
+    """The touches of valid rows (n, 10) whose axis is tilted.
 
     Their error holds for any multipliers λ (n,) that are given as `at`; else they are found here.
     """
@@ -236,8 +236,8 @@ def _error(rows: Rows, unit: Floats, at: Floats, form: Floats, place: Floats, ma
     """
     stretch, size = (rows[:, 2] / rows[:, 3]) ** 2 + 2, np.abs(at)
     centre = rows[:, 4:7] / rows[:, 2:3]
-    way, normal = place - centre, form * place
-    left = way + ((stretch - 3) * (unit * way).sum(axis=1))[:, None] * unit + at[:, None] * normal
+    offset, normal = place - centre, form * place
+    left = offset + ((stretch - 3) * (unit * offset).sum(axis=1))[:, None] * unit + at[:, None] * normal
     terms = stretch * (np.abs(place).sum(axis=1) + np.abs(centre).sum(axis=1)) + size * np.abs(normal).sum(axis=1)
     off = np.sqrt((left * left).sum(axis=1)) + _ROUNDED * terms
     squares = form * place * place
@@ -278,13 +278,13 @@ def _adjugate(matrix: Floats) -> tuple[Floats, Floats]:
 
 def _factor(rows: Rows, unit: Floats, point: Floats) -> Floats:
     """How many times as large the spheroid reaches the point."""
-    way = point - rows[:, 4:7]
-    along = (unit * way).sum(axis=1)
-    across = way - along[:, None] * unit
+    offset = point - rows[:, 4:7]
+    along = (unit * offset).sum(axis=1)
+    across = offset - along[:, None] * unit
     return np.asarray(np.sqrt((across * across).sum(axis=1) / rows[:, 2] ** 2 + (along / rows[:, 3]) ** 2))
 
 
-def leaning_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
+def tilted_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
     """Hints for valid rows (n, 10) that are clear, from the places where they first touch, (n, 3).
 
     A spheroid that contains all points within some length of the given one, and no more of them in the direction of the
@@ -302,7 +302,7 @@ def leaning_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
         gap = ((touch - here) * normal).sum(axis=1)
         if turn < GAP_TURNS - 1:
             grown[:, 2], grown[:, 3] = np.sqrt((v + gap) * (b * b / v + gap)), np.sqrt((v + gap) * (d * d / v + gap))
-            touch = leaning_touches(grown).point  # its error is made in vain, for short arrays
+            touch = tilted_touches(grown).point  # its error is made in vain, for short arrays
     return PointGaps(gap, v, touch, here)
 
 
@@ -316,10 +316,10 @@ def normals(rows: Rows, nearest: Rows, position: Positions) -> Rows:
     with np.errstate(all="ignore"):
         axis = _directions(with_heights(rows)[:, 7:10])
         size = rows[:, 2:4].max(axis=1)
-        way = (nearest - rows[:, 4:7]) / size[:, None]
+        offset = (nearest - rows[:, 4:7]) / size[:, None]
         b2, d2 = (rows[:, 2:4] / size[:, None]).T ** 2
-        w = (way * axis).sum(axis=1)
-        across = way - w[:, None] * axis
+        w = (offset * axis).sum(axis=1)
+        across = offset - w[:, None] * axis
         u = np.sqrt((across * across).sum(axis=1))
         t = _foot(b2, d2, u, np.abs(w))
         normal = 0.0 - _directions(across / (b2 + t)[:, None] + axis * (w / (d2 + t))[:, None])

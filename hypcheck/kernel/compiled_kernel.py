@@ -78,10 +78,10 @@ def fill_scene(
 ) -> int:
     """The same into a contiguous array that is there already; returns how many rows are invalid."""
     ask, number = extension().ask_scene, NUMBER_OF[question]
-    leaning = () if axis is None else (axis,)
+    own_axis = () if axis is None else (axis,)
 
     def part(start: int, stop: int) -> int:
-        return int(ask(number, sizes, *(column[start:stop] for column in columns), answers[start:stop], *leaning))
+        return int(ask(number, sizes, *(column[start:stop] for column in columns), answers[start:stop], *own_axis))
 
     return in_parts(part, len(answers), threads)
 
@@ -93,12 +93,12 @@ def fill_valid_scene(
 
     It must not overlap the columns. What a thread decides is kept as bits until all threads have ended.
     """
-    core, leaning = extension(), () if axis is None else (axis,)
+    core, own_axis = extension(), () if axis is None else (axis,)
     kept: NDArray[np.int8] = np.empty(-(-len(out) // BLOCK) * KEPT, dtype=np.int8)
 
     def part(start: int, stop: int) -> int:
         these = kept[start // BLOCK * KEPT : -(-stop // BLOCK) * KEPT]
-        return int(core.keep_scene(0, sizes, *(column[start:stop] for column in columns), these, *leaning))
+        return int(core.keep_scene(0, sizes, *(column[start:stop] for column in columns), these, *own_axis))
 
     def write(start: int, stop: int) -> int:
         core.spread(kept[start // BLOCK * KEPT : -(-stop // BLOCK) * KEPT], out[start:stop])
@@ -110,7 +110,7 @@ def fill_valid_scene(
     return True
 
 
-def answer_ways(rows: Rows) -> tuple[Positions, Floats]:
+def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
     """As classify.Kernel has it."""
     hits, times = np.empty(len(rows), dtype=np.int8), np.empty(len(rows))
     _by_row(lambda *part: compiled().passage(*part) or 0, rows, (hits, times), None)

@@ -39,8 +39,8 @@ class Kernel(Protocol):
     ) -> tuple[Positions, int]:
         """Answers for valid sizes and the centres of three columns; None is upright, an invalid axis answers 127."""
 
-    def answer_ways(self, rows: Rows) -> tuple[Positions, Floats]:
-        """Contact on straight ways, C-contiguous rows (n, 10), (n, 13) or (n, 16) as geometry.rows.SWEEPS has them.
+    def answer_sweeps(self, rows: Rows) -> tuple[Positions, Floats]:
+        """Contact on sweeps, C-contiguous rows (n, 10), (n, 13) or (n, 16) as geometry.rows.SWEEPS has them.
 
         Hits, int8 (n,): 1 and 0 are exact, 2 is said where bounds do not tell, 127 of an invalid row. Times, float64
         (n,): no contact comes before them; NaN where there is no hit, or where bounds do not tell when.

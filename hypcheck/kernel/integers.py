@@ -118,7 +118,7 @@ def squares(row: Sequence[float]) -> Squares:
 def squares_between_axes(
     sizes: Sequence[float], centre: Sequence[Fraction | float], axis: Sequence[float], other: Sequence[float]
 ) -> Squares:
-    """The same where the hyperboloid leans too: `centre` is the spheroid's, from the hyperboloid's, `other` its axis w.
+    """The same beside a tilted hyperboloid: `centre` is the spheroid's, from the hyperboloid's, `other` its axis w.
 
     Nothing is rotated: with W = w·w, C·w and v·w the parts along w are (C·w)²/W and (v·w)²/W, and those across are what
     is left of C·C and v·v; the part of v × C along w is det(v, C, w)²/W. All are multiplied by as many W as they need.

@@ -5,7 +5,7 @@ half planes of the scene     printed/chunks.py plane and parallel_lines, in sing
 discriminant and its bound   printed/chunks.py certified
 integers                     integers.py
 
-Rows of ten whose axis leans have a stage in floats, printed/tilted.py, about a multiplier that proves nothing: any is
+Tilted rows of ten have a stage in floats, printed/tilted.py, about a multiplier that proves nothing: any is
 safe, a good one leaves fewer rows to integers.py.
 """
 
@@ -54,7 +54,7 @@ TOO_MANY_LEFT = LINES_CHUNK // 100
 """Of a chunk, by one line a side: then it is two."""
 
 TILTED_CHUNK = 2048
-"""Rows at a time that lean: some ninety buffers of a chunk stay in the cache."""
+"""Rows at a time that are tilted: some ninety buffers of a chunk stay in the cache."""
 
 _TURNS, _SETTLED = 8, 1e-6
 """Newton's turns at most, and the relative change with which it ends: as in core/parts/platform.h."""
@@ -77,16 +77,16 @@ def positions(rows: Rows) -> Positions:
 
 def _positions_of_ten(rows: Rows) -> Positions:
     result = np.empty(len(rows), dtype=np.int8)
-    lean = leaning(rows)
-    those = np.flatnonzero(lean)
+    of_tilted = is_tilted(rows)
+    those = np.flatnonzero(of_tilted)
     for start in range(0, len(those), TILTED_CHUNK):
         part = those[start : start + TILTED_CHUNK]
-        result[part] = _positions_leaning(rows[part])
-    if not lean.all():
-        upright = rows[~lean]
+        result[part] = _tilted_positions(rows[part])
+    if not of_tilted.all():
+        upright = rows[~of_tilted]
         found = positions(upright[:, : len(COLUMNS)])
         found[invalid(upright)] = REFUSED
-        result[~lean] = found
+        result[~of_tilted] = found
     return result
 
 
@@ -163,7 +163,7 @@ def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
     return positions.astype(np.int8)
 
 
-def answer_ways(rows: Rows) -> tuple[Positions, Floats]:
+def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
     """As classify.Kernel has it, by the positions at both ends alone: it cannot say where these are clear and alike.
 
     Through an opening a sweep may change its side without contact.
@@ -269,13 +269,13 @@ def _by_integers(rows: Rows, places: Indices, result: Positions, position: Calla
             result[place] = position(rows[place].tolist())
 
 
-def leaning(rows: Rows) -> Mask:
+def is_tilted(rows: Rows) -> Mask:
     """A mask (n,) of the rows of ten that are neither upright nor of a sphere."""
     return np.asarray((rows[:, 7:9] != 0).any(axis=1) & (rows[:, 2] != rows[:, 3]))
 
 
-def _positions_leaning(rows: Rows) -> Positions:
-    """The positions of a chunk of rows of ten that lean, 127 for invalid ones."""
+def _tilted_positions(rows: Rows) -> Positions:
+    """The positions of a chunk of rows of ten that are tilted, 127 for invalid ones."""
     result = np.empty(len(rows), dtype=np.int8)
     with np.errstate(all="ignore"):
         row = _columns_of_ten(rows)
@@ -313,7 +313,7 @@ def _multiplier(row: TenColumns) -> Floats:
     """Near the multipliers where the dual functions are greatest: core/parts/tilted_level.h says how."""
     form = tilted.tilted_form(*row, list(np.empty((tilted.TILTED_FORM_BUFFERS[0], len(row[0])))))
     p, s, t, k0, k1, m, radius, height, cross_squared, level = form
-    P1 = np.fmax(cross_squared / level, 0)  # 0/0 is 0: the axis leans by less than 2⁻⁵⁰⁰
+    P1 = np.fmax(cross_squared / level, 0)  # 0/0 is 0: the axis is tilted by less than 2⁻⁵⁰⁰
     root = np.sqrt(k1 * k1 + 4 * k0 * t)
     larger = 0.5 * (np.abs(k1) + root)
     one_pole, other_pole, rising = larger / t, k0 / larger, k1 >= 0

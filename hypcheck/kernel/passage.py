@@ -1,4 +1,4 @@
-"""hypcheck.passage: one straight way exactly and without numpy, or many of them."""
+"""hypcheck.passage: one straight sweep exactly and without numpy, or many of them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import SIZES
 from hypcheck.truth import swept
 
-if TYPE_CHECKING:  # it loads numpy, and one way does without
+if TYPE_CHECKING:  # it loads numpy, and one sweep does without
     from hypcheck.geometry.forms import Argument
     from hypcheck.kernel.passages import Passages
 
@@ -54,19 +54,19 @@ def passage(
 ) -> swept.Passage | Passages:
     """Whether a spheroid that goes straight from one centre to another meets contact, its two ends included, and when.
 
-    Ways are written (sizes, start, end) or (alpha, gamma, b, d, start, end): sizes are numbers or columns (n,), start
+    Sweeps are written (sizes, start, end) or (alpha, gamma, b, d, start, end): sizes are numbers or columns (n,), start
     and end are points (3,) or (n, 3) from the hyperboloid's centre, in one unit, and each may be named; or rows (n,
     10), (n, 13), (n, 16), or a table of columns: alpha, gamma, b, d, x, y, z at the start, x1, y1, z1 at the end.
-    `axis`, (3,) or (n, 3), is any vector along the spheroid's axis of revolution, which keeps its direction on the way;
-    it is vertical without. The hyperboloid ends at the heights `z_min` and `z_max` along its axis; with `solid`, flat
-    ends belong to it.
+    `axis`, (3,) or (n, 3), is any vector along the spheroid's axis of revolution, which keeps its direction all
+    along; it is vertical without. The hyperboloid ends at the heights `z_min` and `z_max` along its axis; with
+    `solid`, flat ends belong to it.
 
     The answer has `.hit`, `.first_lower` and `.first_upper`, floats between which the time of the first contact lies, 0
     at the start and 1 at the end, NaN where there is none, and `.first`, the same as exact fractions or None; for many
-    ways these are arrays. One way may have fractions for numbers, and an `upward`, any vector along the hyperboloid's
-    axis; its answer has `.start`, `.end`, `.grazes` besides. Exact for every valid value; where the hyperboloid ends,
-    a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is not finite and > 0, a
-    coordinate not finite, an axis without direction, or z_min not less than z_max.
+    sweeps these are arrays. One sweep may have fractions for numbers, and an `upward`, any vector along the
+    hyperboloid's axis; its answer has `.start`, `.end`, `.grazes` besides. Exact for every valid value; where the
+    hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is not
+    finite and > 0, a coordinate not finite, an axis without direction, or z_min not less than z_max.
 
     >>> passage((1, 2, 1, 1), (4, 0, 0), (0, 0, 0)).hit  # half of the way to the axis
     True
@@ -81,12 +81,12 @@ def passage(
         return swept.passage(
             sizes, start, end, direction, axes[1] if axes[1:] else upward, z_min=z_min, z_max=z_max, solid=solid
         )
-    from hypcheck.kernel.passages import passages  # noqa: PLC0415 - it loads numpy, and one way does without
+    from hypcheck.kernel.passages import passages  # noqa: PLC0415 - it loads numpy, and one sweep does without
 
     if upward is not None:
         from hypcheck.errors import InputError  # noqa: PLC0415 - as above
 
-        raise InputError("upward is given, and the ways are many; a scene has hyperboloids that lean")
+        raise InputError("upward is given, and the sweeps are many; a scene has tilted hyperboloids")
     return passages(ways, columns, axis, (z_min, z_max, solid))
 
 
@@ -102,7 +102,7 @@ def _by_position(
 
 
 def _has_rows(value: object) -> bool:
-    """Whether a value is no number and no sequence of numbers: one that stands for many ways."""
+    """Whether a value is no number and no sequence of numbers: one that stands for many sweeps."""
     dimensions = getattr(value, "ndim", None)
     if dimensions is not None:
         return bool(dimensions > 1)

@@ -1,6 +1,6 @@
-"""Many straight ways, of one pair of sizes or of a whole scene: which have contact, when first, and with what.
+"""Many straight sweeps, of one pair of sizes or of a whole scene: which have contact, when first, and with what.
 
-Hits are decided at once, times when they are asked for: the first costs a microsecond, the other a millisecond a way.
+Hits are decided at once, times when they are asked for: the first costs a microsecond, the other a millisecond a sweep.
 """
 
 from __future__ import annotations
@@ -42,22 +42,22 @@ First = tuple[tuple[Fraction, Fraction], int]
 
 @dataclass(frozen=True, eq=False)
 class Passages:
-    """What happens on n straight ways; every array is (n,). One way alone has numbers.
+    """What happens on n straight sweeps; every array is (n,). One sweep alone has numbers.
 
-    `hit`: whether there is contact somewhere on the way, its two ends included. It is exact, as everything here.
+    `hit`: whether there is contact somewhere on the sweep, its two ends included. It is exact, as everything here.
     """
 
     hit: Mask | bool
     measure: Callable[[int], First] = field(repr=False)
-    """The first contact of a way that has one."""
+    """The first contact of a sweep that has one."""
 
     @cached_property
     def _firsts(self) -> list[First | None]:
-        return [self.measure(way) if hit else None for way, hit in enumerate(np.atleast_1d(self.hit).tolist())]
+        return [self.measure(sweep) if hit else None for sweep, hit in enumerate(np.atleast_1d(self.hit).tolist())]
 
     @property
     def first(self) -> list[tuple[Fraction, Fraction] | None]:
-        """Two fractions that enclose the time of the first contact, 0 ≤ t ≤ 1; None where the way is clear."""
+        """Two fractions that enclose the time of the first contact, 0 ≤ t ≤ 1; None where the sweep is clear."""
         found = [None if first is None else first[0] for first in self._firsts]
         return found if np.ndim(self.hit) else found[0]  # type: ignore[return-value]
 
@@ -77,7 +77,7 @@ class Passages:
 
     @cached_property
     def index(self) -> Indices:
-        """Which hyperboloid is touched first, its number from 0; −1 where the way is clear."""
+        """Which hyperboloid is touched first, its number from 0; −1 where the sweep is clear."""
         numbers: Indices = self._shaped([-1 if first is None else first[1] for first in self._firsts], np.intp)
         return numbers
 
@@ -99,42 +99,42 @@ class Passages:
 
 
 def passages(
-    ways: Sequence[Argument],
+    sweeps: Sequence[Argument],
     columns: Mapping[str, Argument],
     axis: ArrayLike | None,
     heights: Sequence[Argument],
 ) -> Passages:
-    """What happens on ways, written as hypcheck.passage takes them. Raises InputError."""
-    given, single = _rows_of(ways, columns, axis, heights)
+    """What happens on sweeps, written as hypcheck.passage takes them. Raises InputError."""
+    given, single = _rows_of(sweeps, columns, axis, heights)
     rows = np.ascontiguousarray(given)
     require_valid(rows, layout=_LAYOUT)
     hits = _hits(rows)
-    return Passages(bool(hits[0]) if single else hits, lambda way: (_interval(rows[way].tolist()), 0))
+    return Passages(bool(hits[0]) if single else hits, lambda sweep: (_interval(rows[sweep].tolist()), 0))
 
 
 def _rows_of(
-    ways: Sequence[Argument], columns: Mapping[str, Argument], axis: ArrayLike | None, heights: Sequence[Argument]
+    sweeps: Sequence[Argument], columns: Mapping[str, Argument], axis: ArrayLike | None, heights: Sequence[Argument]
 ) -> tuple[Rows, bool]:
-    """Rows of ways, and whether they are one way of numbers."""
+    """Rows of sweeps, and whether they are one sweep of numbers."""
     values: dict[str, Argument] = {}
     columns = {_NEW.get(name, name): value for name, value in columns.items()}
     require_known(columns, (*_LAYOUT.ended, "start", "end"))
-    if len(ways) == 1 and not columns and axis is None and names_of(ways[0]) is None:
-        single = np.ndim(ways[0]) == 1
-        rows = as_rows([ways[0]] if single else ways[0], tilted=True, heights=True, layout=_LAYOUT)
+    if len(sweeps) == 1 and not columns and axis is None and names_of(sweeps[0]) is None:
+        single = np.ndim(sweeps[0]) == 1
+        rows = as_rows([sweeps[0]] if single else sweeps[0], tilted=True, heights=True, layout=_LAYOUT)
         return rows, single
-    if len(ways) == 1:
-        names = names_of(ways[0])
+    if len(sweeps) == 1:
+        names = names_of(sweeps[0])
         if names is None and not {"start", "end"}.isdisjoint(columns):
             raise InputError(f"{_FORMS}; start or end is missing")
         if names is None:
-            raise InputError("rows of ways have their own axis and heights; these cannot be given beside them")
-        values = spread({_NEW.get(name, name): ways[0][name] for name in names}, _POINTS)
-    elif len(ways) in (3, 6):
-        values = sizes_of(ways[0] if len(ways) == 3 else ways[:4])
-        values |= named_points("start", ways[-2]) | named_points("end", ways[-1], END)
-    elif ways or not columns:
-        raise InputError(f"{_FORMS}, not {len(ways)} arguments")
+            raise InputError("rows of sweeps have their own axis and heights; these cannot be given beside them")
+        values = spread({_NEW.get(name, name): sweeps[0][name] for name in names}, _POINTS)
+    elif len(sweeps) in (3, 6):
+        values = sizes_of(sweeps[0] if len(sweeps) == 3 else sweeps[:4])
+        values |= named_points("start", sweeps[-2]) | named_points("end", sweeps[-1], END)
+    elif sweeps or not columns:
+        raise InputError(f"{_FORMS}, not {len(sweeps)} arguments")
     values |= spread(columns, _POINTS)
     if axis is not None:
         values |= named_points("axis", axis, AXIS)
@@ -147,7 +147,7 @@ def _rows_of(
 _FORMS = "passage takes (sizes, start, end), (alpha, gamma, b, d, start, end), rows or a table"
 
 _LAYOUT = Layout(SIZES + CENTER + END)
-"""The columns of ways as rows and tables have them."""
+"""The columns of sweeps as rows and tables have them."""
 
 _POINTS = {"start": CENTER, "end": END, "axis": AXIS}
 
@@ -159,24 +159,24 @@ def _hits(rows: Rows) -> Mask:
     """By bounds, and what these leave exactly. What is clear of a whole hyperboloid is clear of an open wall of it."""
     width = len(SWEEPS.tilted)
     whole = np.ascontiguousarray(rows[:, :width])
-    said = kernel().answer_ways(whole)[0]
+    said = kernel().answer_sweeps(whole)[0]
     if SWEEPS.has_heights(rows):
         ended = np.isfinite(rows[:, width : width + 2]).any(axis=1)
         sure = ~ended | ((said == 0) & (rows[:, width + 2] == 0))
         said = np.where(sure, said, CANNOT_SAY)
     hits = np.asarray(said == 1)
-    for way in np.flatnonzero((said == CANNOT_SAY) | (said == REFUSED)).tolist():
-        hits[way] = _way(rows[way].tolist()).hit
+    for sweep in np.flatnonzero((said == CANNOT_SAY) | (said == REFUSED)).tolist():
+        hits[sweep] = _passage_of(rows[sweep].tolist()).hit
     return hits
 
 
-def _way(row: Sequence[float]) -> swept.Passage:
+def _passage_of(row: Sequence[float]) -> swept.Passage:
     low, high, solid = row[13:] or WITHOUT_ENDS
     return swept.passage(row[:4], row[4:7], row[7:10], row[10:13] or None, z_min=low, z_max=high, solid=solid)
 
 
 def _interval(row: Sequence[float]) -> tuple[Fraction, Fraction]:
-    first = _way(row).first
+    first = _passage_of(row).first
     if first is None:
-        raise AssertionError(f"the exact decision about a way contradicts its bounds: {row}")
+        raise AssertionError(f"the exact decision about a sweep contradicts its bounds: {row}")
     return first

@@ -36,15 +36,15 @@ from hypcheck.kernel.scene_flights import (
     require_for_each,
 )
 from hypcheck.kernel.scene_index import (
-    near_ways,
+    near_sweeps,
 )
 from hypcheck.kernel.scene_least import Flights, Least, least_distances
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import (
     position_beside,
-    position_leaning,
     positions_beside,
-    positions_leaning,
+    tilted_position,
+    tilted_positions,
 )
 from hypcheck.kernel.scene_pictures import shown_flight
 from hypcheck.kernel.scene_prepared import PreparedScene
@@ -69,7 +69,7 @@ from hypcheck.kernel.scene_sweeps import (
 )
 from hypcheck.pictures.page import ScenePage, page_of
 from hypcheck.pictures.plot import plot_of
-from hypcheck.scene.model import FREE, UPRIGHT, Point, leans
+from hypcheck.scene.model import FREE, UPRIGHT, Point, is_tilted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -119,7 +119,7 @@ class Scene(PreparedScene):
         return int(answers[0]) if are_one(center, heading, axis) else answers
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
-        axes = self._axes(axis) if axis is not None or self._leaning else ()
+        axes = self._axes(axis) if axis is not None or self._is_tilted else ()
         asked = (*_ASKED, *AXIS[: len(axes)])
         columns = finite_columns(asked, (*center, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
@@ -166,8 +166,8 @@ class Scene(PreparedScene):
         if margin or not (ordinary or are_one((x, y, z), heading, axis)):
             return self.classify(x, y, z, heading, axis=axis, margin=margin)
         x, y, z, heading = finite_numbers(x, y, z, heading)
-        if axis is not None or self._leaning:
-            return self._position_leaning((x, y, z), heading, axis)
+        if axis is not None or self._is_tilted:
+            return self._tilted_position((x, y, z), heading, axis)
         mover, found = self.model.mover, EXTERIOR
         for index in self._near(x, y, z):
             body, low, high, inner_low, inner_high = self._body(index)
@@ -188,15 +188,15 @@ class Scene(PreparedScene):
     def passage(
         self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
     ) -> Passages:
-        """Whether the mover meets contact on each straight way, its ends included, when first, and with what.
+        """Whether the mover meets contact on each straight sweep, its ends included, when first, and with what.
 
         `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, and `axis`, as in
-        classify, are the same all along. `.hit` says exactly whether there is contact on the way, whatever the
+        classify, are the same all along. `.hit` says exactly whether there is contact on the sweep, whatever the
         scene's question is; `.first_lower` ≤ first time ≤ `.first_upper`, 0 at the start and 1 at the end, `.index` is
         the hyperboloid, and `.first` has the times as fractions; they are found when they are asked for, a millisecond
         a hit. A part goes straight from where it stands at the start to where it stands at the end; it is asked where
-        the mover has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the way or the sizes counts
-        as contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        the mover has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the sweep or the sizes
+        counts as contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
         hit = self._hit_at_once(start, end, heading) if axis is None else None
         if hit is not None:
@@ -270,12 +270,12 @@ class Scene(PreparedScene):
         return found
 
     def _swept(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, axis: ArrayLike | None) -> Swept:
-        """Straight ways, and which pairs of them and of hyperboloids have contact."""
+        """Straight sweeps, and which pairs of them and of hyperboloids have contact."""
         bodies, mover = self._bodies, self.model.mover
-        axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
+        axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
         starts, ends, headings, *columns = ways_of(start, end, heading, axes)
         movers = directions(columns) if columns else None
-        query, body = near_ways(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
+        query, body = near_sweeps(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
         sizes = np.broadcast_to((mover.b, mover.d), (len(body), 2))
         own = hits_beside(bodies, body, sizes, starts[query], ends[query], None if movers is None else movers[query])
         swept = Swept(starts, ends, headings, movers, query, body, own, own.copy())
@@ -284,9 +284,9 @@ class Scene(PreparedScene):
         return swept
 
     def _hit_at_once(self, start: object, end: object, heading: object) -> bool | None:
-        """Whether the mover has contact on one way, where everything is upright and bounds tell; else None."""
+        """Whether the mover has contact on one sweep, where everything is upright and bounds tell; else None."""
         here, there = point_at_once(start), point_at_once(end)
-        if here is None or there is None or self._leaning or not (isinstance(heading, float) and isfinite(heading)):
+        if here is None or there is None or self._is_tilted or not (isinstance(heading, float) and isfinite(heading)):
             return None
         if not self._grid_holds(here[2], there[2]):
             return None
@@ -294,20 +294,20 @@ class Scene(PreparedScene):
         hit = hit_at_once(self._grid, self._near_motion, mover, here, there)
         return None if hit and mover.parts else hit
 
-    def _first_on(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, way: int) -> First:
-        """The first contact of one way that has one, which is prepared now."""
-        return self._measure(self._swept(start, end, heading, None))(way)
+    def _first_on(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, sweep: int) -> First:
+        """The first contact of one sweep that has one, which is prepared now."""
+        return self._measure(self._swept(start, end, heading, None))(sweep)
 
     def _measure(self, swept: Swept, *, parts: bool = True) -> Callable[[int], First]:
-        """What finds the first contact of a way that has one: of the parts, or of the mover itself."""
+        """What finds the first contact of a sweep that has one: of the parts, or of the mover itself."""
         hits = swept.hits if parts else swept.own
 
-        def measure(way: int) -> First:
-            here = slice(*np.searchsorted(swept.query, (way, way + 1)).tolist())
+        def measure(sweep: int) -> First:
+            here = slice(*np.searchsorted(swept.query, (sweep, sweep + 1)).tolist())
             touched = swept.body[here][hits[here]].tolist()
-            mover, others = self._sweeps(swept, way)
+            mover, others = self._sweeps(swept, sweep)
             sweeps = (mover, others if parts else [])
-            start, end = swept.starts[way], swept.ends[way]
+            start, end = swept.starts[sweep], swept.ends[sweep]
             far = self._reaches[touched] if self._grid_holds(start[2], end[2]) else np.full(len(touched), np.inf)
             earliest = enters(self._bodies.origins[touched], far, start, end)
             found: list[First] = []
@@ -318,11 +318,11 @@ class Scene(PreparedScene):
 
         return measure
 
-    def _sweeps(self, swept: Swept, way: int) -> tuple[Spheroid, list[Spheroid]]:
-        """The sweep of the mover on a way, and those of its parts."""
-        mover, heading = self.model.mover, float(swept.headings[way])
-        start, end = swept.starts[way].tolist(), swept.ends[way].tolist()
-        axis = UPRIGHT if swept.movers is None else swept.movers[way].tolist()
+    def _sweeps(self, swept: Swept, sweep: int) -> tuple[Spheroid, list[Spheroid]]:
+        """One sweep of the mover, and those of its parts."""
+        mover, heading = self.model.mover, float(swept.headings[sweep])
+        start, end = swept.starts[sweep].tolist(), swept.ends[sweep].tolist()
+        axis = UPRIGHT if swept.movers is None else swept.movers[sweep].tolist()
         places = (places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
         parts = [
             (part.b, part.d, Sweep(here, there, axis)) for part, here, there in zip(mover.parts, *places, strict=True)
@@ -347,23 +347,23 @@ class Scene(PreparedScene):
         (0, True, [1.0, 0.0, 0.0])
         """
         mover = self.model.mover
-        axes = self._axes(axis) if axis is not None or leans(mover.axis) else ()
+        axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
         center = points_or_columns(x, y, z)
         columns = finite_columns((*CENTER, *AXIS[: len(axes)]), (*center, *axes))
         movers = directions(columns[3:]) if axes else None
         found = scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
         return scene_nearest.first_of(found) if are_one(center, 0, axis) else found
 
-    def _position_leaning(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
+    def _tilted_position(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
         """The position where the mover or a hyperboloid is tilted."""
         mover_axis = [float(each) for each in self._axes(axis)]
         trouble = trouble_with_axis(mover_axis)
         if trouble is not None:
             raise InputError(trouble)
-        said = [self._said_leaning(index, centre, heading, mover_axis) for index in self._near(*centre)]
+        said = [self._tilted_reply(index, centre, heading, mover_axis) for index in self._near(*centre)]
         return self._answer(_OF_RANK[max((_RANK[position] for position in said), default=0)])
 
-    def _said_leaning(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
+    def _tilted_reply(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
         """What a hyperboloid says about one centre."""
         mover = self.model.mover
         said = self._of_one(index, (mover.b, mover.d), centre, axis)
@@ -374,7 +374,7 @@ class Scene(PreparedScene):
     ) -> int:
         """The position of one spheroid with these semi-axes beside a hyperboloid."""
         body = self.model.hyperboloids[index]
-        whole = position_leaning((body.alpha, body.gamma, *semi_axes), centre, body.center, axis, body.axis)
+        whole = tilted_position((body.alpha, body.gamma, *semi_axes), centre, body.center, axis, body.axis)
         return whole if body.height is None else self._with_ends(whole, index, semi_axes, centre, axis)
 
     def _with_ends(
@@ -418,7 +418,7 @@ class Scene(PreparedScene):
     def _said(
         self, query: Indices, body: Indices, centres: Floats, heading: Floats, movers: Floats | None
     ) -> Positions:
-        """What each hyperboloid says about its centre; `movers` are the mover's axes where something leans."""
+        """What each hyperboloid says about its centre; `movers` are the mover's axes where something is tilted."""
         bodies, mover = self._bodies, self.model.mover
         level, (low, high, inner_low, inner_high) = centres[query, 2], self._limits[body].T
         beyond, between = (level < low) | (level > high), (level >= inner_low) & (level <= inner_high)
@@ -427,7 +427,7 @@ class Scene(PreparedScene):
         if movers is None:
             result = positions_beside(sizes, *pairs)
         else:
-            result = positions_leaning(sizes, *pairs, movers[query], bodies.axes[body])
+            result = tilted_positions(sizes, *pairs, movers[query], bodies.axes[body])
         result[beyond] = EXTERIOR
         some = np.flatnonzero(~between & (result != EXTERIOR))
         if len(some):

@@ -40,7 +40,7 @@ from hypcheck.kernel.scene_pairs import (
     height_and_distance,
     larger_and_smaller,
 )
-from hypcheck.scene.model import Mover, leans
+from hypcheck.scene.model import Mover, is_tilted
 from hypcheck.truth import exact
 
 
@@ -50,13 +50,13 @@ def limits_of(bodies: Bodies, mover: Mover) -> Floats:
     Below the first and above the second the mover lies beyond an end; from the third to the fourth it lies between the
     ends. Of a tilted hyperboloid with ends nothing is known so.
     """
-    reach = max(mover.b, mover.d) if leans(mover.axis) else mover.d
+    reach = max(mover.b, mover.d) if is_tilted(mover.axis) else mover.d
     low, high = bodies.heights.T
     with np.errstate(all="ignore"):
         ends = np.where(np.isinf(bodies.heights), 0, np.abs(bodies.heights)).max(axis=1)
         far = reach * (1 + MARGIN) + 2.0**-45 * (np.abs(bodies.origins[:, 2]) + reach + ends)
         found = np.stack([low - far, high + far, low + far, high - far], axis=1)
-    tilted = bodies.leaning & np.isfinite(bodies.spans).any(axis=1)
+    tilted = bodies.tilted & np.isfinite(bodies.spans).any(axis=1)
     found[tilted] = -inf, inf, inf, -inf
     return found
 
@@ -128,7 +128,7 @@ def positions_with_ends(
     """
     axes, spans, solid = bodies.axes[body], bodies.spans[body], bodies.solid[body]
     with np.errstate(all="ignore"):
-        upright = (movers[:, :2] == 0).all(axis=1) & ~bodies.leaning[body]
+        upright = (movers[:, :2] == 0).all(axis=1) & ~bodies.tilted[body]
         (alpha, gamma, b, d), (low, high) = sizes.T, spans.T
         along, across, error = along_and_across(centres, origins, axes)
         reach, least = np.where(upright, d, np.maximum(b, d)), np.where(upright, b, np.minimum(b, d))
@@ -142,7 +142,7 @@ def positions_with_ends(
     known = between | (open_inside & inner) | crosses
     result = np.where(exterior, Position.EXTERIOR, whole).astype(np.int8)
     rest = np.flatnonzero(~(exterior | known))
-    stands = rest[~bodies.leaning[body[rest]]]
+    stands = rest[~bodies.tilted[body[rest]]]
     if len(stands):
         rows = np.concatenate([sizes, movers, spans, solid[:, None]], axis=1)[stands]
         result[stands] = _by_kernel(rows, centres[stands], origins[stands], inner[stands], outer[stands])

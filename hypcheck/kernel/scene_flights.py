@@ -1,6 +1,6 @@
 """Flights of a mover in a scene, polylines of its centre: the first contact of each, and its least distance.
 
-A flight's segments are straight ways, and each is decided exactly (scene_sweeps.py); the first that has contact has the
+A flight's segments are sweeps, and each is decided exactly (scene_sweeps.py); the first that has contact has the
 flight's first. Where there is none, scene_least.py finds the least distance.
 """
 
@@ -44,7 +44,7 @@ class Paths:
 
 @dataclass(frozen=True)
 class Swept:
-    """Straight ways (n,) of a mover, and pairs (m,) of them and of hyperboloids near them, sorted by way.
+    """Sweeps (n,) of a mover, and pairs (m,) of them and of hyperboloids near them, sorted by sweep.
 
     `movers` are the mover's axes, None where it is upright. `own` says which pairs have contact with the mover itself,
     `hits` which with its parts where it has any.

@@ -168,10 +168,10 @@ def _try(found: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
     return normal
 
 
-def from_spheroids(b: Floats, d: Floats, axes: Rows, way: Rows) -> tuple[Floats, Rows]:
-    """How far points, `way` (n, 3) from the centres, are from spheroids with unit axes (n, 3), and the unit normals."""
-    along = (axes * way).sum(axis=1)
-    across = way - along[:, None] * axes
+def from_spheroids(b: Floats, d: Floats, axes: Rows, offset: Rows) -> tuple[Floats, Rows]:
+    """How far points, `offset` (n, 3) from the centres, are from spheroids with unit axes (n, 3), and unit normals."""
+    along = (axes * offset).sum(axis=1)
+    across = offset - along[:, None] * axes
     off = np.sqrt((across * across).sum(axis=1))
     beyond = np.maximum(np.maximum(b * off - b * b, d * np.abs(along) - d * d), 0)
     for _ in range(_TURNS):  # (b off/(b² + t))² + (d along/(d² + t))² = 1, from below
@@ -235,8 +235,8 @@ def _to_discs(found: Gaps, pairs: _Pairs, end: Floats, solid: Mask) -> None:
     v, rise = pairs.axis, end - pairs.centre[:, 2]
     level = v[:, 0] * v[:, 0] + v[:, 1] * v[:, 1]
     half = np.sqrt(pairs.b**2 * level + pairs.d**2 * v[:, 2] ** 2)
-    way = ((pairs.d**2 - pairs.b**2) * v[:, 2] / half)[:, None] * v[:, :2]
-    across = pairs.centre[:, :2] + np.clip(rise / half, -1, 1)[:, None] * way
+    offset = ((pairs.d**2 - pairs.b**2) * v[:, 2] / half)[:, None] * v[:, :2]
+    across = pairs.centre[:, :2] + np.clip(rise / half, -1, 1)[:, None] * offset
     radius, off = pairs.alpha * np.hypot(1, end / pairs.gamma), np.hypot(*across.T)
     distance = np.maximum(np.abs(rise) - half, 0)
     loose = _LOOSE * (radius + off + np.abs(end) + np.abs(pairs.centre).sum(axis=1) + pairs.b + pairs.d)

@@ -6,8 +6,8 @@ heights z − d … z + d and reaches b from its centre. The surface is nowhere 
 in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers them, and the rounding of a
 distance that is compared with it; LEAST covers what underflows.
 
-A spheroid that leans lies in the ball of its longer semi-axis r, which takes the place of b and d. A hyperboloid that
-leans and ends h from its centre lies in the ball of radius √(h² + ρ²) about that, with ρ = α √(1 + (h/γ)²); what
+A tilted spheroid lies in the ball of its longer semi-axis r, which takes the place of b and d. A hyperboloid that
+is tilted and ends h from its centre lies in the ball of radius √(h² + ρ²) about that, with ρ = α √(1 + (h/γ)²); what
 touches it is r farther away at most.
 
 Each cell of the grid has the hyperboloids that can be touched from within it. Cells share the places of a table by a
@@ -15,11 +15,11 @@ hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection")
 from elsewhere is asked in vain, and none is left out. A hyperboloid that reaches over too many cells, or has no end, is
 kept aside and always asked: one tower among many trees.
 
-**Straight ways.** A way is cut into pieces no longer than a cell of the grid, and the hyperboloids of all cells that
-the box of a piece overlaps are candidates. Those whose axis the way passes beyond their reach are left out. Floats
+**Sweeps.** A sweep is cut into pieces no longer than a cell of the grid, and the hyperboloids of all cells that
+the box of a piece overlaps are candidates. Those whose axis the sweep passes beyond their reach are left out. Floats
 carry both: a piece's end is off by three roundings of both ends' coordinates; the distance from an axis at any time in
 [0, 1] is not below the least distance, and the one that is taken is off by 4u of all coordinates. PAD, 2⁻⁴⁵ of their
-sum, is far more than either; LEAST_OF_WAYS covers what underflows.
+sum, is far more than either; LEAST_OF_SWEEPS covers what underflows.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from numpy.typing import NDArray
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Span, leans
+from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Span, is_tilted
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Bodies:
 
     `spans` (m, 2) are the heights along the axes (m, 3), from the centres, between which they stand, and `solid` (m,)
     says that flat ends belong to them. `heights` (m, 2) enclose those of what stands in the scene's z, of upright ones
-    within a rounding; of those that lean, without end. An axis that is vertical points up.
+    within a rounding; of those that are tilted, without end. An axis that is vertical points up.
     """
 
     shapes: Floats
@@ -57,8 +57,8 @@ class Bodies:
     solid: Mask
 
     @cached_property
-    def leaning(self) -> Mask:
-        """Which hyperboloids lean, (m,)."""
+    def tilted(self) -> Mask:
+        """Which hyperboloids are tilted, (m,)."""
         return np.asarray((self.axes[:, :2] != 0).any(axis=1))
 
 
@@ -90,15 +90,15 @@ def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
     """The reach of each hyperboloid for centres in this span of the scene's z, (m,); inf where they have no end."""
     level = bodies.origins[:, 2]
     longest = max(mover.b, mover.d)
-    b, d = (longest, longest) if leans(mover.axis) else (mover.b, mover.d)
+    b, d = (longest, longest) if is_tilted(mover.axis) else (mover.b, mover.d)
     with np.errstate(all="ignore"):
         most = np.full(len(level), np.inf)
         if height is not None:
             most = np.maximum(np.abs(height.low - level), np.abs(height.high - level)) * OUTWARD
         far = _farthest(bodies, np.minimum(most, bodies.tall * OUTWARD), b, d)
-        if bodies.leaning.any():
+        if bodies.tilted.any():
             tall = bodies.tall * OUTWARD
-            far[bodies.leaning] = (np.hypot(tall, _farthest(bodies, tall, 0.0, 0.0)) + longest)[bodies.leaning]
+            far[bodies.tilted] = (np.hypot(tall, _farthest(bodies, tall, 0.0, 0.0)) + longest)[bodies.tilted]
         return np.asarray(far * OUTWARD + LEAST)
 
 
@@ -164,8 +164,8 @@ class PlaneGrid:
             np.concatenate([member, always]),
         )
 
-    def near_way(self, x: float, y: float, x_end: float, y_end: float) -> set[int] | None:
-        """Those that may be near a straight way; None where the way is too long, or too far out, to say at once."""
+    def near_sweep(self, x: float, y: float, x_end: float, y_end: float) -> set[int] | None:
+        """Those that may be near a sweep; None where the sweep is too long, or too far out, to say at once."""
         pad_x, pad_y = PAD * (abs(x) + abs(x_end)), PAD * (abs(y) + abs(y_end))
         across, along = x_end - x, y_end - y
         count = max(abs(across), abs(along)) / self.side
@@ -267,54 +267,54 @@ def _packed(numbers: Indices) -> array[int]:
 
 
 PAD = 2.0**-45
-LEAST_OF_WAYS, LONGEST_SQUARE = 2.0**-200, 2.0**200
-"""Squares of lengths from the one on do not underflow; ways whose square is above the other are near everything."""
+LEAST_OF_SWEEPS, LONGEST_SQUARE = 2.0**-200, 2.0**200
+"""Squares of lengths from the one on do not underflow; sweeps whose square is above the other are near everything."""
 
 MOST_AT_ONCE = 16
-"""Pieces of a way that are looked up without arrays."""
+"""Pieces of a sweep that are looked up without arrays."""
 
 MOST_PIECES = 256
-"""A way of more pieces is looked up alone, among all hyperboloids."""
+"""A sweep of more pieces is looked up alone, among all hyperboloids."""
 
 AT_A_TIME = 1 << 15
 """Pieces whose hyperboloids are looked up together, so that arrays stay in the cache."""
 
 
-def near_ways(
+def near_sweeps(
     bodies: Bodies, mover: Mover, region: Span | None, grid: PlaneGrid, reach: Floats, starts: Rows, ends: Rows
 ) -> tuple[Indices, Indices]:
-    """The hyperboloids that have to be asked about ways (n, 3): sorted pairs of a way's number and a hyperboloid's.
+    """The hyperboloids that have to be asked about sweeps (n, 3): sorted pairs of a sweep's number and a hyperboloid's.
 
     `grid` and `reach` are those of the bodies for centres in this span of z.
     """
     low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
     found = []
 
-    def take(way: Indices, body: Indices, far: Floats) -> None:
-        keep = np.flatnonzero(passed(starts, ends, way, bodies.origins[body], far))
-        found.append((way[keep], body[keep]))
+    def take(sweep: Indices, body: Indices, far: Floats) -> None:
+        keep = np.flatnonzero(passed(starts, ends, sweep, bodies.origins[body], far))
+        found.append((sweep[keep], body[keep]))
 
     with np.errstate(all="ignore"):
         pieces = _pieces_of(grid, starts, ends)
         if region is not None:  # beyond it the grid promises nothing
             pieces[(low < region.low) | (high > region.high)] = 0
         for some in in_batches(grid, pieces):
-            way, body = _beside_pieces(grid, starts[some], ends[some], pieces[some])
-            take(way + some.start, body, reach[body])
+            sweep, body = _beside_pieces(grid, starts[some], ends[some], pieces[some])
+            take(sweep + some.start, body, reach[body])
         for alone in np.flatnonzero(pieces == 0).tolist():
             far = reaches(bodies, mover, Span(float(low[alone]), float(high[alone])))
             take(np.full(len(far), alone), np.arange(len(far)), far)
-    way, body = (np.concatenate(each) for each in zip(*found, strict=True))
+    sweep, body = (np.concatenate(each) for each in zip(*found, strict=True))
     with np.errstate(all="ignore"):
         reach = max(mover.b, mover.d) * OUTWARD + PAD * (np.abs(low) + np.abs(high))
-        keep = (high + reach)[way] >= bodies.heights[body, 0]
-        keep &= (low - reach)[way] <= bodies.heights[body, 1]
-    pairs = np.unique(way[keep] * len(bodies.tall) + body[keep])
+        keep = (high + reach)[sweep] >= bodies.heights[body, 0]
+        keep &= (low - reach)[sweep] <= bodies.heights[body, 1]
+    pairs = np.unique(sweep[keep] * len(bodies.tall) + body[keep])
     return pairs // len(bodies.tall), pairs % len(bodies.tall)
 
 
 def _pieces_of(grid: PlaneGrid, starts: Rows, ends: Rows) -> Indices:
-    """How many pieces each way, (n, 3), is cut into; 0 for one that is to be looked up alone.
+    """How many pieces each sweep, (n, 3), is cut into; 0 for one that is to be looked up alone.
 
     That is also one so far out that the padding of a piece, for its rounding, is wider than a cell.
     """
@@ -330,35 +330,35 @@ def _padding(here: Floats, there: Floats) -> Floats:
 
 
 def in_batches(grid: PlaneGrid, pieces: Indices) -> list[slice]:
-    """Consecutive ways, of these numbers of pieces, that are few enough to be looked up together."""
+    """Consecutive sweeps, of these numbers of pieces, that are few enough to be looked up together."""
     batch = np.cumsum(pieces + len(grid.everywhere)) // AT_A_TIME
     bounds = [0, *(np.flatnonzero(np.diff(batch)) + 1).tolist(), len(pieces)]
     return [slice(first, last) for first, last in pairwise(bounds)]
 
 
 def _beside_pieces(grid: PlaneGrid, starts: Rows, ends: Rows, pieces: Indices) -> tuple[Indices, Indices]:
-    """The hyperboloids that may be near ways (n, 3) with pieces: pairs of a way's number and a hyperboloid's."""
+    """The hyperboloids that may be near sweeps (n, 3) with pieces: pairs of a sweep's number and a hyperboloid's."""
     cut = np.flatnonzero(pieces)
-    way = np.repeat(cut, pieces[cut])
-    here, there = starts[way, :2], ends[way, :2]
+    sweep = np.repeat(cut, pieces[cut])
+    here, there = starts[sweep, :2], ends[sweep, :2]
     pad = _padding(here, there)
-    if len(way) > len(cut):
+    if len(sweep) > len(cut):
         number = _counted(pieces[cut])
-        change, parts = there - here, pieces[way][:, None]
+        change, parts = there - here, pieces[sweep][:, None]
         here, there = here + change * (number[:, None] / parts), here + change * ((number[:, None] + 1) / parts)
     piece, body = grid.near_boxes(np.minimum(here, there) - pad, np.maximum(here, there) + pad)
     always = np.array(grid.everywhere, np.int64)
     return (
-        np.concatenate([way[piece], np.repeat(cut, len(always))]),
+        np.concatenate([sweep[piece], np.repeat(cut, len(always))]),
         np.concatenate([body, np.tile(always, len(cut))]),
     )
 
 
 def passed(starts: Rows, ends: Rows, query: Indices, origins: Rows, reaches: Floats) -> Mask:
-    """Whether a way, `query` (m,) of those (n, 3), comes as near to an axis, at (m, 3), as the hyperboloid reaches."""
+    """Whether a sweep, `query` (m,) of those (n, 3), comes as near to an axis, at (m, 3), as its body reaches."""
     x, y, x_end, y_end = starts[query, 0], starts[query, 1], ends[query, 0], ends[query, 1]
     u, v = origins[:, 0], origins[:, 1]
-    pad = PAD * sum(map(np.abs, (x, y, x_end, y_end, u, v)), start=0.0) + LEAST_OF_WAYS
+    pad = PAD * sum(map(np.abs, (x, y, x_end, y_end, u, v)), start=0.0) + LEAST_OF_SWEEPS
     across, along = x_end - x, y_end - y
     u, v = u - x, v - y
     length = across * across + along * along

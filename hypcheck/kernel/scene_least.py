@@ -238,13 +238,13 @@ def _ask(search: _Search, least: Least, pieces: _Pieces) -> tuple[_Places, Float
     return place, bound, half
 
 
-def _half_widths(mover: Mover, axes: Rows | None, way: Rows) -> Floats:
-    """Half of how wide the mover is along its gaps to points, `way` (n, 3) from its centre; b where unknown."""
+def _half_widths(mover: Mover, axes: Rows | None, offset: Rows) -> Floats:
+    """Half of how wide the mover is along its gaps to points, `offset` (n, 3) from its centre; b where unknown."""
     with np.errstate(all="ignore"):
-        unit = np.tile(UPRIGHT, (len(way), 1)) if axes is None else axes / np.abs(axes).max(axis=1, keepdims=True)
+        unit = np.tile(UPRIGHT, (len(offset), 1)) if axes is None else axes / np.abs(axes).max(axis=1, keepdims=True)
         unit = unit / np.sqrt((unit * unit).sum(axis=1, keepdims=True))
-        b, d = np.full(len(way), mover.b), np.full(len(way), mover.d)
-        _, normal = from_spheroids(b, d, unit, way)
+        b, d = np.full(len(offset), mover.b), np.full(len(offset), mover.d)
+        _, normal = from_spheroids(b, d, unit, offset)
         steep = (normal * unit).sum(axis=1)
         half = np.hypot(b * np.sqrt(np.maximum(1 - steep * steep, 0)), d * steep)
         return np.asarray(np.where(half > 0, half, b))
@@ -363,12 +363,12 @@ def _cylinder_bounds(search: _Search, body: Indices, place: _Places, most: Float
     longest = max(search.mover.b, search.mover.d)
     origins, shapes, tall = bodies.origins[body], bodies.shapes[body], bodies.tall[body]
     with np.errstate(all="ignore"):
-        way = centre - origins
-        along, across, error = way[:, 2], np.hypot(way[:, 0], way[:, 1]), np.zeros(len(body))
-        lean = np.flatnonzero(bodies.leaning[body])
-        if len(lean):
-            along[lean], across[lean], error[lean] = along_and_across(
-                centre[lean], origins[lean], bodies.axes[body[lean]]
+        offset = centre - origins
+        along, across, error = offset[:, 2], np.hypot(offset[:, 0], offset[:, 1]), np.zeros(len(body))
+        tilted = np.flatnonzero(bodies.tilted[body])
+        if len(tilted):
+            along[tilted], across[tilted], error[tilted] = along_and_across(
+                centre[tilted], origins[tilted], bodies.axes[body[tilted]]
             )
         low, high = bodies.spans[body].T
         beyond = np.maximum(np.maximum(along - high, low - along), 0)

@@ -10,7 +10,7 @@ nearest point lies between them. Else a point P at the near end gives an upper b
 spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away. An end disc is no nearer than its plane. Pairs
 that may be the nearest by these bounds are then asked for what stands of the hyperboloid (scene_gaps.py).
 
-**A hyperboloid that leans** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
+**A tilted hyperboloid** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
 So the offset is off by TURNING of its size, and the spheroid, by its axis, by TURNING of its longer semi-axis: both are
 less than _ROUNDED of the sizes and coordinates.
 
@@ -30,7 +30,7 @@ from hypcheck.kernel.clearance_points import normals
 from hypcheck.kernel.scene_ends import positions_with_ends
 from hypcheck.kernel.scene_gaps import gaps
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
-from hypcheck.kernel.scene_pairs import along_and_across, positions_leaning
+from hypcheck.kernel.scene_pairs import along_and_across, tilted_positions
 from hypcheck.kernel.scene_queries import frames_of, turned, turned_axes
 from hypcheck.scene.model import Mover
 
@@ -164,7 +164,7 @@ def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
         across = np.hypot(*(centres[:, k, None] - bodies.origins[:, k] for k in (0, 1)))
         low, high = bodies.heights.T
         beyond = np.maximum(np.maximum(centres[:, 2, None] - high, low - centres[:, 2, None]), 0)
-        for body in np.flatnonzero(bodies.leaning):
+        for body in np.flatnonzero(bodies.tilted):
             along, across[:, body], error = along_and_across(
                 centres, bodies.origins[body, None], np.broadcast_to(bodies.axes[body], centres.shape)
             )
@@ -218,7 +218,7 @@ def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None
         offset = centres - origins
     beyond = ~np.isfinite(offset).all(axis=1)
     offset[beyond] = 0.0
-    frames = frames_of(bodies.axes[body]) if bodies.leaning.any() else None
+    frames = frames_of(bodies.axes[body]) if bodies.tilted.any() else None
     own_axes = axes
     if frames is not None:
         offset, own_axes = turned(frames, offset), turned_axes(frames, axes)
@@ -276,7 +276,7 @@ def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:
     bodies, body, mover = pairs.bodies, pairs.body[some], pairs.mover
     sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(some), 1))], axis=1)
     places = sizes, pairs.centres[some], bodies.origins[body], pairs.axes[some]
-    position = positions_with_ends(positions_leaning(*places, bodies.axes[body]), *places, bodies, body)
+    position = positions_with_ends(tilted_positions(*places, bodies.axes[body]), *places, bodies, body)
     high[some[position == Position.CONTACT]] = 0.0
 
 
@@ -286,15 +286,15 @@ def _at_height(rows: Rows, point: Rows, height: Floats) -> Rows:
     return np.stack([point[:, 0] * share, point[:, 1] * share, height], axis=1)
 
 
-def _reached(mover: Mover, axes: Floats | None, way: Rows) -> Floats:
-    """How far points, `way` (n, 3) from the centre of a mover with these axes (n, 3), are from the mover at most."""
-    length = _length(way)
+def _reached(mover: Mover, axes: Floats | None, offset: Rows) -> Floats:
+    """How far points, `offset` (n, 3) from the centre of a mover with these axes (n, 3), are from the mover at most."""
+    length = _length(offset)
     if axes is None:
-        across, along = np.hypot(way[:, 0], way[:, 1]), way[:, 2]
+        across, along = np.hypot(offset[:, 0], offset[:, 1]), offset[:, 2]
     else:
         unit = axes / np.abs(axes).max(axis=1, keepdims=True)
         unit /= _length(unit)[:, None]
-        along, across = (unit * way).sum(axis=1), _length(np.cross(unit, way))
+        along, across = (unit * offset).sum(axis=1), _length(np.cross(unit, offset))
     reached: Floats = np.maximum(length * (1 - 1 / np.hypot(across / mover.b, along / mover.d)), 0)
     return reached
 

@@ -8,7 +8,7 @@ longer contains the true one, and one with semi-axes that much shorter lies in i
 smaller in contact is contact; what is left is decided in integers from the exact difference. `positions_beside` does so
 for arrays, `position_beside` for one step of a walk.
 
-**The hyperboloid leans**, along w, and nothing is rotated: squares and products of its axis, the spheroid's and the
+**The hyperboloid is tilted**, along w, and nothing is rotated: squares and products of its axis, the spheroid's and the
 centre's difference are rational, and the position is decided from them (tilted_integers.squares_between_axes). Most
 movers are nowhere near: with h and ϱ, the centre's height along w and its distance from the axis, the spheroid lies in
 the ball of radius r = max(b, d) and is exterior where ϱ − r > ρ(|h| + r), interior where ϱ + r < ρ(|h| − r), with ρ the
@@ -118,16 +118,16 @@ def position_beside(
     return _from_exact_difference((alpha, gamma, b, d), (x, y, z), origin, axis or UPRIGHT, UPRIGHT)
 
 
-def positions_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
+def tilted_positions(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
     """The exact position of each mover, int8 (n,): sizes (n, 4), both centres and both axes (n, 3)."""
-    lean = (axes[:, :2] != 0).any(axis=1)
+    tilted = (axes[:, :2] != 0).any(axis=1)
     result = np.empty(len(sizes), np.int8)
-    result[~lean] = positions_beside(*(each[~lean] for each in (sizes, centres, origins, movers)))
-    result[lean] = _beside_leaning(*(each[lean] for each in (sizes, centres, origins, movers, axes)))
+    result[~tilted] = positions_beside(*(each[~tilted] for each in (sizes, centres, origins, movers)))
+    result[tilted] = _beside_tilted(*(each[tilted] for each in (sizes, centres, origins, movers, axes)))
     return result
 
 
-def position_leaning(
+def tilted_position(
     sizes: Sequence[float],
     centre: Sequence[float],
     origin: Sequence[float],
@@ -145,7 +145,7 @@ def position_leaning(
 def _by_ball(
     sizes: Sequence[float], centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
 ) -> Position | None:
-    """The position beside a hyperboloid that leans, where the spheroid's ball has one; as _beside_leaning."""
+    """The position beside a tilted hyperboloid, where the spheroid's ball has one; as _beside_tilted."""
     alpha, gamma, b, d = sizes
     height, distance, error = height_and_distance(centre, origin, axis)
     if not (LEAST < min(sizes) and max(sizes) < GREATEST and error < GREATEST):
@@ -192,7 +192,7 @@ def _exactly(those: Indices, result: Positions, *columns: Rows) -> None:
         result[index] = _from_exact_difference(*(column[index].tolist() for column in columns))
 
 
-def _beside_leaning(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
+def _beside_tilted(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
     result = np.zeros(len(sizes), np.int8)
     with np.errstate(all="ignore"):
         height, distance, error = along_and_across(centres, origins, axes)
@@ -214,10 +214,10 @@ def along_and_across(centres: Rows, origins: Rows, axes: Rows) -> tuple[Floats, 
     largest = np.abs(axes).max(axis=1, keepdims=True)
     unit = axes / largest
     unit /= np.sqrt((unit * unit).sum(axis=1, keepdims=True))
-    way = centres - origins
+    offset = centres - origins
     size = (np.abs(centres) + np.abs(origins)).sum(axis=1)
     ordinary = (largest[:, 0] > LEAST) & (largest[:, 0] < GREATEST) & (size < GREATEST)
-    along = (unit * way).sum(axis=1)
-    across = np.cross(unit, way)
+    along = (unit * offset).sum(axis=1)
+    across = np.cross(unit, offset)
     error = np.where(ordinary, ERROR * size + LEAST, np.nan)
     return along, np.sqrt((across * across).sum(axis=1)), error

@@ -30,7 +30,7 @@ from hypcheck.kernel.scene_pairs import Body
 from hypcheck.kernel.scene_sweeps import Near, near_of
 from hypcheck.messages import escaped
 from hypcheck.scene.arrays import checked_hyperboloid, hyperboloids_of, mover_of, point_of, require_valid_mover
-from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, leans
+from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, is_tilted
 from hypcheck.scene.reading import parse_scene, read_scene
 
 if TYPE_CHECKING:
@@ -220,8 +220,8 @@ class PreparedScene:
         return {}
 
     @cached_property
-    def _leaning(self) -> bool:
-        return leans(self.model.mover.axis) or bool(self._bodies.leaning.any())
+    def _is_tilted(self) -> bool:
+        return is_tilted(self.model.mover.axis) or bool(self._bodies.tilted.any())
 
     @cached_property
     def _asked(self) -> dict[int, tuple[Body, float, float, float, float]]:

@@ -31,13 +31,13 @@ def frames_of(axes: Floats) -> Floats:
     an angle of 72 u. TURNING is more than all of these.
     """
     frames = np.tile(np.eye(3), (len(axes), 1, 1))
-    lean = np.flatnonzero((axes[:, :2] != 0).any(axis=1))
-    along = axes[lean] / np.abs(axes[lean]).max(axis=1, keepdims=True)
+    tilted = np.flatnonzero((axes[:, :2] != 0).any(axis=1))
+    along = axes[tilted] / np.abs(axes[tilted]).max(axis=1, keepdims=True)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     least = np.eye(3)[np.abs(along).argmin(axis=1)]  # the coordinate axis that is farthest from it
     across = np.cross(least, along)
     across /= np.linalg.norm(across, axis=1, keepdims=True)
-    frames[lean] = np.stack([across, np.cross(along, across), along], axis=1)
+    frames[tilted] = np.stack([across, np.cross(along, across), along], axis=1)
     return frames
 
 
@@ -59,7 +59,7 @@ def places_of_parts(
 ) -> list[Point]:
     """The centres of a mover's parts, rounded.
 
-    A mover that leans is turned from upright about a horizontal line, the shortest way, to the axis u = v/|v| or −u,
+    A tilted mover is turned from upright about a horizontal line, the shortest way, to the axis u = v/|v| or −u,
     whichever does not point down. That takes a horizontal p to p − (p·u)/(1 + u_z) (u_x, u_y, 0) − (p·u) e_z.
     """
     x, y, z = centre
@@ -97,7 +97,7 @@ def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | N
 
 
 def ways_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """The ends of ways, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are none."""
+    """The ends of sweeps, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are not."""
     points = []
     for name, given in (("start", start), ("end", end)):
         point = as_numbers(f"{name} is", given, POINTS)

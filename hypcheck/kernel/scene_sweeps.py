@@ -1,7 +1,7 @@
 """Sweeps of one mover beside one hyperboloid, straight motions in the scene's coordinates: contact or none, exactly.
 
-The kernel's answer about sweeps (core/parts/ways.h) is asked twice: about a spheroid that is larger, and about one that
-is smaller, by what the rounding of the difference of two centres may be in radii, as for positions (scene_pairs.py).
+The kernel's answer about sweeps (core/parts/sweeps.h) is asked twice: about a larger and about a smaller spheroid,
+by what the rounding of the difference of two centres may be in radii, as for positions (scene_pairs.py).
 The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the exact differences
 by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about sweeps is known. Beside a
 tilted hyperboloid both ends and the mover's axis are turned into its frame (scene_queries.py), and the roundings of
@@ -30,7 +30,7 @@ from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.scene_ends import meets_for_sure
-from hypcheck.kernel.scene_index import LEAST_OF_WAYS, LONGEST_SQUARE, OUTWARD, PAD, Bodies, PlaneGrid
+from hypcheck.kernel.scene_index import LEAST_OF_SWEEPS, LONGEST_SQUARE, OUTWARD, PAD, Bodies, PlaneGrid
 from hypcheck.kernel.scene_pairs import GREATEST, LEAST, MARGIN, ROUNDED, height_and_distance, larger_and_smaller
 from hypcheck.kernel.scene_queries import TURNING, frames_of, turned, turned_axes
 from hypcheck.scene.model import Mover
@@ -65,7 +65,7 @@ def bounded_hits(
         lost = np.maximum(np.abs(lost_start), np.abs(lost_end)).sum(axis=1)
         longest = semi_axes.max(axis=1)
         own_axes = np.broadcast_to(UPRIGHT, (len(body), 3)) if axes is None else axes
-        if bodies.leaning[body].any():
+        if bodies.tilted[body].any():
             start, end, own_axes, turning = _in_frames(bodies.axes[body], longest, start, end, axes)
             lost = lost + turning
         reach = longest * (1 + MARGIN) + lost + MARGIN * (np.abs(start[:, 2]) + np.abs(end[:, 2]))
@@ -77,18 +77,18 @@ def bounded_hits(
     hits, left = np.zeros(len(body), np.bool_), ~fits & ~beyond
     asked = np.flatnonzero(fits & ~beyond)
     for size, surely in ((larger, 0), (smaller, 1)):
-        said = kernel().answer_ways(np.concatenate([shapes, size, start, end, own_axes, *heights], axis=1)[asked])[0]
+        said = kernel().answer_sweeps(np.concatenate([shapes, size, start, end, own_axes, *heights], axis=1)[asked])[0]
         hits[asked[said == surely]] = surely == 1
         asked = asked[said != surely]
     left[asked] = True
     some = np.flatnonzero(left & fits & leaves)
     places = shapes[some], spans[some], start[some], end[some], lost[some]
-    met = some[_meet_on_the_way(semi_axes[some].min(axis=1), *places)]
+    met = some[_meet_on_the_sweep(semi_axes[some].min(axis=1), *places)]
     hits[met], left[met] = True, False
     return hits, left
 
 
-def _meet_on_the_way(least: Floats, shapes: Rows, spans: Rows, start: Floats, end: Floats, lost: Floats) -> Mask:
+def _meet_on_the_sweep(least: Floats, shapes: Rows, spans: Rows, start: Floats, end: Floats, lost: Floats) -> Mask:
     """Whether bounds show contact at one of five times, in the frames of hyperboloids with these ends."""
     found = np.zeros(len(shapes), np.bool_)
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
@@ -104,9 +104,9 @@ def _in_frames(
     An axis that is off by an angle δ moves no point of the spheroid farther than δ times its longer semi-axis.
     """
     frames = frames_of(upward)
-    lean = (upward[:, :2] != 0).any(axis=1)
+    tilted = (upward[:, :2] != 0).any(axis=1)
     size = np.maximum(np.abs(start).sum(axis=1), np.abs(end).sum(axis=1)) + longest
-    error = np.where(lean, TURNING * size + LEAST, 0.0)
+    error = np.where(tilted, TURNING * size + LEAST, 0.0)
     return turned(frames, start), turned(frames, end), turned_axes(frames, axes), error
 
 
@@ -164,18 +164,18 @@ def _between(
 
 
 def enters(origins: Rows, reaches: Floats, start: Floats, end: Floats) -> list[float]:
-    """Times before which a mover, on its way in the scene, is farther from axes at (k, 3) than these reach, (k,).
+    """Times before which a mover, on its sweep in the scene, is farther from axes at (k, 3) than these reach, (k,).
 
     PAD of all coordinates is more than the rounding of a place, of the least distance from an axis and of the chord
     (scene_index.py); where a number is not finite, or a reach is infinite, the time is 0.
     """
     origins = origins[:, :2]
     with np.errstate(all="ignore"):
-        place, way = origins - start[:2], end[:2] - start[:2]
+        place, change = origins - start[:2], end[:2] - start[:2]
         pad = PAD * (np.abs(start[:2]) + np.abs(end[:2]) + np.abs(origins)).sum(axis=1)
-        square = (way * way).sum()
-        time = (place * way).sum(axis=1) / square
-        off = place - time[:, None] * way
+        square = (change * change).sum()
+        time = (place * change).sum(axis=1) / square
+        off = place - time[:, None] * change
         most = reaches * OUTWARD + 2 * pad
         chord = np.sqrt(np.maximum(most * most - (off * off).sum(axis=1), 0)) * OUTWARD + pad
         first = time - chord / np.sqrt(square)
@@ -192,14 +192,14 @@ def first_contact(
 ) -> tuple[Fraction, Fraction]:
     """The time of the first contact of a mover that is_clear says is not clear, in an interval, or as one number twice.
 
-    Where parts decide, exact decisions about the way up to a time halve the interval.
+    Where parts decide, exact decisions about the sweep up to a time halve the interval.
     """
     low, high = bodies.spans[index].tolist()
     found = swept.passage(
         *_between(bodies, index, *mover), z_min=low, z_max=high, solid=float(bodies.solid[index])
     ).first
     if found is None:
-        raise AssertionError("a way on which is_clear finds contact has none")
+        raise AssertionError("a sweep on which is_clear finds contact has none")
     if not parts:
         return found
     until, contact = found[0], Fraction(1)
@@ -258,8 +258,8 @@ def point_at_once(given: object) -> Place | None:
 
 
 def hit_at_once(grid: PlaneGrid, near: Callable[[int], Near], mover: Mover, start: Place, end: Place) -> bool | None:
-    """Whether the mover itself has contact on its way, and None where bounds do not tell."""
-    candidates = grid.near_way(start[0], start[1], end[0], end[1])
+    """Whether the mover itself has contact on its sweep, and None where bounds do not tell."""
+    candidates = grid.near_sweep(start[0], start[1], end[0], end[1])
     if candidates is None:
         return None
     beside, most = [], 0.0
@@ -289,7 +289,8 @@ def hit_at_once(grid: PlaneGrid, near: Callable[[int], Near], mover: Mover, star
 def _hits(beside: Sequence[tuple[tuple[float, float], tuple[float, ...]]], mover: Mover, scale: float) -> list[int]:
     """What the kernel says of the mover, larger or smaller by a factor, beside each."""
     semi_axes = mover.b * scale, mover.d * scale
-    hits: list[int] = kernel().answer_ways(np.array([(*shape, *semi_axes, *way) for shape, way in beside]))[0].tolist()
+    rows = np.array([(*shape, *semi_axes, *ends) for shape, ends in beside])
+    hits: list[int] = kernel().answer_sweeps(rows)[0].tolist()
     return hits
 
 
@@ -306,7 +307,7 @@ def _differences(point: Place, centre: Place) -> tuple[Place, Place]:
 
 
 def _passed(candidates: set[int], near: Callable[[int], Near], start: Place, end: Place) -> list[int]:
-    """Those that the way comes as near to as they reach: scene_index.passed, with numbers."""
+    """Those that the sweep comes as near to as they reach: scene_index.passed, with numbers."""
     (x, y, z), (x_end, y_end, z_end) = start, end
     lowest, highest = (z, z_end) if z < z_end else (z_end, z)
     across, along = x_end - x, y_end - y
@@ -317,7 +318,7 @@ def _passed(candidates: set[int], near: Callable[[int], Near], start: Place, end
         (u, v, _), reach, (low, high), _, _ = near(index)
         if highest < low or lowest > high:  # beyond an end
             continue
-        most = reach * OUTWARD + (PAD * (size + abs(u) + abs(v)) + LEAST_OF_WAYS)
+        most = reach * OUTWARD + (PAD * (size + abs(u) + abs(v)) + LEAST_OF_SWEEPS)
         u, v = u - x, v - y
         time = (across * u + along * v) / length if length else 0.0
         time = min(time, 1.0) if time > 0 else 0.0

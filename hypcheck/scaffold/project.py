@@ -113,8 +113,8 @@ LANGUAGES: Mapping[str, Language] = MappingProxyType({language.name: language fo
 SCENES = "forest-type-1,forest-type-2"
 """Families on which the stub is right: the scenes of the paper's Table 2."""
 
-WAYS_THROUGH = "way-tunnelling"
-"""The family on which the stub for ways is right: the centre goes through the wall."""
+SWEEPS_THROUGH = "way-tunnelling"
+"""The family on which the stub for sweeps is right: the centre goes through the wall."""
 
 STUBS = ("position", "passage")
 """Questions for which there is a stub; that for positions is asked whether they are exterior."""
@@ -142,7 +142,7 @@ class Project:
     @property
     def right_on(self) -> str:
         """The families on which the stub is right."""
-        return WAYS_THROUGH if self.stub == "passage" else SCENES
+        return SWEEPS_THROUGH if self.stub == "passage" else SCENES
 
     @property
     def verify(self) -> str:

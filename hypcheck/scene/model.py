@@ -14,13 +14,13 @@ QUESTIONS = ("position", "exterior", "interior", "contact")
 Point = tuple[float, float, float]
 
 UPRIGHT: Point = (0.0, 0.0, 1.0)
-"""The axis of what does not lean."""
+"""The axis of what is not tilted."""
 
 FREE: Literal["free"] = "free"
 """The axis of a mover that each query names."""
 
 
-def leans(axis: Point | Literal["free"]) -> bool:
+def is_tilted(axis: Point | Literal["free"]) -> bool:
     """Whether an axis is not vertical, or may not be."""
     return axis == FREE or axis[0] != 0 or axis[1] != 0
 
@@ -82,7 +82,7 @@ class MoverPart:
 class Mover:
     """The spheroid of semi-axes b, b, d (equation (4)) that moves; its parts are asked where it is not clear itself.
 
-    `axis` is any vector ≠ 0 along its axis of revolution, or FREE. Its parts have the same axis: a mover that leans is
+    `axis` is any vector ≠ 0 along its axis of revolution, or FREE. Its parts have the same axis: a tilted mover is
     turned with them from upright about a horizontal line, the shortest way.
     """
 
@@ -170,5 +170,5 @@ class SceneModel:
 
     @property
     def leaning(self) -> bool:
-        """Whether anything in it leans, or may."""
-        return leans(self.mover.axis) or any(leans(body.axis) for body in self.hyperboloids)
+        """Whether anything in it is tilted, or may."""
+        return is_tilted(self.mover.axis) or any(is_tilted(body.axis) for body in self.hyperboloids)

@@ -136,8 +136,8 @@ def _scene(top: TomlTable) -> SceneModel:
                 top.refuse(f"[{key}] is of a scene in which a height is infinite; leave out such a height", key)
             if scene.leaning:
                 top.refuse(
-                    f"[{key}] is of a scene in which something leans; simulations fly and walk upright among what is "
-                    "upright: leave out axis (simulate tower --pitch leans)",
+                    f"[{key}] is of a scene in which something is tilted; simulations fly and walk upright among what "
+                    "is upright: leave out axis (simulate tower --pitch tilts the craft)",
                     key,
                 )
     return scene

@@ -190,7 +190,7 @@ class TableAnswers:
 class SweepAnswers:
     """The answers about a chunk of sweeps, straight motions, (n,) each.
 
-    hits: 1 for contact somewhere on the way, its ends included, 0 for none, int8; 127 marks a refused row.
+    hits: 1 for contact somewhere on the sweep, its ends included, 0 for none, int8; 127 marks a refused row.
     first_lower, first_upper: float64 that the time of the first contact lies between, from 0 to 1; NaN without contact.
     """
 

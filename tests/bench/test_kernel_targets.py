@@ -113,8 +113,8 @@ def test_rows_left_open_beside_ends_are_counted_by_family(monkeypatch):
     pytest.importorskip("hypcheck.kernel._compiled")
     monkeypatch.setattr(targets, "ORDINARY", 10)
     monkeypatch.setattr(targets, "NEAR", 10)
-    asked = targets.answer_ways
-    monkeypatch.setattr(targets, "answer_ways", lambda rows: (np.resize([2, 0], len(rows)), asked(rows)[1]))
+    asked = targets.answer_sweeps
+    monkeypatch.setattr(targets, "answer_sweeps", lambda rows: (np.resize([2, 0], len(rows)), asked(rows)[1]))
     ordinary, near = targets.left_open(1)
     assert (ordinary.measured, near.measured, ordinary.met, near.met) == (0.5, 0.5, False, False)
     assert "ended-way-uniform 5" in ordinary.says

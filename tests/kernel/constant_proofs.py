@@ -56,8 +56,8 @@ def _parts(names: tuple[str, ...], known: tuple[str, ...]) -> Fraction:
     return gamma(max(counts), U)
 
 
-def _leaning(name: str) -> Fraction:
-    """The roundings of a value of a leaning row, and one unit for what underflows."""
+def _tilted(name: str) -> Fraction:
+    """The roundings of a value of a tilted row, and one unit for what underflows."""
     return gamma(tilted.counted().counts[name], U) + U
 
 
@@ -109,8 +109,8 @@ def widths() -> list[int]:
     return [int(each) for each in re.findall(r"#define HC_WIDTH (\d+)", LEVEL.read_text(encoding="utf-8"))]
 
 
-def _way(value: Fraction) -> bool:
-    """Coordinates of a way below it keep x² + y² + z² below `cap`, whatever the time."""
+def _sweep(value: Fraction) -> bool:
+    """Coordinates of a sweep below it keep x² + y² + z² below `cap`, whatever the time."""
     return 3 * (2 * value) ** 2 < CAP
 
 
@@ -181,7 +181,7 @@ PROOFS: dict[str, Proof] = {
     "u_12": covers(_count("certified", "c1")),
     "u_16": covers(_parts(("slope_A", "slope_B", "offset_A", "offset_B"), ("c1", "c2"))),
     "u_1536": covers(32 * _count("single", "delta_3")),
-    **{f"u_{name}": covers(_leaning(name)) for name in tilted.BOUNDED},
+    **{f"u_{name}": covers(_tilted(name)) for name in tilted.BOUNDED},
     "less_sure": _less_sure,
     "greatest_l": _greatest_l,
     "lost": _lost,
@@ -189,7 +189,7 @@ PROOFS: dict[str, Proof] = {
     "greatest_height": _height,
     "less_than": lambda value: 1 - Fraction(1, 1000) < value <= (1 - U) ** 4,
     "WIDEST": lambda value: value == math.lcm(*widths()),
-    "FARTHEST_WAY": _way,
+    "FARTHEST_SWEEP": _sweep,
     "SEEN": _seen,
     "rounded": covers(_rounded()),
     "least_offset": lambda value: LEAST_NORMAL <= value <= Fraction(lines.LEAST_SIZE),

@@ -120,15 +120,15 @@ def inputs():
     for width, rows in frozen("[!wet]*.json", 40).items():
         pairs.setdefault(width, []).extend(rows)
     pairs[10] = frozen("tilted-[!iw]*.json", 40)[10]
-    ways = frozen("way-*.json", 100)[10]
+    sweeps = frozen("way-*.json", 100)[10]
     scenes = [
         issue_scene(),
         *(scene(draw, exponent) for exponent in (-1030, -1000, -998, -500, -60, 0, 0, 40, 500, 1000)),
     ]
-    return pairs, wide_rows(draw, 60), ways, scenes
+    return pairs, wide_rows(draw, 60), sweeps, scenes
 
 
-def calls(pairs, wide, ways, scenes):
+def calls(pairs, wide, sweeps, scenes):
     """Names and functions of no argument, each with the truth or None; what they return is compared."""
     import hypcheck
 
@@ -146,10 +146,10 @@ def calls(pairs, wide, ways, scenes):
         yield f"classify_scene {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:])
         yield f"Prepared {row}", lambda row=row: hypcheck.classify_scene(hypcheck.Prepared(tuple(row[:4])), *few.T[4:])
     for row in few[::5].tolist():
-        yield f"leaning {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:], axis=[0, 5e-324, 5e-324])
+        yield f"tilted {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:], axis=[0, 5e-324, 5e-324])
     for rows in (upright[::16], tilted[::30]):
         yield f"clearance of {rows.shape[1]} numbers", lambda rows=rows: hypcheck.clearance(rows)
-    for row, _ in ways:
+    for row, _ in sweeps:
         yield f"passage {row}", lambda row=row: _shown(hypcheck.passage(row[:4], row[4:7], row[7:]))
     for number, (text, centres, _, _) in enumerate(scenes):
         yield from scene_calls(hypcheck, number, text, centres)
@@ -180,11 +180,11 @@ def as_bits(result):
     return [array.dtype.str, array.shape, array.tobytes().hex()]
 
 
-def truths(pairs, ways, scenes):
+def truths(pairs, sweeps, scenes):
     """Positions that are known without the functions that are called, or by their exact oracle."""
     upright = [position for _, position in pairs[7]]
     found = {"classify tilted": [position for _, position in pairs[10]], "classify": upright}
-    for row, hit in ways:
+    for row, hit in sweeps:
         found[f"passage {row}"] = hit
     for number, (_, centres, sizes, at) in enumerate(scenes):
         offsets = [[Fraction(x) - Fraction(u) for x, u in zip(each, at, strict=True)] for each in centres.tolist()]

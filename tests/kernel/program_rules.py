@@ -83,8 +83,8 @@ def wrong_signs(program: Program) -> Wrong:
     return _wrong(program, (*sizes, "P_plus_Q", *BOUNDS, *BOUNDS.values()), inputs, asked)
 
 
-def wrong_signs_of_leaning_rows(program: Program) -> Wrong:
-    """The same for rows that lean: φ > 0 between the poles proves its side, φ < 0 contact where a tangent allows."""
+def wrong_signs_of_tilted_rows(program: Program) -> Wrong:
+    """The same for tilted rows: φ > 0 between the poles proves its side, φ < 0 contact where a tangent allows."""
     bounds = {"k": "e_k", "p_l": "e_pl", "F": "e_F"}
     inputs = {**tilted.CONSTANTS, **dict.fromkeys(("alpha", "gamma", "b", "d", "p", "s", "t", "w", "distance"), 1)}
     inputs |= {"s_along": 1, "e_psi": 0, "d_l": 3, "e_d": 2, **dict.fromkeys(bounds.values(), 2)}
@@ -135,5 +135,5 @@ def wrong_limits(program: Program) -> Wrong:
     return wrong
 
 
-SIGNS = {"certified": wrong_signs, "tilted": wrong_signs_of_leaning_rows}
+SIGNS = {"certified": wrong_signs, "tilted": wrong_signs_of_tilted_rows}
 """By the name of a program: what it says for all signs."""

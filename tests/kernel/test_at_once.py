@@ -56,11 +56,11 @@ def test_an_ordinary_call_of_the_c_entry_answers_as_the_python_code(columns, cou
     ):
         assert found.dtype == np.int8
         assert found.tolist() == expected.tolist()
-    leaning = classify(rows).tolist()
-    assert alone.classify(rows, out=np.full(count, 99, np.int8), threads=None).tolist() == leaning
-    assert step_by_step.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
-    assert alone.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == leaning
-    assert alone.classify_scene(SIZES, x, y, z, np.full(count, 99, np.int8), axis=[0.3, 0.1, 0.9]).tolist() == leaning
+    tilted = classify(rows).tolist()
+    assert alone.classify(rows, out=np.full(count, 99, np.int8), threads=None).tolist() == tilted
+    assert step_by_step.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == tilted
+    assert alone.classify_scene(SIZES, x, y, z, axis=(0.3, 0.1, 0.9)).tolist() == tilted
+    assert alone.classify_scene(SIZES, x, y, z, np.full(count, 99, np.int8), axis=[0.3, 0.1, 0.9]).tolist() == tilted
     assert alone.classify_scene(SIZES, x, y, z, axis=(0.0, 0.0, 0.0)) == LEFT
 
 
@@ -184,21 +184,21 @@ def test_points_and_an_axis_each_are_answered_in_c_as_rows(columns, count, level
         random = np.random.default_rng(5)
         axes = np.where(random.random((count, 1)) < 0.5, [0.0, 0.0, -2.0], random.normal(size=(count, 3)))
         rows = tilted_rows(SIZES, (*points.T,), (*axes.T,))
-        upright, leaning = classify(rows[:, :7].copy()).tolist(), classify(rows).tolist()
+        upright, tilted = classify(rows[:, :7].copy()).tolist(), classify(rows).tolist()
         for given in (points, np.asfortranarray(points), points.astype(object).tolist() if count <= 100 else points):
             assert alone.classify_scene(SIZES, given).tolist() == upright
             assert alone.classify(SIZES, given).tolist() == upright
             assert alone.classify(*SIZES, given).tolist() == upright
-            assert alone.classify(*SIZES, given, axis=axes).tolist() == leaning
+            assert alone.classify(*SIZES, given, axis=axes).tolist() == tilted
             assert alone.classify_scene(SIZES, given, axis=axes.astype(np.float32).astype(float)).shape == (count,)
         assert alone.classify(*SIZES, *points.T).tolist() == upright
         for form in (np.asfortranarray(rows), np.repeat(rows, 2, axis=0)[::2], np.repeat(rows, 2, axis=1)[:, ::2]):
-            assert alone.classify(form).tolist() == leaning
+            assert alone.classify(form).tolist() == tilted
             assert alone.classify(form[:, :7]).tolist() == upright
         flagged = rows.copy()
         flagged[0, 7:] = 0
         marked = alone.classify(*SIZES, flagged[:, 4:7], axis=flagged[:, 7:], on_invalid="flag").tolist()
-        assert marked == [127, *leaning[1:]]
+        assert marked == [127, *tilted[1:]]
     finally:
         core.use_level(used)
 
@@ -210,8 +210,8 @@ def test_sizes_may_be_columns_in_c(columns, alone):
     expected = classify(rows).tolist()
     assert alone.classify(alpha, 17.8, 0.25, d, x, y, z).tolist() == expected
     axis = (0.3, 0.1, 0.9)
-    leaning = classify(np.hstack([rows, np.tile(axis, (200, 1))])).tolist()
-    assert alone.classify(alpha, 17.8, 0.25, d, x, y, z, axis=axis).tolist() == leaning
+    tilted = classify(np.hstack([rows, np.tile(axis, (200, 1))])).tolist()
+    assert alone.classify(alpha, 17.8, 0.25, d, x, y, z, axis=axis).tolist() == tilted
 
 
 def test_one_row_is_answered_by_one_number(alone):

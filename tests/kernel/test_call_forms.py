@@ -197,7 +197,7 @@ def test_a_margin_makes_contact_of_what_is_not_so_far_away(centre):
         assert yes.tolist() == [int(expected == 0)]
 
 
-def test_margins_hold_for_spheroids_that_lean_and_beside_ends_and_leave_invalid_rows_marked():
+def test_margins_hold_for_tilted_spheroids_and_beside_ends_and_leave_invalid_rows_marked():
     rows = np.array([(*row, *axis) for row in ROWS for axis in AXES.tolist()])
     near = hypcheck.clearance(rows)
     for margin in (0.01, 0.3, 0.7, 5.0):

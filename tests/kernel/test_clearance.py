@@ -18,7 +18,7 @@ from tests.support.inside import kernel_choice as choice
 from tests.support.nearest_points import is_circle, nearest_points
 
 UPRIGHT = ("uniform", "tangent", "ring", "near-axis", "extreme-subnormal", "extreme-magnitude", "on-surface", "waist")
-LEANING = ("tilted-uniform", "tilted-tangent", "tilted-ring", "tilted-sphere")
+TILTED = ("tilted-uniform", "tilted-tangent", "tilted-ring", "tilted-sphere")
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +115,7 @@ def test_the_exact_nearest_point_is_within_the_touch_error(rows, found):
 
 
 def test_clearance_intervals_contain_the_exact_clearance_on_tilted_families():
-    rows = np.concatenate([TILTED_FAMILIES[name].rows(1, 8) for name in LEANING])
+    rows = np.concatenate([TILTED_FAMILIES[name].rows(1, 8) for name in TILTED])
     found = hypcheck.clearance(rows)
     for k, row in enumerate(rows.tolist()):
         true = nearest(Pair.from_row(row)).clearance

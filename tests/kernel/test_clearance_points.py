@@ -22,7 +22,7 @@ def drawn(count, width, seed=3):
     return np.concatenate(parts, axis=1)[:, :width]
 
 
-UPRIGHT, LEANING = drawn(160, 7), drawn(60, 10)
+UPRIGHT, TILTED = drawn(160, 7), drawn(60, 10)
 
 
 @pytest.fixture(autouse=True)
@@ -45,17 +45,17 @@ def metric(rows):
     return np.eye(3) / b**2 + (1 / d**2 - 1 / b**2) * unit[:, :, None] * unit[:, None, :]
 
 
-def test_a_leaning_touch_is_the_exact_nearest_point_within_a_small_error():
-    found = clearance_points.leaning_touches(LEANING)
-    for k, row in enumerate(LEANING.tolist()):
+def test_a_tilted_touch_is_the_exact_nearest_point_within_a_small_error():
+    found = clearance_points.tilted_touches(TILTED)
+    for k, row in enumerate(TILTED.tolist()):
         true = nearest(Pair.from_row(row))
         assert found.factor[k] == pytest.approx(1 + true.clearance, rel=1e-12), row
-    assert (off_the_surface(LEANING, found.point) < 1e-14).all()
+    assert (off_the_surface(TILTED, found.point) < 1e-14).all()
     size = np.abs(found.point).sum(axis=1)
     assert (found.error > 0).all()
     assert np.median(found.error / size) < 1e-11
     # M (X − C) = −λ D X at the nearest point alone.
-    normals = normal_to_spheroid(LEANING, found.point), normal_to_hyperboloid(LEANING, found.point)
+    normals = normal_to_spheroid(TILTED, found.point), normal_to_hyperboloid(TILTED, found.point)
     assert (np.abs(np.cross(*normals)) < 1e-12).all()
 
 
@@ -72,7 +72,7 @@ def normal_to_hyperboloid(rows, points):
 
 def test_the_multiplier_of_the_numpy_kernel_maximises_phi_or_is_next_to_a_pole():
     """It turns Newton's method; towards a pole it stops a thousandth before."""
-    rows = np.concatenate([LEANING, stretched(LEANING)])
+    rows = np.concatenate([TILTED, stretched(TILTED)])
     inner = 0
     for row, at in zip(rows.tolist(), map(Fraction, numpy_kernel.multipliers(rows)), strict=True):
         before, here, beyond = (phi(row, at * (1 + way * Fraction(1, 10**4))) for way in (-1, 0, 1))
@@ -96,7 +96,7 @@ def gaps_of(rows, gaps, touches):
     ("rows", "gaps", "touches"),
     [
         (UPRIGHT, clearance_points.upright_gaps, clearance_points.upright_touches),
-        (LEANING, clearance_points.leaning_gaps, clearance_points.leaning_touches),
+        (TILTED, clearance_points.tilted_gaps, clearance_points.tilted_touches),
     ],
 )
 def test_a_gap_ends_on_both_bodies_and_is_normal_to_both(rows, gaps, touches):
@@ -164,10 +164,10 @@ def nearest_off(row, point):
 
 
 @pytest.mark.parametrize("wrong", [1e-9, 1e-6, -1e-3, 0.2, 40.0, -2.0])
-def test_the_error_of_a_leaning_touch_holds_for_a_multiplier_that_is_wrong(wrong):
-    rows = np.concatenate([LEANING, stretched(LEANING)])
-    near = clearance_points.leaning_touches(rows)
-    found = clearance_points.leaning_touches(rows, numpy_kernel.multipliers(rows) * (1 + wrong))
+def test_the_error_of_a_tilted_touch_holds_for_a_multiplier_that_is_wrong(wrong):
+    rows = np.concatenate([TILTED, stretched(TILTED)])
+    near = clearance_points.tilted_touches(rows)
+    found = clearance_points.tilted_touches(rows, numpy_kernel.multipliers(rows) * (1 + wrong))
     off = np.linalg.norm(found.point - near.point, axis=1)
     assert (off <= found.error + near.error).all()
     if abs(wrong) < 1e-2:

@@ -45,7 +45,7 @@ def test_the_header_defines_the_vector_width_of_every_instruction_set():
         ("least_height", 2.0**-500),
         ("greatest_height", 2.0**205),
         ("less_than", 1.0),
-        ("FARTHEST_WAY", 2.0**200),
+        ("FARTHEST_SWEEP", 2.0**200),
         ("GREATEST_SLACK", 1.0),
         ("MOST_GROWN", 122),
         ("SEEN", 128),

@@ -1,4 +1,4 @@
-"""Double-double, in which kernels for spheroids that lean compute: errors against rationals, as leaning.py counts."""
+"""Double-double, in which kernels for tilted spheroids compute: errors against rationals, as tilted.py counts."""
 
 from __future__ import annotations
 

@@ -46,11 +46,11 @@ def test_touches_of_a_rim_and_rows_an_ulp_off_are_decided_by_the_kernel():
         assert (positions == cases.positions).all()
 
 
-@pytest.mark.parametrize("leaning", [False, True])
-def test_rows_a_hair_from_contact_are_right_in_every_mode_and_none_in_a_hundred_is_left_open(leaning):
+@pytest.mark.parametrize("tilted", [False, True])
+def test_rows_a_hair_from_contact_are_right_in_every_mode_and_none_in_a_hundred_is_left_open(tilted):
     """Half of the hairs are shorter than the rounding of a centre; they part it from a rim, a flat end or the wall."""
     random = np.random.default_rng(1)
-    rows = ended_agreement.hairs(random, 600, leaning=leaning, nearest=-75)
+    rows = ended_agreement.hairs(random, 600, tilted=tilted, nearest=-75)
     truth = np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
     for mode in (TO_NEAREST, *DIRECTED):
         positions = answered(rows, mode)
@@ -82,7 +82,7 @@ def test_a_row_does_not_change_the_answers_to_others():
 
 def test_the_tool_of_agreement_names_a_wrong_answer_of_the_kernel(monkeypatch):
     """The row stands in a sentence, and rows and meshes asked are counted."""
-    rows = ended_agreement.random_rows(np.random.default_rng(1), 6, leaning=True)
+    rows = ended_agreement.random_rows(np.random.default_rng(1), 6, tilted=True)
     right = answered(rows)
     wrong = np.where(np.arange(6) == 4, -right + (right == 0), right).astype(np.int8)
     monkeypatch.setattr(ended_agreement.compiled_kernel, "answer_ended", lambda _: wrong)
@@ -110,10 +110,10 @@ def test_a_run_of_agreement_that_ended_early_goes_on_from_its_log(tmp_path, monk
     assert capsys.readouterr().out.splitlines()[-1].startswith("5,000 rows, 0 disagreements")
 
 
-@pytest.mark.parametrize("leaning", [False, True])
-def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_one_is_0_in_contact_alone(leaning):
+@pytest.mark.parametrize("tilted", [False, True])
+def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_one_is_0_in_contact_alone(tilted):
     """The spheroid grown by the upper bound in its shorter radius has contact, by the exact decision."""
-    rows = ended_agreement.hairs(np.random.default_rng(4), 12, leaning=leaning, nearest=-75)
+    rows = ended_agreement.hairs(np.random.default_rng(4), 12, tilted=tilted, nearest=-75)
     found = clearance(rows)
     truth = np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
     assert (found.distance_lower <= found.distance_upper).all()

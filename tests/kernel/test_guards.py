@@ -35,8 +35,8 @@ def test_the_certified_stage_decides_by_the_exact_rule_for_all_combinations_of_s
     assert program_rules.wrong_signs(CERTIFIED) == []
 
 
-def test_the_stage_of_leaning_rows_decides_by_its_rule_for_all_combinations_of_signs():
-    assert program_rules.wrong_signs_of_leaning_rows(TILTED) == []
+def test_the_stage_of_tilted_rows_decides_by_its_rule_for_all_combinations_of_signs():
+    assert program_rules.wrong_signs_of_tilted_rows(TILTED) == []
 
 
 @pytest.mark.parametrize("program", [CERTIFIED, TILTED], ids=lambda program: program.name)

@@ -1,4 +1,4 @@
-"""Many straight ways at once, of pairs and of scenes: hits, first times, and which hyperboloid."""
+"""Many straight sweeps at once, of pairs and of scenes: hits, first times, and which hyperboloid."""
 
 from __future__ import annotations
 
@@ -25,36 +25,36 @@ def alone(sizes, start, end, **more):
     "more",
     [{}, {"axis": (0.3, 0.1, 0.9)}, {"z_min": -1.0, "z_max": 20.0}, {"z_min": -20.0, "z_max": 8.5, "solid": True}],
 )
-def test_many_ways_are_answered_as_the_exact_decision_about_each(more):
+def test_many_sweeps_are_answered_as_the_exact_decision_about_each(more):
     found = hypcheck.passage(SIZES, STARTS, ENDS, **more)
     each = [alone(SIZES, start, end, **more) for start, end in zip(STARTS.tolist(), ENDS.tolist(), strict=True)]
-    assert found.hit.tolist() == [way.hit for way in each]
+    assert found.hit.tolist() == [sweep.hit for sweep in each]
     assert len({*found.hit.tolist()}) == 2
-    assert found.first == [way.first for way in each]
-    assert np.array_equal(found.first_lower, [way.first_lower for way in each], equal_nan=True)
-    assert np.array_equal(found.first_upper, [way.first_upper for way in each], equal_nan=True)
-    assert found.index.tolist() == [0 if way.hit else -1 for way in each]
+    assert found.first == [sweep.first for sweep in each]
+    assert np.array_equal(found.first_lower, [sweep.first_lower for sweep in each], equal_nan=True)
+    assert np.array_equal(found.first_upper, [sweep.first_upper for sweep in each], equal_nan=True)
+    assert found.index.tolist() == [0 if sweep.hit else -1 for sweep in each]
 
 
-def test_ways_are_written_in_every_form_with_the_same_answers():
-    expected = [alone(SIZES, *way).hit for way in zip(STARTS.tolist(), ENDS.tolist(), strict=True)]
+def test_sweeps_are_written_in_every_form_with_the_same_answers():
+    expected = [alone(SIZES, *sweep).hit for sweep in zip(STARTS.tolist(), ENDS.tolist(), strict=True)]
     names = dict(zip(("alpha", "gamma", "b", "d"), SIZES, strict=True))
     table = names | dict(zip(("x", "y", "z", "x1", "y1", "z1"), np.hstack([STARTS, ENDS]).T, strict=True))
     rows = np.hstack([np.tile(SIZES, (5, 1)), STARTS, ENDS])
-    for ways in (
+    for sweeps in (
         (SIZES, STARTS, ENDS),
         (*SIZES, STARTS, ENDS.tolist()),
         (table,),
         (rows,),
         (np.hstack([rows, [[0, 0, 2]] * 5]),),
     ):
-        assert hypcheck.passage(*ways).hit.tolist() == expected
+        assert hypcheck.passage(*sweeps).hit.tolist() == expected
     assert hypcheck.passage(SIZES, STARTS, ENDS, axis=[[0, 0, 1]] * 5).hit.tolist() == expected
 
 
-def test_one_way_has_numbers():
-    for way in ((SIZES, (3, 0, 0), (0, 0, 0)), (*SIZES, (3, 0, 0), (0, 0, 0))):
-        found = hypcheck.passage(*way)
+def test_one_sweep_has_numbers():
+    for sweep in ((SIZES, (3, 0, 0), (0, 0, 0)), (*SIZES, (3, 0, 0), (0, 0, 0))):
+        found = hypcheck.passage(*sweep)
         assert found.hit is True
         assert found.first_lower <= 0.25 <= found.first_upper
         assert found.first_upper - found.first_lower < 1e-15
@@ -76,7 +76,7 @@ def test_one_way_has_numbers():
         ((SIZES, STARTS[:, :2], ENDS), r"start is of shape \(5, 2\); it must be three numbers, x, y, z"),
     ],
 )
-def test_ways_that_mean_nothing_are_refused(arguments, sentence):
+def test_sweeps_that_mean_nothing_are_refused(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
         hypcheck.passage(*arguments)
 

@@ -107,7 +107,7 @@ def test_tangent_lines_of_the_kernel_programs_have_the_formulas_of_the_kernel_pa
 
 @pytest.mark.slow
 @given(st.tuples(*[st.fractions(-8, 8, max_denominator=64)] * 7), positives, st.sampled_from([1, -1]))
-def test_the_piece_program_gives_the_offset_of_a_way_from_a_line_as_a_quadratic(numbers, M, side):
+def test_the_piece_program_gives_the_offset_of_a_sweep_from_a_line_as_a_quadratic(numbers, M, side):
     x, y, z, u, v, w, K = numbers
     inputs = dict(zip(("x", "y", "z", "u", "v", "w", "K"), numbers, strict=True)) | {"M": M, "side": side, "u_8": 0}
     here, slope, bend = outputs(lines.PIECE, EXACT, inputs, ("here", "slope", "bend"))

@@ -59,7 +59,7 @@ int main(void) {
         if (!check(n, rows, answers)) return 1;
         fwrite(answers, 1, n, stdout);
     }
-    times = (double *)malloc(n * sizeof(double)); /* the same numbers as ways, which are longer rows */
+    times = (double *)malloc(n * sizeof(double)); /* the same numbers as sweeps, which are longer rows */
     hypcheck_passage(7 * n / 10, rows, answers, times);
     hypcheck_passage_tilted(7 * n / 13, rows, answers, times);
     hypcheck_passage_tilted(7 * n / 13, rows, answers, NULL);

@@ -49,8 +49,8 @@ def same_answers(scene, other, side):
     assert len({*expected.tolist()}) > 1
     assert (scene.classify(points) == expected).all()
     assert [scene.position(*point) for point in points[:200].tolist()] == expected[:200].tolist()
-    ways = points[:300], points[1:301]
-    assert (scene.passage(*ways).hit == other.passage(*ways).hit).all()
+    sweeps = points[:300], points[1:301]
+    assert (scene.passage(*sweeps).hit == other.passage(*sweeps).hit).all()
     near, truth = scene.nearest(points[:50]), other.nearest(points[:50])
     assert near.index.tolist() == truth.index.tolist()
     assert near.distance_upper.tolist() == truth.distance_upper.tolist()

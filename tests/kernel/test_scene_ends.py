@@ -202,8 +202,8 @@ def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before
         found = passage(sizes, *offsets, axis, body.axis, z_min=low, z_max=high, solid=body.solid)
         assert found.hit == hit
         times = [Fraction(k, 32) for k in range(33)]
-        way = [(Fraction(here), Fraction(there)) for here, there in zip(start, end, strict=True)]
-        places = ([here + time * (there - here) for here, there in way] for time in times)
+        sweep = [(Fraction(here), Fraction(there)) for here, there in zip(start, end, strict=True)]
+        places = ([here + time * (there - here) for here, there in sweep] for time in times)
         said = [truth_beside(body, (mover.b, mover.d), axis, place) for place in places]
         touching = [time for time, position in zip(times, said, strict=True) if position is Position.CONTACT]
         if found.first is None:

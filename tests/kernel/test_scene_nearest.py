@@ -96,14 +96,14 @@ def rotation(rng):
 def test_scene_nearest_of_a_turned_scene_is_the_turned_nearest(number, height):
     rng = np.random.default_rng(100 + number)
     turn, trees = rotation(rng), forest(height)[:12]
-    leaning = [
+    tilted = [
         Hyperboloid(t.name, t.alpha, t.gamma, tuple((turn @ t.center).tolist()), height, tuple(turn[:, 2].tolist()))
         for t in trees
     ]
     centres = rng.uniform((-20, -20, -3), (20, 20, 6), (60, 3))
     before = scene(*trees).nearest(*centres.T)
-    fixed = scene(*leaning, mover=Mover(0.3, 0.2, axis=tuple(turn[:, 2].tolist())))
-    free = scene(*leaning, mover=Mover(0.3, 0.2, axis="free"))
+    fixed = scene(*tilted, mover=Mover(0.3, 0.2, axis=tuple(turn[:, 2].tolist())))
+    free = scene(*tilted, mover=Mover(0.3, 0.2, axis="free"))
     for after in (
         fixed.nearest(*(centres @ turn.T).T),
         free.nearest(*(centres @ turn.T).T, axis=np.tile(turn[:, 2], (60, 1))),
@@ -119,7 +119,7 @@ def test_scene_nearest_of_a_turned_scene_is_the_turned_nearest(number, height):
 
 
 @pytest.mark.parametrize("number", range(3))
-def test_scene_nearest_is_0_beside_a_leaning_hyperboloid_exactly_where_position_is_contact(number):
+def test_scene_nearest_is_0_beside_a_tilted_hyperboloid_exactly_where_position_is_contact(number):
     rng = np.random.default_rng(number)
     bodies = [Hyperboloid("a", 0.5, 2.0, (0, 0, 0), None, (1, 2, 4)), Hyperboloid("b", 0.4, 1.0, (2, 0, 1))]
     both = scene(*bodies, mover=Mover(0.5, 0.25, axis="free"))
@@ -261,7 +261,7 @@ def test_position_nearest_and_passage_agree_about_contact_a_hair_from_the_surfac
 
 
 @pytest.mark.parametrize("solid", [False, True])
-def test_the_normal_is_the_gradient_of_the_distance_wherever_bodies_lean_and_end(solid):
+def test_the_normal_is_the_gradient_of_the_distance_wherever_bodies_are_tilted_and_end(solid):
     """By differences of distances, which know nothing of normals; a sum of proved bounds is good to 1e-8."""
     bodies = (
         Hyperboloid("a", 2.0, 5.0, (0, 0, 0), Span(-np.inf, 3.0), (0.2, 0.1, 1.0), solid),

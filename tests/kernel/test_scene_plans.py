@@ -45,8 +45,8 @@ def test_a_scene_in_which_a_hyperboloid_leans_has_no_plan():
 @pytest.mark.parametrize("axis", [FREE, (1.0, 0.0, 2.0)])
 def test_a_scene_in_which_the_mover_leans_has_the_settings_of_an_upright_one_and_its_axis(axis):
     upright = SceneModel("s", "position", (Hyperboloid("oak", 1.0, 2.0),), Mover(0.5, 0.25))
-    leaning = replace(upright, mover=Mover(0.5, 0.25, axis=axis))
-    (setting,) = settings_of(leaning)
+    tilted = replace(upright, mover=Mover(0.5, 0.25, axis=axis))
+    (setting,) = settings_of(tilted)
     assert replace(setting, axis=None) == settings_of(upright)[0]
     assert setting.axis == axis
 
@@ -54,8 +54,8 @@ def test_a_scene_in_which_the_mover_leans_has_the_settings_of_an_upright_one_and
 def test_a_ball_whose_axis_leans_has_the_plan_of_an_upright_one():
     upright = SceneModel("s", "position", (Hyperboloid("oak", 1.0, 2.0),), Mover(0.5, 0.5))
     for axis in (FREE, (1.0, 0.0, 2.0)):
-        leaning = replace(upright, mover=Mover(0.5, 0.5, axis=axis))
-        assert plan_of(leaning).settings == plan_of(upright).settings
+        tilted = replace(upright, mover=Mover(0.5, 0.5, axis=axis))
+        assert plan_of(tilted).settings == plan_of(upright).settings
 
 
 def test_the_region_of_a_setting_is_relative_to_its_hyperboloid_and_widened_by_the_arm():

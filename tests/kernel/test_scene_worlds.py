@@ -117,12 +117,12 @@ def test_passages_in_a_scene_one_or_many_hit_where_an_exact_passage_does(kind, s
     for start, end, axis, hit in zip(centres.tolist(), ends.tolist(), axes, found.tolist(), strict=True):
         true = []
         for body in scene.model.hyperboloids:
-            way = (
+            sweep = (
                 [Fraction(a) - Fraction(b) for a, b in zip(place, body.center, strict=True)] for place in (start, end)
             )
             low, high = (-inf, inf) if body.height is None else body.height.ends
             sizes = (body.alpha, body.gamma, scene.model.mover.b, scene.model.mover.d)
-            true.append(passage(sizes, *way, axis, body.axis, z_min=low, z_max=high, solid=body.solid).hit)
+            true.append(passage(sizes, *sweep, axis, body.axis, z_min=low, z_max=high, solid=body.solid).hit)
         assert hit == any(true)
         assert scene.passage(start, end, **({"axis": axis} if free else {})).hit == any(true)
 

@@ -26,7 +26,7 @@ def questions():
     centers = [(x, y, 0.0) for x in (0.0, 6.0, 12.0) for y in (0.0, 6.0, 12.0)]
     scene = hypcheck.Scene.from_arrays(2, 17.8, centers, mover=hypcheck.Mover(0.25, 0.15), z_min=-17, z_max=17)
     rows = np.hstack([np.tile(SIZES, (3000, 1)), points_of(1)])
-    near, ways = hypcheck.clearance(rows[:200]), hypcheck.passage(SIZES, points_of(2, 50), points_of(3, 50))
+    near, sweeps = hypcheck.clearance(rows[:200]), hypcheck.passage(SIZES, points_of(2, 50), points_of(3, 50))
     return {
         "rows": lambda seed: hypcheck.classify(rows[seed:]),
         "prepared": lambda seed: hypcheck.classify(prepared, points_of(seed)),
@@ -36,7 +36,7 @@ def questions():
         "ways of a scene": lambda seed: scene.passage(points_of(seed, 100), points_of(seed + 1, 100)).hit,
         "changed": lambda seed: scene.moved(seed, (3.0, 3.0, 0.0)).classify(points_of(seed)),
         "normals": lambda _seed: np.nan_to_num(near.normal),
-        "times": lambda _seed: np.nan_to_num(ways.first_lower),
+        "times": lambda _seed: np.nan_to_num(sweeps.first_lower),
     }
 
 

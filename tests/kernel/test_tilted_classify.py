@@ -1,4 +1,4 @@
-"""The public functions for spheroids whose axis leans: exact answers, any axis that has a direction, refusals."""
+"""The public functions for tilted spheroids: exact answers, any axis that has a direction, refusals."""
 
 from __future__ import annotations
 

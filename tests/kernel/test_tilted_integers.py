@@ -1,4 +1,4 @@
-"""The exact stage for spheroids whose axis leans: its programs, Python's integers and C's, against fractions."""
+"""The exact stage for tilted spheroids: its programs, Python's integers and C's, against fractions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The stage that decides rows whose axis leans in floats: what its program is, and that its bounds hold."""
+"""The stage that decides tilted rows in floats: what its program is, and that its bounds hold."""
 
 from __future__ import annotations
 

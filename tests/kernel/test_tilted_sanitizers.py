@@ -1,4 +1,4 @@
-"""The C core for spheroids that lean under the sanitizers: every level, odd counts, longest numbers, bad rows."""
+"""The C core for tilted spheroids under the sanitizers: every level, odd counts, longest numbers, bad rows."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ int main(void) {
 
 @needs_compiler
 @pytest.mark.parametrize("options", [(), ("-DHYPCHECK_PLAIN", "-DHYPCHECK_SMALL_LIMBS")], ids=["levels", "plain"])
-def test_sanitizers_find_no_fault_in_the_c_core_for_leaning_spheroids(options, tmp_path):
+def test_sanitizers_find_no_fault_in_the_c_core_for_tilted_spheroids(options, tmp_path):
     random = np.random.default_rng(8)
     longest = [1.7e308, 5e-324, 1.7e308, 1e-323, 1.7e308, 5e-324, 1.7e308, 5e-324, 1.7e308, 1e-323]
     rows = np.array([*(row for row, _ in RINGS), *small_rows(41, 60), *wide_rows(42, 20), longest])

@@ -238,8 +238,8 @@ def test_generated_adapter_that_declares_tilt_passes_ten_numbers_a_row_to_its_pr
     axes = np.random.default_rng(5).standard_normal((len(rows), 3)) * 10
     axes[::7] *= 1e300
     axes[3::7, 0] = 5e-324
-    leaning = np.column_stack([rows, axes])
-    other = replace(built, folder=tmp_path / "leaning")
+    tilted = np.column_stack([rows, axes])
+    other = replace(built, folder=tmp_path / "tilted")
     shutil.copytree(built.folder, other.folder)
     monkeypatch.chdir(other.folder)
     path = other.folder / built.language.folder / built.language.predicate
@@ -248,11 +248,11 @@ def test_generated_adapter_that_declares_tilt_passes_ten_numbers_a_row_to_its_pr
         assert stub.count(before) == 1
         path.write_text(stub.replace(before, after))
         assert other.run(built.typed[0]).returncode == 0
-        ordered = (leaning[:, 0] + leaning[:, 7] < leaning[:, 8]) & (leaning[:, 8] < leaning[:, 9])
+        ordered = (tilted[:, 0] + tilted[:, 7] < tilted[:, 8]) & (tilted[:, 8] < tilted[:, 9])
         with asked(built.language.spec) as it:
             assert it.declared.tilt
-            assert it.classify(leaning).answers.tolist() == (ordered if turn else expected).astype(int).tolist()
-            assert it.time(leaning[:100], 2)
+            assert it.classify(tilted).answers.tolist() == (ordered if turn else expected).astype(int).tolist()
+            assert it.time(tilted[:100], 2)
             if not turn:
                 assert it.classify(rows[:100]).answers.tolist() == expected[:100].tolist()
     if built.language.name in COMMANDS:
@@ -372,9 +372,9 @@ KERNELS = {
     "certified": ("--method", "certified"),
     "a scene": ("--scene", "tower", "--question", "position"),
     "a whole scene": ("--scene", "tower", "--whole", "--question", "position"),
-    "any axis": ("--scene", "leaning.toml"),
+    "any axis": ("--scene", "tilted.toml"),
 }
-LEANING = """name = "leaning"
+TILTED = """name = "tilted"
 [mover]
 b = 0.25
 d = 0.15
@@ -395,7 +395,7 @@ def test_every_kernel_that_emit_writes_fits_the_adapter(built, kernel, tmp_path,
     other = replace(built, folder=tmp_path / "other")
     shutil.copytree(built.folder, other.folder)
     monkeypatch.chdir(other.folder)
-    (other.folder / "leaning.toml").write_text(LEANING)
+    (other.folder / "tilted.toml").write_text(TILTED)
     path = Path(built.language.folder, built.language.predicate)
     words = ["--language", built.language.name, "--output", str(path)]
     assert main(["emit", *KERNELS[kernel], *words]) == 0

@@ -1,4 +1,4 @@
-"""The adapters of `hypcheck init --question passage`: each language answers about ways as the stub in Python does."""
+"""The adapters of `hypcheck init --question passage`: each language answers about sweeps as the stub in Python does."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def built(project):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LANGUAGES)
-def test_generated_adapter_for_ways_passes_on_answers_times_and_axes_of_its_stub(
+def test_generated_adapter_for_sweeps_passes_on_answers_times_and_axes_of_its_stub(
     name, rows, expected, tmp_path, monkeypatch
 ):
     if missing := [tool for tool in TOOLS[name] if shutil.which(tool) is None]:
@@ -89,7 +89,7 @@ def test_generated_adapter_for_ways_passes_on_answers_times_and_axes_of_its_stub
         assert float(lines[1].removeprefix(b"1 ")) == 2 / 3
 
 
-def test_stub_about_positions_is_written_by_default_and_the_one_about_ways_on_request():
+def test_stub_about_positions_is_written_by_default_and_the_one_about_sweeps_on_request():
     assert STUBS == ("position", "passage")
     for language in LANGUAGES.values():
         written = Project(language, "x", "passage").files()

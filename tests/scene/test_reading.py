@@ -46,7 +46,7 @@ z = -0.0
 """
 
 LEAST = 'name = "a"\nhyperboloid = [{ alpha = 1, gamma = 2 }]\nmover = { b = 1, d = 1 }\n'
-LEANING = (
+TILTED = (
     'name = "a"\n'
     "hyperboloid = [{ alpha = 1, gamma = 2, axis = [0, -1, 3] }, { alpha = 1, gamma = 2 }]\n"
     "mover = { b = 1, d = 1, axis = [0.5, 0, 2] }\n"
@@ -92,15 +92,15 @@ def test_missing_keys_of_a_scene_have_their_defaults():
 
 
 def test_axes_of_a_scene_are_read_without_normalisation():
-    scene = parse_scene(LEANING)
+    scene = parse_scene(TILTED)
     assert [body.axis for body in scene.hyperboloids] == [(0.0, -1.0, 3.0), UPRIGHT]
     assert scene.mover.axis == (0.5, 0.0, 2.0)
     assert scene.leaning
-    assert parse_scene(LEANING.replace("[0.5, 0, 2]", '"free"')).mover.axis == FREE
+    assert parse_scene(TILTED.replace("[0.5, 0, 2]", '"free"')).mover.axis == FREE
 
 
 def test_a_vertical_axis_is_upright_whatever_its_length_and_sense():
-    text = LEANING.replace("[0, -1, 3]", "[0, 0, -3]").replace("[0.5, 0, 2]", "[0, 0, 1e300]")
+    text = TILTED.replace("[0, -1, 3]", "[0, 0, -3]").replace("[0.5, 0, 2]", "[0, 0, 1e300]")
     assert not parse_scene(text).leaning
     parted = WHOLE.replace("d = 0.15", "d = 0.15\naxis = [0, 0, -2]")
     assert len(parse_scene(parted).mover.parts) == 1

@@ -11,7 +11,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.scene.reading import parse_scene, shipped_scenes, shipped_text
-from tests.scene.test_reading import LEANING, LEAST, WHOLE
+from tests.scene.test_reading import LEAST, TILTED, WHOLE
 from tests.support.records import violations
 
 if sys.version_info >= (3, 11):
@@ -22,7 +22,7 @@ else:
 SCHEMA = json.loads(
     resources.files("hypcheck.scene").joinpath("schemas", "scene-1.2.0.json").read_text(encoding="utf-8")
 )
-TEXTS = [WHOLE, LEAST, LEANING, LEANING.replace("[0.5, 0, 2]", '"free"'), *map(shipped_text, shipped_scenes())]
+TEXTS = [WHOLE, LEAST, TILTED, TILTED.replace("[0.5, 0, 2]", '"free"'), *map(shipped_text, shipped_scenes())]
 WRONG = (True, -1.0, 0, "", "text", [], [1.0], [1.0, 2.0], [1.0, 2.0, 3.0], [True, 1], {}, {"x": 1}, [{}], [3])
 """Values of every type, put in the place of every value of a scene."""
 

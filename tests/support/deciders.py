@@ -37,7 +37,7 @@ from tests.support.inside import (
     heights_position,
     integers_position,
     least_position,
-    numpy_kernel_answer_ways,
+    numpy_kernel_answer_sweeps,
     sweep_of,
 )
 from tests.support.inside import kernel_classify as classify
@@ -150,11 +150,11 @@ def of_integers(sizes, center, axis=None) -> int:
 
 
 def of_ways_in_numpy(questions: Questions) -> list[int]:
-    return numpy_kernel_answer_ways(np.ascontiguousarray(questions.rows))[0].tolist()
+    return numpy_kernel_answer_sweeps(np.ascontiguousarray(questions.rows))[0].tolist()
 
 
 def of_ways_in_c(questions: Questions) -> list[int]:
-    return classify.kernel().answer_ways(np.ascontiguousarray(questions.rows))[0].tolist()
+    return classify.kernel().answer_sweeps(np.ascontiguousarray(questions.rows))[0].tolist()
 
 
 def of_scene_call(sizes, center, axis=None) -> int:

@@ -19,7 +19,7 @@ from hypcheck.kernel.choice import (
     most_threads,
 )
 from hypcheck.kernel.classify import classify
-from hypcheck.kernel.compiled_kernel import answer_ways
+from hypcheck.kernel.compiled_kernel import answer_sweeps
 from hypcheck.kernel.core import HEADER, generate
 from hypcheck.kernel.core.generate import TARGET, header
 from hypcheck.kernel.emission.dialects import DIALECTS
@@ -37,7 +37,7 @@ from hypcheck.kernel.emission.whole import whole, whole_plan
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.integers import upright_position as integers_position
 from hypcheck.kernel.numpy_kernel import Buffers, chunks, positions_of_scene
-from hypcheck.kernel.numpy_kernel import answer_ways as numpy_kernel_answer_ways
+from hypcheck.kernel.numpy_kernel import answer_sweeps as numpy_kernel_answer_sweeps
 from hypcheck.kernel.numpy_kernel import positions as numpy_kernel_positions
 from hypcheck.kernel.programs import certified, lines, tilted
 from hypcheck.kernel.programs.certified import CERTIFIED, SLACK, U
@@ -58,13 +58,13 @@ from hypcheck.kernel.scene import Scene
 from hypcheck.kernel.specialise import last_stages
 from hypcheck.kernel.specialise.first_stages import AXIAL, RADIAL, Thresholds, entry, line_at, thresholds
 from hypcheck.kernel.specialise.last_stages import (
-    LeaningSearch,
+    TiltedSearch,
     backward_bound,
     discriminant,
     exact_constants,
-    leaning_search,
     search,
     search_begin,
+    tilted_search,
 )
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages, decided_by, far_corner, plan_of
 from hypcheck.kernel.specialise.settings import (
@@ -168,7 +168,6 @@ __all__ = [
     "Invariants",
     "KernelChoice",
     "Kind",
-    "LeaningSearch",
     "MeshOutcome",
     "NearestStage",
     "Piece",
@@ -180,10 +179,11 @@ __all__ = [
     "Stages",
     "Surd",
     "Thresholds",
+    "TiltedSearch",
     "U",
     "_none_by_descartes",
     "admissible",
-    "answer_ways",
+    "answer_sweeps",
     "availability",
     "backward_bound",
     "backward_error",
@@ -241,7 +241,6 @@ __all__ = [
     "kernel_classify",
     "kind_of",
     "last_stages",
-    "leaning_search",
     "least_position",
     "line_at",
     "linear_factor",
@@ -253,7 +252,7 @@ __all__ = [
     "nearest_rows",
     "nearest_rows_positions",
     "numpy_kernel",
-    "numpy_kernel_answer_ways",
+    "numpy_kernel_answer_sweeps",
     "numpy_kernel_positions",
     "operations_before",
     "passage",
@@ -293,6 +292,7 @@ __all__ = [
     "swept",
     "thresholds",
     "tilted",
+    "tilted_search",
     "time_window",
     "tolerance",
     "tolerated",

@@ -108,7 +108,7 @@ def _beside_0(most: int) -> st.SearchStrategy[float]:
 nearly_touching_tilted_rows = st.integers(-1000, 1000).flatmap(
     lambda scale: st.builds(_displaced, _touching, st.just(scale), st.tuples(*[_beside_0(scale)] * 3))
 )
-"""Rows (10,) that touch, of any size, but for coordinates of any exponent where there was 0: some lean, some do not."""
+"""Rows (10,) that touch, of any size, but for coordinates of any exponent where there was 0; some are tilted."""
 
 extreme_tilted_rows = st.builds(lambda pair, axis: (*pair.row, *axis), extreme_pairs, _direction)
 """Rows (10,) of any float64 at all."""

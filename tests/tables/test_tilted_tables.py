@@ -1,4 +1,4 @@
-"""Tables of spheroids whose axis leans: ten columns or keys, mixed lines, and what is refused."""
+"""Tables of tilted spheroids: ten columns or keys, mixed lines, and what is refused."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ from hypcheck.scene.model import QUESTIONS
 from hypcheck.scene.reading import read_scene, shipped_scenes
 from hypcheck.vectors.fixed_sizes import families_for
 from tests.kernel.emission.building import COMMAND, COMMANDS, asking, built_of
-from tests.kernel.emission.test_leaning import SCENES as LEANING
+from tests.kernel.emission.test_tilted import SCENES as TILTED
 from tests.support.inside import DIALECTS, ScenePlan, description, emitted, plan_of
 
 ROWS = 40
@@ -33,10 +33,10 @@ TIMES = 5
 
 def plans() -> Iterator[tuple[str, ScenePlan]]:
     """Plans by name: the shipped scenes and the tilted ones of tests, each question, each format."""
-    named = {name: read_scene(name) for name in shipped_scenes()} | dict(LEANING)
+    named = {name: read_scene(name) for name in shipped_scenes()} | dict(TILTED)
     for name, scene in named.items():
         for question in QUESTIONS:
-            for precision in ("float64",) if name in LEANING else ("float64", "float32"):
+            for precision in ("float64",) if name in TILTED else ("float64", "float32"):
                 yield f"{name}-{question}-{precision}", plan_of(replace(scene, question=question), precision)
 
 

@@ -33,8 +33,8 @@ from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel import _compiled
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
-from tests.support.ended_ways import near_a_rim, past_a_tower
-from tests.support.inside import answer_ways, compiled_kernel, least_position, position, verdict
+from tests.support.ended_sweeps import near_a_rim, past_a_tower
+from tests.support.inside import answer_sweeps, compiled_kernel, least_position, position, verdict
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 from tests.tools.progress_line import progress_line
 
@@ -47,22 +47,22 @@ NEAREST, NEAR = -50, -30
 """Hairs are from 2⁻⁵⁰ to 2⁻³⁰ radii, 10⁻¹⁵ to 10⁻⁹."""
 
 
-def random_rows(random, count, *, leaning):
+def random_rows(random, count, *, tilted):
     """Rows (n, 13): any sizes, the end within reach of the spheroid."""
     sizes = np.exp2(random.uniform(-3, 3, (count, 4)))
     alpha, gamma, b, d = sizes.T
     high = random.uniform(-2, 2, count) * gamma
     spread = np.stack([alpha + b, alpha + b, d], axis=1)
     centres = random.normal(size=(count, 3)) * spread + [0, 0, 1] * high[:, None]
-    return _with_ends(random, sizes, centres, _axes(random, count, leaning), high)
+    return _with_ends(random, sizes, centres, _axes(random, count, tilted), high)
 
 
-def hairs(random, count, *, leaning, nearest=NEAREST):
+def hairs(random, count, *, tilted, nearest=NEAREST):
     """The same, but 2^nearest to 2⁻³⁰ radii from contact with a rim, a flat end or the wall below an end."""
     sizes = np.exp2(random.uniform(-3, 3, (count, 4)))
     alpha, gamma, b, d = sizes.T
     high, azimuth = random.uniform(-2, 2, count) * gamma, random.uniform(0, 2 * np.pi, count)
-    axis, level = _axes(random, count, leaning), np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1)
+    axis, level = _axes(random, count, tilted), np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1)
     kind = np.arange(count) % 3  # rim, flat end, wall
     height = np.where(kind == 2, high - random.uniform(0, 1, count) * d, high)
     radius = alpha * np.hypot(1, height / gamma)
@@ -84,8 +84,8 @@ def hairs(random, count, *, leaning, nearest=NEAREST):
     return _with_ends(random, sizes, centres, axis, high)
 
 
-def _axes(random, count, leaning):
-    return random.normal(size=(count, 3)) if leaning else np.tile([0.0, 0.0, 1.0], (count, 1))
+def _axes(random, count, tilted):
+    return random.normal(size=(count, 3)) if tilted else np.tile([0.0, 0.0, 1.0], (count, 1))
 
 
 def _with_ends(random, sizes, centres, axis, high):
@@ -119,7 +119,7 @@ def compare_positions(rows, kind, counts, every):
 
 def compare_ways(rows, kind, counts):
     """The same of ways: hits and times of the kernel beside the exact first contact."""
-    hits, times = answer_ways(rows)
+    hits, times = answer_sweeps(rows)
     for row, hit, at in zip(rows.tolist(), hits.tolist(), times.tolist(), strict=True):
         low, high, solid = row[13:]
         truth = passage(row[:4], row[4:7], row[7:10], row[10:13], z_min=low, z_max=high, solid=bool(solid))
@@ -151,10 +151,10 @@ def chunk_found(given, number):
     counts: Counter[tuple[str, str]] = Counter()
     random, near = np.random.default_rng([given.seed, number]), number % 2 == 1
     if given.ways:
-        rows = (near_a_rim if near else past_a_tower)(int(random.integers(2**31)), CHUNK, leaning=given.tilted)
+        rows = (near_a_rim if near else past_a_tower)(int(random.integers(2**31)), CHUNK, tilted=given.tilted)
         sentences = list(compare_ways(rows, "beside a rim" if near else RANDOM, counts))
     else:
-        rows = (hairs if near else random_rows)(random, CHUNK, leaning=given.tilted)
+        rows = (hairs if near else random_rows)(random, CHUNK, tilted=given.tilted)
         sentences = list(compare_positions(rows, "within 1e-9" if near else RANDOM, counts, given.mesh))
     return [[*key, count] for key, count in counts.items()], sentences
 

@@ -111,7 +111,7 @@ static size_t scene_in_parts(taken *these, order *call, int8_t *answers, hc_sign
     double room[3 * PART], *const at[3] = {room, room + PART, room + 2 * PART};
     hc_prepared made;
     hc_upright_parts upright;
-    hc_leaning_parts leaning;
+    hc_tilted_parts tilted;
     size_t refused = 0, start;
     if (!call->prepared) {
         sample_center(these, 63, at);
@@ -120,15 +120,15 @@ static size_t scene_in_parts(taken *these, order *call, int8_t *answers, hc_sign
     memcpy(&made, &call->scene, sizeof made);
     if (!made.valid) return kept != NULL ? count : hc_refuse_all(count, answers);
     if (made.upright) hc_begin_upright(&upright, call->question, made.probe, made.lines ? &made.of.upright : NULL, count, answers, kept);
-    else hc_begin_leaning(&leaning, call->question, made.probe, made.planes ? &made.of.leaning : NULL, count, answers, kept);
-    upright.fetch = leaning.fetch = 0;
+    else hc_begin_tilted(&tilted, call->question, made.probe, made.planes ? &made.of.tilted : NULL, count, answers, kept);
+    upright.fetch = tilted.fetch = 0;
     for (start = 0; start < count; start += PART) {
         const size_t some = count - start < PART ? count - start : PART;
         these->odd |= gathered_center(these->columns + 4, start, some, at);
         refused += made.upright ? hc_upright_part(&upright, start, some, at[0], at[1], at[2])
-                                : hc_leaning_part(&leaning, start, some, at[0], at[1], at[2]);
+                                : hc_tilted_part(&tilted, start, some, at[0], at[1], at[2]);
     }
-    return refused + (made.upright ? hc_end_upright(&upright) : hc_end_leaning(&leaning));
+    return refused + (made.upright ? hc_end_upright(&upright) : hc_end_tilted(&tilted));
 }
 
 static size_t scene_answers(taken *these, order *call, int8_t *answers, hc_signs *kept) {
@@ -150,9 +150,9 @@ static size_t scene_answers(taken *these, order *call, int8_t *answers, hc_signs
     return made.valid ? hc_ask_kept(call->question, &made, count, x, y, z, NULL, kept) : count;
 }
 
-/* The answers about a row of ten columns: it waits with those that are upright, or with those that lean. */
+/* The answers about a row of ten columns: it waits with those that are upright, or with those that are tilted. */
 static size_t row_waits(const hc_level_functions *level, int question, double numbers[MOST_COLUMNS][HC_BLOCK], int i, size_t place,
-                        hc_waiting *upright, hc_tilted_waiting *leaning, int8_t *answers) {
+                        hc_waiting *upright, hc_tilted_waiting *tilted, int8_t *answers) {
     double row[10];
     int k;
     for (k = 0; k < 10; k++) row[k] = numbers[k][i];
@@ -162,9 +162,9 @@ static size_t row_waits(const hc_level_functions *level, int question, double nu
         return upright->count == HC_BLOCK ? hc_settle(level, question, upright, answers) : 0;
     }
     hc_scale_axis(row + 7);
-    for (k = 0; k < 10; k++) leaning->columns[k * HC_BLOCK + leaning->count] = row[k];
-    leaning->places[leaning->count++] = place;
-    return leaning->count == HC_BLOCK ? hc_tilted_settle(level, question, leaning, answers) : 0;
+    for (k = 0; k < 10; k++) tilted->columns[k * HC_BLOCK + tilted->count] = row[k];
+    tilted->places[tilted->count++] = place;
+    return tilted->count == HC_BLOCK ? hc_tilted_settle(level, question, tilted, answers) : 0;
 }
 
 /* Answers of rows whose numbers lie in columns of their own: seven, or ten. */
@@ -174,22 +174,22 @@ static size_t rows_by_columns(taken *these, int question, int8_t *answers) {
     const size_t count = (size_t)these->count;
     double numbers[MOST_COLUMNS][HC_BLOCK];
     hc_waiting upright;
-    hc_tilted_waiting leaning;
+    hc_tilted_waiting tilted;
     size_t refused = 0, start, i;
     int k;
     memset(&upright, 0, sizeof upright);
-    memset(&leaning, 0, sizeof leaning);
+    memset(&tilted, 0, sizeof tilted);
     for (start = 0; start < count; start += HC_BLOCK) {
         const size_t some = count - start < HC_BLOCK ? count - start : HC_BLOCK;
         for (k = 0; k < width; k++)
             these->odd |= gathered(these->columns + k, start, some, width == 7 ? upright.columns + k * HC_BLOCK : numbers[k]);
         for (i = 0; i < some && width == 7; i++) upright.places[upright.count++] = start + i;
         for (i = 0; i < some && width == 10; i++)
-            refused += row_waits(level, question, numbers, (int)i, start + i, &upright, &leaning, answers);
+            refused += row_waits(level, question, numbers, (int)i, start + i, &upright, &tilted, answers);
         if (width == 7) refused += hc_settle(level, question, &upright, answers);
     }
     refused += hc_settle(level, question, &upright, answers);
-    return refused + hc_tilted_settle(level, question, &leaning, answers);
+    return refused + hc_tilted_settle(level, question, &tilted, answers);
 }
 
 /* Rows as C takes them: one behind the other. */
@@ -202,10 +202,10 @@ static int lie_behind_each_other(const taken *these, int width) {
 }
 
 static size_t row_answers(taken *these, int question, int8_t *answers) {
-    const int leans = these->axis[0] != 0 || these->axis[1] != 0 || !(these->axis[2] != 0 && these->axis[2] - these->axis[2] == 0);
+    const int is_tilted = these->axis[0] != 0 || these->axis[1] != 0 || !(these->axis[2] != 0 && these->axis[2] - these->axis[2] == 0);
     const double *const rows = (const double *)(const void *)these->columns[0].at;
     int k;
-    if (!these->has_axis && leans) { /* one for all rows */
+    if (!these->has_axis && is_tilted) { /* one for all rows */
         for (k = 0; k < 3; k++) these->columns[7 + k].format = 0, these->columns[7 + k].number = these->axis[k];
         these->has_axis = 1;
     }

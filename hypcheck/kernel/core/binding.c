@@ -293,7 +293,7 @@ static PyMethodDef functions[] = {
     {"set_slow_calls", py_set_slow_calls, METH_VARARGS, "set_slow_calls(classify, classify_scene, Prepared): what these call for any other call"},
     {"take", (PyCFunction)(void (*)(void))py_take, METH_FASTCALL, "take(sizes, x, y, z, out or None): take the arrays, do nothing"},
     {"nothing", (PyCFunction)(void (*)(void))py_nothing, METH_FASTCALL | METH_KEYWORDS, "nothing(...): be called, do nothing"},
-    {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of ways; a hit is 1, 0, 2 undecided, 127 invalid"},
+    {"passage", py_passage, METH_VARARGS, "passage(rows, hits, times=None): rows of sweeps; a hit is 1, 0, 2 undecided, 127 invalid"},
     {"classify_ended", py_classify_ended, METH_VARARGS, "classify_ended(rows, positions): rows of 13; 2 undecided, 127 invalid"},
     {"clearance", py_clearance, METH_VARARGS, "clearance(rows, positions, found) -> the number of invalid rows; eleven numbers a row"},
     {"position", (PyCFunction)(void (*)(void))py_position, METH_FASTCALL | METH_KEYWORDS,

@@ -87,13 +87,13 @@ PARTS = (
     "tilted_scene",
     "dispatch",
     "tilted",
-    "ways",
+    "sweeps",
     "twins",
     "sweep_times",
     "fine_sections",
     "ended_integers",
     "ended",
-    "ended_ways",
+    "ended_sweeps",
     "near",
 )
 
@@ -254,7 +254,7 @@ def pool_bits() -> tuple[int, int]:
 
 
 def tilted_kilobytes() -> int:
-    """What the stack holds at most for a row whose axis leans: the integers, and what calls them."""
+    """What the stack holds at most for a row whose axis is tilted: the integers, and what calls them."""
     bits, numbers = pool_bits()
     return -(-(bits // 8 + 16 * numbers + 24 * 1024) // 1024)
 
@@ -303,7 +303,7 @@ def _pool_size() -> list[str]:
 
 
 def _tilted() -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The program of a row that leans, before a multiplier is chosen, and after it."""
+    """The program of a row that is tilted, before a multiplier is chosen, and after it."""
     both = statements(tilted.TILTED, ("exterior", "interior", "decided"), VECTOR)
     first = len([step for step in tilted.TILTED.steps if step.name in tilted.BEFORE])
     return both[:first], both[first:]

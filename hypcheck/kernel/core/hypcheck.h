@@ -20,13 +20,13 @@
        HYPCHECK_SMALL_LIMBS      to do without 128-bit integers
 
    Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z; or 10, for an axis
-               that may lean: axis_x, axis_y, axis_z besides.
+               that may be tilted: axis_x, axis_y, axis_z besides.
    Alignment   that of double. Nothing has to be padded.
    Aliasing    inputs may overlap each other. The output must not overlap an input.
    NaN         and infinities, and sizes <= 0 or -0.0, make a row invalid; it is answered 127 and harms no other row.
                So does an axis that is 0, 0, 0 or not finite. A scene with invalid sizes, or such an axis, answers 127
                everywhere. -0.0 is 0 as a coordinate and in an axis.
-   Memory      nothing is allocated. The stack holds up to 114 kilobytes, 156 for axes that lean.
+   Memory      nothing is allocated. The stack holds up to 114 kilobytes, 156 for axes that are tilted.
    Threads     every function may be called from any number of threads at once. There is one global variable, the
                instruction set in use (below): it is written once with one value, or by hypcheck_use_level.
    Arithmetic  answers do not depend on the rounding mode, on flushing subnormals to zero, or on contraction into FMA;
@@ -90,14 +90,14 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 /* Whether a spheroid whose centre goes straight from one place to another meets contact, both ends included: rows
    of 10 doubles, alpha, gamma, b, d, the centre at the start and at the end. A hit is
 
-       1  contact somewhere on the way    0  clear all along    2  the bounds do not tell    127  the row is invalid
+       1  contact somewhere on the sweep    0  clear all along    2  the bounds do not tell    127  the row is invalid
 
-   and 1 and 0 are exact. 2 is said of ways that graze the surface, or end in tangency, and of sizes beyond 2^±100 and
+   and 1 and 0 are exact. 2 is said of sweeps that graze the surface, or end in tangency, and of sizes beyond 2^±100 and
    coordinates beyond 2^150; hypcheck.passage of Python decides these. `times` may be NULL; else it gets a time from 0 to
-   1 for each hit: before it the way is clear, and at it there is contact of the spheroid with b and d larger by
+   1 for each hit: before it the sweep is clear, and at it there is contact of the spheroid with b and d larger by
    2^-43 (1 + S), S being the sum of |x| and |y| in units of b and of |z| in units of d, of both ends; all are in units of
-   the smaller of b and d where the axis leans. NaN where there is no hit, or where the bounds do not tell when. Rows of 13
-   have axis_x, axis_y, axis_z behind these, which stay the same on the way. */
+   the smaller of b and d where the axis is tilted. NaN where there is no hit, or where the bounds do not tell when. Rows of 13
+   have axis_x, axis_y, axis_z behind these, which stay the same on the sweep. */
 void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times);
 void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
 
@@ -110,8 +110,8 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions);
 
 /* Rows of any of these widths. Positions: 7, 10 with an axis, 13 with z_min, z_max, solid behind it, as the functions above
-   answer them. Ways: 10, 13 with an axis, 16 with z_min, z_max, solid behind it; contact is then that of
-   hypcheck_classify_ended, so that a way may lead through an opening without any. 2 is also said of ways that miss, or meet,
+   answer them. Sweeps: 10, 13 with an axis, 16 with z_min, z_max, solid behind it; contact is then that of
+   hypcheck_classify_ended, so that a sweep may lead through an opening without any. 2 is also said of sweeps that miss, or meet,
    a rim, the wall or a flat end by less than about 2^-42 of the sizes. Of a time what is said above holds. Rows of another
    width are answered 127. */
 void hypcheck_classify_columns(size_t n, size_t width, const double *rows, int8_t *positions);
@@ -1394,7 +1394,7 @@ static int hc_exact_position(const double row[7]) {
 }
 
 
-/* ---- a spheroid whose axis leans: exact integers ---- */
+/* ---- a tilted spheroid: exact integers ---- */
 
 #define HC_CUT_BITS 128
 #define HC_TILTED_LIMBS (1070318 / HC_LIMB_BITS + 154) /* counted from the programs */
@@ -1473,7 +1473,7 @@ static uint64_t hc_word(double value) {
     return word;
 }
 
-/* Whether the spheroid of a valid row of ten is an upright one: its axis does not lean, or it is a sphere. */
+/* Whether the spheroid of a valid row of ten is an upright one: its axis is not tilted, or it is a sphere. */
 static int hc_is_upright(const double row[10]) {
     return ((hc_word(row[7]) | hc_word(row[8])) << 1 == 0) || hc_word(row[2]) == hc_word(row[3]);
 }
@@ -1775,7 +1775,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_5be0083c2a783815
+#ifndef HC_EDITION_dd8ee4413b07106f
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -2578,7 +2578,7 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 }
 
 
-/* ---- spheroids whose axis leans: the public functions ---- */
+/* ---- tilted spheroids: the public functions ---- */
 
 typedef struct {
     double columns[10 * HC_BLOCK];
@@ -2639,11 +2639,11 @@ static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc
 /* Rows begin with the ten numbers, and are `width` doubles apart. */
 static size_t hc_ask_rows(int question, size_t n, size_t width, const double *rows, int8_t *answers) {
     const hc_level_functions *level = hc_level();
-    hc_tilted_waiting leaning;
+    hc_tilted_waiting tilted;
     hc_waiting upright;
     size_t refused = 0, i;
     int k;
-    memset(&leaning, 0, sizeof leaning);
+    memset(&tilted, 0, sizeof tilted);
     memset(&upright, 0, sizeof upright);
     for (i = 0; i < n; i++) {
         const double *const row = rows + width * i;
@@ -2654,14 +2654,14 @@ static size_t hc_ask_rows(int question, size_t n, size_t width, const double *ro
         } else {
             double axis[3] = {row[7], row[8], row[9]};
             hc_scale_axis(axis);
-            for (k = 0; k < 7; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
-            for (k = 7; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = axis[k - 7];
-            leaning.places[leaning.count++] = i;
-            if (leaning.count == HC_BLOCK) refused += hc_tilted_settle(level, question, &leaning, answers);
+            for (k = 0; k < 7; k++) tilted.columns[k * HC_BLOCK + tilted.count] = row[k];
+            for (k = 7; k < 10; k++) tilted.columns[k * HC_BLOCK + tilted.count] = axis[k - 7];
+            tilted.places[tilted.count++] = i;
+            if (tilted.count == HC_BLOCK) refused += hc_tilted_settle(level, question, &tilted, answers);
         }
     }
     refused += hc_settle(level, question, &upright, answers);
-    return refused + hc_tilted_settle(level, question, &leaning, answers);
+    return refused + hc_tilted_settle(level, question, &tilted, answers);
 }
 
 size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
@@ -2688,10 +2688,10 @@ typedef struct {
     int8_t *answers;
     hc_tilted_waiting waiting;
     hc_tilted_scene scene;
-} hc_leaning_parts;
+} hc_tilted_parts;
 
 /* `probe` has sizes and axis as a row. `known` has the half spaces, or is NULL where the first stage is left out. */
-static void hc_begin_leaning(hc_leaning_parts *run, int question, const double probe[10], const hc_tilted_scene *known, size_t n,
+static void hc_begin_tilted(hc_tilted_parts *run, int question, const double probe[10], const hc_tilted_scene *known, size_t n,
                              int8_t *answers, hc_signs *kept) {
     int k;
     run->level = hc_level();
@@ -2709,7 +2709,7 @@ static void hc_begin_leaning(hc_leaning_parts *run, int question, const double p
 }
 
 /* As hc_upright_part. */
-static size_t hc_leaning_part(hc_leaning_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
+static size_t hc_tilted_part(hc_tilted_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
     const int blocks = run->has_planes ? (int)(count / HC_BLOCK) : 0;
     const size_t beyond = (size_t)(HC_BLOCK * blocks);
     hc_signs own[HC_STRIP / HC_BLOCK], *const signs = run->kept != NULL ? run->kept + start / HC_BLOCK : own;
@@ -2737,18 +2737,18 @@ static size_t hc_leaning_part(hc_leaning_parts *run, size_t start, size_t count,
     return refused;
 }
 
-static size_t hc_end_leaning(hc_leaning_parts *run) {
+static size_t hc_end_tilted(hc_tilted_parts *run) {
     return hc_tilted_settle(run->level, run->question, &run->waiting, run->answers);
 }
 
-static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
+static size_t hc_ask_tilted(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
                              const double *y, const double *z, int8_t *answers, hc_signs *kept) {
-    hc_leaning_parts run;
+    hc_tilted_parts run;
     size_t refused = 0, start;
-    hc_begin_leaning(&run, question, probe, known, n, answers, kept);
+    hc_begin_tilted(&run, question, probe, known, n, answers, kept);
     for (start = 0; start < n; start += HC_STRIP)
-        refused += hc_leaning_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
-    return refused + hc_end_leaning(&run);
+        refused += hc_tilted_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
+    return refused + hc_end_tilted(&run);
 }
 
 size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
@@ -2760,7 +2760,7 @@ size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const doub
     if (hc_is_upright(probe)) return hypcheck_ask_scene(question, sizes, n, x, y, z, answers);
     hc_scale_axis(probe + 7);
     has_planes = n >= HC_PLANES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
-    return hc_ask_leaning(question, probe, has_planes ? &scene : NULL, n, x, y, z, answers, NULL);
+    return hc_ask_tilted(question, probe, has_planes ? &scene : NULL, n, x, y, z, answers, NULL);
 }
 
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions) {
@@ -2780,7 +2780,7 @@ typedef struct {
     int valid, upright, lines, planes;
     union {
         hc_scene upright;
-        hc_tilted_scene leaning;
+        hc_tilted_scene tilted;
     } of;
 } hc_prepared;
 
@@ -2794,8 +2794,8 @@ static void hc_prepare_lines(hc_prepared *made, size_t n, const double *x, const
     if (made->upright) {
         made->lines = hc_make_scene(&made->of.upright, sizes, n, z);
     } else {
-        made->planes = hc_make_tilted_scene(&made->of.leaning, sizes, made->probe + 7, n, x, y, z);
-        if (made->planes) hc_make_planes(&made->of.leaning, 1, 2), made->of.leaning.has_two = 1;
+        made->planes = hc_make_tilted_scene(&made->of.tilted, sizes, made->probe + 7, n, x, y, z);
+        if (made->planes) hc_make_planes(&made->of.tilted, 1, 2), made->of.tilted.has_two = 1;
     }
 }
 
@@ -2818,7 +2818,7 @@ static size_t hc_ask_kept(int question, const hc_prepared *made, size_t n, const
                           int8_t *answers, hc_signs *kept) {
     if (made->upright)
         return hc_ask_upright(question, made->probe, made->lines ? &made->of.upright : NULL, n, x, y, z, answers, kept);
-    return hc_ask_leaning(question, made->probe, made->planes ? &made->of.leaning : NULL, n, x, y, z, answers, kept);
+    return hc_ask_tilted(question, made->probe, made->planes ? &made->of.tilted : NULL, n, x, y, z, answers, kept);
 }
 
 size_t hypcheck_ask_prepared(int question, const hypcheck_scene *scene, size_t n, const double *x, const double *y,
@@ -2828,27 +2828,27 @@ size_t hypcheck_ask_prepared(int question, const hypcheck_scene *scene, size_t n
     return made.valid ? hc_ask_kept(question, &made, n, x, y, z, answers, NULL) : hc_refuse_all(n, answers);
 }
 
-/* ---- straight ways ---- */
+/* ---- sweeps: straight motions ---- */
 
-#define HC_WAY_STEPS 128
+#define HC_SWEEP_STEPS 128
 #define HC_SHORTEST 7.1054273576010019e-15 /* 2^-47: a shorter step says that steps come to nothing here */
-#define HC_FARTHEST_WAY 1.4272476927059599e+45 /* 2^150, limit of coordinates: R and T stay below the cap */
+#define HC_FARTHEST_SWEEP 1.4272476927059599e+45 /* 2^150, limit of coordinates: R and T stay below the cap */
 #define HC_GREATEST_SLACK 0.25
 #define HC_SEEN 64 /* slacks by which a spheroid grown has contact at the time that is called its first */
 
-/* A way from a float centre: `change` is the rounded difference of both ends. At a computed centre, and along `change`
-   from there up to the end of the way, the exact centre lies within `slack` of the computed one, in radii. For each
+/* A sweep from a float centre: `change` is the rounded difference of both ends. At a computed centre, and along `change`
+   from there up to the end of the sweep, the exact centre lies within `slack` of the computed one, in radii. For each
    coordinate the change is rounded once, and so are its product with the time and the sum: each by u (|from| + |to|) at
    most, up to second order, which makes 3u (1 + 4u) (|from| + |to|). slack = 4u (1 + the sum of these in radii), with
-   the rest for its own rounding and that of b (1 + slack) and b (1 - slack). Where the axis leans, the smaller of b and d
+   the rest for its own rounding and that of b (1 + slack) and b (1 - slack). Where the axis is tilted, the smaller of b and d
    is the radius. */
 typedef struct {
     double sizes[4], from[3], change[3], slack;
     double v;           /* where the multiplier was found last */
     const double *axis; /* NULL where it is vertical */
-    hc_tilted_scene poles; /* of the spheroid larger by the slack, where it leans, as the basis is */
+    hc_tilted_scene poles; /* of the spheroid larger by the slack, where it is tilted, as the basis is */
     hc_ball basis[3][3], along[3];
-} hc_way;
+} hc_sweep;
 
 /* The components of a place in the basis. */
 static void hc_components(hc_ball components[3], hc_ball basis[3][3], const double place[3]) {
@@ -2860,41 +2860,41 @@ static void hc_components(hc_ball components[3], hc_ball basis[3][3], const doub
 }
 
 /* Returns 0 where the numbers are too large or small for the bounds. */
-static int hc_make_way(hc_way *way, const double row[10], const double *axis) {
+static int hc_make_sweep(hc_sweep *sweep, const double row[10], const double *axis) {
     const double least = row[2] < row[3] ? row[2] : row[3];
     double sum = 0, larger[4];
     int k;
     for (k = 0; k < 4; k++) {
-        way->sizes[k] = row[k];
+        sweep->sizes[k] = row[k];
         if (!(row[k] > HC_least_size && row[k] < HC_greatest_size)) return 0;
     }
     for (k = 0; k < 3; k++) {
         const double from = row[4 + k], to = row[7 + k], reach = hc_size(from) + hc_size(to);
-        if (!(reach < HC_FARTHEST_WAY)) return 0;
-        way->from[k] = from;
-        way->change[k] = to - from;
+        if (!(reach < HC_FARTHEST_SWEEP)) return 0;
+        sweep->from[k] = from;
+        sweep->change[k] = to - from;
         sum += reach / (axis ? least : row[k == 2 ? 3 : 2]);
     }
-    way->slack = HC_u_4 * (1 + sum);
-    way->v = 0;
-    way->axis = axis;
-    if (!(HC_FLOATS_DECIDE && way->slack < HC_GREATEST_SLACK)) return 0;
+    sweep->slack = HC_u_4 * (1 + sum);
+    sweep->v = 0;
+    sweep->axis = axis;
+    if (!(HC_FLOATS_DECIDE && sweep->slack < HC_GREATEST_SLACK)) return 0;
     if (axis) {
-        for (k = 0; k < 4; k++) larger[k] = k < 2 ? row[k] : row[k] * (1 + way->slack);
-        hc_basis(&way->poles, way->basis, larger, axis);
-        hc_components(way->along, way->basis, way->change);
+        for (k = 0; k < 4; k++) larger[k] = k < 2 ? row[k] : row[k] * (1 + sweep->slack);
+        hc_basis(&sweep->poles, sweep->basis, larger, axis);
+        hc_components(sweep->along, sweep->basis, sweep->change);
     }
     return 1;
 }
 
 /* The spheroid at a time, b and d multiplied. */
-static void hc_way_at(const hc_way *way, double time, double scale, double row[7]) {
+static void hc_sweep_at(const hc_sweep *sweep, double time, double scale, double row[7]) {
     int k;
-    for (k = 0; k < 4; k++) row[k] = k < 2 ? way->sizes[k] : way->sizes[k] * scale;
-    for (k = 0; k < 3; k++) row[4 + k] = way->from[k] + time * way->change[k];
+    for (k = 0; k < 4; k++) row[k] = k < 2 ? sweep->sizes[k] : sweep->sizes[k] * scale;
+    for (k = 0; k < 3; k++) row[4 + k] = sweep->from[k] + time * sweep->change[k];
 }
 
-/* The exact position of a valid row of seven, with an axis if it leans. */
+/* The exact position of a valid row of seven, with an axis if it is tilted. */
 static int hc_position_with(const double row[7], const double *axis) {
     double ten[10];
     hc_bits found;
@@ -2907,16 +2907,16 @@ static int hc_position_with(const double row[7], const double *axis) {
 
 /* Whether the spheroid, b and d multiplied, has contact at a computed centre. With less than its slack that is contact of
    the spheroid itself at the exact centre. */
-static int hc_way_touches(const hc_way *way, double time, double scale) {
+static int hc_sweep_touches(const hc_sweep *sweep, double time, double scale) {
     double row[7];
-    hc_way_at(way, time, scale, row);
-    return hc_position_with(row, way->axis) == 0;
+    hc_sweep_at(sweep, time, scale, row);
+    return hc_position_with(row, sweep->axis) == 0;
 }
 
 /* About the multiplier at which a half plane of that side lies farthest from a centre of height Q: the root of
    A/m² = 1 + Q (A+B)/(B - side m)². With m = B v/(1 + side v) that is E(v) = v² (B²/(1 + side v)² + W) = A; Newton's method
    between bounds, from where it was before. Any result is safe. */
-static double hc_way_multiplier(double A, double B, double Q, int side, double *before) {
+static double hc_sweep_multiplier(double A, double B, double Q, int side, double *before) {
     const double W = Q * (A + B), root = hc_rough_root(A), room = B - side * root;
     double low = 0, high = room > 0 ? root / room : HC_cap, v;
     int i;
@@ -2970,7 +2970,7 @@ static void hc_tangent_high(const double sizes[4], double mu, hc_line *line) {
    here/(√D - slope), D = slope² - here bend. D is off by 3u of its terms' sizes at most, hence 4u; Heron's step is not
    below the root of what it is asked, but for its 4 roundings. What underflows in D is below 2^-1020, so 2^-500 covers it;
    that costs nothing where `here` is not below 2^-402; it is 0 or more than that beside half planes. */
-static double hc_way_root(double here, double slope, double bend) {
+static double hc_sweep_root(double here, double slope, double bend) {
     const double square = slope * slope, product = here * bend, size = hc_size(product);
     const double most = square - product + HC_u_4 * (square + size);
     double root = 3.0549363634996047e-151 /* 2^-500 */, bottom;
@@ -2984,10 +2984,10 @@ static double hc_way_root(double here, double slope, double bend) {
     return bottom > 0 && here < 2 * bottom ? here / bottom * HC_less : 2;
 }
 
-/* The same for a spheroid that leans: the m at which side (P1/(A1+l) + P2/(A2+l) - Q/(B-l) - 1 - 1/l), l = side m, is
+/* The same for a tilted spheroid: the m at which side (P1/(A1+l) + P2/(A2+l) - Q/(B-l) - 1 - 1/l), l = side m, is
    greatest: P1 (m/(A1+l))² + P2 (m/(A2+l))² + Q (m/(B-l))² = 1, which rises with m, m = pole v/(1 + v). */
-static double hc_leaning_multiplier(const hc_way *way, const hc_ball at[3], int side, double *before) {
-    const double poles[3] = {way->poles.A1.v, way->poles.A2.v, way->poles.B.v};
+static double hc_tilted_sweep_multiplier(const hc_sweep *sweep, const hc_ball at[3], int side, double *before) {
+    const double poles[3] = {sweep->poles.A1.v, sweep->poles.A2.v, sweep->poles.B.v};
     const double nearer = poles[0] < poles[1] ? poles[0] : poles[1], pole = side > 0 ? poles[2] : nearer;
     double low = 0, high = 1 / HC_settled, v = *before > 0 ? *before : 1; /* below `high`: each one kept was, and lost HC_settled² */
     int i, k;
@@ -3010,22 +3010,22 @@ static double hc_leaning_multiplier(const hc_way *way, const hc_ball at[3], int 
     return side * pole * v / (1 + v);
 }
 
-/* As hc_way_reach, for a spheroid that leans. With l fixed, side (P1/(A1+l) + P2/(A2+l) - Q/(B-l) - 1 - 1/l) > 0 proves the
-   side, and is quadratic along the way; numbers with bounds compute it. */
-static double hc_leaning_reach(hc_way *way, const double place[3], int position) {
-    const hc_ball *const poles[3] = {&way->poles.A1, &way->poles.A2, &way->poles.B};
+/* As hc_sweep_reach, for a tilted spheroid. With l fixed, side (P1/(A1+l) + P2/(A2+l) - Q/(B-l) - 1 - 1/l) > 0 proves the
+   side, and is quadratic along the sweep; numbers with bounds compute it. */
+static double hc_tilted_sweep_reach(hc_sweep *sweep, const double place[3], int position) {
+    const hc_ball *const poles[3] = {&sweep->poles.A1, &sweep->poles.A2, &sweep->poles.B};
     const hc_ball one = hc_exactly(1), nothing = hc_exactly(0);
     hc_ball at[3], sums[3], l;
     double lower[3];
     int i, k;
-    hc_components(at, way->basis, place);
-    l = hc_exactly(hc_leaning_multiplier(way, at, position, &way->v));
+    hc_components(at, sweep->basis, place);
+    l = hc_exactly(hc_tilted_sweep_multiplier(sweep, at, position, &sweep->v));
     sums[0] = hc_minus(nothing, hc_plus(one, hc_over(one, l)));
     sums[1] = sums[2] = nothing;
     for (i = 0; i < 3; i++) {
         const hc_ball from = i < 2 ? hc_plus(*poles[i], l) : hc_minus(*poles[i], l), weight = hc_over(one, from);
-        const hc_ball here = hc_times(at[i], at[i]), slope = hc_times(at[i], way->along[i]);
-        const hc_ball parts[3] = {here, slope, hc_times(way->along[i], way->along[i])};
+        const hc_ball here = hc_times(at[i], at[i]), slope = hc_times(at[i], sweep->along[i]);
+        const hc_ball parts[3] = {here, slope, hc_times(sweep->along[i], sweep->along[i])};
         if (!(hc_at_least(from) > 0)) return 0;
         for (k = 0; k < 3; k++) {
             const hc_ball part = hc_times(parts[k], weight);
@@ -3036,20 +3036,20 @@ static double hc_leaning_reach(hc_way *way, const double place[3], int position)
         lower[k] = hc_at_least(position > 0 ? sums[k] : hc_minus(nothing, sums[k]));
         if (!(hc_size(lower[k]) < HC_cap)) return 0; /* as where nothing is known */
     }
-    return position * l.v > 0 ? hc_way_root(lower[0], lower[1], lower[2]) : 0;
+    return position * l.v > 0 ? hc_sweep_root(lower[0], lower[1], lower[2]) : 0;
 }
 
-/* How far from a time the spheroid is proved to stay on that side: a part of the whole way, 2 to its end, 0 where
+/* How far from a time the spheroid is proved to stay on that side: a part of the whole sweep, 2 to its end, 0 where
    nothing is proved. */
-static double hc_way_reach(hc_way *way, double time, int position) {
+static double hc_sweep_reach(hc_sweep *sweep, double time, int position) {
     const double u_8 = HC_u_8, side = position;
     double row[7];
     hc_line half_plane;
-    hc_way_at(way, time, 1 + way->slack, row);
-    if (way->axis) return hc_leaning_reach(way, row + 4, position);
+    hc_sweep_at(sweep, time, 1 + sweep->slack, row);
+    if (sweep->axis) return hc_tilted_sweep_reach(sweep, row + 4, position);
     {
         const double a = row[0] / row[2], c = row[1] / row[3], q = row[6] / row[3];
-        const double at = hc_way_multiplier(a * a, c * c, q * q, position, &way->v);
+        const double at = hc_sweep_multiplier(a * a, c * c, q * q, position, &sweep->v);
         if (position > 0) hc_tangent_beyond(row, at, &half_plane);
         else if (at > 1) hc_tangent_within(row, at, &half_plane);
         else hc_tangent_high(row, at, &half_plane);
@@ -3057,7 +3057,7 @@ static double hc_way_reach(hc_way *way, double time, int position) {
     if (half_plane.K == HC_NEVER || half_plane.K == -1) return 0;
     {
         const double x = row[4], y = row[5], z = row[6], K = half_plane.K, M = half_plane.M;
-        const double u = way->change[0], v = way->change[1], w = way->change[2];
+        const double u = sweep->change[0], v = sweep->change[1], w = sweep->change[2];
         /* printed from the program "piece" */
         const double xx = x * x;
         const double yy = y * y;
@@ -3099,26 +3099,26 @@ static double hc_way_reach(hc_way *way, double time, int position) {
         const double size_ends = size_here + size_bend;
         const double size = size_ends + size_slope;
         /* end of the program "piece" */
-        return size < HC_cap ? hc_way_root(here, slope, bend) : 0;
+        return size < HC_cap ? hc_sweep_root(here, slope, bend) : 0;
     }
 }
 
 /* A time of contact not long after one from which steps come to nothing; 2 where none is found. */
-static double hc_way_look(const hc_way *way, double time) {
+static double hc_sweep_look(const hc_sweep *sweep, double time) {
     double ahead;
     for (ahead = HC_SHORTEST; time + ahead < 1; ahead *= 8)
-        if (hc_way_touches(way, time + ahead, 1 - way->slack)) return time + ahead;
+        if (hc_sweep_touches(sweep, time + ahead, 1 - sweep->slack)) return time + ahead;
     return 2;
 }
 
-static double hc_nearest_time(hc_way *way, const double row[10], int side, double clear, double contact); /* sweep_times.h */
+static double hc_nearest_time(hc_sweep *sweep, const double row[10], int side, double clear, double contact); /* sweep_times.h */
 
-/* 1, 0, or 2 where the bounds do not tell, for a valid row, with an axis if it leans; the time is NULL where it is not
+/* 1, 0, or 2 where the bounds do not tell, for a valid row, with an axis if it is tilted; the time is NULL where it is not
    wanted. */
 static int hc_passage_of(const double row[10], const double *axis, double *time) {
     double end_row[7], contact, now = 0;
     int start, end, step;
-    hc_way way;
+    hc_sweep sweep;
     memcpy(end_row, row, 4 * sizeof *row);
     memcpy(end_row + 4, row + 7, 3 * sizeof *row);
     start = hc_position_with(row, axis);
@@ -3129,22 +3129,22 @@ static int hc_passage_of(const double row[10], const double *axis, double *time)
     }
     contact = end == start ? 2 : 1; /* a time of contact, 2 while none is known: between unlike positions there is one */
     if (contact < 2 && !time) return 1;
-    if (!hc_make_way(&way, row, axis)) return contact < 2 ? 1 : 2;
-    for (step = 0; step < HC_WAY_STEPS; step++) {
-        const double reach = hc_way_reach(&way, now, start);
+    if (!hc_make_sweep(&sweep, row, axis)) return contact < 2 ? 1 : 2;
+    for (step = 0; step < HC_SWEEP_STEPS; step++) {
+        const double reach = hc_sweep_reach(&sweep, now, start);
         if (reach * HC_less >= 1 - now) return 0;
         if (!(reach > HC_SHORTEST)) break;
         now += reach - 2 * HC_u_4; /* rounding adds 2^-52 at most */
-        if (now + 0.5 * reach < contact && now + 0.5 * reach < 1 && hc_way_touches(&way, now + 0.5 * reach, 1 - way.slack)) {
+        if (now + 0.5 * reach < contact && now + 0.5 * reach < 1 && hc_sweep_touches(&sweep, now + 0.5 * reach, 1 - sweep.slack)) {
             contact = now + 0.5 * reach;
             if (!time) return 1;
         }
     }
-    if (contact == 2) contact = hc_way_look(&way, now);
+    if (contact == 2) contact = hc_sweep_look(&sweep, now);
     if (contact == 2) return 2;
     if (time) {
-        now = hc_nearest_time(&way, row, start, now, contact);
-        if (hc_way_touches(&way, now, 1 + HC_SEEN * way.slack)) *time = now;
+        now = hc_nearest_time(&sweep, row, start, now, contact);
+        if (hc_sweep_touches(&sweep, now, 1 + HC_SEEN * sweep.slack)) *time = now;
     }
     return 1;
 }
@@ -3312,7 +3312,7 @@ static hc_twin hc_fine_pole(const hc_fine_sweep *made, hc_fine_ball d2) {
     return made->side < 0 && other.high < root.high ? other : root;
 }
 
-/* h is scaled by a power of two, so that no square of it is lost where the axis leans by a hair, and all lengths by the one
+/* h is scaled by a power of two, so that no square of it is lost where the axis is tilted by a hair, and all lengths by the one
    that makes b about 1, so that no product of them is too large. */
 static void hc_make_fine_sweep(hc_fine_sweep *made, const double row[10], const double *axis, int side) {
     const uint64_t power = (2046 - (hc_word(row[2]) >> 52)) << 52;
@@ -3359,7 +3359,7 @@ static void hc_make_fine_sweep(hc_fine_sweep *made, const double row[10], const 
     made->pole = hc_fine_pole(made, d2);
 }
 
-/* As hc_leaning_multiplier, v itself: l = side pole v/(1 + v), where v may be so large that l is next to its pole. */
+/* As hc_tilted_sweep_multiplier, v itself: l = side pole v/(1 + v), where v may be so large that l is next to its pole. */
 static double hc_share_of_pole(const double poles[3], const double at[3], int side, double before) {
     const double nearer = poles[0] < poles[1] ? poles[0] : poles[1], pole = side > 0 ? poles[2] : nearer;
     double low = 0, high = HC_NEAREST_POLE, v = before > 0 && before < high ? before : 1;
@@ -3385,7 +3385,7 @@ static double hc_share_of_pole(const double poles[3], const double at[3], int si
     return v;
 }
 
-/* As hc_way_reach, for the exact spheroid. With H of the hyperboloid, c^T (E^-1 l + H^-1)^-1 c - 1 - 1/l, times the side,
+/* As hc_sweep_reach, for the exact spheroid. With H of the hyperboloid, c^T (E^-1 l + H^-1)^-1 c - 1 - 1/l, times the side,
    is > 0 beside contact, if l E^-1 + H^-1 has two eigenvalues > 0 and one < 0, as it has at l = 0 and up to the poles. It is
    a sum of three squares over their pivots, the one that vanishes at the pole eliminated last. */
 static double hc_fine_reach(const hc_fine_sweep *made, hc_twin multiplier, double now) {
@@ -3426,25 +3426,25 @@ static double hc_fine_reach(const hc_fine_sweep *made, hc_twin multiplier, doubl
         lower[k] = hc_fine_at_least(hc_fine_times(hc_fine(made->side), sums[k]));
         if (!(hc_size(lower[k]) < HC_cap)) return 0;
     }
-    return hc_way_root(lower[0], lower[1], lower[2]);
+    return hc_sweep_root(lower[0], lower[1], lower[2]);
 }
 
 /* A time up to which the sweep is clear, as near to its first contact as steps by numbers of two doubles come; `clear` is such
    a time and `contact` one of contact. Each step ends below a root, rounded down. */
-static double hc_nearest_time(hc_way *way, const double row[10], int side, double clear, double contact) {
+static double hc_nearest_time(hc_sweep *sweep, const double row[10], int side, double clear, double contact) {
     const double a = row[0] / row[2], c = row[1] / row[3];
     double poles[3] = {a * a, a * a, c * c}, v = 0;
     hc_fine_sweep made;
     int step, k;
-    if (way->axis) poles[0] = way->poles.A1.v, poles[1] = way->poles.A2.v, poles[2] = way->poles.B.v;
-    hc_make_fine_sweep(&made, row, way->axis, side);
+    if (sweep->axis) poles[0] = sweep->poles.A1.v, poles[1] = sweep->poles.A2.v, poles[2] = sweep->poles.B.v;
+    hc_make_fine_sweep(&made, row, sweep->axis, side);
     for (step = 0; step < HC_TIME_STEPS; step++) {
         double place[3], at[3], reach, next;
         hc_twin l, sum;
-        for (k = 0; k < 3; k++) place[k] = way->from[k] + clear * way->change[k];
-        if (way->axis) {
+        for (k = 0; k < 3; k++) place[k] = sweep->from[k] + clear * sweep->change[k];
+        if (sweep->axis) {
             hc_ball components[3];
-            hc_components(components, way->basis, place);
+            hc_components(components, sweep->basis, place);
             for (k = 0; k < 3; k++) at[k] = components[k].v;
         } else {
             for (k = 0; k < 3; k++) at[k] = place[k] / row[k < 2 ? 2 : 3];
@@ -3992,7 +3992,7 @@ void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) 
     }
 }
 
-/* ---- straight ways beside hyperboloids that end ---- */
+/* ---- straight sweeps beside hyperboloids that end ---- */
 
 #define HC_MOST_RECTANGLES 1024 /* that are looked at before a stretch is given up */
 #define HC_RECTANGLES_KEPT 64
@@ -4000,25 +4000,25 @@ void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions) 
 #define HC_SMALL 9.5367431640625e-07 /* 2^-20 */
 #define HC_TIMES 60 /* halvings of the time before a contact, of which so many, one after the other, may tell nothing */
 #define HC_MOST_UNKNOWN 12
-#define HC_FINE_SLACK 2.8421709430404007e-14 /* 2^-45, of the way's slack: 2^-96 (1 + the sum in radii) */
+#define HC_FINE_SLACK 2.8421709430404007e-14 /* 2^-45, of the sweep's slack: 2^-96 (1 + the sum in radii) */
 #define HC_NEAR_CONTACT 8 /* errors of a form, within which numbers of two doubles are asked */
 #define HC_SIMPLE_TIMES 1048576.0 /* 2^20: times that are asked exactly are whole numbers over this */
 
-/* A way, and the sections of the spheroid larger by its slack, which holds the exact one at all times, and of the one
+/* A sweep, and the sections of the spheroid larger by its slack, which holds the exact one at all times, and of the one
    smaller by it, which the exact one holds. `rise`, `off` and `aside` are what z, eta and xi0 change in a unit of time.
 
    `outer` and `inner` are the same by numbers of two doubles: from + t (to - from) is right within 2^-98 (|from| + |to|),
    which makes a slack of 2^-96 (1 + the sum in radii), and squares are multiplied by 1 + 4 slack and 1 - 4 slack. `between`
    are the sections of the spheroid as it is, for slopes. `wide` is |x| + |y| of both ends, `tall` |z| of both. */
 typedef struct {
-    hc_way way;
+    hc_sweep sweep;
     hc_sections larger, smaller, between;
     hc_fine_sections outer, inner;
     hc_twin moved[3];
     double rise, off, aside, swift, reach, low, high, wide, tall;
     const double *row, *axis;
     int solid, wall, fine, clear[2]; /* `clear`: that there is no contact at the start, at the end */
-} hc_ended_way;
+} hc_ended_sweep;
 
 /* Heights and times. */
 typedef struct {
@@ -4030,19 +4030,19 @@ typedef struct {
     double value, by_height, by_time, xx, xy, yy;
 } hc_form;
 
-static int hc_make_ended_way(hc_ended_way *made, const double row[16], const double *axis) {
+static int hc_make_ended_sweep(hc_ended_sweep *made, const double row[16], const double *axis) {
     double shape[10] = {0};
-    if (!hc_make_way(&made->way, row, axis)) return 0;
-    hc_way_at(&made->way, 0, 1 + made->way.slack, shape);
+    if (!hc_make_sweep(&made->sweep, row, axis)) return 0;
+    hc_sweep_at(&made->sweep, 0, 1 + made->sweep.slack, shape);
     if (axis) memcpy(shape + 7, axis, 3 * sizeof *axis);
     else shape[9] = 1;
     shape[4] = shape[5] = shape[6] = 0;
     if (!hc_make_sections(&made->larger, shape)) return 0;
-    hc_way_at(&made->way, 0, 1 - made->way.slack, shape);
+    hc_sweep_at(&made->sweep, 0, 1 - made->sweep.slack, shape);
     shape[4] = shape[5] = shape[6] = 0;
     if (!hc_make_sections(&made->smaller, shape)) return 0;
-    hc_place_sections(&made->larger, made->way.change);
-    made->rise = made->way.change[2];
+    hc_place_sections(&made->larger, made->sweep.change);
+    made->rise = made->sweep.change[2];
     made->off = made->larger.eta;
     made->aside = made->larger.xi0;
     made->swift = made->larger.across;
@@ -4060,8 +4060,8 @@ static int hc_make_ended_way(hc_ended_way *made, const double row[16], const dou
 }
 
 /* What only numbers of two doubles need. */
-static void hc_make_finer(hc_ended_way *made) {
-    const double more = 4 * HC_FINE_SLACK * made->way.slack;
+static void hc_make_finer(hc_ended_sweep *made) {
+    const double more = 4 * HC_FINE_SLACK * made->sweep.slack;
     double shape[10] = {0};
     int k;
     if (made->fine) return;
@@ -4075,13 +4075,13 @@ static void hc_make_finer(hc_ended_way *made) {
     made->fine = 1;
 }
 
-static void hc_center_at(const hc_ended_way *made, double time, double center[3]) {
+static void hc_center_at(const hc_ended_sweep *made, double time, double center[3]) {
     int k;
-    for (k = 0; k < 3; k++) center[k] = made->way.from[k] + time * made->way.change[k];
+    for (k = 0; k < 3; k++) center[k] = made->sweep.from[k] + time * made->sweep.change[k];
 }
 
 /* The form of the sections that are placed at a time, about a height w. */
-static hc_form hc_form_about(const hc_ended_way *made, const hc_sections *pair, double lambda_, double w) {
+static hc_form hc_form_about(const hc_ended_sweep *made, const hc_sections *pair, double lambda_, double w) {
     const double f1 = lambda_ * pair->mu1 / (pair->mu1 + lambda_), f2 = lambda_ * pair->mu2 / (pair->mu2 + lambda_);
     const double t = w - pair->z, xi = pair->xi0 - pair->k * t, drift = made->aside + pair->k * made->rise;
     const double g = pair->ratio * pair->alpha, l2 = lambda_ * (g * g);
@@ -4097,7 +4097,7 @@ static hc_form hc_form_about(const hc_ended_way *made, const hc_sections *pair, 
 
 /* A bound of the errors of the form's terms together within these distances from its height and its time: each is right
    within 32u of its terms, f within 32u mu/(mu + lambda) of itself. Huge where numbers are too large. */
-static double hc_form_error(const hc_ended_way *made, const hc_sections *pair, double lambda_, double w, double x, double y) {
+static double hc_form_error(const hc_ended_sweep *made, const hc_sections *pair, double lambda_, double w, double x, double y) {
     const double n1 = pair->mu1 + lambda_, n2 = pair->mu2 + lambda_, g = pair->ratio * pair->alpha;
     const double top = hc_size(w - pair->z) + x + hc_size(made->rise) * y, wide = hc_size(w) + x;
     const double side = pair->across + made->swift * y, along = side + hc_size(pair->k) * top;
@@ -4127,7 +4127,7 @@ static double hc_form_least(const hc_form *form, const hc_rectangle *in, double 
 
 /* Moves a height and a time in a rectangle to about where max phi over lambda is least: the form with the bends that a
    lambda that follows adds to it. Any result is safe. */
-static double hc_aim(const hc_ended_way *made, hc_sections *pair, const hc_rectangle *in, double *height, double *time) {
+static double hc_aim(const hc_ended_sweep *made, hc_sections *pair, const hc_rectangle *in, double *height, double *time) {
     double w = *height, at = *time, center[3];
     int i;
     for (i = 0;; i++) {
@@ -4173,7 +4173,7 @@ static double hc_aim(const hc_ended_way *made, hc_sections *pair, const hc_recta
 }
 
 /* Whether a point of the circle at a height surely lies inside the smaller spheroid at a time. */
-static int hc_surely_met(hc_ended_way *made, double lambda_, double w, double time) {
+static int hc_surely_met(hc_ended_sweep *made, double lambda_, double w, double time) {
     static const double across[4] = {1, -1, 0, 0}, along[4] = {0, 0, 1, -1};
     hc_sections *const pair = &made->smaller;
     double center[3], r, xi;
@@ -4211,7 +4211,7 @@ static double hc_form_least_surely(const hc_form *form, const hc_rectangle *in, 
 
 /* Whether there is contact at a time that is a whole number over HC_SIMPLE_TIMES, and at which the centre is three doubles:
    an exact position shows it. The time comes first in the product, so that what is left of it is 0 where it is exact. */
-static int hc_touched_at(const hc_ended_way *made, double at, double *contact) {
+static int hc_touched_at(const hc_ended_sweep *made, double at, double *contact) {
     double row[13] = {0};
     int k;
     memcpy(row, made->row, 4 * sizeof *row);
@@ -4243,7 +4243,7 @@ static double hc_simplest_time(double first, double last) {
 
 /* The same at the simplest time of a rectangle and at the one next to a time, if these are not after the last that is asked
    about; `asked` is the one that was asked last. */
-static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, double time, double last, double *asked, double *contact) {
+static int hc_touched_about(const hc_ended_sweep *made, const hc_rectangle *in, double time, double last, double *asked, double *contact) {
     const double simplest = hc_simplest_time(in->first, in->last);
     const double next = (double)(int64_t)(time * HC_SIMPLE_TIMES + 0.5) / HC_SIMPLE_TIMES;
     const double before = *asked;
@@ -4254,7 +4254,7 @@ static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, do
 
 /* A rectangle by numbers of two doubles, about a height, a time and a lambda: 1 where it is surely clear, 0 where there is
    contact at *contact, 2 where neither is known, 3 where smaller rectangles may tell. */
-static int hc_finely_missed(hc_ended_way *made, double lambda_, double w, double time, const hc_rectangle *in, double *contact) {
+static int hc_finely_missed(hc_ended_sweep *made, double lambda_, double w, double time, const hc_rectangle *in, double *contact) {
     const double x = in->high - in->low;
     hc_sections *const pair = &made->between;
     double center[3], a, c, r, xi, value, error, pulls[2];
@@ -4292,12 +4292,12 @@ static int hc_finely_missed(hc_ended_way *made, double lambda_, double w, double
             *contact = time;
             return 0;
         }
-        return hc_size(value) > 4 * (error + 4 * HC_FINE_SLACK * made->way.slack * size) ? 3 : 2;
+        return hc_size(value) > 4 * (error + 4 * HC_FINE_SLACK * made->sweep.slack * size) ? 3 : 2;
     }
 }
 
 /* Cuts off the heights of a rectangle that the larger spheroid never reaches. Returns 0 where none is left. */
-static int hc_cut_to_reach(const hc_ended_way *made, hc_rectangle *of) {
+static int hc_cut_to_reach(const hc_ended_sweep *made, hc_rectangle *of) {
     double center[3], bottom, top;
     hc_center_at(made, of->first, center);
     bottom = top = center[2];
@@ -4312,7 +4312,7 @@ static int hc_cut_to_reach(const hc_ended_way *made, hc_rectangle *of) {
 }
 
 /* Whether the wall is surely missed from a time to another: 1; 0 where there is contact at *contact; else 2. */
-static int hc_wall_missed_between(hc_ended_way *made, double first, double last, double *contact) {
+static int hc_wall_missed_between(hc_ended_sweep *made, double first, double last, double *contact) {
     hc_rectangle kept[HC_RECTANGLES_KEPT];
     double asked = -1;
     int left = 1, seen = 0, unknown = 0;
@@ -4332,7 +4332,7 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
             *contact = time;
             return 0;
         }
-        if (hc_size(form.value) <= HC_NEAR_CONTACT * error * (1 + made->way.slack / HC_ENDED_ERROR)) {
+        if (hc_size(form.value) <= HC_NEAR_CONTACT * error * (1 + made->sweep.slack / HC_ENDED_ERROR)) {
             const int finely = hc_finely_missed(made, lambda_, w, time, &in, contact);
             if (finely == 0 || (finely > 1 && hc_touched_about(made, &in, time, last, &asked, contact))) return 0;
             if (finely == 2) unknown = 1;
@@ -4353,7 +4353,7 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
 
 /* Whether the spheroid, by numbers of two doubles, surely stays on one side of the plane at a height: as it lies beyond it
    at both times. The error is as in hc_finely_missed, of the first of its terms. */
-static int hc_finely_beyond(hc_ended_way *made, double w, double first, double last) {
+static int hc_finely_beyond(hc_ended_sweep *made, double w, double first, double last) {
     double sides[2];
     int k;
     hc_make_finer(made);
@@ -4369,7 +4369,7 @@ static int hc_finely_beyond(hc_ended_way *made, double w, double first, double l
 
 /* Whether the centre of the ellipse in the plane at a height surely lies outside the rim at a time, as the sections of the
    smaller spheroid are placed, and at all times within 4u of it. A coordinate is off by less than 8u of both its ends. */
-static int hc_center_beyond_rim(const hc_ended_way *made, double w) {
+static int hc_center_beyond_rim(const hc_ended_sweep *made, double w) {
     const hc_sections *const pair = &made->smaller;
     const double xi = pair->xi0 - pair->k * (w - pair->z), r = hc_radius(pair, w);
     const double along = made->wide + hc_size(pair->k) * (hc_size(w) + made->tall);
@@ -4379,10 +4379,10 @@ static int hc_center_beyond_rim(const hc_ended_way *made, double w) {
 /* The same of the disc at a height, whose rim the spheroid misses all the time. While it meets the plane, which is from one
    time to another, it stays within the rim or outside, and so does the centre of its ellipse in the plane: that tells at
    the time at which its centre is nearest to the plane, which is one of those, if there are any. If that is an end of the
-   way, at which there is no contact, there is none at any time: the computed time is off by 4u, in which the centre moves
+   sweep, at which there is no contact, there is none at any time: the computed time is off by 4u, in which the centre moves
    by less than a quarter of the radius, as the slack is below 1/4. */
-static int hc_disc_missed_between(hc_ended_way *made, double w, double first, double last, double *contact) {
-    const double time = hc_kept_within(made->rise == 0 ? first : (w - made->way.from[2]) / made->rise, first, last);
+static int hc_disc_missed_between(hc_ended_sweep *made, double w, double first, double last, double *contact) {
+    const double time = hc_kept_within(made->rise == 0 ? first : (w - made->sweep.from[2]) / made->rise, first, last);
     double center[3], under[2], share, near;
     int misses;
     if ((time == 0 && made->clear[0]) || (time == 1 && made->clear[1])) return 1;
@@ -4403,7 +4403,7 @@ static int hc_disc_missed_between(hc_ended_way *made, double w, double first, do
 }
 
 /* Whether wall and discs are surely missed from a time to another: 1; 0 where there is contact at *contact; else 2. */
-static int hc_missed_between(hc_ended_way *made, double first, double last, double *contact) {
+static int hc_missed_between(hc_ended_sweep *made, double first, double last, double *contact) {
     const double ends[2] = {made->low, made->high};
     int missed = made->wall ? hc_wall_missed_between(made, first, last, contact) : 1, k;
     for (k = 0; made->solid && k < 2 && missed == 1; k++)
@@ -4411,9 +4411,9 @@ static int hc_missed_between(hc_ended_way *made, double first, double last, doub
     return missed;
 }
 
-static int hc_ended_position_at(const hc_ended_way *made, const double *axis, double time, double scale) {
+static int hc_ended_position_at(const hc_ended_sweep *made, const double *axis, double time, double scale) {
     double row[13] = {0};
-    hc_way_at(&made->way, time, scale, row);
+    hc_sweep_at(&made->sweep, time, scale, row);
     if (axis) memcpy(row + 7, axis, 3 * sizeof *axis);
     else row[9] = 1;
     row[10] = made->low, row[11] = made->high, row[12] = made->solid;
@@ -4422,7 +4422,7 @@ static int hc_ended_position_at(const hc_ended_way *made, const double *axis, do
 
 /* A time before which there is no contact, and at which a spheroid that is a little larger has contact, in the sense of
    hypcheck_passage; NaN where none is found. */
-static double hc_first_time(hc_ended_way *made, const double *axis, double contact) {
+static double hc_first_time(hc_ended_sweep *made, const double *axis, double contact) {
     double clear = 0;
     int i, unknown = 0;
     for (i = 0; i < HC_TIMES && unknown < HC_MOST_UNKNOWN; i++) {
@@ -4435,7 +4435,7 @@ static double hc_first_time(hc_ended_way *made, const double *axis, double conta
         else contact = met < middle ? met : middle; /* or no more is known before it */
         unknown = missed == 2 ? unknown + 1 : 0;
     }
-    return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN * made->way.slack) == 0 ? clear : hc_nothing_known();
+    return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN * made->sweep.slack) == 0 ? clear : hc_nothing_known();
 }
 
 /* As hc_passage_of, for a valid row with heights behind the axis. */
@@ -4447,7 +4447,7 @@ static int hc_ended_passage(const double row[16], const double *axis, double *ti
     const int solid = row[15] != 0;
     double places[2][13], contact = 1;
     int positions[2], whole[2], endless, known, k;
-    hc_ended_way made;
+    hc_ended_sweep made;
     if (bottom - low > more && high - top > more) return hc_passage_of(row, axis, time);
     if (low - top > more || bottom - high > more) return 0;
     for (k = 0; k < 2; k++) {
@@ -4465,7 +4465,7 @@ static int hc_ended_passage(const double row[16], const double *axis, double *ti
     if (known && !time) return 1;
     endless = hc_passage_of(row, axis, NULL);
     if (endless == 0 && (!solid || whole[0] == 1)) return 0;
-    if (!hc_make_ended_way(&made, row, axis)) return known ? 1 : 2;
+    if (!hc_make_ended_sweep(&made, row, axis)) return known ? 1 : 2;
     made.wall = endless != 0;
     for (k = 0; k < 2; k++) made.clear[k] = positions[k] == 1 || positions[k] == -1;
     k = hc_missed_between(&made, 0, 1, &contact);
@@ -4474,14 +4474,14 @@ static int hc_ended_passage(const double row[16], const double *axis, double *ti
     return 1;
 }
 
-/* The rows of a question about ways: 10, 13 or 16 numbers each. */
+/* The rows of a question about sweeps: 10, 13 or 16 numbers each. */
 void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t *hits, double *times) {
     const double nan = hc_nothing_known();
     size_t i;
     for (i = 0; i < n; i++) {
         const double *const given = rows + width * i;
         double row[16] = {0}, end[7], *const axis = row + 10, *const heights = row + 13;
-        int valid = width == 10 || width == 13 || width == 16, leans;
+        int valid = width == 10 || width == 13 || width == 16, is_tilted;
         if (times) times[i] = nan;
         hits[i] = 127;
         if (!valid) continue;
@@ -4491,11 +4491,11 @@ void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t
         memcpy(end + 4, row + 7, 3 * sizeof *row);
         if (width == 16) valid = heights[0] < heights[1] && (heights[2] == 0 || heights[2] == 1);
         if (!(valid && hc_has_direction(axis) && hc_valid(row) && hc_valid(end))) continue;
-        leans = !((hc_word(axis[0]) | hc_word(axis[1])) << 1 == 0 || hc_word(row[2]) == hc_word(row[3]));
+        is_tilted = !((hc_word(axis[0]) | hc_word(axis[1])) << 1 == 0 || hc_word(row[2]) == hc_word(row[3]));
         hc_scale_axis(axis);
         hits[i] = (int8_t)(width == 16 && !(heights[0] < -DBL_MAX && heights[1] > DBL_MAX)
-                               ? hc_ended_passage(row, leans ? axis : NULL, times ? times + i : NULL)
-                               : hc_passage_of(row, leans ? axis : NULL, times ? times + i : NULL));
+                               ? hc_ended_passage(row, is_tilted ? axis : NULL, times ? times + i : NULL)
+                               : hc_passage_of(row, is_tilted ? axis : NULL, times ? times + i : NULL));
     }
 }
 
@@ -4719,7 +4719,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_5be0083c2a783815
+#define HC_EDITION_dd8ee4413b07106f
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
@@ -5639,7 +5639,7 @@ HC_TARGET static void HC_NAME(hc_two_lines_contact)(const hc_scene *scene, int b
         left[block] = ~(HC_NAME(hc_all_below)(sum, HC_cap) ? found.decided : 0);
     }
 }
-/* Near the multiplier at which the dual function of a leaning spheroid is greatest. It proves nothing: any result is safe,
+/* Near the multiplier at which the dual function of a tilted spheroid is greatest. It proves nothing: any result is safe,
    a good one leaves fewer rows to the integers. The poles are p = A1, A2 and B; C's components in the basis that both
    matrices are diagonal in, squared, are P1, P2 and Q. With S = A1 P1/(A1+l)² + A2 P2/(A2+l)² and T = 1 + B Q/(B-l)²,
    Newton's method solves 1/√S = 1/√T, whose sides are straight for a single term: from `l`, by `turns` steps at most. */
@@ -5671,7 +5671,7 @@ HC_TARGET static inline HC_NUMBER HC_NAME(hc_tilted_multiplier)(HC_NUMBER p, HC_
     return l;
 }
 
-/* Rows of ten that lean, by columns as in hc_certified. */
+/* Tilted rows of ten, by columns as in hc_certified. */
 HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride, int count) {
     hc_bits found = {0, 0, 0};
     int at;

@@ -22,7 +22,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_asked
 from hypcheck.kernel.specialise.first_stages import CENTRE, Thresholds
-from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, LeaningSearch
+from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, TiltedSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 
 INDENT = "    "
@@ -130,7 +130,7 @@ class _Body(_Statements):
             yield self._say("return if", condition=condition, value=value)
         yield self._say("return", value=answer(Position.CONTACT, self._question))
 
-    def _stages_in_turn(self, search: DualSearch | LeaningSearch) -> Iterator[str]:
+    def _stages_in_turn(self, search: DualSearch | TiltedSearch) -> Iterator[str]:
         stages = self._stages
         yield from self._entry(("R", "zz", "height") if isinstance(search, DualSearch) else ("R", "zz"))
         for line in stages.lines:
@@ -151,7 +151,7 @@ class _Body(_Statements):
         yield ""
         yield from self._searched(search)
 
-    def _within(self, stage: Discriminant | DualSearch | LeaningSearch) -> str:
+    def _within(self, stage: Discriminant | DualSearch | TiltedSearch) -> str:
         widest, highest = self._literal(stage.widest), self._literal(stage.highest)
         return self._say("and", left=f"R <= {widest}", right=f"zz <= {highest}")
 
@@ -183,15 +183,15 @@ class _Body(_Statements):
             return self._say("select", condition="outside", left="1", right="-1")
         return "0" if self._question == "contact" else "1"
 
-    def _searched(self, search: DualSearch | LeaningSearch) -> Iterator[str]:
-        if isinstance(search, LeaningSearch):
+    def _searched(self, search: DualSearch | TiltedSearch) -> Iterator[str]:
+        if isinstance(search, TiltedSearch):
             found = self._say("free search" if search.free else "fixed search", place=self._place)
         else:
             found = self._say("search", place=self._place)
         if self._question == "position":
             yield self._say("return", value=found)
             return
-        if isinstance(search, LeaningSearch):  # it may not settle a centre, which is no answer to any question
+        if isinstance(search, TiltedSearch):  # it may not settle a centre, which is no answer to any question
             yield self._say("found", value=found)
             found = "found"
             yield self._say("return if", condition=f"{found} == {CANNOT_SAY}", value=CANNOT_SAY)

@@ -17,10 +17,10 @@ from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_function
 from hypcheck.kernel.emission.plan_text import comment_text, header
 from hypcheck.kernel.emission.routines import routines_text
-from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, LeaningSearch
-from hypcheck.kernel.specialise.leaning_search import FREE_SEARCH, HAS_DIRECTION, SEARCH, SETTING, search_of
+from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, TiltedSearch
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages
 from hypcheck.kernel.specialise.settings import Setting
+from hypcheck.kernel.specialise.tilted_search import FREE_SEARCH, HAS_DIRECTION, SEARCH, SETTING, search_of
 from hypcheck.messages import escaped
 from hypcheck.scene.model import FREE
 from hypcheck.version import VERSION
@@ -161,10 +161,10 @@ def _numbered(plan: ScenePlan) -> list[tuple[int, Stages]]:
     return list(enumerate(plan.settings, start=1))
 
 
-def _searched(plan: ScenePlan) -> list[tuple[int, DualSearch | LeaningSearch]]:
+def _searched(plan: ScenePlan) -> list[tuple[int, DualSearch | TiltedSearch]]:
     """The searches of the settings that have one, with the settings' numbers."""
     ends = ((place, stages.last) for place, stages in _numbered(plan))
-    return [(place, last) for place, last in ends if isinstance(last, DualSearch | LeaningSearch)]
+    return [(place, last) for place, last in ends if isinstance(last, DualSearch | TiltedSearch)]
 
 
 def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:
@@ -186,7 +186,7 @@ def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
     """The tables of constants that searches take."""
     found = []
     for place, search in _searched(plan):
-        if isinstance(search, LeaningSearch):
+        if isinstance(search, TiltedSearch):
             found.append(_frame(search, place, dialect))
         else:
             values = ((name, dialect.literal(search.constants[name], plan.format.name)) for name in SETTING)
@@ -210,7 +210,7 @@ def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
     """The search that all settings share, and whether a free axis is one."""
     searches = [search for _, search in _searched(plan)]
     routines = [HAS_DIRECTION] if plan.free else []
-    if searches and isinstance(searches[0], LeaningSearch):
+    if searches and isinstance(searches[0], TiltedSearch):
         routines.append(FREE_SEARCH if searches[0].free else SEARCH)
     elif searches:
         routines.append(search_of(GEOMETRIC_STEPS + plan.format.bits + 3))
@@ -225,7 +225,7 @@ def search_text(plan: ScenePlan, dialect: Dialect) -> str:
 _PAIRS = {"c": "{{{0}, {1}}}", "cpp": "{{{0}, {1}}}", "rust": "Dd {{ hi: {0}, lo: {1} }}", "python": "({0}, {1})"}
 
 
-def _frame(of: LeaningSearch, place: int, dialect: Dialect) -> str:
+def _frame(of: TiltedSearch, place: int, dialect: Dialect) -> str:
     """The constants of a setting: its frame, or what a free axis' frame is made of."""
     fields = [(name, _pair(value, dialect)) for name, value in of.constants.items()]
     fields += [(name, dialect.literal(value, "float64")) for name, value in (("most", of.most), ("omega", of.omega))]

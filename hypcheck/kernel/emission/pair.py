@@ -26,7 +26,7 @@ from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
 from hypcheck.kernel.specialise.settings import axis_of
-from hypcheck.scene.model import SceneModel, leans
+from hypcheck.scene.model import SceneModel, is_tilted
 from hypcheck.version import VERSION
 
 EXACT, CERTIFIED_ONLY, DUAL, LOCAL_MAXIMUM = UPRIGHT = ("exact", "certified", "dual", "local-maximum")
@@ -74,14 +74,14 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
 
 
 def needs_routine(scene: SceneModel) -> bool:
-    """Whether something in the scene leans, so that a plan of pairs cannot be made of the whole."""
-    return axis_of(scene.mover) is not None or any(leans(body.axis) for body in scene.hyperboloids)
+    """Whether something in the scene is tilted, so that a plan of pairs cannot be made of the whole."""
+    return axis_of(scene.mover) is not None or any(is_tilted(body.axis) for body in scene.hyperboloids)
 
 
 def emitted_scene(
     scene: SceneModel, language: str, command: Sequence[str], prefix: str = PREFIX, *, sweep: bool
 ) -> str:
-    """The text of a file for a whole scene, whose mover and hyperboloids may lean. Raises InputError."""
+    """The text of a file for a whole scene, whose mover and hyperboloids may be tilted. Raises InputError."""
     require_prefix(prefix, language)
     kind = kind_of_scene(scene, sweep=sweep)
     return _printed(kind, "scene", kind.head, language, command, prefix)

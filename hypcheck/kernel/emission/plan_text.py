@@ -19,9 +19,9 @@ from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import Operations, Step, count, hoist, needed
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel.specialise import leaning
+from hypcheck.kernel.specialise import tilted
 from hypcheck.kernel.specialise.first_stages import AXIAL, CENTRE, RADIAL, Thresholds
-from hypcheck.kernel.specialise.last_stages import DualSearch, LeaningSearch
+from hypcheck.kernel.specialise.last_stages import DualSearch, TiltedSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.messages import counted, escaped
@@ -191,7 +191,7 @@ def _setting(stages: Stages, question: str) -> str:
 
 
 def axis_text(setting: Setting) -> str:
-    """The axis of a spheroid that leans, after a comma; nothing where it is upright."""
+    """The axis of a tilted spheroid, after a comma; nothing where it is upright."""
     if setting.axis is None:
         return ""
     return ", axis free" if setting.axis == FREE else f", axis {list(setting.axis)!r}"
@@ -240,7 +240,7 @@ def _bound(plan: ScenePlan) -> str:
         return (
             "Proved (docs/plans.md) for rounding to nearest: where an answer rests on a clear spheroid, it is right; "
             "where it rests on contact, it is right for b and d each changed by "
-            f"{float(leaning.BOUND_U):g} u at most, u = 2^-{plan.format.bits} = {float(unit):.3g}"
+            f"{float(tilted.BOUND_U):g} u at most, u = 2^-{plan.format.bits} = {float(unit):.3g}"
             f"{_by_side(plan)}. What double-double does not settle is answered {CANNOT_SAY}."
         )
     return (
@@ -354,7 +354,7 @@ def _steps(stages: Stages, question: str) -> Iterator[str]:
     if stages.discriminant is not None:
         tells = "contact or clear" if stages.discriminant.clear_where_positive else "contact"
         yield f"the discriminant: beyond ±{stages.discriminant.bound:.3g} its sign is certain and tells {tells}"
-    if isinstance(stages.last, DualSearch | LeaningSearch):
+    if isinstance(stages.last, DualSearch | TiltedSearch):
         doubled = "" if stages.setting.axis is None else ", in double-double"
         yield f"the dual function at its maximum, found by {stages.last.steps} halvings{doubled}"
 

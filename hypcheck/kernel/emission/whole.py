@@ -37,8 +37,8 @@ from hypcheck.kernel.emission.kernel import (
 from hypcheck.kernel.emission.plan_text import whole_header
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.specialise.last_stages import DualSearch
-from hypcheck.kernel.specialise.leaning_search import SETTING
 from hypcheck.kernel.specialise.plan import ScenePlan, plan_of
+from hypcheck.kernel.specialise.tilted_search import SETTING
 from hypcheck.scene.model import Hyperboloid, SceneModel, Span
 
 MOST_SETTINGS = 20_000
@@ -147,7 +147,7 @@ def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
     plan = plan_of(replace(scene, question="position", hyperboloids=bodies), precision, MOST_SETTINGS)
     if plan.axis is not None:
         raise InputError(
-            "no kernel is made for a whole scene whose mover leans; without --whole there is one for its pairs"
+            "no kernel is made for a whole scene whose mover is tilted; without --whole there is one for its pairs"
         )
     return plan
 

@@ -1,4 +1,4 @@
-"""The stage of rows whose axis leans over chunks, in buffers that the caller keeps.
+"""The stage of tilted rows over chunks, in buffers that the caller keeps.
 
 Printed by `python -m hypcheck.kernel.printing.modules`. Change the programs, not this.
 """

@@ -58,10 +58,10 @@ Qed.
 
 
 def proof_of(plan: ScenePlan) -> str:
-    """The file. Raises InputError where the mover leans, and where no setting of the plan has a discriminant."""
+    """The file. Raises InputError where the mover is tilted, and where no setting of the plan has a discriminant."""
     if plan.axis is not None:
         raise InputError(
-            "--proof: where the mover leans, Coq has no proof of the kernel; docs/plans.md has the one of its bound"
+            "--proof: where the mover is tilted, Coq has no proof of the kernel; docs/plans.md has the one of its bound"
         )
     parts = [
         part

@@ -143,7 +143,7 @@ def _tilted() -> str:
     form = ("p", "s", "t", "k0", "k1", "m", "radius", "height", "cross_squared", "level")
     row = dict.fromkeys(TILTED_COLUMNS, "Floats")
     return _module(
-        "The stage of rows whose axis leans over chunks, in buffers that the caller keeps.",
+        "The stage of tilted rows over chunks, in buffers that the caller keeps.",
         _ARRAYS,
         [
             _in_place("tilted_form", tilted.VALUES, form, row),

@@ -4,7 +4,7 @@
 one unit for α, b, x, y and in another for γ, d, z. n2, n1 and −n0 = p s are N c2, N c1 and N c0's size; delta is
 3 N⁴ Δ, slope_at_B is N t² g'(B), slope_at_A N q² g'(−A).
 
-**An axis that leans.** The quartic of the pair, and its discriminant: with p, q, s, t the squares of α, b, γ, d, and w
+**A tilted axis.** The quartic of the pair, and its discriminant: with p, q, s, t the squares of α, b, γ, d, and w
 that of the axis' length,
 
     F(λ) = λ (λ E + (p + qλ)(G − λ m)) − (1 + λ)(p + qλ)(k0 + k1 λ − k2 λ²) = f4 λ⁴ + f3 λ³ + f2 λ² + f1 λ + f0

@@ -1,4 +1,4 @@
-"""The programs of lines: half planes and half spaces that prove positions of one scene, and what they prove of ways.
+"""The programs of lines: half planes and half spaces that prove positions of one scene, and what they prove of sweeps.
 
 **Half planes.** They are the first stage. In the plane of R = x² + y² and T = z² the exterior positions are the union
 over λ in (0, B) of the half planes
@@ -44,7 +44,7 @@ says T ≤ `reach` of the exact T.
 Range. With `reach` and the squares of the sizes in 2^±60, M ≤ 2⁴⁰ and R̂ < FLOAT32_CAP = 2¹⁰⁰ nothing overflows;
 infinities, NaN and the largest float32 are not below it. Scenes outside are left to the lines in float64.
 
-**Half spaces.** They are the first stage of a spheroid that leans, for one orientation. In the basis in which both
+**Half spaces.** They are the first stage of a tilted spheroid, for one orientation. In the basis in which both
 matrices are diagonal, with P1, P2 and Q the squares of the centre's components,
 
     exterior positions are the union over λ in (0, B) of   P1 + β P2 > κ + ν Q,
@@ -66,7 +66,7 @@ covers every rounding mode. The comparison's own roundings, 2 on the left and 2 
 MARGIN, and so is underflow, where K ≥ LEAST_CONSTANT and a, M ≤ GREATEST_SLOPE. |C|² summed over a block is below CAP;
 with sizes in 2^±100 no product overflows then, and NaN is not below it.
 
-**Straight ways.** The centre goes along (x, y, z) + s (u, v, w), 0 ≤ s ≤ 1, and R − M T − K is a quadratic in s there.
+**Sweeps.** The centre goes along (x, y, z) + s (u, v, w), 0 ≤ s ≤ 1, and R − M T − K is a quadratic in s there.
 Beside a line that proves exterior positions (side 1, TANGENT_BEYOND) it is to be positive, beside one that proves
 interior positions (side −1, TANGENT_WITHIN and TANGENT_HIGH) negative. PIECE gives three numbers with
 

@@ -1,4 +1,4 @@
-"""The programs of printed sweeps: what any multiplier proves at a time of a straight way, however both bodies lean.
+"""The programs of printed sweeps: what any multiplier proves at a time of a sweep, however both bodies are tilted.
 
 The centre of the spheroid is C(s) = start + s V − c at the time s, V = end − start, c the centre of the hyperboloid.
 With n and v along the axes of the hyperboloid and of the spheroid, lengths in units of b, φ d = F as in tilted.py:
@@ -10,7 +10,7 @@ where now no frame is turned, as all that F asks of the directions is
     E = (t − 1)(s + p) ((n × v)·C)²/(n² v²),   G = s |n × C|²/n² − p (n·C)²/n²,   m = t C² − (t − 1)(v·C)²/v²,
     h = |n × v|²/(n² v²),   c = (n·v)²/(n² v²)        (the squares of sine and cosine between the axes).
 
-So N is a quadratic form of the centre, and d does not know the centre. **A piece of a way.** For one l, and exactly,
+So N is a quadratic form of the centre, and d does not know the centre. **A piece of a sweep.** For one l, and exactly,
 
     F(s + r) = F + 2 r l N(C, V) + r² l N(V, V),
 
@@ -54,7 +54,7 @@ WALL = ("wall_x", "wall_y", "wall_z")
 WALL_AXIS = ("wall_axis_x", "wall_axis_y", "wall_axis_z")
 ROW = (*SIZES, *START, *END, *AXIS, *WALL, *WALL_AXIS)
 LENGTHS = ("axis_size", "wall_axis_size")
-"""A spheroid's way beside a hyperboloid anywhere: sizes, both ends of the way, its axis, the other's centre and axis.
+"""A spheroid's sweep beside a hyperboloid anywhere: sizes, both ends, its axis, the other's centre and axis.
 LENGTHS are any numbers by which the axes are divided, so that none is too long or too short."""
 
 _SIZES = """
@@ -178,7 +178,7 @@ def _at_slope(tag: str, name: str) -> str:
 _PLACE = (_SIZES, _PLACES, _DIRECTIONS, _linear("here"), _form("", "here", "here"))
 
 PLACE = program_of("place", (*ROW, *LENGTHS, "at"), *_PLACE)
-"""From a way and a time to what F is made of there."""
+"""From a sweep and a time to what F is made of there."""
 
 VALUES = program_of(
     "sweep-values",
@@ -191,7 +191,7 @@ VALUES = program_of(
     _at_slope("_1", "F_slope"),
     _at_slope("_2", "F_bend"),
 )
-"""From a way, a time and l to F, d, k, p + l, psi, and the slope and bend of F along the way."""
+"""From a sweep, a time and l to F, d, k, p + l, psi, and the slope and bend of F along the sweep."""
 
 BOUNDED = {**tilted.BOUNDED, "F_slope": "e_slope", "F_bend": "e_bend"}
 """The values whose errors are bounded, and the bounds."""
@@ -218,7 +218,7 @@ CONSTANTS = {
     "greatest_axis": 2.0**50,
     "greatest_l": 2.0**60,
 }
-"""The inputs beside the way, the time and l, by name."""
+"""The inputs beside the sweep, the time and l, by name."""
 
 _DECISION = """
     alpha_positive = alpha > 0
@@ -249,12 +249,12 @@ _DECISION = """
     ps_usable = p_usable and s_usable
     bt_usable = b_usable and t_usable
     axes_usable = vv_usable and nn_usable
-    way_usable = place_near and change_near
+    sweep_usable = place_near and change_near
     radial_positive = alpha_positive and gamma_positive
     all_positive = radial_positive and d_positive
     squares_usable = ps_usable and bt_usable
     sizes_usable = squares_usable and all_positive
-    place_usable = way_usable and l_usable
+    place_usable = sweep_usable and l_usable
     rest_usable = axes_usable and place_usable
     usable = sizes_usable and rest_usable
     before_B_and_A2 = k > e_k
@@ -312,7 +312,7 @@ def _certificate() -> Program:
 
 
 SWEEP = _certificate()
-"""From a way, a time, any l and CONSTANTS to `exterior`, `interior` and `contact` there, each proved where it holds,
+"""From a sweep, a time, any l and CONSTANTS to `exterior`, `interior` and `contact` there, each proved where it holds,
 and to here, slope, bend: the parabola below F from that time on."""
 
 ROOT_CONSTANTS = {

@@ -1,4 +1,4 @@
-"""The program of the stage that decides spheroids whose axis leans in floats: any multiplier l, and what it proves.
+"""The program of the stage that decides tilted spheroids in floats: any multiplier l, and what it proves.
 
 With lengths in units of b and the axis v, the quartic of programs/integers.py is F = φ d at λ = l, where
 

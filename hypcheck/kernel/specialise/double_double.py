@@ -1,7 +1,7 @@
 """Arithmetic of double-double as routines: a number is a pair, the sum of two doubles, the second a rest of the first.
 
 Sums and products of doubles are exact as pairs (Knuth; Dekker, who splits a double into halves of 26 bits). The rest is
-from Joldes, Muller and Popescu, ACM TOMS 44, 2017, whose bounds leaning.py counts. What an FMA would leave unrounded,
+from Joldes, Muller and Popescu, ACM TOMS 44, 2017, whose bounds tilted.py counts. What an FMA would leave unrounded,
 and the next step takes apart, is stored.
 """
 

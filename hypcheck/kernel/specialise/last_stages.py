@@ -40,7 +40,7 @@ may say e where it is nearer. Next to 0 that is as good where e ≤ 1/(2 + 2 P/A
 other: up to there φ ≤ P e/A − 1, or Q e/B + e − 1, is negative, at the maximum too. Next to a pole, λ and with it 1 + λ
 and the other pole's term change by a share of e/A or e/B, which is u/1024, and this pole's term becomes smaller.
 
-Where a spheroid leans, the search is in double-double. Its programs, and what they prove, are in leaning.py; here is
+Where a spheroid is tilted, the search is in double-double. Its programs, and what they prove, are in tilted.py; here is
 what it holds: its frame, or the squares of the sizes where each query names an axis. The frame of a fixed axis is made
 in rational numbers, far more precisely than its bound needs.
 """
@@ -59,7 +59,7 @@ from hypcheck.derivation.listings import HESSIAN_DISCRIMINANT
 from hypcheck.derivation.program import Program, cut, program_of
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.geometry.pair import Sizes
-from hypcheck.kernel.specialise import leaning
+from hypcheck.kernel.specialise import tilted
 from hypcheck.kernel.specialise.first_stages import UNSCALED, entry
 from hypcheck.kernel.specialise.settings import ScaledSetting
 from hypcheck.scene.model import Point
@@ -312,11 +312,11 @@ _LEAST_T, _GREATEST_T = Fraction(1, 2**24), Fraction(2**24)
 _LEAST_B, _GREATEST_B = Fraction(1, 2**60), Fraction(2**60)
 _FARTHEST = Fraction(2**40)
 _NOTHING = Fraction(1, 2**620)
-"""Times 2⁴⁰ b, the farthest centre, it is less than leaning.LOST."""
+"""Times 2⁴⁰ b, the farthest centre, it is less than tilted.LOST."""
 
 
 @dataclass(frozen=True)
-class LeaningSearch:
+class TiltedSearch:
     """What the stage holds: the frame of a fixed axis, or p, s, t and b where the axis is free, in double-double.
 
     `most` is above every number of the rows times b, `omega` the bound of their errors. It answers where R ≤ `widest`
@@ -332,7 +332,7 @@ class LeaningSearch:
     highest: float
 
 
-def leaning_search(sizes: Sizes, axis: Point | None) -> LeaningSearch:
+def tilted_search(sizes: Sizes, axis: Point | None) -> TiltedSearch:
     """The stage for a spheroid of these sizes and this axis; None: a free one.
 
     Raises OverflowError where the sizes are too far apart.
@@ -342,19 +342,19 @@ def leaning_search(sizes: Sizes, axis: Point | None) -> LeaningSearch:
     limits = ((p, _LEAST, _GREATEST), (s, _LEAST, _GREATEST), (t, _LEAST_T, _GREATEST_T), (b, _LEAST_B, _GREATEST_B))
     if not all(least <= value <= greatest for value, least, greatest in limits):
         raise OverflowError(
-            "where a spheroid leans, alpha/b and gamma/b must be from 2^-20 to 2^20, d/b from 2^-12 to 2^12 and b from "
-            "2^-60 to 2^60"
+            "where a spheroid is tilted, alpha/b and gamma/b must be from 2^-20 to 2^20, d/b from 2^-12 to 2^12 and b "
+            "from 2^-60 to 2^60"
         )
-    exact = dict(zip(leaning.SIZE_NAMES, (p, s, t, b), strict=True))
+    exact = dict(zip(tilted.SIZE_NAMES, (p, s, t, b), strict=True))
     constants = exact if axis is None else frame_of(axis, exact)
     end = float((_FARTHEST * b) ** 2)
     free = axis is None
-    return LeaningSearch(
+    return TiltedSearch(
         constants={name: split(value) for name, value in constants.items()},
         free=free,
         most=_most(t) / float(b),
-        omega=leaning.OMEGA["free" if free else "fixed"],
-        steps=leaning.GEOMETRIC_STEPS + leaning.ARITHMETIC_STEPS,
+        omega=tilted.OMEGA["free" if free else "fixed"],
+        steps=tilted.GEOMETRIC_STEPS + tilted.ARITHMETIC_STEPS,
         widest=end,
         highest=end,
     )
@@ -373,9 +373,9 @@ def frame_of(axis: Point, sizes: Mapping[str, Fraction]) -> dict[str, Fraction]:
     vx, vy, vz = map(Fraction, axis)
     hx, hy = (vx, vy) if vx or vy else (Fraction(1), Fraction(0))
     values = outputs(
-        leaning.FRAME, _PRECISE, {"hx": hx, "hy": hy, "vx": vx, "vy": vy, "vz": vz, **sizes}, leaning.FRAME_NAMES
+        tilted.FRAME, _PRECISE, {"hx": hx, "hy": hy, "vx": vx, "vy": vy, "vz": vz, **sizes}, tilted.FRAME_NAMES
     )
-    return dict(zip(leaning.FRAME_NAMES, values, strict=True))
+    return dict(zip(tilted.FRAME_NAMES, values, strict=True))
 
 
 def split(value: Fraction) -> DoubleDouble:

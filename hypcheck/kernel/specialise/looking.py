@@ -1,4 +1,4 @@
-"""Routines that look at a spheroid at a time of its way: a multiplier by halving, and what SWEEP proves by it.
+"""Routines that look at a spheroid at a time of its sweep: a multiplier by halving, and what SWEEP proves by it.
 
 The multiplier need not be right. At the best one numbers may cancel, where it lies next to a pole; so where nothing is
 proved, others are tried that keep away from the poles (programs/sweeps.py). Printed clearances bound the maximum of the
@@ -135,7 +135,7 @@ TRY_CONSTANTS = {**sweeps.CONSTANTS, "zero": 0.0, "widest_share": 1 / WIDEST, "s
 
 LOOK = Routine(
     "look",
-    f"How far from a time on the way is proved to be clear, negative inside; {CONTACT} contact, 0 nothing is proved.",
+    f"How far from a time on the sweep is proved to be clear, negative inside; {CONTACT} contact, 0 nothing is proved.",
     (*sweeps.ROW, "at"),
     tried(
         (("found", "zero", "looked"),),
@@ -158,7 +158,7 @@ LOOK = Routine(
 )
 
 STANDING = (*SIZES, *CENTER, *CENTER, *AXIS, 0, 0, 0, 0, 0, 1)
-"""A spheroid that stays where it is, beside the hyperboloid about the origin: the arguments of a way."""
+"""A spheroid that stays where it is, beside the hyperboloid about the origin: the arguments of a sweep."""
 
 
 POSITION = Routine(

@@ -15,7 +15,7 @@ from hypcheck.derivation.program import Program
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import Floats, Mask
-from hypcheck.kernel.specialise import first_stages, last_stages, leaning
+from hypcheck.kernel.specialise import first_stages, last_stages, tilted
 from hypcheck.kernel.specialise.first_stages import (
     CENTRE,
     ProvedLine,
@@ -28,10 +28,10 @@ from hypcheck.kernel.specialise.first_stages import (
 from hypcheck.kernel.specialise.last_stages import (
     Discriminant,
     DualSearch,
-    LeaningSearch,
+    TiltedSearch,
     discriminant,
-    leaning_search,
     search,
+    tilted_search,
 )
 from hypcheck.kernel.specialise.settings import (
     REACH,
@@ -53,17 +53,17 @@ MOST_SETTINGS = 64
 USEFUL = 0.5
 """Share of the centres left by the lines that the discriminant has to decide to be worth its place."""
 
-USEFUL_LEANING = 0.2
-"""The same where the spheroid leans: what is left then costs more."""
+USEFUL_TILTED = 0.2
+"""The same where the spheroid is tilted: what is left then costs more."""
 
-LEANING_FORMAT = "float64"
-"""What kernels for a mover that leans compute in: double-double is made of two of it."""
+TILTED_FORMAT = "float64"
+"""What kernels for a tilted mover compute in: double-double is made of two of it."""
 
 AFAR = 2.0**13
 """How far out a kernel has to answer where the region is open: in waist radii and heights γ."""
 
 SHORT = 2.0**-500
-"""Beside a longer axis, a subnormal part of it is less than leaning.LOST."""
+"""Beside a longer axis, a subnormal part of it is less than tilted.LOST."""
 
 ONE_SIDED = ("exterior", "interior")
 
@@ -98,7 +98,7 @@ class Stages:
     setting: Setting
     entry: Program
     entry_constants: dict[str, float]
-    last: Position | Thresholds | DualSearch | LeaningSearch
+    last: Position | Thresholds | DualSearch | TiltedSearch
     shares: dict[str, float]
     omitted: tuple[Omission, ...]
     bound_u: Fraction
@@ -109,7 +109,7 @@ class Stages:
     @property
     def searches(self) -> bool:
         """Whether the last stage is a search."""
-        return isinstance(self.last, DualSearch | LeaningSearch)
+        return isinstance(self.last, DualSearch | TiltedSearch)
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class ScenePlan:
 
     @property
     def axis(self) -> Point | Literal["free"] | None:
-        """The axis of a mover that leans, FREE where each query names one; None where it is upright."""
+        """The axis of a tilted mover, FREE where each query names one; None where it is upright."""
         return axis_of(self.scene.mover)
 
     @property
@@ -144,9 +144,9 @@ def plan_of(scene: SceneModel, precision: str = "float64", most: int = MOST_SETT
     """
     form = format_of(precision)
     settings = settings_of(scene)
-    if axis_of(scene.mover) is not None and form.name != LEANING_FORMAT:
+    if axis_of(scene.mover) is not None and form.name != TILTED_FORMAT:
         raise InputError(
-            f"no kernel is made in {form.name}: where the mover leans, kernels compute in {LEANING_FORMAT}"
+            f"no kernel is made in {form.name}: where the mover is tilted, kernels compute in {TILTED_FORMAT}"
         )
     if len(settings) > most:
         raise InputError(
@@ -189,12 +189,12 @@ def _require_kept(axis: Point) -> None:
 
 
 def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
-    """The lines of the ball about a spheroid that leans, the discriminant of the ball in it, the search; or its own."""
+    """The lines of the ball about a tilted spheroid, the discriminant of the ball in it, the search; or its own."""
     axis = setting.axis
     fixed = None if axis == FREE else axis
     if fixed is not None:
         _require_kept(fixed)
-    lean = None if axis is None else leaning_search(setting.sizes, fixed)
+    tilted_last = None if axis is None else tilted_search(setting.sizes, fixed)
     inner, outer = (scaled(sizes, form) for sizes in setting.inner_and_outer)
     first, constants = entry(outer)
     R, zz = _sample(setting, first, constants, form)
@@ -203,16 +203,16 @@ def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
     by_lines = by_lines | _by_centre(question, sides, form, R, zz)
     left = np.flatnonzero(~by_lines)
     delta = discriminant(inner, form, first, constants, far_corner(setting))
-    if delta is not None and lean is not None:
+    if delta is not None and tilted_last is not None:
         delta = replace(delta, clear_where_positive=False)
     by_delta = np.zeros(len(left), dtype=bool) if delta is None else decided_by(delta, form, R[left], zz[left])
-    if by_delta.sum() < (USEFUL if lean is None else USEFUL_LEANING) * len(left):
+    if by_delta.sum() < (USEFUL if tilted_last is None else USEFUL_TILTED) * len(left):
         delta, by_delta = None, np.zeros(len(left), dtype=bool)
-    if lean is None:
+    if tilted_last is None:
         bound = last_stages.backward_bound()
     else:
-        bound = first_stages.CENTRE_BOUND if question in ONE_SIDED else leaning.BOUND_U
-    last = search(outer, form, far_corner(setting, AFAR)) if lean is None else lean
+        bound = first_stages.CENTRE_BOUND if question in ONE_SIDED else tilted.BOUND_U
+    last = search(outer, form, far_corner(setting, AFAR)) if tilted_last is None else tilted_last
     omitted = _omissions(setting, question, delta, constants)
     shares = _shares(by_lines, by_delta)
     return Stages(setting, first, constants, last, shares, omitted, bound, lines, sides, delta)

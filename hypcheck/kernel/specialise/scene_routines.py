@@ -32,7 +32,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER
 from hypcheck.kernel.programs import sweeps
 from hypcheck.kernel.specialise.looking import CONTACT, LOOK
-from hypcheck.kernel.specialise.sweeping import FIRST_OF_WAY, NEVER, UNKNOWN
+from hypcheck.kernel.specialise.sweeping import FIRST_OF_SWEEP, NEVER, UNKNOWN
 from hypcheck.scene.model import FREE, Hyperboloid, SceneModel
 
 LOOSE = 2.0**-45
@@ -41,7 +41,7 @@ _POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 
 
 def scene_columns(scene: SceneModel, *, sweep: bool) -> tuple[str, ...]:
-    """What a row asks: the mover's centre, or both ends of its way, and its axis where the scene leaves it free."""
+    """What a row asks: the mover's centre, or both ends of its sweep, and its axis where the scene leaves it free."""
     places = (*sweeps.START, *sweeps.END) if sweep else CENTER
     return (*places, *(AXIS if scene.mover.axis == FREE else ()))
 
@@ -274,12 +274,12 @@ def position_routine(scene: SceneModel) -> Routine:
 
 
 def sweep_routine(scene: SceneModel) -> Routine:
-    """The first contact of a straight way in the scene, as FIRST_OF_WAY has it of one hyperboloid."""
+    """The first contact of a sweep in the scene, as FIRST_OF_SWEEP has it of one hyperboloid."""
     arguments = _arguments(sweep=True)
     body: tuple[Part, ...] = (
         *steps_of(_AXIS_SIZES + _level("start") + _level("end") + _OF_SWEEP + _ENDS + _WINDOWS),
-        Call("first", FIRST_OF_WAY, (*arguments, "outer_from", "outer_to")),
-        Call("inner_first", FIRST_OF_WAY, (*arguments, "inner_from", "inner_to")),
+        Call("first", FIRST_OF_SWEEP, (*arguments, "outer_from", "outer_to")),
+        Call("inner_first", FIRST_OF_SWEEP, (*arguments, "inner_from", "inner_to")),
         Call("side", LOOK, (*arguments, "outer_from")),
         *steps_of(_ONE_SWEEP),
     )
@@ -294,7 +294,7 @@ def sweep_routine(scene: SceneModel) -> Routine:
     """
     return Routine(
         "first_in_scene",
-        FIRST_OF_WAY.meaning,
+        FIRST_OF_SWEEP.meaning,
         scene_columns(scene, sweep=True),
         (_over(scene.hyperboloids, kept, body), *steps_of(end)),
         "told",

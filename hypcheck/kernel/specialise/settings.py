@@ -21,7 +21,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position, Sizes
 from hypcheck.geometry.rows import Floats
 from hypcheck.kernel import integers
-from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Point, SceneModel, Span, leans
+from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Point, SceneModel, Span, is_tilted
 
 SWING = 1 + Fraction(1, 2**40)
 """What an arm is multiplied by, since its end is computed by a rounded sine and cosine."""
@@ -58,7 +58,7 @@ class Setting:
 
     @property
     def inner_and_outer(self) -> tuple[Sizes, Sizes]:
-        """The sizes; of a spheroid that leans, with the largest ball in it for it, and with the smallest about it."""
+        """The sizes; of a tilted spheroid, with the largest ball in it for it, and with the smallest about it."""
         if self.axis is None:
             return self.sizes, self.sizes
         alpha, gamma, b, d = self.sizes
@@ -69,7 +69,7 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
 
     A pair whose heights never meet the region is left out: nothing there is ever asked of it. Raises InputError where
-    a hyperboloid leans or has flat ends.
+    a hyperboloid is tilted or has flat ends.
     """
     _require_printable(scene)
     found: dict[Sizes, Setting] = {}
@@ -80,9 +80,9 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
 
 
 def _require_printable(scene: SceneModel) -> None:
-    """Raise InputError about the first hyperboloid that leans or has flat ends."""
+    """Raise InputError about the first hyperboloid that is tilted or has flat ends."""
     for body in scene.hyperboloids:
-        if leans(body.axis):
+        if is_tilted(body.axis):
             raise InputError(
                 f"no kernel is made: the hyperboloid {body.name!r} has the axis {list(body.axis)}, and a kernel counts "
                 "centres and the mover's axis in a frame in which the hyperboloid is upright; make one for that frame "
@@ -98,7 +98,7 @@ def _require_printable(scene: SceneModel) -> None:
 def axis_of(mover: Mover) -> Point | Literal["free"] | None:
     """The axis that a kernel has to know: None where all is upright, or all are balls, the same along every axis."""
     balls = mover.b == mover.d and all(part.b == part.d for part in mover.parts)
-    return mover.axis if leans(mover.axis) and not balls else None
+    return mover.axis if is_tilted(mover.axis) and not balls else None
 
 
 def position_of_box(setting: Setting) -> Position | None:
@@ -106,7 +106,7 @@ def position_of_box(setting: Setting) -> Position | None:
 
     The exterior positions are an up-set when |x| and |y| grow and |z| falls, the interior ones when |x| and |y| fall
     and |z| grows (docs/mathematics.md): one exact decision at the least favourable corner of the box is a proof. Where
-    the spheroid leans, that is asked of the smallest ball about it.
+    the spheroid is tilted, that is asked of the smallest ball about it.
     """
     x, y, z = setting.box.spans
     if z is not None and _at(setting, (_least(x), _least(y), farthest(z))) is Position.EXTERIOR:
@@ -147,7 +147,8 @@ def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box |
     region, centre = scene.region, hyperboloid.center
     x = _moved(region.x, centre[0], arm)
     y = _moved(region.y, centre[1], arm)
-    z = _moved(region.z, centre[2], arm if leans(scene.mover.axis) else 0.0)  # an arm of what leans points up or down
+    # a tilted mover's arm points up or down
+    z = _moved(region.z, centre[2], arm if is_tilted(scene.mover.axis) else 0.0)
     height = hyperboloid.height
     if height is None:
         return Box(x, y, z), None

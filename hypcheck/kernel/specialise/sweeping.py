@@ -1,12 +1,12 @@
-"""The routine of printed sweeps: up to when a straight way is proved clear, and whether it has contact.
+"""The routine of printed sweeps: up to when a sweep is proved clear, and whether it has contact.
 
-From the start on, each round proves that the way is clear up to a time: that of the first root of a parabola below F.
+From the start on, each round proves that the sweep is clear up to a time: that of the first root of a parabola below F.
 There, and half as far ahead, it looks for a proof of contact, or that the spheroid is on the other side of the
-hyperboloid: between unlike sides is contact. Rounds end where the end of the way is reached (no contact), or where a
+hyperboloid: between unlike sides is contact. Rounds end where the end of the sweep is reached (no contact), or where a
 step comes to nothing; then it looks ahead in steps that grow. Without a proof of either it cannot say.
 
 Times are numbers of the format, exactly: SWEEP is asked about that very time. A step is shortened by 2⁻⁴⁹, as the sum
-with the time is rounded, by 2⁻⁵² at most. So `now`, up to which the way is proved clear, bounds the first contact.
+with the time is rounded, by 2⁻⁵² at most. So `now`, up to which the sweep is proved clear, bounds the first contact.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ ROUNDS = 96
 LOOKS = 14
 
 NEVER, UNKNOWN = 2, 3
-"""What stands among times for a way without contact, and for "cannot say"."""
+"""What stands among times for a sweep without contact, and for "cannot say"."""
 
 _LOOK_AT = sweeps.ROW
 
@@ -139,20 +139,24 @@ _SWEPT: tuple[Part, ...] = (
     ),
 )
 
-FIRST_OF_WAY = Routine(
-    "first_of_way",
-    f"A time up to which a way with contact is proved clear; {NEVER} without contact, {UNKNOWN} cannot say.",
+FIRST_OF_SWEEP = Routine(
+    "first_of_sweep",
+    f"A time up to which a sweep with contact is proved clear; {NEVER} without contact, {UNKNOWN} cannot say.",
     (*sweeps.ROW, "from_time", "to_time"),
     _SWEPT,
     "first",
     constants={"zero": 0.0, "contact_code": float(CONTACT), "shortest": 2.0**-46, "margin": 2.0**-49},
 )
-"""Between two times of the way. A contact is proved before anything is said to be one; `first` is NEVER only where
+"""Between two times of the sweep. A contact is proved before anything is said to be one; `first` is NEVER only where
 every piece is proved clear."""
 
-WAY = (*SIZES, *sweeps.START, *sweeps.END, *AXIS)
-"""The columns of a way: those of geometry/pair.py, by names that no language has taken."""
+SWEEP_COLUMNS = (*SIZES, *sweeps.START, *sweeps.END, *AXIS)
+"""The columns of a sweep: those of geometry/pair.py, by names that no language has taken."""
 
 FIRST = Routine(
-    "first_of", FIRST_OF_WAY.meaning, WAY, (Call("first", FIRST_OF_WAY, (*WAY, 0, 0, 0, 0, 0, 1, 0, 1)),), "first"
+    "first_of",
+    FIRST_OF_SWEEP.meaning,
+    SWEEP_COLUMNS,
+    (Call("first", FIRST_OF_SWEEP, (*SWEEP_COLUMNS, 0, 0, 0, 0, 0, 1, 0, 1)),),
+    "first",
 )

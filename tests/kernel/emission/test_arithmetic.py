@@ -20,7 +20,7 @@ from hypcheck.scene.reading import read_scene
 from hypcheck.vectors import frozen
 from tests.kernel.compiling import CLANG, compiled_source, needs_clang, needs_compiler, needs_gcc, shared_library
 from tests.kernel.emission.building import COMMAND, COMMANDS, load_module, pointer, skip_without, worst_error
-from tests.kernel.emission.test_leaning import SCENES as LEANING
+from tests.kernel.emission.test_tilted import SCENES as TILTED
 from tests.support import inside
 from tests.support.inside import METHODS, emitted, emitted_pair, plan_of, whole, whole_plan
 from tests.support.scenes import scene
@@ -247,14 +247,14 @@ process.stdout.write(Buffer.concat([Buffer.from([flushed]), Buffer.from(found.bu
 
 
 def every_kind(language):
-    """A kernel of each kind: one pair by each method, a scene in both formats, a whole scene, a mover that leans."""
+    """A kernel of each kind: one pair by each method, a scene in both formats, a whole scene, a tilted mover."""
     for method in METHODS:
         yield f"pair, {method}", emitted_pair(method, language, COMMAND)
     for name, chosen, precision in (
         ("a scene", TOWER, "float64"),
         ("a scene in float32", TOWER, "float32"),
-        ("one axis", LEANING["the tower, one axis"], "float64"),
-        ("any axis", LEANING["the tower, any axis"], "float64"),
+        ("one axis", TILTED["the tower, one axis"], "float64"),
+        ("any axis", TILTED["the tower, any axis"], "float64"),
     ):
         yield name, emitted(plan_of(chosen, precision), language, COMMAND)
     yield "a whole scene", whole(TOWER, whole_plan(TOWER), language, COMMAND)
@@ -386,17 +386,17 @@ def test_emit_refuses_sizes_that_flushing_to_zero_could_change(precision, place)
 
 def test_emit_refuses_an_axis_with_a_subnormal_number():
     with pytest.raises(InputError, match=r"no kernel is made for .* an axis shorter than 3.1e-151 must"):
-        plan_of(replace(LEANING["the tower, one axis"], mover=Mover(0.25, 0.15, axis=(1e-310, 0.0, 2e-310))))
+        plan_of(replace(TILTED["the tower, one axis"], mover=Mover(0.25, 0.15, axis=(1e-310, 0.0, 2e-310))))
 
 
 @needs_compiler
 @needs_flags
 @pytest.mark.parametrize("language", [*COMPILED, "python"])
-def test_emitted_kernels_for_a_leaning_mover_are_never_wrong_where_subnormal_numbers_are_flushed(
+def test_emitted_kernels_for_a_tilted_mover_are_never_wrong_where_subnormal_numbers_are_flushed(
     tmp_path, control, language
 ):
     """A short axis that flushing may turn is refused, and no other one."""
-    for chosen in (LEANING["the tower, one axis"], LEANING["the tower, any axis"]):
+    for chosen in (TILTED["the tower, one axis"], TILTED["the tower, any axis"]):
         plan = plan_of(chosen)
         folder = tmp_path / str(plan.free)
         folder.mkdir()

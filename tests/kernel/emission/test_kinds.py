@@ -39,7 +39,7 @@ def positions_of(library, rows):
     return found
 
 
-def ways_of(library, rows):
+def sweeps_of(library, rows):
     found, times = np.full(len(rows), 99, np.int8), np.full(len(rows), 99.0)
     library.hypcheck_passage_tilted(ctypes.c_size_t(len(rows)), pointer(rows), pointer(found), pointer(times))
     return found, times
@@ -74,7 +74,7 @@ def test_emitted_clearances_hold_the_labels_of_frozen_cases(tmp_path, language):
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_emitted_sweeps_give_times_before_the_first_contact(tmp_path, language):
     rows, answers, cases = with_axes("end", "end axis")
-    found, times = ways_of(loaded(tmp_path, "passage", language), rows)
+    found, times = sweeps_of(loaded(tmp_path, "passage", language), rows)
     assert ((found == answers) | (found == 2)).all()
     assert np.isnan(times[found != 1]).all()
     hits = found == 1
@@ -91,12 +91,12 @@ def test_emitted_tilted_code_and_sweeps_are_never_wrong_in_any_arithmetic_that_a
     control = shared_library(tmp_path, CONTROL, "-frounding-math", "-std=gnu99")
     tilted, passage = (loaded(tmp_path, method, language) for method in ("tilted", "passage"))
     rows, positions, _ = with_axes("", "axis")
-    ways, hits, cases = with_axes("end", "end axis")
+    sweeps, hits, cases = with_axes("end", "end axis")
     last = np.array([case["first"][1] if case["hit"] else np.inf for case in cases], dtype=float)
     for setting in SETTINGS:
         control.set_arithmetic(*setting)
         try:
-            found, (hit, times) = positions_of(tilted, rows), ways_of(passage, ways)
+            found, (hit, times) = positions_of(tilted, rows), sweeps_of(passage, sweeps)
         finally:
             control.set_arithmetic(0, 0)
         assert ((found == positions) | (found == 2)).all(), setting
@@ -131,6 +131,6 @@ def test_emitted_tilted_code_and_sweeps_are_wrong_without_their_bounds(tmp_path)
     rows, positions, _ = with_axes("", "axis")
     found = positions_of(loaded(tmp_path, "tilted", "c", change), rows)
     assert 20 < ((found != positions) & (found != 2)).sum()
-    ways, hits, _ = with_axes("end", "end axis")
-    hit, _ = ways_of(loaded(tmp_path, "passage", "c", change), ways)
+    sweeps, hits, _ = with_axes("end", "end axis")
+    hit, _ = sweeps_of(loaded(tmp_path, "passage", "c", change), sweeps)
     assert 5 < ((hit != hits) & (hit != 2)).sum()

@@ -13,7 +13,7 @@ from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import steps_of
 from hypcheck.derivation.routines import Loop, Routine, run
 from hypcheck.kernel.emission.routines import routines_text
-from hypcheck.kernel.specialise.leaning_search import search_of
+from hypcheck.kernel.specialise.tilted_search import search_of
 from hypcheck.scene.reading import read_scene
 from tests.support.inside import DIALECTS, plan_of
 

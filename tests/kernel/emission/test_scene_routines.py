@@ -1,4 +1,4 @@
-"""Code for whole scenes in which movers and hyperboloids lean, and for their sweeps: what hypcheck.Scene says, or 2."""
+"""Code for whole scenes of tilted movers and hyperboloids, and for their sweeps: what hypcheck.Scene says, or 2."""
 
 import ctypes
 
@@ -11,7 +11,7 @@ from tests.kernel.emission.building import asking, library_of, load_module, poin
 from tests.support.inside import DIALECTS
 
 SCENE = """
-name = "leaning"
+name = "tilted"
 [[hyperboloid]]
 alpha = 1.0
 gamma = 2.0
@@ -61,11 +61,11 @@ def beside_ring(count):
     """Steep sweeps past the wall of the lowest hyperboloid, which is a ring."""
     rng = np.random.default_rng(5)
     off, turn = 1.5 + rng.uniform(-0.5, 0.5, (2, count)), rng.uniform(0, 2 * np.pi, count)
-    ways = [
+    sweeps = [
         np.stack([2 + r * np.cos(turn), r * np.sin(turn) - 4, np.full(count, z)], 1)
         for r, z in zip(off, (1, -1), strict=True)
     ]
-    return np.hstack(ways)
+    return np.hstack(sweeps)
 
 
 def answers_of(path, language, name, rows):
@@ -85,7 +85,7 @@ def answers_of(path, language, name, rows):
 
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize(("text", "question"), [(FIXED, "position"), (FREE, "position"), (FIXED, "exterior")])
-def test_emitted_code_of_a_leaning_scene_answers_as_the_scene(tmp_path, language, text, question):
+def test_emitted_code_of_a_tilted_scene_answers_as_the_scene(tmp_path, language, text, question):
     free, count = text is FREE, 100 if language == "python" else 1000
     rows = rows_of(count, 1, free=free)
     scene = hypcheck.Scene.from_text(text.replace("name =", f'question = "{question}"\nname ='))

@@ -167,9 +167,9 @@ def test_a_whole_scene_kernel_answers_cannot_say_for_nan_and_outside_of_the_regi
     assert load_module(path).whole(most, most, 0.0) == 1
 
 
-def test_a_whole_scene_kernel_is_refused_if_the_mover_leans():
+def test_a_whole_scene_kernel_is_refused_if_the_mover_is_tilted():
     scene = replace(forest(2, parts=()), mover=Mover(0.25, 0.15, (), (1.0, 0.0, 1.0)))
-    with pytest.raises(InputError, match="no kernel is made for a whole scene whose mover leans"):
+    with pytest.raises(InputError, match="no kernel is made for a whole scene whose mover is tilted"):
         whole_plan(scene)
 
 

@@ -23,13 +23,13 @@ GUESSES = {
     "hc_edge",
     "hc_fine_root",
     "hc_gaps",
-    "hc_leaning_multiplier",
+    "hc_tilted_sweep_multiplier",
     "hc_rough_root",
     "hc_sample_Q",
     "hc_sample_heights",
     "hc_tilted_multiplier",
     "hc_touches",
-    "hc_way_multiplier",
+    "hc_sweep_multiplier",
 }
 OF_THE_MACHINE = {
     "hc_best_level",

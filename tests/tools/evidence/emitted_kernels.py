@@ -22,8 +22,8 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene, shipped_scenes
 from tests.kernel.emission.building import COMMAND, answers, answers_by_scene, pointer, worst_error
-from tests.kernel.emission.test_leaning import SCENES as LEANING
 from tests.kernel.emission.test_pair import UNFILTERED
+from tests.kernel.emission.test_tilted import SCENES as TILTED
 from tests.kernel.emission.test_whole import centres, expected, forest, told
 from tests.support.inside import METHODS, ScenePlan, emitted, emitted_pair, plan_of, whole, whole_plan
 from tests.tools.attack import places
@@ -68,9 +68,9 @@ def _scenes() -> Iterator[tuple[str, SceneModel, str]]:
     tower = read_scene("tower")
     for question in ("position", "exterior", "contact"):
         yield f"tower {question}", replace(tower, question=question), "float64"
-    for name, scene in LEANING.items():
+    for name, scene in TILTED.items():
         yield name, scene, "float64"
-    yield "the tower, any axis, contact", replace(LEANING["the tower, any axis"], question="contact"), "float64"
+    yield "the tower, any axis, contact", replace(TILTED["the tower, any axis"], question="contact"), "float64"
     hill = Hyperboloid("hill", 0.61, 6.0, (5.0, -3.25, 0.375), Span(-0.9, 5.0))
     yield "a hill", SceneModel("a hill", "position", (hill,), Mover(0.3, 0.9), Region(z=Span(-1.0, 4.0))), "float64"
 

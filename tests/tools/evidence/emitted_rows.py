@@ -15,7 +15,7 @@ import hypcheck
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE
-from tests.support.inside import AXIAL, RADIAL, LeaningSearch, ScenePlan, Stages
+from tests.support.inside import AXIAL, RADIAL, ScenePlan, Stages, TiltedSearch
 from tests.support.judging import wrong_cases
 
 BLOCK = 300
@@ -25,7 +25,7 @@ JUDGED = 7
 """Of the rows each so many-th is judged; all are asked, by both entries."""
 
 AXES = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.3, 0.1, 1.0), (-1.0, 2.0, 0.5), (3.0, -4.0, 1e-9), (1e-9, 0.0, -1.0))
-"""For a kernel of any axis: upright, level, leaning, and next to both."""
+"""For a kernel of any axis: upright, level, tilted, and next to both."""
 
 _TURNS = np.array([(1.0, 0.0), (0.0, 1.0), (-0.6, 0.8)])
 
@@ -68,7 +68,7 @@ def _parts(stages: Stages, axis: tuple[float, ...], single: bool) -> Iterator[tu
     yield np.full(2 * BLOCK, 0.0), np.full(2 * BLOCK, 0.0), np.linspace(-1e-3 * d, 1e-3 * d, 2 * BLOCK)
     yield 50 * (alpha + b) * (1 + random.random(2 * BLOCK)), np.zeros(2 * BLOCK), np.zeros(2 * BLOCK)
     yield from _odd(_tangent(stages, axis, _TURNS[0], np.zeros(1), 1)[0], gamma)
-    if isinstance(stages.last, LeaningSearch):
+    if isinstance(stages.last, TiltedSearch):
         yield from _planes(stages, axis, random)
 
 
@@ -134,7 +134,7 @@ def _odd(x: float, gamma: float) -> Iterator[tuple[Floats, ...]]:
 def _planes(stages: Stages, axis: tuple[float, ...], random: np.random.Generator) -> Iterator[tuple[Floats, ...]]:
     """Centres in the planes of the frame, where one component is 0 but for its error: x and y are given, z is found."""
     (alpha, gamma, b, _), search = stages.setting.sizes, stages.last
-    assert isinstance(search, LeaningSearch)
+    assert isinstance(search, TiltedSearch)
     level = np.array(axis[:2]) if any(axis[:2]) else np.array([1.0, 0.0])
     for power in range(-6, 12):
         reach = level * 2.0**power
@@ -179,9 +179,9 @@ def _judge(plan: ScenePlan, stages: Stages, rows: Rows, found: np.ndarray) -> No
             beyond = (rows[:, 6] < cut.low) | (rows[:, 6] > cut.high)
         assert (found[beyond] == CANNOT_SAY).all() or plan.format.name != "float64"
         numbers &= ~beyond
-    leans = isinstance(stages.last, LeaningSearch)
+    tilted = isinstance(stages.last, TiltedSearch)
     near = (np.abs(rows[:, 4:7]) < 1e6 * max(stages.setting.sizes)).all(axis=1)
-    assert not (found[near & numbers] == CANNOT_SAY).any() or leans
+    assert not (found[near & numbers] == CANNOT_SAY).any() or tilted
     kept = numbers & (found != CANNOT_SAY)
     if plan.format.name == "float32":  # what is not near may leave the format on its way in
         kept &= near

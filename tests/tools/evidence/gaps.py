@@ -31,14 +31,14 @@ REASONS: dict[tuple[str, str], str] = {
     ("hc_settle", "HC_FLOATS_DECIDE && found.decided >> i & 1"): _CONSTANT,
     ("hc_tilted_settle", "HC_FLOATS_DECIDE && found.decided >> i & 1"): _CONSTANT,
     ("hc_scale_axis", "!HC_FLOATS_DECIDE"): _CONSTANT,
-    ("hc_make_way", "HC_FLOATS_DECIDE && way->slack < HC_GREATEST_SLACK"): _CONSTANT,
+    ("hc_make_sweep", "HC_FLOATS_DECIDE && sweep->slack < HC_GREATEST_SLACK"): _CONSTANT,
     ("hc_position_with", "HC_FLOATS_DECIDE && found.decided"): _CONSTANT,
     ("hc_best_level", "__get_cpuid_max(0, NULL) < 7"): _MACHINE,
     ("hc_best_level", "!(leaf_1 & system_saves)"): _MACHINE,
-    ("hc_leaning_reach", "position * l.v > 0"): (
+    ("hc_tilted_sweep_reach", "position * l.v > 0"): (
         "unreachable: l is position · pole · v/(1 + v). The loop before has returned unless every pole - or + "
         "l is proved > 0, which NaN is not; then the poles, quotients and squares of positive numbers, are > "
-        "0. v is > 0: it begins so, and hc_leaning_multiplier takes only what is above `low` >= 0, or half of "
+        "0. v is > 0: it begins so, and hc_tilted_sweep_multiplier takes only what is above `low` >= 0, or half of "
         "high > 0. The condition stays, for with it a wrong guess could not prove anything wrong"
     ),
     ("hc_halve_factor", "middle < *high"): (

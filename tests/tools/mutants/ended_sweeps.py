@@ -11,7 +11,7 @@ import numpy as np
 from hypcheck import classify
 from hypcheck.geometry.pair import AXIS, HEIGHTS, SIZES, SWEEP_COLUMNS
 from hypcheck.implementations import sweeps
-from tests.support.inside import answer_ways, passage_of
+from tests.support.inside import answer_sweeps, passage_of
 from tests.tools.mutants.expectation import NO_TOLERANCE, right, wrong
 
 hypcheck = {"question": "passage", "times": True, "takes": ["axis", "heights"]}
@@ -255,7 +255,7 @@ def certified(rows):
 @right(claim=BESIDE_ENDS)
 def certified_times(rows):
     """What the certified steps say alone, times too, which are early but no more than is tolerated."""
-    return answer_ways(np.ascontiguousarray(rows))
+    return answer_sweeps(np.ascontiguousarray(rows))
 
 
 @right(claim=BESIDE_ENDS, asked=NO_TOLERANCE)

@@ -20,13 +20,13 @@
        HYPCHECK_SMALL_LIMBS      to do without 128-bit integers
 
    Sizes       n is any number of rows, 0 included. Rows are 7 doubles: alpha, gamma, b, d, x, y, z; or 10, for an axis
-               that may lean: axis_x, axis_y, axis_z besides.
+               that may be tilted: axis_x, axis_y, axis_z besides.
    Alignment   that of double. Nothing has to be padded.
    Aliasing    inputs may overlap each other. The output must not overlap an input.
    NaN         and infinities, and sizes <= 0 or -0.0, make a row invalid; it is answered 127 and harms no other row.
                So does an axis that is 0, 0, 0 or not finite. A scene with invalid sizes, or such an axis, answers 127
                everywhere. -0.0 is 0 as a coordinate and in an axis.
-   Memory      nothing is allocated. The stack holds up to @STACK_KILOBYTES@ kilobytes, @TILTED_KILOBYTES@ for axes that lean.
+   Memory      nothing is allocated. The stack holds up to @STACK_KILOBYTES@ kilobytes, @TILTED_KILOBYTES@ for axes that are tilted.
    Threads     every function may be called from any number of threads at once. There is one global variable, the
                instruction set in use (below): it is written once with one value, or by hypcheck_use_level.
    Arithmetic  answers do not depend on the rounding mode, on flushing subnormals to zero, or on contraction into FMA;
@@ -90,14 +90,14 @@ int hypcheck_position(double alpha, double gamma, double b, double d, double x, 
 /* Whether a spheroid whose centre goes straight from one place to another meets contact, both ends included: rows
    of 10 doubles, alpha, gamma, b, d, the centre at the start and at the end. A hit is
 
-       1  contact somewhere on the way    0  clear all along    2  the bounds do not tell    127  the row is invalid
+       1  contact somewhere on the sweep    0  clear all along    2  the bounds do not tell    127  the row is invalid
 
-   and 1 and 0 are exact. 2 is said of ways that graze the surface, or end in tangency, and of sizes beyond 2^±100 and
+   and 1 and 0 are exact. 2 is said of sweeps that graze the surface, or end in tangency, and of sizes beyond 2^±100 and
    coordinates beyond 2^150; hypcheck.passage of Python decides these. `times` may be NULL; else it gets a time from 0 to
-   1 for each hit: before it the way is clear, and at it there is contact of the spheroid with b and d larger by
+   1 for each hit: before it the sweep is clear, and at it there is contact of the spheroid with b and d larger by
    2^-43 (1 + S), S being the sum of |x| and |y| in units of b and of |z| in units of d, of both ends; all are in units of
-   the smaller of b and d where the axis leans. NaN where there is no hit, or where the bounds do not tell when. Rows of 13
-   have axis_x, axis_y, axis_z behind these, which stay the same on the way. */
+   the smaller of b and d where the axis is tilted. NaN where there is no hit, or where the bounds do not tell when. Rows of 13
+   have axis_x, axis_y, axis_z behind these, which stay the same on the sweep. */
 void hypcheck_passage(size_t n, const double *rows10, int8_t *hits, double *times);
 void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, double *times);
 
@@ -110,8 +110,8 @@ void hypcheck_passage_tilted(size_t n, const double *rows13, int8_t *hits, doubl
 void hypcheck_classify_ended(size_t n, const double *rows13, int8_t *positions);
 
 /* Rows of any of these widths. Positions: 7, 10 with an axis, 13 with z_min, z_max, solid behind it, as the functions above
-   answer them. Ways: 10, 13 with an axis, 16 with z_min, z_max, solid behind it; contact is then that of
-   hypcheck_classify_ended, so that a way may lead through an opening without any. 2 is also said of ways that miss, or meet,
+   answer them. Sweeps: 10, 13 with an axis, 16 with z_min, z_max, solid behind it; contact is then that of
+   hypcheck_classify_ended, so that a sweep may lead through an opening without any. 2 is also said of sweeps that miss, or meet,
    a rim, the wall or a flat end by less than about 2^-42 of the sizes. Of a time what is said above holds. Rows of another
    width are answered 127. */
 void hypcheck_classify_columns(size_t n, size_t width, const double *rows, int8_t *positions);

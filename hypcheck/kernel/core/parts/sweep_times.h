@@ -78,7 +78,7 @@ static hc_twin hc_fine_pole(const hc_fine_sweep *made, hc_fine_ball d2) {
     return made->side < 0 && other.high < root.high ? other : root;
 }
 
-/* h is scaled by a power of two, so that no square of it is lost where the axis leans by a hair, and all lengths by the one
+/* h is scaled by a power of two, so that no square of it is lost where the axis is tilted by a hair, and all lengths by the one
    that makes b about 1, so that no product of them is too large. */
 static void hc_make_fine_sweep(hc_fine_sweep *made, const double row[10], const double *axis, int side) {
     const uint64_t power = (2046 - (hc_word(row[2]) >> 52)) << 52;
@@ -125,7 +125,7 @@ static void hc_make_fine_sweep(hc_fine_sweep *made, const double row[10], const 
     made->pole = hc_fine_pole(made, d2);
 }
 
-/* As hc_leaning_multiplier, v itself: l = side pole v/(1 + v), where v may be so large that l is next to its pole. */
+/* As hc_tilted_sweep_multiplier, v itself: l = side pole v/(1 + v), where v may be so large that l is next to its pole. */
 static double hc_share_of_pole(const double poles[3], const double at[3], int side, double before) {
     const double nearer = poles[0] < poles[1] ? poles[0] : poles[1], pole = side > 0 ? poles[2] : nearer;
     double low = 0, high = HC_NEAREST_POLE, v = before > 0 && before < high ? before : 1;
@@ -151,7 +151,7 @@ static double hc_share_of_pole(const double poles[3], const double at[3], int si
     return v;
 }
 
-/* As hc_way_reach, for the exact spheroid. With H of the hyperboloid, c^T (E^-1 l + H^-1)^-1 c - 1 - 1/l, times the side,
+/* As hc_sweep_reach, for the exact spheroid. With H of the hyperboloid, c^T (E^-1 l + H^-1)^-1 c - 1 - 1/l, times the side,
    is > 0 beside contact, if l E^-1 + H^-1 has two eigenvalues > 0 and one < 0, as it has at l = 0 and up to the poles. It is
    a sum of three squares over their pivots, the one that vanishes at the pole eliminated last. */
 static double hc_fine_reach(const hc_fine_sweep *made, hc_twin multiplier, double now) {
@@ -192,25 +192,25 @@ static double hc_fine_reach(const hc_fine_sweep *made, hc_twin multiplier, doubl
         lower[k] = hc_fine_at_least(hc_fine_times(hc_fine(made->side), sums[k]));
         if (!(hc_size(lower[k]) < HC_cap)) return 0;
     }
-    return hc_way_root(lower[0], lower[1], lower[2]);
+    return hc_sweep_root(lower[0], lower[1], lower[2]);
 }
 
 /* A time up to which the sweep is clear, as near to its first contact as steps by numbers of two doubles come; `clear` is such
    a time and `contact` one of contact. Each step ends below a root, rounded down. */
-static double hc_nearest_time(hc_way *way, const double row[10], int side, double clear, double contact) {
+static double hc_nearest_time(hc_sweep *sweep, const double row[10], int side, double clear, double contact) {
     const double a = row[0] / row[2], c = row[1] / row[3];
     double poles[3] = {a * a, a * a, c * c}, v = 0;
     hc_fine_sweep made;
     int step, k;
-    if (way->axis) poles[0] = way->poles.A1.v, poles[1] = way->poles.A2.v, poles[2] = way->poles.B.v;
-    hc_make_fine_sweep(&made, row, way->axis, side);
+    if (sweep->axis) poles[0] = sweep->poles.A1.v, poles[1] = sweep->poles.A2.v, poles[2] = sweep->poles.B.v;
+    hc_make_fine_sweep(&made, row, sweep->axis, side);
     for (step = 0; step < HC_TIME_STEPS; step++) {
         double place[3], at[3], reach, next;
         hc_twin l, sum;
-        for (k = 0; k < 3; k++) place[k] = way->from[k] + clear * way->change[k];
-        if (way->axis) {
+        for (k = 0; k < 3; k++) place[k] = sweep->from[k] + clear * sweep->change[k];
+        if (sweep->axis) {
             hc_ball components[3];
-            hc_components(components, way->basis, place);
+            hc_components(components, sweep->basis, place);
             for (k = 0; k < 3; k++) at[k] = components[k].v;
         } else {
             for (k = 0; k < 3; k++) at[k] = place[k] / row[k < 2 ? 2 : 3];

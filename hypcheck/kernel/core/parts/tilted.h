@@ -1,5 +1,5 @@
 
-/* ---- spheroids whose axis leans: the public functions ---- */
+/* ---- tilted spheroids: the public functions ---- */
 
 typedef struct {
     double columns[10 * HC_BLOCK];
@@ -60,11 +60,11 @@ static size_t hc_tilted_settle(const hc_level_functions *level, int question, hc
 /* Rows begin with the ten numbers, and are `width` doubles apart. */
 static size_t hc_ask_rows(int question, size_t n, size_t width, const double *rows, int8_t *answers) {
     const hc_level_functions *level = hc_level();
-    hc_tilted_waiting leaning;
+    hc_tilted_waiting tilted;
     hc_waiting upright;
     size_t refused = 0, i;
     int k;
-    memset(&leaning, 0, sizeof leaning);
+    memset(&tilted, 0, sizeof tilted);
     memset(&upright, 0, sizeof upright);
     for (i = 0; i < n; i++) {
         const double *const row = rows + width * i;
@@ -75,14 +75,14 @@ static size_t hc_ask_rows(int question, size_t n, size_t width, const double *ro
         } else {
             double axis[3] = {row[7], row[8], row[9]};
             hc_scale_axis(axis);
-            for (k = 0; k < 7; k++) leaning.columns[k * HC_BLOCK + leaning.count] = row[k];
-            for (k = 7; k < 10; k++) leaning.columns[k * HC_BLOCK + leaning.count] = axis[k - 7];
-            leaning.places[leaning.count++] = i;
-            if (leaning.count == HC_BLOCK) refused += hc_tilted_settle(level, question, &leaning, answers);
+            for (k = 0; k < 7; k++) tilted.columns[k * HC_BLOCK + tilted.count] = row[k];
+            for (k = 7; k < 10; k++) tilted.columns[k * HC_BLOCK + tilted.count] = axis[k - 7];
+            tilted.places[tilted.count++] = i;
+            if (tilted.count == HC_BLOCK) refused += hc_tilted_settle(level, question, &tilted, answers);
         }
     }
     refused += hc_settle(level, question, &upright, answers);
-    return refused + hc_tilted_settle(level, question, &leaning, answers);
+    return refused + hc_tilted_settle(level, question, &tilted, answers);
 }
 
 size_t hypcheck_ask_tilted(int question, size_t n, const double *rows10, int8_t *answers) {
@@ -109,10 +109,10 @@ typedef struct {
     int8_t *answers;
     hc_tilted_waiting waiting;
     hc_tilted_scene scene;
-} hc_leaning_parts;
+} hc_tilted_parts;
 
 /* `probe` has sizes and axis as a row. `known` has the half spaces, or is NULL where the first stage is left out. */
-static void hc_begin_leaning(hc_leaning_parts *run, int question, const double probe[10], const hc_tilted_scene *known, size_t n,
+static void hc_begin_tilted(hc_tilted_parts *run, int question, const double probe[10], const hc_tilted_scene *known, size_t n,
                              int8_t *answers, hc_signs *kept) {
     int k;
     run->level = hc_level();
@@ -130,7 +130,7 @@ static void hc_begin_leaning(hc_leaning_parts *run, int question, const double p
 }
 
 /* As hc_upright_part. */
-static size_t hc_leaning_part(hc_leaning_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
+static size_t hc_tilted_part(hc_tilted_parts *run, size_t start, size_t count, const double *x, const double *y, const double *z) {
     const int blocks = run->has_planes ? (int)(count / HC_BLOCK) : 0;
     const size_t beyond = (size_t)(HC_BLOCK * blocks);
     hc_signs own[HC_STRIP / HC_BLOCK], *const signs = run->kept != NULL ? run->kept + start / HC_BLOCK : own;
@@ -158,18 +158,18 @@ static size_t hc_leaning_part(hc_leaning_parts *run, size_t start, size_t count,
     return refused;
 }
 
-static size_t hc_end_leaning(hc_leaning_parts *run) {
+static size_t hc_end_tilted(hc_tilted_parts *run) {
     return hc_tilted_settle(run->level, run->question, &run->waiting, run->answers);
 }
 
-static size_t hc_ask_leaning(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
+static size_t hc_ask_tilted(int question, const double probe[10], const hc_tilted_scene *known, size_t n, const double *x,
                              const double *y, const double *z, int8_t *answers, hc_signs *kept) {
-    hc_leaning_parts run;
+    hc_tilted_parts run;
     size_t refused = 0, start;
-    hc_begin_leaning(&run, question, probe, known, n, answers, kept);
+    hc_begin_tilted(&run, question, probe, known, n, answers, kept);
     for (start = 0; start < n; start += HC_STRIP)
-        refused += hc_leaning_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
-    return refused + hc_end_leaning(&run);
+        refused += hc_tilted_part(&run, start, n - start < HC_STRIP ? n - start : HC_STRIP, x + start, y + start, z + start);
+    return refused + hc_end_tilted(&run);
 }
 
 size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const double axis[3], size_t n, const double *x,
@@ -181,7 +181,7 @@ size_t hypcheck_ask_tilted_scene(int question, const double sizes[4], const doub
     if (hc_is_upright(probe)) return hypcheck_ask_scene(question, sizes, n, x, y, z, answers);
     hc_scale_axis(probe + 7);
     has_planes = n >= HC_PLANES_FROM && hc_make_tilted_scene(&scene, sizes, probe + 7, n, x, y, z);
-    return hc_ask_leaning(question, probe, has_planes ? &scene : NULL, n, x, y, z, answers, NULL);
+    return hc_ask_tilted(question, probe, has_planes ? &scene : NULL, n, x, y, z, answers, NULL);
 }
 
 void hypcheck_classify_tilted(size_t n, const double *rows10, int8_t *positions) {
@@ -201,7 +201,7 @@ typedef struct {
     int valid, upright, lines, planes;
     union {
         hc_scene upright;
-        hc_tilted_scene leaning;
+        hc_tilted_scene tilted;
     } of;
 } hc_prepared;
 
@@ -215,8 +215,8 @@ static void hc_prepare_lines(hc_prepared *made, size_t n, const double *x, const
     if (made->upright) {
         made->lines = hc_make_scene(&made->of.upright, sizes, n, z);
     } else {
-        made->planes = hc_make_tilted_scene(&made->of.leaning, sizes, made->probe + 7, n, x, y, z);
-        if (made->planes) hc_make_planes(&made->of.leaning, 1, 2), made->of.leaning.has_two = 1;
+        made->planes = hc_make_tilted_scene(&made->of.tilted, sizes, made->probe + 7, n, x, y, z);
+        if (made->planes) hc_make_planes(&made->of.tilted, 1, 2), made->of.tilted.has_two = 1;
     }
 }
 
@@ -239,7 +239,7 @@ static size_t hc_ask_kept(int question, const hc_prepared *made, size_t n, const
                           int8_t *answers, hc_signs *kept) {
     if (made->upright)
         return hc_ask_upright(question, made->probe, made->lines ? &made->of.upright : NULL, n, x, y, z, answers, kept);
-    return hc_ask_leaning(question, made->probe, made->planes ? &made->of.leaning : NULL, n, x, y, z, answers, kept);
+    return hc_ask_tilted(question, made->probe, made->planes ? &made->of.tilted : NULL, n, x, y, z, answers, kept);
 }
 
 size_t hypcheck_ask_prepared(int question, const hypcheck_scene *scene, size_t n, const double *x, const double *y,

@@ -1,5 +1,5 @@
 
-/* ---- a spheroid whose axis leans: exact integers ---- */
+/* ---- a tilted spheroid: exact integers ---- */
 
 @TILTED_POOL@
 
@@ -77,7 +77,7 @@ static uint64_t hc_word(double value) {
     return word;
 }
 
-/* Whether the spheroid of a valid row of ten is an upright one: its axis does not lean, or it is a sphere. */
+/* Whether the spheroid of a valid row of ten is an upright one: its axis is not tilted, or it is a sphere. */
 static int hc_is_upright(const double row[10]) {
     return ((hc_word(row[7]) | hc_word(row[8])) << 1 == 0) || hc_word(row[2]) == hc_word(row[3]);
 }

@@ -1,4 +1,4 @@
-/* Near the multiplier at which the dual function of a leaning spheroid is greatest. It proves nothing: any result is safe,
+/* Near the multiplier at which the dual function of a tilted spheroid is greatest. It proves nothing: any result is safe,
    a good one leaves fewer rows to the integers. The poles are p = A1, A2 and B; C's components in the basis that both
    matrices are diagonal in, squared, are P1, P2 and Q. With S = A1 P1/(A1+l)² + A2 P2/(A2+l)² and T = 1 + B Q/(B-l)²,
    Newton's method solves 1/√S = 1/√T, whose sides are straight for a single term: from `l`, by `turns` steps at most. */
@@ -30,7 +30,7 @@ HC_TARGET static inline HC_NUMBER HC_NAME(hc_tilted_multiplier)(HC_NUMBER p, HC_
     return l;
 }
 
-/* Rows of ten that lean, by columns as in hc_certified. */
+/* Tilted rows of ten, by columns as in hc_certified. */
 HC_TARGET static hc_bits HC_NAME(hc_tilted)(const double *columns, size_t stride, int count) {
     hc_bits found = {0, 0, 0};
     int at;

@@ -8,7 +8,7 @@
 #include <math.h>
 
 /* What it claims. Before \"binary\", \"times\":true says that times go with hits, and \"tilt\":true that it is asked about
- * spheroids that lean: predicate_tilted answers all rows then. */
+ * tilted spheroids: predicate_tilted answers all rows then. */
 const char *hypcheck_describe(void) {
     return "{\"protocol\":1,\"name\":\"@NAME@\",\"version\":\"0.0.0\",\"language\":\"c\",\"precision\":\"float64\","
            "\"question\":\"passage\",\"binary\":true,\"time\":true}";

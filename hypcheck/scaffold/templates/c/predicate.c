@@ -7,7 +7,7 @@
 
 /* What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
  * (1 yes, 0 no). Table 2 claims to be right where (gamma/d)^2 >= alpha/b; without "domain" all sizes are asked.
- * With \"tilt\":true before \"binary\" it is asked about spheroids that lean: predicate_tilted answers all rows then. */
+ * With \"tilt\":true before \"binary\" it is asked about tilted spheroids: predicate_tilted answers all rows then. */
 const char *hypcheck_describe(void) {
     return "{\"protocol\":1,\"name\":\"@NAME@\",\"version\":\"0.0.0\",\"language\":\"c\",\"precision\":\"float64\","
            "\"question\":\"exterior\",\"domain\":{\"regimes\":[\"c2>=a\"]},\"binary\":true,\"time\":true}";
@@ -34,7 +34,7 @@ static int predicate(double alpha, double gamma, double b, double d, double x, d
 }
 
 /* The same with the spheroid's axis of revolution along (axis_x, axis_y, axis_z), a vector of any length and sign, upright
- * where axis_x = axis_y = 0. The stub ignores it: wrong as soon as the spheroid leans. Asked only with "tilt":true. */
+ * where axis_x = axis_y = 0. The stub ignores it: wrong as soon as the spheroid is tilted. Asked only with "tilt":true. */
 static int predicate_tilted(double alpha, double gamma, double b, double d, double x, double y, double z, double axis_x,
                             double axis_y, double axis_z) {
     (void)axis_x, (void)axis_y, (void)axis_z;

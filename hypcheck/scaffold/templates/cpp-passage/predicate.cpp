@@ -32,7 +32,7 @@ static double predicate_tilted(double alpha, double gamma, double b, double d, d
 }
 
 // What it claims. Before "binary", "times":true says that times go with hits, and "tilt":true that it is asked about
-// spheroids that lean: predicate_tilted answers all rows then.
+// tilted spheroids: predicate_tilted answers all rows then.
 const char *hypcheck_describe() {
     return R"({"protocol":1,"name":"@NAME@","version":"0.0.0","language":"c++","precision":"float64",)"
            R"("question":"passage","binary":true,"time":true})";

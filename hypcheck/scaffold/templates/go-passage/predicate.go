@@ -3,7 +3,7 @@ package main
 import "math"
 
 // description is what the predicate claims. Before "binary", "times":true says that times go with hits, and "tilt":true
-// that it is asked about spheroids that lean: tilted answers all rows then.
+// that it is asked about tilted spheroids: tilted answers all rows then.
 const description = `{"protocol":1,"name":"@NAME@","version":"0.0.0","language":"go","precision":"float64",` +
 	`"question":"passage","binary":true,"time":true}`
 

@@ -2,7 +2,7 @@ package main
 
 // description is what the predicate claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior,
 // interior or contact (1 yes, 0 no). Table 2 claims to be right where (gamma/d)² ≥ alpha/b; without "domain" all sizes
-// are asked. With "tilt":true before "binary" it is asked about spheroids that lean: tilted answers all rows then.
+// are asked. With "tilt":true before "binary" it is asked about tilted spheroids: tilted answers all rows then.
 const description = `{"protocol":1,"name":"@NAME@","version":"0.0.0","language":"go","precision":"float64",` +
 	`"question":"exterior","domain":{"regimes":["c2>=a"]},"binary":true,"time":true}`
 
@@ -30,7 +30,7 @@ func predicate(alpha, gamma, b, d, x, y, z float64) int8 {
 }
 
 // tilted is the same with the spheroid's axis of revolution along (axisX, axisY, axisZ), a vector of any length and sign,
-// upright where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid leans. Asked only with "tilt":true.
+// upright where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid is tilted. Asked only with "tilt":true.
 func tilted(alpha, gamma, b, d, x, y, z, axisX, axisY, axisZ float64) int8 {
 	return predicate(alpha, gamma, b, d, x, y, z)
 }

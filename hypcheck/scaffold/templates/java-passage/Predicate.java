@@ -2,7 +2,7 @@
 final class Predicate {
     /**
      * What it claims. Before \"binary\", \"times\":true says that times go with hits, and \"tilt\":true that it is asked
-     * about spheroids that lean: tilted answers all rows then.
+     * about tilted spheroids: tilted answers all rows then.
      */
     static final String DESCRIPTION =
             "{\"protocol\":1,\"name\":\"@NAME@\",\"version\":\"0.0.0\",\"language\":\"java\",\"precision\":\"float64\","

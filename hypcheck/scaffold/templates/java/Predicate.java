@@ -3,7 +3,7 @@ final class Predicate {
     /**
      * What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
      * (1 yes, 0 no). Table 2 claims to be right where (gamma/d)^2 >= alpha/b; without "domain" all sizes are asked.
-     * With \"tilt\":true before \"binary\" it is asked about spheroids that lean: tilted answers all rows then.
+     * With \"tilt\":true before \"binary\" it is asked about tilted spheroids: tilted answers all rows then.
      */
     static final String DESCRIPTION =
             "{\"protocol\":1,\"name\":\"@NAME@\",\"version\":\"0.0.0\",\"language\":\"java\",\"precision\":\"float64\","
@@ -40,7 +40,7 @@ final class Predicate {
 
     /**
      * The same with the spheroid's axis of revolution along (axisX, axisY, axisZ), a vector of any length and sign,
-     * upright where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid leans.
+     * upright where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid is tilted.
      */
     static int tilted(
             double alpha, double gamma, double b, double d, double x, double y, double z,

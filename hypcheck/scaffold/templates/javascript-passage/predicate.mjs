@@ -1,6 +1,6 @@
 // The predicate under test.
 
-// What it claims. times: true says that times go with hits, tilt: true that it is asked about spheroids that lean: tilted
+// What it claims. times: true says that times go with hits, tilt: true that it is asked about tilted spheroids: tilted
 // answers all rows then.
 export const description = {
   protocol: 1,

@@ -2,7 +2,7 @@
 
 // What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
 // (1 yes, 0 no). Table 2 claims to be right where (gamma/d)² ≥ alpha/b; without "domain" all sizes are asked.
-// With tilt: true it is asked about spheroids that lean: tilted answers all rows then.
+// With tilt: true it is asked about tilted spheroids: tilted answers all rows then.
 export const description = {
   protocol: 1,
   name: "@NAME@",
@@ -39,7 +39,7 @@ export function predicate(alpha, gamma, b, d, x, y, z) {
 
 /**
  * The same with the spheroid's axis of revolution along (axisX, axisY, axisZ), a vector of any length and sign, upright
- * where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid leans. Asked only with tilt: true.
+ * where axisX = axisY = 0. The stub ignores it: wrong as soon as the spheroid is tilted. Asked only with tilt: true.
  */
 export function tilted(alpha, gamma, b, d, x, y, z, axisX, axisY, axisZ) {
   return predicate(alpha, gamma, b, d, x, y, z);

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 # What it claims. With "times": True, classify returns the times too; with "tilt": True it is asked about spheroids that
-# lean: rows are (n, 13) then, and tilted answers all of them.
+# are tilted: rows are (n, 13) then, and tilted answers all of them.
 hypcheck = {
     "protocol": 1,
     "name": "@NAME@",

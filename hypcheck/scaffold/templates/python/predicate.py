@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 # What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
 # (1 yes, 0 no). Table 2 claims to be right where (gamma/d)² ≥ alpha/b; without "domain" all sizes are asked.
-# With "tilt": True it is asked about spheroids that lean: rows are (n, 10) then, and tilted answers all of them.
+# With "tilt": True it is asked about tilted spheroids: rows are (n, 10) then, and tilted answers all of them.
 hypcheck = {
     "protocol": 1,
     "name": "@NAME@",
@@ -50,6 +50,6 @@ def tilted(*columns: NDArray[np.float64]) -> NDArray[np.int8]:
     """The same with the spheroids' axes of revolution, axis_x, axis_y, axis_z, behind the other columns.
 
     They are vectors of any length and sign, upright where axis_x = axis_y = 0. The stub ignores them: wrong as soon as
-    a spheroid leans.
+    a spheroid is tilted.
     """
     return predicate(*columns[:7])

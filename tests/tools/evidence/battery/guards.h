@@ -314,14 +314,14 @@ static void check_tilted_tangents(void) {
 static int way_made(int place, double value, int leans) {
     const double axis[3] = {1, 2, 3};
     double row[10] = {2, 2, 1, 1, 1, 1, 1, 2, 2, 2};
-    hc_way way;
+    hc_sweep sweep;
     row[place] = value;
-    return hc_make_way(&way, row, leans ? axis : NULL);
+    return hc_make_sweep(&sweep, row, leans ? axis : NULL);
 }
 
 static void check_ways(void) {
     const double row[10] = {2, 2, 1, 1, 1, 1, 1, 2, 2, 2};
-    hc_way way;
+    hc_sweep sweep;
     int i;
     for (i = 0; i < 4; i++) {
         CHECK(!way_made(i, two(-100), 0) && !way_made(i, two(100), 0) && !way_made(i, 0, 0));
@@ -332,12 +332,12 @@ static void check_ways(void) {
         CHECK(!way_made(i, two(150), 0) && !way_made(i, -two(150), 0) && !way_made(i, NAN, 0) && !way_made(i, INFINITY, 0));
         CHECK(!way_made(i, two(60), 0) && !way_made(i, two(60), 1) && way_made(i, two(40), 0)); /* the slack */
     }
-    CHECK(hc_make_way(&way, row, NULL) && way.slack > 4 * HC_unit * 10 && way.slack < 8 * HC_unit * 10);
-    CHECK(hc_way_root(1, 1, 1) == 2 && hc_way_root(0, -1, 0) == 0 && hc_way_root(two(-402), -1, 0) == 0);
-    CHECK(hc_way_root(1, -1, 0) <= 0.5 && hc_way_root(1, -1, 0) > 0.4999 && hc_way_root(1, -0.25, 0) >= 1);
-    CHECK(hc_way_root(1, -0.5, 0) < 1 && hc_way_root(1, 0, -1) < 1 && hc_way_root(1, 0, 1) == 2 && hc_way_root(NAN, 0, 0) == 0);
-    CHECK(hc_way_root(1, -1, 1) <= 1 && hc_way_root(1, -1, 1) > 0.99 && hc_way_root(1, -1, 1.5) == 2);
-    CHECK(hc_way_root(1, 0, 0) == 2 && hc_way_root(1, -0.249, 0) == 2 && hc_way_root(1, -0.251, 0) < 2);
+    CHECK(hc_make_sweep(&sweep, row, NULL) && sweep.slack > 4 * HC_unit * 10 && sweep.slack < 8 * HC_unit * 10);
+    CHECK(hc_sweep_root(1, 1, 1) == 2 && hc_sweep_root(0, -1, 0) == 0 && hc_sweep_root(two(-402), -1, 0) == 0);
+    CHECK(hc_sweep_root(1, -1, 0) <= 0.5 && hc_sweep_root(1, -1, 0) > 0.4999 && hc_sweep_root(1, -0.25, 0) >= 1);
+    CHECK(hc_sweep_root(1, -0.5, 0) < 1 && hc_sweep_root(1, 0, -1) < 1 && hc_sweep_root(1, 0, 1) == 2 && hc_sweep_root(NAN, 0, 0) == 0);
+    CHECK(hc_sweep_root(1, -1, 1) <= 1 && hc_sweep_root(1, -1, 1) > 0.99 && hc_sweep_root(1, -1, 1.5) == 2);
+    CHECK(hc_sweep_root(1, 0, 0) == 2 && hc_sweep_root(1, -0.249, 0) == 2 && hc_sweep_root(1, -0.251, 0) < 2);
 }
 
 /* ---- the public functions: what they say of odd questions ---- */

@@ -117,9 +117,9 @@ static void check_rows_at_limits(void) {
 /* A way of a spheroid with these radii, whose coordinate k goes from 0 to `far`. */
 static double slack_of(double b, double d, int k, double far, const double *axis) {
     double row[10] = {2, 2, 0, 0, 0, 0, 0, 0, 0, 0};
-    hc_way way;
+    hc_sweep sweep;
     row[2] = b, row[3] = d, row[7 + k] = far;
-    return hc_make_way(&way, row, axis) ? way.slack / (4 * HC_unit) : -1;
+    return hc_make_sweep(&sweep, row, axis) ? sweep.slack / (4 * HC_unit) : -1;
 }
 
 static void check_slacks(void) {
@@ -145,15 +145,15 @@ static int leaning_hit(double x, double to_x, const double axis[3], double *time
 static void check_leaning_ways(void) {
     const double lying[3] = {1, 0, 0}, small[10] = {two(-298), two(-298), two(-300), two(-299), two(-294), 0, 0, 1, 0, 1};
     const double row[10] = {4, 4, 1, 2, 100, 0, 0, 90, 0, 0};
-    hc_way way;
+    hc_sweep sweep;
     double time = 7;
     /* It reaches 4 towards the hyperboloid where it lies, and 1/4 where it stands. */
     CHECK(leaning_hit(7, 5, lying, NULL) == 1 && leaning_hit(9, 7, lying, NULL) == 0 && leaning_hit(7, 5, lying, &time) == 1);
     CHECK(time > 0.49 && time <= 0.5);
     CHECK(hc_position_with(small, small + 7) == 1); /* floats leave it, the integers decide */
-    CHECK(hc_make_way(&way, row, small + 7) && hc_leaning_reach(&way, row + 4, 1) > 0);
-    way.along[0].v = way.along[0].e = hc_nothing_known();
-    CHECK(hc_leaning_reach(&way, row + 4, 1) == 0);
+    CHECK(hc_make_sweep(&sweep, row, small + 7) && hc_tilted_sweep_reach(&sweep, row + 4, 1) > 0);
+    sweep.along[0].v = sweep.along[0].e = hc_nothing_known();
+    CHECK(hc_tilted_sweep_reach(&sweep, row + 4, 1) == 0);
 }
 
 static void check_ends_of_ways(void) {

@@ -1,7 +1,7 @@
 //! The predicate under test.
 
 /// What it claims. Before "binary", "times":true says that times go with hits, and "tilt":true that it is asked about
-/// spheroids that lean: tilted answers all rows then.
+/// tilted spheroids: tilted answers all rows then.
 pub const DESCRIPTION: &str = concat!(
     r#"{"protocol":1,"name":"@NAME@","version":"0.0.0","language":"rust","precision":"float64","#,
     r#""question":"passage","binary":true,"time":true}"#

@@ -2,7 +2,7 @@
 
 /// What it claims. "question" may be position (+1 exterior, 0 contact, -1 interior), exterior, interior or contact
 /// (1 yes, 0 no). Table 2 claims to be right where (gamma/d)² ≥ alpha/b; without "domain" all sizes are asked.
-/// With "tilt":true before "binary" it is asked about spheroids that lean: tilted answers all rows then.
+/// With "tilt":true before "binary" it is asked about tilted spheroids: tilted answers all rows then.
 pub const DESCRIPTION: &str = concat!(
     r#"{"protocol":1,"name":"@NAME@","version":"0.0.0","language":"rust","precision":"float64","#,
     r#""question":"exterior","domain":{"regimes":["c2>=a"]},"binary":true,"time":true}"#
@@ -31,7 +31,7 @@ pub fn predicate([alpha, gamma, b, d, x, y, z]: [f64; 7]) -> i8 {
 }
 
 /// The same with the spheroid's axis of revolution, a vector of any length and sign, behind the other numbers; upright
-/// where its x and y are 0. The stub ignores it: wrong as soon as the spheroid leans. Asked only with "tilt":true.
+/// where its x and y are 0. The stub ignores it: wrong as soon as the spheroid is tilted. Asked only with "tilt":true.
 pub fn tilted([alpha, gamma, b, d, x, y, z, _axis_x, _axis_y, _axis_z]: [f64; 10]) -> i8 {
     predicate([alpha, gamma, b, d, x, y, z])
 }

@@ -1,4 +1,4 @@
-"""Ways through a scene: against the exact decision about every hyperboloid, whatever grid and floats leave out."""
+"""Sweeps through a scene: against the exact decision about every hyperboloid, whatever grid and floats leave out."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def forest(count, seed, height=None, **changes):
     return replace(scene, **changes)
 
 
-def ways(count, seed, step=2.0, rise=1.0):
+def sweeps(count, seed, step=2.0, rise=1.0):
     """Starts on the square, and ends some steps farther."""
     random = np.random.default_rng(seed)
     starts = random.uniform((-6, -6, -2), (6, 6, 2), (count, 3))
@@ -43,7 +43,7 @@ def ways(count, seed, step=2.0, rise=1.0):
 
 
 def passage_beside(body, semi_axes, start, end, axis=None):
-    """What happens on a way beside a hyperboloid and its ends, exactly."""
+    """What happens on a sweep beside a hyperboloid and its ends, exactly."""
     ends = (
         [Fraction(there) - Fraction(here) for there, here in zip(point, body.center, strict=True)]
         for point in (start, end)
@@ -61,7 +61,7 @@ def brute_force(scene, start, end, axis=None):
 
 
 def expected(scene, starts, ends, axis=None):
-    return [brute_force(scene, *way, axis) for way in zip(starts.tolist(), ends.tolist(), strict=True)]
+    return [brute_force(scene, *sweep, axis) for sweep in zip(starts.tolist(), ends.tolist(), strict=True)]
 
 
 @pytest.mark.parametrize(
@@ -75,14 +75,14 @@ def expected(scene, starts, ends, axis=None):
     ids=["forest", "no-region", "heights", "small"],
 )
 def test_scene_passage_answers_as_the_exact_decision_about_every_hyperboloid(scene):
-    starts, ends = ways(40, 5)
+    starts, ends = sweeps(40, 5)
     found = Scene(scene).passage(starts, ends)
     assert found.tolist() == expected(scene, starts, ends)
-    alone = [Scene(scene).passage(*way) for way in zip(starts, ends, strict=True)]
-    assert [way.hit for way in alone] == found.hit.tolist()
-    for place in [place for place, way in enumerate(alone) if way.hit][:4]:  # a time takes milliseconds
-        way = starts[place].tolist(), ends[place].tolist()
-        firsts = [passage_beside(tree, (scene.mover.b, scene.mover.d), *way).first for tree in scene.hyperboloids]
+    alone = [Scene(scene).passage(*sweep) for sweep in zip(starts, ends, strict=True)]
+    assert [sweep.hit for sweep in alone] == found.hit.tolist()
+    for place in [place for place, sweep in enumerate(alone) if sweep.hit][:4]:  # a time takes milliseconds
+        sweep = starts[place].tolist(), ends[place].tolist()
+        firsts = [passage_beside(tree, (scene.mover.b, scene.mover.d), *sweep).first for tree in scene.hyperboloids]
         first, index = min((first, index) for index, first in enumerate(firsts) if first is not None)
         assert (alone[place].first, alone[place].index) == (first, index)
         many = Scene(scene).passage(starts[[place]], ends[[place]])
@@ -92,11 +92,11 @@ def test_scene_passage_answers_as_the_exact_decision_about_every_hyperboloid(sce
     assert len({*found.tolist()}) > 1
 
 
-def test_scene_passage_answers_long_and_short_ways_in_one_call_as_each_alone():
-    scene, (starts, ends) = Scene(forest(60, 6)), ways(40, 7)
+def test_scene_passage_answers_long_and_short_sweeps_in_one_call_as_each_alone():
+    scene, (starts, ends) = Scene(forest(60, 6)), sweeps(40, 7)
     ends = starts + (ends - starts) * np.repeat([1e-9, 1.0, 3.0, 1e3], 10)[:, None] * (1, 1, 0)
     found = scene.passage(starts, ends)
-    assert found.tolist() == [int(scene.passage(*way).hit) for way in zip(starts, ends, strict=True)]
+    assert found.tolist() == [int(scene.passage(*sweep).hit) for sweep in zip(starts, ends, strict=True)]
     assert found.tolist() == scene.passage(ends, starts).tolist()
     looks = starts + np.linspace(0, 1, 65)[:, None, None] * (ends - starts)
     seen = np.array([scene.classify(*places.T) == 0 for places in looks]).any(axis=0)
@@ -104,10 +104,10 @@ def test_scene_passage_answers_long_and_short_ways_in_one_call_as_each_alone():
     assert 0 < seen.sum() < found.hit.sum() < 40
 
 
-def test_scene_passage_of_a_leaning_mover_is_exact_with_its_fixed_axis():
+def test_scene_passage_of_a_tilted_mover_is_exact_with_its_fixed_axis():
     axis = (1.0, 0.5, 2.0)
     scene = forest(5, 8, mover=Mover(0.3, 0.9, axis=axis))
-    starts, ends = ways(16, 9)
+    starts, ends = sweeps(16, 9)
     assert Scene(scene).passage(starts, ends).tolist() == expected(scene, starts, ends, axis)
 
 
@@ -115,12 +115,12 @@ def test_scene_passage_finds_the_first_contact_above_the_region_where_a_tree_rea
     """At the height 9 the second tree is 4.5 wide, and within the region, up to 1, it is 0.7 wide at most."""
     trees = (Hyperboloid("thin", 0.2, 50.0, (6.0, 0.0, 0.0)), Hyperboloid("wide", 0.5, 1.0, (7.0, 4.0, 0.0)))
     scene = SceneModel("two", "position", trees, Mover(0.1, 0.1), Region(z=Span(-1.0, 1.0)))
-    way = (0.0, 0.0, 9.0), (10.0, 0.0, 9.0)
-    thin, wide = (passage_beside(tree, (0.1, 0.1), *way) for tree in trees)
+    sweep = (0.0, 0.0, 9.0), (10.0, 0.0, 9.0)
+    thin, wide = (passage_beside(tree, (0.1, 0.1), *sweep) for tree in trees)
     assert wide.first_upper < thin.first_lower
-    for found in (Scene(scene).passage(*way), Scene(scene).first_contact(way)):
+    for found in (Scene(scene).passage(*sweep), Scene(scene).first_contact(sweep)):
         assert found.index == 1
-    assert Scene(scene).passage(*way).first == wide.first
+    assert Scene(scene).passage(*sweep).first == wide.first
 
 
 TREE = Hyperboloid("tree", 2.0, 3.0)
@@ -189,7 +189,7 @@ def test_scene_passage_asks_the_parts_of_a_mover_where_the_whole_has_contact():
         return int(said not in ({Position.EXTERIOR}, {Position.INTERIOR}))
 
     found = scene.passage(starts, ends, headings).tolist()
-    assert found == [hit(*way) for way in zip(starts.tolist(), ends.tolist(), headings.tolist(), strict=True)]
+    assert found == [hit(*sweep) for sweep in zip(starts.tolist(), ends.tolist(), headings.tolist(), strict=True)]
     without = Scene(replace(scene.model, mover=Mover(1.0, 0.5))).passage(starts, ends).tolist()
     assert sum(found) < sum(without)
 
@@ -201,13 +201,13 @@ def around(points):
 
 @pytest.mark.parametrize("height", [None, Span(-1.0, 0.75)])
 @pytest.mark.parametrize("axis", [UPRIGHT, (1.0, -2.0, 3.0)])
-def test_ways_in_a_turned_scene_are_answered_as_in_the_upright_one(height, axis):
+def test_sweeps_in_a_turned_scene_are_answered_as_in_the_upright_one(height, axis):
     scene = forest(6, 4, height, mover=Mover(0.3, 0.9, axis=axis), region=Region())
     bodies = [
         replace(body, center=tuple(around(body.center).tolist()), axis=(1.0, 0.0, 0.0)) for body in scene.hyperboloids
     ]
     other = replace(scene, hyperboloids=tuple(bodies), mover=Mover(0.3, 0.9, axis=tuple(around(axis).tolist())))
-    starts, ends = ways(80, 3, step=3.0)
+    starts, ends = sweeps(80, 3, step=3.0)
     said = Scene(scene).passage(starts, ends)
     assert set(said.tolist()) == {0, 1}
     assert Scene(other).passage(around(starts), around(ends)).tolist() == said.tolist()
@@ -220,13 +220,13 @@ def test_ways_in_a_turned_scene_are_answered_as_in_the_upright_one(height, axis)
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_way_beside_tilted_hyperboloids_hits_where_its_distance_comes_to_0(seed):
+def test_sweep_beside_tilted_hyperboloids_hits_where_its_distance_comes_to_0(seed):
     """Euclidean distance changes no faster than the centre, so that samples bound it from both sides."""
     scene = forest(5, seed, mover=Mover(0.3, 0.6, axis=FREE), region=Region())
     draw = np.random.default_rng(seed)
     bodies = [replace(body, axis=tuple(draw.normal(size=3).tolist())) for body in scene.hyperboloids]
     scene = Scene(replace(scene, hyperboloids=tuple(bodies)))
-    starts, ends = ways(8, seed, step=3.0)
+    starts, ends = sweeps(8, seed, step=3.0)
     axes = draw.normal(size=(8, 3))
     said = scene.passage(starts, ends, axis=axes).hit.astype(int)
     assert set(said.tolist()) == {0, 1}
@@ -239,7 +239,7 @@ def test_way_beside_tilted_hyperboloids_hits_where_its_distance_comes_to_0(seed)
             assert found.distance_lower.min() <= np.linalg.norm(end - start) / 198 + 1e-9
 
 
-def test_way_along_the_axis_of_a_tilted_trunk_meets_its_end_at_an_irrational_time():
+def test_sweep_along_the_axis_of_a_tilted_trunk_meets_its_end_at_an_irrational_time():
     """|w| = √2: the end at the height 1 along (1, 0, 1) is where x + z = √2, with floats on both sides."""
     trunk = Hyperboloid("fir", 0.25, 4.0, (0.0, 0.0, 0.0), Span(1.0, 3.0), (1.0, 0.0, 1.0), solid=True)
     scene = Scene(SceneModel("tree", "position", (trunk,), Mover(2.0**-60, 2.0**-60)))
@@ -275,12 +275,12 @@ def test_scene_passage_refuses_invalid_ends_in_one_sentence(start, end, said):
     assert str(caught.value) == said
 
 
-def test_scene_passage_of_no_ways_is_an_empty_array():
+def test_scene_passage_of_no_sweeps_is_an_empty_array():
     scene = Scene(forest(3, 1))
     assert scene.passage(np.empty((0, 3)), np.empty((0, 3))).tolist() == []
 
 
-def test_a_way_farther_from_an_axis_than_the_reach_does_not_pass_it():
+def test_a_sweep_farther_from_an_axis_than_the_reach_does_not_pass_it():
     """To ask about more is slow, and shows in no answer."""
     starts, ends = np.array([[-9.0, 0.0, 0.0], [-1.0, 1.0, 0.0]]), np.array([[9.0, 0.0, 0.0], [1.0, -1.0, 0.0]])
     origins = np.array([[0.0, 1.5, 0.0], [0.0, 1.0, 0.0], [3.0, 3.0, 0.0], [2.0, -2.0, 0.0]])
@@ -288,7 +288,7 @@ def test_a_way_farther_from_an_axis_than_the_reach_does_not_pass_it():
     assert scene_index.passed(starts, ends, query, origins, reach).tolist() == [False, True, False, True]
 
 
-def test_ways_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone():
+def test_sweeps_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone():
     """Padded for their rounding they would overlap billions of cells."""
     far = 1.7976931348623157e308
     bodies = (Hyperboloid("near", 1.0, 1.0), Hyperboloid("far", 1.0, 1.0, (far, 0.0, 0.0)))
@@ -298,7 +298,7 @@ def test_ways_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone
     assert trees.classify(*ends.T).tolist() == [-1, 1, 1, 0]
 
 
-def test_ways_beside_a_hyperboloid_whose_axis_points_down_are_those_beside_the_upright_one():
+def test_sweeps_beside_a_hyperboloid_whose_axis_points_down_are_those_beside_the_upright_one():
     starts, ends = np.random.default_rng(1).uniform(-3, 3, (2, 400, 3))
     said = [
         Scene(SceneModel("tree", "position", (body,), Mover(0.2, 0.2))).passage(starts, ends).tolist()

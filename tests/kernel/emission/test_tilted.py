@@ -1,4 +1,4 @@
-"""Kernels for a mover that leans, along one axis or along any: their answers, their text, and what is refused."""
+"""Kernels for a tilted mover, along one axis or along any: their answers, their text, and what is refused."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description, described_by_json, domain_of
-from hypcheck.kernel.specialise.leaning import FRAME_NAMES
+from hypcheck.kernel.specialise.tilted import FRAME_NAMES
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.vectors import families, fixed_sizes
@@ -32,7 +32,7 @@ from tests.kernel.emission.building import (
     worst_error,
 )
 from tests.kernel.emission.test_conformance import gated
-from tests.support.inside import DIALECTS, description, emitted, leaning_search, plan_of
+from tests.support.inside import DIALECTS, description, emitted, plan_of, tilted_search
 from tests.support.judging import wrong_cases
 
 PITCHED = (0.3, 0.1, 1.0)
@@ -58,7 +58,7 @@ ROTORS = (MoverPart(0.1, 0.05, 0.135, 45.0), MoverPart(0.08, 0.08, 0.2, 180.0))
 
 @pytest.mark.parametrize("language", DIALECTS)
 @pytest.mark.parametrize("name", ["the tower, one axis", "two trees, any axis"])
-def test_a_kernel_for_a_leaning_mover_is_within_its_error_bound_and_always_answers(name, language, tmp_path):
+def test_a_kernel_for_a_tilted_mover_is_within_its_error_bound_and_always_answers(name, language, tmp_path):
     skip_without(language)
     plan = plan_of(SCENES[name])
     kernel = asking(built(tmp_path, SCENES[name], language), language)
@@ -75,8 +75,8 @@ def test_a_kernel_for_a_leaning_mover_is_within_its_error_bound_and_always_answe
 
 @pytest.mark.parametrize("mover", [Mover(0.25, 0.15, ROTORS, PITCHED), Mover(0.2, 0.2, ROTORS, FREE)])
 @needs("c")
-def test_a_kernel_for_a_leaning_mover_knows_its_parts_which_have_its_axis(mover, tmp_path):
-    """A ball has no axis of its own, but its parts may lean. An arm points up or down as far as it is long."""
+def test_a_kernel_for_a_tilted_mover_knows_its_parts_which_have_its_axis(mover, tmp_path):
+    """A ball has no axis of its own, but its parts may be tilted. An arm points up or down as far as it is long."""
     scene = replace(tower(PITCHED), mover=mover, region=Region(z=Span(-1.0, 2.0)))
     plan = plan_of(scene)
     assert [stages.setting.sizes[2:] for stages in plan.settings] == [(mover.b, mover.d), (0.1, 0.05), (0.08, 0.08)]
@@ -92,7 +92,7 @@ def test_a_kernel_for_a_leaning_mover_knows_its_parts_which_have_its_axis(mover,
 
 @pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
 @needs("c")
-def test_a_kernel_for_a_leaning_mover_answers_each_question_within_its_error_bound(question, tmp_path):
+def test_a_kernel_for_a_tilted_mover_answers_each_question_within_its_error_bound(question, tmp_path):
     chosen = tower(FREE, question)
     worst, asked = worst_error(asking(built(tmp_path, chosen, "c"), "c"), plan_of(chosen), 64)
     assert asked > 100
@@ -100,7 +100,7 @@ def test_a_kernel_for_a_leaning_mover_answers_each_question_within_its_error_bou
 
 
 @needs("c")
-def test_a_kernel_for_a_leaning_mover_compiled_with_fma_has_no_false_clear(tmp_path):
+def test_a_kernel_for_a_tilted_mover_compiled_with_fma_has_no_false_clear(tmp_path):
     """An FMA where a product is taken apart would lose its lower half; some of the answers +1 and -1 are wrong then."""
     options = ("-O3", "-march=native", "-ffp-contract=fast")
     library = built(tmp_path, tower(FREE), "c", "float64", *options)
@@ -190,20 +190,20 @@ def _library(kernel):
 @pytest.fixture(scope="module")
 def last_stage(tmp_path_factory):
     """The kernel's last stage in Python, for any sizes: what its other stages leave, asked of all rows."""
-    kernel = load_module(built(tmp_path_factory.mktemp("leaning"), tower(FREE), "python"))
+    kernel = load_module(built(tmp_path_factory.mktemp("tilted"), tower(FREE), "python"))
 
     def ask(row, *, free):
         axis = tuple(row[7:])
-        search = leaning_search(tuple(row[:4]), None if free else axis)
+        search = tilted_search(tuple(row[:4]), None if free else axis)
         table = (*search.constants.values(), search.most, search.omega)
-        return kernel.leaning_search_free(*row[4:7], axis, table) if free else kernel.leaning_search(*row[4:7], table)
+        return kernel.tilted_search_free(*row[4:7], axis, table) if free else kernel.tilted_search(*row[4:7], table)
 
     return ask
 
 
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("name", [name for name in families.TILTED_FAMILIES if not name.startswith("extreme")])
-def test_the_last_stage_for_a_leaning_mover_is_right_within_1_u_on_every_tilted_family(name, free, last_stage):
+def test_the_last_stage_for_a_tilted_mover_is_right_within_1_u_on_every_tilted_family(name, free, last_stage):
     rows = families.TILTED_FAMILIES[name].rows(11, 24)
     p, s, t = ((rows[:, [0, 1, 3]] / rows[:, [2]]) ** 2).T
     rows = rows[(abs(np.log2(p)) < 39) & (abs(np.log2(s)) < 39) & (abs(np.log2(t)) < 23)]
@@ -218,10 +218,10 @@ def test_the_last_stage_for_a_leaning_mover_is_right_within_1_u_on_every_tilted_
     assert all(judge.measured(case, "position") <= criterion.unit for case in wrong)
 
 
-def test_the_frame_constants_of_a_leaning_kernel_make_both_matrices_diagonal():
+def test_the_frame_constants_of_a_tilted_kernel_make_both_matrices_diagonal():
     """Its rows make both matrices diagonal: M is the sum of their squares, D that of their squares over the poles."""
     alpha, gamma, b, d = 2.0, 17.8, 0.25, 0.15
-    search = leaning_search((alpha, gamma, b, d), PITCHED)
+    search = tilted_search((alpha, gamma, b, d), PITCHED)
     of = {name: sum(map(Fraction, search.constants[name])) for name in FRAME_NAMES}
     rows = [(of["r1x"], of["r1y"], 0), (of["r2x"], of["r2y"], of["r2z"]), (of["r3x"], of["r3y"], of["r3z"])]
     axis = [Fraction(part) for part in PITCHED]
@@ -238,7 +238,7 @@ def test_the_frame_constants_of_a_leaning_kernel_make_both_matrices_diagonal():
 
 
 @needs("c")
-def test_a_kernel_for_a_leaning_mover_passes_the_conformance_run(tmp_path, capsys):
+def test_a_kernel_for_a_tilted_mover_passes_the_conformance_run(tmp_path, capsys):
     for name, scene in (("fixed", tower(PITCHED)), ("free", tower(FREE))):
         folder = tmp_path / name
         folder.mkdir()
@@ -265,7 +265,7 @@ def test_a_kernel_with_the_frame_of_another_axis_fails_the_conformance_run(tmp_p
 
 
 @pytest.mark.parametrize("axis", [PITCHED, FREE])
-def test_the_description_of_a_kernel_for_a_leaning_mover_names_its_axis(axis):
+def test_the_description_of_a_kernel_for_a_tilted_mover_names_its_axis(axis):
     claimed = described_by_json(json.dumps(description(plan_of(tower(axis)), "c")), Description(""))
     assert claimed.tilt
     assert [setting.axis for setting in claimed.domain.settings] == [axis]
@@ -274,16 +274,20 @@ def test_the_description_of_a_kernel_for_a_leaning_mover_names_its_axis(axis):
 @pytest.mark.parametrize(
     ("scene", "precision", "message"),
     [
-        (tower(PITCHED), "float32", "no kernel is made in float32: where the mover leans, kernels compute in float64"),
-        (replace(tower(PITCHED), mover=Mover(0.25, 1e-5, axis=FREE)), "float64", "where a spheroid leans, alpha/b"),
+        (
+            tower(PITCHED),
+            "float32",
+            "no kernel is made in float32: where the mover is tilted, kernels compute in float64",
+        ),
+        (replace(tower(PITCHED), mover=Mover(0.25, 1e-5, axis=FREE)), "float64", "where a spheroid is tilted, alpha/b"),
     ],
 )
-def test_emit_refuses_unsupported_scenes_with_a_leaning_mover_in_one_sentence(scene, precision, message):
+def test_emit_refuses_unsupported_scenes_with_a_tilted_mover_in_one_sentence(scene, precision, message):
     with pytest.raises(InputError, match=message):
         plan_of(scene, precision)
 
 
-def test_proof_and_timing_of_a_kernel_for_a_leaning_mover_are_refused(tmp_path, capsys):
+def test_proof_and_timing_of_a_kernel_for_a_tilted_mover_are_refused(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text(
         'name = "s"\n[[hyperboloid]]\nalpha = 2.0\ngamma = 9.0\n[mover]\nb = 0.25\nd = 0.15\naxis = "free"\n',
@@ -295,6 +299,6 @@ def test_proof_and_timing_of_a_kernel_for_a_leaning_mover_are_refused(tmp_path, 
     assert "Coq has no proof" in capsys.readouterr().err
     assert not kernel.exists()
     assert main(["plan", str(path), "--measure"]) == 2
-    assert "is not timed: its mover leans" in capsys.readouterr().err
+    assert "is not timed: its mover is tilted" in capsys.readouterr().err
     assert main(["plan", str(path)]) == 0
     assert "axis free" in capsys.readouterr().out

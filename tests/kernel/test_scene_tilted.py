@@ -1,4 +1,4 @@
-"""Scenes in which something leans: exact answers against fractions, heights along an axis, and who may name an axis."""
+"""Tilted scenes: exact answers against fractions, heights along an axis, and who may name an axis."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ def direction(draw, most=3):
             return axis
 
 
-def leaning_forest(count, seed, unit=1.0):
-    """Hyperboloids of which two in three lean, one as the mover may, with sizes and places of few bits."""
+def tilted_forest(count, seed, unit=1.0):
+    """Hyperboloids of which two in three are tilted, one as the mover may, with sizes and places of few bits."""
     draw = random.Random(seed)  # noqa: S311 - nothing is secret
     mover = Mover(
         unit * draw.randint(1, 6) / 8,
@@ -68,10 +68,10 @@ def leaning_forest(count, seed, unit=1.0):
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_scene_classify_of_a_leaning_forest_answers_as_exact_fractions_about_each_tree(seed):
+def test_scene_classify_of_a_tilted_forest_answers_as_exact_fractions_about_each_tree(seed):
     """In units of any size, for each question, with centres where trees stand and beyond the region."""
     unit, question = (1.0, 2.0**-300, 2.0**300)[seed % 3], QUESTIONS[seed % 4]
-    scene = leaning_forest(6, seed, unit)
+    scene = tilted_forest(6, seed, unit)
     free, draw = scene.mover.axis == FREE, random.Random(seed + 100)  # noqa: S311 - nothing is secret
     centres = [tuple(unit * draw.randint(-80, 80) / 8 for _ in range(3)) for _ in range(16)]
     centres += [tuple(at + unit * draw.randint(-8, 8) / 8 for at in tree.center) for tree in scene.hyperboloids]
@@ -101,7 +101,7 @@ def turned(quaternion):
     return rows, a * a + b * b + c * c + d * d
 
 
-def test_a_leaning_scene_is_exact_if_the_difference_of_centres_is_rounded():
+def test_a_tilted_scene_is_exact_if_the_difference_of_centres_is_rounded():
     """At 2^52 a difference is wrong by halves: more than any clearance here."""
     far = 2.0**52
     draw = random.Random(3)  # noqa: S311 - nothing is secret
@@ -118,7 +118,7 @@ def test_a_leaning_scene_is_exact_if_the_difference_of_centres_is_rounded():
 
 @pytest.mark.parametrize("unit", [1.0, 2.0**-300, 2.0**300])
 @pytest.mark.parametrize(("shift", "expected"), [(-(2.0**-60), EXTERIOR), (0.0, CONTACT), (2.0**-60, CONTACT)])
-def test_a_leaning_scene_sees_a_clearance_that_rounding_of_the_difference_loses(shift, expected, unit):
+def test_a_tilted_scene_sees_a_clearance_that_rounding_of_the_difference_loses(shift, expected, unit):
     """A spheroid along y touches the waist of α = 1 at x = 2 from outside; 2 + 2^-60 is 2 once it is rounded."""
     body = Hyperboloid("waist", unit, 4 * unit, (shift * unit, 0.0, 0.0))
     scene = Scene(SceneModel("s", "position", (body,), Mover(unit, 0.5 * unit, axis=(0.0, 1.0, 0.0))))
@@ -154,7 +154,7 @@ def test_an_open_hyperboloid_ends_exactly_at_heights_in_the_direction_of_its_axi
     assert scene.classify(*centre) == scene.position(*centre)
 
 
-def test_the_scene_index_finds_a_leaning_tower_at_its_top():
+def test_the_scene_index_finds_a_tilted_tower_at_its_top():
     """Its foot is 10 m away from where a mover meets it."""
     tower = Hyperboloid("tower", 1.0, 20.0, (0.0, 0.0, 0.0), Span(0.0, 20.0), (3.0, 0.0, 4.0))
     trees = tuple(Hyperboloid(f"tree {k}", 0.25, 4.0, (3.0 * k, 30.0, 0.0)) for k in range(12))
@@ -165,7 +165,7 @@ def test_the_scene_index_finds_a_leaning_tower_at_its_top():
     assert scene.position(12.0 - wall, 0.0, 16.0) == CONTACT
 
 
-def test_an_upright_mover_with_parts_asks_them_near_a_leaning_hyperboloid():
+def test_an_upright_mover_with_parts_asks_them_near_a_tilted_hyperboloid():
     body = Hyperboloid("wall", 4.0, 4.0, (0.0, 0.0, 0.0), None, (0.0, 1.0, 0.0))
     part = MoverPart(0.125, 0.125, 0.5)
     mover = Mover(1.0, 0.25, (part,))
@@ -277,7 +277,7 @@ ROTORS = tuple(MoverPart(0.2, 0.1, 0.6, angle) for angle in (45.0, 135.0, 225.0,
 @pytest.mark.parametrize("axis", [FREE, (1.0, 0.0, 2.0), (0.0, -3.0, -1.0), (2.0, 1.0, 0.0)])
 def test_parts_of_a_mover_that_leans_are_turned_with_it(axis, seed):
     draw = random.Random(seed)  # noqa: S311 - nothing is secret
-    model = replace(leaning_forest(3, seed), question="position", mover=Mover(1.0, 0.5, ROTORS, axis))
+    model = replace(tilted_forest(3, seed), question="position", mover=Mover(1.0, 0.5, ROTORS, axis))
     scene, said = Scene(model), set()
     for _ in range(60):
         centre = tuple(draw.uniform(-4, 4) for _ in range(3))
@@ -304,9 +304,9 @@ def test_a_ring_of_parts_that_leans_lets_a_tree_through_where_the_upright_one_do
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_way_of_a_mover_that_leans_and_has_parts_hits_where_one_of_its_times_does(seed):
+def test_sweep_of_a_tilted_mover_with_parts_hits_where_one_of_its_times_does(seed):
     draw = random.Random(seed)  # noqa: S311 - nothing is secret
-    bodies = [body for body in leaning_forest(8, seed).hyperboloids if body.axis[0] == body.axis[1] == 0]
+    bodies = [body for body in tilted_forest(8, seed).hyperboloids if body.axis[0] == body.axis[1] == 0]
     model = SceneModel("s", "position", tuple(bodies), Mover(1.0, 0.5, ROTORS, (1.0, 2.0, 3.0)))
     scene, hits = Scene(model), []
     for _ in range(40):

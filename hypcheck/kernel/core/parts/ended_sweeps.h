@@ -1,4 +1,4 @@
-/* ---- straight ways beside hyperboloids that end ---- */
+/* ---- straight sweeps beside hyperboloids that end ---- */
 
 #define HC_MOST_RECTANGLES 1024 /* that are looked at before a stretch is given up */
 #define HC_RECTANGLES_KEPT 64
@@ -6,25 +6,25 @@
 #define HC_SMALL 9.5367431640625e-07 /* 2^-20 */
 #define HC_TIMES 60 /* halvings of the time before a contact, of which so many, one after the other, may tell nothing */
 #define HC_MOST_UNKNOWN 12
-#define HC_FINE_SLACK 2.8421709430404007e-14 /* 2^-45, of the way's slack: 2^-96 (1 + the sum in radii) */
+#define HC_FINE_SLACK 2.8421709430404007e-14 /* 2^-45, of the sweep's slack: 2^-96 (1 + the sum in radii) */
 #define HC_NEAR_CONTACT 8 /* errors of a form, within which numbers of two doubles are asked */
 #define HC_SIMPLE_TIMES 1048576.0 /* 2^20: times that are asked exactly are whole numbers over this */
 
-/* A way, and the sections of the spheroid larger by its slack, which holds the exact one at all times, and of the one
+/* A sweep, and the sections of the spheroid larger by its slack, which holds the exact one at all times, and of the one
    smaller by it, which the exact one holds. `rise`, `off` and `aside` are what z, eta and xi0 change in a unit of time.
 
    `outer` and `inner` are the same by numbers of two doubles: from + t (to - from) is right within 2^-98 (|from| + |to|),
    which makes a slack of 2^-96 (1 + the sum in radii), and squares are multiplied by 1 + 4 slack and 1 - 4 slack. `between`
    are the sections of the spheroid as it is, for slopes. `wide` is |x| + |y| of both ends, `tall` |z| of both. */
 typedef struct {
-    hc_way way;
+    hc_sweep sweep;
     hc_sections larger, smaller, between;
     hc_fine_sections outer, inner;
     hc_twin moved[3];
     double rise, off, aside, swift, reach, low, high, wide, tall;
     const double *row, *axis;
     int solid, wall, fine, clear[2]; /* `clear`: that there is no contact at the start, at the end */
-} hc_ended_way;
+} hc_ended_sweep;
 
 /* Heights and times. */
 typedef struct {
@@ -36,19 +36,19 @@ typedef struct {
     double value, by_height, by_time, xx, xy, yy;
 } hc_form;
 
-static int hc_make_ended_way(hc_ended_way *made, const double row[16], const double *axis) {
+static int hc_make_ended_sweep(hc_ended_sweep *made, const double row[16], const double *axis) {
     double shape[10] = {0};
-    if (!hc_make_way(&made->way, row, axis)) return 0;
-    hc_way_at(&made->way, 0, 1 + made->way.slack, shape);
+    if (!hc_make_sweep(&made->sweep, row, axis)) return 0;
+    hc_sweep_at(&made->sweep, 0, 1 + made->sweep.slack, shape);
     if (axis) memcpy(shape + 7, axis, 3 * sizeof *axis);
     else shape[9] = 1;
     shape[4] = shape[5] = shape[6] = 0;
     if (!hc_make_sections(&made->larger, shape)) return 0;
-    hc_way_at(&made->way, 0, 1 - made->way.slack, shape);
+    hc_sweep_at(&made->sweep, 0, 1 - made->sweep.slack, shape);
     shape[4] = shape[5] = shape[6] = 0;
     if (!hc_make_sections(&made->smaller, shape)) return 0;
-    hc_place_sections(&made->larger, made->way.change);
-    made->rise = made->way.change[2];
+    hc_place_sections(&made->larger, made->sweep.change);
+    made->rise = made->sweep.change[2];
     made->off = made->larger.eta;
     made->aside = made->larger.xi0;
     made->swift = made->larger.across;
@@ -66,8 +66,8 @@ static int hc_make_ended_way(hc_ended_way *made, const double row[16], const dou
 }
 
 /* What only numbers of two doubles need. */
-static void hc_make_finer(hc_ended_way *made) {
-    const double more = 4 * HC_FINE_SLACK * made->way.slack;
+static void hc_make_finer(hc_ended_sweep *made) {
+    const double more = 4 * HC_FINE_SLACK * made->sweep.slack;
     double shape[10] = {0};
     int k;
     if (made->fine) return;
@@ -81,13 +81,13 @@ static void hc_make_finer(hc_ended_way *made) {
     made->fine = 1;
 }
 
-static void hc_center_at(const hc_ended_way *made, double time, double center[3]) {
+static void hc_center_at(const hc_ended_sweep *made, double time, double center[3]) {
     int k;
-    for (k = 0; k < 3; k++) center[k] = made->way.from[k] + time * made->way.change[k];
+    for (k = 0; k < 3; k++) center[k] = made->sweep.from[k] + time * made->sweep.change[k];
 }
 
 /* The form of the sections that are placed at a time, about a height w. */
-static hc_form hc_form_about(const hc_ended_way *made, const hc_sections *pair, double lambda_, double w) {
+static hc_form hc_form_about(const hc_ended_sweep *made, const hc_sections *pair, double lambda_, double w) {
     const double f1 = lambda_ * pair->mu1 / (pair->mu1 + lambda_), f2 = lambda_ * pair->mu2 / (pair->mu2 + lambda_);
     const double t = w - pair->z, xi = pair->xi0 - pair->k * t, drift = made->aside + pair->k * made->rise;
     const double g = pair->ratio * pair->alpha, l2 = lambda_ * (g * g);
@@ -103,7 +103,7 @@ static hc_form hc_form_about(const hc_ended_way *made, const hc_sections *pair, 
 
 /* A bound of the errors of the form's terms together within these distances from its height and its time: each is right
    within 32u of its terms, f within 32u mu/(mu + lambda) of itself. Huge where numbers are too large. */
-static double hc_form_error(const hc_ended_way *made, const hc_sections *pair, double lambda_, double w, double x, double y) {
+static double hc_form_error(const hc_ended_sweep *made, const hc_sections *pair, double lambda_, double w, double x, double y) {
     const double n1 = pair->mu1 + lambda_, n2 = pair->mu2 + lambda_, g = pair->ratio * pair->alpha;
     const double top = hc_size(w - pair->z) + x + hc_size(made->rise) * y, wide = hc_size(w) + x;
     const double side = pair->across + made->swift * y, along = side + hc_size(pair->k) * top;
@@ -133,7 +133,7 @@ static double hc_form_least(const hc_form *form, const hc_rectangle *in, double 
 
 /* Moves a height and a time in a rectangle to about where max phi over lambda is least: the form with the bends that a
    lambda that follows adds to it. Any result is safe. */
-static double hc_aim(const hc_ended_way *made, hc_sections *pair, const hc_rectangle *in, double *height, double *time) {
+static double hc_aim(const hc_ended_sweep *made, hc_sections *pair, const hc_rectangle *in, double *height, double *time) {
     double w = *height, at = *time, center[3];
     int i;
     for (i = 0;; i++) {
@@ -179,7 +179,7 @@ static double hc_aim(const hc_ended_way *made, hc_sections *pair, const hc_recta
 }
 
 /* Whether a point of the circle at a height surely lies inside the smaller spheroid at a time. */
-static int hc_surely_met(hc_ended_way *made, double lambda_, double w, double time) {
+static int hc_surely_met(hc_ended_sweep *made, double lambda_, double w, double time) {
     static const double across[4] = {1, -1, 0, 0}, along[4] = {0, 0, 1, -1};
     hc_sections *const pair = &made->smaller;
     double center[3], r, xi;
@@ -217,7 +217,7 @@ static double hc_form_least_surely(const hc_form *form, const hc_rectangle *in, 
 
 /* Whether there is contact at a time that is a whole number over HC_SIMPLE_TIMES, and at which the centre is three doubles:
    an exact position shows it. The time comes first in the product, so that what is left of it is 0 where it is exact. */
-static int hc_touched_at(const hc_ended_way *made, double at, double *contact) {
+static int hc_touched_at(const hc_ended_sweep *made, double at, double *contact) {
     double row[13] = {0};
     int k;
     memcpy(row, made->row, 4 * sizeof *row);
@@ -249,7 +249,7 @@ static double hc_simplest_time(double first, double last) {
 
 /* The same at the simplest time of a rectangle and at the one next to a time, if these are not after the last that is asked
    about; `asked` is the one that was asked last. */
-static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, double time, double last, double *asked, double *contact) {
+static int hc_touched_about(const hc_ended_sweep *made, const hc_rectangle *in, double time, double last, double *asked, double *contact) {
     const double simplest = hc_simplest_time(in->first, in->last);
     const double next = (double)(int64_t)(time * HC_SIMPLE_TIMES + 0.5) / HC_SIMPLE_TIMES;
     const double before = *asked;
@@ -260,7 +260,7 @@ static int hc_touched_about(const hc_ended_way *made, const hc_rectangle *in, do
 
 /* A rectangle by numbers of two doubles, about a height, a time and a lambda: 1 where it is surely clear, 0 where there is
    contact at *contact, 2 where neither is known, 3 where smaller rectangles may tell. */
-static int hc_finely_missed(hc_ended_way *made, double lambda_, double w, double time, const hc_rectangle *in, double *contact) {
+static int hc_finely_missed(hc_ended_sweep *made, double lambda_, double w, double time, const hc_rectangle *in, double *contact) {
     const double x = in->high - in->low;
     hc_sections *const pair = &made->between;
     double center[3], a, c, r, xi, value, error, pulls[2];
@@ -298,12 +298,12 @@ static int hc_finely_missed(hc_ended_way *made, double lambda_, double w, double
             *contact = time;
             return 0;
         }
-        return hc_size(value) > 4 * (error + 4 * HC_FINE_SLACK * made->way.slack * size) ? 3 : 2;
+        return hc_size(value) > 4 * (error + 4 * HC_FINE_SLACK * made->sweep.slack * size) ? 3 : 2;
     }
 }
 
 /* Cuts off the heights of a rectangle that the larger spheroid never reaches. Returns 0 where none is left. */
-static int hc_cut_to_reach(const hc_ended_way *made, hc_rectangle *of) {
+static int hc_cut_to_reach(const hc_ended_sweep *made, hc_rectangle *of) {
     double center[3], bottom, top;
     hc_center_at(made, of->first, center);
     bottom = top = center[2];
@@ -318,7 +318,7 @@ static int hc_cut_to_reach(const hc_ended_way *made, hc_rectangle *of) {
 }
 
 /* Whether the wall is surely missed from a time to another: 1; 0 where there is contact at *contact; else 2. */
-static int hc_wall_missed_between(hc_ended_way *made, double first, double last, double *contact) {
+static int hc_wall_missed_between(hc_ended_sweep *made, double first, double last, double *contact) {
     hc_rectangle kept[HC_RECTANGLES_KEPT];
     double asked = -1;
     int left = 1, seen = 0, unknown = 0;
@@ -338,7 +338,7 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
             *contact = time;
             return 0;
         }
-        if (hc_size(form.value) <= HC_NEAR_CONTACT * error * (1 + made->way.slack / HC_ENDED_ERROR)) {
+        if (hc_size(form.value) <= HC_NEAR_CONTACT * error * (1 + made->sweep.slack / HC_ENDED_ERROR)) {
             const int finely = hc_finely_missed(made, lambda_, w, time, &in, contact);
             if (finely == 0 || (finely > 1 && hc_touched_about(made, &in, time, last, &asked, contact))) return 0;
             if (finely == 2) unknown = 1;
@@ -359,7 +359,7 @@ static int hc_wall_missed_between(hc_ended_way *made, double first, double last,
 
 /* Whether the spheroid, by numbers of two doubles, surely stays on one side of the plane at a height: as it lies beyond it
    at both times. The error is as in hc_finely_missed, of the first of its terms. */
-static int hc_finely_beyond(hc_ended_way *made, double w, double first, double last) {
+static int hc_finely_beyond(hc_ended_sweep *made, double w, double first, double last) {
     double sides[2];
     int k;
     hc_make_finer(made);
@@ -375,7 +375,7 @@ static int hc_finely_beyond(hc_ended_way *made, double w, double first, double l
 
 /* Whether the centre of the ellipse in the plane at a height surely lies outside the rim at a time, as the sections of the
    smaller spheroid are placed, and at all times within 4u of it. A coordinate is off by less than 8u of both its ends. */
-static int hc_center_beyond_rim(const hc_ended_way *made, double w) {
+static int hc_center_beyond_rim(const hc_ended_sweep *made, double w) {
     const hc_sections *const pair = &made->smaller;
     const double xi = pair->xi0 - pair->k * (w - pair->z), r = hc_radius(pair, w);
     const double along = made->wide + hc_size(pair->k) * (hc_size(w) + made->tall);
@@ -385,10 +385,10 @@ static int hc_center_beyond_rim(const hc_ended_way *made, double w) {
 /* The same of the disc at a height, whose rim the spheroid misses all the time. While it meets the plane, which is from one
    time to another, it stays within the rim or outside, and so does the centre of its ellipse in the plane: that tells at
    the time at which its centre is nearest to the plane, which is one of those, if there are any. If that is an end of the
-   way, at which there is no contact, there is none at any time: the computed time is off by 4u, in which the centre moves
+   sweep, at which there is no contact, there is none at any time: the computed time is off by 4u, in which the centre moves
    by less than a quarter of the radius, as the slack is below 1/4. */
-static int hc_disc_missed_between(hc_ended_way *made, double w, double first, double last, double *contact) {
-    const double time = hc_kept_within(made->rise == 0 ? first : (w - made->way.from[2]) / made->rise, first, last);
+static int hc_disc_missed_between(hc_ended_sweep *made, double w, double first, double last, double *contact) {
+    const double time = hc_kept_within(made->rise == 0 ? first : (w - made->sweep.from[2]) / made->rise, first, last);
     double center[3], under[2], share, near;
     int misses;
     if ((time == 0 && made->clear[0]) || (time == 1 && made->clear[1])) return 1;
@@ -409,7 +409,7 @@ static int hc_disc_missed_between(hc_ended_way *made, double w, double first, do
 }
 
 /* Whether wall and discs are surely missed from a time to another: 1; 0 where there is contact at *contact; else 2. */
-static int hc_missed_between(hc_ended_way *made, double first, double last, double *contact) {
+static int hc_missed_between(hc_ended_sweep *made, double first, double last, double *contact) {
     const double ends[2] = {made->low, made->high};
     int missed = made->wall ? hc_wall_missed_between(made, first, last, contact) : 1, k;
     for (k = 0; made->solid && k < 2 && missed == 1; k++)
@@ -417,9 +417,9 @@ static int hc_missed_between(hc_ended_way *made, double first, double last, doub
     return missed;
 }
 
-static int hc_ended_position_at(const hc_ended_way *made, const double *axis, double time, double scale) {
+static int hc_ended_position_at(const hc_ended_sweep *made, const double *axis, double time, double scale) {
     double row[13] = {0};
-    hc_way_at(&made->way, time, scale, row);
+    hc_sweep_at(&made->sweep, time, scale, row);
     if (axis) memcpy(row + 7, axis, 3 * sizeof *axis);
     else row[9] = 1;
     row[10] = made->low, row[11] = made->high, row[12] = made->solid;
@@ -428,7 +428,7 @@ static int hc_ended_position_at(const hc_ended_way *made, const double *axis, do
 
 /* A time before which there is no contact, and at which a spheroid that is a little larger has contact, in the sense of
    hypcheck_passage; NaN where none is found. */
-static double hc_first_time(hc_ended_way *made, const double *axis, double contact) {
+static double hc_first_time(hc_ended_sweep *made, const double *axis, double contact) {
     double clear = 0;
     int i, unknown = 0;
     for (i = 0; i < HC_TIMES && unknown < HC_MOST_UNKNOWN; i++) {
@@ -441,7 +441,7 @@ static double hc_first_time(hc_ended_way *made, const double *axis, double conta
         else contact = met < middle ? met : middle; /* or no more is known before it */
         unknown = missed == 2 ? unknown + 1 : 0;
     }
-    return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN * made->way.slack) == 0 ? clear : hc_nothing_known();
+    return hc_ended_position_at(made, axis, clear, 1 + HC_SEEN * made->sweep.slack) == 0 ? clear : hc_nothing_known();
 }
 
 /* As hc_passage_of, for a valid row with heights behind the axis. */
@@ -453,7 +453,7 @@ static int hc_ended_passage(const double row[16], const double *axis, double *ti
     const int solid = row[15] != 0;
     double places[2][13], contact = 1;
     int positions[2], whole[2], endless, known, k;
-    hc_ended_way made;
+    hc_ended_sweep made;
     if (bottom - low > more && high - top > more) return hc_passage_of(row, axis, time);
     if (low - top > more || bottom - high > more) return 0;
     for (k = 0; k < 2; k++) {
@@ -471,7 +471,7 @@ static int hc_ended_passage(const double row[16], const double *axis, double *ti
     if (known && !time) return 1;
     endless = hc_passage_of(row, axis, NULL);
     if (endless == 0 && (!solid || whole[0] == 1)) return 0;
-    if (!hc_make_ended_way(&made, row, axis)) return known ? 1 : 2;
+    if (!hc_make_ended_sweep(&made, row, axis)) return known ? 1 : 2;
     made.wall = endless != 0;
     for (k = 0; k < 2; k++) made.clear[k] = positions[k] == 1 || positions[k] == -1;
     k = hc_missed_between(&made, 0, 1, &contact);
@@ -480,14 +480,14 @@ static int hc_ended_passage(const double row[16], const double *axis, double *ti
     return 1;
 }
 
-/* The rows of a question about ways: 10, 13 or 16 numbers each. */
+/* The rows of a question about sweeps: 10, 13 or 16 numbers each. */
 void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t *hits, double *times) {
     const double nan = hc_nothing_known();
     size_t i;
     for (i = 0; i < n; i++) {
         const double *const given = rows + width * i;
         double row[16] = {0}, end[7], *const axis = row + 10, *const heights = row + 13;
-        int valid = width == 10 || width == 13 || width == 16, leans;
+        int valid = width == 10 || width == 13 || width == 16, is_tilted;
         if (times) times[i] = nan;
         hits[i] = 127;
         if (!valid) continue;
@@ -497,11 +497,11 @@ void hypcheck_passage_columns(size_t n, size_t width, const double *rows, int8_t
         memcpy(end + 4, row + 7, 3 * sizeof *row);
         if (width == 16) valid = heights[0] < heights[1] && (heights[2] == 0 || heights[2] == 1);
         if (!(valid && hc_has_direction(axis) && hc_valid(row) && hc_valid(end))) continue;
-        leans = !((hc_word(axis[0]) | hc_word(axis[1])) << 1 == 0 || hc_word(row[2]) == hc_word(row[3]));
+        is_tilted = !((hc_word(axis[0]) | hc_word(axis[1])) << 1 == 0 || hc_word(row[2]) == hc_word(row[3]));
         hc_scale_axis(axis);
         hits[i] = (int8_t)(width == 16 && !(heights[0] < -DBL_MAX && heights[1] > DBL_MAX)
-                               ? hc_ended_passage(row, leans ? axis : NULL, times ? times + i : NULL)
-                               : hc_passage_of(row, leans ? axis : NULL, times ? times + i : NULL));
+                               ? hc_ended_passage(row, is_tilted ? axis : NULL, times ? times + i : NULL)
+                               : hc_passage_of(row, is_tilted ? axis : NULL, times ? times + i : NULL));
     }
 }
 

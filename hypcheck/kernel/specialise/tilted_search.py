@@ -3,7 +3,7 @@
 **An upright spheroid**: the maximum and its sign there. The steps are the programs of last_stages.py. The distance to
 0, or to the pole, is halved in its exponent first, then in itself.
 
-**A tilted one**: the frame of a free axis too. The steps are the programs of leaning.py, those of the frame and of the
+**A tilted one**: the frame of a free axis too. The steps are the programs of tilted.py, those of the frame and of the
 value at the maximum in double-double.
 """
 
@@ -14,7 +14,7 @@ from dataclasses import replace
 from hypcheck.derivation.program import Program, steps_of
 from hypcheck.derivation.routines import Call, Half, Loop, Part, Return, Routine, Stored, renamed
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel.specialise import last_stages, leaning
+from hypcheck.kernel.specialise import last_stages, tilted
 from hypcheck.kernel.specialise.double_double import WHOLE, in_double_double
 from hypcheck.kernel.specialise.last_stages import (
     ARITHMETIC,
@@ -120,7 +120,7 @@ FALLING = Routine(
     "falling",
     "Whether the slope of the dual function is not positive at these distances to its poles.",
     (*_COMPONENTS, *_POLES, *_PLACES),
-    leaning.falls().steps,
+    tilted.falls().steps,
     "past",
 )
 
@@ -128,7 +128,7 @@ PAST_PEAK = Routine(
     "past_peak",
     "Whether the maximum of the dual function lies beyond the multiplier at this distance from 0, or from the pole.",
     (*_COMPONENTS, *_POLES, *_GAPS, "pole", "distance", "near_zero", "inside"),
-    (*leaning.PLACE.steps, *leaning.falls().steps, *steps_of("beyond = past != is_inside")),
+    (*tilted.PLACE.steps, *tilted.falls().steps, *steps_of("beyond = past != is_inside")),
     "beyond",
 )
 
@@ -136,9 +136,9 @@ PROVED = Routine(
     "proved",
     "+1 exterior, 0 contact, -1 interior, or CANNOT_SAY: what the dual function at lambda_ proves.",
     ("x", "y", "z", *BOUNDS, *_COMPONENTS, *_POLES, "lambda_", *_PLACES, "phi", "inside"),
-    (*leaning.DECISION.steps, *steps_of("is_inside = inside > 0\n clear_inside = clear and is_inside")),
+    (*tilted.DECISION.steps, *steps_of("is_inside = inside > 0\n clear_inside = clear and is_inside")),
     Return((("clear_inside", -1), ("clear", 1), ("contact", 0)), CANNOT_SAY),
-    constants=leaning.DECISION_CONSTANTS,
+    constants=tilted.DECISION_CONSTANTS,
 )
 
 
@@ -160,7 +160,7 @@ def _search() -> tuple[Part, ...]:
     nearly = _highs(*_COMPONENTS, *_POLES)
     return (
         *(Call(name, WHOLE, (given,)) for name, given in zip("xyz", CENTRE, strict=True)),
-        *in_double_double(leaning.COMPONENTS, _COMPONENTS),
+        *in_double_double(tilted.COMPONENTS, _COMPONENTS),
         *_nearly(*_COMPONENTS, *_POLES, *_GAPS),
         Call("is_interior", FALLING, (*nearly, *_highs(*_POLES))),
         *steps_of("inside = is_interior ? 1 : 0\n pole = is_interior ? least : B"),
@@ -168,8 +168,8 @@ def _search() -> tuple[Part, ...]:
         *steps_of("half = nearly_pole / 2\n first = start * nearly_pole"),
         Call("beyond_half", PAST_PEAK, (*nearly, *_highs(*_GAPS), "nearly_pole", "half", 1, "inside")),
         *steps_of("near_zero = beyond_half ? 1 : 0"),
-        _halving(leaning.GEOMETRIC_STEPS, last_stages.GEOMETRIC, ("low", "first"), ("high", "half")),
-        _halving(leaning.ARITHMETIC_STEPS, last_stages.ARITHMETIC, ("near", "low"), ("far", "high")),
+        _halving(tilted.GEOMETRIC_STEPS, last_stages.GEOMETRIC, ("low", "first"), ("high", "half")),
+        _halving(tilted.ARITHMETIC_STEPS, last_stages.ARITHMETIC, ("near", "low"), ("far", "high")),
         *_parts_at_the_maximum(),
     )
 
@@ -181,21 +181,21 @@ def _parts_at_the_maximum() -> tuple[Part, ...]:
     return (
         *(Call(f"{name}_there", WHOLE, (given,)) for name, given in at.items()),
         *renamed(in_double_double(last_stages.PLACE, ("lambda_",)), {name: f"{name}_there" for name in at}),
-        *in_double_double(leaning.PHI, ("phi", *_PLACES)),
+        *in_double_double(tilted.PHI, ("phi", *_PLACES)),
         *_nearly(*values),
         Call("found", PROVED, (*CENTRE, *BOUNDS, *_highs(*_COMPONENTS, *_POLES, *values), "inside")),
     )
 
 
 SEARCH = Routine(
-    "leaning_search",
+    "tilted_search",
     "+1 exterior, 0 contact, -1 interior, or CANNOT_SAY: by the dual function where a search finds it largest.",
     CENTRE,
     _search(),
     "found",
-    (*leaning.FRAME_NAMES, *BOUNDS),
-    frozenset(leaning.FRAME_NAMES),
-    {"start": leaning.START},
+    (*tilted.FRAME_NAMES, *BOUNDS),
+    frozenset(tilted.FRAME_NAMES),
+    {"start": tilted.START},
     "frame",
 )
 """Of one axis, whose frame is a record of constants."""
@@ -229,7 +229,7 @@ POWER_FOR = Routine(
 """Five times 200 octaves are all that float64 has on a side."""
 
 FREE_SEARCH = Routine(
-    "leaning_search_free",
+    "tilted_search_free",
     "The same of any axis, whose frame is made of it.",
     (*CENTRE, *AXIS),
     (
@@ -266,12 +266,12 @@ FREE_SEARCH = Routine(
                 strict=True,
             )
         ),
-        *in_double_double(leaning.FRAME, leaning.FRAME_NAMES),
-        Call("found", _ANY, (*CENTRE, *leaning.FRAME_NAMES, *BOUNDS)),
+        *in_double_double(tilted.FRAME, tilted.FRAME_NAMES),
+        Call("found", _ANY, (*CENTRE, *tilted.FRAME_NAMES, *BOUNDS)),
     ),
     "found",
-    (*leaning.SIZE_NAMES, *BOUNDS),
-    frozenset(leaning.SIZE_NAMES),
+    (*tilted.SIZE_NAMES, *BOUNDS),
+    frozenset(tilted.SIZE_NAMES),
     record_name="sizes_of_frame",
 )
 

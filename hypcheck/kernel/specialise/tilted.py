@@ -1,4 +1,4 @@
-"""The last stage of a kernel for a spheroid whose axis leans: the dual function in double-double, and what it proves.
+"""The last stage of a kernel for a tilted spheroid: the dual function in double-double, and what it proves.
 
 **The frame.** With v the spheroid's axis, lengths in units of b, and p, s, t the squares of α/b, γ/b, d/b, the matrices
 of both bodies are diagonal in three directions: e′ across the plane of the two axes, and two within it. The poles of
@@ -79,11 +79,11 @@ FRAME = program_of(
     w = flat + zz
     sine_squared = flat / w
     cosine_squared = zz / w
-    lean_x = vx * ex
-    lean_y = vy * ey
-    lean = lean_x + lean_y
-    lean_z = lean * vz
-    both = lean_z / w
+    tilt_x = vx * ex
+    tilt_y = vy * ey
+    tilt = tilt_x + tilt_y
+    tilt_z = tilt * vz
+    both = tilt_z / w
     t_sine = t * sine_squared
     along = t_sine + cosine_squared
     t_cosine = t * cosine_squared

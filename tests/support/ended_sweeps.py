@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 
-def near_a_rim(seed, count, *, leaning=False, hair=-30):
+def near_a_rim(seed, count, *, tilted=False, hair=-30):
     """Ways through a place from 2^`hair` to 1/2 radii off contact with a rim: (n, 16), every second pair solid.
 
     Every other one goes along the plane that separates the spheroid from the rim, so that it is nearest there.
     """
     random = np.random.default_rng(seed)
-    sizes, axis = _sizes(random, count), _axes(random, count, leaning=leaning)
+    sizes, axis = _sizes(random, count), _axes(random, count, tilted=tilted)
     alpha, gamma, b, d = sizes.T
     height, azimuth, turn = random.uniform(-2, 2, count) * gamma, *random.uniform(0, np.pi, (2, count))
     radius = alpha * np.hypot(1, height / gamma)
@@ -29,10 +29,10 @@ def near_a_rim(seed, count, *, leaning=False, hair=-30):
     return _with_ends(random, sizes, (place - share * step, place + (1 - share) * step), axis, height)
 
 
-def past_a_tower(seed, count, *, leaning=False):
+def past_a_tower(seed, count, *, tilted=False):
     """Ways between two places all about the upper end of a tower: (n, 16), every second pair solid."""
     random = np.random.default_rng(seed)
-    sizes, axis = _sizes(random, count), _axes(random, count, leaning=leaning)
+    sizes, axis = _sizes(random, count), _axes(random, count, tilted=tilted)
     alpha, gamma, b, d = sizes.T
     height = random.uniform(-2, 2, count) * gamma
     spread = np.stack([alpha + b, alpha + b, d], axis=1)
@@ -44,8 +44,8 @@ def _sizes(random, count):
     return np.exp2(random.uniform(-3, 3, (count, 4)))
 
 
-def _axes(random, count, *, leaning):
-    return random.normal(size=(count, 3)) if leaning else np.tile([0.0, 0.0, 1.0], (count, 1))
+def _axes(random, count, *, tilted):
+    return random.normal(size=(count, 3)) if tilted else np.tile([0.0, 0.0, 1.0], (count, 1))
 
 
 def _with_ends(random, sizes, places, axis, height):

@@ -1,4 +1,4 @@
-"""Contact on ways beside hyperboloids that end: by hand, against exact decisions, in every rounding mode."""
+"""Contact on sweeps beside hyperboloids that end: by hand, against exact decisions, in every rounding mode."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS, with_axis
 from hypcheck.vectors.families import ENDED_SWEEP_FAMILIES, SWEEP_FAMILIES
 from hypcheck.vectors.frozen import SWEEP_NAMES, load
-from tests.support.ended_ways import near_a_rim, past_a_tower
-from tests.support.inside import answer_ways as compiled_answer_ways
-from tests.support.inside import numpy_kernel_answer_ways, time_window, tolerance
+from tests.support.ended_sweeps import near_a_rim, past_a_tower
+from tests.support.inside import answer_sweeps as compiled_answer_sweeps
+from tests.support.inside import numpy_kernel_answer_sweeps, time_window, tolerance
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -53,11 +53,11 @@ BY_HAND = [
     ((*RIM, 1, 2, 5.7, 0, 9, 5.7, 0, 3, 1, 0, 0), (-1, 3), 1, 1),
     ((*RIM, 1, 2, 5.8, 0, 9, 5.8, 0, 3, 1, 0, 0), (-1, 3), 0, 0),
 ]
-"""A way, its ends, and whether there is contact with the open and with the solid body."""
+"""A sweep, its ends, and whether there is contact with the open and with the solid body."""
 
 
-def row_of(way, ends, solid):
-    return (*map(float, way[:10]), *map(float, way[10:] or (0, 0, 1)), *map(float, ends), float(solid))
+def row_of(sweep, ends, solid):
+    return (*map(float, sweep[:10]), *map(float, sweep[10:] or (0, 0, 1)), *map(float, ends), float(solid))
 
 
 def exact_passage(row, scale=1):
@@ -66,10 +66,10 @@ def exact_passage(row, scale=1):
     return passage(sizes, row[4:7], row[7:10], row[10:13], z_min=row[13], z_max=row[14], solid=bool(row[15]))
 
 
-@pytest.mark.parametrize(("way", "ends", "opened", "flat"), BY_HAND)
-def test_ways_by_hand_are_answered_by_the_kernel_and_exactly(way, ends, opened, flat):
-    rows = [row_of(way, ends, solid) for solid in (0, 1)]
-    hits, times = compiled_answer_ways(np.array(rows))
+@pytest.mark.parametrize(("sweep", "ends", "opened", "flat"), BY_HAND)
+def test_sweeps_by_hand_are_answered_by_the_kernel_and_exactly(sweep, ends, opened, flat):
+    rows = [row_of(sweep, ends, solid) for solid in (0, 1)]
+    hits, times = compiled_answer_sweeps(np.array(rows))
     assert hits.tolist() == [opened, flat]
     assert [exact_passage(row).hit for row in rows] == [opened, flat]
     assert (np.isnan(times) == (hits == 0)).all()
@@ -81,13 +81,13 @@ def test_ways_by_hand_are_answered_by_the_kernel_and_exactly(way, ends, opened, 
         (past_a_tower(1, 100), 0),
         (near_a_rim(2, 100), 0),
         (near_a_rim(3, 50, hair=-70), 1),
-        (past_a_tower(4, 20, leaning=True), 0),
-        (near_a_rim(5, 20, leaning=True), 0),
+        (past_a_tower(4, 20, tilted=True), 0),
+        (near_a_rim(5, 20, tilted=True), 0),
     ],
     ids=["tower", "rim", "hairs", "tilted tower", "tilted rim"],
 )
-def test_the_kernel_answers_no_way_beside_an_end_wrongly_and_gives_no_late_time(rows, most_open):
-    hits, times = compiled_answer_ways(rows)
+def test_the_kernel_answers_no_sweep_beside_an_end_wrongly_and_gives_no_late_time(rows, most_open):
+    hits, times = compiled_answer_sweeps(rows)
     truth = [exact_passage(row) for row in rows.tolist()]
     right = np.array([each.hit for each in truth])
     decided = hits != CANNOT_SAY
@@ -97,13 +97,13 @@ def test_the_kernel_answers_no_way_beside_an_end_wrongly_and_gives_no_late_time(
     for time, each in zip(times.tolist(), truth, strict=True):
         assert math.isnan(time) or 0 <= time <= each.first_upper
     assert np.isnan(times[hits == 1]).mean() < 0.1
-    by_numpy, _ = numpy_kernel_answer_ways(rows)
+    by_numpy, _ = numpy_kernel_answer_sweeps(rows)
     assert ((by_numpy == CANNOT_SAY) | (by_numpy == right)).all()
 
 
 @pytest.mark.parametrize("name", list(ENDED_SWEEP_FAMILIES))
-def test_of_each_family_no_way_is_answered_wrongly_in_any_mode_and_at_most_one_is_left_open(name):
-    """Exact touches are among them, hairs down to 2⁻⁵⁰ radii, and ways that end or begin in a touch."""
+def test_of_each_family_no_sweep_is_answered_wrongly_in_any_mode_and_at_most_one_is_left_open(name):
+    """Exact touches are among them, hairs down to 2⁻⁵⁰ radii, and sweeps that end or begin in a touch."""
     rows = np.ascontiguousarray(ENDED_SWEEP_FAMILIES[name].rows(3, 24))
     truth = np.array([exact_passage(row).hit for row in rows.tolist()])
     for mode in (TO_NEAREST, *DIRECTED):
@@ -117,7 +117,7 @@ def test_of_each_family_no_way_is_answered_wrongly_in_any_mode_and_at_most_one_i
 
 
 def touching_rows():
-    """Spheres that just touch a rim from above, a flat end, and a rim from beside, at three times of their ways."""
+    """Spheres that just touch a rim from above, a flat end, and a rim from beside, at three times of their sweeps."""
     for time in (0.5, 0.25, 0.8125):
         step = np.array([4.0, 8.0, 0.0])
         for place, solids in (((3.75, 0.0, 4.0), (0, 1)), ((0.0, 0.5, 4.0), (1,)), ((4.75, 0.0, 3.0), (0, 1))):
@@ -128,28 +128,28 @@ def touching_rows():
 
 
 def test_a_sphere_that_touches_in_passing_has_contact_and_one_a_hair_away_has_none():
-    """The hair of 2⁻⁴⁵ radii is shorter than what roundings may move a centre on its way."""
-    for way, ends, solid, place, across in touching_rows():
-        row = row_of(way, ends, solid)
-        hits, _ = compiled_answer_ways(np.array([row]))
+    """The hair of 2⁻⁴⁵ radii is shorter than what roundings may move a centre on its sweep."""
+    for sweep, ends, solid, place, across in touching_rows():
+        row = row_of(sweep, ends, solid)
+        hits, _ = compiled_answer_sweeps(np.array([row]))
         assert hits[0] == 1
         lifted = np.array([row])
         lifted[0, [6, 9] if place[2] == 4 else [4, 7]] += 2.0**-45
-        hits, _ = compiled_answer_ways(lifted)
+        hits, _ = compiled_answer_sweeps(lifted)
         assert hits[0] == (place[2] == 3 and across[0] > 0)
 
 
-@pytest.mark.parametrize(("count", "leaning"), [(100, False), (30, True)])
-def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit_beside_an_end(count, leaning):
-    rows = near_a_rim(6, count, leaning=leaning)
-    hits, times = compiled_answer_ways(rows)
+@pytest.mark.parametrize(("count", "tilted"), [(100, False), (30, True)])
+def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit_beside_an_end(count, tilted):
+    rows = near_a_rim(6, count, tilted=tilted)
+    hits, times = compiled_answer_sweeps(rows)
     assert np.isfinite(times).sum() > 0.85 * (hits == 1).sum() > 0
     for row, time in zip(rows.tolist(), times.tolist(), strict=True):
         if math.isnan(time):
             continue
         start, end = (list(map(Fraction, row[k : k + 3])) for k in (4, 7))
         there = [here + Fraction(time) * (to - here) for here, to in zip(start, end, strict=True)]
-        b, d = (min(row[2:4]),) * 2 if leaning else row[2:4]
+        b, d = (min(row[2:4]),) * 2 if tilted else row[2:4]
         reach = sum(map(abs, (*start[:2], *end[:2]))) / Fraction(b) + (abs(start[2]) + abs(end[2])) / Fraction(d)
         assert exact_passage([*row[:4], *there, *there, *row[10:]], 1 + Fraction(1, 2**43) * (1 + reach)).hit
 
@@ -178,7 +178,7 @@ def test_each_hit_has_a_time_that_is_right_within_8_units(name, times_as_many):
     """Flat ends are reached head-on, rims along their tangents, and tangencies that end a sweep are exact."""
     family = (SWEEP_FAMILIES | ENDED_SWEEP_FAMILIES)[name]
     rows = np.ascontiguousarray(family.rows(5, (10 if name.startswith("tilted") else 24) * times_as_many))
-    hits, times = compiled_answer_ways(rows)
+    hits, times = compiled_answer_sweeps(rows)
     assert (hits == 1).sum() > 2 or name in ONLY_TOUCHES
     assert not wrong_times(rows[hits == 1], times[hits == 1])
 
@@ -200,7 +200,7 @@ def test_times_without_ends_are_right_within_8_units_at_any_scale(name, power):
     rows = SWEEP_FAMILIES[name].rows(11, 16)
     rows[:, :10] /= rows[:, 2:3]
     rows[:, :10] *= 2.0**power
-    hits, times = compiled_answer_ways(np.ascontiguousarray(rows))
+    hits, times = compiled_answer_sweeps(np.ascontiguousarray(rows))
     assert (hits == 1).sum() > 5
     assert not wrong_times(rows[hits == 1], times[hits == 1])
 
@@ -209,7 +209,7 @@ def test_a_sweep_that_stays_between_the_ends_has_a_time_that_is_right_within_8_u
     rows = with_axis(SWEEP_FAMILIES["way-tunnelling"].rows(7, 24), SWEEPS)
     ends = np.abs(rows[:, [6, 9]]).max(axis=1) + 2 * rows[:, 2:4].max(axis=1)
     rows = np.column_stack([rows, -ends, ends, np.ones(len(rows))])
-    hits, times = compiled_answer_ways(rows)
+    hits, times = compiled_answer_sweeps(rows)
     assert (hits == 1).sum() > 5
     assert not wrong_times(rows[hits == 1], times[hits == 1])
 
@@ -220,14 +220,14 @@ def test_a_centre_in_the_plane_of_the_waist_or_on_the_axis_does_not_hide_the_tim
     rows = np.array(
         [(*bulging, 4, 1, 0, 0, 0.5, 0), (2.0, 1.0, 0.5, 0.5, 5, 1, 0, 0, 0.25, 0), (*DOWN, 0, 0, 9, 0, 0, 0)]
     )
-    hits, times = compiled_answer_ways(rows)
+    hits, times = compiled_answer_sweeps(rows)
     assert hits.tolist() == [1, 1, 1]
     assert not wrong_times(rows, times)
 
 
 def test_a_time_that_is_a_part_in_a_trillion_early_or_late_is_called_wrong():
     rows = past_a_tower(11, 40)
-    hits, times = compiled_answer_ways(rows)
+    hits, times = compiled_answer_sweeps(rows)
     moved = (hits == 1) & (times > 0.01)
     assert moved.sum() > 5
     for part in (-1e-12, 1e-12):
@@ -240,15 +240,15 @@ BESIDE_A_RIM = (0.482, 0.174, 0.396, 0.3125, 0.28125, 0.40625, 0.4375, 0.28125, 
 
 def test_a_plane_that_is_touched_half_way_outside_its_rim_does_not_hide_the_time():
     rows = np.array([row_of(BESIDE_A_RIM, (-INF, 0.03125), 1)])
-    hits, times = compiled_answer_ways(rows)
+    hits, times = compiled_answer_sweeps(rows)
     assert hits.tolist() == [1]
     assert times[0] > 0.5
     assert not wrong_times(rows, times)
 
 
 @pytest.mark.parametrize("mode", [TO_NEAREST, *DIRECTED])
-def test_ways_beside_an_end_are_answered_alike_in_every_rounding_mode(mode):
-    rows = np.concatenate([near_a_rim(7, 4000, hair=-50), near_a_rim(8, 2000, leaning=True, hair=-50)])
+def test_sweeps_beside_an_end_are_answered_alike_in_every_rounding_mode(mode):
+    rows = np.concatenate([near_a_rim(7, 4000, hair=-50), near_a_rim(8, 2000, tilted=True, hair=-50)])
     answers = {}
     for each in {TO_NEAREST, mode}:
         hits, times = np.empty(len(rows), np.int8), np.empty(len(rows))
@@ -268,11 +268,11 @@ def test_ends_that_are_infinite_or_far_away_change_no_answer_about_ways(name):
     for low, high, solid in ((-INF, INF, 0), (-INF, INF, 1), (-reach, reach, 0), (-reach, INF, 1)):
         ends = [np.broadcast_to(each, len(rows)) for each in (low, high, solid)]
         ended = np.ascontiguousarray(np.column_stack([wide, *ends]))
-        for said, expected in zip(compiled_answer_ways(ended), compiled_answer_ways(rows), strict=True):
+        for said, expected in zip(compiled_answer_sweeps(ended), compiled_answer_sweeps(rows), strict=True):
             np.testing.assert_array_equal(said, expected)
 
 
-@pytest.mark.parametrize("answer_ways", [compiled_answer_ways, numpy_kernel_answer_ways], ids=["c", "numpy"])
+@pytest.mark.parametrize("answer_sweeps", [compiled_answer_sweeps, numpy_kernel_answer_sweeps], ids=["c", "numpy"])
 @pytest.mark.parametrize(
     ("column", "value", "valid"),
     [
@@ -290,22 +290,22 @@ def test_ends_that_are_infinite_or_far_away_change_no_answer_about_ways(name):
         (9, INF, False),
     ],
 )
-def test_a_way_whose_heights_are_none_is_refused_and_changes_no_other_answer(answer_ways, column, value, valid):
-    way, ends, *_ = BY_HAND[0]
-    rows = np.array([row_of(way, ends, 0)] * 3)
+def test_a_sweep_whose_heights_are_none_is_refused_and_changes_no_other_answer(answer_sweeps, column, value, valid):
+    sweep, ends, *_ = BY_HAND[0]
+    rows = np.array([row_of(sweep, ends, 0)] * 3)
     rows[1, column] = value
-    hits, times = answer_ways(rows)
+    hits, times = answer_sweeps(rows)
     assert (hits[1] != REFUSED) == valid
-    assert hits[[0, 2]].tolist() == answer_ways(rows[:1])[0].tolist() * 2
+    assert hits[[0, 2]].tolist() == answer_sweeps(rows[:1])[0].tolist() * 2
     assert valid or math.isnan(times[1])
 
 
 @pytest.mark.parametrize("tiny", [5e-324, 2.0**-200, 2.0**200, 1e308])
-def test_ways_of_extreme_lengths_beside_an_end_are_left_open_or_answered_exactly(tiny):
-    rows = np.array([row_of(way, ends, solid) for way, ends, *_ in BY_HAND for solid in (0, 1)])
+def test_sweeps_of_extreme_lengths_beside_an_end_are_left_open_or_answered_exactly(tiny):
+    rows = np.array([row_of(sweep, ends, solid) for sweep, ends, *_ in BY_HAND for solid in (0, 1)])
     with np.errstate(over="ignore"):
         rows[:, [4, 5, 6, 7, 8, 9, 13, 14]] *= tiny
     kept = rows[np.isfinite(rows[:, :10]).all(axis=1) & (rows[:, 13] < rows[:, 14])]
-    hits, _ = compiled_answer_ways(kept)
+    hits, _ = compiled_answer_sweeps(kept)
     for row, hit in zip(kept.tolist(), hits.tolist(), strict=True):
         assert hit == CANNOT_SAY or hit == exact_passage(row).hit
