@@ -93,7 +93,7 @@ def kernel_savings(plan: ScenePlan, folder: Path, rounds: int = KERNEL_ROUNDS) -
     """What the kernel of each setting of the plan saves, by one call for many centres and by a call for each.
 
     These are values for programs; those of "says" are sentences. Raises UnavailableError if there is no C compiler,
-    InputError where the mover leans.
+    InputError where the mover is tilted.
     """
     require_upright(plan)
     methods, _ = compiled(folder)
@@ -163,10 +163,10 @@ def plans_of(names: Sequence[str]) -> list[ScenePlan]:
 
 
 def require_upright(plan: ScenePlan) -> None:
-    """Raise InputError where the mover leans: Table 2, which kernels are timed beside, is about upright spheroids."""
+    """Raise InputError where the mover is tilted: Table 2, which kernels are timed beside, is about upright spheroids."""
     if plan.axis is not None:
         raise InputError(
-            f"the scene {escaped(repr(plan.scene.name), 60)} is not timed: its mover leans, and Table 2 as printed, "
+            f"the scene {escaped(repr(plan.scene.name), 60)} is not timed: its mover is tilted, and Table 2 as printed, "
             "which kernels are timed beside, is about upright spheroids"
         )
 

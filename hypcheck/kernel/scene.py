@@ -55,7 +55,7 @@ from hypcheck.kernel.scene_queries import (
     finite_numbers,
     places_of_parts,
     points_or_columns,
-    ways_of,
+    sweeps_of,
 )
 from hypcheck.kernel.scene_sweeps import (
     Spheroid,
@@ -273,7 +273,7 @@ class Scene(PreparedScene):
         """Straight sweeps, and which pairs of them and of hyperboloids have contact."""
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
-        starts, ends, headings, *columns = ways_of(start, end, heading, axes)
+        starts, ends, headings, *columns = sweeps_of(start, end, heading, axes)
         movers = directions(columns) if columns else None
         query, body = near_sweeps(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
         sizes = np.broadcast_to((mover.b, mover.d), (len(body), 2))

@@ -96,7 +96,7 @@ def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | N
     return not any(map(np.ndim, (*center, heading))) and np.ndim(() if axis is None else axis) == 1
 
 
-def ways_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+def sweeps_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
     """The ends of sweeps, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are not."""
     points = []
     for name, given in (("start", start), ("end", end)):

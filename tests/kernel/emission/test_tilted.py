@@ -175,10 +175,10 @@ def test_a_kernel_of_each_question_answers_cannot_say_if_the_axis_has_no_directi
 @needs("c")
 def test_a_kernel_of_each_question_answers_cannot_say_if_its_last_stage_does_not_decide(question, axis, tmp_path):
     """2 from the last stage is an answer to no question: compared with 0, it would be exterior."""
-    settled, chosen = "return clear ? 1 : contact ? 0 : CANNOT_SAY;", tower(axis, question)
+    settled, chosen = "nearly_phi, inside);\n    return found;", tower(axis, question)
     text = emitted(plan_of(chosen), "c", COMMAND)
     assert text.count(settled) == 1
-    text = text.replace(settled, "(void)clear, (void)contact; return CANNOT_SAY;")
+    text = text.replace(settled, "nearly_phi, inside);\n    (void)found; return CANNOT_SAY;")
     rows = np.array([[2.0, 17.8, 0.25, 0.15, 1.8 if question == "interior" else 2.2, 0.0, 0.0, *PITCHED]])
     assert asking(built_of(tmp_path, text, "c"), "c")(rows).tolist() == [CANNOT_SAY]
 
@@ -196,7 +196,7 @@ def last_stage(tmp_path_factory):
         axis = tuple(row[7:])
         search = tilted_search(tuple(row[:4]), None if free else axis)
         table = (*search.constants.values(), search.most, search.omega)
-        return kernel.tilted_search_free(*row[4:7], axis, table) if free else kernel.tilted_search(*row[4:7], table)
+        return kernel.tilted_search_free(*row[4:7], *axis, *table) if free else kernel.tilted_search(*row[4:7], *table)
 
     return ask
 
