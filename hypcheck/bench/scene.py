@@ -163,11 +163,11 @@ def plans_of(names: Sequence[str]) -> list[ScenePlan]:
 
 
 def require_upright(plan: ScenePlan) -> None:
-    """Raise InputError where the mover is tilted: Table 2, which kernels are timed beside, is about upright spheroids."""
+    """Raise InputError where the mover is tilted: Table 2, beside which kernels are timed, is of upright ones."""
     if plan.axis is not None:
         raise InputError(
-            f"the scene {escaped(repr(plan.scene.name), 60)} is not timed: its mover is tilted, and Table 2 as printed, "
-            "which kernels are timed beside, is about upright spheroids"
+            f"the scene {escaped(repr(plan.scene.name), 60)} is not timed: its mover is tilted, and Table 2 as "
+            "printed, which kernels are timed beside, is about upright spheroids"
         )
 
 
