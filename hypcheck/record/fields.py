@@ -61,7 +61,7 @@ def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
 
 def _extended(kind: type, value: object) -> object:
     if not issubclass(kind, Extended):
-        raise TypeError(f"no line has a {kind.__name__}")
+        raise TypeError(f"no field of a line has the type {kind.__name__}")
     least = "" if kind is Unsigned else ', "-inf"'
     if value not in ("inf", "-inf") and (isinstance(value, bool) or not isinstance(value, (int, float))):
         raise ValueError(f'Expected `float`{least} or "inf"')

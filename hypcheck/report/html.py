@@ -167,6 +167,9 @@ WIDTH, HEIGHT = 96.0, 64.0
 _STEEPEST = 1e300
 """A limit of the scale, so that no place in a picture is infinity times zero."""
 
+_FINE = 500
+"""The greatest exponent of a length after tiny ones are scaled, far from that at which products of two overflow."""
+
 _FILLED = 0.8
 """The part of a small picture's width that the spheroid and the way to the wall fill where they lie far apart."""
 
@@ -183,7 +186,9 @@ def small_picture(row: Sequence[float]) -> str:
     Heights have a scale of their own where the spheroid would be too thin to be seen. A spheroid whose centre is more
     than two radii from the wall is drawn smaller, at least as a dot, so that both are in the picture.
     """
-    alpha, gamma, b, d, x, y, z = row
+    # Tiny lengths are scaled by a power of two first: their scale in the picture would be beyond the floats.
+    shift = max(0, min(-math.frexp(row[2])[1], _FINE - math.frexp(max(map(abs, row)))[1]))
+    alpha, gamma, b, d, x, y, z = (math.ldexp(length, shift) for length in row)
     r = min(math.hypot(x, y), sys.float_info.max)
     wide, tall = min(WIDTH / 4 / b, _STEEPEST), min(HEIGHT / 4 / d, _STEEPEST)
     if max(wide, tall) <= 4 * min(wide, tall):

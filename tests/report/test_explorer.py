@@ -177,8 +177,10 @@ def test_small_picture_has_finite_coordinates_and_draws_thin_bodies_wide_enough_
     assert 'rx="16" ry="16"' in html.small_picture(contents.ON_THE_RING)
 
 
-def test_small_picture_shows_the_wall_however_far_the_spheroid_is():
-    for row in [(1.0, 2.0, 0.1, 0.1, 50.0, 0.0, 0.0), (9.0, 2.0, 0.1, 0.3, 0.0, 0.0, 0.0), contents.ON_THE_RING]:
+def test_small_picture_shows_the_wall_however_far_or_small_the_spheroid_is():
+    far = [(1.0, 2.0, 0.1, 0.1, 50.0, 0.0, 0.0), (9.0, 2.0, 0.1, 0.3, 0.0, 0.0, 0.0), contents.ON_THE_RING]
+    tiny = [(4e-308, 3e-308, 4e-308, 1e-307, -3e-307, 0.0, 0.0), (4e-315, 4.0, 3e-315, 0.9, -1e-314, 6e-315, -6.0)]
+    for row in [*far, *tiny]:
         drawn = html.small_picture(row)
         wall = re.search(r'<polyline class="wall" points="([^"]*)"', drawn)[1]
         across = [float(place.split(",")[0]) for place in wall.split(" ")]
