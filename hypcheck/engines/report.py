@@ -15,6 +15,7 @@ from hypcheck.engines.engine import ENGINES
 from hypcheck.engines.findings import Finding, read_findings, reproduction, template_of
 from hypcheck.engines.measure import EngineRecord, Measured, Reported, read_records
 from hypcheck.engines.placing import FAMILIES
+from hypcheck.report.markdown import table_lines
 
 READING = """## How to read this
 
@@ -141,16 +142,16 @@ def _found(findings: Sequence[Finding]) -> str:
         "and at tightest settings, and ends with 1 while the engine is wrong. rapier3d is built on parry3d: what both",
         "say alike is one error of one code.",
         "",
-        *_table(["engine", "what it says", "what is proved", "error, mm", "of the body", "of the tolerance", ""], rows),
-        "",
+        *table_lines(
+            ["engine", "what it says", "what is proved", "error, mm", "of the body", "of the tolerance", ""], rows
+        ),
         "*of the body*: the error as a share of the spheroid's least semi-axis. *of the tolerance*: as a multiple of",
         "the length that the engine states at these settings; – if it states none, or 0.",
         "",
-        *_table(
+        *table_lines(
             ["finding", "default settings", "what it says", "other settings", "what it says", "one unit, mm"],
             _settings(findings),
         ),
-        "",
     ]
     return "\n".join(lines)
 
@@ -186,7 +187,7 @@ def _tables_of_own(records: Sequence[EngineRecord]) -> Iterable[str]:
                 text,
                 "Own worst error on any mesh, in millimetres, at the tightest settings.",
             ]
-            yield "\n".join([*lines, "", *_table(["engine", *FAMILIES], rows), ""])
+            yield "\n".join([*lines, "", *table_lines(["engine", *FAMILIES], rows)])
     yield "\n".join([*(f"- *{name}*: {family.text}" for name, family in FAMILIES.items()), ""])
 
 
@@ -223,8 +224,7 @@ def _defaults(records: Sequence[EngineRecord]) -> str:
         "",
         "Own errors in the families whose unit is a metre. A default is a choice for speed or stability, not a fault.",
         "",
-        *_table(["engine", "", "settings", "own wrong", "own worst, mm"], rows),
-        "",
+        *table_lines(["engine", "", "settings", "own wrong", "own worst, mm"], rows),
     ]
     return "\n".join(lines)
 
@@ -253,8 +253,7 @@ def _by_distance(records: Sequence[EngineRecord]) -> Iterable[str]:
                 "",
                 "Against the surface, on the finest mesh, of how many rows in all families; with the mesh's errors.",
                 "",
-                *_table(["engine, mm", *(f"{power:g}" for power in powers)], rows),
-                "",
+                *table_lines(["engine, mm", *(f"{power:g}" for power in powers)], rows),
             ]
         )
 
@@ -282,16 +281,14 @@ def _of_engine(record: EngineRecord) -> str:
         "",
         f"At the {'tightest' if engine.tightens else 'default'} settings, in millimetres:",
         "",
-        *_table(["family", "triangles", "own wrong", "own worst", "lost", "µs"], map(_own_row, record.best)),
-        "",
+        *table_lines(["family", "triangles", "own wrong", "own worst", "lost", "µs"], map(_own_row, record.best)),
         "Against the surface, so that the mesh's errors are in it; and the distances that it reports:",
         "",
-        *_table(
+        *table_lines(
             ["family", "triangles", "false contacts", "false clears", "worst", "distance, worst", "median",
              "depth, worst", "median", "contact and apart"],
             map(_surface_row, record.best),
         ),
-        "",
         *_of_the_other_setting(record),
         *(f"Not asked: {name}, as {_skipped(reason)}." for name, reason in record.skipped.items()),
         "",
@@ -361,8 +358,3 @@ def _colour(record: EngineRecord) -> str:
 
 def _mm(value: float | None) -> str:
     return "–" if value is None else "0" if value == 0 else f"{value:.2g}"
-
-
-def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    """The lines of a table in Markdown."""
-    return [f"| {' | '.join(cells)} |" for cells in (header, ["---"] * len(header), *rows)]

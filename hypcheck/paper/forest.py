@@ -61,7 +61,7 @@ class Trees:
     @cached_property
     def _heights(self) -> Floats:
         heights = [tree.height for tree in self.scene.hyperboloids]
-        return np.array([(-np.inf, np.inf) if height is None else (height.low, height.high) for height in heights])
+        return np.array([(-np.inf, np.inf) if height is None else height.ends for height in heights])
 
     @cached_property
     def _lines(self) -> Floats:
@@ -113,9 +113,8 @@ class Trees:
     def exterior(self, at: Places) -> Mask:
         """Which trees the walker is exterior to, exactly, (n, m)."""
         n, m = len(at), len(self.sizes)
-        positions = positions_beside(
-            np.tile(self.sizes, (n, 1)), np.repeat(at, m, axis=0), np.tile(self.centers, (n, 1))
-        )
+        places = np.repeat(at, m, axis=0)
+        positions = positions_beside(np.tile(self.sizes, (n, 1)), places, np.tile(self.centers, (n, 1)))
         return np.asarray(positions.reshape(n, m) == Position.EXTERIOR)
 
     def gaps(self, at: Places) -> Floats:
@@ -221,9 +220,8 @@ def judged(trees: Trees, at: Places) -> Verdicts:
         }
         for put_right in (False, True)
     )
-    asked, exterior, line = (
-        _in_parts(trees, at, ask) for ask in (trees.modelled, trees.exterior, trees.proved_by_line)
-    )
+    questions = (trees.modelled, trees.exterior, trees.proved_by_line)
+    asked, exterior, line = (_in_parts(trees, at, question) for question in questions)
     return Verdicts(asked, exterior, line, printed, repaired)
 
 
@@ -270,7 +268,7 @@ def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
 def steps_in_contact(trees: Trees, steps: WalkSteps) -> dict[str, Any]:
     """How many of the made steps touch a tree that stands there, decided exactly, and first contacts of some."""
     start, end = steps.start[steps.made], steps.end[steps.made]
-    here, there = _columns(start), _columns(end)
+    here, there = ((x, y, z) for x, y, z in (start.T, end.T))
     asked, touched = trees.modelled(end), np.zeros((len(end), len(trees.sizes)), dtype=np.bool_)
     for place, tree in enumerate(trees.scene.hyperboloids):
         exterior = stays_on_side(Position.EXTERIOR, _four(trees.sizes[place]), here, there, tree.center)
@@ -298,11 +296,6 @@ def _contact(trees: Trees, start: Columns, end: Columns, step: int, touched: Mas
     }
 
 
-def _columns(places: Places) -> Columns:
-    x, y, z = places.T
-    return x, y, z
-
-
 def _four(sizes: Floats) -> Sizes:
     alpha, gamma, b, d = map(float, sizes)
     return alpha, gamma, b, d
@@ -318,9 +311,9 @@ WINDOW = 0.1
 
 @dataclass(frozen=True, slots=True)
 class ForestPlan:
-    """What is to be simulated: `steps` of the scene's walk, or as many as it says; `continuous`: the ways as well.
+    """What is to be simulated: `steps` of the scene's walk, or as many as it says.
 
-    `ends`: places are decided beside trees as they end, too.
+    `continuous`: the sweeps as well; `ends`: places are decided beside trees as they end, too.
     """
 
     scene: SceneModel
@@ -397,7 +390,7 @@ def _trees(trees: Trees, rules: Walk, blocking: set[str]) -> list[dict[str, Any]
             "alpha": tree.alpha,
             "gamma": tree.gamma,
             "center": list(tree.center),
-            "height": None if tree.height is None else [tree.height.low, tree.height.high],
+            "height": None if tree.height is None else list(tree.height.ends),
             "ring": trees.ring(place, rules.start[2]),
             "phantom": tree.name in blocking,
         }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain
@@ -23,6 +23,7 @@ from hypcheck.paper.derive.selection import (
 from hypcheck.paper.ledger.book import coverage, faults_with_entries, sentences
 from hypcheck.paper.ledger.book import entries as whole_ledger
 from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, LedgerEntry
+from hypcheck.report.markdown import table_lines
 
 _INTRODUCTION = """# The paper, claim by claim
 
@@ -87,10 +88,8 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
     brief = [entry for entry in entries if entry.why == HOLDS and entry.confirmed]
     if brief:
         yield from ("", "Formulas that hold as printed, right − left = 0:", "")
-        yield from _row("number", "what it is", "verdict", "what follows")
-        yield "| --- | --- | --- | --- |"
-        for entry in brief:
-            yield from _row(entry.number, entry.statement, entry.verdict, entry.follows)
+        rows = ((entry.number, entry.statement, entry.verdict, entry.follows) for entry in brief)
+        yield from _table(("number", "what it is", "verdict", "what follows"), rows)
     for entry in entries:
         if entry not in brief:
             yield from (
@@ -108,32 +107,29 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
 def _faults() -> Iterator[str]:
     """The faults, and the statements that each makes false."""
     yield from ("", f"{faults_in_words()}:", "")
-    yield from _row("fault", "what it is", "statements")
-    yield "| --- | --- | --- |"
-    for name, what, numbers in faults_with_entries():
-        yield from _row(name, what, "; ".join(numbers))
+    rows = ((name, what, "; ".join(numbers)) for name, what, numbers in faults_with_entries())
+    yield from _table(("fault", "what it is", "statements"), rows)
 
 
 def _sentences() -> Iterator[str]:
     """Which rows judge each sentence."""
     yield from ("", "## Sentences: the paper's text in order, and what judges each", "")
-    yield from _row("section", "the sentence begins", "rows, or why it has none")
-    yield "| --- | --- | --- |"
-    for sentence in sentences():
-        yield from _row(sentence.section, sentence.words, "; ".join(sentence.rows) or f"*{sentence.reason}*")
+    rows = (
+        (sentence.section, sentence.words, "; ".join(sentence.rows) or f"*{sentence.reason}*")
+        for sentence in sentences()
+    )
+    yield from _table(("section", "the sentence begins", "rows, or why it has none"), rows)
 
 
-def _row(*cells: str) -> Iterator[str]:
-    escaped = (cell.replace("|", "\\|") for cell in cells)
-    yield f"| {' | '.join(escaped)} |"
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable[int] = ()) -> list[str]:
+    """The lines of a table whose cells are Markdown, but for bars; the columns `numbers` are aligned to the right."""
+    return table_lines(head, ([cell.replace("|", "\\|") for cell in row] for row in rows), numbers)[:-1]
 
 
 def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
     yield from ("", COSTS_EXPLAINED, "")
-    yield from _row("", *(f"scene {name}" for name in SCENE_COLUMNS), *QUERY_COLUMNS)
-    yield f"| --- |{' ---: |' * (len(SCENE_COLUMNS) + len(QUERY_COLUMNS))}"
-    for cost in costs:
-        yield from _row(f"`{cost.name}`", *cost_cells(cost))
+    head = ("", *(f"scene {name}" for name in SCENE_COLUMNS), *QUERY_COLUMNS)
+    yield from _table(head, ((f"`{cost.name}`", *cost_cells(cost)) for cost in costs), range(1, len(head)))
     yield ""
     for cost in costs:
         yield f"- `{cost.name}`: {cost.title} ({cost.source})"
