@@ -164,7 +164,7 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     "--pitch",
     type=NumberOption(0, 90),
     metavar="DEGREES",
-    help="Fly the table with a quadcopter that leans by this angle into its movement, and count the wrong answers.",
+    help="Fly the table with a quadcopter tilted by this angle into its movement, and count the wrong answers.",
 )
 @click.option(
     "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes for the table.  [default: one a processor]"
@@ -187,7 +187,7 @@ def tower(
 
     Three flights of 25 positions, as in the paper's Figure 4. With --table 5 also the executions with Δ ≤ 0 for each
     speed and response time, with standard errors, beside the printed figures. With --pitch the same flights are asked
-    about a quadcopter that leans: how often the upright model's answer is wrong, and how often that is dangerous. The
+    about a tilted quadcopter: how often the upright model's answer is wrong, and how often that is dangerous. The
     same seed gives the same result, whatever the number of workers.
     """
     if flags["show_scene"]:

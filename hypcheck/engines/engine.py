@@ -45,7 +45,7 @@ class Engine:
     """An engine; `package` is its name for the package manager.
 
     `body` is what stands for a spheroid that is no ball: the engine's own ellipsoid, the convex hull of points on it,
-    or the engine's ball in a space that is scaled for it, in which case no spheroid leans. A ball is always the
+    or the engine's ball in a space that is scaled for it, in which case no spheroid is tilted. A ball is always the
     engine's own. `single` says that it computes in float32. `files` are the adapter's, from this folder. An adapter
     leaves the engine at its `default` settings, or takes the `tightest` that the engine offers. Where the other setting
     is another way and no tighter one, `tightens` is False, and what the engine is judged by is its default.
@@ -64,7 +64,7 @@ class Engine:
 
     @property
     def tilts(self) -> bool:
-        """Whether it can be asked about spheroids that lean."""
+        """Whether it can be asked about tilted spheroids."""
         return self.body != "scaled ball"
 
     @property

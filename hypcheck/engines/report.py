@@ -49,7 +49,7 @@ BODIES = {
     ),
     "scaled ball": (
         "An engine given a ball in a scaled space",
-        "The spheroid is the engine's ball in a space scaled by 1/b, 1/b, 1/d; no spheroid leans.",
+        "The spheroid is the engine's ball in a space scaled by 1/b, 1/b, 1/d; no spheroid is tilted.",
     ),
 }
 """What stands for the spheroid: the heading of its table, and what it is."""

@@ -33,7 +33,7 @@ _CARDS = ("/dev/nvidia*", "/dev/dri/*", "/dev/kfd")
 
 
 def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> str:
-    """What to do where isolation is why the program of these words failed with this text, as the end of a sentence.
+    """What to do if the program of these words failed with this text because it is isolated: the end of a sentence.
 
     Empty where nothing isolates, and where it would fail without isolation too.
     """

@@ -15,12 +15,12 @@ of themselves. MARGIN covers all of these several times.
 A position is valid where the body is interior, or all four rotors are. The rotors lie within the body, so a way is
 valid from beginning to end exactly where no rotor meets contact on it. They are asked only where the body is not clear.
 
-The last part is about a quadcopter that leans, of which Procedure 2.b knows nothing: its body is always upright. A
-quadcopter flies ahead by leaning: its axis makes the angle `degrees` with the vertical, towards where it goes. Its
-rotors lean with it, in the plane through the body's centre perpendicular to the axis. Going up, down or turning in
+The last part is about a tilted quadcopter, of which Procedure 2.b knows nothing: its body is always upright. A
+quadcopter flies ahead by tilting: its axis makes the angle `degrees` with the vertical, towards where it goes. Its
+rotors tilt with it, in the plane through the body's centre perpendicular to the axis. Going up, down or turning in
 place it is upright. The sines and the rotors' places are rounded once, as those of an upright quadcopter are; the
 resulting numbers are decided exactly. A spheroid lies within the ball of its longer semi-axis. Where that ball is
-interior, so is the spheroid, however it leans; only the others are asked with their axes.
+interior, so is the spheroid, however it is tilted; only the others are asked with their axes.
 """
 
 from __future__ import annotations
@@ -337,7 +337,7 @@ def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
 
 @dataclass(frozen=True, slots=True)
 class Lean:
-    """Quadcopters that lean by an angle with this cosine and sine towards horizontal directions; arrays (n,)."""
+    """Quadcopters tilted by an angle with this cosine and sine towards horizontal directions; arrays (n,)."""
 
     toward: Direction
     cosine: float
@@ -355,9 +355,9 @@ class Lean:
         return self.sine * self.toward[0], self.sine * self.toward[1], np.full_like(self.toward[0], self.cosine)
 
     def tilted(self, along: Floats, aside: Floats) -> Columns:
-        """Horizontal vectors (along, aside) of the upright craft, as they are once it leans: a rotation about its side.
+        """Horizontal vectors (along, aside) of the upright craft, once it is tilted: turned about its side.
 
-        The part towards the lean, (along, aside)·toward, is shortened by the cosine and goes down by the sine.
+        The part towards the tilt, (along, aside)·toward, is shortened by the cosine and goes down by the sine.
         """
         ahead, beside = self.toward
         forward, across = along * ahead + aside * beside, aside * ahead - along * beside
@@ -385,11 +385,11 @@ def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> 
 
 @dataclass(slots=True)
 class PitchVerdicts(VerdictCounts):
-    """Answers about horizontal moves, each at the move's end, against the exact ones about the craft that leans.
+    """Answers about horizontal moves, each at the move's end, against the exact ones about the tilted craft.
 
     Of the `moves` that Procedure 2.b was asked about, its answer is `wrong` about so many; it is `dangerous` where it
-    accepts and the craft that leans is not valid. `body_wrong` and `body_dangerous` are the same for the body alone:
-    an upright body is interior where one that leans is not, or the other way round.
+    accepts and the tilted craft is not valid. `body_wrong` and `body_dangerous` are the same for the body alone:
+    an upright body is interior where a tilted one is not, or the other way round.
     """
 
     moves: int = 0
@@ -423,10 +423,10 @@ VERSION = 1
 
 
 def near_wall(craft: Craft, degrees: float, seed: int, count: int = CENTRES) -> dict[str, Any]:
-    """How many positions of the body change near the wall as it leans: anywhere, and along the radius, outwards.
+    """How many positions of the body change near the wall as it is tilted: anywhere, and along the radius, outwards.
 
     Heights are uniform over the tower's (from −γ to γ where it has no end), distances from the axis uniform within ±b
-    of the wall's. A change is `dangerous` where the upright body is clear and the one that leans is not.
+    of the wall's. A change is `dangerous` where the upright body is clear and the tilted one is not.
     """
     draw = Draw("tower-pitch", VERSION, seed)
     alpha, gamma, b, _ = craft.sizes

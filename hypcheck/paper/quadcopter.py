@@ -189,12 +189,12 @@ def craft_of(scene: SceneModel) -> Craft:
 def require_ordinary(scene: SceneModel) -> None:
     """Raise InputError where lengths are so long or short, or places so far, that what is printed overflows.
 
-    So it does where something leans, of which the printed procedures know nothing.
+    So it does where something is tilted, of which the printed procedures know nothing.
     """
     if scene.leaning:
         raise InputError(
-            f"the scene {scene.name!r} has something that leans; simulations fly and walk upright among what is "
-            "upright: leave out axis (simulate tower --pitch leans)"
+            f"the scene {scene.name!r} has something tilted; simulations fly and walk upright among what is "
+            "upright: leave out axis (simulate tower --pitch tilts)"
         )
     for body in (*scene.hyperboloids, scene.mover, *scene.mover.parts):
         for name in ("alpha", "gamma", "b", "d"):

@@ -273,19 +273,19 @@ def _ways(ways: dict[str, Any]) -> Iterator[str]:
 
 
 def pitch_lines(lean: dict[str, Any]) -> Iterator[str]:
-    """What a quadcopter that leans changes, line by line."""
-    yield f"Leaning by {lean['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
+    """What a tilted quadcopter changes, line by line."""
+    yield f"Tilted by {lean['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
     total, moves = lean["total"], lean["total"]["moves"]
     for name, what, refused in (
         ("", "its answer is wrong about", "needlessly refused"),
-        ("body_", "the body alone is judged wrongly for", "clear only as it leans"),
+        ("body_", "the body alone is judged wrongly for", "clear only tilted"),
     ):
         wrong, dangerous = total[f"{name}wrong"], total[f"{name}dangerous"]
         yield f"  of {counted(moves, 'horizontal move')} {what} {wrong:,}{_share(wrong, moves)}:"
         yield f"    {dangerous:,} dangerous, clear only upright; {wrong - dangerous:,} {refused}"
     near = lean["near_wall"]
     yield f"  of {counted(near['centres'], 'centre')} within b of the wall the body's position is another"
-    for name, what in (("anywhere", "leaning anywhere"), ("outward", "leaning along the radius, outwards")):
+    for name, what in (("anywhere", "tilted anywhere"), ("outward", "tilted along the radius, outwards")):
         changed, dangerous = near[name]["changed"], near[name]["dangerous"]
         yield f"    for {changed:,}{_share(changed, near['centres'])}, {what}; {dangerous:,} of these are dangerous"
 

@@ -167,7 +167,7 @@ def moves_of(flight: Flight, step: float) -> int:
 
 @dataclass(frozen=True, slots=True)
 class FlownBlock:
-    """What came of a block's runs; `ways` has counts where they were watched, `pitch` where the craft leans.
+    """What came of a block's runs; `ways` has counts where they were watched, `pitch` where the craft is tilted.
 
     `ends` has some where the block asks about them.
     """
@@ -179,7 +179,7 @@ class FlownBlock:
 
 
 def fly_block(block: FlightBlock) -> FlownBlock:
-    """The runs of a block, with exact verdicts on their ways where it is `watched`, on leaning, and on ends."""
+    """The runs of a block, with exact verdicts on their sweeps where it is `watched`, on tilt, and on ends."""
     ways, leaning, ends, degrees = MoveVerdicts(), PitchVerdicts(), EndVerdicts(), block.pitch
 
     def observe(moves: Moves) -> None:
@@ -323,7 +323,7 @@ class TowerPlan:
     """What is to be simulated: the flights of the figure with steps of `speed`·`time`, and Table 5 where `runs` > 0.
 
     `continuous`: the ways between positions are decided as well, in the table too. `pitch`: by how many degrees the
-    quadcopter leans into its horizontal movements in the table's flights, or None where that is not asked. `ends`:
+    quadcopter is tilted into its horizontal movements in the table's flights, or None where that is not asked. `ends`:
     positions are decided beside the tower as it ends, too.
     """
 

@@ -65,7 +65,7 @@ def place_of_row(row: Sequence[float], layout: Layout) -> RowPlace:
 
 
 def place_of(pair: Pair) -> RowPlace:
-    """The place of a pair."""
+    """The place of a pair: what it is on or next to, and the cause that this suggests."""
     if pair.has_ends:
         return _ended_place(pair)
     if not pair.is_upright:

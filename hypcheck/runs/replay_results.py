@@ -174,7 +174,7 @@ def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
 
 
 def _regime(pair: Pair) -> str:
-    """Where the pair lies to the two conditions that the paper's statements carry, decided exactly."""
+    """Which of the two conditions of the paper's statements the pair meets, decided exactly."""
     alpha, gamma, b, d = map(Fraction, pair.row[:4])
     wide = f"α/b = {float(alpha / b):.4g} {'≥' if alpha >= b else '<'} 1"
     ratio, square = alpha / b, (gamma / d) ** 2

@@ -54,7 +54,7 @@ def test_leaning_vectors_keep_their_length_and_stay_across_the_axis():
     assert np.allclose(sum(each**2 for each in way), 1)
     assert np.allclose(sum(a * b for a, b in zip(way, lean.axis, strict=True)), 0)
     ahead = lean.tilted(*toward)
-    assert np.allclose(ahead[2], -np.sin(np.radians(25)))  # who leans ahead lowers its front
+    assert np.allclose(ahead[2], -np.sin(np.radians(25)))  # tilted ahead, its front is lower
     beside = lean.tilted(-toward[1], toward[0])
     assert np.allclose(beside, (-toward[1], toward[0], np.zeros(9)))
 

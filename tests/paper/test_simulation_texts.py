@@ -39,14 +39,14 @@ def flown():
 
 def test_the_text_about_leaning_has_dangerous_and_needless_answers_apart():
     assert list(pitch_lines(LEANS)) == [
-        "Leaning by 20 degrees into each movement ahead or back, which Procedure 2.b does not know:",
+        "Tilted by 20 degrees into each movement ahead or back, which Procedure 2.b does not know:",
         "  of 1,000 horizontal moves its answer is wrong about 30 (3.000 %):",
         "    4 dangerous, clear only upright; 26 needlessly refused",
         "  of 1,000 horizontal moves the body alone is judged wrongly for 1 (0.100 %):",
-        "    0 dangerous, clear only upright; 1 clear only as it leans",
+        "    0 dangerous, clear only upright; 1 clear only tilted",
         "  of 200 centres within b of the wall the body's position is another",
-        "    for 9 (4.500 %), leaning anywhere; 3 of these are dangerous",
-        "    for 0 (0.000 %), leaning along the radius, outwards; 0 of these are dangerous",
+        "    for 9 (4.500 %), tilted anywhere; 3 of these are dangerous",
+        "    for 0 (0.000 %), tilted along the radius, outwards; 0 of these are dangerous",
     ]
 
 

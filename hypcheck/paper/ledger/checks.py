@@ -284,13 +284,13 @@ def tilted_spheroid_is_another() -> Evidence:
 
 
 def changed_by_leaning() -> Evidence:
-    """Simplest pairs in the regime of Procedures 2.a and 2.b whose position is another once they lean."""
+    """Simplest pairs in the regime of Procedures 2.a and 2.b whose position is another once they are tilted."""
     searches = (
         first_change(
-            Position.INTERIOR, Position.CONTACT, "dangerous: the upright body is clear, the one that leans is not"
+            Position.INTERIOR, Position.CONTACT, "dangerous: the upright body is clear, the tilted one is not"
         ),
         first_change(
-            Position.CONTACT, Position.INTERIOR, "needless: the upright body is refused, the one that leans is clear"
+            Position.CONTACT, Position.INTERIOR, "needless: the upright body is refused, the tilted one is clear"
         ),
     )
     witnesses = tuple(search.found for search in searches if search.found is not None)

@@ -324,12 +324,12 @@ AXES = tuple(
     for x, z in ((sign * x, total - x) for x in range(1, total) for sign in (1, -1))
     if abs(x) <= z and gcd(x, z) == 1
 )
-"""Axes that lean by 45 degrees at most, towards the hyperboloid's axis or away from it, the simplest first."""
+"""Axes tilted by 45 degrees at most, towards the hyperboloid's axis or away from it, the simplest first."""
 
 
 @dataclass(frozen=True, slots=True)
 class LeaningWitness:
-    """A pair with the certificates of two positions: as it leans, and upright; `shows` says what it shows."""
+    """A pair with the certificates of two positions: tilted, and upright; `shows` says what it shows."""
 
     pair: Pair
     certificate: Certificate
@@ -361,7 +361,7 @@ class LeaningWitness:
 
 
 def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[LeaningWitness]:
-    """The simplest pair that is `before` upright and `after` as it leans, both proved."""
+    """The simplest pair that is `before` upright and `after` tilted, both proved."""
     tried = 0
     for numbers in quadcopter_pairs(largest):
         vertical = Pair.from_row(numbers)

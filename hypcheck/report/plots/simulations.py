@@ -1,7 +1,7 @@
 """Pictures of simulations: a walk in the forest with its phantoms, and flights inside a cooling tower.
 
 Of the forest: the walk from above, an invisible wall, the forest in space. Of the tower: the paper's Figure 4 redrawn,
-its Table 5 over the step v·t, and a leaning quadcopter.
+its Table 5 over the step v·t, and a tilted quadcopter.
 """
 
 from __future__ import annotations
@@ -354,7 +354,7 @@ def _table(table: dict[str, Any]) -> Plot:
 
 
 def _pitch(assumptions: dict[str, Any], pitch: dict[str, Any]) -> Plot:
-    """The body upright and leaning beside the wall, and how often that changes the answer, over the step."""
+    """The body upright and tilted beside the wall, and how often that changes the answer, over the step."""
     figure = new_figure(760, 380)
     section, shares = figure.subplots(1, 2, width_ratios=[1, 1.5])
     _section(section, assumptions, pitch["degrees"])
@@ -372,18 +372,18 @@ def _pitch(assumptions: dict[str, Any], pitch: dict[str, Any]) -> Plot:
     shares.legend(**_FRAMED)
     total = pitch["total"]
     description = (
-        f"Left: the body in a section through the tower's axis, upright and leaning outwards by {pitch['degrees']:g} "
+        f"Left: the body in a section through the tower's axis, upright and tilted outwards by {pitch['degrees']:g} "
         f"degrees, where the upright one just touches the wall. Right: of {total['moves']:,} horizontal moves the "
         f"upright model's answer is wrong about {total['wrong']:,}, dangerous for {total['dangerous']:,}."
     )
-    return Plot("tower-pitch", "A quadcopter that leans into its movement, and the upright model", description, figure)
+    return Plot("tower-pitch", "A quadcopter tilted into its movement, and the upright model", description, figure)
 
 
 def _section(axes: Axes, assumptions: dict[str, Any], degrees: float) -> None:
     """The body where its upright ellipse touches the wall at the waist, from the side."""
     alpha, gamma, b, d = (assumptions[name] for name in ("alpha", "gamma", "b", "d"))
     across, up = (size * np.array(part) for size, part in zip((b, d), _circle((0, 0), 1, 96), strict=True))
-    for place, (lean, label) in enumerate(((0.0, "upright"), (math.radians(degrees), f"leaning by {degrees:g}°"))):
+    for place, (lean, label) in enumerate(((0.0, "upright"), (math.radians(degrees), f"tilted by {degrees:g}°"))):
         x = alpha - b + across * math.cos(lean) + up * math.sin(lean)
         z = up * math.cos(lean) - across * math.sin(lean)
         axes.plot(x, z, **curve_style(place).line, label=label)

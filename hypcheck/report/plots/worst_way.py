@@ -2,7 +2,7 @@
 
 An upright spheroid meets the hyperboloid in the half plane of its centre, so that the half plane shows the truth at
 each time. The whole sweep stands left; right of it is where the spheroid first touches, or comes nearest, which a long
-sweep would hide. Sweeps of spheroids that lean have no picture: where they touch, it need not be in this plane.
+sweep would hide. Sweeps of tilted spheroids have no picture: where they touch, it need not be in this plane.
 """
 
 from __future__ import annotations
